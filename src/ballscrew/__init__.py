@@ -1,0 +1,61 @@
+"""ballscrew: what a ball screw loses to friction, and why, term by term.
+
+The front door. Names are loaded when they are first used, so that ``import ballscrew`` costs
+little more than NumPy.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ballscrew.analyses.sweep import sweep as sweep
+    from ballscrew.components.laws import HamrockDowson as HamrockDowson
+    from ballscrew.components.laws import ZhouHoeprich as ZhouHoeprich
+    from ballscrew.components.materials import Lubricant as Lubricant
+    from ballscrew.components.materials import Material as Material
+    from ballscrew.components.screw import BallScrew as BallScrew
+    from ballscrew.faults import InputError as InputError
+    from ballscrew.model import FrictionModel as FrictionModel
+    from ballscrew.result import FrictionResult as FrictionResult
+
+__version__ = "0.1.0"
+
+_HOMES = {
+    "BallScrew": "ballscrew.components.screw",
+    "FrictionModel": "ballscrew.model",
+    "FrictionResult": "ballscrew.result",
+    "HamrockDowson": "ballscrew.components.laws",
+    "InputError": "ballscrew.faults",
+    "Lubricant": "ballscrew.components.materials",
+    "Material": "ballscrew.components.materials",
+    "ZhouHoeprich": "ballscrew.components.laws",
+    "sweep": "ballscrew.analyses.sweep",
+}
+
+__all__ = [
+    "BallScrew",
+    "FrictionModel",
+    "FrictionResult",
+    "HamrockDowson",
+    "InputError",
+    "Lubricant",
+    "Material",
+    "ZhouHoeprich",
+    "__version__",
+    "sweep",
+]
+
+
+def __getattr__(name: str) -> Any:
+    home = _HOMES.get(name)
+    if home is None:
+        raise AttributeError(f"module 'ballscrew' has no attribute {name!r}")
+    value = getattr(importlib.import_module(home), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

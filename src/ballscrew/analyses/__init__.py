@@ -1,0 +1,1 @@
+"""Analyses: evaluate a model many times. No files, no pictures, no printing here."""

@@ -1,0 +1,1 @@
+"""Parts: frozen dataclasses that bind parameters to equations. No iteration here."""

@@ -1,0 +1,147 @@
+"""The ball screw: its geometry, its surfaces and its materials."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Annotated
+
+from ballscrew.components.materials import Material
+from ballscrew.equations import geometry, hertz
+from ballscrew.faults import Fault, faults_of, is_concrete, raise_if_any
+from ballscrew.quantities import Angle, AngularSpeed, Count, Force, Info, Length, Pressure, Ratio
+
+STEEL = Material()
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Raceway:
+    """One side of the screw as the ball sees it."""
+
+    conformity: Ratio
+    roughness: Length
+    material: Material
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class BallScrew:
+    """A ball screw with two-point contact: every ball touches one flank of screw and nut.
+
+    Raises :class:`~ballscrew.faults.InputError` (a ``ValueError``) with one fault for each value
+    out of bounds, and for a ball too big for the pitch circle or for the lead.
+    """
+
+    pitch_circle_diameter: Annotated[
+        Length, Info("d_m", "diameter of the helix of the ball centres", "mm", above=0, hint="lengths are positive")
+    ]
+    lead: Annotated[Length, Info("P_h", "advance of the nut in one turn", "mm", above=0, hint="lengths are positive")]
+    ball_diameter: Annotated[Length, Info("d_w", "ball diameter", "mm", above=0, hint="lengths are positive")]
+    loaded_balls: Annotated[
+        Count, Info("z", "number of balls that carry load", at_least=1, whole=True, hint="give a whole number, 1 or more")
+    ]
+    contact_angle: Annotated[
+        Angle,
+        Info(
+            r"\alpha",
+            "angle of the contact normal against the radial plane",
+            "deg",
+            above=0,
+            below=math.pi / 2,
+            hint='angles lie between 0 and 90 deg; in a file write "45 deg", in Python math.radians(45)',
+        ),
+    ]
+    screw_conformity: Annotated[
+        Ratio,
+        Info("f_s", "screw groove radius / ball diameter", above=0.5, at_most=1, hint="grooves have 0.515 to 0.54"),
+    ]
+    nut_conformity: Annotated[
+        Ratio,
+        Info("f_n", "nut groove radius / ball diameter", above=0.5, at_most=1, hint="grooves have 0.515 to 0.54"),
+    ]
+    ball_roughness: Annotated[
+        Length, Info(r"\sigma_b", "RMS roughness of the balls", "um", above=0, hint="balls have 0.02 um to 0.1 um")
+    ] = 0.08e-6
+    screw_roughness: Annotated[
+        Length, Info(r"\sigma_s", "RMS roughness of the screw race", "um", above=0, hint="ground races have 0.2 um to 0.4 um")
+    ] = 0.3e-6
+    nut_roughness: Annotated[
+        Length, Info(r"\sigma_n", "RMS roughness of the nut race", "um", above=0, hint="ground races have 0.2 um to 0.4 um")
+    ] = 0.3e-6
+    starts: Annotated[
+        Count, Info("N", "number of thread starts", at_least=1, whole=True, hint="give a whole number, 1 or more")
+    ] = 1
+    ball_material: Material = STEEL
+    screw_material: Material = STEEL
+    nut_material: Material = STEEL
+
+    def __post_init__(self) -> None:
+        faults = faults_of("screw", self)
+        raise_if_any(faults)
+        raise_if_any(self._misfits())
+
+    def _misfits(self) -> list[Fault]:
+        """Faults between fields that are fine one by one."""
+        d_m, d_w, lead = self.pitch_circle_diameter, self.ball_diameter, self.lead
+        found: list[Fault] = []
+        if is_concrete(d_m) and is_concrete(d_w) and not d_w < d_m / 2:
+            found.append(
+                Fault(
+                    "screw.ball_diameter",
+                    "too big for the pitch circle",
+                    f"{d_w:g} m on {d_m:g} m",
+                    f"keep it below half the pitch circle diameter, {d_m / 2:g} m",
+                )
+            )
+        if not found and all(map(is_concrete, (d_m, d_w, lead, self.starts))):
+            room = lead / self.starts * math.cos(geometry.lead_angle(lead, d_m))
+            if not d_w < room:
+                found.append(
+                    Fault(
+                        "screw.ball_diameter",
+                        "too big for the lead: balls of neighbouring turns overlap",
+                        f"{d_w:g} m",
+                        f"keep it below lead · cos(lead angle) / starts = {room:.4g} m",
+                    )
+                )
+        return found
+
+    @property
+    def lead_angle(self) -> Annotated[Angle, Info(r"\varphi", "lead angle of the helix of the ball centres", "deg")]:
+        """Lead angle of the helix of the ball centres."""
+        return geometry.lead_angle(self.lead, self.pitch_circle_diameter)
+
+    @property
+    def screw_raceway(self) -> Raceway:
+        """The groove of the screw."""
+        return Raceway(self.screw_conformity, self.screw_roughness, self.screw_material)
+
+    @property
+    def nut_raceway(self) -> Raceway:
+        """The groove of the nut."""
+        return Raceway(self.nut_conformity, self.nut_roughness, self.nut_material)
+
+    def equivalent_modulus(self, raceway: Raceway) -> Pressure:
+        """Equivalent modulus of ball and race, Pa."""
+        ball, race = self.ball_material, raceway.material
+        return hertz.equivalent_modulus(
+            ball.young_modulus, ball.poisson_ratio, race.young_modulus, race.poisson_ratio
+        )
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Operation:
+    """What the screw does: the load it moves and the speed it turns at.
+
+    Zero load and zero speed are legal and give limits. Raises
+    :class:`~ballscrew.faults.InputError` for negative or non-finite numbers.
+    """
+
+    axial_load: Annotated[
+        Force, Info("F", "axial load on the nut", at_least=0, hint="give its magnitude")
+    ]
+    screw_speed: Annotated[
+        AngularSpeed, Info(r"\omega", "speed of the screw", "rpm", at_least=0, hint="give its magnitude")
+    ]
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("operation", self))

@@ -1,0 +1,134 @@
+"""Geometry of the ball, the helix and the grooves."""
+
+from __future__ import annotations
+
+from ballscrew._arrays import namespace
+from ballscrew.quantities import Angle, Length, Ratio
+
+
+def lead_angle(lead: Length, pitch_circle_diameter: Length) -> Angle:
+    r"""Angle of the helix of the ball centres against the plane normal to the axis.
+
+    .. math:: \varphi = \arctan\frac{P_h}{\pi d_m}
+
+    ISO3408-1. Any lead; a lead of zero gives a plain thrust bearing.
+    """
+    P_h, d_m = lead, pitch_circle_diameter
+    xp = namespace(P_h, d_m)
+    return xp.arctan(P_h / (xp.pi * d_m))
+
+
+def path_radius(pitch_circle_diameter: Length, lead_angle: Angle) -> Length:
+    r"""Lever of the friction forces: half the pitch circle diameter, measured along the helix.
+
+    .. math:: L = \frac{d_m}{2\cos\varphi}
+
+    With :math:`\varphi = 0` this is the :math:`d_m/2` of the paper.
+    """
+    d_m, phi = pitch_circle_diameter, lead_angle
+    xp = namespace(d_m, phi)
+    return d_m / (2 * xp.cos(phi))
+
+
+def curvature_ratio(
+    ball_diameter: Length, pitch_circle_diameter: Length, contact_angle: Angle, lead_angle: Angle
+) -> Ratio:
+    r"""Ball diameter, seen in the rolling plane, against the diameter of its path.
+
+    .. math:: \gamma = \frac{d_w \cos\alpha}{d_m} \left(\cos\varphi\right)^2
+
+    With :math:`\varphi = 0` this is the :math:`d_w\cos\alpha/d_m` of the paper; the helix enters
+    because the radius of curvature of the path is :math:`d_m/(2\cos^2\varphi)`.
+    """
+    d_w, d_m, alpha, phi = ball_diameter, pitch_circle_diameter, contact_angle, lead_angle
+    xp = namespace(d_w, d_m, alpha, phi)
+    return d_w * xp.cos(alpha) / d_m * xp.cos(phi) ** 2
+
+
+def rolling_plane_cosine(contact_angle: Angle, lead_angle: Angle) -> Ratio:
+    r"""Share of a moment about the direction of rolling that turns about the screw axis.
+
+    .. math:: c_\alpha = \cos\alpha \cos\varphi
+
+    With :math:`\varphi = 0` this is the :math:`\cos\alpha` of the paper.
+    """
+    alpha, phi = contact_angle, lead_angle
+    xp = namespace(alpha, phi)
+    return xp.cos(alpha) * xp.cos(phi)
+
+
+def nut_rolling_radius(ball_diameter: Length, curvature_ratio: Ratio) -> Length:
+    r"""Equivalent radius in the rolling direction at the ball–nut contact.
+
+    .. math:: R_x = \frac{d_w}{2} (1 + \gamma)
+
+    Olaru2005 §2.1 (2), whose two fractions collapse to this product exactly.
+    """
+    d_w, gamma = ball_diameter, curvature_ratio
+    return d_w / 2 * (1 + gamma)
+
+
+def screw_rolling_radius(ball_diameter: Length, curvature_ratio: Ratio) -> Length:
+    r"""Equivalent radius in the rolling direction at the ball–screw contact.
+
+    .. math:: R_x = \frac{d_w}{2} (1 - \gamma)
+
+    Olaru2005 §2.1 (3), whose two fractions collapse to this product exactly.
+    """
+    d_w, gamma = ball_diameter, curvature_ratio
+    return d_w / 2 * (1 - gamma)
+
+
+def radii_ratio(transverse_radius: Length, rolling_radius: Length) -> Ratio:
+    r"""Ratio of the equivalent radii across and along the rolling direction.
+
+    .. math:: k = \frac{R_y}{R_x}
+
+    Olaru2005 §2.1 (4). Not the ellipticity: that is the ratio of the semi-axes.
+    """
+    R_y, R_x = transverse_radius, rolling_radius
+    return R_y / R_x
+
+
+def transverse_radius(ball_diameter: Length, conformity: Ratio) -> Length:
+    r"""Equivalent radius across the rolling direction, ball in a groove of radius f d_w.
+
+    .. math:: R_y = \frac{f d_w}{2 f - 1}
+
+    Olaru2005 §2.1 (5). Needs f > 0.5: at 0.5 the groove closes on the ball.
+    """
+    d_w, f = ball_diameter, conformity
+    return f * d_w / (2 * f - 1)
+
+
+def deformed_radius(ball_diameter: Length, conformity: Ratio) -> Length:
+    r"""Radius of the common surface of ball and groove, the mean of the two curvatures.
+
+    .. math:: R_d = \frac{2 d_w f}{2 f + 1}
+
+    Olaru2005 §2.2 (16).
+    """
+    d_w, f = ball_diameter, conformity
+    return 2 * d_w * f / (2 * f + 1)
+
+
+def screw_contact_radius(path_radius: Length, curvature_ratio: Ratio) -> Length:
+    r"""Lever of the tangential force at the ball–screw contact.
+
+    .. math:: R_s = L (1 - \gamma)
+
+    Olaru2005 §6 (29), with :math:`L = d_m/2` there.
+    """
+    L, gamma = path_radius, curvature_ratio
+    return L * (1 - gamma)
+
+
+def nut_contact_radius(path_radius: Length, curvature_ratio: Ratio) -> Length:
+    r"""Lever of the tangential force at the ball–nut contact.
+
+    .. math:: R_n = L (1 + \gamma)
+
+    Olaru2005 §6 (32), with :math:`L = d_m/2` there.
+    """
+    L, gamma = path_radius, curvature_ratio
+    return L * (1 + gamma)

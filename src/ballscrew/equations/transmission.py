@@ -1,0 +1,65 @@
+"""From axial load to contact load, torque and efficiency."""
+
+from __future__ import annotations
+
+from ballscrew._arrays import namespace
+from ballscrew.quantities import Angle, Count, Force, Length, Ratio, Torque
+
+
+def contact_load(axial_load: Force, loaded_balls: Count, contact_angle: Angle, lead_angle: Angle) -> Force:
+    r"""Normal load of each ball when all share the axial load equally.
+
+    .. math:: Q = \frac{F}{z (\sin\alpha) (\cos\varphi)}
+
+    Never printed in the paper, which needs it for Olaru2005 §2.1 (9); with :math:`\varphi = 0` the
+    reading closest to its text.
+    """
+    F, z, alpha, phi = axial_load, loaded_balls, contact_angle, lead_angle
+    xp = namespace(F, z, alpha, phi)
+    return F / (z * xp.sin(alpha) * xp.cos(phi))
+
+
+def ideal_torque(axial_load: Force, lead: Length) -> Torque:
+    r"""Drive torque of a screw without friction, from the virtual work of one turn.
+
+    .. math:: M_{Sa} = \frac{F P_h}{2 \pi}
+    """
+    F, P_h = axial_load, lead
+    xp = namespace(F, P_h)
+    return F * P_h / (2 * xp.pi)
+
+
+def ideal_torque_printed(
+    axial_load: Force, screw_contact_radius: Length, lead: Length, pitch_circle_diameter: Length
+) -> Torque:
+    r"""Drive torque of a screw without friction, as the paper has it.
+
+    .. math:: M_{Sa} = \frac{F R_s P_h}{\pi d_m}
+
+    Olaru2005 §7 (35). Low by the factor 1 - γ (5.6 % at the paper's screw): it breaks virtual work.
+    """
+    F, R_s, P_h, d_m = axial_load, screw_contact_radius, lead, pitch_circle_diameter
+    xp = namespace(F, R_s, P_h, d_m)
+    return F * R_s * P_h / (xp.pi * d_m)
+
+
+def efficiency(ideal_torque: Torque, screw_torque: Torque) -> Ratio:
+    r"""Efficiency when the screw drives the nut against the load.
+
+    .. math:: \eta = \frac{M_{Sa}}{M_{Sa} + M_S}
+
+    Olaru2005 §7 (36). Zero without load; undefined where both torques vanish.
+    """
+    M_Sa, M_S = ideal_torque, screw_torque
+    return M_Sa / (M_Sa + M_S)
+
+
+def back_driving_efficiency(efficiency: Ratio) -> Ratio:
+    r"""Efficiency when the load drives the screw; at or below zero the screw locks itself.
+
+    .. math:: \eta_b = 2 - \frac{1}{\eta}
+
+    Same friction torque in both directions. Falls without limit as the direct efficiency vanishes.
+    """
+    eta = efficiency
+    return 2 - 1 / eta

@@ -1,0 +1,105 @@
+"""Faults in what a person gave: one line each, in the same words from Python and the command line.
+
+A fault reads ``section.field: what is wrong (value) · remedy``.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import numbers
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from ballscrew.quantities import Quantity, out_of_bounds, quantities_of
+
+#: At most this many lines are printed; the last one then says how many more there are.
+LINES_AT_MOST = 10
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Fault:
+    """One thing wrong with one field."""
+
+    where: str
+    problem: str
+    given: str = ""
+    remedy: str = ""
+
+    def __str__(self) -> str:
+        given = f" ({self.given})" if self.given else ""
+        remedy = f" · {self.remedy}" if self.remedy else ""
+        return " ".join(f"{self.where}: {self.problem}{given}{remedy}".split())
+
+
+class InputError(ValueError):
+    """Bad input: carries every fault found, prints one line for each."""
+
+    def __init__(self, *faults: Fault) -> None:
+        self.faults = faults
+        super().__init__("\n".join(self.lines()))
+
+    def lines(self) -> list[str]:
+        """One line per fault, ten lines at most."""
+        lines = [str(fault) for fault in self.faults]
+        if len(lines) > LINES_AT_MOST:
+            hidden = len(lines) - LINES_AT_MOST + 1
+            lines = [*lines[: LINES_AT_MOST - 1], f"and {hidden} more"]
+        return lines
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """``did you mean "…"?`` for the closest known word, else the list of known words."""
+    candidates = list(known)
+    close = difflib.get_close_matches(word, candidates, n=1, cutoff=0.55)
+    if close:
+        return f'did you mean "{close[0]}"?'
+    return "known: " + ", ".join(candidates)
+
+
+def is_concrete(value: Any) -> bool:
+    """Whether a value is a plain number that can be checked now (arrays and tracers are not)."""
+    return isinstance(value, numbers.Real) and not isinstance(value, bool)
+
+
+def shown(value: Any, unit: str) -> str:
+    """A value in its unit, as it stands in a message."""
+    number = f"{value:.12g}" if is_concrete(value) else repr(value)
+    return number if unit == "1" else f"{number} {unit}"
+
+
+def fault_of(section: str, quantity: Quantity, value: Any, given: str = "") -> Fault | None:
+    """The fault of one concrete value, or None. ``given`` is what the person wrote, if known."""
+    where = f"{section}.{quantity.name}"
+    given = given or shown(value, quantity.unit)
+    if isinstance(value, str | bytes | bool) or value is None:
+        expected = "a number" if quantity.unit == "1" else f"a number in {quantity.unit}"
+        return Fault(where, f"must be {expected}", given, quantity.info.hint)
+    if not is_concrete(value):
+        return None
+    problem = out_of_bounds(quantity.info, float(value))
+    if problem is None:
+        return None
+    return Fault(where, problem, given, quantity.info.hint)
+
+
+def faults_of(section: str, part: Any, optional: Sequence[str] = ()) -> list[Fault]:
+    """Faults of every concrete annotated field of a dataclass instance."""
+    found: list[Fault] = []
+    names = {field.name for field in dataclasses.fields(part)}
+    for name, quantity in quantities_of(type(part)).items():
+        if name not in names:
+            continue
+        value = getattr(part, name)
+        if value is None and name in optional:
+            continue
+        fault = fault_of(section, quantity, value)
+        if fault is not None:
+            found.append(fault)
+    return found
+
+
+def raise_if_any(faults: Sequence[Fault]) -> None:
+    """Raise :class:`InputError` with all faults, if there are any."""
+    if faults:
+        raise InputError(*faults)

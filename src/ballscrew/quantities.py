@@ -1,0 +1,128 @@
+"""Quantities: the unit lives in the type.
+
+``Length = Annotated[Array, Unit("m")]`` and so on. A dataclass field adds an :class:`Info`
+(symbol, meaning, bounds, the unit people think in), and everything else that needs to know about
+the field reads it from there: constructor checks, case-file schema, command-line help, dataset
+attributes, table headings.
+
+Inside the package all values are SI, angles are radians, temperatures kelvin.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+from collections.abc import Mapping
+from typing import Annotated, Any, TypeAlias, get_origin, get_type_hints
+
+#: A float, a NumPy array, or any foreign array the equations run on (JAX, SymPy, pint).
+#: Deliberately open: the unit, not the container, is what the annotations are about.
+Array: TypeAlias = Any
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Unit:
+    """The SI unit of a value, in the spelling pint reads (``"N m"``, ``"1/Pa"``, ``"1"``)."""
+
+    si: str
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Info:
+    """What a field is: its symbol, its meaning, its bounds and the unit people think in."""
+
+    symbol: str
+    meaning: str
+    shown_in: str = ""
+    above: float | None = None
+    at_least: float | None = None
+    below: float | None = None
+    at_most: float | None = None
+    whole: bool = False
+    address: str = ""
+    hint: str = ""
+
+
+Ratio = Annotated[Array, Unit("1")]
+Count = Annotated[Array, Unit("1")]
+Mask = Annotated[Array, Unit("1")]
+Length = Annotated[Array, Unit("m")]
+Angle = Annotated[Array, Unit("rad")]
+Force = Annotated[Array, Unit("N")]
+Torque = Annotated[Array, Unit("N m")]
+Power = Annotated[Array, Unit("W")]
+Pressure = Annotated[Array, Unit("Pa")]
+PressureCoefficient = Annotated[Array, Unit("1/Pa")]
+Speed = Annotated[Array, Unit("m/s")]
+AngularSpeed = Annotated[Array, Unit("rad/s")]
+Viscosity = Annotated[Array, Unit("Pa s")]
+KinematicViscosity = Annotated[Array, Unit("m^2/s")]
+Density = Annotated[Array, Unit("kg/m^3")]
+Temperature = Annotated[Array, Unit("K")]
+TemperatureDifference = Annotated[Array, Unit("K")]
+Conductivity = Annotated[Array, Unit("W/(m K)")]
+HeatCapacity = Annotated[Array, Unit("J/(kg K)")]
+InverseLength = Annotated[Array, Unit("1/m")]
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Quantity:
+    """One annotated name: what :func:`quantities_of` finds on a class."""
+
+    name: str
+    unit: str
+    info: Info
+
+    @property
+    def shown_in(self) -> str:
+        """The unit people think in; the SI unit where none is declared."""
+        return self.info.shown_in or self.unit
+
+
+def unit_of(annotation: object) -> str | None:
+    """The SI unit declared by an annotation, or None."""
+    if get_origin(annotation) is not Annotated:
+        return None
+    return next((m.si for m in annotation.__metadata__ if isinstance(m, Unit)), None)  # type: ignore[attr-defined]
+
+
+def info_of(annotation: object) -> Info | None:
+    """The :class:`Info` carried by an annotation, or None."""
+    if get_origin(annotation) is not Annotated:
+        return None
+    return next((m for m in annotation.__metadata__ if isinstance(m, Info)), None)  # type: ignore[attr-defined]
+
+
+@functools.cache
+def quantities_of(cls: type) -> Mapping[str, Quantity]:
+    """All quantities of a class by name: annotated fields, then annotated (cached) properties."""
+    found: dict[str, object] = dict(get_type_hints(cls, include_extras=True))
+    for owner in reversed(cls.__mro__):
+        for name, member in vars(owner).items():
+            getter = member.fget if isinstance(member, property) else getattr(member, "func", None)
+            if isinstance(member, property | functools.cached_property) and getter is not None:
+                found[name] = get_type_hints(getter, include_extras=True).get("return")
+    quantities: dict[str, Quantity] = {}
+    for name, annotation in found.items():
+        unit, info = unit_of(annotation), info_of(annotation)
+        if unit is not None and info is not None:
+            quantities[name] = Quantity(name, unit, info)
+    return quantities
+
+
+def out_of_bounds(info: Info, value: float) -> str | None:
+    """Say what is wrong with a concrete number, or None if it is within the declared bounds."""
+    if not math.isfinite(value):
+        return "must be a finite number"
+    if info.whole and value != int(value):
+        return "must be a whole number"
+    if info.above is not None and not value > info.above:
+        return "must be positive" if info.above == 0 else f"must be above {info.above:g}"
+    if info.at_least is not None and not value >= info.at_least:
+        return "must not be negative" if info.at_least == 0 else f"must be at least {info.at_least:g}"
+    if info.below is not None and not value < info.below:
+        return f"must be below {info.below:g}"
+    if info.at_most is not None and not value <= info.at_most:
+        return f"must be at most {info.at_most:g}"
+    return None

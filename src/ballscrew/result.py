@@ -1,0 +1,201 @@
+"""What a friction model returns: torques, their parts, both contacts, and where to trust them."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Annotated
+
+from ballscrew._arrays import namespace
+from ballscrew.components.contact import RaceState
+from ballscrew.components.frame import Frame
+from ballscrew.components.laws import BallChain, IdealTorqueLaw, RaceTorqueLaw
+from ballscrew.components.screw import BallScrew
+from ballscrew.equations import dissipation, equilibrium, kinematics, transmission
+from ballscrew.quantities import AngularSpeed, Force, Info, Mask, Power, Ratio, Speed, Torque
+from ballscrew.validity import REASONS, validity_masks
+
+#: The mechanisms a torque is made of, and what each is called in words.
+MECHANISMS: Mapping[str, str] = {
+    "hydrodynamic_rolling": "hydrodynamic rolling",
+    "elastic_hysteresis": "elastic hysteresis",
+    "curvature": "curvature slip",
+    "ball_to_ball": "ball to ball",
+}
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class FrictionResult:
+    """Friction of a ball screw at one operating point, or at an array of them.
+
+    The equilibrium is in hand when the result is made; everything else is computed when it is
+    asked for, and kept.
+    """
+
+    ball_screw: BallScrew
+    frame: Frame
+    axial_load: Annotated[Force, Info("F", "axial load on the nut")]
+    screw_speed: Annotated[AngularSpeed, Info(r"\omega", "speed of the screw", "rpm")]
+    contact_load: Annotated[Force, Info("Q", "normal load of each loaded ball")]
+    entrainment_speed: Annotated[Speed, Info("v", "entrainment speed at both contacts")]
+    screw: RaceState
+    nut: RaceState
+    ball_chain: BallChain
+    ball_to_ball_force: Annotated[Force, Info("F_B", "net braking force between neighbouring balls")]
+    race_torques: RaceTorqueLaw
+    ideal_torque_law: IdealTorqueLaw
+    converged: Mask
+
+    @cached_property
+    def screw_torque(self) -> Annotated[
+        Torque, Info("M_S", "friction torque on the screw", address="Olaru2005 §6 (33)")
+    ]:
+        """Friction torque on the screw."""
+        return equilibrium.total_friction_torque(self.ball_screw.loaded_balls, self.screw.friction_torque)
+
+    @cached_property
+    def nut_torque(self) -> Annotated[Torque, Info("M_N", "friction torque on the nut", address="Olaru2005 §6 (34)")]:
+        """Friction torque on the nut: the reaction, not a further loss."""
+        return equilibrium.total_friction_torque(self.ball_screw.loaded_balls, self.nut.friction_torque)
+
+    @cached_property
+    def ideal_torque(self) -> Annotated[
+        Torque, Info("M_Sa", "drive torque without friction", address="Olaru2005 §7 (35)")
+    ]:
+        """Drive torque without friction."""
+        return self.ideal_torque_law(self.axial_load, self.ball_screw, self.frame)
+
+    @cached_property
+    def drive_torque(self) -> Annotated[Torque, Info("M_Sa + M_S", "drive torque with friction")]:
+        """Torque that drives the screw against the load."""
+        return self.ideal_torque + self.screw_torque
+
+    @cached_property
+    def efficiency(self) -> Annotated[
+        Ratio, Info(r"\eta", "efficiency, screw drives the nut", address="Olaru2005 §7 (36)")
+    ]:
+        """Efficiency when the screw drives the nut.
+
+        Zero without load. Where both torques vanish, the limit of vanishing load: 0 in motion,
+        where friction falls more slowly than the load, and 1 at rest, where it falls faster.
+        """
+        ideal, friction = self.ideal_torque, self.screw_torque
+        xp = namespace(ideal, friction, self.screw_speed)
+        no_torque = ideal + friction == 0
+        eta = transmission.efficiency(ideal, xp.where(no_torque, 1.0, friction))
+        return xp.where(no_torque & (self.screw_speed == 0), 1.0, eta)[()]
+
+    @cached_property
+    def back_driving_efficiency(self) -> Annotated[Ratio, Info(r"\eta_b", "efficiency, the load drives the screw")]:
+        """Efficiency when the load drives the screw; zero or less means self-locking.
+
+        Minus infinity where the direct efficiency is zero.
+        """
+        eta = self.efficiency
+        xp = namespace(eta)
+        none = eta == 0
+        return xp.where(none, -xp.inf, transmission.back_driving_efficiency(xp.where(none, 1.0, eta)))[()]
+
+    @cached_property
+    def contributions(self) -> Mapping[str, Torque]:
+        """Friction torque on the screw by mechanism, N m; the parts sum to ``screw_torque``.
+
+        The torque is linear in the forces and moments of the mechanisms, so each part is the torque
+        with all others struck out.
+        """
+        s, n, chain = self.screw, self.nut, self.ball_chain
+        zero = 0 * s.contact_load
+        return {
+            "hydrodynamic_rolling": self._part(
+                s.hydrodynamic_rolling_force, n.hydrodynamic_rolling_force, zero, zero, zero, zero
+            ),
+            "elastic_hysteresis": self._part(
+                zero, zero, s.elastic_resistance_moment, n.elastic_resistance_moment, zero, zero
+            ),
+            "curvature": self._part(zero, zero, s.curvature_friction_moment, n.curvature_friction_moment, zero, zero),
+            "ball_to_ball": self._part(zero, zero, zero, zero, chain.moment, chain.braking_force),
+        }
+
+    def _part(
+        self,
+        screw_rolling_force: Force,
+        nut_rolling_force: Force,
+        screw_moment: Torque,
+        nut_moment: Torque,
+        ball_moment: Torque,
+        braking_force: Force,
+    ) -> Torque:
+        forces = (
+            screw_moment + nut_moment,
+            ball_moment,
+            self.ball_screw.ball_diameter,
+            screw_rolling_force,
+            nut_rolling_force,
+            self.frame.curvature_ratio,
+            braking_force,
+        )
+        per_ball = self.race_torques(
+            equilibrium.tangential_force(screw_rolling_force, equilibrium.screw_sliding_force(*forces)),
+            equilibrium.tangential_force(nut_rolling_force, equilibrium.nut_sliding_force(*forces)),
+            screw_moment,
+            nut_moment,
+            self.frame,
+        )
+        return equilibrium.total_friction_torque(self.ball_screw.loaded_balls, per_ball.screw)
+
+    @cached_property
+    def dissipation(self) -> Mapping[str, Power]:
+        """Power dissipated by mechanism, W, from local forces and local speeds."""
+        s, n, chain, z = self.screw, self.nut, self.ball_chain, self.ball_screw.loaded_balls
+        v, cosine = self.entrainment_speed, self.frame.rolling_plane_cosine
+        ball = kinematics.ball_rotation(v, self.ball_screw.ball_diameter)
+        orbit = kinematics.orbital_rotation(v, n.contact_radius)
+        at_screw = kinematics.screw_contact_rotation(
+            ball, kinematics.screw_relative_rotation(v, s.contact_radius), cosine
+        )
+        at_nut = kinematics.nut_contact_rotation(ball, orbit, cosine)
+        return {
+            "hydrodynamic_rolling": z
+            * dissipation.hydrodynamic_rolling_power(s.hydrodynamic_rolling_force, n.hydrodynamic_rolling_force, v),
+            "elastic_hysteresis": z
+            * dissipation.contact_moment_power(
+                s.elastic_resistance_moment, n.elastic_resistance_moment, at_screw, at_nut
+            ),
+            "curvature": z
+            * dissipation.contact_moment_power(
+                s.curvature_friction_moment, n.curvature_friction_moment, at_screw, at_nut
+            ),
+            "ball_to_ball": z
+            * dissipation.ball_chain_power(
+                chain.moment,
+                ball,
+                self.ball_to_ball_force,
+                kinematics.orbital_speed(orbit, self.frame.path_radius),
+            ),
+        }
+
+    @cached_property
+    def friction_power(self) -> Annotated[Power, Info("P", "power dissipated by friction")]:
+        """Power dissipated by friction: the sum of the local dissipations, not torque times speed."""
+        return sum(self.dissipation.values())
+
+    @cached_property
+    def validity(self) -> Mapping[str, Mask]:
+        """Where each condition of the model holds, by reason; see :data:`ballscrew.validity.REASONS`."""
+        return validity_masks(self.axial_load, self.screw_speed, self.screw, self.nut, self.converged)
+
+    @cached_property
+    def valid(self) -> Annotated[Mask, Info("valid", "all conditions of the model hold")]:
+        """Where all conditions of the model hold."""
+        masks = list(self.validity.values())
+        holds = masks[0]
+        for mask in masks[1:]:
+            holds = holds & mask
+        return holds
+
+    @property
+    def warnings(self) -> list[str]:
+        """The conditions that fail somewhere, in words: ``"reason: explanation"``."""
+        xp = namespace(self.contact_load)
+        return [f"{reason}: {REASONS[reason]}" for reason, mask in self.validity.items() if not xp.all(mask)]

@@ -1,0 +1,102 @@
+"""Where the lines of pure rolling lie: the offset Y at both contacts from the ball's equilibrium.
+
+The curvature moments enter the sliding forces, (24) and (25); each sliding force fixes its offset,
+:math:`F_S = \\mu Q (1 - 3Y + Y^3)`; each offset fixes its curvature moment, (15). One unknown is
+enough: the sum S of both moments, with :math:`S = \\sum_i M_{C,i}(Y_i(S))`. The slope of the right
+side is :math:`\\sum_i a_i^2 Y_i^2/(2 R_{d,i} d_w)`, whatever friction and load are: below 0.01 for a
+screw and below 0.5 for any contact that fits its groove, so Newton's method cannot fail.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+
+from ballscrew._arrays import namespace
+from ballscrew.components.contact import Contact
+from ballscrew.equations import friction
+from ballscrew.quantities import Force, Length, Mask, Ratio, Torque
+
+#: A fixed number of steps: block sizes and neighbours in an array cannot change a result.
+NEWTON_STEPS = 5
+#: The relative change of the last step that still counts as converged.
+TOLERANCE = 1e-12
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class PureRolling:
+    """Outcome: the offsets, the curvature moments that go with them, and how well they close."""
+
+    screw_offset: Ratio
+    nut_offset: Ratio
+    screw_moment: Torque
+    nut_moment: Torque
+    residual: Ratio
+
+    @property
+    def converged(self) -> Mask:
+        """Where the last step changed next to nothing."""
+        return self.residual <= TOLERANCE
+
+    @property
+    def advice(self) -> str:
+        """What to do where it did not converge."""
+        return "the contact is too large for its groove: check contact_load, ball_diameter and conformity"
+
+
+def imposed(screw: Contact, nut: Contact, pure_rolling_offset: Ratio) -> PureRolling:
+    """The paper's way: the same given offset at both contacts."""
+    return PureRolling(
+        screw_offset=pure_rolling_offset,
+        nut_offset=pure_rolling_offset,
+        screw_moment=screw.curvature_moment_at(pure_rolling_offset),
+        nut_moment=nut.curvature_moment_at(pure_rolling_offset),
+        residual=0.0,
+    )
+
+
+def solve(
+    screw: Contact, nut: Contact, screw_force_at_rest: Force, nut_force_at_rest: Force, ball_diameter: Length
+) -> PureRolling:
+    """Offsets for which the traction of each contact is the sliding force that equilibrium asks for.
+
+    ``screw_force_at_rest`` and ``nut_force_at_rest`` are the sliding forces without the curvature
+    moments. Where a sliding force exceeds µQ the ball skids: no offset satisfies equilibrium, the
+    traction saturates at its limit, and the result is flagged by its ``skid`` validity. Without
+    load the traction ratio is undefined; it is taken as saturated, and the moments vanish.
+    """
+    xp = namespace(screw.contact_load, screw.friction_coefficient, screw_force_at_rest)
+    zero = 0 * screw.contact_load
+    sides = ((screw, screw_force_at_rest), (nut, nut_force_at_rest))
+
+    def sums(total: Torque) -> tuple[Torque, Ratio, list[Ratio]]:
+        moments, slope, offsets = zero, zero, []
+        for contact, force_at_rest in sides:
+            limit = contact.friction_coefficient * contact.contact_load
+            force = force_at_rest + total / ball_diameter
+            ratio = xp.where(limit > 0, force / xp.where(limit > 0, limit, 1.0), xp.where(force < 0, -1.0, 1.0))
+            bounded = xp.minimum(xp.maximum(ratio, -1.0), 1.0)
+            offset = friction.offset_from_traction(bounded)
+            sliding_freely = xp.abs(ratio) < 1
+            moments = moments + contact.curvature_moment_at(offset)
+            slope = slope + xp.where(
+                sliding_freely,
+                contact.semi_major_axis**2 * offset**2 / (2 * contact.deformed_radius * ball_diameter),
+                0.0,
+            )
+            offsets.append(offset)
+        return moments, slope, offsets
+
+    total = zero
+    for _ in range(NEWTON_STEPS):
+        moments, slope, _ = sums(total)
+        total = total + (moments - total) / (1 - slope)
+    moments, _, (screw_offset, nut_offset) = sums(total)
+    scale = xp.abs(moments) + xp.abs(total)
+    residual = xp.abs(moments - total) / xp.where(scale > 0, scale, 1.0)
+    return PureRolling(
+        screw_offset=screw_offset,
+        nut_offset=nut_offset,
+        screw_moment=screw.curvature_moment_at(screw_offset),
+        nut_moment=nut.curvature_moment_at(nut_offset),
+        residual=residual,
+    )

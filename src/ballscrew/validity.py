@@ -1,0 +1,64 @@
+"""Where the model may be trusted: one mask for each condition, each with its reason in words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ballscrew._arrays import namespace
+from ballscrew.components.contact import RaceState
+from ballscrew.quantities import AngularSpeed, Force, Mask
+
+#: Y at which the curvature moment (15) changes sign: the root of 1 - 5Y³ + 3Y⁵ in (0, 1).
+LARGEST_PURE_ROLLING_OFFSET = 0.643
+#: Half-way between the rigid and the elastic asymptote of the rolling force (BibouletHoupert2010).
+SMALLEST_ELASTIC_REGIME_PARAMETER = 6.6
+#: Materials and oils behind the film regression: G from 2310 to 6785 (HamrockDowson1977), and a
+#: little room on both sides, as the exponent 0.49 is smooth.
+MATERIAL_PARAMETER_RANGE = (2000.0, 7500.0)
+
+REASONS: Mapping[str, str] = {
+    "operating_point": "load and speed must be finite and not negative, and the geometry possible",
+    "skid": "the sliding force exceeds friction coefficient times load at a contact: the ball would skid",
+    "pure_rolling_offset": "the lines of pure rolling lie outside 0 <= Y < 0.643, where (15) holds",
+    "radii_ratio": "the radii ratio k is outside the range of the Hertz law (k >= 1; at most 60 for the paper's fit)",
+    "elastic_regime": "at this light load the contact is not in the elastic lubrication regime of (1) and (26) (M < 6.6)",
+    "material_parameter": "G is outside 2000 to 7500, the materials and oils behind the film regression (26)",
+    "equilibrium": "the offset of the lines of pure rolling did not converge",
+}
+
+
+def validity_masks(
+    axial_load: Force, screw_speed: AngularSpeed, screw: RaceState, nut: RaceState, converged: Mask
+) -> Mapping[str, Mask]:
+    """Masks by reason; NaN fails every condition it enters."""
+    xp = namespace(axial_load, screw_speed, screw.contact_load)
+    masks: dict[str, Mask] = {
+        "operating_point": (axial_load >= 0)
+        & (screw_speed >= 0)
+        & xp.isfinite(axial_load)
+        & xp.isfinite(screw_speed)
+        & xp.isfinite(screw.friction_torque)
+        & (screw.rolling_radius > 0)
+    }
+    for reason in ("skid", "pure_rolling_offset", "radii_ratio", "elastic_regime", "material_parameter"):
+        masks[reason] = _holds(reason, screw) & _holds(reason, nut)
+    masks["equilibrium"] = converged
+    shape = xp.asarray(masks["operating_point"] & masks["skid"])
+    return {reason: (xp.asarray(mask) | xp.zeros_like(shape))[()] for reason, mask in masks.items()}
+
+
+def _holds(reason: str, side: RaceState) -> Mask:
+    """One condition at one contact."""
+    xp = namespace(side.contact_load)
+    match reason:
+        case "skid":
+            return (side.contact_load > 0) & (xp.abs(side.sliding_force) <= side.traction_limit)
+        case "pure_rolling_offset":
+            return (side.pure_rolling_offset >= 0) & (side.pure_rolling_offset < LARGEST_PURE_ROLLING_OFFSET)
+        case "radii_ratio":
+            return (side.radii_ratio >= 1) & (side.radii_ratio <= side.hertz.largest_radii_ratio)
+        case "elastic_regime":
+            return side.elastic_regime_parameter >= SMALLEST_ELASTIC_REGIME_PARAMETER
+        case _:
+            least, most = MATERIAL_PARAMETER_RANGE
+            return (side.material_parameter >= least) & (side.material_parameter <= most)
