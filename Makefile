@@ -35,7 +35,7 @@ docs: $(READY)
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs out/docs
 
 bench: $(READY)
-	$(BIN)/python benchmarks/engine.py
+	$(BIN)/python benchmarks/sweep.py
 
 clean:
 	rm -rf .venv out build dist

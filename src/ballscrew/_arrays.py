@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-#: Points per block: seven outputs of a few dozen intermediates stay in a 1–2 MiB second-level
-#: cache, and one block is long enough that two threads do not fight for the interpreter lock.
-BLOCK_SIZE = 32_000
+#: Points per block: a dozen buffers of this size stay in a shared cache of a few MiB, and one
+#: operation on them lasts long enough that two threads do not fight for the interpreter lock.
+BLOCK_SIZE = 64_000
 
 
 def namespace(*values: Any) -> Any:

@@ -48,9 +48,9 @@ class FrictionResult:
     converged: Mask
 
     @cached_property
-    def screw_torque(self) -> Annotated[
-        Torque, Info("M_S", "friction torque on the screw", address="Olaru2005 §6 (33)")
-    ]:
+    def screw_torque(
+        self,
+    ) -> Annotated[Torque, Info("M_S", "friction torque on the screw", address="Olaru2005 §6 (33)")]:
         """Friction torque on the screw."""
         return equilibrium.total_friction_torque(self.ball_screw.loaded_balls, self.screw.friction_torque)
 
@@ -60,9 +60,9 @@ class FrictionResult:
         return equilibrium.total_friction_torque(self.ball_screw.loaded_balls, self.nut.friction_torque)
 
     @cached_property
-    def ideal_torque(self) -> Annotated[
-        Torque, Info("M_Sa", "drive torque without friction", address="Olaru2005 §7 (35)")
-    ]:
+    def ideal_torque(
+        self,
+    ) -> Annotated[Torque, Info("M_Sa", "drive torque without friction", address="Olaru2005 §7 (35)")]:
         """Drive torque without friction."""
         return self.ideal_torque_law(self.axial_load, self.ball_screw, self.frame)
 
@@ -72,19 +72,19 @@ class FrictionResult:
         return self.ideal_torque + self.screw_torque
 
     @cached_property
-    def efficiency(self) -> Annotated[
-        Ratio, Info(r"\eta", "efficiency, screw drives the nut", address="Olaru2005 §7 (36)")
-    ]:
+    def efficiency(
+        self,
+    ) -> Annotated[Ratio, Info(r"\eta", "efficiency, screw drives the nut", address="Olaru2005 §7 (36)")]:
         """Efficiency when the screw drives the nut.
 
         Zero without load. Where both torques vanish, the limit of vanishing load: 0 in motion,
         where friction falls more slowly than the load, and 1 at rest, where it falls faster.
         """
         ideal, friction = self.ideal_torque, self.screw_torque
-        xp = namespace(ideal, friction, self.screw_speed)
         no_torque = ideal + friction == 0
-        eta = transmission.efficiency(ideal, xp.where(no_torque, 1.0, friction))
-        return xp.where(no_torque & (self.screw_speed == 0), 1.0, eta)[()]
+        # truth counts as 1 here: it keeps 0/0 away, and is the limit at rest
+        eta = transmission.efficiency(ideal, friction + no_torque)
+        return eta + (no_torque & (self.screw_speed == 0))
 
     @cached_property
     def back_driving_efficiency(self) -> Annotated[Ratio, Info(r"\eta_b", "efficiency, the load drives the screw")]:

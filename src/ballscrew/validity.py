@@ -43,8 +43,9 @@ def validity_masks(
     for reason in ("skid", "pure_rolling_offset", "radii_ratio", "elastic_regime", "material_parameter"):
         masks[reason] = _holds(reason, screw) & _holds(reason, nut)
     masks["equilibrium"] = converged
-    shape = xp.asarray(masks["operating_point"] & masks["skid"])
-    return {reason: (xp.asarray(mask) | xp.zeros_like(shape))[()] for reason, mask in masks.items()}
+    # every mask takes the shape of the operating point, also where it depends on less
+    everywhere = masks["skid"] | ~masks["skid"]
+    return {reason: mask & everywhere for reason, mask in masks.items()}
 
 
 def _holds(reason: str, side: RaceState) -> Mask:

@@ -52,16 +52,16 @@ class Contact:
         return self.hertz.ellipticity
 
     @cached_property
-    def semi_minor_axis(self) -> Annotated[Length, Info("b", "semi-axis of the ellipse along the rolling direction", "mm")]:
+    def semi_minor_axis(
+        self,
+    ) -> Annotated[Length, Info("b", "semi-axis of the ellipse along the rolling direction", "mm")]:
         """Semi-axis of the contact ellipse along the rolling direction."""
         return hertz.semi_axis(self.hertz.minor, self.rolling_radius, self.load_parameter)
 
     @cached_property
     def maximum_pressure(self) -> Annotated[Pressure, Info("p_0", "maximum contact pressure", "GPa")]:
         """Maximum contact pressure."""
-        return hertz.maximum_pressure(
-            self.hertz.major, self.hertz.minor, self.equivalent_modulus, self.load_parameter
-        )
+        return hertz.maximum_pressure(self.hertz.major, self.hertz.minor, self.equivalent_modulus, self.load_parameter)
 
     @cached_property
     def elastic_regime_parameter(self) -> Annotated[Ratio, Info("M", "elastic against rigid lubrication regime")]:
@@ -69,14 +69,16 @@ class Contact:
         xp = namespace(self.load_parameter, self.speed_parameter)
         at_rest = self.speed_parameter == 0
         speed = xp.where(at_rest, 1.0, self.speed_parameter)
-        return xp.where(
-            at_rest, xp.inf, rolling.elastic_regime_parameter(self.radii_ratio, self.load_parameter, speed)
-        )
+        return xp.where(at_rest, xp.inf, rolling.elastic_regime_parameter(self.radii_ratio, self.load_parameter, speed))
 
     def curvature_moment_at(self, pure_rolling_offset: Ratio) -> Torque:
         """Curvature friction moment for a given position of the lines of pure rolling."""
         return friction.curvature_friction_moment(
-            self.friction_coefficient, self.contact_load, self.semi_major_axis, self.deformed_radius, pure_rolling_offset
+            self.friction_coefficient,
+            self.contact_load,
+            self.semi_major_axis,
+            self.deformed_radius,
+            pure_rolling_offset,
         )
 
 
@@ -98,7 +100,9 @@ class RaceState(Contact):
         return self.friction_coefficient * self.contact_load
 
     @cached_property
-    def mutual_approach(self) -> Annotated[Length, Info(r"\delta", "mutual approach of ball and race, exact Hertz", "um")]:
+    def mutual_approach(
+        self,
+    ) -> Annotated[Length, Info(r"\delta", "mutual approach of ball and race, exact Hertz", "um")]:
         """Mutual approach of ball and race by the exact Hertz solution, whatever fit the model uses."""
         kappa = hertz.ellipticity(self.radii_ratio)
         integrals = hertz.elliptic_integrals(kappa)
@@ -141,7 +145,7 @@ def rolling_contact(
     U = rheology.speed_parameter(lubricant.viscosity, entrainment_speed, E, R_x)
     W = rheology.load_parameter(contact_load, E, R_x)
     xp = namespace(U, W)
-    h = xp.where(U == 0, 0.0, laws.film(R_x, U, G, W, shape.ellipticity))
+    h = xp.where(entrainment_speed == 0, 0.0, laws.film(R_x, U, G, W, shape.ellipticity))
     lam = laws.film_parameter(h, screw.ball_roughness, raceway.roughness)
     return Contact(
         contact_load=contact_load,

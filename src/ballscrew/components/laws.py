@@ -28,9 +28,7 @@ class FrameLaw(Protocol):
 class ContactLoadLaw(Protocol):
     """Normal load of a ball from the axial load."""
 
-    def __call__(
-        self, axial_load: Force, loaded_balls: Count, contact_angle: Angle, lead_angle: Angle, /
-    ) -> Force: ...
+    def __call__(self, axial_load: Force, loaded_balls: Count, contact_angle: Angle, lead_angle: Angle, /) -> Force: ...
 
 
 class HertzLaw(Protocol):

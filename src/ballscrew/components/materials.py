@@ -32,12 +32,8 @@ class Material:
     positive or a Poisson's ratio outside [0, 0.5).
     """
 
-    young_modulus: Annotated[
-        Pressure, Info("E", "Young's modulus", "GPa", above=0, hint="steel has 206 GPa")
-    ] = 2.06e11
-    poisson_ratio: Annotated[
-        Ratio, Info(r"\nu", "Poisson's ratio", at_least=0, below=0.5, hint="steel has 0.3")
-    ] = 0.3
+    young_modulus: Annotated[Pressure, Info("E", "Young's modulus", "GPa", above=0, hint="steel has 206 GPa")] = 2.06e11
+    poisson_ratio: Annotated[Ratio, Info(r"\nu", "Poisson's ratio", at_least=0, below=0.5, hint="steel has 0.3")] = 0.3
 
     def __post_init__(self) -> None:
         raise_if_any(faults_of("material", self))
@@ -64,7 +60,13 @@ class Lubricant:
     ]
     pressure_viscosity_coefficient: Annotated[
         PressureCoefficient,
-        Info(r"\alpha_p", "pressure–viscosity coefficient", "1/GPa", above=0, hint="mineral oils have 1e-8 to 2.5e-8 1/Pa"),
+        Info(
+            r"\alpha_p",
+            "pressure–viscosity coefficient",
+            "1/GPa",
+            above=0,
+            hint="mineral oils have 1e-8 to 2.5e-8 1/Pa",
+        ),
     ] = 2.2e-8
     density: Annotated[Density, Info(r"\rho", "density", above=0, hint="mineral oils have 870 kg/m^3")] = 870.0
     thermal_conductivity: Annotated[

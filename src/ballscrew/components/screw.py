@@ -37,7 +37,8 @@ class BallScrew:
     lead: Annotated[Length, Info("P_h", "advance of the nut in one turn", "mm", above=0, hint="lengths are positive")]
     ball_diameter: Annotated[Length, Info("d_w", "ball diameter", "mm", above=0, hint="lengths are positive")]
     loaded_balls: Annotated[
-        Count, Info("z", "number of balls that carry load", at_least=1, whole=True, hint="give a whole number, 1 or more")
+        Count,
+        Info("z", "number of balls that carry load", at_least=1, whole=True, hint="give a whole number, 1 or more"),
     ]
     contact_angle: Annotated[
         Angle,
@@ -62,10 +63,12 @@ class BallScrew:
         Length, Info(r"\sigma_b", "RMS roughness of the balls", "um", above=0, hint="balls have 0.02 um to 0.1 um")
     ] = 0.08e-6
     screw_roughness: Annotated[
-        Length, Info(r"\sigma_s", "RMS roughness of the screw race", "um", above=0, hint="ground races have 0.2 um to 0.4 um")
+        Length,
+        Info(r"\sigma_s", "RMS roughness of the screw race", "um", above=0, hint="ground races have 0.2 um to 0.4 um"),
     ] = 0.3e-6
     nut_roughness: Annotated[
-        Length, Info(r"\sigma_n", "RMS roughness of the nut race", "um", above=0, hint="ground races have 0.2 um to 0.4 um")
+        Length,
+        Info(r"\sigma_n", "RMS roughness of the nut race", "um", above=0, hint="ground races have 0.2 um to 0.4 um"),
     ] = 0.3e-6
     starts: Annotated[
         Count, Info("N", "number of thread starts", at_least=1, whole=True, hint="give a whole number, 1 or more")
@@ -123,9 +126,7 @@ class BallScrew:
     def equivalent_modulus(self, raceway: Raceway) -> Pressure:
         """Equivalent modulus of ball and race, Pa."""
         ball, race = self.ball_material, raceway.material
-        return hertz.equivalent_modulus(
-            ball.young_modulus, ball.poisson_ratio, race.young_modulus, race.poisson_ratio
-        )
+        return hertz.equivalent_modulus(ball.young_modulus, ball.poisson_ratio, race.young_modulus, race.poisson_ratio)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -136,9 +137,7 @@ class Operation:
     :class:`~ballscrew.faults.InputError` for negative or non-finite numbers.
     """
 
-    axial_load: Annotated[
-        Force, Info("F", "axial load on the nut", at_least=0, hint="give its magnitude")
-    ]
+    axial_load: Annotated[Force, Info("F", "axial load on the nut", at_least=0, hint="give its magnitude")]
     screw_speed: Annotated[
         AngularSpeed, Info(r"\omega", "speed of the screw", "rpm", at_least=0, hint="give its magnitude")
     ]

@@ -5,9 +5,7 @@ from __future__ import annotations
 from ballscrew.quantities import AngularSpeed, Force, Power, Speed, Torque
 
 
-def hydrodynamic_rolling_power(
-    screw_rolling_force: Force, nut_rolling_force: Force, entrainment_speed: Speed
-) -> Power:
+def hydrodynamic_rolling_power(screw_rolling_force: Force, nut_rolling_force: Force, entrainment_speed: Speed) -> Power:
     r"""Power lost in the two contact inlets.
 
     .. math:: P = 2 v (F_{Rs} + F_{Rn})

@@ -95,9 +95,7 @@ def offset_from_traction(traction_ratio: Ratio) -> Ratio:
     return 2 * xp.sin(xp.arcsin((1 - T) / 2) / 3)
 
 
-def ball_friction_moment(
-    ball_friction_coefficient: Ratio, ball_to_ball_force: Force, ball_diameter: Length
-) -> Torque:
+def ball_friction_moment(ball_friction_coefficient: Ratio, ball_to_ball_force: Force, ball_diameter: Length) -> Torque:
     r"""Braking moment of one neighbouring ball.
 
     .. math:: M_B = \mu_b F_B \frac{d_w}{2}

@@ -127,7 +127,9 @@ def semi_major_axis_coefficient(radii_ratio: Ratio, ellipticity: Ratio, second_i
     return (6 * kappa**2 * E * k / (xp.pi * (1 + k))) ** (1 / 3)
 
 
-def approach_coefficient(radii_ratio: Ratio, ellipticity: Ratio, first_integral: Ratio, second_integral: Ratio) -> Ratio:
+def approach_coefficient(
+    radii_ratio: Ratio, ellipticity: Ratio, first_integral: Ratio, second_integral: Ratio
+) -> Ratio:
     r"""Coefficient of the mutual approach of the two bodies, exact.
 
     .. math:: c_d = K \left(\frac{9 (1 + k)}{2 \pi^2 \kappa^2 E k}\right)^{1/3}

@@ -18,9 +18,7 @@ from ballscrew.quantities import (
 )
 
 
-def material_parameter(
-    equivalent_modulus: Pressure, pressure_viscosity_coefficient: PressureCoefficient
-) -> Ratio:
+def material_parameter(equivalent_modulus: Pressure, pressure_viscosity_coefficient: PressureCoefficient) -> Ratio:
     r"""Dimensionless material parameter.
 
     .. math:: G = E' \alpha_p
