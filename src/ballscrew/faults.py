@@ -8,6 +8,7 @@ from __future__ import annotations
 import dataclasses
 import difflib
 import numbers
+import textwrap
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -19,17 +20,24 @@ LINES_AT_MOST = 10
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class Fault:
-    """One thing wrong with one field."""
+    """One thing wrong with one field.
+
+    ``{bound}`` in the problem or the remedy stands for a bound in SI, which the interfaces show in
+    the unit people think in.
+    """
 
     where: str
     problem: str
     given: str = ""
     remedy: str = ""
+    bound: float | None = None
+    unit: str = "1"
 
     def __str__(self) -> str:
-        given = f" ({self.given})" if self.given else ""
+        bound = "" if self.bound is None else shown(self.bound, self.unit)
+        given = f" ({textwrap.shorten(self.given, 80, placeholder='…')})" if self.given else ""
         remedy = f" · {self.remedy}" if self.remedy else ""
-        return " ".join(f"{self.where}: {self.problem}{given}{remedy}".split())
+        return " ".join(f"{self.where}: {self.problem}{given}{remedy}".replace("{bound}", bound).split())
 
 
 class InputError(ValueError):
@@ -52,6 +60,7 @@ def nearest(word: str, known: Iterable[str]) -> str:
     """``did you mean "…"?`` for the closest known word, else the list of known words."""
     candidates = list(known)
     close = difflib.get_close_matches(word, candidates, n=1, cutoff=0.55)
+    close = close or [name for name in candidates if len(word) > 3 and name.startswith(word[:4])]
     if close:
         return f'did you mean "{close[0]}"?'
     return "known: " + ", ".join(candidates)
@@ -59,12 +68,12 @@ def nearest(word: str, known: Iterable[str]) -> str:
 
 def is_concrete(value: Any) -> bool:
     """Whether a value is a plain number that can be checked now (arrays and tracers are not)."""
-    return isinstance(value, numbers.Real) and not isinstance(value, bool)
+    return isinstance(value, numbers.Real) and type(value) is not bool
 
 
 def shown(value: Any, unit: str) -> str:
     """A value in its unit, as it stands in a message."""
-    number = f"{value:.12g}" if is_concrete(value) else repr(value)
+    number = f"{value:.6g}" if is_concrete(value) else repr(value)
     return number if unit == "1" else f"{number} {unit}"
 
 
@@ -77,10 +86,11 @@ def fault_of(section: str, quantity: Quantity, value: Any, given: str = "") -> F
         return Fault(where, f"must be {expected}", given, quantity.info.hint)
     if not is_concrete(value):
         return None
-    problem = out_of_bounds(quantity.info, float(value))
-    if problem is None:
+    found = out_of_bounds(quantity.info, float(value))
+    if found is None:
         return None
-    return Fault(where, problem, given, quantity.info.hint)
+    problem, bound = found
+    return Fault(where, problem, given, quantity.info.hint, bound, quantity.unit)
 
 
 def faults_of(section: str, part: Any, optional: Sequence[str] = ()) -> list[Fault]:

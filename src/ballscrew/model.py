@@ -52,6 +52,9 @@ from ballscrew.result import FrictionResult
 from ballscrew.solvers import pure_rolling
 
 
+PAPER_FRICTION = ZhouHoeprich()
+
+
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class FrictionModel:
     """A friction model of a ball screw: one law in each slot, and three numbers.
@@ -66,7 +69,7 @@ class FrictionModel:
     hertz: HertzLaw
     film: FilmLaw
     film_parameter: FilmParameterLaw = rms_film_parameter
-    friction: FrictionLaw = ZhouHoeprich()
+    friction: FrictionLaw = PAPER_FRICTION
     rolling: RollingLaw = hydrodynamic_rolling_force
     elastic_resistance: ElasticResistanceLaw = elastic_resistance_moment
     ball_chain: BallChainLaw

@@ -13,8 +13,9 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
+import types
 from collections.abc import Mapping
-from typing import Annotated, Any, TypeAlias, get_origin, get_type_hints
+from typing import Annotated, Any, TypeAlias, Union, get_args, get_origin, get_type_hints
 
 #: A float, a NumPy array, or any foreign array the equations run on (JAX, SymPy, pint).
 #: Deliberately open: the unit, not the container, is what the annotations are about.
@@ -81,17 +82,21 @@ class Quantity:
 
 
 def unit_of(annotation: object) -> str | None:
-    """The SI unit declared by an annotation, or None."""
-    if get_origin(annotation) is not Annotated:
-        return None
-    return next((m.si for m in annotation.__metadata__ if isinstance(m, Unit)), None)  # type: ignore[attr-defined]
+    """The SI unit declared by an annotation (also inside ``Force | None``), or None."""
+    if get_origin(annotation) is Annotated:
+        inner, *metadata = get_args(annotation)
+        own = next((m.si for m in metadata if isinstance(m, Unit)), None)
+        return own if own is not None else unit_of(inner)
+    if isinstance(annotation, types.UnionType) or get_origin(annotation) is Union:
+        return next((unit for unit in map(unit_of, get_args(annotation)) if unit is not None), None)
+    return None
 
 
 def info_of(annotation: object) -> Info | None:
     """The :class:`Info` carried by an annotation, or None."""
     if get_origin(annotation) is not Annotated:
         return None
-    return next((m for m in annotation.__metadata__ if isinstance(m, Info)), None)  # type: ignore[attr-defined]
+    return next((m for m in get_args(annotation)[1:] if isinstance(m, Info)), None)
 
 
 @functools.cache
@@ -111,18 +116,21 @@ def quantities_of(cls: type) -> Mapping[str, Quantity]:
     return quantities
 
 
-def out_of_bounds(info: Info, value: float) -> str | None:
-    """Say what is wrong with a concrete number, or None if it is within the declared bounds."""
+def out_of_bounds(info: Info, value: float) -> tuple[str, float | None] | None:
+    """Say what is wrong with a concrete number, or None if it is within the declared bounds.
+
+    The second item is the bound that ``{bound}`` in the first stands for.
+    """
     if not math.isfinite(value):
-        return "must be a finite number"
+        return "must be a finite number", None
     if info.whole and value != int(value):
-        return "must be a whole number"
+        return "must be a whole number", None
     if info.above is not None and not value > info.above:
-        return "must be positive" if info.above == 0 else f"must be above {info.above:g}"
+        return ("must be positive", None) if info.above == 0 else ("must be above {bound}", info.above)
     if info.at_least is not None and not value >= info.at_least:
-        return "must not be negative" if info.at_least == 0 else f"must be at least {info.at_least:g}"
+        return ("must not be negative", None) if info.at_least == 0 else ("must be at least {bound}", info.at_least)
     if info.below is not None and not value < info.below:
-        return f"must be below {info.below:g}"
+        return "must be below {bound}", info.below
     if info.at_most is not None and not value <= info.at_most:
-        return f"must be at most {info.at_most:g}"
+        return "must be at most {bound}", info.at_most
     return None

@@ -21,7 +21,7 @@ REASONS: Mapping[str, str] = {
     "skid": "the sliding force exceeds friction coefficient times load at a contact: the ball would skid",
     "pure_rolling_offset": "the lines of pure rolling lie outside 0 <= Y < 0.643, where (15) holds",
     "radii_ratio": "the radii ratio k is outside the range of the Hertz law (k >= 1; at most 60 for the paper's fit)",
-    "elastic_regime": "at this light load the contact is not in the elastic lubrication regime of (1) and (26) (M < 6.6)",
+    "elastic_regime": "the load is too light for the elastic lubrication regime of (1) and (26) (M < 6.6)",
     "material_parameter": "G is outside 2000 to 7500, the materials and oils behind the film regression (26)",
     "equilibrium": "the offset of the lines of pure rolling did not converge",
 }

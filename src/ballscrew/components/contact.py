@@ -44,7 +44,7 @@ class Contact:
     film_parameter: Annotated[Ratio, Info(r"\lambda", "film thickness / combined roughness")]
     friction_coefficient: Annotated[Ratio, Info(r"\mu_m", "friction coefficient of the contact")]
     hydrodynamic_rolling_force: Annotated[Force, Info("F_R", "hydrodynamic rolling force")]
-    elastic_resistance_moment: Annotated[Torque, Info("M_ER", "elastic resistance moment", "mN mm")]
+    elastic_resistance_moment: Annotated[Torque, Info("M_ER", "elastic resistance moment", "N mm")]
 
     @cached_property
     def ellipticity(self) -> Annotated[Ratio, Info(r"\kappa", "ratio of the semi-axes a/b")]:
@@ -87,7 +87,7 @@ class RaceState(Contact):
     """State of a ball–race contact in the equilibrium of the ball: with forces and moments."""
 
     pure_rolling_offset: Annotated[Ratio, Info("Y", "offset of the lines of pure rolling / semi-major axis")]
-    curvature_friction_moment: Annotated[Torque, Info("M_C", "curvature friction moment", "mN mm")]
+    curvature_friction_moment: Annotated[Torque, Info("M_C", "curvature friction moment", "N mm")]
     sliding_force: Annotated[Force, Info("F_S", "sliding force between ball and race")]
     contact_radius: Annotated[Length, Info("R", "lever of the tangential force about the screw axis", "mm")]
     pressure_force: Annotated[Force, Info("F_P", "force of the inlet pressure through the ball centre")]

@@ -8,7 +8,7 @@ from typing import Annotated
 
 from ballscrew.components.materials import Material
 from ballscrew.equations import geometry, hertz
-from ballscrew.faults import Fault, faults_of, is_concrete, raise_if_any
+from ballscrew.faults import Fault, faults_of, is_concrete, raise_if_any, shown
 from ballscrew.quantities import Angle, AngularSpeed, Count, Force, Info, Length, Pressure, Ratio
 
 STEEL = Material()
@@ -85,27 +85,16 @@ class BallScrew:
     def _misfits(self) -> list[Fault]:
         """Faults between fields that are fine one by one."""
         d_m, d_w, lead = self.pitch_circle_diameter, self.ball_diameter, self.lead
-        found: list[Fault] = []
+        where, found = "screw.ball_diameter", list[Fault]()
         if is_concrete(d_m) and is_concrete(d_w) and not d_w < d_m / 2:
-            found.append(
-                Fault(
-                    "screw.ball_diameter",
-                    "too big for the pitch circle",
-                    f"{d_w:g} m on {d_m:g} m",
-                    f"keep it below half the pitch circle diameter, {d_m / 2:g} m",
-                )
-            )
-        if not found and all(map(is_concrete, (d_m, d_w, lead, self.starts))):
-            room = lead / self.starts * math.cos(geometry.lead_angle(lead, d_m))
+            remedy = "keep it below half the pitch circle diameter, {bound}"
+            found.append(Fault(where, "too big for the pitch circle", shown(d_w, "m"), remedy, d_m / 2, "m"))
+        elif all(map(is_concrete, (d_m, d_w, lead, self.starts))):
+            room = float(lead / self.starts * math.cos(self.lead_angle))
             if not d_w < room:
-                found.append(
-                    Fault(
-                        "screw.ball_diameter",
-                        "too big for the lead: balls of neighbouring turns overlap",
-                        f"{d_w:g} m",
-                        f"keep it below lead · cos(lead angle) / starts = {room:.4g} m",
-                    )
-                )
+                problem = "too big for the lead: balls of neighbouring turns overlap"
+                remedy = "keep it below lead · cos(lead angle) / starts = {bound}"
+                found.append(Fault(where, problem, shown(d_w, "m"), remedy, room, "m"))
         return found
 
     @property

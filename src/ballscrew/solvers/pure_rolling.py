@@ -1,9 +1,9 @@
-"""Where the lines of pure rolling lie: the offset Y at both contacts from the ball's equilibrium.
+r"""Where the lines of pure rolling lie: the offset Y at both contacts from the ball's equilibrium.
 
 The curvature moments enter the sliding forces, (24) and (25); each sliding force fixes its offset,
-:math:`F_S = \\mu Q (1 - 3Y + Y^3)`; each offset fixes its curvature moment, (15). One unknown is
-enough: the sum S of both moments, with :math:`S = \\sum_i M_{C,i}(Y_i(S))`. The slope of the right
-side is :math:`\\sum_i a_i^2 Y_i^2/(2 R_{d,i} d_w)`, whatever friction and load are: below 0.01 for a
+:math:`F_S = \mu Q (1 - 3Y + Y^3)`; each offset fixes its curvature moment, (15). One unknown is
+enough: the sum S of both moments, with :math:`S = \sum_i M_{C,i}(Y_i(S))`. The slope of the right
+side is :math:`\sum_i a_i^2 Y_i^2/(2 R_{d,i} d_w)`, whatever friction and load are: below 0.01 for a
 screw and below 0.5 for any contact that fits its groove, so Newton's method cannot fail.
 """
 

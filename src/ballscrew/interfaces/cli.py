@@ -1,0 +1,185 @@
+"""The command line. Each command says what it does in a few lines; the work is done elsewhere.
+
+Scientific packages are imported inside the commands, so that ``ballscrew --help`` is instant.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Annotated, Optional
+
+import typer
+
+app = typer.Typer(
+    name="ballscrew",
+    help="What a ball screw loses to friction: torque, efficiency, back-driving, and why, term by term.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+
+CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML), for example examples/olaru2005.toml.")]
+ModelName = Annotated[
+    Optional[str],  # noqa: UP045  (typer reads this form on every Python)
+    typer.Option("--model", help="Model: olaru2005, olaru2005-literal or corrected; wins over the file."),
+]
+Settings = Annotated[
+    Optional[list[str]],  # noqa: UP045
+    typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set operation.axial_load="4 kN".'),
+]
+
+
+@app.command()
+def run(
+    case: CaseFile,
+    model: ModelName = None,
+    settings: Settings = None,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+) -> None:
+    """Friction at the operating point of a case file."""
+    from ballscrew.interfaces import config, report
+
+    loaded = config.load(case, settings or [], model)
+    result = loaded.model(
+        loaded.screw,
+        loaded.lubricant,
+        axial_load=loaded.operation.axial_load,
+        screw_speed=loaded.operation.screw_speed,
+    )
+    if as_json:
+        typer.echo(report.json_text(loaded, result))
+    else:
+        report.print_result(loaded, result)
+
+
+@app.command()
+def sweep(
+    case: CaseFile,
+    vary: Annotated[
+        Optional[list[str]],  # noqa: UP045
+        typer.Option("--vary", metavar="FIELD=VALUES", help='Axis: axial_load="100:4000:14 N" or "100, 200 N".'),
+    ] = None,
+    output: Annotated[
+        Optional[list[str]],  # noqa: UP045
+        typer.Option("--output", help="What to return, for example efficiency or screw_torque; may be repeated."),
+    ] = None,
+    to: Annotated[
+        Optional[Path],  # noqa: UP045
+        typer.Option("--to", "-o", metavar="FILE", help="Write .csv, .xlsx or .nc; without it, CSV on the terminal."),
+    ] = None,
+    model: ModelName = None,
+    settings: Settings = None,
+) -> None:
+    """Friction over ranges of load, speed or anything else.
+
+    Without --vary, the axes come from the [sweep] table of the case file, or else are ten loads and
+    ten speeds up to those of the case. One output over two axes comes as a table, load down and
+    speed across, ready to paste; otherwise one row a point.
+    """
+    from ballscrew.interfaces import config, export
+
+    loaded = config.load(case, settings or [], model)
+    plan = export.plan(loaded, vary or [], output or [], to)
+    with _progress("sweep") as progress:
+        dataset = export.evaluate(loaded, plan, progress)
+    if to is None:
+        typer.echo(export.csv_text(dataset, plan), nl=False)
+    else:
+        export.write(dataset, plan, to)
+        typer.echo(f"{to}: {export.size_in_words(dataset)}")
+
+
+@app.command()
+def reproduce(
+    paper: Annotated[str, typer.Argument(help="Which paper: olaru2005.")],
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder for figures, data and claims.")],
+) -> None:
+    """The figures, the data and the claims of a paper, from its equations."""
+    from ballscrew.faults import Fault, InputError, nearest
+
+    if paper != "olaru2005":
+        raise InputError(Fault("reproduce", "unknown paper", paper, nearest(paper, ["olaru2005"])))
+    from ballscrew.interfaces.reproduce import reproduce_olaru2005
+
+    written = reproduce_olaru2005(out, _step)
+    typer.echo(f"{out}: {len(written)} files; read {out / 'claims.md'} first")
+
+
+@app.command()
+def schema() -> None:
+    """JSON Schema of a case file."""
+    import json
+
+    from ballscrew.interfaces.schema import json_schema
+
+    typer.echo(json.dumps(json_schema(), indent=2, ensure_ascii=False))
+
+
+@app.command()
+def cite(
+    case: Annotated[Optional[Path], typer.Argument(help="Case file; without one, all sources.")] = None,  # noqa: UP045
+    model: ModelName = None,
+    settings: Settings = None,
+) -> None:
+    """BibTeX of the sources that a case makes use of."""
+    from ballscrew.interfaces import config
+    from ballscrew.references import bibliography, citations_of
+
+    entries = bibliography()
+    keys = list(entries) if case is None else citations_of(config.load(case, settings or [], model).model)
+    typer.echo("\n\n".join(entries[key] for key in keys))
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from ballscrew import __version__
+
+        typer.echo(f"ballscrew {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version and exit.")
+    ] = False,
+) -> None:
+    """What a ball screw loses to friction: torque, efficiency, back-driving, and why, term by term."""
+
+
+@contextlib.contextmanager
+def _progress(what: str) -> Iterator[Callable[[int, int], None]]:
+    """A progress bar on the error stream, for ``done(finished, total)``; silent where nobody looks."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as bar:
+        task = bar.add_task(what, total=None)
+        yield lambda finished, total: bar.update(task, completed=finished, total=total)
+
+
+def _step(what: str, done: int, total: int) -> None:
+    """One line a step on the error stream."""
+    typer.echo(f"[{done}/{total}] {what}", err=True)
+
+
+def main() -> None:
+    """Run a command; bad input ends with one line a fault and exit code 2, never with a traceback."""
+    from ballscrew.faults import InputError
+
+    try:
+        app()
+    except InputError as error:
+        for line in error.lines():
+            typer.echo(line, err=True)
+        sys.exit(2)
+    except KeyboardInterrupt:
+        typer.echo("stopped; nothing half-written is left behind", err=True)
+        sys.exit(130)
+    except BrokenPipeError:
+        sys.stderr.close()  # the reader of our output has gone: say nothing, and let Python not say it either
+        sys.exit(141)

@@ -1,0 +1,210 @@
+"""Case files: TOML with units in, checked parts out.
+
+Every fault of a file is found before anything is computed, and each is one line in the words of
+:mod:`ballscrew.faults`.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import tomllib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ballscrew.components.materials import Lubricant, Material
+from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.faults import Fault, InputError, nearest
+from ballscrew.interfaces.schema import COEFFICIENT_LAWS, DEFAULT_MODEL, LAWS, MATERIALS, MODELS, fields_of, validated
+from ballscrew.interfaces.units import in_people_units
+from ballscrew.model import FrictionModel
+
+_NEEDED = ("screw", "lubricant", "operation")
+_SECTIONS = (*_NEEDED, "model", "sweep")
+_START = "start from examples/olaru2005.toml"
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Case:
+    """What a case file says: a model, a screw, a lubricant, an operating point, perhaps a sweep."""
+
+    model: FrictionModel
+    screw: BallScrew
+    lubricant: Lubricant
+    operation: Operation
+    sweep: Mapping[str, str]
+
+
+def load(path: Path, settings: Sequence[str] = (), model: str | None = None) -> Case:
+    """The case of a file, with settings from the command line. Raises ``InputError`` with all faults."""
+    return build(override(read(path), settings), model)
+
+
+def read(path: Path) -> dict[str, Any]:
+    """The tables of a TOML file. Raises :class:`~ballscrew.faults.InputError` if it is none."""
+    where = str(path)
+    try:
+        text = path.read_bytes().decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise InputError(Fault(where, "is not text in UTF-8", "", "save it as UTF-8")) from None
+    except (OSError, ValueError) as error:
+        problem = "does not exist" if isinstance(error, FileNotFoundError) else "cannot be read"
+        reason = "" if isinstance(error, FileNotFoundError) else getattr(error, "strerror", str(error))
+        raise InputError(Fault(where, problem, reason, "give the path of a case file")) from None
+    if not text.strip():
+        raise InputError(Fault(where, "is empty", "", _START))
+    try:
+        return tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise InputError(Fault(where, "is not TOML", str(error), _START)) from None
+
+
+def override(tables: dict[str, Any], settings: Sequence[str]) -> dict[str, Any]:
+    """Tables with ``section.field=value`` settings put in; a value is TOML, or else text."""
+    faults: list[Fault] = []
+    for setting in settings:
+        path, equals, text = setting.partition("=")
+        *parents, field = path.strip().split(".")
+        if not equals or not parents or not all([*parents, field]):
+            faults.append(Fault("--set", "is not section.field=value", setting, 'write operation.axial_load="4 kN"'))
+            continue
+        table = tables
+        for parent in parents:
+            inner = table.setdefault(parent, {})
+            if not isinstance(inner, dict):  # the file has a value where a table is needed: let validation say so
+                break
+            table = inner
+        else:
+            table[field] = _literal(text.strip())
+    if faults:
+        raise InputError(*faults)
+    return tables
+
+
+def _literal(text: str) -> Any:
+    """A value from the command line, where quotes are often eaten by the shell."""
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except tomllib.TOMLDecodeError:
+        return text
+
+
+def build(tables: Mapping[str, Any], model: str | None = None) -> Case:
+    """The case that tables describe. Raises ``InputError`` with all faults found."""
+    unknown = {name: nearest(name, _SECTIONS) for name in tables if name not in _SECTIONS}
+    faults = [Fault(name, "unknown section", "", guess) for name, guess in unknown.items()]
+    faults += [
+        Fault(name, "missing section", "", f"add a table [{name}]")
+        for name in _NEEDED
+        if name not in tables and f'did you mean "{name}"?' not in unknown.values()
+    ]
+    screw = _screw(tables["screw"], faults) if "screw" in tables else None
+    lubricant = _lubricant(tables["lubricant"], faults) if "lubricant" in tables else None
+    operation = _operation(tables["operation"], faults) if "operation" in tables else None
+    friction_model = _model(tables.get("model", {}), model, faults)
+    sweep = _sweep(tables.get("sweep", {}), faults)
+    if faults or screw is None or lubricant is None or operation is None or friction_model is None:
+        raise InputError(*faults)
+    return Case(friction_model, screw, lubricant, operation, sweep)
+
+
+def _screw(table: Any, faults: list[Fault]) -> BallScrew | None:
+    before = len(faults)
+    values = validated("screw", table, faults)
+    if len(faults) > before:
+        return None
+    for name in MATERIALS:
+        if name in values:
+            values[name] = Material(**values[name])
+    try:
+        return BallScrew(**values)
+    except InputError as error:
+        known = fields_of(BallScrew)
+        for fault in error.faults:
+            name = fault.where.rpartition(".")[2]
+            faults.append(in_people_units(fault, known[name], str(table[name])))
+        return None
+
+
+def _lubricant(table: Any, faults: list[Fault]) -> Lubricant | None:
+    """An oil from its viscosity, or from its grade and temperature."""
+    before = len(faults)
+    values = validated("lubricant", table, faults)
+    if isinstance(table, dict):
+        if "grade" in table and "viscosity" in table:
+            given = f"{table['viscosity']} and {table['grade']}"
+            faults.append(Fault("lubricant.viscosity", "contradicts the grade", given, "give one of the two"))
+        if "grade" not in table and "temperature" in table:
+            given = str(table["temperature"])
+            faults.append(Fault("lubricant.temperature", "needs a grade", given, 'add grade = "ISO VG 100"'))
+        if "grade" not in table and "viscosity" not in table:
+            remedy = 'add viscosity = "… mPa s", or grade = "ISO VG 100" and a temperature'
+            faults.append(Fault("lubricant.viscosity", "missing", "", remedy))
+    if len(faults) > before:
+        return None
+    if "grade" not in values:
+        return Lubricant(**values)
+    try:
+        oil = Lubricant.from_grade(values.pop("grade"), values.pop("temperature", 313.15))
+    except InputError as error:
+        faults += error.faults
+        return None
+    return dataclasses.replace(oil, **values)
+
+
+def _operation(table: Any, faults: list[Fault]) -> Operation | None:
+    before = len(faults)
+    values = validated("operation", table, faults)
+    return Operation(**values) if len(faults) == before else None
+
+
+def _model(table: Any, chosen: str | None, faults: list[Fault]) -> FrictionModel | None:
+    """A preset with the fields of the table put in; ``chosen`` on the command line wins over its name."""
+    before = len(faults)
+    values = validated("model", table, faults)
+    name = str(chosen or (table.get("name", DEFAULT_MODEL) if isinstance(table, dict) else DEFAULT_MODEL))
+    if name not in MODELS:
+        faults.append(Fault("model.name", "unknown model", name, nearest(name, MODELS)))
+    if len(faults) > before:
+        return None
+    values.pop("name", None)
+    model = MODELS[name]
+    for slot in values:
+        if slot in LAWS:
+            values[slot] = LAWS[slot][values[slot]]
+        elif slot in COEFFICIENT_LAWS:
+            values[slot] = dataclasses.replace(getattr(model, slot), **values[slot])
+    return dataclasses.replace(model, **values)
+
+
+def _sweep(table: Any, faults: list[Fault]) -> Mapping[str, str]:
+    if not isinstance(table, dict):
+        faults.append(Fault("sweep", "must be a table", str(table), "write [sweep]"))
+        return {}
+    remedy = 'write "100:4000:14 N" or "100, 200, 500 N"'
+    faults += [Fault(f"sweep.{n}", "must be text", str(v), remedy) for n, v in table.items() if not isinstance(v, str)]
+    return table
+
+
+def inputs(case: Case) -> dict[str, Any]:
+    """All inputs of a case in SI, by section: what ``--json`` prints."""
+    model = case.model
+    return {
+        "screw": {**_numbers(case.screw), **{name: _numbers(getattr(case.screw, name)) for name in MATERIALS}},
+        "lubricant": _numbers(case.lubricant),
+        "operation": _numbers(case.operation),
+        "model": {
+            "name": model.name,
+            **_numbers(model),
+            **{slot: _law_name(slot, getattr(model, slot)) for slot in LAWS},
+            **{slot: _numbers(getattr(model, slot)) for slot in COEFFICIENT_LAWS},
+        },
+    }
+
+
+def _law_name(slot: str, law: Any) -> str:
+    return next(name for name, known in LAWS[slot].items() if known is law)
+
+
+def _numbers(part: Any) -> dict[str, Any]:
+    return {name: getattr(part, name) for name in fields_of(type(part))}
