@@ -8,7 +8,6 @@ from __future__ import annotations
 import dataclasses
 import difflib
 import numbers
-import textwrap
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -16,6 +15,8 @@ from ballscrew.quantities import Quantity, out_of_bounds, quantities_of
 
 #: At most this many lines are printed; the last one then says how many more there are.
 LINES_AT_MOST = 10
+#: What a person gave is shown up to this many characters.
+LONGEST_VALUE = 200
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -35,7 +36,8 @@ class Fault:
 
     def __str__(self) -> str:
         bound = "" if self.bound is None else shown(self.bound, self.unit)
-        given = f" ({textwrap.shorten(self.given, 80, placeholder='…')})" if self.given else ""
+        given = self.given if len(self.given) <= LONGEST_VALUE else f"{self.given[:LONGEST_VALUE]}…"
+        given = f" ({given})" if given else ""
         remedy = f" · {self.remedy}" if self.remedy else ""
         return " ".join(f"{self.where}: {self.problem}{given}{remedy}".replace("{bound}", bound).split())
 
@@ -68,13 +70,14 @@ def nearest(word: str, known: Iterable[str]) -> str:
 
 def is_concrete(value: Any) -> bool:
     """Whether a value is a plain number that can be checked now (arrays and tracers are not)."""
-    return isinstance(value, numbers.Real) and type(value) is not bool
+    return isinstance(value, numbers.Real) and value is not True and value is not False
 
 
 def shown(value: Any, unit: str) -> str:
     """A value in its unit, as it stands in a message."""
-    number = f"{value:.6g}" if is_concrete(value) else repr(value)
-    return number if unit == "1" else f"{number} {unit}"
+    if not is_concrete(value):
+        return repr(value)
+    return f"{value:.6g}" if unit == "1" else f"{value:.6g} {unit}"
 
 
 def fault_of(section: str, quantity: Quantity, value: Any, given: str = "") -> Fault | None:

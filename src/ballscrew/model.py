@@ -51,7 +51,6 @@ from ballscrew.quantities import AngularSpeed, Force, Info, Ratio
 from ballscrew.result import FrictionResult
 from ballscrew.solvers import pure_rolling
 
-
 PAPER_FRICTION = ZhouHoeprich()
 
 

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from pathlib import Path
-from typing import Annotated, Optional
+from typing import Annotated
 
 import typer
 
@@ -24,11 +24,11 @@ app = typer.Typer(
 
 CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML), for example examples/olaru2005.toml.")]
 ModelName = Annotated[
-    Optional[str],  # noqa: UP045  (typer reads this form on every Python)
-    typer.Option("--model", help="Model: olaru2005, olaru2005-literal or corrected; wins over the file."),
+    str | None,
+    typer.Option("--model", metavar="NAME", help="olaru2005, olaru2005-literal or corrected; wins over the file."),
 ]
 Settings = Annotated[
-    Optional[list[str]],  # noqa: UP045
+    list[str] | None,
     typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set operation.axial_load="4 kN".'),
 ]
 
@@ -60,15 +60,15 @@ def run(
 def sweep(
     case: CaseFile,
     vary: Annotated[
-        Optional[list[str]],  # noqa: UP045
+        list[str] | None,
         typer.Option("--vary", metavar="FIELD=VALUES", help='Axis: axial_load="100:4000:14 N" or "100, 200 N".'),
     ] = None,
     output: Annotated[
-        Optional[list[str]],  # noqa: UP045
-        typer.Option("--output", help="What to return, for example efficiency or screw_torque; may be repeated."),
+        list[str] | None,
+        typer.Option("--output", metavar="NAME", help="What to return, for example efficiency; may be repeated."),
     ] = None,
     to: Annotated[
-        Optional[Path],  # noqa: UP045
+        Path | None,
         typer.Option("--to", "-o", metavar="FILE", help="Write .csv, .xlsx or .nc; without it, CSV on the terminal."),
     ] = None,
     model: ModelName = None,
@@ -121,7 +121,7 @@ def schema() -> None:
 
 @app.command()
 def cite(
-    case: Annotated[Optional[Path], typer.Argument(help="Case file; without one, all sources.")] = None,  # noqa: UP045
+    case: Annotated[Path | None, typer.Argument(help="Case file; without one, all sources.")] = None,
     model: ModelName = None,
     settings: Settings = None,
 ) -> None:
@@ -152,7 +152,7 @@ def options(
 
 
 @contextlib.contextmanager
-def _progress(what: str) -> Iterator[Callable[[int, int], None]]:
+def _progress(what: str) -> Generator[Callable[[int, int], None]]:
     """A progress bar on the error stream, for ``done(finished, total)``; silent where nobody looks."""
     from rich.console import Console
     from rich.progress import Progress
@@ -183,3 +183,7 @@ def main() -> None:
     except BrokenPipeError:
         sys.stderr.close()  # the reader of our output has gone: say nothing, and let Python not say it either
         sys.exit(141)
+
+
+if __name__ == "__main__":
+    main()

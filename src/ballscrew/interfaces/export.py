@@ -23,6 +23,8 @@ from ballscrew.interfaces.files import check_writable, whole
 from ballscrew.quantities import Quantity
 
 _RANGE = re.compile(r"\s*(?P<start>[^:]+):(?P<stop>[^:]+):\s*(?P<count>\d+)\s*(?P<unit>\D.*)?")
+#: "operation.axial_load" and "axial_load" are the same axis.
+_SECTION = re.compile(r"^(operation|screw|lubricant|model)\.")
 #: What each kind of file needs beyond the core, and what to install for it.
 _NEEDS = {".csv": (), ".xlsx": ("xlsxwriter",), ".nc": ("h5netcdf", "h5py")}
 #: A worksheet ends here; larger sweeps belong into NetCDF.
@@ -53,13 +55,7 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
         name, equals, text = axis.partition("=")
         if not equals:
             faults.append(Fault("--vary", "is not field=values", axis, 'write axial_load="100:4000:14 N"'))
-        texts[
-            name.strip()
-            .removeprefix("operation.")
-            .removeprefix("screw.")
-            .removeprefix("lubricant.")
-            .removeprefix("model.")
-        ] = text
+        texts[_SECTION.sub("", name.strip())] = text
     known = {name: quantity for name, (_, quantity) in inputs_of(case.model, case.screw, case.lubricant).items()}
     axes: dict[str, np.ndarray] = {}
     for name, text in texts.items():

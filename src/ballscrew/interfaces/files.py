@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Generator
 from pathlib import Path
 
 from ballscrew.faults import Fault, InputError
@@ -28,7 +28,7 @@ def check_writable(where: str, path: Path) -> None:
 
 
 @contextlib.contextmanager
-def whole(where: str, path: Path) -> Iterator[Path]:
+def whole(where: str, path: Path) -> Generator[Path]:
     """A path beside ``path`` to write to; it takes the place of ``path`` once all went well.
 
     Whatever goes wrong (a full disk, Ctrl-C), ``path`` is as it was and nothing else is left.

@@ -136,7 +136,7 @@ def sections() -> Mapping[str, type[BaseModel]]:
 def case_file() -> type[BaseModel]:
     """The model of a whole case file."""
     parts = sections()
-    needed = {name: (parts[name], ...) for name in ("screw", "lubricant", "operation")}
+    needed: dict[str, Any] = {name: (parts[name], ...) for name in ("screw", "lubricant", "operation")}
     axes = Annotated[
         dict[str, str],
         Field(description='axes of a sweep by field, "100:4000:14 N" (start:stop:count) or "100, 200, 500 N"'),

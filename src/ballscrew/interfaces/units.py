@@ -37,7 +37,8 @@ def registry() -> pint.UnitRegistry[Any]:
     """The units of ``data/units.txt``; a fraction of pint's own list, and quick to load."""
     import pint
 
-    units: pint.UnitRegistry[Any] = pint.UnitRegistry(None, autoconvert_offset_to_baseunit=True)
+    no_file: Any = None  # an empty registry, which pint's own types do not know of
+    units: pint.UnitRegistry[Any] = pint.UnitRegistry(no_file, autoconvert_offset_to_baseunit=True)
     text = resources.files("ballscrew").joinpath("data/units.txt").read_text(encoding="utf-8")
     for line in text.splitlines():
         if line and not line.startswith("#"):

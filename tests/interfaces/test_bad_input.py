@@ -1,0 +1,177 @@
+"""Bad input: exit code 2, one line a fault, nothing on standard output, nothing written."""
+
+import dataclasses
+import math
+import os
+from pathlib import Path
+
+import pytest
+
+import ballscrew as bs
+from ballscrew.faults import InputError
+from ballscrew.interfaces import config
+
+FAULTS = {
+    "missing key": ('lead = "5 mm"', "", "screw.lead: missing"),
+    "unknown key": ('lead = "5 mm"', 'leed = "5 mm"', 'screw.leed: unknown key · did you mean "lead"?'),
+    "missing unit": ('lead = "5 mm"', "lead = 5", 'screw.lead: needs a unit (5) · write "5 mm"'),
+    "wrong unit": ('lead = "5 mm"', 'lead = "5 N"', "screw.lead: wrong unit (5 N)"),
+    "negative length": ('lead = "5 mm"', 'lead = "-5 mm"', "screw.lead: must be positive (-5 mm)"),
+    "zero length": ('lead = "5 mm"', 'lead = "0 mm"', "screw.lead: must be positive (0 mm)"),
+    "zero roughness": ('"0.08 um"', '"0 um"', "screw.ball_roughness: must be positive (0 um)"),
+    "conformity": ("nut_conformity = 0.515", "nut_conformity = 0.5", "screw.nut_conformity: must be above 0.5 (0.5)"),
+    "angle of 90": ('"45 deg"', '"90 deg"', "screw.contact_angle: must be below 90 deg (90 deg)"),
+    "angle of 0": ('"45 deg"', '"0 deg"', "screw.contact_angle: must be positive (0 deg)"),
+    "ball against pitch circle": ('"3.175 mm"', '"31.75 mm"', "too big for the pitch circle (31.75 mm)"),
+    "ball against lead": ('"3.175 mm"', '"6 mm"', "screw.ball_diameter: too big for the lead"),
+    "nan": ('"4 kN"', '"nan kN"', "operation.axial_load: must be a finite number (nan kN)"),
+    "inf": ('"600 rpm"', '"inf rpm"', "operation.screw_speed: must be a finite number (inf rpm)"),
+    "negative load": ('"4 kN"', '"-4 kN"', "operation.axial_load: must not be negative (-4 kN)"),
+    "broken ball": ("loaded_balls = 56", "loaded_balls = 56.5", "screw.loaded_balls: must be a whole number (56.5)"),
+    "no ball": ("loaded_balls = 56", "loaded_balls = 0", "screw.loaded_balls: must be at least 1 (0)"),
+    "missing section": ("[lubricant]", "[model.film]", "lubricant: missing section"),
+    "misspelt section": ("[lubricant]", "[lubricnt]", 'lubricnt: unknown section · did you mean "lubricant"?'),
+    "unknown model": ('name = "olaru2005"', 'name = "olaru205"', 'did you mean "olaru2005"?'),
+    "unknown law": ('name = "olaru2005"', 'hertz = "exat"', 'model.hertz: unknown law (exat) · did you mean "exact"?'),
+    "unknown coefficient": ("friction.boundary_", "friction.bondary_", 'did you mean "boundary_friction_coefficient"?'),
+    "kinematic viscosity": ('"0.1 Pa s"', '"100 cSt"', "lubricant.viscosity: wrong unit (100 cSt)"),
+}  # fmt: skip
+
+
+def single_line_fault(process, expected):
+    assert process.returncode == 2
+    assert process.stdout == ""
+    assert "Traceback" not in process.stderr
+    lines = process.stderr.strip().splitlines()
+    assert len(lines) <= 10
+    assert any(expected in line for line in lines), process.stderr
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_faults_of_a_case_file(name, tmp_path, example):
+    old, new, expected = FAULTS[name]
+    text = example.read_text(encoding="utf-8")
+    assert old in text
+    path = tmp_path / "case.toml"
+    path.write_text(text.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(InputError) as caught:
+        config.load(path)
+    assert any(expected in line for line in caught.value.lines()), caught.value.lines()
+
+
+@pytest.mark.parametrize("name", ["missing unit", "ball against lead", "missing section", "unknown model"])
+def test_faults_on_the_command_line(name, tmp_path, example, ballscrew):
+    old, new, expected = FAULTS[name]
+    path = tmp_path / "case.toml"
+    path.write_text(example.read_text(encoding="utf-8").replace(old, new, 1), encoding="utf-8")
+    before = sorted(tmp_path.iterdir())
+    single_line_fault(ballscrew("run", path), expected)
+    single_line_fault(ballscrew("sweep", path, "--to", tmp_path / "map.csv"), expected)
+    assert sorted(tmp_path.iterdir()) == before
+
+
+def test_files_that_are_no_case(tmp_path, ballscrew):
+    empty = tmp_path / "empty.toml"
+    empty.write_text("", encoding="utf-8")
+    other = tmp_path / "other.toml"
+    other.write_text("a = = b", encoding="utf-8")
+    binary = tmp_path / "binary.toml"
+    binary.write_bytes(b"\xff\xfe\x00\x01")
+    for path, problem in [
+        (empty, "is empty"),
+        (other, "is not TOML"),
+        (binary, "is not text in UTF-8"),
+        (tmp_path / "none.toml", "does not exist"),
+        (tmp_path, "cannot be read"),
+    ]:
+        process = ballscrew("run", path)
+        single_line_fault(process, problem)
+        assert len(process.stderr.strip().splitlines()) == 1
+
+
+def test_unwritable_output(tmp_path, example, ballscrew):
+    single_line_fault(ballscrew("sweep", example, "--to", tmp_path / "none" / "map.csv"), "--to: cannot be written")
+    single_line_fault(ballscrew("sweep", example, "--to", tmp_path), "--to: unknown kind of file")
+    single_line_fault(ballscrew("sweep", example, "--to", tmp_path / "map.doc"), "end it in .csv, .xlsx or .nc")
+    file = tmp_path / "file"
+    file.write_text("kept", encoding="utf-8")
+    single_line_fault(ballscrew("reproduce", "olaru2005", "--out", file / "out"), "cannot")
+    assert file.read_text(encoding="utf-8") == "kept"
+    assert sorted(tmp_path.iterdir()) == [file]
+
+
+def test_settings_and_models_on_the_command_line(example, ballscrew):
+    single_line_fault(ballscrew("run", example, "--model", "corected"), 'did you mean "corrected"?')
+    single_line_fault(ballscrew("run", example, "--set", "axial_load=4 kN"), "--set: is not section.field=value")
+    single_line_fault(ballscrew("run", example, "--set", "operation.axial_load=4"), 'write "4 N"')
+    single_line_fault(ballscrew("run", example, "--set", "operation.axial_laod=4 N"), 'did you mean "axial_load"?')
+    single_line_fault(ballscrew("sweep", example, "--vary", "axial_laod=1:2:3 N"), 'did you mean "axial_load"?')
+    single_line_fault(ballscrew("sweep", example, "--vary", "axial_load=1:2:0 N"), "bad number of values")
+    single_line_fault(ballscrew("sweep", example, "--output", "eficiency"), 'did you mean "efficiency"?')
+    single_line_fault(ballscrew("reproduce", "olaru2004", "--out", "x"), 'did you mean "olaru2005"?')
+
+
+def test_ten_lines_at_most(example, ballscrew):
+    settings = [word for i in range(15) for word in ("--set", f"screw.key{i}=1")]
+    process = ballscrew("run", example, *settings)
+    lines = process.stderr.strip().splitlines()
+    assert len(lines) == 10
+    assert lines[-1] == "and 6 more"
+
+
+def test_python_says_the_same():
+    """The same faults as ValueError, in the same words but for the unit of the value."""
+    good = {
+        "pitch_circle_diameter": 0.04, "lead": 0.005, "ball_diameter": 3.175e-3, "loaded_balls": 56,
+        "contact_angle": math.pi / 4, "screw_conformity": 0.515, "nut_conformity": 0.515,
+    }  # fmt: skip
+    for change, expected in [
+        ({"lead": -0.005}, "screw.lead: must be positive (-0.005 m)"),
+        ({"lead": 0.0}, "screw.lead: must be positive (0 m)"),
+        ({"lead": math.nan}, "screw.lead: must be a finite number (nan m)"),
+        ({"lead": "5 mm"}, "screw.lead: must be a number in m ('5 mm')"),
+        ({"screw_conformity": 0.5}, "screw.screw_conformity: must be above 0.5 (0.5)"),
+        ({"contact_angle": 45.0}, "screw.contact_angle: must be below 1.5708 rad (45 rad)"),
+        ({"ball_diameter": 0.03175}, "screw.ball_diameter: too big for the pitch circle (0.03175 m)"),
+        ({"ball_diameter": 0.006}, "screw.ball_diameter: too big for the lead"),
+        ({"loaded_balls": 5.5}, "screw.loaded_balls: must be a whole number (5.5)"),
+    ]:
+        with pytest.raises(ValueError, match="·") as caught:
+            bs.BallScrew(**{**good, **change})
+        assert str(caught.value).startswith(expected)
+    screw, oil = bs.BallScrew(**good), bs.Lubricant(viscosity=0.1)
+    with pytest.raises(ValueError, match=r"operation\.axial_load: must not be negative \(-1 N\)"):
+        bs.FrictionModel.corrected()(screw, oil, axial_load=-1.0, screw_speed=1.0)
+    with pytest.raises(ValueError, match=r"model\.ball_to_ball_force: must not be negative"):
+        dataclasses.replace(bs.FrictionModel.corrected(), ball_to_ball_force=-1.0)
+    with pytest.raises(ValueError, match=r"lubricant\.viscosity: must be positive"):
+        bs.Lubricant(viscosity=0.0)
+    with pytest.raises(ValueError, match=r"lubricant\.grade: unknown grade \(ISO VG 101\)"):
+        bs.Lubricant.from_grade("ISO VG 101")
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may read and write everything")
+def test_forbidden_files(tmp_path, example, ballscrew):
+    secret = tmp_path / "secret.toml"
+    secret.write_text(example.read_text(encoding="utf-8"), encoding="utf-8")
+    secret.chmod(0)
+    single_line_fault(ballscrew("run", secret), "cannot be read")
+
+
+def test_a_full_disk_leaves_the_old_file(tmp_path, example, monkeypatch):
+    """What was there stays there, and nothing half-written is left beside it."""
+    from ballscrew.interfaces import export
+
+    target = tmp_path / "map.csv"
+    target.write_text("old", encoding="utf-8")
+    case = config.load(Path(example))
+    plan = export.plan(case, [], [], target)
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(export, "_write_csv", full)
+    with pytest.raises(InputError, match="No space left on device"):
+        export.write(export.evaluate(case, plan), plan, target)
+    assert target.read_text(encoding="utf-8") == "old"
+    assert list(tmp_path.iterdir()) == [target]

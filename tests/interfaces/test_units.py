@@ -1,0 +1,80 @@
+"""Units at the edge: what people write, in SI, or one fault that says how to write it."""
+
+import math
+
+import pytest
+
+from ballscrew.components.materials import TEMPERATURE, Lubricant
+from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.faults import Fault
+from ballscrew.interfaces import units
+from ballscrew.quantities import quantities_of
+
+KNOWN = {**quantities_of(BallScrew), **quantities_of(Lubricant), **quantities_of(Operation), "temperature": TEMPERATURE}
+
+
+@pytest.mark.parametrize(
+    ("name", "written", "expected"),
+    [
+        ("lead", "5 mm", 0.005),
+        ("lead", "5mm", 0.005),
+        ("lead", " 5e-3  m ", 0.005),
+        ("lead", "0.2 in", 0.00508),
+        ("ball_roughness", "0.08 µm", 0.08e-6),
+        ("ball_roughness", "0.08 um", 0.08e-6),
+        ("contact_angle", "45 deg", math.pi / 4),
+        ("contact_angle", "45°", math.pi / 4),
+        ("screw_speed", "600 rpm", 20 * math.pi),
+        ("screw_speed", "10 rev/s", 20 * math.pi),
+        ("screw_speed", "3600 deg/s", 20 * math.pi),
+        ("axial_load", "4 kN", 4000.0),
+        ("axial_load", "1 lbf", 4.4482216152605),
+        ("viscosity", "0.1 Pa s", 0.1),
+        ("viscosity", "0.1 Pa·s", 0.1),
+        ("viscosity", "100 cP", 0.1),
+        ("pressure_viscosity_coefficient", "2.2e-8 1/Pa", 2.2e-8),
+        ("pressure_viscosity_coefficient", "22 GPa⁻¹", 2.2e-8),
+        ("temperature", "40 degC", 313.15),
+        ("temperature", "40 °C", 313.15),
+        ("temperature", "104 degF", 313.15),
+        ("loaded_balls", 56, 56.0),
+        ("screw_conformity", 0.515, 0.515),
+    ],
+)
+def test_written_values_in_si(name, written, expected):
+    assert units.parse(name, written, KNOWN[name]) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "written", "problem", "remedy"),
+    [
+        ("lead", 5, "needs a unit", 'write "5 mm"'),
+        ("lead", "5", "needs a unit", 'write "5 mm"'),
+        ("lead", "5 N", "wrong unit", "use a unit such as mm"),
+        ("lead", "5 mmm", "unknown unit", 'did you mean "mm"?'),
+        ("lead", "3,5 mm", "is not a number with a unit", "write a decimal point"),
+        ("lead", "five mm", "is not a number with a unit", 'write it like "1 mm"'),
+        ("lead", "", "is not a number with a unit", 'write it like "1 mm"'),
+        ("lead", True, "must be a number with a unit", 'write it like "1 mm"'),
+        ("lead", ["5 mm"], "must be a number with a unit", 'write it like "1 mm"'),
+        ("screw_speed", "600 1/min", "wrong unit", "rpm, not 1/min"),
+        ("viscosity", "100 cSt", "wrong unit", "ISO VG 100"),
+        ("contact_angle", 45, "needs a unit", 'write "45 deg"'),
+        ("loaded_balls", "56 mm", "takes no unit", "write 56"),
+    ],
+)
+def test_faults_name_the_value_and_the_remedy(name, written, problem, remedy):
+    fault = units.parse(name, written, KNOWN[name])
+    assert isinstance(fault, Fault)
+    assert fault.problem == problem
+    assert remedy in fault.remedy
+
+
+@pytest.mark.parametrize("name", sorted(KNOWN))
+def test_every_quantity_can_be_written_as_its_own_example(name):
+    """The unit a message proposes is one the parser takes, and SI comes back through it."""
+    quantity = KNOWN[name]
+    written = "1" if quantity.unit == "1" else f"1 {quantity.shown_in}"
+    value = units.parse(name, written, quantity)
+    assert isinstance(value, float)
+    assert units.from_si(value, quantity) == pytest.approx(1, rel=1e-12)
