@@ -4,7 +4,8 @@ The model is called with :class:`Traced` values instead of arrays. What they go 
 down: constants fold as they go, equal steps are shared, steps no output needs are dropped, and
 products of powers (film, rolling force, contact size, elastic moment) are kept as exponents until
 somebody needs a sum, so that one exponential of a weighted sum of logarithms does the work of
-several powers, for both contacts at once. The equations do not know: they see an array.
+several powers, for both contacts at once. The equations do not know: they see an array. What is
+raised to a broken power is taken to be positive or zero, as everywhere in the model.
 
 The program that remains plays block by block into a few buffers that stay in the cache. Results
 agree with plain arrays to about 1e-14 relative, do not depend on the size of the blocks, and keep
@@ -19,6 +20,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+#: Whole powers up to this one are multiplied out.
+HIGHEST_WHOLE_POWER = 8
 
 #: A step's operand: the index of an earlier step, or a constant.
 Operand = int | float | bool
@@ -95,8 +99,9 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
         tape = self.tape
         if len(self.powers) == 1 and next(iter(self.powers.values())) == 1:
             return next(iter(self.powers))
-        whole = [i for i, p in sorted(self.powers.items()) for _ in range(int(abs(p))) if p == int(p) and abs(p) <= 2]
-        broken = {i: p for i, p in sorted(self.powers.items()) if p != int(p) or abs(p) > 2}
+        # whole powers are multiplied out, as their base may be negative
+        whole = [i for i, p in sorted(self.powers.items()) if p == int(p) for _ in range(int(abs(p)))]
+        broken = {i: p for i, p in sorted(self.powers.items()) if p != int(p)}
         result: int | None = None
         for i, power in broken.items():
             logarithm = tape.value(tape.record(np.log, tape.value(i)))
@@ -159,14 +164,17 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
         raise TypeError("a traced value has no truth value; use where()")
 
     def _raised(self, exponent: float) -> Traced:
-        if exponent == 0 or (self.scale < 0 and exponent != int(exponent)):
+        """A power; what is better left to NumPy (zeroth, high whole, negative scale) is a step."""
+        high = exponent == int(exponent) and abs(exponent) > HIGHEST_WHOLE_POWER
+        if exponent == 0 or high or (self.scale < 0 and exponent != int(exponent)):
             return self.tape.value(self.tape.record(np.power, self, exponent))
         return Traced(self.tape, {i: p * exponent for i, p in self.powers.items()}, self.scale**exponent)
 
 
 def _is_mask(value: Any) -> bool:
     if isinstance(value, Traced):
-        return value.tape.is_mask(value.index)
+        (index, power), *more = value.powers.items()
+        return not more and power == 1 and value.scale == 1 and value.tape.is_mask(index)
     return isinstance(value, bool | np.bool_)
 
 
