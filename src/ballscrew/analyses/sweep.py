@@ -272,11 +272,14 @@ def _dataset(
     coordinates = {name: (axis.dims, axis.to_numpy(), _attributes(known[name][1])) for name, axis in axes.items()}
     variables = {name: (tuple(sizes), values, _attributes(wanted[name].quantity)) for name, values in results.items()}
     fixed = {
-        f"{part}_{name}": getattr(value, name)
-        for part, value in (("screw", screw), ("lubricant", lubricant))
-        for name in quantities_of(type(value))
-        if name in {f.name for f in dataclasses.fields(value)} and name not in axes
+        f"{part}_{name.replace('.', '_')}": value
+        for name, (part, _) in known.items()
+        if part != "operation" and name not in axes
+        if (value := _read({"screw": screw, "lubricant": lubricant, "model": model}[part], name)) is not None
     }
+    for name in ("ball_material", "screw_material", "nut_material"):
+        material = getattr(screw, name)
+        fixed |= {f"screw_{name}_{field}": getattr(material, field) for field in quantities_of(type(material))}
     return xr.Dataset(
         variables,
         coordinates,
@@ -288,6 +291,12 @@ def _dataset(
             **{name: value for name, value in fixed.items() if np.ndim(value) == 0},
         },
     )
+
+
+def _read(part: Any, name: str) -> Any:
+    """A field of a part, or ``law.field`` of one of its laws."""
+    law, _, field = name.rpartition(".")
+    return getattr(getattr(part, law) if law else part, field)
 
 
 def _attributes(quantity: Quantity) -> dict[str, str]:
