@@ -26,7 +26,7 @@ autodoc_typehints = "none"
 suppress_warnings = ["myst.header"]  # the included claims start with a heading of their own
 
 
-def reproduce(app):
+def reproduce(_app):
     """Figures and claims of the paper, as ``make demo`` writes them."""
     from ballscrew.interfaces.reproduce import reproduce_olaru2005
 

@@ -18,7 +18,7 @@ def hydrodynamic_rolling_force(
     .. math:: F_R = 2.86 E' R_x^2 k^{0.348} G^{0.022} U^{0.66} W^{0.47}
 
     Olaru2005 §2.1 (1), after Houpert1985. Fully flooded, isothermal, piezoviscous-elastic contact;
-    10 to 12 % below the unrounded fit, and 2.3 times too high at the paper's screw at 5 N, where
+    10 to 12 % below the unrounded fit, and 2.3 times too low at the paper's screw at 5 N, where
     the contact is no longer elastic.
     """
     E, R_x, k = equivalent_modulus, rolling_radius, radii_ratio

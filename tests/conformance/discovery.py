@@ -1,0 +1,129 @@
+"""Finds the equations, and says what is special about a few of them.
+
+An equation is a public function defined in a module of ``ballscrew.equations``. A new one is tested
+here without being listed; only an exception has to be listed, with its reason.
+"""
+
+import dataclasses
+import importlib
+import inspect
+import pkgutil
+import zlib
+from collections.abc import Callable, Mapping
+from typing import Any, get_type_hints
+
+import numpy as np
+
+import ballscrew.equations
+from ballscrew.quantities import unit_of
+
+
+@dataclasses.dataclass(frozen=True)
+class Equation:
+    """A public function of ``ballscrew.equations``."""
+
+    name: str
+    function: Callable[..., Any]
+
+    @property
+    def parameters(self) -> list[str]:
+        return list(inspect.signature(self.function).parameters)
+
+    @property
+    def annotations(self) -> Mapping[str, Any]:
+        return get_type_hints(self.function, include_extras=True)
+
+    @property
+    def units(self) -> dict[str, str | None]:
+        """Unit of each parameter."""
+        return {name: unit_of(self.annotations.get(name)) for name in self.parameters}
+
+    @property
+    def return_units(self) -> list[str | None]:
+        """Unit of the result, or of each field of a NamedTuple."""
+        returned = self.annotations["return"]
+        if unit_of(returned) is None and hasattr(returned, "_fields"):
+            fields = get_type_hints(returned, include_extras=True)
+            return [unit_of(fields[name]) for name in returned._fields]
+        return [unit_of(returned)]
+
+    def sample(self, count: int) -> dict[str, np.ndarray]:
+        """Values of each parameter within the domain of the equation, the same every time."""
+        generator = np.random.default_rng(zlib.crc32(self.name.encode()))
+        return {name: generator.uniform(*domain(name, unit), count) for name, unit in self.units.items()}
+
+    def __call__(self, *arguments: Any) -> list[Any]:
+        """The results as a list: one, or one for each field of a NamedTuple."""
+        result = self.function(*arguments)
+        return list(result) if isinstance(result, tuple) else [result]
+
+
+def discover() -> dict[str, Equation]:
+    """All equations by ``module.function``."""
+    found: dict[str, Equation] = {}
+    for module_info in pkgutil.iter_modules(ballscrew.equations.__path__):
+        module = importlib.import_module(f"ballscrew.equations.{module_info.name}")
+        for name, function in inspect.getmembers(module, inspect.isfunction):
+            if function.__module__ == module.__name__ and not name.startswith("_"):
+                equation = Equation(f"{module_info.name}.{name}", function)
+                found[equation.name] = equation
+    return found
+
+
+EQUATIONS = discover()
+
+#: No single formula: compared with mpmath instead (test_recurrences).
+RECURRENCES = {
+    "hertz.elliptic_integrals": "arithmetic-geometric mean, a fixed number of steps",
+    "hertz.ellipticity": "Newton's method, a fixed number of steps",
+}
+
+#: Right in SI only, because a number in them has a unit that is not written (test_units).
+DIMENSIONAL_FITS = {
+    "rheology.pressure_viscosity_estimate": "fit of a pressure coefficient to a power of a viscosity",
+    "rheology.pressure_viscosity_linear": "the 273.15 is kelvin, and the slope is per kelvin",
+    "rolling.elastic_resistance_moment": "fit of a moment to powers of a length and a force",
+}
+
+#: Where a random value of a parameter lies, by unit: sizes that occur in a ball screw.
+BY_UNIT = {
+    None: (0.1, 0.6),
+    "1": (0.1, 0.9),
+    "m": (1e-3, 5e-2),
+    "rad": (0.1, 1.2),
+    "N": (1.0, 1000.0),
+    "N m": (1e-3, 10.0),
+    "W": (0.1, 10.0),
+    "Pa": (1e9, 3e11),
+    "1/Pa": (1e-8, 3e-8),
+    "m/s": (0.01, 5.0),
+    "rad/s": (1.0, 300.0),
+    "Pa s": (0.01, 0.5),
+    "m^2/s": (1e-6, 5e-4),
+    "kg/m^3": (800.0, 950.0),
+    "K": (300.0, 370.0),
+    "W/(m K)": (0.1, 50.0),
+    "J/(kg K)": (400.0, 2000.0),
+    "1/m": (1.0, 1000.0),
+}
+
+#: The same by name, where the unit alone does not keep the value in the domain.
+BY_NAME = {
+    "conformity": (0.51, 0.56),
+    "ellipticity": (1.0, 15.0),
+    "exponent": (0.5, 1.5),
+    "film_parameter": (0.1, 3.0),
+    "load_parameter": (1e-6, 1e-3),
+    "loaded_balls": (10.0, 200.0),
+    "material_parameter": (1000.0, 10000.0),
+    "radii_ratio": (1.0, 60.0),
+    "speed_parameter": (1e-12, 1e-9),
+    "vogel_constant": (600.0, 1300.0),
+    "vogel_temperature": (170.0, 190.0),
+    "viscosity_at_infinity": (5e-8, 1e-7),
+}
+
+
+def domain(name: str, unit: str | None) -> tuple[float, float]:
+    """Where values of a parameter may lie."""
+    return BY_NAME[name] if name in BY_NAME else BY_UNIT[unit]

@@ -1,0 +1,59 @@
+"""Every equation says what it is: a sentence, a formula, and a unit for all that goes in and out."""
+
+import inspect
+
+import pytest
+
+from ballscrew.references import bibliography
+
+from .discovery import EQUATIONS, RECURRENCES
+from .formulas import formula_of
+
+
+def test_a_sentence_comes_first(equation):
+    lines = (inspect.getdoc(equation.function) or "").split("\n\n")
+    assert lines[0].endswith(".")
+    assert lines[0][0].isupper()
+
+
+def test_there_is_a_formula(equation):
+    assert (formula_of(equation.function) is None) == (equation.name in RECURRENCES)
+
+
+def test_every_parameter_has_a_unit(equation):
+    assert [name for name, unit in equation.units.items() if unit is None] == []
+
+
+def test_every_result_has_a_unit(equation):
+    assert None not in equation.return_units
+
+
+def test_parameters_have_no_defaults(equation):
+    # Physics has no defaults; those belong to components and models.
+    for parameter in inspect.signature(equation.function).parameters.values():
+        assert parameter.default is inspect.Parameter.empty
+        assert parameter.kind is inspect.Parameter.POSITIONAL_OR_KEYWORD
+
+
+def test_a_name_has_one_unit_everywhere():
+    units: dict[str, set[str]] = {}
+    for equation in EQUATIONS.values():
+        for name, unit in equation.units.items():
+            units.setdefault(name, set()).add(str(unit))
+        if len(equation.return_units) == 1:
+            units.setdefault(equation.name.partition(".")[2], set()).add(str(equation.return_units[0]))
+    assert {name: found for name, found in units.items() if len(found) > 1} == {}
+
+
+def test_units_are_coherent(registry):
+    for equation in EQUATIONS.values():
+        for unit in [*equation.units.values(), *equation.return_units]:
+            if unit is not None:
+                assert registry.Quantity(1.0, unit).to_base_units().magnitude == pytest.approx(1.0)
+
+
+def test_sources_look_like_keys_of_the_bibliography(equation):
+    # A word such as "HamrockDowson1977" names a source, and the source must be known.
+    words = (inspect.getdoc(equation.function) or "").replace(",", " ").replace(".", " ").replace(";", " ").split()
+    keys = {word for word in words if word[:1].isupper() and word[-4:].isdigit() and word[:-4].isalpha()}
+    assert keys <= set(bibliography())

@@ -1,0 +1,50 @@
+"""Truth: Hamrock and Dowson's film, and the film parameter."""
+
+import math
+
+import pytest
+
+from ballscrew.equations import film
+
+from .numbers import BALL_ROUGHNESS, RACE_ROUGHNESS, ROLLING_RADIUS
+
+
+@pytest.mark.parametrize(
+    ("U", "G", "W", "kappa", "H"),
+    # HamrockDowson1977, minimum film, check values of the reference sheet
+    [
+        (1e-11, 4500, 1e-6, 1, 1.002686e-5),
+        (1e-11, 4500, 1e-6, 3, 1.768014e-5),
+        (1e-10, 5000, 1e-4, 10, 7.31001e-5),
+    ],
+)
+@pytest.mark.equation("Olaru2005 §4 (26)")
+def test_minimum_film_of_hamrock_and_dowson(U, G, W, kappa, H):
+    assert film.minimum_film_thickness(1.0, U, G, W, kappa, 0.68) == pytest.approx(H, rel=1e-6)
+    assert film.minimum_film_thickness(1.5e-3, U, G, W, kappa, 0.68) == pytest.approx(1.5e-3 * H, rel=1e-6)
+
+
+@pytest.mark.equation("Olaru2005 §4 (26)")
+def test_minimum_film_as_printed():
+    # reference sheet: mpmath, 40 digits, exponent 0.66
+    U, G, W = 1.84958236788959844e-10, 4972.0, 1.99078134111473684e-4
+    a, b = 5.42571487704369921e-4, 5.12785261390040394e-5
+    h = film.minimum_film_thickness(ROLLING_RADIUS, U, G, W, a / b, 0.66)
+    assert h == pytest.approx(2.47142976578154276e-7, rel=1e-12)
+    printed = 3.63 * ROLLING_RADIUS * U**0.66 * G**0.49 * W**-0.073 * (1 - math.exp(-0.68 * a / b))
+    assert h == pytest.approx(printed, rel=1e-13)
+
+
+@pytest.mark.equation("Olaru2005 §4 (22)")
+def test_film_parameter_is_the_film_over_the_combined_roughness():
+    # reference sheet: mpmath, 40 digits
+    lam = film.film_parameter(2.47142976578154276e-7, BALL_ROUGHNESS, RACE_ROUGHNESS)
+    assert lam == pytest.approx(0.795993930156217079, rel=1e-13)
+    assert film.film_parameter(5e-7, 3e-7, 4e-7) == pytest.approx(1.0, rel=1e-15)
+
+
+@pytest.mark.equation("Olaru2005 §4 (22)")
+def test_film_parameter_to_the_letter():
+    # reference sheet: mpmath, 40 digits
+    lam = film.literal_film_parameter(2.47142976578154276e-7, BALL_ROUGHNESS, RACE_ROUGHNESS)
+    assert lam == pytest.approx(2.56372382342483689e6, rel=1e-13)

@@ -1,0 +1,111 @@
+"""Truth: the paper's printed forms, and geometry that can be measured on a drawing."""
+
+import math
+
+import numpy as np
+import pytest
+
+from ballscrew.equations import geometry
+
+from .numbers import SCREWS
+
+every_screw = pytest.mark.parametrize(("d_m", "d_w", "alpha", "f"), SCREWS.values(), ids=SCREWS)
+RELATIVE = 1e-13
+
+
+@every_screw
+@pytest.mark.equation("Olaru2005 §2.1 (2)")
+def test_nut_rolling_radius_as_printed(d_m, d_w, alpha, f):
+    printed = 1 / (2 / d_w - 2 * math.cos(alpha) / (d_m + d_w * math.cos(alpha)))
+    gamma = geometry.curvature_ratio(d_w, d_m, alpha, 0.0)
+    assert geometry.nut_rolling_radius(d_w, gamma) == pytest.approx(printed, rel=RELATIVE)
+
+
+@every_screw
+@pytest.mark.equation("Olaru2005 §2.1 (3)")
+def test_screw_rolling_radius_as_printed(d_m, d_w, alpha, f):
+    printed = 1 / (2 / d_w + 2 * math.cos(alpha) / (d_m - d_w * math.cos(alpha)))
+    gamma = geometry.curvature_ratio(d_w, d_m, alpha, 0.0)
+    assert geometry.screw_rolling_radius(d_w, gamma) == pytest.approx(printed, rel=RELATIVE)
+
+
+@pytest.mark.equation("Olaru2005 §2.1 (4)")
+def test_radii_ratio_of_the_paper():
+    # reference sheet: mpmath, 40 digits
+    R_y = geometry.transverse_radius(3.175e-3, 0.515)
+    assert geometry.radii_ratio(R_y, 1.49839902129876699e-3) == pytest.approx(36.3749347750001211, rel=RELATIVE)
+    assert geometry.radii_ratio(R_y, 1.67660097870123301e-3) == pytest.approx(32.5087288860390379, rel=RELATIVE)
+
+
+@every_screw
+@pytest.mark.equation("Olaru2005 §2.1 (5)")
+def test_transverse_radius_is_ball_against_groove(d_m, d_w, alpha, f):
+    curvature = 1 / (d_w / 2) - 1 / (f * d_w)
+    assert geometry.transverse_radius(d_w, f) == pytest.approx(1 / curvature, rel=RELATIVE)
+    printed = f * d_w / (2 * f - 1)
+    assert geometry.transverse_radius(d_w, f) == pytest.approx(printed, rel=RELATIVE)
+
+
+@every_screw
+@pytest.mark.equation("Olaru2005 §2.2 (16)")
+def test_deformed_radius_is_the_mean_curvature_of_ball_and_groove(d_m, d_w, alpha, f):
+    mean_curvature = (1 / (d_w / 2) + 1 / (f * d_w)) / 2
+    assert geometry.deformed_radius(d_w, f) == pytest.approx(1 / mean_curvature, rel=RELATIVE)
+    assert geometry.deformed_radius(d_w, f) == pytest.approx(2 * d_w * f / (2 * f + 1), rel=RELATIVE)
+
+
+@every_screw
+@pytest.mark.equation("Olaru2005 §6 (29)")
+def test_screw_contact_radius_as_printed(d_m, d_w, alpha, f):
+    gamma = geometry.curvature_ratio(d_w, d_m, alpha, 0.0)
+    printed = d_m / 2 - d_w * math.cos(alpha) / 2
+    assert geometry.screw_contact_radius(d_m / 2, gamma) == pytest.approx(printed, rel=RELATIVE)
+
+
+@every_screw
+@pytest.mark.equation("Olaru2005 §6 (32)")
+def test_nut_contact_radius_as_printed(d_m, d_w, alpha, f):
+    gamma = geometry.curvature_ratio(d_w, d_m, alpha, 0.0)
+    printed = d_m / 2 + d_w * math.cos(alpha) / 2
+    assert geometry.nut_contact_radius(d_m / 2, gamma) == pytest.approx(printed, rel=RELATIVE)
+
+
+def test_lead_angle_of_the_paper():
+    # reference sheet: mpmath, 40 digits
+    assert geometry.lead_angle(0.005, 0.040) == pytest.approx(3.97677586025641090e-2, rel=RELATIVE)
+
+
+def test_helix_of_the_paper():
+    # reference sheet: mpmath, 40 digits
+    phi = geometry.lead_angle(0.005, 0.040)
+    assert geometry.path_radius(0.040, phi) == pytest.approx(2.00158251740407798e-2, rel=RELATIVE)
+    gamma = geometry.curvature_ratio(3.175e-3, 0.040, math.pi / 4, phi)
+    assert gamma == pytest.approx(5.60378847440091487e-2, rel=RELATIVE)
+
+
+@every_screw
+@pytest.mark.parametrize("lead", [0.005, 0.02, 0.04])
+def test_curvature_ratio_is_that_of_the_path(d_m, d_w, alpha, f, lead):
+    # Curvature of a helix: r/(r^2 + c^2) with c = lead/2 pi. Half a ball diameter times it, in the rolling plane.
+    radius, c = d_m / 2, lead / (2 * math.pi)
+    curvature = radius / (radius**2 + c**2)
+    phi = geometry.lead_angle(lead, d_m)
+    expected = d_w / 2 * math.cos(alpha) * curvature
+    assert geometry.curvature_ratio(d_w, d_m, alpha, phi) == pytest.approx(expected, rel=RELATIVE)
+
+
+@pytest.mark.parametrize("lead", [0.005, 0.02, 0.04])
+def test_path_radius_is_length_of_path_per_radian(lead):
+    turn = math.hypot(math.pi * 0.040, lead)
+    phi = geometry.lead_angle(lead, 0.040)
+    assert geometry.path_radius(0.040, phi) == pytest.approx(turn / (2 * math.pi), rel=RELATIVE)
+
+
+@pytest.mark.parametrize("lead", [0.0, 0.005, 0.04])
+def test_rolling_plane_cosine_is_an_angle_between_directions(lead):
+    # The direction of rolling's axis in the ball's frame: cos(alpha) along the binormal, which leans by the lead angle.
+    alpha, phi = math.pi / 4, geometry.lead_angle(lead, 0.040)
+    binormal = np.array([0.0, -math.sin(phi), math.cos(phi)])
+    normal = np.array([1.0, 0.0, 0.0])
+    axis_of_rolling = math.cos(alpha) * binormal + math.sin(alpha) * normal
+    assert geometry.rolling_plane_cosine(alpha, phi) == pytest.approx(axis_of_rolling[2], rel=RELATIVE)

@@ -1,0 +1,93 @@
+"""Truth: the paper's printed forms, virtual work, and the classical efficiency of a screw."""
+
+import math
+
+import numpy as np
+import pytest
+
+from ballscrew.equations import transmission
+
+from .numbers import AXIAL_LOAD, CURVATURE_RATIO, LEAD, LOADED_BALLS, PITCH_CIRCLE_DIAMETER
+
+RELATIVE = 1e-13
+
+
+@pytest.mark.equation("Olaru2005 §2.1 (9)")
+def test_contact_load_of_the_paper():
+    # reference sheet: mpmath, 40 digits
+    Q = transmission.contact_load(AXIAL_LOAD, LOADED_BALLS, math.pi / 4, 0.0)
+    assert pytest.approx(1.01015254455221075e2, rel=RELATIVE) == Q
+    helix = transmission.contact_load(AXIAL_LOAD, LOADED_BALLS, math.pi / 4, math.atan(0.005 / (math.pi * 0.04)))
+    assert helix == pytest.approx(1.01095183654347451e2, rel=RELATIVE)
+
+
+@pytest.mark.parametrize("alpha", [0.5, math.pi / 4, 1.2])
+@pytest.mark.parametrize("phi", [0.0, 0.04, 0.3])
+def test_contact_loads_carry_the_axial_load(alpha, phi):
+    # The contact normal lies in the plane across the path: radial, and along a binormal that leans by the lead angle.
+    radial, binormal = np.array([1.0, 0.0, 0.0]), np.array([0.0, -math.sin(phi), math.cos(phi)])
+    normal = math.cos(alpha) * radial + math.sin(alpha) * binormal
+    Q = transmission.contact_load(4000.0, 56, alpha, phi)
+    assert 56 * Q * normal[2] == pytest.approx(4000.0, rel=RELATIVE)
+
+
+def test_ideal_torque_is_virtual_work():
+    # reference sheet: mpmath, 40 digits
+    torque = transmission.ideal_torque(AXIAL_LOAD, LEAD)
+    assert torque == pytest.approx(3.18309886183790672, rel=RELATIVE)
+    assert torque * 2 * math.pi == pytest.approx(AXIAL_LOAD * LEAD, rel=RELATIVE)
+
+
+@pytest.mark.equation("Olaru2005 §7 (35)")
+def test_ideal_torque_as_printed():
+    # reference sheet: mpmath, 40 digits
+    R_s = PITCH_CIRCLE_DIAMETER / 2 * (1 - CURVATURE_RATIO)
+    torque = transmission.ideal_torque_printed(AXIAL_LOAD, R_s, LEAD, PITCH_CIRCLE_DIAMETER)
+    assert torque == pytest.approx(3.00444234285048098, rel=RELATIVE)
+    assert torque == pytest.approx(AXIAL_LOAD * R_s * LEAD / (math.pi * PITCH_CIRCLE_DIAMETER), rel=RELATIVE)
+
+
+@pytest.mark.equation("Olaru2005 §7 (36)")
+def test_efficiency_of_the_paper():
+    # reference sheet: mpmath, 40 digits
+    eta = transmission.efficiency(3.00444234285048098, 1.89357790432876407e-1)
+    assert eta == pytest.approx(9.40710820173268375e-1, rel=RELATIVE)
+
+
+@pytest.mark.parametrize("torque", [0.0, 0.02, 0.2, 2.0])
+@pytest.mark.parametrize("lead", [0.005, 0.02, 0.04])
+@pytest.mark.equation("Olaru2005 §7 (36)")
+def test_efficiency_is_that_of_an_inclined_plane(lead, torque):
+    # With tan(phi + rho) = tan(phi) + 2 M_S/(F d_m) the efficiency is tan(phi)/tan(phi + rho), exactly.
+    F, d_m = AXIAL_LOAD, PITCH_CIRCLE_DIAMETER
+    phi = math.atan(lead / (math.pi * d_m))
+    rho = math.atan(math.tan(phi) + 2 * torque / (F * d_m)) - phi
+    eta = transmission.efficiency(transmission.ideal_torque(F, lead), torque)
+    assert eta == pytest.approx(math.tan(phi) / math.tan(phi + rho), rel=RELATIVE)
+
+
+@pytest.mark.equation("Olaru2005 §7 (36)")
+def test_efficiency_identities():
+    # reference sheet: mpmath, 40 digits
+    eta = transmission.efficiency(transmission.ideal_torque(4000.0, 0.005), 0.2)
+    assert eta == pytest.approx(9.40882602558251065e-1, rel=RELATIVE)
+    assert transmission.back_driving_efficiency(eta) == pytest.approx(9.37168146928204235e-1, rel=RELATIVE)
+
+
+@pytest.mark.equation("Olaru2005 §7 (36)")
+def test_efficiency_of_a_catalogue_example():
+    # HIWIN S99TE20-1610: lead angle 4.4 degrees, friction angle 0.286 degrees, efficiency 0.938, back-driving 0.934
+    phi, rho = math.radians(4.4), math.radians(0.286)
+    F, d_m = 1000.0, 0.0414
+    friction_torque = F * d_m / 2 * (math.tan(phi + rho) - math.tan(phi))
+    eta = transmission.efficiency(transmission.ideal_torque(F, math.pi * d_m * math.tan(phi)), friction_torque)
+    assert eta == pytest.approx(0.938, abs=1e-3)
+    assert transmission.back_driving_efficiency(eta) == pytest.approx(0.934, abs=1e-3)
+
+
+def test_back_driving_takes_the_same_friction_from_the_load():
+    ideal, friction = 3.18, 0.2
+    eta_b = transmission.back_driving_efficiency(transmission.efficiency(ideal, friction))
+    assert eta_b == pytest.approx((ideal - friction) / ideal, rel=RELATIVE)
+    # at half the efficiency the screw just locks itself
+    assert transmission.back_driving_efficiency(0.5) == 0.0

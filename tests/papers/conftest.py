@@ -1,0 +1,20 @@
+"""Lends the tests the script that writes the table of equations."""
+
+import importlib.util
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+SCRIPT = Path(__file__).resolve().parents[2] / "docs" / "make_equation_table.py"
+
+
+@pytest.fixture(scope="session")
+def equation_table() -> ModuleType:
+    """The script, as a module."""
+    spec = importlib.util.spec_from_file_location("make_equation_table", SCRIPT)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
