@@ -87,7 +87,6 @@ DIMENSIONAL_FITS = {
 
 #: Where a random value of a parameter lies, by unit: sizes that occur in a ball screw.
 BY_UNIT = {
-    None: (0.1, 0.6),
     "1": (0.1, 0.9),
     "m": (1e-3, 5e-2),
     "rad": (0.1, 1.2),
@@ -109,6 +108,8 @@ BY_UNIT = {
 
 #: The same by name, where the unit alone does not keep the value in the domain.
 BY_NAME = {
+    "across": (0.1, 0.6),
+    "along": (0.1, 0.6),
     "conformity": (0.51, 0.56),
     "ellipticity": (1.0, 15.0),
     "exponent": (0.5, 1.5),
