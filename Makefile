@@ -34,6 +34,10 @@ layers: $(READY)
 docs: $(READY)
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs out/docs
 
+readme: $(READY)
+	$(BIN)/python docs/make_readme.py
+	$(BIN)/python docs/make_equation_table.py
+
 bench: $(READY)
 	$(BIN)/python benchmarks/sweep.py
 

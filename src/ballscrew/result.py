@@ -105,16 +105,17 @@ class FrictionResult:
         with all others struck out.
         """
         s, n, chain = self.screw, self.nut, self.ball_chain
-        zero = 0 * s.contact_load
+        zero = 0 * s.friction_torque
+        F_Rs, F_Rn = s.hydrodynamic_rolling_force, n.hydrodynamic_rolling_force
+        M_ERs, M_ERn = s.elastic_resistance_moment, n.elastic_resistance_moment
+        M_Cs, M_Cn = s.curvature_friction_moment, n.curvature_friction_moment
+        # adding zero gives the parts that depend on less the shape of the operating point
+        M_B, F_B = chain.moment + zero, chain.braking_force + zero
         return {
-            "hydrodynamic_rolling": self._part(
-                s.hydrodynamic_rolling_force, n.hydrodynamic_rolling_force, zero, zero, zero, zero
-            ),
-            "elastic_hysteresis": self._part(
-                zero, zero, s.elastic_resistance_moment, n.elastic_resistance_moment, zero, zero
-            ),
-            "curvature": self._part(zero, zero, s.curvature_friction_moment, n.curvature_friction_moment, zero, zero),
-            "ball_to_ball": self._part(zero, zero, zero, zero, chain.moment, chain.braking_force),
+            "hydrodynamic_rolling": self._part(F_Rs, F_Rn, zero, zero, zero, zero),
+            "elastic_hysteresis": self._part(zero, zero, M_ERs, M_ERn, zero, zero),
+            "curvature": self._part(zero, zero, M_Cs, M_Cn, zero, zero),
+            "ball_to_ball": self._part(zero, zero, zero, zero, M_B, F_B),
         }
 
     def _part(

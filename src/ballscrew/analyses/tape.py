@@ -15,7 +15,7 @@ the limits at zero load and at rest (the logarithm of zero is minus infinity).
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -37,9 +37,8 @@ class Step(NamedTuple):
 
 
 def _choose(mask: Any, yes: Any, no: Any, out: NDArray[Any]) -> None:
-    """``where`` into a buffer that may be one of its operands' only if that operand is ``no``."""
-    if out is not no:
-        np.copyto(out, no)
+    """``where`` into a buffer of its own."""
+    np.copyto(out, no)
     np.copyto(out, yes, where=mask)
 
 
@@ -203,74 +202,88 @@ def _times(left: Any, right: Any, sign: float) -> Traced:
 
 
 class Program:
-    """What a tape does for the outputs asked for, ready to be played on blocks."""
+    """What a tape does for the outputs asked for, ready to be played on blocks.
+
+    Everything a step touches (inputs, constants, buffers, results) sits in one list of slots, and a
+    step is a function and the positions of its operands and its result: little is left for the
+    interpreter to do between two operations of NumPy, which is what threads have to queue for.
+    """
 
     def __init__(self, tape: Tape, outputs: Mapping[str, Any]) -> None:
         self.constants = {name: value for name, value in outputs.items() if not isinstance(value, Traced)}
         self.outputs = {name: value.index for name, value in outputs.items() if isinstance(value, Traced)}
         self.inputs = tape.inputs
-        needed: set[int] = set()
-        waiting = list(self.outputs.values())
-        while waiting:
-            index = waiting.pop()
-            if index not in needed:
-                needed.add(index)
-                step = tape.steps[index]
-                waiting.extend(int(o) for kind, o in step.operands if kind == "step") if step else None
-        self.steps = [(i, step) for i in sorted(needed) if (step := tape.steps[i]) is not None]
-        self._slots = self._allocate()
+        self.steps = _needed(tape, self.outputs.values())
+        self._slots: list[Any] = [None] * tape.inputs
+        self._buffers: list[tuple[int, bool]] = []
+        self._results: dict[str, int] = {}
+        self._calls = self._arrange()
         self._local = threading.local()
 
-    def _allocate(self) -> dict[int, tuple[bool, int]]:
-        """A buffer for every step, given up after its last use: (is mask, number)."""
-        last_use = {i: i for i, _ in self.steps}
-        for i, step in self.steps:
-            for kind, o in step.operands:
-                if kind == "step":
-                    last_use[int(o)] = i
-        kept = set(self.outputs.values())
+    def _arrange(self) -> list[tuple[Any, tuple[int, ...]]]:
+        """Give every step a slot: its result's, or a buffer that is given up after its last use."""
+        last_use = {o: i for i, step in self.steps for kind, o in step.operands if kind == "step"}
+        position: dict[Operand, int] = {i: i for i in range(self.inputs)}
+        computed = {i for i, _ in self.steps}
+        for name, index in self.outputs.items():
+            if index in computed and index not in position:
+                position[index] = self._results[name] = self._new_slot()
+        calls: list[tuple[Any, tuple[int, ...]]] = []
         free: dict[bool, list[int]] = {True: [], False: []}
-        count = {True: 0, False: 0}
-        slots: dict[int, tuple[bool, int]] = {}
         for i, step in self.steps:
-            if free[step.is_mask]:
-                slots[i] = (step.is_mask, free[step.is_mask].pop())
-            else:
-                slots[i] = (step.is_mask, count[step.is_mask])
-                count[step.is_mask] += 1
-            for kind, o in set(step.operands):
-                if kind == "step" and o in slots and o not in kept and last_use[int(o)] == i:
-                    is_mask, number = slots[int(o)]
-                    free[is_mask].append(number)
-        self.buffers = count
-        return slots
+            operands = [position[o] if kind == "step" else self._new_slot(np.array(o)) for kind, o in step.operands]
+            if i not in position:
+                position[i] = free[step.is_mask].pop() if free[step.is_mask] else self._new_buffer(step.is_mask)
+            calls.append((step.function, (*operands, position[i])))
+            buffers = dict(self._buffers)
+            for _, o in {(kind, o) for kind, o in step.operands if kind == "step" and last_use[o] == i}:
+                if position[o] in buffers:
+                    free[buffers[position[o]]].append(position[o])
+        self._copies = {name: position[i] for name, i in self.outputs.items() if name not in self._results}
+        return calls
+
+    def _new_slot(self, value: Any = None) -> int:
+        self._slots.append(value)
+        return len(self._slots) - 1
+
+    def _new_buffer(self, is_mask: bool) -> int:
+        slot = self._new_slot()
+        self._buffers.append((slot, is_mask))
+        return slot
 
     def play(self, inputs: Sequence[NDArray[Any]], results: Mapping[str, NDArray[Any]]) -> None:
         """Evaluate one block: arrays of inputs in, arrays of results filled."""
-        size = len(next(iter(results.values())))
-        values: dict[int, Any] = dict(enumerate(inputs))
-        workspace = self._workspace(size)
-        for index, step in self.steps:
-            is_mask, number = self._slots[index]
-            out = workspace[is_mask][number][:size]
-            operands = [values[int(o)] if kind == "step" else o for kind, o in step.operands]
-            if step.function is _choose:
-                _choose(*operands, out=out)
-            else:
-                step.function(*operands, out=out)
-            values[index] = out
-        for name, index in self.outputs.items():
-            results[name][...] = values[index]
+        slots = self._workspace(len(next(iter(results.values()))))
+        slots[: self.inputs] = inputs
+        for name, slot in self._results.items():
+            slots[slot] = results[name]
+        for function, positions in self._calls:
+            function(*[slots[position] for position in positions])
+        for name, slot in self._copies.items():
+            results[name][...] = slots[slot]
         for name, value in self.constants.items():
             results[name][...] = value
 
-    def _workspace(self, size: int) -> dict[bool, NDArray[Any]]:
-        """Buffers of this thread, kept from block to block."""
-        workspace: dict[bool, NDArray[Any]] | None = getattr(self._local, "workspace", None)
-        if workspace is None or workspace[False].shape[1] < size:
-            workspace = {
-                False: np.empty((self.buffers[False], size)),
-                True: np.empty((self.buffers[True], size), dtype=bool),
-            }
-            self._local.workspace = workspace
-        return workspace
+    def _workspace(self, size: int) -> list[Any]:
+        """The slots of this thread with buffers of this size, kept from block to block."""
+        workspaces: dict[int, list[Any]] | None = getattr(self._local, "workspaces", None)
+        if workspaces is None:
+            workspaces = self._local.workspaces = {}
+        if size not in workspaces:
+            slots = workspaces[size] = list(self._slots)
+            for slot, is_mask in self._buffers:
+                slots[slot] = np.empty(size, dtype=bool if is_mask else float)
+        return workspaces[size]
+
+
+def _needed(tape: Tape, outputs: Iterable[int]) -> list[tuple[int, Step]]:
+    """The steps that outputs depend on, in order."""
+    needed: set[int] = set()
+    waiting = list(outputs)
+    while waiting:
+        index = waiting.pop()
+        step = tape.steps[index]
+        if step is not None and index not in needed:
+            needed.add(index)
+            waiting.extend(int(o) for kind, o in step.operands if kind == "step")
+    return [(i, step) for i in sorted(needed) if (step := tape.steps[i]) is not None]

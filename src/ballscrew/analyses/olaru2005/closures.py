@@ -1,0 +1,102 @@
+"""What the paper leaves unstated decides some of its claims: readings that bring them out, and how far.
+
+A reading that meets the claims is consistent with the text. It is not thereby verified: the figures
+carry no values that could be read off.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping
+
+from ballscrew.analyses.olaru2005 import case
+from ballscrew.analyses.olaru2005.claims import judged
+from ballscrew.analyses.olaru2005.observations import observe
+from ballscrew.analyses.olaru2005.verdicts import Finding, Verdict
+from ballscrew.components.laws import HamrockDowson
+from ballscrew.components.materials import Lubricant, Material
+from ballscrew.components.screw import BallScrew
+from ballscrew.model import FrictionModel
+
+#: The claims whose verdict depends on what is left unstated.
+KEYS = ("split_one", "split_two", "minimum", "falling", "rising", "efficiency", "first_zone", "second_zone")
+_NU = Material().poisson_ratio
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Reading:
+    """One way to fill in what the paper does not say."""
+
+    name: str
+    words: str
+    model: FrictionModel
+    screw: BallScrew
+    oil: Lubricant
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ClosureCheck:
+    """A reading, and what becomes of the claims under it."""
+
+    reading: Reading
+    findings: Mapping[str, Finding]
+
+    @property
+    def consistent(self) -> bool:
+        """Whether all claims about torque minimum, efficiency and split hold."""
+        return all(finding.verdict is Verdict.HOLDS for finding in self.findings.values())
+
+
+def readings() -> tuple[Reading, ...]:
+    """The printed model, the right exponent in it, and two sets of closures, each with both exponents."""
+    printed = FrictionModel.olaru2005()
+    right = dataclasses.replace(printed, film=HamrockDowson())
+    thin = dataclasses.replace(case.OIL, pressure_viscosity_coefficient=1e-8)
+    other = dataclasses.replace(case.OIL, pressure_viscosity_coefficient=2e-8)
+    steel = Material(young_modulus=2.1e11 * (1 - _NU**2), poisson_ratio=_NU)
+    rough = math.hypot(case.SCREW.screw_roughness, case.SCREW.nut_roughness)
+    rougher = dataclasses.replace(
+        case.SCREW,
+        screw_roughness=rough,
+        nut_roughness=rough,
+        ball_material=steel,
+        screw_material=steel,
+        nut_material=steel,
+    )
+
+    def without_offset(model: FrictionModel) -> FrictionModel:
+        return dataclasses.replace(model, pure_rolling_offset=0.0)
+
+    first = "bracket of Y in (15) dropped (as with Y = 0), α_p 1e-8 1/Pa"
+    second = "Y = 0, E′ 2.1e11 Pa, α_p 2e-8 1/Pa, σ² = σ_b² + σ_s² + σ_n²"
+    return (
+        Reading(name="as printed", words="the choices above", model=printed, screw=case.SCREW, oil=case.OIL),
+        Reading(name="exponent 0.68", words="the right exponent in (26)", model=right, screw=case.SCREW, oil=case.OIL),
+        Reading(name="set 1", words=f"{first}, exponent 0.68", model=without_offset(right), screw=case.SCREW, oil=thin),
+        Reading(
+            name="set 1, exponent 0.66",
+            words=f"{first}, exponent as printed",
+            model=without_offset(printed),
+            screw=case.SCREW,
+            oil=thin,
+        ),
+        Reading(name="set 2", words=f"{second}, exponent 0.68", model=without_offset(right), screw=rougher, oil=other),
+        Reading(
+            name="set 2, exponent 0.66",
+            words=f"{second}, exponent as printed",
+            model=without_offset(printed),
+            screw=rougher,
+            oil=other,
+        ),
+    )
+
+
+def closure_checks() -> tuple[ClosureCheck, ...]:
+    """Check the claims that depend on the unstated closures under each reading."""
+    checks: list[ClosureCheck] = []
+    for reading in readings():
+        seen = observe(reading.model, reading.screw, reading.oil)
+        found = {claim.key: claim.findings[reading.name] for claim in judged({reading.name: seen}, KEYS)}
+        checks.append(ClosureCheck(reading=reading, findings=found))
+    return tuple(checks)

@@ -1,0 +1,1 @@
+"""Figures: drawn with matplotlib's objects only, the same bytes on every run."""

@@ -1,0 +1,53 @@
+"""What all tests share: the paper's screw, its oil, the models, and how hypothesis runs."""
+
+import math
+
+import pytest
+from hypothesis import settings
+
+import ballscrew as bs
+
+# The same examples every time, so that a red test is the fault of a change. To search for new ones:
+# pytest --hypothesis-profile=search tests/properties
+settings.register_profile("ci", deadline=None, derandomize=True, max_examples=100)
+settings.register_profile("search", deadline=None, derandomize=False, max_examples=2000)
+settings.load_profile("ci")
+
+MODELS = {
+    "olaru2005": bs.FrictionModel.olaru2005,
+    "olaru2005-literal": lambda: bs.FrictionModel.olaru2005(literal_film_parameter=True),
+    "corrected": bs.FrictionModel.corrected,
+}
+
+
+@pytest.fixture(scope="session")
+def seed_screw() -> bs.BallScrew:
+    """The paper's screw, of steel with an equivalent modulus of 2.26e11 Pa."""
+    steel = bs.Material(young_modulus=2.26e11 * (1 - 0.3**2), poisson_ratio=0.3)
+    return bs.BallScrew(
+        pitch_circle_diameter=0.040,
+        lead=0.005,
+        ball_diameter=3.175e-3,
+        loaded_balls=56,
+        contact_angle=math.pi / 4,
+        screw_conformity=0.515,
+        nut_conformity=0.515,
+        ball_roughness=0.08e-6,
+        screw_roughness=0.3e-6,
+        nut_roughness=0.3e-6,
+        ball_material=steel,
+        screw_material=steel,
+        nut_material=steel,
+    )
+
+
+@pytest.fixture(scope="session")
+def seed_oil() -> bs.Lubricant:
+    """The oil of the reference cases."""
+    return bs.Lubricant(viscosity=0.1, pressure_viscosity_coefficient=2.2e-8)
+
+
+@pytest.fixture(params=["olaru2005", "corrected"])
+def model(request: pytest.FixtureRequest) -> bs.FrictionModel:
+    """Each of the two models in turn."""
+    return MODELS[request.param]()

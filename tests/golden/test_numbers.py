@@ -1,0 +1,74 @@
+"""Change detector: the paper's screw in both models. Says that numbers moved, not that they are right.
+
+If a change was meant: ``python tests/golden/test_numbers.py --write``, and say why in the change log.
+"""
+
+import argparse
+import json
+import math
+from pathlib import Path
+
+import pytest
+
+import ballscrew as bs
+from ballscrew.analyses.sweep import outputs
+
+STORED = Path(__file__).with_name("seed_screw.json")
+MODELS = {"olaru2005": bs.FrictionModel.olaru2005, "corrected": bs.FrictionModel.corrected}
+#: Axial load in N, screw speed in rpm.
+POINTS = ((4000.0, 600.0), (1000.0, 60.0), (200.0, 3000.0))
+#: Room for other processors and mathematical libraries.
+RELATIVE = 1e-11
+
+
+def numbers(name: str, axial_load: float, rpm: float) -> dict[str, float]:
+    """Everything a result says, by name."""
+    screw = bs.BallScrew(
+        pitch_circle_diameter=0.040,
+        lead=0.005,
+        ball_diameter=3.175e-3,
+        loaded_balls=56,
+        contact_angle=math.pi / 4,
+        screw_conformity=0.515,
+        nut_conformity=0.515,
+    )
+    oil = bs.Lubricant(viscosity=0.1, pressure_viscosity_coefficient=2.2e-8)
+    r = MODELS[name]()(screw, oil, axial_load=axial_load, screw_speed=rpm * math.pi / 30)
+    return {output: float(entry.read(r)) for output, entry in outputs().items()}
+
+
+def key(name: str, axial_load: float, rpm: float) -> str:
+    return f"{name}, {axial_load:g} N, {rpm:g} rpm"
+
+
+@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize(("axial_load", "rpm"), POINTS)
+def test_numbers_have_not_moved(name, axial_load, rpm):
+    stored = json.loads(STORED.read_text(encoding="utf-8"))[key(name, axial_load, rpm)]
+    found = numbers(name, axial_load, rpm)
+    moved = {
+        output: (value, found.get(output))
+        for output, value in stored.items()
+        if output not in found or not math.isclose(found[output], value, rel_tol=RELATIVE, abs_tol=0)
+    }
+    assert not moved, "if this was meant: python tests/golden/test_numbers.py --write"
+
+
+def test_every_output_is_stored():
+    stored = json.loads(STORED.read_text(encoding="utf-8"))
+    assert set(stored) == {key(name, *point) for name in MODELS for point in POINTS}
+    for values in stored.values():
+        assert set(values) == set(outputs()), "if this was meant: python tests/golden/test_numbers.py --write"
+
+
+def main() -> None:
+    """Store the present numbers."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--write", action="store_true", required=True, help="store the present numbers")
+    parser.parse_args()
+    stored = {key(name, *point): numbers(name, *point) for name in MODELS for point in POINTS}
+    STORED.write_text(json.dumps(stored, indent=1) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

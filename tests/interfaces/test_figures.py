@@ -1,0 +1,140 @@
+"""Figures: labels with units, a caption with the case, nothing clipped, nobody's settings."""
+
+import re
+import subprocess
+import sys
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
+
+from ballscrew.analyses import olaru2005 as paper
+from ballscrew.interfaces.figures import ball, style
+from ballscrew.interfaces.figures import olaru2005 as figures
+
+PLOTS = {plot.name: plot for plot in (*ball.PLOTS, *figures.PLOTS)}
+
+
+@pytest.fixture(scope="module")
+def sources():
+    data, results = paper.curves(), ball.drawn_results()
+    return {name: results if plot in ball.PLOTS else data for name, plot in PLOTS.items()}
+
+
+@pytest.fixture(scope="module", params=PLOTS)
+def plot(request):
+    return PLOTS[request.param]
+
+
+@pytest.fixture(scope="module")
+def figure(plot, sources):
+    """Laid out as for a PNG."""
+    with style.house_style():
+        drawn = plot.draw(sources[plot.name])
+        FigureCanvasAgg(drawn)
+        drawn.draw_without_rendering()
+    return drawn
+
+
+def test_axes_name_their_units(figure):
+    shown = [panel for panel in figure.axes if panel.axison]
+    assert shown
+    for panel in shown:
+        assert re.search(r"\((rpm|N|N m|mm|mN mm|mm/s)\)$", panel.get_xlabel())
+        if panel.get_yticks().size:
+            assert re.search(r"\((N m|mm|mm/s)\)$|^efficiency η$", panel.get_ylabel())
+
+
+def test_both_models_side_by_side_on_one_scale(figure):
+    titles = [panel.get_title(loc="left") for panel in figure.axes]
+    assert sum(title.startswith("as printed") for title in titles) == sum(t.startswith("corrected") for t in titles) > 0
+    for left, right in zip(figure.axes[::2], figure.axes[1::2], strict=True):
+        assert left.get_ylim() == right.get_ylim()
+        assert left.get_xlim() == pytest.approx(right.get_xlim(), rel=0.1)
+
+
+def test_caption_states_the_case(figure):
+    caption = " ".join(" ".join(text.get_text() for text in figure.texts).split())
+    assert "56 balls" in caption
+    assert "E′ 226 GPa" in caption
+    assert re.search("ssumed|Chosen", caption)
+
+
+def test_nothing_is_clipped(figure):
+    renderer = figure.canvas.get_renderer()
+    page = figure.bbox.padded(1.0)
+    undrawn = _undrawn(figure)
+    for text in figure.findobj(Text):
+        if text.get_text() and text.get_visible():
+            box = text.get_window_extent(renderer)
+            inside = page.x0 <= box.x0 and box.x1 <= page.x1 and page.y0 <= box.y0 and box.y1 <= page.y1
+            # labels of ticks beyond the limits, or of hidden axes, are laid out but not drawn
+            assert inside or text in undrawn, text.get_text()
+
+
+def _undrawn(figure):
+    found = set()
+    for panel in figure.findobj(mpl.axes.Axes):
+        for axis in (panel.xaxis, panel.yaxis):
+            low, high = sorted(axis.get_view_interval())
+            for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks()):
+                if not (panel.axison and low <= tick.get_loc() <= high):
+                    found |= {tick.label1, tick.label2}
+    return found
+
+
+def test_table_holds_the_numbers(plot, sources):
+    table = plot.table(sources[plot.name])
+    lengths = {len(column) for column in table.values()}
+    assert len(lengths) == 1
+    for heading, column in table.items():
+        if not isinstance(column, list) or not isinstance(column[0], str):
+            assert re.search(r"\(.+\)$", heading), heading
+            assert np.all(np.isfinite(column))
+
+
+def test_assumptions_of_the_figures_are_stated(sources):
+    with style.house_style():
+        for number, name in (
+            (5, "fig5_torque_on_screw_and_nut"),
+            (8, "fig8_torque_over_load"),
+            (9, "fig9_efficiency_over_load"),
+        ):
+            caption = " ".join(PLOTS[name].draw(sources[name]).texts[0].get_text().split())
+            assert "assumed" in caption
+            assert f"Fig. {number}" in caption
+
+
+def test_skid_is_shaded(sources):
+    with style.house_style():
+        figure = PLOTS["fig9_efficiency_over_load"].draw(sources["fig9_efficiency_over_load"])
+    for panel in figure.axes:
+        assert "the ball would skid" in panel.get_legend_handles_labels()[1]
+
+
+def test_forces_and_moments_of_the_drawings_balance(sources):
+    for result in sources["fig2_forces_on_ball"].values():
+        for arrows in (ball.forces(result), ball.moments(result)):
+            values = [arrow.value for arrow in arrows]
+            assert sum(values) == pytest.approx(0, abs=1e-12 * max(map(abs, values)) + 1e-13)
+
+
+def test_nobodys_settings_matter(sources, tmp_path):
+    plot = PLOTS["fig7_efficiency_over_speed"]
+    with style.house_style():
+        style.save(plot.draw(sources[plot.name]), tmp_path, "plain")
+    with mpl.rc_context({"lines.linewidth": 9, "font.size": 30, "axes.grid": False, "savefig.dpi": 20}):
+        with style.house_style():
+            style.save(plot.draw(sources[plot.name]), tmp_path, "loud")
+        assert mpl.rcParams["font.size"] == 30
+    for kind in ("svg", "png"):
+        assert (tmp_path / f"plain.{kind}").read_bytes() == (tmp_path / f"loud.{kind}").read_bytes()
+
+
+def test_no_pyplot():
+    code = "import sys, ballscrew.interfaces.figures.ball, ballscrew.interfaces.figures.olaru2005; print(*sys.modules)"
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    assert "matplotlib.figure" in loaded
+    assert "matplotlib.pyplot" not in loaded

@@ -1,0 +1,131 @@
+"""Screws, oils and operating points to try the laws on: everything that is sold, and a little more."""
+
+import dataclasses
+import math
+
+import numpy as np
+from hypothesis import strategies as st
+
+import ballscrew as bs
+from ballscrew.result import FrictionResult
+
+RPM = math.pi / 30
+
+MODELS = {"olaru2005": bs.FrictionModel.olaru2005(), "corrected": bs.FrictionModel.corrected()}
+both_models = st.sampled_from(sorted(MODELS)).map(MODELS.get)
+corrected = MODELS["corrected"]
+olaru2005 = MODELS["olaru2005"]
+
+
+def floats(low: float, high: float) -> st.SearchStrategy[float]:
+    """Finite numbers in an interval."""
+    return st.floats(low, high, allow_nan=False, allow_infinity=False, allow_subnormal=False)
+
+
+def powers(low: float, high: float) -> st.SearchStrategy[float]:
+    """Numbers spread evenly over the orders of magnitude of an interval."""
+    return floats(math.log(low), math.log(high)).map(math.exp)
+
+
+@st.composite
+def screws(draw: st.DrawFn) -> bs.BallScrew:
+    """Any ball screw: pitch circles of 10 to 125 mm, fine and steep leads, grooves wide and close."""
+    starts = draw(st.integers(1, 4))
+    lead_ratio = draw(floats(max(1 / 20, 0.066 * starts), 1.0))
+    room = lead_ratio * math.cos(math.atan(lead_ratio / math.pi)) / starts
+    d_m = draw(floats(0.010, 0.125))
+    materials = st.builds(bs.Material, floats(1.9e11, 3.2e11), floats(0.24, 0.32))
+    conformities, roughnesses = floats(0.505, 0.56), floats(0.05e-6, 0.6e-6)
+    return bs.BallScrew(
+        pitch_circle_diameter=d_m,
+        lead=d_m * lead_ratio,
+        ball_diameter=d_m * draw(floats(0.06, min(0.25, 0.98 * room))),
+        loaded_balls=draw(st.integers(5, 300)),
+        contact_angle=math.radians(draw(floats(20, 70))),
+        screw_conformity=draw(conformities),
+        nut_conformity=draw(conformities),
+        ball_roughness=draw(floats(0.02e-6, 0.1e-6)),
+        screw_roughness=draw(roughnesses),
+        nut_roughness=draw(roughnesses),
+        starts=starts,
+        ball_material=draw(materials),
+        screw_material=draw(materials),
+        nut_material=draw(materials),
+    )
+
+
+oils = st.builds(bs.Lubricant, powers(0.005, 1.0), floats(1e-8, 2.5e-8))
+loads = powers(1.0, 50e3)
+speeds = st.just(0.0) | powers(1e-6, 5000.0).map(lambda rpm: rpm * RPM)
+moving = powers(0.1, 5000.0).map(lambda rpm: rpm * RPM)
+ball_forces = st.none() | st.just(0.0) | powers(1e-3, 1.0)
+
+
+@dataclasses.dataclass(frozen=True)
+class Case:
+    """A screw, an oil and an operating point."""
+
+    screw: bs.BallScrew
+    oil: bs.Lubricant
+    axial_load: float
+    screw_speed: float
+
+    def __call__(self, model: bs.FrictionModel, **changed: object) -> FrictionResult:
+        """What a model says; ``changed`` replaces a field of the case, the screw or the oil."""
+        parts = {"screw": self.screw, "oil": self.oil}
+        operation = {"axial_load": self.axial_load, "screw_speed": self.screw_speed}
+        for name, value in changed.items():
+            if name in operation:
+                operation[name] = value
+            else:
+                part = "screw" if hasattr(self.screw, name) else "oil"
+                parts[part] = dataclasses.replace(parts[part], **{name: value})
+        return model(parts["screw"], parts["oil"], **operation)
+
+
+cases = st.builds(Case, screws(), oils, loads, speeds)
+moving_cases = st.builds(Case, screws(), oils, loads, moving)
+
+
+@st.composite
+def fitting_cases(draw: st.DrawFn) -> Case:
+    """In motion, with a contact that fits its groove: pressures that a screw survives."""
+    screw, oil = draw(screws()), draw(oils)
+    # N on a ball of 1 m: beyond the static rating of any screw
+    per_ball = draw(powers(1e5, 1.5e8)) * screw.ball_diameter**2
+    load = per_ball * screw.loaded_balls * math.sin(screw.contact_angle)
+    return Case(screw, oil, load, draw(moving))
+
+
+def torque_scale(r: FrictionResult) -> float:
+    """The size of the torques that were added and subtracted on the way to a sum."""
+    parts = sum(abs(part) for part in r.contributions.values())
+    return parts + abs(r.screw_torque) + abs(r.nut_torque)
+
+
+def close(found: object, expected: object, relative: float = 1e-12, scale: object = None) -> bool:
+    """Equal within rounding: relative to ``scale``, or else to the expected value."""
+    found, expected = np.asarray(found, float), np.asarray(expected, float)
+    size = np.abs(expected) if scale is None else np.abs(np.asarray(scale, float))
+    with np.errstate(invalid="ignore"):  # equal infinities
+        return bool(np.all((found == expected) | (np.abs(found - expected) <= relative * size)))
+
+
+# -- laws for isolating one mechanism -------------------------------------------------------------
+
+
+def no_rolling_resistance(E, R_x, k, G, U, W):
+    """Rolling law: none."""
+    return 0 * W
+
+
+def no_elastic_resistance(d_w, Q, k):
+    """Elastic resistance: none."""
+    return 0 * Q
+
+
+def without_losses_of_rolling(model: bs.FrictionModel) -> bs.FrictionModel:
+    """A model in which only sliding in the contacts is left."""
+    return dataclasses.replace(
+        model, rolling=no_rolling_resistance, elastic_resistance=no_elastic_resistance, ball_to_ball_force=0.0
+    )
