@@ -215,12 +215,12 @@ class Program:
         self.inputs = tape.inputs
         self.steps = _needed(tape, self.outputs.values())
         self._slots: list[Any] = [None] * tape.inputs
-        self._buffers: list[tuple[int, bool]] = []
+        self.buffers: list[tuple[int, bool]] = []
         self._results: dict[str, int] = {}
         self._calls = self._arrange()
         self._local = threading.local()
 
-    def _arrange(self) -> list[tuple[Any, tuple[int, ...]]]:
+    def _arrange(self) -> list[tuple[Any, list[int], int]]:
         """Give every step a slot: its result's, or a buffer that is given up after its last use."""
         last_use = {o: i for i, step in self.steps for kind, o in step.operands if kind == "step"}
         position: dict[Operand, int] = {i: i for i in range(self.inputs)}
@@ -228,14 +228,14 @@ class Program:
         for name, index in self.outputs.items():
             if index in computed and index not in position:
                 position[index] = self._results[name] = self._new_slot()
-        calls: list[tuple[Any, tuple[int, ...]]] = []
+        calls: list[tuple[Any, list[int], int]] = []
         free: dict[bool, list[int]] = {True: [], False: []}
         for i, step in self.steps:
             operands = [position[o] if kind == "step" else self._new_slot(np.array(o)) for kind, o in step.operands]
             if i not in position:
                 position[i] = free[step.is_mask].pop() if free[step.is_mask] else self._new_buffer(step.is_mask)
-            calls.append((step.function, (*operands, position[i])))
-            buffers = dict(self._buffers)
+            calls.append((step.function, operands, position[i]))
+            buffers = dict(self.buffers)
             for _, o in {(kind, o) for kind, o in step.operands if kind == "step" and last_use[o] == i}:
                 if position[o] in buffers:
                     free[buffers[position[o]]].append(position[o])
@@ -248,7 +248,7 @@ class Program:
 
     def _new_buffer(self, is_mask: bool) -> int:
         slot = self._new_slot()
-        self._buffers.append((slot, is_mask))
+        self.buffers.append((slot, is_mask))
         return slot
 
     def play(self, inputs: Sequence[NDArray[Any]], results: Mapping[str, NDArray[Any]]) -> None:
@@ -257,8 +257,8 @@ class Program:
         slots[: self.inputs] = inputs
         for name, slot in self._results.items():
             slots[slot] = results[name]
-        for function, positions in self._calls:
-            function(*[slots[position] for position in positions])
+        for function, operands, result in self._calls:
+            function(*[slots[position] for position in operands], out=slots[result])
         for name, slot in self._copies.items():
             results[name][...] = slots[slot]
         for name, value in self.constants.items():
@@ -271,7 +271,7 @@ class Program:
             workspaces = self._local.workspaces = {}
         if size not in workspaces:
             slots = workspaces[size] = list(self._slots)
-            for slot, is_mask in self._buffers:
+            for slot, is_mask in self.buffers:
                 slots[slot] = np.empty(size, dtype=bool if is_mask else float)
         return workspaces[size]
 
