@@ -54,9 +54,10 @@ def addresses_in(text: str | None) -> list[str]:
     return [f"Olaru2005 §{m['section']} ({m['number']})" for m in ADDRESS.finditer(text or "")]
 
 
-def keys_in(text: str | None) -> list[str]:
+@functools.cache
+def keys_in(text: str | None) -> tuple[str, ...]:
     """Keys of the bibliography that a text names, in the order of the bibliography."""
-    return [key for key in bibliography() if re.search(rf"\b{re.escape(key)}\b", text or "")]
+    return tuple(key for key in bibliography() if re.search(rf"\b{re.escape(key)}\b", text or ""))
 
 
 def citations_of(assembly: Any) -> list[str]:

@@ -184,7 +184,7 @@ class FrictionResult:
     @cached_property
     def validity(self) -> Mapping[str, Mask]:
         """Where each condition of the model holds, by reason; see :data:`ballscrew.validity.REASONS`."""
-        return validity_masks(self.axial_load, self.screw_speed, self.screw, self.nut, self.converged)
+        return validity_masks(self.ball_screw, self.axial_load, self.screw_speed, self.screw, self.nut, self.converged)
 
     @cached_property
     def valid(self) -> Annotated[Mask, Info("valid", "all conditions of the model hold")]:

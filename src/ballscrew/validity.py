@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from ballscrew._arrays import namespace
 from ballscrew.components.contact import RaceState
+from ballscrew.components.screw import BallScrew
 from ballscrew.quantities import AngularSpeed, Force, Mask
 
 #: Y at which the curvature moment (15) changes sign: the root of 1 - 5Y³ + 3Y⁵ in (0, 1).
@@ -28,7 +29,12 @@ REASONS: Mapping[str, str] = {
 
 
 def validity_masks(
-    axial_load: Force, screw_speed: AngularSpeed, screw: RaceState, nut: RaceState, converged: Mask
+    ball_screw: BallScrew,
+    axial_load: Force,
+    screw_speed: AngularSpeed,
+    screw: RaceState,
+    nut: RaceState,
+    converged: Mask,
 ) -> Mapping[str, Mask]:
     """Masks by reason; NaN fails every condition it enters."""
     xp = namespace(axial_load, screw_speed, screw.contact_load)
@@ -38,7 +44,7 @@ def validity_masks(
         & xp.isfinite(axial_load)
         & xp.isfinite(screw_speed)
         & xp.isfinite(screw.friction_torque)
-        & (screw.rolling_radius > 0)
+        & ball_screw.fits
     }
     for reason in ("skid", "pure_rolling_offset", "radii_ratio", "elastic_regime", "material_parameter"):
         masks[reason] = _holds(reason, screw) & _holds(reason, nut)

@@ -16,7 +16,7 @@ from ballscrew.analyses.tape import Program, Tape
 from ballscrew.components.contact import RaceState
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew, Operation
-from ballscrew.faults import Fault, InputError, fault_of, nearest
+from ballscrew.faults import Fault, fault_of, nearest, raise_if_any
 from ballscrew.model import FrictionModel
 from ballscrew.quantities import Quantity, quantities_of
 from ballscrew.references import citations_of
@@ -116,24 +116,16 @@ def sweep(
     Work goes block by block on a few threads, and ``done(finished, total)`` is told the progress.
     Raises :class:`~ballscrew.faults.InputError` for unknown names and missing or bad values.
     """
+    counts = {"block_size": block_size, "threads": threads}
+    raise_if_any(
+        [Fault(f"sweep.{n}", "must be 1 or more", str(v), "") for n, v in counts.items() if v is not None and v < 1]
+    )
     wanted = _wanted(outputs)
     axes = _axes(model, screw, lubricant, varied)
-    sizes: dict[str, int] = {}
-    for axis in axes.values():
-        for dimension, size in zip(axis.dims, axis.shape, strict=True):
-            if sizes.setdefault(str(dimension), size) != size:
-                raise InputError(
-                    Fault(
-                        f"sweep.{dimension}",
-                        "different lengths",
-                        f"{sizes[str(dimension)]} and {size}",
-                        "make them equal",
-                    )
-                )
+    sizes = _sizes(axes, wanted)
     shape = tuple(sizes.values())
     total = int(np.prod(shape, dtype=np.int64))
     results = {name: np.empty(total, dtype=bool if name == "valid" else float) for name in wanted}
-
     varying = [name for name, axis in axes.items() if axis.dims]
     fixed = {name: axis.to_numpy()[()] for name, axis in axes.items() if not axis.dims}
     program = _recorded(model, screw, lubricant, wanted, varying, fixed)
@@ -160,58 +152,83 @@ def sweep(
 
 def _wanted(names: Sequence[str] | None) -> dict[str, Output]:
     known = outputs()
-    chosen = [name.replace(".", "_") for name in (names or DEFAULT_OUTPUTS)]
-    faults = [
-        Fault("sweep.outputs", "unknown output", name, nearest(name, known)) for name in chosen if name not in known
-    ]
-    if faults:
-        raise InputError(*faults)
+    names = (names,) if isinstance(names, str) else names or DEFAULT_OUTPUTS
+    chosen = [str(name).replace(".", "_") for name in names]
+    raise_if_any([Fault("sweep.outputs", "unknown output", n, nearest(n, known)) for n in chosen if n not in known])
     return {name: known[name] for name in chosen}
 
 
 def _axes(
     model: FrictionModel, screw: BallScrew, lubricant: Lubricant, varied: Mapping[str, Any]
 ) -> dict[str, xr.DataArray]:
+    """The values to vary as labelled arrays; all faults in them at once."""
     known = inputs_of(model, screw, lubricant)
-    faults: list[Fault] = []
+    parts = {"screw": screw, "lubricant": lubricant, "model": model}
+    faults = [Fault(f"sweep.{name}", "unknown name", "", nearest(name, known)) for name in varied if name not in known]
+    faults += [
+        Fault(f"sweep.{name}", "missing", "", f"give {name}=[…]")
+        for name in ("axial_load", "screw_speed")
+        if name not in varied
+    ]
+    faults += [
+        Fault(f"{part}.{name}", "is an array", "", f"give it to the sweep: {name}=[…]")
+        for name, (part, _) in known.items()
+        if part != "operation" and name not in varied and np.ndim(_read(parts[part], name))
+    ]
     axes: dict[str, xr.DataArray] = {}
     for name, values in varied.items():
-        if name not in known:
-            faults.append(Fault(f"sweep.{name}", "unknown name", "", nearest(name, known)))
-            continue
-        part, quantity = known[name]
-        if isinstance(values, xr.DataArray):
-            axes[name] = values.astype(float, copy=False)
-        else:
-            array = np.asarray(values, dtype=float)
-            if array.ndim > 1:
-                faults.append(
-                    Fault(
-                        f"sweep.{name}",
-                        "has more than one axis",
-                        f"shape {array.shape}",
-                        "name its axes: pass an xarray.DataArray",
-                    )
-                )
-                continue
-            axes[name] = xr.DataArray(array, dims=(name,) if array.ndim else ())
-        if axes[name].size == 0:
-            faults.append(Fault(f"sweep.{name}", "has no values", "", "give at least one"))
-        for extreme in {float(v) for v in _extremes(axes[name].to_numpy())}:
-            fault = fault_of(part, quantity, extreme)
-            if fault is not None:
-                faults.append(fault)
-    for name in ("axial_load", "screw_speed"):
-        if name not in varied:
-            faults.append(Fault(f"sweep.{name}", "missing", "", f"give {name}=[…]"))
-    if faults:
-        raise InputError(*faults)
+        if name in known:
+            part, quantity = known[name]
+            axis = _axis(name, values)
+            if isinstance(axis, Fault):
+                faults.append(axis)
+            else:
+                axes[name] = axis
+                faults += _faults_of_axis(part, quantity, axis.to_numpy())
+    raise_if_any(faults)
     return axes
 
 
-def _extremes(values: np.ndarray) -> np.ndarray:
-    """The values that decide whether all are within bounds: NaN if there is one, else the ends."""
-    return np.array([values.min(), values.max()]) if values.size else values
+def _axis(name: str, values: Any) -> xr.DataArray | Fault:
+    """Values as a labelled array: a sequence gets a dimension of its own name."""
+    where = f"sweep.{name}"
+    try:
+        if isinstance(values, xr.DataArray):
+            axis = values.astype(float, copy=False)
+        else:
+            array = np.asarray(values, dtype=float)
+            if array.ndim > 1:
+                return Fault(where, "has several axes", f"shape {array.shape}", "name them: pass an xarray.DataArray")
+            axis = xr.DataArray(array, dims=(name,) if array.ndim else ())
+    except (TypeError, ValueError):
+        return Fault(where, "must be numbers in SI", str(values), "give a number or a plain list of numbers")
+    return axis if axis.size else Fault(where, "has no values", "", "give at least one")
+
+
+def _faults_of_axis(part: str, quantity: Quantity, values: np.ndarray) -> list[Fault]:
+    """Faults of an axis: its ends (NaN comes out as both) and, where whole numbers are needed, the first broken one."""
+    telling = [values.min()]
+    if not np.isnan(telling[0]):
+        telling.append(values.max())
+    if quantity.info.whole:
+        telling += values[values != np.floor(values)].ravel()[:1].tolist()
+    faults = [fault_of(part, quantity, float(value)) for value in dict.fromkeys(telling)]
+    return [fault for fault in faults if fault is not None]
+
+
+def _sizes(axes: Mapping[str, xr.DataArray], wanted: Mapping[str, Output]) -> dict[str, int]:
+    """The dimensions of a sweep and their lengths, in the order given."""
+    sizes: dict[str, int] = {}
+    faults: list[Fault] = []
+    for axis in axes.values():
+        for dimension, size in zip(map(str, axis.dims), axis.shape, strict=True):
+            where = f"sweep.{dimension}"
+            if sizes.setdefault(dimension, size) != size:
+                faults.append(Fault(where, "different lengths", f"{sizes[dimension]} and {size}", "make them equal"))
+            if axes[dimension].dims != (dimension,) if dimension in axes else dimension in wanted:
+                faults.append(Fault(where, "is a dimension and something else", "", "name the dimension otherwise"))
+    raise_if_any(faults)
+    return sizes
 
 
 def _recorded(
@@ -222,14 +239,14 @@ def _recorded(
     varying: Sequence[str],
     fixed: Mapping[str, Any],
 ) -> Program | None:
-    """The model as a program of the varying inputs, or None if a law of the user's cannot be recorded."""
+    """The model as a program of the varying inputs, or None if a law of the user's wants plain arrays."""
     tape = Tape(len(varying))
     points: dict[str, Any] = {**fixed, **{name: tape.value(i) for i, name in enumerate(varying)}}
     try:
         with np.errstate(all="ignore"):
             result = _assemble(model, screw, lubricant, points)
             return Program(tape, {name: output.read(result) for name, output in wanted.items()})
-    except TypeError:
+    except (TypeError, AttributeError, ValueError):
         return None
 
 
@@ -269,8 +286,18 @@ def _dataset(
     results: Mapping[str, np.ndarray],
 ) -> xr.Dataset:
     known = inputs_of(model, screw, lubricant)
-    coordinates = {name: (axis.dims, axis.to_numpy(), _attributes(known[name][1])) for name, axis in axes.items()}
-    variables = {name: (tuple(sizes), values, _attributes(wanted[name].quantity)) for name, values in results.items()}
+    coordinates: dict[str, Any] = {
+        str(label): values
+        for axis in axes.values()
+        for label, values in axis.coords.items()
+        if label in axis.dims and label not in axes
+    }
+    coordinates |= {name: (axis.dims, axis.to_numpy(), _attributes(known[name][1])) for name, axis in axes.items()}
+    variables = {
+        name: (tuple(sizes), values, _attributes(wanted[name].quantity))
+        for name, values in results.items()
+        if name not in axes  # what is varied is there as a coordinate
+    }
     fixed = {
         f"{part}_{name.replace('.', '_')}": value
         for name, (part, _) in known.items()

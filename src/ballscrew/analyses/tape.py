@@ -158,16 +158,35 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
             raise TypeError("a traced value has no axes to index")
         return self
 
+    def __array__(self, *_: Any, **__: Any) -> Any:
+        """A traced value has no numbers yet; a law that needs them is evaluated on plain arrays."""
+        raise TypeError("a traced value cannot become an array")
+
     def __bool__(self) -> bool:
         """A traced value has no truth: what depends on it must be said with ``where``."""
         raise TypeError("a traced value has no truth value; use where()")
 
     def _raised(self, exponent: float) -> Traced:
-        """A power; what is better left to NumPy (zeroth, high whole, negative scale) is a step."""
-        high = exponent == int(exponent) and abs(exponent) > HIGHEST_WHOLE_POWER
-        if exponent == 0 or high or (self.scale < 0 and exponent != int(exponent)):
+        """A power; what folding exponents would change (see :func:`_folds`) is a step of its own."""
+        powers = {i: p * exponent for i, p in self.powers.items()}
+        if not all(_folds(p, exponent) for p in self.powers.values()) or (self.scale < 0 and exponent != int(exponent)):
             return self.tape.value(self.tape.record(np.power, self, exponent))
-        return Traced(self.tape, {i: p * exponent for i, p in self.powers.items()}, self.scale**exponent)
+        return Traced(self.tape, powers, self.scale**exponent)
+
+
+def _folds(power: float, exponent: float) -> bool:
+    """Whether ``(x**power)**exponent`` is ``x**(power*exponent)`` for negative x too, where both may be NaN.
+
+    Not for the root of a square, not for the square of a root, not for the power 0; and high whole
+    powers are better left to NumPy.
+    """
+    whole = power == int(power), exponent == int(exponent)
+    total = power * exponent
+    if exponent == 0 or (all(whole) and abs(total) > HIGHEST_WHOLE_POWER):
+        return False
+    if not whole[1]:
+        return total != int(total) and (not whole[0] or power % 2 == 1)
+    return whole[0] or total != int(total)
 
 
 def _is_mask(value: Any) -> bool:
@@ -195,7 +214,9 @@ def _times(left: Any, right: Any, sign: float) -> Traced:
     powers = dict(left.powers)
     for index, power in right.powers.items():
         powers[index] = powers.get(index, 0.0) + sign * power
-    if any(power == 0 for power in powers.values()):  # x/x is not 1 at zero: keep the step
+    broken = {i for side in (left, right) for i, p in side.powers.items() if p != int(p)}
+    # x/x is not 1 at zero, and a product of roots is not x below zero: keep the step
+    if any(power == 0 or (power == int(power) and i in broken) for i, power in powers.items()):
         function = np.multiply if sign > 0 else np.divide
         return left.tape.value(left.tape.record(function, left, right))
     return Traced(left.tape, powers, left.scale * right.scale**sign)

@@ -6,10 +6,11 @@ import dataclasses
 import math
 from typing import Annotated
 
+from ballscrew._arrays import namespace
 from ballscrew.components.materials import Material
 from ballscrew.equations import geometry, hertz
 from ballscrew.faults import Fault, faults_of, is_concrete, raise_if_any, shown
-from ballscrew.quantities import Angle, AngularSpeed, Count, Force, Info, Length, Pressure, Ratio
+from ballscrew.quantities import Angle, AngularSpeed, Count, Force, Info, Length, Mask, Pressure, Ratio
 
 STEEL = Material()
 
@@ -84,18 +85,29 @@ class BallScrew:
 
     def _misfits(self) -> list[Fault]:
         """Faults between fields that are fine one by one."""
-        d_m, d_w, lead = self.pitch_circle_diameter, self.ball_diameter, self.lead
-        where, found = "screw.ball_diameter", list[Fault]()
-        if is_concrete(d_m) and is_concrete(d_w) and not d_w < d_m / 2:
-            remedy = "keep it below half the pitch circle diameter, {bound}"
-            found.append(Fault(where, "too big for the pitch circle", shown(d_w, "m"), remedy, d_m / 2, "m"))
-        elif all(map(is_concrete, (d_m, d_w, lead, self.starts))):
-            room = float(lead / self.starts * math.cos(self.lead_angle))
-            if not d_w < room:
-                problem = "too big for the lead: balls of neighbouring turns overlap"
-                remedy = "keep it below lead · cos(lead angle) / starts = {bound}"
-                found.append(Fault(where, problem, shown(d_w, "m"), remedy, room, "m"))
-        return found
+        sizes = (self.pitch_circle_diameter, self.ball_diameter, self.lead, self.starts)
+        if not all(map(is_concrete, sizes)) or self.fits:
+            return []
+        where, given = "screw.ball_diameter", shown(self.ball_diameter, "m")
+        if self.ball_diameter < self._room_in_the_circle:
+            problem = "too big for the lead: balls of neighbouring turns overlap"
+            remedy = "keep it below lead · cos(lead angle) / starts = {bound}"
+            return [Fault(where, problem, given, remedy, float(self._room_in_the_lead), "m")]
+        remedy = "keep it below half the pitch circle diameter, {bound}"
+        return [Fault(where, "too big for the pitch circle", given, remedy, self._room_in_the_circle, "m")]
+
+    @property
+    def fits(self) -> Mask:
+        """Whether the balls have room in the pitch circle and between neighbouring turns."""
+        return (self.ball_diameter < self._room_in_the_circle) & (self.ball_diameter < self._room_in_the_lead)
+
+    @property
+    def _room_in_the_circle(self) -> Length:
+        return self.pitch_circle_diameter / 2
+
+    @property
+    def _room_in_the_lead(self) -> Length:
+        return self.lead / self.starts * namespace(self.lead_angle).cos(self.lead_angle)
 
     @property
     def lead_angle(self) -> Annotated[Angle, Info(r"\varphi", "lead angle of the helix of the ball centres", "deg")]:
