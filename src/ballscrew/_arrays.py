@@ -6,10 +6,13 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from functools import cached_property
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
+
+T = TypeVar("T")
 
 #: Points per block: a dozen buffers of this size stay in a shared cache of a few MiB, and one
 #: operation on them lasts long enough that two threads do not fight for the interpreter lock.
@@ -56,14 +59,24 @@ def _symbolic() -> SimpleNamespace:
     )
 
 
+class lazy(cached_property[T]):
+    """A property computed when first asked for, and kept; limits and NaN come without warnings."""
+
+    def __get__(self, instance: Any, owner: type | None = None) -> Any:
+        """The value; the first time, by the rules of IEEE 754 and in silence."""
+        with np.errstate(all="ignore"):
+            return super().__get__(instance, owner)
+
+
 def as_array(value: Any) -> Any:
     """A number or sequence as NumPy sees it; foreign arrays pass untouched.
 
     Scalars become ``numpy.float64``, so that limits such as 0**-0.073 follow the rules of IEEE 754
     and not those of Python's ``float``.
     """
-    if isinstance(value, bool | int | float | list | tuple | np.ndarray | np.generic):
-        return np.asarray(value, dtype=np.float64)[()]
+    if isinstance(value, int | float | list | tuple | np.ndarray | np.generic):
+        array = np.asarray(value)
+        return array.astype(np.float64, copy=False)[()] if array.dtype.kind in "fiu" else value
     return value
 
 

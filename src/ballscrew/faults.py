@@ -7,11 +7,14 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
+import math
 import numbers
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from ballscrew.quantities import Quantity, out_of_bounds, quantities_of
+import numpy as np
+
+from ballscrew.quantities import Quantity, fields_of, out_of_bounds
 
 #: At most this many lines are printed; the last one then says how many more there are.
 LINES_AT_MOST = 10
@@ -39,7 +42,9 @@ class Fault:
         given = self.given if len(self.given) <= LONGEST_VALUE else f"{self.given[:LONGEST_VALUE]}…"
         given = f" ({given})" if given else ""
         remedy = f" · {self.remedy}" if self.remedy else ""
-        return " ".join(f"{self.where}: {self.problem}{given}{remedy}".replace("{bound}", bound).split())
+        where = self.where if len(self.where) <= LONGEST_VALUE else f"{self.where[:LONGEST_VALUE]}…"
+        line = f"{where}: {self.problem}{given}{remedy}".replace("{bound}", bound)
+        return " ".join("".join(c if c.isprintable() else " " for c in line).split())
 
 
 class InputError(ValueError):
@@ -71,14 +76,25 @@ def nearest(word: str, known: Iterable[str]) -> str:
 
 def is_concrete(value: Any) -> bool:
     """Whether a value is a plain number that can be checked now (arrays and tracers are not)."""
+    if isinstance(value, np.ndarray):
+        return value.ndim == 0 and value.dtype.kind in "fiu"
     return isinstance(value, numbers.Real) and value is not True and value is not False
+
+
+def as_float(value: Any) -> float:
+    """A concrete number as a float; what is too big for one is infinite."""
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
 
 
 def shown(value: Any, unit: str) -> str:
     """A value in its unit, as it stands in a message."""
     if not is_concrete(value):
         return repr(value)
-    return f"{value:.6g}" if unit == "1" else f"{value:.6g} {unit}"
+    number = f"{as_float(value):.6g}"
+    return number if unit == "1" else f"{number} {unit}"
 
 
 def fault_of(section: str, quantity: Quantity, value: Any, given: str = "") -> Fault | None:
@@ -87,10 +103,12 @@ def fault_of(section: str, quantity: Quantity, value: Any, given: str = "") -> F
     given = given or shown(value, quantity.unit)
     if isinstance(value, str | bytes | bool) or value is None:
         expected = "a number" if quantity.unit == "1" else f"a number in {quantity.unit}"
-        return Fault(where, f"must be {expected}", given, quantity.info.hint)
+        return Fault(where, f"must be {expected}", given, "give a number without quotes")
+    if isinstance(value, list | tuple) or (isinstance(value, np.ndarray) and value.dtype.kind not in "fiu"):
+        return Fault(where, "must be a number or an array of numbers", given, "give a float or a numpy.array of floats")
     if not is_concrete(value):
         return None
-    found = out_of_bounds(quantity.info, float(value))
+    found = out_of_bounds(quantity.info, as_float(value))
     if found is None:
         return None
     problem, bound = found
@@ -100,10 +118,7 @@ def fault_of(section: str, quantity: Quantity, value: Any, given: str = "") -> F
 def faults_of(section: str, part: Any, optional: Sequence[str] = ()) -> list[Fault]:
     """Faults of every concrete annotated field of a dataclass instance."""
     found: list[Fault] = []
-    names = {field.name for field in dataclasses.fields(part)}
-    for name, quantity in quantities_of(type(part)).items():
-        if name not in names:
-            continue
+    for name, quantity in fields_of(part).items():
         value = getattr(part, name)
         if value is None and name in optional:
             continue

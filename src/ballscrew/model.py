@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
+from collections.abc import Mapping
 from typing import Annotated, Any
 
 import numpy as np
@@ -46,7 +48,7 @@ from ballscrew.equations.rolling import (
     screw_pressure_force,
 )
 from ballscrew.equations.transmission import contact_load as equal_contact_load
-from ballscrew.faults import faults_of, raise_if_any
+from ballscrew.faults import faults_of, is_concrete, raise_if_any
 from ballscrew.quantities import AngularSpeed, Force, Info, Ratio
 from ballscrew.result import FrictionResult
 from ballscrew.solvers import pure_rolling
@@ -143,13 +145,27 @@ class FrictionModel:
 
         Array values are never refused: where they make no sense the result says so in its validity.
         """
-        Operation(axial_load=axial_load, screw_speed=screw_speed)
-        with np.errstate(divide="ignore", over="ignore", under="ignore", invalid="ignore"):
-            return self._evaluate(screw, lubricant, as_array(axial_load), as_array(screw_speed))
+        operation = Operation(axial_load=as_array(axial_load), screw_speed=as_array(screw_speed))
+        with np.errstate(all="ignore"):
+            return self._evaluate(screw, lubricant, operation)
 
-    def _evaluate(
-        self, screw: BallScrew, lubricant: Lubricant, axial_load: Force, screw_speed: AngularSpeed
-    ) -> FrictionResult:
+    @property
+    def label(self) -> str:
+        """The name of the preset, and the slots and numbers that are not as there."""
+        preset = presets().get(self.name)
+        if preset is None:
+            return self.name
+        fields = [field.name for field in dataclasses.fields(self)]
+        changed = [field for field in fields if not _same(getattr(self, field), getattr(preset, field))]
+        return self.name if not changed else f"{self.name}, changed: {', '.join(changed)}"
+
+    def laws_with_coefficients(self) -> dict[str, Any]:
+        """The laws that are dataclasses, by slot."""
+        slots = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
+        return {slot: law for slot, law in slots.items() if dataclasses.is_dataclass(law)}
+
+    def _evaluate(self, screw: BallScrew, lubricant: Lubricant, operation: Operation) -> FrictionResult:
+        axial_load, screw_speed = operation.axial_load, operation.screw_speed
         frame = self.frame(screw)
         Q = self.contact_load(axial_load, screw.loaded_balls, screw.contact_angle, frame.lead_angle)
         v = frame.entrainment_speed(screw_speed)
@@ -166,7 +182,9 @@ class FrictionModel:
         F_B = 1 / screw.loaded_balls if self.ball_to_ball_force is None else self.ball_to_ball_force
         chain = self.ball_chain(self.ball_friction_coefficient, F_B, d_w, frame)
         lines = self._pure_rolling(on_screw, on_nut, chain, d_w, gamma)
+        laws_and_numbers = (self, *self.laws_with_coefficients().values())
         return FrictionResult(
+            parts=(screw, *screw.materials, lubricant, operation, *laws_and_numbers),
             ball_screw=screw,
             frame=frame,
             axial_load=axial_load,
@@ -244,3 +262,21 @@ class FrictionModel:
                 friction_torque=torques.nut,
             ),
         }
+
+
+@functools.cache
+def presets() -> Mapping[str, FrictionModel]:
+    """The named models: papers, and what was made of them."""
+    models = (
+        FrictionModel.olaru2005(),
+        FrictionModel.olaru2005(literal_film_parameter=True),
+        FrictionModel.corrected(),
+    )
+    return {model.name: model for model in models}
+
+
+def _same(one: Any, other: Any) -> bool:
+    """Whether two entries of a slot are the same law with the same coefficients, or the same number."""
+    if dataclasses.is_dataclass(one) and type(one) is type(other):
+        return all(_same(value, vars(other)[name]) for name, value in vars(one).items())
+    return one is other or (is_concrete(one) and is_concrete(other) and bool(one == other))

@@ -17,6 +17,8 @@ import types
 from collections.abc import Mapping
 from typing import Annotated, Any, TypeAlias, Union, get_args, get_origin, get_type_hints
 
+from ballscrew._arrays import namespace
+
 #: A float, a NumPy array, or any foreign array the equations run on (JAX, SymPy, pint).
 #: Deliberately open: the unit, not the container, is what the annotations are about.
 Array: TypeAlias = Any
@@ -114,6 +116,29 @@ def quantities_of(cls: type) -> Mapping[str, Quantity]:
         if unit is not None and info is not None:
             quantities[name] = Quantity(name, unit, info)
     return quantities
+
+
+def fields_of(part: type | object) -> dict[str, Quantity]:
+    """The quantities of a dataclass (or of the class of one) that are fields, by name."""
+    cls = part if isinstance(part, type) else type(part)
+    names = {field.name for field in dataclasses.fields(cls)}  # type: ignore[arg-type]
+    return {name: quantity for name, quantity in quantities_of(cls).items() if name in names}
+
+
+def within_bounds(info: Info, value: Array) -> Mask:
+    """Where the elements of an array are finite and within the declared bounds."""
+    holds = namespace(value).isfinite(value)
+    if info.whole:
+        holds = holds & (value % 1 == 0)
+    if info.above is not None:
+        holds = holds & (value > info.above)
+    if info.at_least is not None:
+        holds = holds & (value >= info.at_least)
+    if info.below is not None:
+        holds = holds & (value < info.below)
+    if info.at_most is not None:
+        holds = holds & (value <= info.at_most)
+    return holds
 
 
 def out_of_bounds(info: Info, value: float) -> tuple[str, float | None] | None:

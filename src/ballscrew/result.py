@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping
-from functools import cached_property
-from typing import Annotated
+from typing import Annotated, Any
 
-from ballscrew._arrays import namespace
+from ballscrew._arrays import lazy, namespace
 from ballscrew.components.contact import RaceState
 from ballscrew.components.frame import Frame
 from ballscrew.components.laws import BallChain, IdealTorqueLaw, RaceTorqueLaw
@@ -33,6 +32,7 @@ class FrictionResult:
     asked for, and kept.
     """
 
+    parts: tuple[Any, ...]
     ball_screw: BallScrew
     frame: Frame
     axial_load: Annotated[Force, Info("F", "axial load on the nut")]
@@ -47,31 +47,31 @@ class FrictionResult:
     ideal_torque_law: IdealTorqueLaw
     converged: Mask
 
-    @cached_property
+    @lazy
     def screw_torque(
         self,
     ) -> Annotated[Torque, Info("M_S", "friction torque on the screw", address="Olaru2005 §6 (33)")]:
         """Friction torque on the screw."""
         return equilibrium.total_friction_torque(self.ball_screw.loaded_balls, self.screw.friction_torque)
 
-    @cached_property
+    @lazy
     def nut_torque(self) -> Annotated[Torque, Info("M_N", "friction torque on the nut", address="Olaru2005 §6 (34)")]:
         """Friction torque on the nut: the reaction, not a further loss."""
         return equilibrium.total_friction_torque(self.ball_screw.loaded_balls, self.nut.friction_torque)
 
-    @cached_property
+    @lazy
     def ideal_torque(
         self,
     ) -> Annotated[Torque, Info("M_Sa", "drive torque without friction", address="Olaru2005 §7 (35)")]:
         """Drive torque without friction."""
         return self.ideal_torque_law(self.axial_load, self.ball_screw, self.frame)
 
-    @cached_property
+    @lazy
     def drive_torque(self) -> Annotated[Torque, Info("M_Sa + M_S", "drive torque with friction")]:
         """Torque that drives the screw against the load."""
         return self.ideal_torque + self.screw_torque
 
-    @cached_property
+    @lazy
     def efficiency(
         self,
     ) -> Annotated[Ratio, Info(r"\eta", "efficiency, screw drives the nut", address="Olaru2005 §7 (36)")]:
@@ -86,7 +86,7 @@ class FrictionResult:
         eta = transmission.efficiency(ideal, friction + no_torque)
         return eta + (no_torque & (self.screw_speed == 0))
 
-    @cached_property
+    @lazy
     def back_driving_efficiency(self) -> Annotated[Ratio, Info(r"\eta_b", "efficiency, the load drives the screw")]:
         """Efficiency when the load drives the screw; zero or less means self-locking.
 
@@ -97,7 +97,7 @@ class FrictionResult:
         none = eta == 0
         return xp.where(none, -xp.inf, transmission.back_driving_efficiency(xp.where(none, 1.0, eta)))[()]
 
-    @cached_property
+    @lazy
     def contributions(self) -> Mapping[str, Torque]:
         """Friction torque on the screw by mechanism, N m; the parts sum to ``screw_torque``.
 
@@ -145,7 +145,7 @@ class FrictionResult:
         )
         return equilibrium.total_friction_torque(self.ball_screw.loaded_balls, per_ball.screw)
 
-    @cached_property
+    @lazy
     def dissipation(self) -> Mapping[str, Power]:
         """Power dissipated by mechanism, W, from local forces and local speeds."""
         s, n, chain, z = self.screw, self.nut, self.ball_chain, self.ball_screw.loaded_balls
@@ -176,17 +176,17 @@ class FrictionResult:
             ),
         }
 
-    @cached_property
+    @lazy
     def friction_power(self) -> Annotated[Power, Info("P", "power dissipated by friction")]:
         """Power dissipated by friction: the sum of the local dissipations, not torque times speed."""
         return sum(self.dissipation.values())
 
-    @cached_property
+    @lazy
     def validity(self) -> Mapping[str, Mask]:
         """Where each condition of the model holds, by reason; see :data:`ballscrew.validity.REASONS`."""
-        return validity_masks(self.ball_screw, self.axial_load, self.screw_speed, self.screw, self.nut, self.converged)
+        return validity_masks(self.parts, self.screw, self.nut, self.converged, self.drive_torque)
 
-    @cached_property
+    @lazy
     def valid(self) -> Annotated[Mask, Info("valid", "all conditions of the model hold")]:
         """Where all conditions of the model hold."""
         masks = list(self.validity.values())

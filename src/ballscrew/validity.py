@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from ballscrew._arrays import namespace
 from ballscrew.components.contact import RaceState
 from ballscrew.components.screw import BallScrew
-from ballscrew.quantities import AngularSpeed, Force, Mask
+from ballscrew.faults import is_concrete
+from ballscrew.quantities import Mask, Torque, fields_of, within_bounds
 
 #: Y at which the curvature moment (15) changes sign: the root of 1 - 5Y³ + 3Y⁵ in (0, 1).
 LARGEST_PURE_ROLLING_OFFSET = 0.643
@@ -18,39 +20,41 @@ SMALLEST_ELASTIC_REGIME_PARAMETER = 6.6
 MATERIAL_PARAMETER_RANGE = (2000.0, 7500.0)
 
 REASONS: Mapping[str, str] = {
-    "operating_point": "load and speed must be finite and not negative, and the geometry possible",
+    "inputs": "inputs must be finite and within their bounds, the balls must fit, and the torque must be finite",
     "skid": "the sliding force exceeds friction coefficient times load at a contact: the ball would skid",
-    "pure_rolling_offset": "the lines of pure rolling lie outside 0 <= Y < 0.643, where (15) holds",
+    "pure_rolling_offset": "the lines of pure rolling lie outside "
+    f"0 <= Y < {LARGEST_PURE_ROLLING_OFFSET}, where (15) holds",
     "radii_ratio": "the radii ratio k is outside the range of the Hertz law (k >= 1; at most 60 for the paper's fit)",
-    "elastic_regime": "the load is too light for the elastic lubrication regime of (1) and (26) (M < 6.6)",
-    "material_parameter": "G is outside 2000 to 7500, the materials and oils behind the film regression (26)",
+    "elastic_regime": "the load is too light for the elastic lubrication regime of (1) and (26) "
+    f"(M < {SMALLEST_ELASTIC_REGIME_PARAMETER})",
+    "material_parameter": f"G is outside {MATERIAL_PARAMETER_RANGE[0]:.0f} to {MATERIAL_PARAMETER_RANGE[1]:.0f}, "
+    "the materials and oils behind the film regression (26)",
     "equilibrium": "the offset of the lines of pure rolling did not converge",
 }
 
 
 def validity_masks(
-    ball_screw: BallScrew,
-    axial_load: Force,
-    screw_speed: AngularSpeed,
-    screw: RaceState,
-    nut: RaceState,
-    converged: Mask,
+    parts: Sequence[Any], screw: RaceState, nut: RaceState, converged: Mask, drive_torque: Torque
 ) -> Mapping[str, Mask]:
-    """Masks by reason; NaN fails every condition it enters."""
-    xp = namespace(axial_load, screw_speed, screw.contact_load)
-    masks: dict[str, Mask] = {
-        "operating_point": (axial_load >= 0)
-        & (screw_speed >= 0)
-        & xp.isfinite(axial_load)
-        & xp.isfinite(screw_speed)
-        & xp.isfinite(screw.friction_torque)
-        & ball_screw.fits
-    }
+    """Masks by reason, in the shape of the torque; NaN fails every condition it enters.
+
+    ``parts`` are the screw, the lubricant, the model and its laws, and the operating point, whose
+    arrays are checked here as constructors check numbers.
+    """
+    xp = namespace(drive_torque)
+    everywhere = xp.isfinite(drive_torque) | True
+    inputs = xp.isfinite(drive_torque)
+    for part in parts:
+        for name, quantity in fields_of(part).items():
+            value = getattr(part, name)
+            if value is not None and not is_concrete(value):
+                inputs = inputs & within_bounds(quantity.info, value)
+        if isinstance(part, BallScrew):
+            inputs = inputs & part.fits
+    masks: dict[str, Mask] = {"inputs": inputs}
     for reason in ("skid", "pure_rolling_offset", "radii_ratio", "elastic_regime", "material_parameter"):
         masks[reason] = _holds(reason, screw) & _holds(reason, nut)
     masks["equilibrium"] = converged
-    # every mask takes the shape of the operating point, also where it depends on less
-    everywhere = masks["skid"] | ~masks["skid"]
     return {reason: mask & everywhere for reason, mask in masks.items()}
 
 

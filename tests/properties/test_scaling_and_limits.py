@@ -24,12 +24,12 @@ from strategies import (
 )
 
 import ballscrew as bs
-from ballscrew.analyses.sweep import outputs
+from ballscrew.analyses.sweep import known_outputs
 from ballscrew.components.frame import bearing_frame
 from ballscrew.equations.rolling import elastic_resistance_moment
 from ballscrew.result import MECHANISMS
 
-OUTPUTS = outputs()
+OUTPUTS = known_outputs()
 TORQUES = ("screw_torque", "nut_torque", "ideal_torque", "drive_torque")
 
 
@@ -306,7 +306,7 @@ def test_nonsense_in_an_array_stays_where_it_is(case, model):
     load = np.array([case.axial_load, math.nan, -1.0, math.inf, case.axial_load])
     r = case(model, axial_load=load)
     sane = case(model, axial_load=load[[0, 4]])
-    assert not np.any(r.validity["operating_point"][1:4])
+    assert not np.any(r.validity["inputs"][1:4])
     assert not np.any(r.valid[1:4])
     assert np.isnan(r.screw_torque[1])
     assert np.allclose(r.screw_torque[[0, 4]], sane.screw_torque, rtol=1e-13, atol=0)

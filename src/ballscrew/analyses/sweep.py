@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-import inspect
+import functools
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -15,13 +15,15 @@ from ballscrew._arrays import map_blocks
 from ballscrew.analyses.tape import Program, Tape
 from ballscrew.components.contact import RaceState
 from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.components.screw import MATERIALS, BallScrew, Operation
 from ballscrew.faults import Fault, fault_of, nearest, raise_if_any
 from ballscrew.model import FrictionModel
-from ballscrew.quantities import Quantity, quantities_of
+from ballscrew.quantities import Quantity, fields_of, quantities_of
 from ballscrew.references import citations_of
 from ballscrew.result import MECHANISMS, FrictionResult
 
+#: The fields of the operating point, which every sweep needs.
+OPERATION = tuple(fields_of(Operation))
 #: What a sweep returns unless told otherwise.
 DEFAULT_OUTPUTS = (
     "screw_torque",
@@ -47,12 +49,12 @@ class Output:
     read: Callable[[FrictionResult], Any]
 
 
-def outputs() -> Mapping[str, Output]:
+@functools.cache
+def known_outputs() -> Mapping[str, Output]:
     """Everything a sweep can return, by name: ``screw_torque``, ``nut_film_parameter``, ``contribution_curvature``…"""
     found: dict[str, Output] = {}
-    inputs = {"axial_load", "screw_speed"}
     for name, quantity in quantities_of(FrictionResult).items():
-        if name not in inputs:
+        if name not in OPERATION:
             found[name] = Output(name, quantity, lambda r, n=name: getattr(r, n))
     torque = quantities_of(FrictionResult)["screw_torque"]
     for mechanism, words in MECHANISMS.items():
@@ -77,18 +79,10 @@ def inputs_of(model: FrictionModel, screw: BallScrew, lubricant: Lubricant) -> M
     Names are those of the fields; a coefficient of a law is ``law.field``, for example
     ``friction.boundary_friction_coefficient``.
     """
-    found: dict[str, tuple[str, Quantity]] = {}
-    for part, value in (("operation", Operation), ("screw", screw), ("lubricant", lubricant), ("model", model)):
-        cls = value if inspect.isclass(value) else type(value)
-        fields = {field.name for field in dataclasses.fields(cls)}
-        for name, quantity in quantities_of(cls).items():
-            if name in fields:
-                found[name] = (part, quantity)
-    for field in dataclasses.fields(model):
-        law = getattr(model, field.name)
-        if dataclasses.is_dataclass(law) and not inspect.isclass(law):
-            for name, quantity in quantities_of(type(law)).items():
-                found[f"{field.name}.{name}"] = ("model", quantity)
+    parts = {"operation": Operation, "screw": screw, "lubricant": lubricant, "model": model}
+    found = {name: (part, quantity) for part, value in parts.items() for name, quantity in fields_of(value).items()}
+    for slot, law in model.laws_with_coefficients().items():
+        found |= {f"{slot}.{name}": ("model", quantity) for name, quantity in fields_of(law).items()}
     return found
 
 
@@ -110,7 +104,7 @@ def sweep(
     ``**{"friction.boundary_friction_coefficient": [...]}``. A sequence becomes a dimension of its
     own name; ``xarray.DataArray`` values that share a dimension vary together along it, so random
     points are ``xr.DataArray(values, dims="point")``. The dataset has the dimensions in the order
-    given. Only the ``outputs`` asked for are kept (see :func:`outputs`; a default handful
+    given. Only the ``outputs`` asked for are kept (see :func:`known_outputs`; a default handful
     otherwise).
 
     Work goes block by block on a few threads, and ``done(finished, total)`` is told the progress.
@@ -151,8 +145,8 @@ def sweep(
 
 
 def _wanted(names: Sequence[str] | None) -> dict[str, Output]:
-    known = outputs()
-    names = (names,) if isinstance(names, str) else names or DEFAULT_OUTPUTS
+    known = known_outputs()
+    names = (names,) if isinstance(names, str) else DEFAULT_OUTPUTS if names is None or not len(names) else names
     chosen = [str(name).replace(".", "_") for name in names]
     raise_if_any([Fault("sweep.outputs", "unknown output", n, nearest(n, known)) for n in chosen if n not in known])
     return {name: known[name] for name in chosen}
@@ -165,11 +159,7 @@ def _axes(
     known = inputs_of(model, screw, lubricant)
     parts = {"screw": screw, "lubricant": lubricant, "model": model}
     faults = [Fault(f"sweep.{name}", "unknown name", "", nearest(name, known)) for name in varied if name not in known]
-    faults += [
-        Fault(f"sweep.{name}", "missing", "", f"give {name}=[…]")
-        for name in ("axial_load", "screw_speed")
-        if name not in varied
-    ]
+    faults += [Fault(f"sweep.{name}", "missing", "", f"give {name}=[…]") for name in OPERATION if name not in varied]
     faults += [
         Fault(f"{part}.{name}", "is an array", "", f"give it to the sweep: {name}=[…]")
         for name, (part, _) in known.items()
@@ -245,9 +235,11 @@ def _recorded(
     try:
         with np.errstate(all="ignore"):
             result = _assemble(model, screw, lubricant, points)
-            return Program(tape, {name: output.read(result) for name, output in wanted.items()})
-    except (TypeError, AttributeError, ValueError):
+            program = Program(tape, {name: output.read(result) for name, output in wanted.items()})
+            program.play([np.ones(1)] * len(varying), {n: np.empty(1, bool if n == "valid" else float) for n in wanted})
+    except Exception:  # whatever a law of the user's cannot do with a recording, it may do with arrays
         return None
+    return program
 
 
 def _points(
@@ -265,7 +257,7 @@ def _assemble(model: FrictionModel, screw: BallScrew, lubricant: Lubricant, poin
     """Put the values of a block into the parts, and evaluate."""
     parts: dict[str, Any] = {"screw": screw, "lubricant": lubricant, "model": model}
     where = {name: part for name, (part, _) in inputs_of(model, screw, lubricant).items()}
-    operation = {name: points[name] for name in ("axial_load", "screw_speed")}
+    operation = {name: points[name] for name in OPERATION}
     for name, values in points.items():
         if name in operation:
             continue
@@ -304,16 +296,17 @@ def _dataset(
         if part != "operation" and name not in axes
         if (value := _read({"screw": screw, "lubricant": lubricant, "model": model}[part], name)) is not None
     }
-    for name in ("ball_material", "screw_material", "nut_material"):
-        material = getattr(screw, name)
-        fixed |= {f"screw_{name}_{field}": getattr(material, field) for field in quantities_of(type(material))}
+    for name, material in zip(MATERIALS, screw.materials, strict=True):
+        fixed |= {f"screw_{name}_{field}": getattr(material, field) for field in fields_of(material)}
+    slots = {field.name: getattr(model, field.name) for field in dataclasses.fields(model)}
+    fixed |= {f"model_{slot}": law.__name__ for slot, law in slots.items() if hasattr(law, "__name__")}
     return xr.Dataset(
         variables,
         coordinates,
         {
-            "title": f"Ball screw friction, model {model.name}",
+            "title": f"Ball screw friction, model {model.label}",
             "Conventions": "CF-1.11",
-            "source": f"ballscrew {ballscrew.__version__}, model {model.name}",
+            "source": f"ballscrew {ballscrew.__version__}, model {model.label}",
             "references": "; ".join(citations_of(model)),
             **{name: value for name, value in fixed.items() if np.ndim(value) == 0},
         },

@@ -71,7 +71,7 @@ class Tape:
 
 _MASKS = {
     np.equal, np.not_equal, np.less, np.less_equal, np.greater, np.greater_equal,
-    np.isfinite, np.isnan, np.isinf, np.logical_and, np.logical_or, np.logical_not,
+    np.isfinite, np.isnan, np.isinf, np.logical_and, np.logical_or, np.logical_xor, np.logical_not,
 }  # fmt: skip
 _TRUTH = {np.bitwise_and, np.bitwise_or, np.bitwise_xor, np.invert}
 
@@ -82,7 +82,7 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
     def __init__(self, tape: Tape, powers: Mapping[int, float], scale: float) -> None:
         self.tape = tape
         self.powers = dict(powers)
-        self.scale = scale
+        self.scale = np.float64(scale)  # divides by zero as arrays do
         self._index: int | None = None
 
     @property
@@ -147,10 +147,11 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
         mask, yes, no = args
         if not isinstance(mask, Traced):
             return yes if mask else no
-        if isinstance(no, Traced) and not isinstance(yes, Traced) and yes == 0:
+        if isinstance(no, Traced) and not _is_mask(no) and not isinstance(yes, Traced) and yes == 0:
             kept = self.tape.record(_choose, mask, 0.0, Traced(self.tape, no.powers, 1.0))
             return Traced(self.tape, {kept: 1.0}, no.scale)
-        return self.tape.value(self.tape.record(_choose, mask, _constant(yes), _constant(no)))
+        choice = self.tape.record(_choose, mask, _constant(yes), _constant(no), is_mask=_is_mask(yes) and _is_mask(no))
+        return self.tape.value(choice)
 
     def __getitem__(self, key: tuple[()]) -> Traced:
         """``x[()]``, which turns a NumPy array without axes into a number, is the value itself."""
@@ -168,10 +169,10 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
 
     def _raised(self, exponent: float) -> Traced:
         """A power; what folding exponents would change (see :func:`_folds`) is a step of its own."""
-        powers = {i: p * exponent for i, p in self.powers.items()}
-        if not all(_folds(p, exponent) for p in self.powers.values()) or (self.scale < 0 and exponent != int(exponent)):
+        folds = all(_folds(p, exponent) for p in self.powers.values())
+        if not folds or (self.scale < 0 and exponent != int(exponent)):
             return self.tape.value(self.tape.record(np.power, self, exponent))
-        return Traced(self.tape, powers, self.scale**exponent)
+        return Traced(self.tape, {i: p * exponent for i, p in self.powers.items()}, self.scale**exponent)
 
 
 def _folds(power: float, exponent: float) -> bool:
@@ -180,9 +181,11 @@ def _folds(power: float, exponent: float) -> bool:
     Not for the root of a square, not for the square of a root, not for the power 0; and high whole
     powers are better left to NumPy.
     """
+    if exponent == 0 or not np.isfinite(exponent):
+        return False
     whole = power == int(power), exponent == int(exponent)
     total = power * exponent
-    if exponent == 0 or (all(whole) and abs(total) > HIGHEST_WHOLE_POWER):
+    if all(whole) and abs(total) > HIGHEST_WHOLE_POWER:
         return False
     if not whole[1]:
         return total != int(total) and (not whole[0] or power % 2 == 1)
@@ -210,7 +213,7 @@ def _times(left: Any, right: Any, sign: float) -> Traced:
         constant = float(_constant(left))
         return Traced(right.tape, {i: sign * p for i, p in right.powers.items()}, constant * right.scale**sign)
     if not isinstance(right, Traced):
-        return Traced(left.tape, left.powers, left.scale * float(_constant(right)) ** sign)
+        return Traced(left.tape, left.powers, left.scale * np.float64(_constant(right)) ** sign)
     powers = dict(left.powers)
     for index, power in right.powers.items():
         powers[index] = powers.get(index, 0.0) + sign * power

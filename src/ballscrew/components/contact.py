@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
-from functools import cached_property
 from typing import Annotated
 
-from ballscrew._arrays import namespace
+from ballscrew._arrays import lazy, namespace
 from ballscrew.components.laws import (
     ElasticResistanceLaw,
     FilmLaw,
@@ -46,24 +45,24 @@ class Contact:
     hydrodynamic_rolling_force: Annotated[Force, Info("F_R", "hydrodynamic rolling force")]
     elastic_resistance_moment: Annotated[Torque, Info("M_ER", "elastic resistance moment", "N mm")]
 
-    @cached_property
+    @lazy
     def ellipticity(self) -> Annotated[Ratio, Info(r"\kappa", "ratio of the semi-axes a/b")]:
         """Ratio of the semi-axes a/b."""
         return self.hertz.ellipticity
 
-    @cached_property
+    @lazy
     def semi_minor_axis(
         self,
     ) -> Annotated[Length, Info("b", "semi-axis of the ellipse along the rolling direction", "mm")]:
         """Semi-axis of the contact ellipse along the rolling direction."""
         return hertz.semi_axis(self.hertz.minor, self.rolling_radius, self.load_parameter)
 
-    @cached_property
+    @lazy
     def maximum_pressure(self) -> Annotated[Pressure, Info("p_0", "maximum contact pressure", "GPa")]:
         """Maximum contact pressure."""
         return hertz.maximum_pressure(self.hertz.major, self.hertz.minor, self.equivalent_modulus, self.load_parameter)
 
-    @cached_property
+    @lazy
     def elastic_regime_parameter(self) -> Annotated[Ratio, Info("M", "elastic against rigid lubrication regime")]:
         """Elastic against rigid lubrication regime; infinite at rest."""
         xp = namespace(self.load_parameter, self.speed_parameter)
@@ -94,12 +93,12 @@ class RaceState(Contact):
     tangential_force: Annotated[Force, Info("F_t", "tangential force between ball and race")]
     friction_torque: Annotated[Torque, Info("M", "friction torque of one ball on the race", "N mm")]
 
-    @cached_property
+    @lazy
     def traction_limit(self) -> Annotated[Force, Info(r"\mu_m Q", "greatest sliding force the contact can carry")]:
         """Greatest sliding force the contact can carry."""
         return self.friction_coefficient * self.contact_load
 
-    @cached_property
+    @lazy
     def mutual_approach(
         self,
     ) -> Annotated[Length, Info(r"\delta", "mutual approach of ball and race, exact Hertz", "um")]:

@@ -9,6 +9,7 @@ import tomllib
 from importlib import resources
 from typing import Annotated, Any
 
+from ballscrew._arrays import namespace
 from ballscrew.equations import rheology
 from ballscrew.faults import Fault, InputError, fault_of, faults_of, is_concrete, nearest, raise_if_any
 from ballscrew.quantities import (
@@ -21,12 +22,15 @@ from ballscrew.quantities import (
     Quantity,
     Ratio,
     Viscosity,
+    within_bounds,
 )
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Material:
-    """An elastic material. The default is bearing steel with the paper's equivalent modulus.
+    """An elastic material. The default is bearing steel: E′ = 226 GPa against itself.
+
+    The paper prints no value of its equivalent modulus.
 
     Raises :class:`~ballscrew.faults.InputError` (a ``ValueError``) for a modulus that is not
     positive or a Poisson's ratio outside [0, 0.5).
@@ -112,6 +116,9 @@ class Lubricant:
             )
         else:
             alpha_p = rheology.pressure_viscosity_estimate(nu)
+        # numbers were refused above; of an array, elements out of range become NaN
+        allowed = is_concrete(temperature) or within_bounds(TEMPERATURE.info, temperature)
+        nu = nu if allowed is True else namespace(nu).where(allowed, nu, float("nan"))
         return cls(
             viscosity=_plain(rheology.dynamic_viscosity(nu, oil["density"])),
             pressure_viscosity_coefficient=_plain(alpha_p),

@@ -13,6 +13,8 @@ from ballscrew.faults import Fault, faults_of, is_concrete, raise_if_any, shown
 from ballscrew.quantities import Angle, AngularSpeed, Count, Force, Info, Length, Mask, Pressure, Ratio
 
 STEEL = Material()
+#: The fields of a screw that are materials.
+MATERIALS = ("ball_material", "screw_material", "nut_material")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -80,6 +82,11 @@ class BallScrew:
 
     def __post_init__(self) -> None:
         faults = faults_of("screw", self)
+        faults += [
+            Fault(f"screw.{name}", "must be a Material", repr(material), "give ballscrew.Material(young_modulus=…)")
+            for name, material in zip(MATERIALS, self.materials, strict=True)
+            if not isinstance(material, Material)
+        ]
         raise_if_any(faults)
         raise_if_any(self._misfits())
 
@@ -95,6 +102,11 @@ class BallScrew:
             return [Fault(where, problem, given, remedy, float(self._room_in_the_lead), "m")]
         remedy = "keep it below half the pitch circle diameter, {bound}"
         return [Fault(where, "too big for the pitch circle", given, remedy, self._room_in_the_circle, "m")]
+
+    @property
+    def materials(self) -> tuple[Material, Material, Material]:
+        """The materials of balls, screw and nut."""
+        return self.ball_material, self.screw_material, self.nut_material
 
     @property
     def fits(self) -> Mask:

@@ -80,8 +80,8 @@ def elliptic_integrals(ellipticity: Ratio) -> EllipticIntegrals:
     """
     kappa = ellipticity
     xp = namespace(kappa)
-    m = 1 - kappa ** (-2)
-    a, g = (1 + 1 / kappa) / 2, kappa ** (-0.5)
+    m = 1 - 1 / kappa**2
+    a, g = (1 + 1 / kappa) / 2, 1 / xp.sqrt(kappa)
     # c_n and d_n = c_n/m of the recurrence; c_1 = m d_1 with d_1 regular at kappa = 1
     d = 1 / (2 * (1 + 1 / kappa))
     series, weight = 2 * d**2, 2

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ballscrew.analyses.sweep import DEFAULT_OUTPUTS, inputs_of, outputs, sweep
+from ballscrew.analyses.sweep import DEFAULT_OUTPUTS, inputs_of, known_outputs, sweep
 from ballscrew.faults import Fault, InputError, fault_of, nearest
 from ballscrew.interfaces import units
 from ballscrew.interfaces.config import Case
@@ -71,7 +71,9 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
             for name in ("axial_load", "screw_speed")
         }
     chosen = tuple(wanted) or (("efficiency",) if to is None and len(axes) == 2 else DEFAULT_OUTPUTS)
-    faults += [Fault("--output", "unknown output", n, nearest(n, outputs())) for n in chosen if n not in outputs()]
+    faults += [
+        Fault("--output", "unknown output", n, nearest(n, known_outputs())) for n in chosen if n not in known_outputs()
+    ]
     faults += _file_faults(to)
     size = math.prod(len(values) for values in axes.values())
     if size * len(chosen) > _MOST_VALUES:
@@ -84,7 +86,7 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
         raise InputError(*faults)
     if to is not None:
         check_writable("--to", to)
-    return Plan(axes, chosen, {**known, **{name: outputs()[name].quantity for name in chosen}})
+    return Plan(axes, chosen, {**known, **{name: known_outputs()[name].quantity for name in chosen}})
 
 
 def _file_faults(to: Path | None) -> list[Fault]:
