@@ -104,7 +104,9 @@ def fault_of(section: str, quantity: Quantity, value: Any, given: str = "") -> F
     if isinstance(value, str | bytes | bool) or value is None:
         expected = "a number" if quantity.unit == "1" else f"a number in {quantity.unit}"
         return Fault(where, f"must be {expected}", given, "give a number without quotes")
-    if isinstance(value, list | tuple) or (isinstance(value, np.ndarray) and value.dtype.kind not in "fiu"):
+    complex_number = isinstance(value, numbers.Number) and not isinstance(value, numbers.Real)
+    of_others = isinstance(value, np.ndarray) and value.dtype.kind not in "fiu"
+    if isinstance(value, list | tuple) or complex_number or of_others:
         return Fault(where, "must be a number or an array of numbers", given, "give a float or a numpy.array of floats")
     if not is_concrete(value):
         return None

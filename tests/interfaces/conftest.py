@@ -1,5 +1,6 @@
 """Real commands on real files."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -18,8 +19,16 @@ def example() -> Path:
 def ballscrew(tmp_path):
     """Run the command line in a process of its own, in an empty folder."""
 
-    def command(*arguments: str, cwd: Path = tmp_path) -> subprocess.CompletedProcess[str]:
+    def command(*arguments: str, environment: dict[str, str] | None = None) -> subprocess.CompletedProcess[str]:
         program = [sys.executable, "-m", "ballscrew.interfaces.cli", *map(str, arguments)]
-        return subprocess.run(program, capture_output=True, text=True, cwd=cwd, check=False, encoding="utf-8")
+        return subprocess.run(
+            program,
+            capture_output=True,
+            check=False,
+            cwd=tmp_path,
+            encoding=(environment or {}).get("PYTHONIOENCODING", "utf-8"),
+            errors="replace",
+            env={**os.environ, **(environment or {})},
+        )
 
     return command

@@ -4,6 +4,7 @@ import dataclasses
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import ballscrew as bs
@@ -34,6 +35,12 @@ FAULTS = {
     "unknown law": ('name = "olaru2005"', 'hertz = "exat"', 'model.hertz: unknown law (exat) · did you mean "exact"?'),
     "unknown coefficient": ("friction.boundary_", "friction.bondary_", 'did you mean "boundary_friction_coefficient"?'),
     "kinematic viscosity": ('"0.1 Pa s"', '"100 cSt"', "lubricant.viscosity: wrong unit (100 cSt)"),
+}  # fmt: skip
+
+
+GOOD = {
+    "pitch_circle_diameter": 0.04, "lead": 0.005, "ball_diameter": 3.175e-3, "loaded_balls": 56,
+    "contact_angle": math.pi / 4, "screw_conformity": 0.515, "nut_conformity": 0.515,
 }  # fmt: skip
 
 
@@ -120,10 +127,6 @@ def test_ten_lines_at_most(example, ballscrew):
 
 def test_python_says_the_same():
     """The same faults as ValueError, in the same words but for the unit of the value."""
-    good = {
-        "pitch_circle_diameter": 0.04, "lead": 0.005, "ball_diameter": 3.175e-3, "loaded_balls": 56,
-        "contact_angle": math.pi / 4, "screw_conformity": 0.515, "nut_conformity": 0.515,
-    }  # fmt: skip
     for change, expected in [
         ({"lead": -0.005}, "screw.lead: must be positive (-0.005 m)"),
         ({"lead": 0.0}, "screw.lead: must be positive (0 m)"),
@@ -136,9 +139,9 @@ def test_python_says_the_same():
         ({"loaded_balls": 5.5}, "screw.loaded_balls: must be a whole number (5.5)"),
     ]:
         with pytest.raises(ValueError, match="·") as caught:
-            bs.BallScrew(**{**good, **change})
+            bs.BallScrew(**{**GOOD, **change})
         assert str(caught.value).startswith(expected)
-    screw, oil = bs.BallScrew(**good), bs.Lubricant(viscosity=0.1)
+    screw, oil = bs.BallScrew(**GOOD), bs.Lubricant(viscosity=0.1)
     with pytest.raises(ValueError, match=r"operation\.axial_load: must not be negative \(-1 N\)"):
         bs.FrictionModel.corrected()(screw, oil, axial_load=-1.0, screw_speed=1.0)
     with pytest.raises(ValueError, match=r"model\.ball_to_ball_force: must not be negative"):
@@ -172,8 +175,111 @@ def test_a_full_disk_leaves_the_old_file(tmp_path, example, monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(export, "_write_csv", full)
+    monkeypatch.setattr(export, "write_csv", full)
     with pytest.raises(InputError, match="No space left on device"):
         export.write(export.evaluate(case, plan), plan, target)
     assert target.read_text(encoding="utf-8") == "old"
     assert list(tmp_path.iterdir()) == [target]
+
+
+def test_numbers_too_long_for_a_computer(tmp_path, example, ballscrew):
+    """Overlong numbers, brackets and powers are faults like others, and answered at once."""
+    for old, new in [
+        ("loaded_balls = 56", f"loaded_balls = 1{'0' * 400}"),
+        ("loaded_balls = 56", f"loaded_balls = {'1' * 5000}"),
+        ('"5 mm"', '"5 m**9**9**9"'),
+        ('"5 mm"', f'"5 {"m" * 100_000}"'),
+        ('"5 mm"', f'"1{"0" * 400} mm"'),
+        ('"5 mm"', '"5 mm # five"'),
+        ("[model]", f"[model.{'.'.join('a' * 2000)}]"),
+    ]:
+        path = tmp_path / "case.toml"
+        path.write_text(example.read_text(encoding="utf-8").replace(old, new, 1), encoding="utf-8")
+        with pytest.raises(InputError) as caught:
+            config.load(path)
+        assert len(caught.value.lines()) <= 10
+    single_line_fault(ballscrew("run", example, "--set", f"screw.lead={'[' * 3000}"), "screw.lead")
+    single_line_fault(ballscrew("sweep", example, "--vary", f"axial_load=1:2:{'9' * 5000} N"), "sweep.axial_load")
+    with pytest.raises(InputError, match="must be a finite number"):
+        bs.BallScrew(**{**GOOD, "lead": 10**400})
+
+
+def test_settings_are_never_lost(example, ballscrew):
+    single_line_fault(ballscrew("run", example, "--set", "screw.lead.x=5"), "--set screw.lead.x: is not a table (lead)")
+    single_line_fault(ballscrew("run", example, "--model", ""), "model.name: unknown model")
+    twice = ballscrew("sweep", example, "--vary", "axial_load=1,2 N", "--vary", "axial_load=3,4 N")
+    single_line_fault(twice, "--vary: is given twice (axial_load)")
+    single_line_fault(ballscrew("sweep", example, "--vary", "screw.axial_load=1,2 N"), "unknown field")
+    single_line_fault(ballscrew("sweep", example, "--vary", "loaded_balls=50:60:4"), "must be whole numbers")
+    single_line_fault(ballscrew("sweep", example, "--vary", "axial_load=1:2:2.5 N"), "is not start:stop:count")
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "latin-1"])
+def test_terminals_of_other_encodings(encoding, example, ballscrew):
+    """What a terminal cannot show is written otherwise; the answer is complete."""
+    for arguments in (["run", example], ["run", example, "--json"], ["schema"], ["--help"]):
+        process = ballscrew(*arguments, environment={"PYTHONIOENCODING": encoding, "PYTHONUTF8": "0"})
+        assert process.returncode == 0
+        assert process.stderr == ""
+    assert "friction torque of one ball" in ballscrew("run", example, environment={"PYTHONIOENCODING": encoding}).stdout
+    bad = ballscrew("run", example, "--set", "screw.lead=5", environment={"PYTHONIOENCODING": encoding})
+    assert bad.returncode == 2
+    assert "screw.lead: needs a unit" in bad.stderr
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full, a device that is always full")
+def test_a_full_output_is_one_line(example):
+    import subprocess
+    import sys
+
+    for command in (["run", example], ["run", example, "--json"], ["sweep", example]):
+        with Path("/dev/full").open("w") as full:
+            program = [sys.executable, "-m", "ballscrew.interfaces.cli", *command]
+            process = subprocess.run(program, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+        assert process.returncode == 2
+        assert process.stderr.strip().splitlines()[-1].startswith("stdout: cannot be written")
+        assert "Traceback" not in process.stderr
+
+
+@pytest.mark.parametrize("suffix", ["nc", "xlsx", "csv"])
+def test_a_really_full_disk(suffix, tmp_path, example):
+    """A limit on the size of files stands for the disk: one line, no crash in a library, nothing left."""
+    import resource
+    import subprocess
+    import sys
+
+    target = tmp_path / f"map.{suffix}"
+    target.write_text("old", encoding="utf-8")
+    program = [sys.executable, "-m", "ballscrew.interfaces.cli", "sweep", example, "--to", target]
+    program += ["--vary", "axial_load=1:4000:3000 N", "--vary", "screw_speed=1, 2 rpm", "--output", "screw_torque"]
+    process = subprocess.run(
+        [str(word) for word in program],
+        capture_output=True,
+        text=True,
+        check=False,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, 10_000)),
+    )
+    single_line_fault(process, "--to: cannot be written")
+    assert target.read_text(encoding="utf-8") == "old"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def test_worksheets_have_an_end(tmp_path, example, ballscrew):
+    axes = ["--vary", "axial_load=1,2 N", "--vary", "screw_speed=0:1000:20000 rpm", "--output", "efficiency"]
+    single_line_fault(ballscrew("sweep", example, *axes, "--to", tmp_path / "wide.xlsx"), "too large for a worksheet")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_python_refuses_what_is_no_number():
+    oil = {"viscosity": 0.1}
+    for change in ({"viscosity": [0.05, 0.1]}, {"viscosity": np.array(["0.1"])}, {"viscosity": np.array(0.1j)}):
+        with pytest.raises(ValueError, match=r"lubricant\.viscosity: must be a number"):
+            bs.Lubricant(**{**oil, **change})
+    with pytest.raises(ValueError, match=r"lubricant\.viscosity: must be positive"):
+        bs.Lubricant(viscosity=np.array(-0.1))
+    with pytest.raises(ValueError, match=r"screw\.ball_material: must be a Material"):
+        bs.BallScrew(**{**GOOD, "ball_material": None})
+    screw = bs.BallScrew(**GOOD)
+    for load in ("4 kN", 1j, np.array(["4"]), None):
+        with pytest.raises(ValueError, match=r"operation\.axial_load: must be a number"):
+            bs.FrictionModel.corrected()(screw, bs.Lubricant(**oil), axial_load=load, screw_speed=1.0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import Annotated
+from typing import Annotated, Any, cast
 
 from ballscrew._arrays import namespace
 from ballscrew.components.materials import Material
@@ -84,7 +84,7 @@ class BallScrew:
         faults = faults_of("screw", self)
         faults += [
             Fault(f"screw.{name}", "must be a Material", repr(material), "give ballscrew.Material(young_modulus=…)")
-            for name, material in zip(MATERIALS, self.materials, strict=True)
+            for name, material in zip(MATERIALS, cast("tuple[Any, ...]", self.materials), strict=True)
             if not isinstance(material, Material)
         ]
         raise_if_any(faults)

@@ -6,10 +6,12 @@ Scientific packages are imported inside the commands, so that ``ballscrew --help
 from __future__ import annotations
 
 import contextlib
+import io
+import os
 import sys
 from collections.abc import Callable, Generator
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, NoReturn
 
 import typer
 
@@ -87,10 +89,12 @@ def sweep(
     with _progress("sweep") as progress:
         dataset = export.evaluate(loaded, plan, progress)
     if to is None:
-        typer.echo(export.csv_text(dataset, plan), nl=False)
+        export.write_csv(sys.stdout, dataset, plan)
     else:
         export.write(dataset, plan, to)
         typer.echo(f"{to}: {export.size_in_words(dataset)}")
+    if beware := export.warning(dataset):
+        typer.echo(beware, err=True)
 
 
 @app.command()
@@ -169,20 +173,28 @@ def _step(what: str, done: int, total: int) -> None:
 
 def main() -> None:
     """Run a command; bad input ends with one line a fault and exit code 2, never with a traceback."""
-    from ballscrew.faults import InputError
+    from ballscrew.faults import Fault, InputError
 
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # a terminal that has no "·" still gets an answer
+            stream.reconfigure(errors="backslashreplace")
     try:
-        app()
+        try:
+            app()
+        finally:
+            sys.stdout.flush()
     except InputError as error:
-        for line in error.lines():
-            typer.echo(line, err=True)
-        sys.exit(2)
-    except KeyboardInterrupt:
-        typer.echo("stopped; nothing half-written is left behind", err=True)
-        sys.exit(130)
-    except BrokenPipeError:
-        sys.stderr.close()  # the reader of our output has gone: say nothing, and let Python not say it either
-        sys.exit(141)
+        _refuse(error)
+    except OSError as error:
+        # nobody can read what we say on a full or closed output; keep Python from trying again at exit
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _refuse(InputError(Fault("stdout", "cannot be written", error.strerror or str(error), "choose another place")))
+
+
+def _refuse(error: Any) -> NoReturn:
+    for line in error.lines():
+        typer.echo(line, err=True)
+    sys.exit(2)
 
 
 if __name__ == "__main__":

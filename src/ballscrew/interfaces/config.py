@@ -13,11 +13,12 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew.components.materials import Lubricant, Material
-from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.components.screw import MATERIALS, BallScrew, Operation
 from ballscrew.faults import Fault, InputError, nearest
-from ballscrew.interfaces.schema import COEFFICIENT_LAWS, DEFAULT_MODEL, LAWS, MATERIALS, MODELS, fields_of, validated
+from ballscrew.interfaces.schema import COEFFICIENT_LAWS, DEFAULT_MODEL, LAWS, MODELS, validated
 from ballscrew.interfaces.units import in_people_units
 from ballscrew.model import FrictionModel
+from ballscrew.quantities import fields_of
 
 _NEEDED = ("screw", "lubricant", "operation")
 _SECTIONS = (*_NEEDED, "model", "sweep")
@@ -51,19 +52,21 @@ def read(path: Path) -> dict[str, Any]:
         problem = "does not exist" if isinstance(error, FileNotFoundError) else "cannot be read"
         reason = "" if isinstance(error, FileNotFoundError) else getattr(error, "strerror", str(error))
         raise InputError(Fault(where, problem, reason, "give the path of a case file")) from None
-    if not text.strip():
-        raise InputError(Fault(where, "is empty", "", _START))
     try:
-        return tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        tables = tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
         raise InputError(Fault(where, "is not TOML", str(error), _START)) from None
+    if not tables:
+        raise InputError(Fault(where, "is empty", "", _START))
+    return tables
 
 
 def override(tables: dict[str, Any], settings: Sequence[str]) -> dict[str, Any]:
     """Tables with ``section.field=value`` settings put in; a value is TOML, or else text."""
     faults: list[Fault] = []
     for setting in settings:
-        path, equals, text = setting.partition("=")
+        # bytes of the command line that are no text come as surrogates
+        path, equals, text = setting.encode("utf-8", "replace").decode().partition("=")
         *parents, field = path.strip().split(".")
         if not equals or not parents or not all([*parents, field]):
             faults.append(Fault("--set", "is not section.field=value", setting, 'write operation.axial_load="4 kN"'))
@@ -71,7 +74,8 @@ def override(tables: dict[str, Any], settings: Sequence[str]) -> dict[str, Any]:
         table = tables
         for parent in parents:
             inner = table.setdefault(parent, {})
-            if not isinstance(inner, dict):  # the file has a value where a table is needed: let validation say so
+            if not isinstance(inner, dict):
+                faults.append(Fault(f"--set {path}", "is not a table", parent, f"set {parent} itself"))
                 break
             table = inner
         else:
@@ -85,7 +89,7 @@ def _literal(text: str) -> Any:
     """A value from the command line, where quotes are often eaten by the shell."""
     try:
         return tomllib.loads(f"value = {text}")["value"]
-    except tomllib.TOMLDecodeError:
+    except (ValueError, RecursionError):
         return text
 
 
@@ -137,7 +141,7 @@ def _lubricant(table: Any, faults: list[Fault]) -> Lubricant | None:
         if "grade" not in table and "temperature" in table:
             given = str(table["temperature"])
             faults.append(Fault("lubricant.temperature", "needs a grade", given, 'add grade = "ISO VG 100"'))
-        if "grade" not in table and "viscosity" not in table:
+        if "grade" not in table and "viscosity" not in table and "temperature" not in table:
             remedy = 'add viscosity = "… mPa s", or grade = "ISO VG 100" and a temperature'
             faults.append(Fault("lubricant.viscosity", "missing", "", remedy))
     if len(faults) > before:
@@ -145,7 +149,8 @@ def _lubricant(table: Any, faults: list[Fault]) -> Lubricant | None:
     if "grade" not in values:
         return Lubricant(**values)
     try:
-        oil = Lubricant.from_grade(values.pop("grade"), values.pop("temperature", 313.15))
+        at = {"temperature": values.pop("temperature")} if "temperature" in values else {}
+        oil = Lubricant.from_grade(values.pop("grade"), **at)
     except InputError as error:
         faults += error.faults
         return None
@@ -162,8 +167,9 @@ def _model(table: Any, chosen: str | None, faults: list[Fault]) -> FrictionModel
     """A preset with the fields of the table put in; ``chosen`` on the command line wins over its name."""
     before = len(faults)
     values = validated("model", table, faults)
-    name = str(chosen or (table.get("name", DEFAULT_MODEL) if isinstance(table, dict) else DEFAULT_MODEL))
-    if name not in MODELS:
+    named = table.get("name", DEFAULT_MODEL) if isinstance(table, dict) else DEFAULT_MODEL
+    name = named if chosen is None else chosen
+    if isinstance(name, str) and name not in MODELS:
         faults.append(Fault("model.name", "unknown model", name, nearest(name, MODELS)))
     if len(faults) > before:
         return None

@@ -10,25 +10,27 @@ import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 import xarray as xr
 
-from ballscrew.analyses.sweep import DEFAULT_OUTPUTS, inputs_of, known_outputs, sweep
+from ballscrew.analyses.sweep import DEFAULT_OUTPUTS, OPERATION, inputs_of, known_outputs, sweep
 from ballscrew.faults import Fault, InputError, fault_of, nearest
 from ballscrew.interfaces import units
 from ballscrew.interfaces.config import Case
 from ballscrew.interfaces.files import check_writable, whole
 from ballscrew.quantities import Quantity
 
-_RANGE = re.compile(r"\s*(?P<start>[^:]+):(?P<stop>[^:]+):\s*(?P<count>\d+)\s*(?P<unit>\D.*)?")
+_RANGE = re.compile(r"(?P<start>[^:]+):(?P<stop>[^:]+):\s*(?P<count>\d{1,9})\s*(?P<unit>1\s*/.*|[^\d\s.].*)?")
 #: "operation.axial_load" and "axial_load" are the same axis.
-_SECTION = re.compile(r"^(operation|screw|lubricant|model)\.")
+_SECTION = re.compile(r"(?:(?P<section>operation|screw|lubricant|model)\.)?(?P<name>.*)", re.DOTALL)
 #: What each kind of file needs beyond the core, and what to install for it.
 _NEEDS = {".csv": (), ".xlsx": ("xlsxwriter",), ".nc": ("h5netcdf", "h5py")}
 #: A worksheet ends here; larger sweeps belong into NetCDF.
-_XLSX_ROWS = 1_048_575
+_XLSX_ROWS = 1_048_576
+_XLSX_COLUMNS = 16_384
+_LONGEST_AXIS = 10_000_000
 #: Above this, a sweep in memory is refused.
 _MOST_VALUES = 200_000_000
 
@@ -50,86 +52,122 @@ class Plan:
 def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None) -> Plan:
     """What to sweep. Raises :class:`~ballscrew.faults.InputError` before anything is computed."""
     faults: list[Fault] = []
-    texts = dict(case.sweep) if not vary else {}
-    for axis in vary:
-        name, equals, text = axis.partition("=")
-        if not equals:
-            faults.append(Fault("--vary", "is not field=values", axis, 'write axial_load="100:4000:14 N"'))
-        texts[_SECTION.sub("", name.strip())] = text
-    known = {name: quantity for name, (_, quantity) in inputs_of(case.model, case.screw, case.lubricant).items()}
+    known = inputs_of(case.model, case.screw, case.lubricant)
     axes: dict[str, np.ndarray] = {}
-    for name, text in texts.items():
-        if name not in known:
-            faults.append(Fault(f"sweep.{name}", "unknown field", "", nearest(name, known)))
+    for written, text in _texts(vary, faults).items() if vary else case.sweep.items():
+        section, name = _SECTION.fullmatch(written).group("section", "name")  # type: ignore[union-attr]
+        if name not in known or section not in (None, known[name][0]):
+            faults.append(Fault(f"sweep.{written}", "unknown field", "", nearest(name, known)))
+            continue
+        values = _axis(f"sweep.{name}", text, known[name][1])
+        if isinstance(values, Fault):
+            faults.append(values)
         else:
-            values = _axis(f"sweep.{name}", text, known[name])
-            faults += values if isinstance(values, list) else []
-            axes |= {} if isinstance(values, list) else {name: values}
-    if not texts:
-        axes = {
-            name: np.linspace(0.1, 1.0, 10) * (getattr(case.operation, name) or 1.0)
-            for name in ("axial_load", "screw_speed")
-        }
-    chosen = tuple(wanted) or (("efficiency",) if to is None and len(axes) == 2 else DEFAULT_OUTPUTS)
+            axes[name] = values
+    if not vary and not case.sweep:
+        axes = {name: np.linspace(0.1, 1.0, 10) * (getattr(case.operation, name) or 1.0) for name in OPERATION}
+    chosen = tuple(name.replace(".", "_") for name in wanted)
+    chosen = chosen or (("efficiency",) if to is None and len(axes) == 2 else DEFAULT_OUTPUTS)
+    possible = known_outputs()
+    faults += [Fault("--output", "unknown output", n, nearest(n, possible)) for n in chosen if n not in possible]
     faults += [
-        Fault("--output", "unknown output", n, nearest(n, known_outputs())) for n in chosen if n not in known_outputs()
+        Fault("--output", "is what is varied", n, "leave it out: it is a column anyway") for n in chosen if n in axes
     ]
-    faults += _file_faults(to)
     size = math.prod(len(values) for values in axes.values())
     if size * len(chosen) > _MOST_VALUES:
-        faults.append(
-            Fault("sweep", "too many values", f"{size:,} points", "take fewer values an axis, or fewer outputs")
-        )
-    if to is not None and to.suffix == ".xlsx" and size > _XLSX_ROWS:
-        faults.append(Fault("--to", "too many rows for a worksheet", f"{size:,}", "write .nc or .csv"))
+        remedy = "take fewer values an axis, or fewer outputs"
+        faults.append(Fault("sweep", "too many values", f"{size:,} points", remedy))
+    faults += _file_faults(to, [len(values) for values in axes.values()])
     if faults:
         raise InputError(*faults)
     if to is not None:
         check_writable("--to", to)
-    return Plan(axes, chosen, {**known, **{name: known_outputs()[name].quantity for name in chosen}})
+    quantities = {name: quantity for name, (_, quantity) in known.items()}
+    return Plan(axes, chosen, quantities | {name: possible[name].quantity for name in (*chosen, "valid")})
 
 
-def _file_faults(to: Path | None) -> list[Fault]:
+def _texts(vary: Sequence[str], faults: list[Fault]) -> dict[str, str]:
+    """The ``field=values`` of the command line."""
+    texts: dict[str, str] = {}
+    for axis in vary:
+        name, equals, text = (part.strip() for part in axis.partition("="))
+        if not equals:
+            faults.append(Fault("--vary", "is not field=values", axis, 'write axial_load="100:4000:14 N"'))
+        elif name in texts:
+            faults.append(Fault("--vary", "is given twice", name, "give each field once"))
+        else:
+            texts[name] = text
+    return texts
+
+
+def _file_faults(to: Path | None, lengths: Sequence[int]) -> list[Fault]:
+    """What is wrong with a file before a byte of it is written."""
     if to is None:
         return []
-    if to.suffix not in _NEEDS:
+    kind = to.suffix.lower()
+    if kind not in _NEEDS:
         return [Fault("--to", "unknown kind of file", str(to), "end it in .csv, .xlsx or .nc")]
-    missing = [name for name in _NEEDS[to.suffix] if importlib.util.find_spec(name) is None]
-    return [Fault("--to", f"needs {name}", str(to), 'pip install "ballscrew[data]"') for name in missing]
+    missing = [name for name in _NEEDS[kind] if importlib.util.find_spec(name) is None]
+    if missing:
+        return [Fault("--to", f"needs {' and '.join(missing)}", str(to), 'pip install "ballscrew[data]"')]
+    too_wide = len(lengths) == 2 and lengths[1] >= _XLSX_COLUMNS
+    if kind == ".xlsx" and (math.prod(lengths) >= _XLSX_ROWS or too_wide):
+        return [Fault("--to", "too large for a worksheet", " x ".join(map(str, lengths)), "write .nc or .csv")]
+    return []
 
 
-def _axis(where: str, text: str, quantity: Quantity) -> np.ndarray | list[Fault]:
-    """``"100:4000:14 N"`` (start:stop:count) or ``"100, 200, 500 N"`` in SI, or the faults in it."""
+def _axis(where: str, text: str, quantity: Quantity) -> np.ndarray | Fault:
+    """``"100:4000:14 N"`` (start:stop:count) or ``"100, 200, 500 N"`` in SI, or the first fault in it."""
     text = text.strip().strip("\"'")
     span = _RANGE.fullmatch(text)
-    *firsts, last = [span["start"], f"{span['stop']} {span['unit'] or ''}"] if span else text.split(",")
-    tail = units.parse(where, last.strip(), quantity)
-    unit = re.sub(r"^[-+\d.eE\s]+(?=\D|$)", "", last.strip()) if quantity.unit != "1" else ""
-    values = [*(units.parse(where, _with_unit(first, unit), quantity) for first in firsts), tail]
-    numbers = [value for value in values if not isinstance(value, Fault)]
-    faults = [value for value in values if isinstance(value, Fault)]
-    for number in numbers:
-        fault = fault_of("sweep", quantity, number)
-        faults += [] if fault is None else [units.in_people_units(fault, quantity, text)]
-    if span and not 1 <= int(span["count"]) <= 10_000_000:
-        faults.append(Fault(where, "bad number of values", span["count"], "start:stop:count, count at least 1"))
-    if faults:
-        return faults[:1]
-    return np.linspace(numbers[0], numbers[1], int(span["count"])) if span else np.array(numbers)
+    if span is None and ":" in text:
+        return Fault(
+            where, "is not start:stop:count", text, f'write "1:10:4{_blank_unit(quantity)}", count a whole number'
+        )
+    if span:
+        items, unit = [span["start"], span["stop"]], span["unit"] or ""
+    else:
+        items = text.split(",")
+        unit = units.unit_in(items[-1])
+    # the unit after the last value counts for all; one may still carry its own
+    values = [units.parse(where, item if units.unit_in(item) else f"{item} {unit}".strip(), quantity) for item in items]
+    for value in values:
+        fault = value if isinstance(value, Fault) else fault_of("sweep", quantity, value)
+        if fault is not None:
+            return units.in_people_units(fault, quantity, fault.given if fault is value else text)
+    ends = [value for value in values if not isinstance(value, Fault)]
+    if span is None:
+        return np.array(ends)
+    if not 1 <= int(span["count"]) <= _LONGEST_AXIS:
+        return Fault(
+            where, "bad number of values", span["count"], f"start:stop:count, count from 1 to {_LONGEST_AXIS:,}"
+        )
+    numbers = np.linspace(ends[0], ends[1], int(span["count"]))
+    if quantity.info.whole and np.any(numbers % 1):
+        return Fault(where, "must be whole numbers", text, "choose a count that gives whole steps, or list them")
+    return numbers
 
 
-def _with_unit(text: str, unit: str) -> str:
-    """The unit after the last value counts for all; one may still carry its own."""
-    text = text.strip()
-    return text if re.search(r"[^\d.eE+\-\s]", text) else f"{text} {unit}"
+def _blank_unit(quantity: Quantity) -> str:
+    return "" if quantity.unit == "1" else f" {quantity.shown_in}"
 
 
 def evaluate(case: Case, plan: Plan, done: Callable[[int, int], None] | None = None) -> xr.Dataset:
-    """The dataset of a plan; load and speed are those of the case where they are not varied."""
-    fixed = {name: getattr(case.operation, name) for name in ("axial_load", "screw_speed") if name not in plan.axes}
-    return sweep(
-        case.model, case.screw, case.lubricant, outputs=plan.outputs, done=done, **plan.axes, **fixed
-    )  # fmt: skip
+    """The dataset of a plan; load and speed are those of the case where they are not varied.
+
+    It also says which points are valid, whether that was asked for or not.
+    """
+    fixed = {name: getattr(case.operation, name) for name in OPERATION if name not in plan.axes}
+    names = dict.fromkeys((*plan.outputs, "valid"))
+    return sweep(case.model, case.screw, case.lubricant, outputs=tuple(names), done=done, **plan.axes, **fixed)
+
+
+def warning(dataset: xr.Dataset) -> str:
+    """How many points lie outside the model's validity, in words; nothing if none does."""
+    outside, size = int((~dataset["valid"]).sum()), dataset["valid"].size
+    return (
+        f"beware: {outside} of {size} points lie outside the model's validity (see --output valid)" if outside else ""
+    )
 
 
 def size_in_words(dataset: xr.Dataset) -> str:
@@ -138,29 +176,27 @@ def size_in_words(dataset: xr.Dataset) -> str:
     return f"{points} points, {len(dataset.data_vars)} outputs"
 
 
-def csv_text(dataset: xr.Dataset, plan: Plan) -> str:
-    """The rows as CSV text."""
-    buffer = io.StringIO()
-    _write_csv(buffer, dataset, plan)
-    return buffer.getvalue()
+def write_csv(stream: IO[str], dataset: xr.Dataset, plan: Plan) -> None:
+    """The rows as CSV, one after the other."""
+    rows = table(dataset, plan, plan.outputs[0]) if plan.is_table else _rows(dataset, plan)
+    csv.writer(stream, lineterminator="\n").writerows(rows)
 
 
 def write(dataset: xr.Dataset, plan: Plan, to: Path) -> None:
-    """Write .csv, .xlsx or .nc, whole or not at all."""
+    """Write .csv, .xlsx or .nc, whole or not at all.
+
+    What other libraries write is made in memory first: on a full disk they end worse than in an
+    ``OSError``.
+    """
     with whole("--to", to) as path:
-        if to.suffix == ".nc":
-            dataset.to_netcdf(path, engine="h5netcdf")
-        elif to.suffix == ".xlsx":
-            _write_xlsx(path, dataset, plan)
-        else:
-            with path.open("w", encoding="utf-8", newline="") as stream:
-                _write_csv(stream, dataset, plan)
-
-
-def _write_csv(stream: Any, dataset: xr.Dataset, plan: Plan) -> None:
-    writer = csv.writer(stream, lineterminator="\n")
-    rows = table(dataset, plan, plan.outputs[0]) if plan.is_table else _rows(dataset, plan)
-    writer.writerows(rows)
+        match to.suffix.lower():
+            case ".nc":
+                path.write_bytes(dataset.to_netcdf(engine="h5netcdf"))
+            case ".xlsx":
+                path.write_bytes(_xlsx(dataset, plan))
+            case _:
+                with path.open("w", encoding="utf-8", newline="") as stream:
+                    write_csv(stream, dataset, plan)
 
 
 def table(dataset: xr.Dataset, plan: Plan, name: str) -> Iterator[list[Any]]:
@@ -202,11 +238,12 @@ def _shown(array: xr.DataArray, plan: Plan, name: str, like: xr.Dataset | None =
         return np.where(np.isfinite(values), np.round(values * scale) / scale, values)
 
 
-def _write_xlsx(path: Path, dataset: xr.Dataset, plan: Plan) -> None:
+def _xlsx(dataset: xr.Dataset, plan: Plan) -> bytes:
     """One sheet a table where there are two axes, and one sheet with a row a point."""
     import xlsxwriter
 
-    workbook = xlsxwriter.Workbook(str(path), {"in_memory": True, "nan_inf_to_errors": True})
+    buffer = io.BytesIO()
+    workbook = xlsxwriter.Workbook(buffer, {"in_memory": True, "nan_inf_to_errors": True})
     bold = workbook.add_format({"bold": True})
     sheets: dict[str, Iterator[list[Any]]] = {}
     if len(plan.axes) == 2:
@@ -219,3 +256,4 @@ def _write_xlsx(path: Path, dataset: xr.Dataset, plan: Plan) -> None:
             sheet.write_row(number, 0, row, bold if number == 0 else None)
         sheet.autofit()
     workbook.close()
+    return buffer.getvalue()

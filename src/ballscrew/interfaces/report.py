@@ -13,8 +13,9 @@ from rich.table import Table
 
 from ballscrew import __version__
 from ballscrew.components.contact import RaceState
+from ballscrew.components.screw import Operation
 from ballscrew.interfaces import config, units
-from ballscrew.quantities import Quantity, quantities_of
+from ballscrew.quantities import fields_of, quantities_of
 from ballscrew.references import citations_of
 from ballscrew.result import MECHANISMS, FrictionResult
 
@@ -29,12 +30,13 @@ SHOWN_OF_CONTACT = (
     "curvature_friction_moment", "elastic_resistance_moment", "friction_torque",
 )  # fmt: skip
 _BAR_WIDTH = 24
+#: What is varied, not computed.
+_OPERATION = fields_of(Operation)
 
 
 def results(result: FrictionResult) -> dict[str, Any]:
     """All results at one point in SI, as plain numbers and nested tables."""
-    inputs = {"axial_load", "screw_speed"}
-    found: dict[str, Any] = {n: getattr(result, n) for n in quantities_of(FrictionResult) if n not in inputs}
+    found: dict[str, Any] = {n: getattr(result, n) for n in quantities_of(FrictionResult) if n not in _OPERATION}
     found["valid"] = bool(found["valid"])
     found["contributions"] = dict(result.contributions)
     found["validity"] = {reason: bool(mask) for reason, mask in result.validity.items()}
@@ -47,11 +49,9 @@ def results(result: FrictionResult) -> dict[str, Any]:
 def result_units() -> dict[str, Any]:
     """The units of :func:`results`, in the same places."""
     side = {name: q.unit for name, q in quantities_of(RaceState).items()}
-    own = {
-        name: q.unit for name, q in quantities_of(FrictionResult).items() if name not in ("axial_load", "screw_speed")
-    }
+    own = {name: q.unit for name, q in quantities_of(FrictionResult).items() if name not in _OPERATION}
     own.pop("valid")
-    return {**own, "contributions": dict.fromkeys(MECHANISMS, "N m"), "screw": side, "nut": side}
+    return {**own, "contributions": dict.fromkeys(MECHANISMS, own["screw_torque"]), "screw": side, "nut": side}
 
 
 def json_text(case: config.Case, result: FrictionResult) -> str:
@@ -61,7 +61,7 @@ def json_text(case: config.Case, result: FrictionResult) -> str:
         "results": results(result),
         "units": result_units(),
         "warnings": result.warnings,
-        "provenance": {"version": __version__, "model": case.model.name, "references": citations_of(case.model)},
+        "provenance": {"version": __version__, "model": case.model.label, "references": citations_of(case.model)},
     }
     return json.dumps(_plain(document), indent=2, ensure_ascii=False, allow_nan=False)
 
@@ -87,12 +87,12 @@ def print_result(case: config.Case, result: FrictionResult) -> None:
     operation = quantities_of(FrictionResult)
     load = units.shown(result.axial_load, operation["axial_load"])
     speed = units.shown(result.screw_speed, operation["screw_speed"])
-    console.print(f"[bold]{load}, {speed}[/bold], model [bold]{case.model.name}[/bold]\n")
+    console.print(f"[bold]{load}, {speed}[/bold], model [bold]{case.model.label}[/bold]\n")
     console.print(_quantities(result))
-    console.print(_parts(result))
+    console.print(_parts(result, "█" if "utf" in console.encoding.lower() else "#"))
     console.print(_contacts(result))
     for warning in result.warnings:
-        console.print(f"beware  {warning}", style="yellow", markup=False)
+        console.print(f"beware  {warning}", style="yellow", markup=False, soft_wrap=True)
 
 
 def _table(title: str, *columns: str) -> Table:
@@ -109,11 +109,12 @@ def _quantities(result: FrictionResult) -> Table:
     for name in SHOWN:
         value = getattr(result, name)
         locked = name == "back_driving_efficiency" and value <= 0
-        table.add_row(known[name].info.meaning, *_cells(value, known[name]), "self-locking" if locked else "")
+        note = "self-locking" if locked else ""
+        table.add_row(known[name].info.meaning, units.shown(value, known[name]), note)
     return table
 
 
-def _parts(result: FrictionResult) -> Table:
+def _parts(result: FrictionResult, block: str) -> Table:
     """The parts of the torque as bars, so that the eye sees what matters."""
     quantity = quantities_of(FrictionResult)["screw_torque"]
     table = _table("\nWhere the friction torque on the screw comes from", "", "", "", "")
@@ -122,7 +123,7 @@ def _parts(result: FrictionResult) -> Table:
     for mechanism, words in MECHANISMS.items():
         part = float(result.contributions[mechanism])
         share = part / total if total else 0.0
-        bar = "█" * round(_BAR_WIDTH * max(0.0, min(share, 1.0)))
+        bar = block * round(_BAR_WIDTH * max(0.0, min(share, 1.0)))
         table.add_row(words, units.shown(part, quantity), f"{share:.1%}", bar)
     return table
 
@@ -134,7 +135,3 @@ def _contacts(result: FrictionResult) -> Table:
         cells = [units.shown(getattr(side, name), known[name]) for side in (result.screw, result.nut)]
         table.add_row(known[name].info.meaning, *cells)
     return table
-
-
-def _cells(value: Any, quantity: Quantity) -> tuple[str]:
-    return (units.shown(value, quantity),)

@@ -116,7 +116,8 @@ def _write(folder: _Folder, report: Report) -> None:
         report(what, done, total)
 
     data = paper.curves()
-    data.to_netcdf(folder.path / "data.nc", engine="h5netcdf")
+    # in memory first: on a full disk HDF5 ends worse than in an OSError
+    (folder.path / "data.nc").write_bytes(data.to_netcdf(engine="h5netcdf"))
     step("curves of the figures")
     found, checks = paper.claims(), paper.closure_checks()
     step("claims of the paper")

@@ -9,6 +9,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import re
+import reprlib
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
@@ -17,18 +18,14 @@ from pydantic_core import PydanticCustomError
 
 from ballscrew.components import frame, laws
 from ballscrew.components.materials import TEMPERATURE, Lubricant, Material, grades
-from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.components.screw import MATERIALS, BallScrew, Operation
 from ballscrew.equations import film
 from ballscrew.faults import Fault, fault_of, nearest
 from ballscrew.interfaces import units
-from ballscrew.model import FrictionModel
-from ballscrew.quantities import Quantity, quantities_of
+from ballscrew.model import FrictionModel, presets
+from ballscrew.quantities import Quantity, fields_of
 
-MODELS: Mapping[str, FrictionModel] = {
-    "olaru2005": FrictionModel.olaru2005(),
-    "olaru2005-literal": FrictionModel.olaru2005(literal_film_parameter=True),
-    "corrected": FrictionModel.corrected(),
-}
+MODELS = presets()
 DEFAULT_MODEL = "corrected"
 
 #: Laws without coefficients, by slot of the model and name.
@@ -42,17 +39,9 @@ LAWS: Mapping[str, Mapping[str, Any]] = {
 }
 #: Laws with coefficients, by slot.
 COEFFICIENT_LAWS: Mapping[str, type] = {"film": laws.HamrockDowson, "friction": laws.ZhouHoeprich}
-#: Materials are tables inside the screw's.
-MATERIALS = ("ball_material", "screw_material", "nut_material")
 
 
 _MEANT = re.compile(r'did you mean "(\w+)"')
-
-
-def fields_of(cls: type) -> dict[str, Quantity]:
-    """The quantities of a part that are fields, by name."""
-    names = {field.name for field in dataclasses.fields(cls)}
-    return {name: quantity for name, quantity in quantities_of(cls).items() if name in names}
 
 
 def _si(raw: object, quantity: Quantity) -> float:
@@ -175,7 +164,7 @@ def _fault(section: str, model: type[BaseModel], problem: dict[str, Any]) -> Fau
     """A fault in our words from an error in pydantic's."""
     path = [str(part) for part in problem["loc"]]
     where = ".".join([section, *path])
-    given = str(problem["input"])
+    given = problem["input"] if isinstance(problem["input"], str) else reprlib.repr(problem["input"])
     match problem["type"]:
         case "fault":
             return Fault(where, problem["ctx"]["problem"], problem["ctx"]["given"], problem["ctx"]["remedy"])

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import functools
-import math
 import re
+import reprlib
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
-from ballscrew.faults import Fault, nearest
+from ballscrew.faults import Fault, as_float, nearest
 from ballscrew.quantities import Quantity
 
 if TYPE_CHECKING:
@@ -18,6 +18,12 @@ _VALUE = re.compile(
     r"\s*(?P<number>[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|nan|inf(?:inity)?))\s*(?P<unit>1\s*/.*?|[^\d\s.,].*?)?\s*",
     re.IGNORECASE,
 )
+# a product or quotient of named units with small powers, and nothing else: pint would also work out
+# "m**9**9**9", and takes its time
+_FACTOR = r"(?:[A-Za-zµμ°]+(?:(?:\^|\*\*)?[-+]?\d|[²³]|⁻[¹²³])?)"
+_PRODUCT = rf"{_FACTOR}(?:(?:\s*[*·/]\s*|\s+){_FACTOR}){{0,4}}"
+_UNIT = re.compile(rf"(?:1\s*/\s*)?{_PRODUCT}(?:\s*/\s*\({_PRODUCT}\))?")
+_LONGEST_UNIT = 40
 #: Writings that pint's parser does not know, and what stands for them.
 _SPELLINGS = {
     "µ": "u",
@@ -97,27 +103,31 @@ def parse(where: str, raw: object, quantity: Quantity) -> float | Fault:
     A dimensional value is text with its unit; a bare number there is refused, and so is a unit on a
     plain number.
     """
-    given = raw if isinstance(raw, str) else str(raw).lower() if isinstance(raw, bool) else f"{raw}"
+    given = raw if isinstance(raw, str) else str(raw).lower() if isinstance(raw, bool) else reprlib.repr(raw)
     if isinstance(raw, bool) or not isinstance(raw, int | float | str):
         return Fault(
             where, "must be a number" + ("" if quantity.unit == "1" else " with a unit"), given, _fix(quantity)
         )
     if not isinstance(raw, str):
         if quantity.unit == "1":
-            return float(raw)
-        if not math.isfinite(raw):
-            return Fault(where, "must be a finite number", given, _fix(quantity))
+            return as_float(raw)
         return Fault(where, "needs a unit", given, f"write {example_of(quantity, given)}")
     match = _VALUE.fullmatch(raw)
     if match is None:
         problem = "is not a number" if quantity.unit == "1" else "is not a number with a unit"
         return Fault(where, problem, given, "write a decimal point" if "," in given else _fix(quantity))
-    number, unit = float(match["number"]), match["unit"] or ""
+    number, unit = as_float(match["number"]), match["unit"] or ""
     if quantity.unit == "1":
         return number if not unit else Fault(where, "takes no unit", given, f"write {match['number']}")
     if not unit:
         return Fault(where, "needs a unit", given, f"write {example_of(quantity, match['number'])}")
     return _converted(where, number, unit, quantity, given)
+
+
+def unit_in(text: str) -> str:
+    """The unit at the end of a value, or nothing."""
+    match = _VALUE.fullmatch(text)
+    return (match["unit"] or "") if match else ""
 
 
 def _fix(quantity: Quantity) -> str:
@@ -128,6 +138,8 @@ def _converted(where: str, number: float, unit: str, quantity: Quantity, given: 
     import pint
 
     try:
+        if len(unit) > _LONGEST_UNIT or not _UNIT.fullmatch(unit):
+            raise pint.UndefinedUnitError(unit)
         return to_si(number, unit, quantity)
     except pint.DimensionalityError:
         remedy = f"use a unit such as {quantity.shown_in}"
@@ -137,6 +149,8 @@ def _converted(where: str, number: float, unit: str, quantity: Quantity, given: 
             remedy += " (rpm, not 1/min)"
         return Fault(where, "wrong unit", given, remedy)
     except Exception:  # pint and Python's tokenizer raise many kinds for text that is no unit
-        guess = nearest(unit, [quantity.shown_in, quantity.unit, *(n for n in dir(registry()) if n.isalpha())])
+        guess = nearest(
+            unit[:_LONGEST_UNIT], [quantity.shown_in, quantity.unit, *(n for n in dir(registry()) if n.isalpha())]
+        )
         advice = f"use a unit such as {quantity.shown_in}"
         return Fault(where, "unknown unit", given, f"{guess} · {advice}" if guess.startswith("did") else advice)
