@@ -135,6 +135,13 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
             return _times(inputs[0], inputs[1], -1.0)
         if ufunc is np.power and not isinstance(inputs[1], Traced):
             return self._raised(float(inputs[1]))
+        if (
+            ufunc in (np.equal, np.not_equal)
+            and not isinstance(inputs[1], Traced)
+            and inputs[1] == 0
+            and self.scale != 0
+        ):
+            inputs = (Traced(self.tape, self.powers, 1.0), inputs[1])  # the scale does not matter
         is_mask = ufunc in _MASKS or (ufunc in _TRUTH and all(map(_is_mask, inputs)))
         return self.tape.value(self.tape.record(ufunc, *map(_constant, inputs), is_mask=is_mask))
 
