@@ -98,6 +98,15 @@ class FrictionResult:
         return xp.where(none, -xp.inf, transmission.back_driving_efficiency(xp.where(none, 1.0, eta)))[()]
 
     @lazy
+    def ball_friction_moment(
+        self,
+    ) -> Annotated[
+        Torque, Info("M_B", "braking moment of the neighbouring balls", "N mm", address="Olaru2005 §2.2 (21)")
+    ]:
+        """Braking moment of the neighbouring balls."""
+        return self.ball_chain.moment
+
+    @lazy
     def contributions(self) -> Mapping[str, Torque]:
         """Friction torque on the screw by mechanism, N m; the parts sum to ``screw_torque``.
 
