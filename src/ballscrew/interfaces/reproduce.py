@@ -45,6 +45,7 @@ SHORT_TABLE = (
 _MODELS = ("olaru2005", "corrected")
 _LITERAL = "olaru2005-literal"
 _LABELS = ("as printed", "corrected", "to the letter")
+_FAILURES_FIRST = (paper.Verdict.FAILS, paper.Verdict.OPEN, paper.Verdict.HOLDS)
 _WORDS = {paper.Verdict.HOLDS: "yes", paper.Verdict.FAILS: "no", paper.Verdict.OPEN: "cannot be checked"}
 
 
@@ -155,12 +156,13 @@ def _cell(value: Any) -> str:
 
 
 def claims_table(found: Sequence[paper.Claim] | None = None, keys: Sequence[str] | None = SHORT_TABLE) -> str:
-    """The claims as a short table in Markdown; ``keys=None`` takes all of them."""
+    """The claims as a short table in Markdown, those that fail first; ``keys=None`` takes all, in the paper's order."""
     every = paper.claims() if found is None else found
+    chosen = [claim for claim in every if keys is None or claim.key in keys]
+    if keys is not None:
+        chosen.sort(key=lambda claim: min(_FAILURES_FIRST.index(claim.findings[name].verdict) for name in _MODELS))
     rows = [
-        (claim.claim, claim.paper, *(claim.findings[name].short for name in _MODELS), _holds(claim))
-        for claim in every
-        if keys is None or claim.key in keys
+        (claim.claim, claim.paper, *(claim.findings[name].short for name in _MODELS), _holds(claim)) for claim in chosen
     ]
     return _table(("claim", "paper", "as printed", "corrected", "holds?"), rows)
 
