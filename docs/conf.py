@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE / "_ext"))
+sys.path[:0] = [str(HERE / "_ext"), str(HERE)]
 
 import ballscrew  # noqa: E402  (after the path of the extension)
 
@@ -19,7 +19,7 @@ myst_heading_anchors = 3
 html_math_renderer = "mathml"
 html_theme = "furo"
 html_title = "ballscrew"
-exclude_patterns = ["generated/**/claims.md"]
+exclude_patterns = ["generated/**"]
 bibtex_bibfiles = [str(HERE.parent / "src/ballscrew/data/references.bib")]
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
@@ -27,9 +27,13 @@ suppress_warnings = ["myst.header"]  # the included claims start with a heading 
 
 
 def reproduce(_app):
-    """Figures and claims of the paper, as ``make demo`` writes them."""
+    """Figures and claims of the paper, as ``make demo`` writes them, and the fields of a case file."""
     from ballscrew.interfaces.reproduce import reproduce_olaru2005
+    from field_table import field_table
 
+    generated = HERE / "generated"
+    generated.mkdir(exist_ok=True)
+    (generated / "fields.md").write_text(field_table(), encoding="utf-8")
     reproduce_olaru2005(HERE / "generated" / "olaru2005")
 
 

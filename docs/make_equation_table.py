@@ -31,7 +31,7 @@ The {count} numbered equations of Olaru et al. (2005), the functions that implem
 them. The paper uses the numbers (22) to (26) twice, so an equation is named by section and number. Where the verdict
 is not simply "right", a test in `papers/test_errata.py` shows what is wrong.
 
-| address | what | functions | tests | verdict |
+| address | what | verdict | functions | tests |
 |---|---|---|---|---|
 """
 
@@ -90,9 +90,8 @@ def page() -> str:
         return ", ".join(f"`{name}`" for name in names)
 
     lines = [
-        f"| {equation.address.removeprefix('Olaru2005 ')} | {equation.what} | "
-        f"{code(by_function.get(equation.address, []))} | {code(by_test.get(equation.address, []))} | "
-        f"{equation.verdict} |"
+        f"| {equation.address.removeprefix('Olaru2005 ')} | {equation.what} | {equation.verdict} | "
+        f"{code(by_function.get(equation.address, []))} | {code(by_test.get(equation.address, []))} |"
         for equation in paper_equations()
     ]
     return HEAD.format(count=len(lines)) + "\n".join(lines) + "\n"

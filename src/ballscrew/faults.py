@@ -66,8 +66,9 @@ class InputError(ValueError):
 def nearest(word: str, known: Iterable[str]) -> str:
     """``did you mean "…"?`` for the closest known word, else the list of known words."""
     candidates = list(known)
-    begin_alike = [name for name in candidates if len(word) > 3 and name.startswith(word)]
-    close = begin_alike or difflib.get_close_matches(word, candidates, n=1, cutoff=0.55)
+    alike = [name for name in candidates if len(word) > 2 and (name.startswith(word) or name.endswith(f"_{word}"))]
+    alike.sort(key=lambda name: not name.endswith(f"_{word}"))
+    close = alike or difflib.get_close_matches(word, candidates, n=1, cutoff=0.55)
     close = close or [name for name in candidates if len(word) > 3 and name.startswith(word[:4])]
     if close:
         return f'did you mean "{close[0]}"?'

@@ -24,7 +24,7 @@ MECHANISMS: Mapping[str, str] = {
 }
 
 
-@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class FrictionResult:
     """Friction of a ball screw at one operating point, or at an array of them.
 
@@ -47,6 +47,11 @@ class FrictionResult:
     ideal_torque_law: IdealTorqueLaw
     converged: Mask
 
+    def __repr__(self) -> str:
+        """The few numbers one looks for first."""
+        shown = {name: getattr(self, name) for name in ("screw_torque", "nut_torque", "efficiency", "valid")}
+        return f"FrictionResult({', '.join(f'{name}={value}' for name, value in shown.items())})"
+
     @lazy
     def screw_torque(
         self,
@@ -56,7 +61,7 @@ class FrictionResult:
 
     @lazy
     def nut_torque(self) -> Annotated[Torque, Info("M_N", "friction torque on the nut", address="Olaru2005 §6 (34)")]:
-        """Friction torque on the nut: the reaction, not a further loss."""
+        """Friction torque on the nut, the reaction and not a further loss."""
         return equilibrium.total_friction_torque(self.ball_screw.loaded_balls, self.nut.friction_torque)
 
     @lazy
@@ -187,7 +192,7 @@ class FrictionResult:
 
     @lazy
     def friction_power(self) -> Annotated[Power, Info("P", "power dissipated by friction")]:
-        """Power dissipated by friction: the sum of the local dissipations, not torque times speed."""
+        """Power dissipated by friction, summed from the local dissipations and not from the torque."""
         return sum(self.dissipation.values())
 
     @lazy

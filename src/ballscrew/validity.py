@@ -19,18 +19,24 @@ SMALLEST_ELASTIC_REGIME_PARAMETER = 6.6
 #: little room on both sides, as the exponent 0.49 is smooth.
 MATERIAL_PARAMETER_RANGE = (2000.0, 7500.0)
 
+#: Above this pressure balls and races keep a dent of 1e-4 of the ball diameter (ISO76), Pa.
+LARGEST_PRESSURE = 4.2e9
+
 REASONS: Mapping[str, str] = {
     "inputs": "inputs must be finite and within their bounds, the balls must fit, and the torque must be finite",
     "skid": "the sliding force exceeds friction coefficient times load at a contact: the ball would skid",
     "pure_rolling_offset": "the lines of pure rolling lie outside "
     f"0 <= Y < {LARGEST_PURE_ROLLING_OFFSET}, where (15) holds",
     "radii_ratio": "the radii ratio k is outside the range of the Hertz law (k >= 1; at most 60 for the paper's fit)",
+    "contact_pressure": f"the maximum pressure exceeds {LARGEST_PRESSURE / 1e9:g} GPa: the contact yields (ISO 76)",
     "elastic_regime": "the load is too light for the elastic lubrication regime of (1) and (26) "
     f"(M < {SMALLEST_ELASTIC_REGIME_PARAMETER})",
     "material_parameter": f"G is outside {MATERIAL_PARAMETER_RANGE[0]:.0f} to {MATERIAL_PARAMETER_RANGE[1]:.0f}, "
     "the materials and oils behind the film regression (26)",
     "equilibrium": "the offset of the lines of pure rolling did not converge",
 }
+#: The reasons that are judged at each contact.
+_AT_A_CONTACT = tuple(reason for reason in REASONS if reason not in ("inputs", "equilibrium"))
 
 
 def validity_masks(
@@ -52,7 +58,14 @@ def validity_masks(
         if isinstance(part, BallScrew):
             inputs = inputs & part.fits
     masks: dict[str, Mask] = {"inputs": inputs}
-    for reason in ("skid", "pure_rolling_offset", "radii_ratio", "elastic_regime", "material_parameter"):
+    for reason in (
+        "skid",
+        "pure_rolling_offset",
+        "radii_ratio",
+        "contact_pressure",
+        "elastic_regime",
+        "material_parameter",
+    ):
         masks[reason] = _holds(reason, screw) & _holds(reason, nut)
     masks["equilibrium"] = converged
     return {reason: mask & everywhere for reason, mask in masks.items()}
@@ -68,6 +81,8 @@ def _holds(reason: str, side: RaceState) -> Mask:
             return (side.pure_rolling_offset >= 0) & (side.pure_rolling_offset < LARGEST_PURE_ROLLING_OFFSET)
         case "radii_ratio":
             return (side.radii_ratio >= 1) & (side.radii_ratio <= side.hertz.largest_radii_ratio)
+        case "contact_pressure":
+            return side.maximum_pressure <= LARGEST_PRESSURE
         case "elastic_regime":
             return side.elastic_regime_parameter >= SMALLEST_ELASTIC_REGIME_PARAMETER
         case _:

@@ -86,7 +86,11 @@ def test_a_grade_instead_of_a_viscosity(example, tmp_path, ballscrew):
         f'{text[:start]}[lubricant]\ngrade = "ISO VG 100"\ntemperature = "25 degC"\n{text[end:]}', encoding="utf-8"
     )
     document = json.loads(ballscrew("run", case, "--json").stdout)
-    assert document["inputs"]["lubricant"]["viscosity"] == bs.Lubricant.from_grade("ISO VG 100", 298.15).viscosity
+    oil = document["inputs"]["lubricant"]
+    assert (oil["grade"], oil["temperature"]) == ("ISO VG 100", 298.15)
+    assert oil["viscosity"] == bs.Lubricant.from_grade("ISO VG 100", 298.15).viscosity
+    assert "Jungnickel2010" in document["provenance"]["references"]
+    assert "oil ISO VG 100: " in ballscrew("run", case).stdout
 
 
 def test_efficiency_table_on_the_terminal(example, ballscrew):
@@ -106,6 +110,24 @@ def test_one_row_a_point(example, ballscrew):
     assert rows[0] == ["axial load [N]", "friction boundary friction coefficient", "screw torque [N m]", "valid"]
     assert len(rows) == 5
     assert float(rows[4][2]) == pytest.approx(float(paper_result(bs.FrictionModel.olaru2005()).screw_torque), rel=1e-10)
+
+
+def test_what_is_not_finite_is_an_empty_cell_and_what_is_not_valid_is_said(example, ballscrew):
+    axes = ["--vary", "axial_load=0, 4000 N", "--vary", "screw_speed=0, 600 rpm", "--output", "back_driving_efficiency"]
+    process = ballscrew("sweep", example, *axes)
+    rows = list(csv.reader(io.StringIO(process.stdout)))
+    assert rows[1] == ["0.0", "", ""]
+    assert float(rows[2][2]) == pytest.approx(float(paper_result(bs.FrictionModel.olaru2005()).back_driving_efficiency))
+    assert process.stderr.startswith(
+        "beware: 2 of 4 points lie outside the model's validity (skid 2, elastic_regime 1)"
+    )
+
+
+def test_too_much_pressure_is_said(example, ballscrew):
+    process = ballscrew("run", example, "--json", "--set", "operation.axial_load=5 MN")
+    document = json.loads(process.stdout)
+    assert not document["results"]["valid"]
+    assert any(warning.startswith("contact_pressure: ") for warning in document["warnings"])
 
 
 def test_axes_from_the_case_file(example, tmp_path, ballscrew):
@@ -131,7 +153,7 @@ def test_files_hold_the_same_numbers(suffix, example, tmp_path, ballscrew):
             torque, efficiency = dataset.screw_torque.values[-1, -1], dataset.efficiency.values[-1, -1]
     elif suffix == "xlsx":
         book = openpyxl.load_workbook(path)
-        assert book.sheetnames == ["efficiency", "screw_torque", "points"]
+        assert book.sheetnames == ["efficiency", "screw_torque", "points", "inputs"]
         torque, efficiency = book["screw_torque"].cell(4, 3).value, book["efficiency"].cell(4, 3).value
     else:
         rows = list(csv.reader(io.StringIO(path.read_text(encoding="utf-8"))))

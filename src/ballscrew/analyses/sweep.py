@@ -18,9 +18,10 @@ from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import MATERIALS, BallScrew, Operation
 from ballscrew.faults import Fault, fault_of, nearest, raise_if_any
 from ballscrew.model import FrictionModel
-from ballscrew.quantities import Quantity, fields_of, quantities_of
+from ballscrew.quantities import Info, Quantity, fields_of, quantities_of
 from ballscrew.references import citations_of
 from ballscrew.result import MECHANISMS, FrictionResult
+from ballscrew.validity import REASONS
 
 #: The fields of the operating point, which every sweep needs.
 OPERATION = tuple(fields_of(Operation))
@@ -48,6 +49,11 @@ class Output:
     quantity: Quantity
     read: Callable[[FrictionResult], Any]
 
+    @property
+    def dtype(self) -> type:
+        """Truth values for what says where the model holds, numbers for all else."""
+        return bool if self.name.startswith("valid") else float
+
 
 @functools.cache
 def known_outputs() -> Mapping[str, Output]:
@@ -63,6 +69,10 @@ def known_outputs() -> Mapping[str, Output]:
         )
         name = f"contribution_{mechanism}"
         found[name] = Output(name, Quantity(name, torque.unit, info), lambda r, m=mechanism: r.contributions[m])
+    mask = quantities_of(FrictionResult)["valid"]
+    for reason, words in REASONS.items():
+        name, info = f"validity_{reason}", Info(reason, f"holds where true; where false, {words}")
+        found[name] = Output(name, Quantity(name, mask.unit, info), lambda r, n=reason: r.validity[n])
     for side in ("screw", "nut"):
         for name, quantity in quantities_of(RaceState).items():
             info = dataclasses.replace(quantity.info, meaning=f"{quantity.info.meaning}, ball–{side} contact")
@@ -119,7 +129,7 @@ def sweep(
     sizes = _sizes(axes, wanted)
     shape = tuple(sizes.values())
     total = int(np.prod(shape, dtype=np.int64))
-    results = {name: np.empty(total, dtype=bool if name == "valid" else float) for name in wanted}
+    results = {name: np.empty(total, dtype=output.dtype) for name, output in wanted.items()}
     varying = [name for name, axis in axes.items() if axis.dims]
     fixed = {name: axis.to_numpy()[()] for name, axis in axes.items() if not axis.dims}
     program = _recorded(model, screw, lubricant, wanted, varying, fixed)
@@ -236,7 +246,7 @@ def _recorded(
         with np.errstate(all="ignore"):
             result = _assemble(model, screw, lubricant, points)
             program = Program(tape, {name: output.read(result) for name, output in wanted.items()})
-            program.play([np.ones(1)] * len(varying), {n: np.empty(1, bool if n == "valid" else float) for n in wanted})
+            program.play([np.ones(1)] * len(varying), {n: np.empty(1, output.dtype) for n, output in wanted.items()})
     except Exception:  # whatever a law of the user's cannot do with a recording, it may do with arrays
         return None
     return program

@@ -92,7 +92,7 @@ def sweep(
         export.write_csv(sys.stdout, dataset, plan)
     else:
         export.write(dataset, plan, to)
-        typer.echo(f"{to}: {export.size_in_words(dataset)}")
+        typer.echo(f"{to}: {export.size_in_words(dataset, plan)}, model {loaded.model.label}")
     if beware := export.warning(dataset):
         typer.echo(beware, err=True)
 

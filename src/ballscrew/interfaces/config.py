@@ -34,6 +34,8 @@ class Case:
     lubricant: Lubricant
     operation: Operation
     sweep: Mapping[str, str]
+    #: Grade and temperature the oil was made from, where it was.
+    oil: Mapping[str, Any]
 
 
 def load(path: Path, settings: Sequence[str] = (), model: str | None = None) -> Case:
@@ -103,13 +105,13 @@ def build(tables: Mapping[str, Any], model: str | None = None) -> Case:
         if name not in tables and f'did you mean "{name}"?' not in unknown.values()
     ]
     screw = _screw(tables["screw"], faults) if "screw" in tables else None
-    lubricant = _lubricant(tables["lubricant"], faults) if "lubricant" in tables else None
+    lubricant, oil = _lubricant(tables["lubricant"], faults) if "lubricant" in tables else (None, {})
     operation = _operation(tables["operation"], faults) if "operation" in tables else None
     friction_model = _model(tables.get("model", {}), model, faults)
     sweep = _sweep(tables.get("sweep", {}), faults)
     if faults or screw is None or lubricant is None or operation is None or friction_model is None:
         raise InputError(*faults)
-    return Case(friction_model, screw, lubricant, operation, sweep)
+    return Case(friction_model, screw, lubricant, operation, sweep, oil)
 
 
 def _screw(table: Any, faults: list[Fault]) -> BallScrew | None:
@@ -130,8 +132,8 @@ def _screw(table: Any, faults: list[Fault]) -> BallScrew | None:
         return None
 
 
-def _lubricant(table: Any, faults: list[Fault]) -> Lubricant | None:
-    """An oil from its viscosity, or from its grade and temperature."""
+def _lubricant(table: Any, faults: list[Fault]) -> tuple[Lubricant | None, Mapping[str, Any]]:
+    """An oil from its viscosity, or from its grade and temperature, and those two."""
     before = len(faults)
     values = validated("lubricant", table, faults)
     if isinstance(table, dict):
@@ -145,16 +147,16 @@ def _lubricant(table: Any, faults: list[Fault]) -> Lubricant | None:
             remedy = 'add viscosity = "… mPa s", or grade = "ISO VG 100" and a temperature'
             faults.append(Fault("lubricant.viscosity", "missing", "", remedy))
     if len(faults) > before:
-        return None
-    if "grade" not in values:
-        return Lubricant(**values)
+        return None, {}
+    made_from = {name: values.pop(name) for name in ("grade", "temperature") if name in values}
+    if not made_from:
+        return Lubricant(**values), {}
     try:
-        at = {"temperature": values.pop("temperature")} if "temperature" in values else {}
-        oil = Lubricant.from_grade(values.pop("grade"), **at)
+        oil = Lubricant.from_grade(**made_from)
     except InputError as error:
         faults += error.faults
-        return None
-    return dataclasses.replace(oil, **values)
+        return None, {}
+    return dataclasses.replace(oil, **values), made_from
 
 
 def _operation(table: Any, faults: list[Fault]) -> Operation | None:
@@ -197,7 +199,7 @@ def inputs(case: Case) -> dict[str, Any]:
     model = case.model
     return {
         "screw": {**_numbers(case.screw), **{name: _numbers(getattr(case.screw, name)) for name in MATERIALS}},
-        "lubricant": _numbers(case.lubricant),
+        "lubricant": {**case.oil, **_numbers(case.lubricant)},
         "operation": _numbers(case.operation),
         "model": {
             "name": model.name,

@@ -21,6 +21,7 @@ from ballscrew.interfaces import units
 from ballscrew.interfaces.config import Case
 from ballscrew.interfaces.files import check_writable, whole
 from ballscrew.quantities import Quantity
+from ballscrew.validity import REASONS
 
 _RANGE = re.compile(r"(?P<start>[^:]+):(?P<stop>[^:]+):\s*(?P<count>\d{1,9})\s*(?P<unit>1\s*/.*|[^\d\s.].*)?")
 #: "operation.axial_load" and "axial_load" are the same axis.
@@ -124,6 +125,8 @@ def _axis(where: str, text: str, quantity: Quantity) -> np.ndarray | Fault:
         return Fault(
             where, "is not start:stop:count", text, f'write "1:10:4{_blank_unit(quantity)}", count a whole number'
         )
+    if span and quantity.unit != "1" and not span["unit"]:
+        return Fault(where, "needs a unit", text, f'write "{text} {quantity.shown_in}"')
     if span:
         items, unit = [span["start"], span["stop"]], span["unit"] or ""
     else:
@@ -155,25 +158,29 @@ def _blank_unit(quantity: Quantity) -> str:
 def evaluate(case: Case, plan: Plan, done: Callable[[int, int], None] | None = None) -> xr.Dataset:
     """The dataset of a plan; load and speed are those of the case where they are not varied.
 
-    It also says which points are valid, whether that was asked for or not.
+    It also says which points are valid, and why not, whether that was asked for or not.
     """
     fixed = {name: getattr(case.operation, name) for name in OPERATION if name not in plan.axes}
-    names = dict.fromkeys((*plan.outputs, "valid"))
+    names = dict.fromkeys((*plan.outputs, "valid", *(f"validity_{reason}" for reason in REASONS)))
     return sweep(case.model, case.screw, case.lubricant, outputs=tuple(names), done=done, **plan.axes, **fixed)
 
 
 def warning(dataset: xr.Dataset) -> str:
-    """How many points lie outside the model's validity, in words; nothing if none does."""
-    outside, size = int((~dataset["valid"]).sum()), dataset["valid"].size
-    return (
-        f"beware: {outside} of {size} points lie outside the model's validity (see --output valid)" if outside else ""
-    )
+    """How many points lie outside the model's validity and why, in words; nothing if none does."""
+    outside = int((~dataset["valid"]).sum())
+    if not outside:
+        return ""
+    masks = {reason: dataset[f"validity_{reason}"] for reason in REASONS}
+    counts = ", ".join(f"{reason} {int((~mask).sum())}" for reason, mask in masks.items() if not mask.all())
+    lines = [f"beware: {outside} of {dataset['valid'].size} points lie outside the model's validity ({counts})"]
+    lines += [f"beware  {reason}: {REASONS[reason]}" for reason, mask in masks.items() if not mask.all()]
+    return "\n".join(lines)
 
 
-def size_in_words(dataset: xr.Dataset) -> str:
+def size_in_words(dataset: xr.Dataset, plan: Plan) -> str:
     """``14 x 11 points, 3 outputs``."""
     points = " x ".join(str(size) for size in dataset.sizes.values()) or "1"
-    return f"{points} points, {len(dataset.data_vars)} outputs"
+    return f"{points} points, {len(plan.outputs)} output{'s' if len(plan.outputs) > 1 else ''}"
 
 
 def write_csv(stream: IO[str], dataset: xr.Dataset, plan: Plan) -> None:
@@ -235,7 +242,11 @@ def _shown(array: xr.DataArray, plan: Plan, name: str, like: xr.Dataset | None =
     with np.errstate(all="ignore"):
         digits = 11 - np.floor(np.log10(np.abs(np.where((values == 0) | ~np.isfinite(values), 1.0, values))))
         scale = 10.0**digits
-        return np.where(np.isfinite(values), np.round(values * scale) / scale, values)
+        rounded = np.round(values * scale) / scale
+    # what is not finite is an empty cell: no spreadsheet reads "inf"
+    cells = rounded.astype(object)
+    cells[~np.isfinite(values)] = None
+    return cells
 
 
 def _xlsx(dataset: xr.Dataset, plan: Plan) -> bytes:
@@ -249,6 +260,7 @@ def _xlsx(dataset: xr.Dataset, plan: Plan) -> bytes:
     if len(plan.axes) == 2:
         sheets |= {name[:31]: table(dataset, plan, name) for name in plan.outputs}
     sheets["points"] = _rows(dataset, plan)
+    sheets["inputs"] = iter([["input", "value (SI)"], *([name, str(value)] for name, value in dataset.attrs.items())])
     for title, rows in sheets.items():
         sheet = workbook.add_worksheet(title)
         sheet.freeze_panes(1, 1 if title != "points" else 0)

@@ -13,10 +13,11 @@ from rich.table import Table
 
 from ballscrew import __version__
 from ballscrew.components.contact import RaceState
-from ballscrew.components.screw import Operation
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.screw import BallScrew, Operation
 from ballscrew.interfaces import config, units
 from ballscrew.quantities import fields_of, quantities_of
-from ballscrew.references import citations_of
+from ballscrew.references import citations_of, keys_in
 from ballscrew.result import MECHANISMS, FrictionResult
 
 #: What the terminal shows, in this order.
@@ -61,9 +62,15 @@ def json_text(case: config.Case, result: FrictionResult) -> str:
         "results": results(result),
         "units": result_units(),
         "warnings": result.warnings,
-        "provenance": {"version": __version__, "model": case.model.label, "references": citations_of(case.model)},
+        "provenance": {"version": __version__, "model": case.model.label, "references": _references(case)},
     }
     return json.dumps(_plain(document), indent=2, ensure_ascii=False, allow_nan=False)
+
+
+def _references(case: config.Case) -> list[str]:
+    """Keys of the sources of the model, and of the oil where it was made from a grade."""
+    of_oil = keys_in(Lubricant.from_grade.__doc__) if case.oil else ()
+    return [*citations_of(case.model), *of_oil]
 
 
 def _plain(value: Any) -> Any:
@@ -88,6 +95,7 @@ def print_result(case: config.Case, result: FrictionResult) -> None:
     load = units.shown(result.axial_load, operation["axial_load"])
     speed = units.shown(result.screw_speed, operation["screw_speed"])
     console.print(f"[bold]{load}, {speed}[/bold], model [bold]{case.model.label}[/bold]\n")
+    console.print(_assumed(case, result), highlight=False, style="dim", soft_wrap=True)
     console.print(_quantities(result))
     console.print(_parts(result, "█" if "utf" in console.encoding.lower() else "#"))
     console.print(_contacts(result))
@@ -101,6 +109,28 @@ def _table(title: str, *columns: str) -> Table:
     for column in columns[1:]:
         table.add_column(column, justify="right")
     return table
+
+
+def _assumed(case: config.Case, result: FrictionResult) -> str:
+    """What people seldom write down and the result depends on."""
+    known = {
+        **quantities_of(RaceState),
+        **quantities_of(FrictionResult),
+        **fields_of(Lubricant),
+        **fields_of(BallScrew),
+    }
+
+    def shown(part: Any, name: str) -> str:
+        return units.shown(getattr(part, name), known[name])
+
+    roughness = ", ".join(shown(case.screw, f"{part}_roughness") for part in ("ball", "screw", "nut"))
+    made_from = f"{case.oil['grade']}: " if "grade" in case.oil else ""
+    oil = f"{shown(case.lubricant, 'viscosity')}, {shown(case.lubricant, 'pressure_viscosity_coefficient')}"
+    modulus, between_balls = shown(result.screw, "equivalent_modulus"), shown(result, "ball_to_ball_force")
+    return (
+        f"oil {made_from}{oil}; equivalent modulus {modulus}; roughness of balls, screw, nut {roughness}; "
+        f"force between balls {between_balls}\n"
+    )
 
 
 def _quantities(result: FrictionResult) -> Table:

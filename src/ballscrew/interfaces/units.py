@@ -76,7 +76,7 @@ def from_si(value: Any, quantity: Quantity) -> Any:
 def shown(value: Any, quantity: Quantity, digits: int = 4) -> str:
     """A value with its unit, as people read it."""
     number = f"{from_si(float(value), quantity):.{digits}g}"
-    return number if quantity.unit == "1" else f"{number} {quantity.shown_in}"
+    return number if quantity.unit == "1" else f"{number} {quantity.shown_in.replace('um', 'µm')}"
 
 
 def in_people_units(fault: Fault, quantity: Quantity, given: str) -> Fault:
