@@ -141,6 +141,8 @@ _CHECKS = (
         claim="lubrication goes from limited through mixed to full film",
         paper="three regimes",
         criterion="the full-film branch is reached within the paper's speeds and viscosities",
+        words="Of the three branches the first is the limit of rest (see the claim before); full film means the clamp "
+        "at 0.02, which takes over at λ = 1.83.",
         find=verdicts.regimes,
     ),
     _Check(
@@ -224,6 +226,7 @@ _CHECKS = (
         claim="efficiency rises from zero while Q goes from 0 to 20 N",
         paper="0 to 0.9",
         criterion="rises all the way from zero, and lies within 0.01 of 0.9 at 20 N",
+        words="The equations do so; the very start of the rise lies outside their validity (see the last claim on Fig. 9).",
         find=verdicts.first_zone,
     ),
     _Check(
