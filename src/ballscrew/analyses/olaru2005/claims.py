@@ -226,7 +226,7 @@ _CHECKS = (
         claim="efficiency rises from zero while Q goes from 0 to 20 N",
         paper="0 to 0.9",
         criterion="rises all the way from zero, and lies within 0.01 of 0.9 at 20 N",
-        words="The equations do so; the very start of the rise lies outside their validity (see the last claim on Fig. 9).",
+        words="The start of the rise lies outside the validity of the equations (see the last claim on Fig. 9).",
         find=verdicts.first_zone,
     ),
     _Check(

@@ -157,7 +157,7 @@ def forces_on_ball(results: Results) -> Figure:
     """Fig. 2, to scale: forces on the ball along its path, and their balance."""
     caption = (
         f"{_CASE} Forces along the path, all drawn to one scale; those of pressure pass through the ball's centre. "
-        "Below, end to end: they come back to zero. Corrected, a curved chain adds a little to F_B."
+        "Below, end to end: they come back to zero. Corrected, a curved chain adds a little to F$_B$."
     )
     figure, panels = _two_rows(caption)
     every = {name: forces(result) for name, result in results.items()}
