@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import math
 import statistics
 import subprocess
 import sys
@@ -22,6 +21,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 import ballscrew as bs
+from ballscrew.analyses.olaru2005 import OIL, SCREW
 
 ROOT = Path(__file__).parents[1]
 OUTPUTS = (
@@ -101,16 +101,6 @@ def sweeps(points: int) -> dict[str, float]:
     F = rng.uniform(100, 4000, points)
     n = rng.uniform(10, 1000, points)
     eta_0 = rng.uniform(0.05, 0.5, points)
-    screw = bs.BallScrew(
-        pitch_circle_diameter=0.040,
-        lead=0.005,
-        ball_diameter=3.175e-3,
-        loaded_balls=56,
-        contact_angle=math.pi / 4,
-        screw_conformity=0.515,
-        nut_conformity=0.515,
-    )
-    oil = bs.Lubricant(viscosity=0.1)
     operation = {
         "axial_load": xr.DataArray(F, dims="point"),
         "screw_speed": xr.DataArray(n * (np.pi / 30), dims="point"),
@@ -119,7 +109,7 @@ def sweeps(points: int) -> dict[str, float]:
     printed, corrected = bs.FrictionModel.olaru2005(), bs.FrictionModel.corrected()
 
     def swept(model: bs.FrictionModel) -> xr.Dataset:
-        return bs.sweep(model, screw, oil, outputs=OUTPUTS, **operation)
+        return bs.sweep(model, SCREW, OIL, outputs=OUTPUTS, **operation)
 
     expected, found = formulas_on_arrays(F, n, eta_0), swept(printed)
     scale = np.abs(expected[0])  # of a torque; the nut's passes through zero
@@ -140,7 +130,7 @@ def sweeps(points: int) -> dict[str, float]:
     script, sweep, other = (statistics.median(times[name]) for name in ("script", "sweep", "corrected"))
 
     def single() -> None:
-        printed(screw, oil, axial_load=4000.0, screw_speed=62.83).screw_torque  # noqa: B018
+        printed(SCREW, OIL, axial_load=4000.0, screw_speed=62.83).screw_torque  # noqa: B018
 
     calls = 200
     single_point = statistics.median(seconds(lambda: [single() for _ in range(calls)]) / calls for _ in range(ROUNDS))

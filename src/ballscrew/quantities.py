@@ -120,8 +120,8 @@ def quantities_of(cls: type) -> Mapping[str, Quantity]:
 
 def fields_of(part: type | object) -> dict[str, Quantity]:
     """The quantities of a dataclass (or of the class of one) that are fields, by name."""
-    cls = part if isinstance(part, type) else type(part)
-    names = {field.name for field in dataclasses.fields(cls)}  # type: ignore[arg-type]
+    cls: Any = part if isinstance(part, type) else type(part)
+    names = {field.name for field in dataclasses.fields(cls)}
     return {name: quantity for name, quantity in quantities_of(cls).items() if name in names}
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import ballscrew as bs
+from ballscrew.analyses.olaru2005 import OIL, SCREW
 from ballscrew.analyses.sweep import known_outputs
 
 STORED = Path(__file__).with_name("seed_screw.json")
@@ -23,17 +24,7 @@ RELATIVE = 1e-11
 
 def numbers(name: str, axial_load: float, rpm: float) -> dict[str, float]:
     """Everything a result says, by name."""
-    screw = bs.BallScrew(
-        pitch_circle_diameter=0.040,
-        lead=0.005,
-        ball_diameter=3.175e-3,
-        loaded_balls=56,
-        contact_angle=math.pi / 4,
-        screw_conformity=0.515,
-        nut_conformity=0.515,
-    )
-    oil = bs.Lubricant(viscosity=0.1, pressure_viscosity_coefficient=2.2e-8)
-    r = MODELS[name]()(screw, oil, axial_load=axial_load, screw_speed=rpm * math.pi / 30)
+    r = MODELS[name]()(SCREW, OIL, axial_load=axial_load, screw_speed=rpm * math.pi / 30)
     return {output: float(entry.read(r)) for output, entry in known_outputs().items()}
 
 

@@ -24,6 +24,7 @@ from strategies import (
 )
 
 import ballscrew as bs
+from ballscrew.analyses.olaru2005 import SCREW
 from ballscrew.analyses.sweep import known_outputs
 from ballscrew.components.frame import bearing_frame
 from ballscrew.equations.rolling import elastic_resistance_moment
@@ -187,19 +188,10 @@ def test_efficiency_vanishes_with_the_load(screw, oil, model, rpm):
 
 @given(both_models, floats(100, 1000), floats(0.05, 0.5))
 def test_efficiency_rises_at_light_load(model, rpm, viscosity):
-    """η rises with the load on (0, 20 N] a ball, at the paper's screw."""
-    screw = bs.BallScrew(
-        pitch_circle_diameter=0.040,
-        lead=0.005,
-        ball_diameter=3.175e-3,
-        loaded_balls=56,
-        contact_angle=math.pi / 4,
-        screw_conformity=0.515,
-        nut_conformity=0.515,
-    )
+    """η rises with the load on (0, 20 N] a ball, at the paper's SCREW."""
     contact_load = np.linspace(0, 20, 101)
     load = contact_load * 56 * math.sin(math.pi / 4)
-    r = model(screw, bs.Lubricant(viscosity), axial_load=load, screw_speed=rpm * RPM)
+    r = model(SCREW, bs.Lubricant(viscosity), axial_load=load, screw_speed=rpm * RPM)
     assert r.efficiency[0] == 0
     assert np.all(np.diff(r.efficiency) > 0)
 

@@ -24,8 +24,7 @@ from ballscrew.quantities import Quantity
 from ballscrew.validity import REASONS
 
 _RANGE = re.compile(r"(?P<start>[^:]+):(?P<stop>[^:]+):\s*(?P<count>\d{1,9})\s*(?P<unit>1\s*/.*|[^\d\s.].*)?")
-#: "operation.axial_load" and "axial_load" are the same axis.
-_SECTION = re.compile(r"(?:(?P<section>operation|screw|lubricant|model)\.)?(?P<name>.*)", re.DOTALL)
+_SECTIONS = ("operation", "screw", "lubricant", "model")
 #: What each kind of file needs beyond the core, and what to install for it.
 _NEEDS = {".csv": (), ".xlsx": ("xlsxwriter",), ".nc": ("h5netcdf", "h5py")}
 #: A worksheet ends here; larger sweeps belong into NetCDF.
@@ -56,8 +55,8 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
     known = inputs_of(case.model, case.screw, case.lubricant)
     axes: dict[str, np.ndarray] = {}
     for written, text in _texts(vary, faults).items() if vary else case.sweep.items():
-        section, name = _SECTION.fullmatch(written).group("section", "name")  # type: ignore[union-attr]
-        if name not in known or section not in (None, known[name][0]):
+        section, name = _split(written)
+        if name not in known or section not in ("", known[name][0]):
             faults.append(Fault(f"sweep.{written}", "unknown field", "", nearest(name, known)))
             continue
         values = _axis(f"sweep.{name}", text, known[name][1])
@@ -85,6 +84,12 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
         check_writable("--to", to)
     quantities = {name: quantity for name, (_, quantity) in known.items()}
     return Plan(axes, chosen, quantities | {name: possible[name].quantity for name in (*chosen, "valid")})
+
+
+def _split(written: str) -> tuple[str, str]:
+    """Section and field: ``operation.axial_load`` and ``axial_load`` are the same axis."""
+    section, dot, name = written.partition(".")
+    return (section, name) if dot and section in _SECTIONS else ("", written)
 
 
 def _texts(vary: Sequence[str], faults: list[Fault]) -> dict[str, str]:
