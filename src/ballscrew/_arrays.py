@@ -39,22 +39,16 @@ def _symbolic() -> SimpleNamespace:
     """NumPy's spelling of the few functions the equations use, in SymPy."""
     sympy = sys.modules["sympy"]
 
-    def where(condition: Any, yes: Any, no: Any) -> Any:
-        return sympy.Piecewise((yes, condition), (no, True))
-
     return SimpleNamespace(
         exp=sympy.exp,
         log=sympy.log,
         sqrt=sympy.sqrt,
         sin=sympy.sin,
         cos=sympy.cos,
-        tan=sympy.tan,
         arcsin=sympy.asin,
         arctan=sympy.atan,
-        abs=sympy.Abs,
         maximum=sympy.Max,
         minimum=sympy.Min,
-        where=where,
         pi=sympy.pi,
     )
 

@@ -9,7 +9,8 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from ballscrew._arrays import as_array
+from ballscrew._arrays import as_array, lazy
+from ballscrew.components.balance import Resistances, ball_balance
 from ballscrew.components.contact import Contact, ContactLaws, RaceState, rolling_contact
 from ballscrew.components.frame import Frame, bearing_frame, helix_frame
 from ballscrew.components.laws import (
@@ -38,7 +39,7 @@ from ballscrew.components.laws import (
 )
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew, Operation
-from ballscrew.equations import equilibrium, geometry
+from ballscrew.equations import geometry
 from ballscrew.equations.film import film_parameter as rms_film_parameter
 from ballscrew.equations.film import literal_film_parameter as printed_film_parameter
 from ballscrew.equations.rolling import (
@@ -159,6 +160,7 @@ class FrictionModel:
         changed = [field for field in fields if not _same(getattr(self, field), getattr(preset, field))]
         return self.name if not changed else f"{self.name}, changed: {', '.join(changed)}"
 
+    @lazy
     def laws_with_coefficients(self) -> dict[str, Any]:
         """The laws that are dataclasses, by slot."""
         slots = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
@@ -181,8 +183,8 @@ class FrictionModel:
         )
         F_B = 1 / screw.loaded_balls if self.ball_to_ball_force is None else self.ball_to_ball_force
         chain = self.ball_chain(self.ball_friction_coefficient, F_B, d_w, frame)
-        lines = self._pure_rolling(on_screw, on_nut, chain, d_w, gamma)
-        laws_and_numbers = (self, *self.laws_with_coefficients().values())
+        lines = self._pure_rolling(on_screw, on_nut, chain, frame, d_w)
+        laws_and_numbers = (self, *self.laws_with_coefficients.values())
         return FrictionResult(
             parts=(screw, *screw.materials, lubricant, operation, *laws_and_numbers),
             ball_screw=screw,
@@ -200,25 +202,20 @@ class FrictionModel:
         )
 
     def _pure_rolling(
-        self, on_screw: Contact, on_nut: Contact, chain: BallChain, ball_diameter: Any, curvature_ratio: Any
+        self, on_screw: Contact, on_nut: Contact, chain: BallChain, frame: Frame, ball_diameter: Any
     ) -> pure_rolling.PureRolling:
         if self.pure_rolling_offset is not None:
             return pure_rolling.imposed(on_screw, on_nut, self.pure_rolling_offset)
-        without_curvature = (
-            on_screw.elastic_resistance_moment + on_nut.elastic_resistance_moment,
-            chain.moment,
-            ball_diameter,
+        without_curvature = Resistances(
             on_screw.hydrodynamic_rolling_force,
             on_nut.hydrodynamic_rolling_force,
-            curvature_ratio,
-            chain.braking_force,
+            on_screw.elastic_resistance_moment,
+            on_nut.elastic_resistance_moment,
+            chain,
         )
+        balance = ball_balance(without_curvature, ball_diameter, frame, self.race_torques)
         return pure_rolling.solve(
-            on_screw,
-            on_nut,
-            equilibrium.screw_sliding_force(*without_curvature),
-            equilibrium.nut_sliding_force(*without_curvature),
-            ball_diameter,
+            on_screw, on_nut, balance.screw_sliding_force, balance.nut_sliding_force, ball_diameter
         )
 
     def _race_states(
@@ -233,33 +230,27 @@ class FrictionModel:
         F_Rs, F_Rn = on_screw.hydrodynamic_rolling_force, on_nut.hydrodynamic_rolling_force
         M_s = lines.screw_moment + on_screw.elastic_resistance_moment
         M_n = lines.nut_moment + on_nut.elastic_resistance_moment
-        gamma = frame.curvature_ratio
-        forces = (M_s + M_n, chain.moment, ball_diameter, F_Rs, F_Rn, gamma, chain.braking_force)
-        F_Ss = equilibrium.screw_sliding_force(*forces)
-        F_Sn = equilibrium.nut_sliding_force(*forces)
-        F_s = equilibrium.tangential_force(F_Rs, F_Ss)
-        F_n = equilibrium.tangential_force(F_Rn, F_Sn)
-        torques = self.race_torques(F_s, F_n, M_s, M_n, frame)
+        balance = ball_balance(Resistances(F_Rs, F_Rn, M_s, M_n, chain), ball_diameter, frame, self.race_torques)
         return {
             "screw": RaceState(
                 **vars(on_screw),
                 pure_rolling_offset=lines.screw_offset,
                 curvature_friction_moment=lines.screw_moment,
-                sliding_force=F_Ss,
+                sliding_force=balance.screw_sliding_force,
                 contact_radius=frame.screw_contact_radius,
-                pressure_force=screw_pressure_force(F_Rs, gamma),
-                tangential_force=F_s,
-                friction_torque=torques.screw,
+                pressure_force=screw_pressure_force(F_Rs, frame.curvature_ratio),
+                tangential_force=balance.screw_tangential_force,
+                friction_torque=balance.torques.screw,
             ),
             "nut": RaceState(
                 **vars(on_nut),
                 pure_rolling_offset=lines.nut_offset,
                 curvature_friction_moment=lines.nut_moment,
-                sliding_force=F_Sn,
+                sliding_force=balance.nut_sliding_force,
                 contact_radius=frame.nut_contact_radius,
-                pressure_force=nut_pressure_force(F_Rn, gamma),
-                tangential_force=F_n,
-                friction_torque=torques.nut,
+                pressure_force=nut_pressure_force(F_Rn, frame.curvature_ratio),
+                tangential_force=balance.nut_tangential_force,
+                friction_torque=balance.torques.nut,
             ),
         }
 

@@ -12,9 +12,9 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-import math
+import operator
 import types
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, TypeAlias, Union, get_args, get_origin, get_type_hints
 
 from ballscrew._arrays import namespace
@@ -125,37 +125,30 @@ def fields_of(part: type | object) -> dict[str, Quantity]:
     return {name: quantity for name, quantity in quantities_of(cls).items() if name in names}
 
 
+def _conditions(info: Info, value: Array) -> Iterator[tuple[Mask, str, float | None]]:
+    """What must hold of a number or of the elements of an array, and what to say where it does not.
+
+    The third item is the bound that ``{bound}`` in the second stands for.
+    """
+    yield namespace(value).isfinite(value), "must be a finite number", None
+    if info.whole:
+        yield value % 1 == 0, "must be a whole number", None
+    if info.above is not None:
+        yield value > info.above, "must be positive" if info.above == 0 else "must be above {bound}", info.above
+    if info.at_least is not None:
+        problem = "must not be negative" if info.at_least == 0 else "must be at least {bound}"
+        yield value >= info.at_least, problem, info.at_least
+    if info.below is not None:
+        yield value < info.below, "must be below {bound}", info.below
+    if info.at_most is not None:
+        yield value <= info.at_most, "must be at most {bound}", info.at_most
+
+
 def within_bounds(info: Info, value: Array) -> Mask:
     """Where the elements of an array are finite and within the declared bounds."""
-    holds = namespace(value).isfinite(value)
-    if info.whole:
-        holds = holds & (value % 1 == 0)
-    if info.above is not None:
-        holds = holds & (value > info.above)
-    if info.at_least is not None:
-        holds = holds & (value >= info.at_least)
-    if info.below is not None:
-        holds = holds & (value < info.below)
-    if info.at_most is not None:
-        holds = holds & (value <= info.at_most)
-    return holds
+    return functools.reduce(operator.and_, (holds for holds, _, _ in _conditions(info, value)))
 
 
 def out_of_bounds(info: Info, value: float) -> tuple[str, float | None] | None:
-    """Say what is wrong with a concrete number, or None if it is within the declared bounds.
-
-    The second item is the bound that ``{bound}`` in the first stands for.
-    """
-    if not math.isfinite(value):
-        return "must be a finite number", None
-    if info.whole and value != int(value):
-        return "must be a whole number", None
-    if info.above is not None and not value > info.above:
-        return ("must be positive", None) if info.above == 0 else ("must be above {bound}", info.above)
-    if info.at_least is not None and not value >= info.at_least:
-        return ("must not be negative", None) if info.at_least == 0 else ("must be at least {bound}", info.at_least)
-    if info.below is not None and not value < info.below:
-        return "must be below {bound}", info.below
-    if info.at_most is not None and not value <= info.at_most:
-        return "must be at most {bound}", info.at_most
-    return None
+    """What is wrong with a concrete number, and the bound it breaks; None if it is within all bounds."""
+    return next(((problem, bound) for holds, problem, bound in _conditions(info, value) if not holds), None)

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Annotated, Any
 
 from ballscrew._arrays import lazy, namespace
+from ballscrew.components.balance import Resistances, ball_balance
 from ballscrew.components.contact import RaceState
 from ballscrew.components.frame import Frame
 from ballscrew.components.laws import BallChain, IdealTorqueLaw, RaceTorqueLaw
@@ -125,39 +126,20 @@ class FrictionResult:
         M_Cs, M_Cn = s.curvature_friction_moment, n.curvature_friction_moment
         # adding zero gives the parts that depend on less the shape of the operating point
         M_B, F_B = chain.moment + zero, chain.braking_force + zero
-        return {
-            "hydrodynamic_rolling": self._part(F_Rs, F_Rn, zero, zero, zero, zero),
-            "elastic_hysteresis": self._part(zero, zero, M_ERs, M_ERn, zero, zero),
-            "curvature": self._part(zero, zero, M_Cs, M_Cn, zero, zero),
-            "ball_to_ball": self._part(zero, zero, zero, zero, M_B, F_B),
+        nothing = BallChain(zero, zero)
+        parts = {
+            "hydrodynamic_rolling": Resistances(F_Rs, F_Rn, zero, zero, nothing),
+            "elastic_hysteresis": Resistances(zero, zero, M_ERs, M_ERn, nothing),
+            "curvature": Resistances(zero, zero, M_Cs, M_Cn, nothing),
+            "ball_to_ball": Resistances(zero, zero, zero, zero, BallChain(M_B, F_B)),
         }
-
-    def _part(
-        self,
-        screw_rolling_force: Force,
-        nut_rolling_force: Force,
-        screw_moment: Torque,
-        nut_moment: Torque,
-        ball_moment: Torque,
-        braking_force: Force,
-    ) -> Torque:
-        forces = (
-            screw_moment + nut_moment,
-            ball_moment,
-            self.ball_screw.ball_diameter,
-            screw_rolling_force,
-            nut_rolling_force,
-            self.frame.curvature_ratio,
-            braking_force,
-        )
-        per_ball = self.race_torques(
-            equilibrium.tangential_force(screw_rolling_force, equilibrium.screw_sliding_force(*forces)),
-            equilibrium.tangential_force(nut_rolling_force, equilibrium.nut_sliding_force(*forces)),
-            screw_moment,
-            nut_moment,
-            self.frame,
-        )
-        return equilibrium.total_friction_torque(self.ball_screw.loaded_balls, per_ball.screw)
+        z, d_w = self.ball_screw.loaded_balls, self.ball_screw.ball_diameter
+        return {
+            mechanism: equilibrium.total_friction_torque(
+                z, ball_balance(part, d_w, self.frame, self.race_torques).torques.screw
+            )
+            for mechanism, part in parts.items()
+        }
 
     @lazy
     def dissipation(self) -> Mapping[str, Power]:

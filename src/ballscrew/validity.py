@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ballscrew._arrays import namespace
 from ballscrew.components.contact import RaceState
 from ballscrew.components.screw import BallScrew
 from ballscrew.faults import is_concrete
-from ballscrew.quantities import Mask, Torque, fields_of, within_bounds
+from ballscrew.quantities import Mask, Ratio, Torque, fields_of, within_bounds
 
 #: Y at which the curvature moment (15) changes sign: the root of 1 - 5Y³ + 3Y⁵ in (0, 1).
 LARGEST_PURE_ROLLING_OFFSET = 0.643
@@ -27,7 +27,7 @@ REASONS: Mapping[str, str] = {
     "skid": "the sliding force exceeds friction coefficient times load at a contact: the ball would skid",
     "pure_rolling_offset": "the lines of pure rolling lie outside "
     f"0 <= Y < {LARGEST_PURE_ROLLING_OFFSET}, where (15) holds",
-    "radii_ratio": "the radii ratio k is outside the range of the Hertz law (k >= 1; at most 60 for the paper's fit)",
+    "radii_ratio": "the radii ratio k is outside the range of the Hertz law (k >= 1, and a largest k of each law)",
     "contact_pressure": f"the maximum pressure exceeds {LARGEST_PRESSURE / 1e9:g} GPa: the contact yields (ISO 76)",
     "elastic_regime": "the load is too light for the elastic lubrication regime of (1) and (26) "
     f"(M < {SMALLEST_ELASTIC_REGIME_PARAMETER})",
@@ -35,8 +35,6 @@ REASONS: Mapping[str, str] = {
     "the materials and oils behind the film regression (26)",
     "equilibrium": "the offset of the lines of pure rolling did not converge",
 }
-#: The reasons that are judged at each contact.
-_AT_A_CONTACT = tuple(reason for reason in REASONS if reason not in ("inputs", "equilibrium"))
 
 
 def validity_masks(
@@ -57,34 +55,28 @@ def validity_masks(
                 inputs = inputs & within_bounds(quantity.info, value)
         if isinstance(part, BallScrew):
             inputs = inputs & part.fits
-    masks: dict[str, Mask] = {"inputs": inputs}
-    for reason in (
-        "skid",
-        "pure_rolling_offset",
-        "radii_ratio",
-        "contact_pressure",
-        "elastic_regime",
-        "material_parameter",
-    ):
-        masks[reason] = _holds(reason, screw) & _holds(reason, nut)
-    masks["equilibrium"] = converged
-    return {reason: mask & everywhere for reason, mask in masks.items()}
+    at_contacts = {reason: holds(screw) & holds(nut) for reason, holds in _AT_A_CONTACT.items()}
+    masks = {"inputs": inputs, **at_contacts, "equilibrium": converged}
+    return {reason: masks[reason] & everywhere for reason in REASONS}
 
 
-def _holds(reason: str, side: RaceState) -> Mask:
-    """One condition at one contact."""
+def _no_skid(side: RaceState) -> Mask:
     xp = namespace(side.contact_load)
-    match reason:
-        case "skid":
-            return (side.contact_load > 0) & (xp.abs(side.sliding_force) <= side.traction_limit)
-        case "pure_rolling_offset":
-            return (side.pure_rolling_offset >= 0) & (side.pure_rolling_offset < LARGEST_PURE_ROLLING_OFFSET)
-        case "radii_ratio":
-            return (side.radii_ratio >= 1) & (side.radii_ratio <= side.hertz.largest_radii_ratio)
-        case "contact_pressure":
-            return side.maximum_pressure <= LARGEST_PRESSURE
-        case "elastic_regime":
-            return side.elastic_regime_parameter >= SMALLEST_ELASTIC_REGIME_PARAMETER
-        case _:
-            least, most = MATERIAL_PARAMETER_RANGE
-            return (side.material_parameter >= least) & (side.material_parameter <= most)
+    return (side.contact_load > 0) & (xp.abs(side.sliding_force) <= side.traction_limit)
+
+
+def _within(value: Ratio, least: float, most: float) -> Mask:
+    return (value >= least) & (value <= most)
+
+
+#: The conditions that are judged at each contact, by reason.
+_AT_A_CONTACT: Mapping[str, Callable[[RaceState], Mask]] = {
+    "skid": _no_skid,
+    "pure_rolling_offset": lambda side: (
+        (side.pure_rolling_offset >= 0) & (side.pure_rolling_offset < LARGEST_PURE_ROLLING_OFFSET)
+    ),
+    "radii_ratio": lambda side: _within(side.radii_ratio, 1.0, side.hertz.largest_radii_ratio),
+    "contact_pressure": lambda side: side.maximum_pressure <= LARGEST_PRESSURE,
+    "elastic_regime": lambda side: side.elastic_regime_parameter >= SMALLEST_ELASTIC_REGIME_PARAMETER,
+    "material_parameter": lambda side: _within(side.material_parameter, *MATERIAL_PARAMETER_RANGE),
+}

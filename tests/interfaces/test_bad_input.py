@@ -283,3 +283,15 @@ def test_python_refuses_what_is_no_number():
     for load in ("4 kN", 1j, np.array(["4"]), None):
         with pytest.raises(ValueError, match=r"operation\.axial_load: must be a number"):
             bs.FrictionModel.corrected()(screw, bs.Lubricant(**oil), axial_load=load, screw_speed=1.0)
+
+
+def test_a_defect_is_not_called_a_full_output(monkeypatch):
+    """Only faults of the output itself are put down to the output; anything else must be seen."""
+    from ballscrew.interfaces import cli
+
+    def defect():
+        raise FileNotFoundError(2, "No such file or directory", "a part of the package")
+
+    monkeypatch.setattr(cli, "app", defect)
+    with pytest.raises(FileNotFoundError, match="a part of the package"):
+        cli.main()

@@ -91,6 +91,7 @@ def test_a_grade_instead_of_a_viscosity(example, tmp_path, ballscrew):
     assert oil["viscosity"] == bs.Lubricant.from_grade("ISO VG 100", 298.15).viscosity
     assert "Jungnickel2010" in document["provenance"]["references"]
     assert "oil ISO VG 100: " in ballscrew("run", case).stdout
+    assert "@misc{Jungnickel2010" in ballscrew("cite", case).stdout
 
 
 def test_efficiency_table_on_the_terminal(example, ballscrew):

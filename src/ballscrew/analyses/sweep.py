@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 import ballscrew
-from ballscrew._arrays import map_blocks
+from ballscrew._arrays import BLOCK_SIZE, map_blocks
 from ballscrew.analyses.tape import Program, Tape
 from ballscrew.components.contact import RaceState
 from ballscrew.components.materials import Lubricant
@@ -91,7 +91,7 @@ def inputs_of(model: FrictionModel, screw: BallScrew, lubricant: Lubricant) -> M
     """
     parts = {"operation": Operation, "screw": screw, "lubricant": lubricant, "model": model}
     found = {name: (part, quantity) for part, value in parts.items() for name, quantity in fields_of(value).items()}
-    for slot, law in model.laws_with_coefficients().items():
+    for slot, law in model.laws_with_coefficients.items():
         found |= {f"{slot}.{name}": ("model", quantity) for name, quantity in fields_of(law).items()}
     return found
 
@@ -147,9 +147,9 @@ def sweep(
     map_blocks(
         evaluate,
         total,
+        block_size=block_size or BLOCK_SIZE,
         threads=threads,
         done=None if done is None else lambda n: done(n, total),
-        **({} if block_size is None else {"block_size": block_size}),
     )
     return _dataset(model, screw, lubricant, axes, sizes, wanted, {n: v.reshape(shape) for n, v in results.items()})
 

@@ -47,8 +47,9 @@ class Material:
 class Lubricant:
     """An oil at the temperature of the contact.
 
-    The thermal properties are not used by the models of the paper; their defaults are those of a
-    mineral oil near 40 °C (Harris1991). Raises :class:`~ballscrew.faults.InputError` for
+    The thermal properties are not used by the models of the paper. Their defaults are round figures
+    for mineral oils: the density of Jungnickel2010; conductivity and heat capacity are from no
+    source (the reference oil FVA 3 has 0.134 W/(m K), Lubricants2023). Raises :class:`~ballscrew.faults.InputError` for
     values that are not positive.
     """
 

@@ -6,6 +6,7 @@ Scientific packages are imported inside the commands, so that ``ballscrew --help
 from __future__ import annotations
 
 import contextlib
+import errno
 import io
 import os
 import sys
@@ -131,10 +132,10 @@ def cite(
 ) -> None:
     """BibTeX of the sources that a case makes use of."""
     from ballscrew.interfaces import config
-    from ballscrew.references import bibliography, citations_of
+    from ballscrew.references import bibliography
 
     entries = bibliography()
-    keys = list(entries) if case is None else citations_of(config.load(case, settings or [], model).model)
+    keys = list(entries) if case is None else config.references(config.load(case, settings or [], model))
     typer.echo("\n\n".join(entries[key] for key in keys))
 
 
@@ -186,6 +187,8 @@ def main() -> None:
     except InputError as error:
         _refuse(error)
     except OSError as error:
+        if error.errno not in (errno.ENOSPC, errno.EIO, errno.EPIPE):
+            raise  # not the output: a defect of ours, to be seen as one
         # nobody can read what we say on a full or closed output; keep Python from trying again at exit
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         _refuse(InputError(Fault("stdout", "cannot be written", error.strerror or str(error), "choose another place")))

@@ -19,6 +19,7 @@ from ballscrew.interfaces.schema import COEFFICIENT_LAWS, DEFAULT_MODEL, LAWS, M
 from ballscrew.interfaces.units import in_people_units
 from ballscrew.model import FrictionModel
 from ballscrew.quantities import fields_of
+from ballscrew.references import citations_of, keys_in
 
 _NEEDED = ("screw", "lubricant", "operation")
 _SECTIONS = (*_NEEDED, "model", "sweep")
@@ -208,6 +209,12 @@ def inputs(case: Case) -> dict[str, Any]:
             **{slot: _numbers(getattr(model, slot)) for slot in COEFFICIENT_LAWS},
         },
     }
+
+
+def references(case: Case) -> list[str]:
+    """Keys of the sources of the model, and of the oil where it was made from a grade."""
+    of_oil = keys_in(Lubricant.from_grade.__doc__) if case.oil else ()
+    return [*citations_of(case.model), *of_oil]
 
 
 def _law_name(slot: str, law: Any) -> str:

@@ -227,8 +227,9 @@ def _rows(dataset: xr.Dataset, plan: Plan) -> Iterator[list[Any]]:
     """A heading, then one row a point."""
     names = [*plan.axes, *plan.outputs]
     yield [_heading(plan, name) for name in names]
-    shape = tuple(dataset.sizes.values())
-    columns = [np.broadcast_to(_shown(dataset[name], plan, name, dataset), shape).ravel() for name in names]
+    columns = [
+        _shown(xr.broadcast(dataset[name], dataset)[0].transpose(*dataset.sizes), plan, name).ravel() for name in names
+    ]
     yield from (list(row) for row in zip(*(column.tolist() for column in columns), strict=True))
 
 
@@ -236,10 +237,8 @@ def _heading(plan: Plan, name: str) -> str:
     return units.heading(plan.quantities[name], name)
 
 
-def _shown(array: xr.DataArray, plan: Plan, name: str, like: xr.Dataset | None = None) -> np.ndarray:
+def _shown(array: xr.DataArray, plan: Plan, name: str) -> np.ndarray:
     """Values in people's units, rounded to 12 digits so that 4000.0000000000005 N reads 4000."""
-    if like is not None:
-        array = array.broadcast_like(xr.DataArray(0, coords={}).broadcast_like(like)).transpose(*like.sizes)
     values = array.to_numpy()
     if values.dtype == bool:
         return values.astype(int)

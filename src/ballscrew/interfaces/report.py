@@ -17,7 +17,6 @@ from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew, Operation
 from ballscrew.interfaces import config, units
 from ballscrew.quantities import fields_of, quantities_of
-from ballscrew.references import citations_of, keys_in
 from ballscrew.result import MECHANISMS, FrictionResult
 
 #: What the terminal shows, in this order.
@@ -62,15 +61,9 @@ def json_text(case: config.Case, result: FrictionResult) -> str:
         "results": results(result),
         "units": result_units(),
         "warnings": result.warnings,
-        "provenance": {"version": __version__, "model": case.model.label, "references": _references(case)},
+        "provenance": {"version": __version__, "model": case.model.label, "references": config.references(case)},
     }
     return json.dumps(_plain(document), indent=2, ensure_ascii=False, allow_nan=False)
-
-
-def _references(case: config.Case) -> list[str]:
-    """Keys of the sources of the model, and of the oil where it was made from a grade."""
-    of_oil = keys_in(Lubricant.from_grade.__doc__) if case.oil else ()
-    return [*citations_of(case.model), *of_oil]
 
 
 def _plain(value: Any) -> Any:
