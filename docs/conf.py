@@ -1,4 +1,4 @@
-"""The documentation builds offline, and runs the program for every figure and claim it shows."""
+"""The documentation builds offline, and runs the program for every figure, table and claim it shows."""
 
 import sys
 from pathlib import Path
@@ -7,6 +7,7 @@ HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE / "_ext"), str(HERE)]
 
 import ballscrew  # noqa: E402  (after the path of the extension)
+import effect_tables  # noqa: E402
 
 project = "ballscrew"
 author = "The ballscrew authors"
@@ -14,8 +15,9 @@ copyright = "2026, the ballscrew authors"
 version = release = ballscrew.__version__
 
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinxcontrib.bibtex", "mathml"]
-myst_enable_extensions = ["dollarmath", "colon_fence", "deflist"]
+myst_enable_extensions = ["dollarmath", "colon_fence", "deflist", "substitution"]
 myst_heading_anchors = 3
+myst_substitutions = effect_tables.numbers()
 html_math_renderer = "mathml"
 html_theme = "furo"
 html_title = "ballscrew"
@@ -28,16 +30,26 @@ autodoc_typehints = "none"
 suppress_warnings = ["myst.header"]  # the included claims start with a heading of their own
 
 
-def reproduce(_app):
-    """Figures and claims of the paper, as ``make demo`` writes them, and the fields of a case file."""
+def generate(_app):
+    """What the pages include: claims and figures of the paper, effects, laws, fields, and the accuracy."""
+    import accuracy_table
+    import law_tables
     from ballscrew.interfaces.reproduce import reproduce_olaru2005
     from field_table import field_table
 
     generated = HERE / "generated"
     generated.mkdir(exist_ok=True)
-    (generated / "fields.md").write_text(field_table(), encoding="utf-8")
-    reproduce_olaru2005(HERE / "generated" / "olaru2005")
+    pages = {
+        "fields.md": field_table(),
+        "slots.md": law_tables.slots_table(),
+        "laws.md": law_tables.laws_table(),
+        "accuracy.md": accuracy_table.page(),
+    }
+    for name, text in pages.items():
+        (generated / name).write_text(text, encoding="utf-8")
+    effect_tables.write(generated / "effects")
+    reproduce_olaru2005(generated / "olaru2005")
 
 
 def setup(app):
-    app.connect("builder-inited", reproduce)
+    app.connect("builder-inited", generate)

@@ -17,6 +17,7 @@ MODELS = {
     "olaru2005": bs.FrictionModel.olaru2005,
     "olaru2005-literal": lambda: bs.FrictionModel.olaru2005(literal_film_parameter=True),
     "corrected": bs.FrictionModel.corrected,
+    "reference": bs.FrictionModel.reference,
 }
 
 
@@ -47,7 +48,7 @@ def seed_oil() -> bs.Lubricant:
     return bs.Lubricant(viscosity=0.1, pressure_viscosity_coefficient=2.2e-8)
 
 
-@pytest.fixture(params=["olaru2005", "corrected"])
+@pytest.fixture(params=["olaru2005", "corrected", "reference"])
 def model(request: pytest.FixtureRequest) -> bs.FrictionModel:
-    """Each of the two models in turn."""
+    """Each of the three models in turn."""
     return MODELS[request.param]()

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ballscrew.analyses.sweep import sweep as sweep
-    from ballscrew.components.laws import HamrockDowson as HamrockDowson
-    from ballscrew.components.laws import ZhouHoeprich as ZhouHoeprich
+    from ballscrew.components.lubrication import HamrockDowson as HamrockDowson
     from ballscrew.components.materials import Lubricant as Lubricant
     from ballscrew.components.materials import Material as Material
+    from ballscrew.components.mixed_friction import ZhouHoeprich as ZhouHoeprich
     from ballscrew.components.screw import BallScrew as BallScrew
     from ballscrew.faults import InputError as InputError
     from ballscrew.model import FrictionModel as FrictionModel
@@ -26,11 +26,11 @@ _HOMES = {
     "BallScrew": "ballscrew.components.screw",
     "FrictionModel": "ballscrew.model",
     "FrictionResult": "ballscrew.result",
-    "HamrockDowson": "ballscrew.components.laws",
+    "HamrockDowson": "ballscrew.components.lubrication",
     "InputError": "ballscrew.faults",
     "Lubricant": "ballscrew.components.materials",
     "Material": "ballscrew.components.materials",
-    "ZhouHoeprich": "ballscrew.components.laws",
+    "ZhouHoeprich": "ballscrew.components.mixed_friction",
     "sweep": "ballscrew.analyses.sweep",
 }
 

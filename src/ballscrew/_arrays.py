@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
 from types import SimpleNamespace
@@ -39,13 +40,19 @@ def _symbolic() -> SimpleNamespace:
     """NumPy's spelling of the few functions the equations use, in SymPy."""
     sympy = sys.modules["sympy"]
 
+    def expm1(exponent: Any) -> Any:
+        return sympy.exp(exponent) - 1
+
     return SimpleNamespace(
         exp=sympy.exp,
+        expm1=expm1,
         log=sympy.log,
         sqrt=sympy.sqrt,
         sin=sympy.sin,
         cos=sympy.cos,
+        tan=sympy.tan,
         arcsin=sympy.asin,
+        arcsinh=sympy.asinh,
         arctan=sympy.atan,
         maximum=sympy.Max,
         minimum=sympy.Min,
@@ -84,6 +91,33 @@ def blocks(size: int, block_size: int = BLOCK_SIZE) -> Iterator[slice]:
     """Slices that cover ``range(size)`` in blocks."""
     for start in range(0, size, block_size):
         yield slice(start, min(start + block_size, size))
+
+
+def in_blocks(function: Callable[..., Sequence[Any]], *values: Any, block_size: int = 16_384) -> Sequence[Any]:
+    """``function(*values)``, elementwise; big NumPy arrays go through it block by block, on a few threads.
+
+    For long chains of operations, whose intermediate arrays then stay in the cache. Numbers pass as
+    they are, as do arrays too small to gain and values of other libraries.
+    """
+    if not all(isinstance(value, int | float | np.ndarray | np.generic) for value in values):
+        return function(*values)
+    shape = np.broadcast_shapes(*(np.shape(value) for value in values))
+    size = math.prod(shape)
+    if size <= 2 * block_size:
+        return function(*values)
+    flat = [np.broadcast_to(value, shape).reshape(-1) if np.ndim(value) else value for value in values]
+    results: list[Any] = []
+
+    def evaluate(block: slice) -> None:
+        with np.errstate(all="ignore"):  # each thread has its own
+            parts = function(*(value[block] if np.ndim(value) else value for value in flat))
+        for result, part in zip(results, parts, strict=True):
+            result[block] = part
+
+    first = function(*(value[:1] if np.ndim(value) else value for value in flat))
+    results.extend(np.empty(size) for _ in first)
+    map_blocks(evaluate, size, block_size=block_size)
+    return [result.reshape(shape) for result in results]
 
 
 def map_blocks(

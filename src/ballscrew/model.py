@@ -10,49 +10,57 @@ from typing import Annotated, Any
 import numpy as np
 
 from ballscrew._arrays import as_array, lazy
-from ballscrew.components.balance import Resistances, ball_balance
-from ballscrew.components.contact import Contact, ContactLaws, RaceState, rolling_contact
+from ballscrew.components.balance import Resistances, ball_forces
+from ballscrew.components.conditions import Motion
+from ballscrew.components.contact import Contact, ContactLaws, RaceState, fields_as_dict, rolling_contact
 from ballscrew.components.frame import Frame, bearing_frame, helix_frame
 from ballscrew.components.laws import (
-    BallChain,
     BallChainLaw,
+    BallForceLaw,
     ContactLoadLaw,
     ElasticResistanceLaw,
     FilmLaw,
     FilmParameterLaw,
     FrameLaw,
     FrictionLaw,
-    HamrockDowson,
+    FullFilmLaw,
     HertzLaw,
     IdealTorqueLaw,
+    InletLaw,
     RaceTorqueLaw,
     RollingLaw,
-    ZhouHoeprich,
     balanced_race_torques,
     exact_hertz,
     houpert_hertz,
+    imposed_ball_force,
     one_neighbour,
     printed_ideal_torque,
     printed_race_torques,
+    snare_resistance,
     two_neighbours,
     virtual_work_torque,
 )
+from ballscrew.components.lubrication import (
+    HamrockDowson,
+    Inlet,
+    biboulet_houpert_rolling,
+    ideal_inlet,
+    olaru_rolling,
+)
 from ballscrew.components.materials import Lubricant
+from ballscrew.components.mixed_friction import LoadSharing, ZhouHoeprich
 from ballscrew.components.screw import BallScrew, Operation
-from ballscrew.equations import geometry
+from ballscrew.equations import equilibrium, geometry, kinematics
 from ballscrew.equations.film import film_parameter as rms_film_parameter
 from ballscrew.equations.film import literal_film_parameter as printed_film_parameter
-from ballscrew.equations.rolling import (
-    elastic_resistance_moment,
-    hydrodynamic_rolling_force,
-    nut_pressure_force,
-    screw_pressure_force,
-)
+from ballscrew.equations.rolling import nut_pressure_force, screw_pressure_force
 from ballscrew.equations.transmission import contact_load as equal_contact_load
-from ballscrew.faults import faults_of, is_concrete, raise_if_any
+from ballscrew.faults import Fault, faults_of, is_concrete, raise_if_any
 from ballscrew.quantities import AngularSpeed, Force, Info, Ratio
 from ballscrew.result import FrictionResult
-from ballscrew.solvers import pure_rolling
+from ballscrew.solvers.ellipse_slip import ellipse_slip
+from ballscrew.solvers.pure_rolling import curvature_slip
+from ballscrew.solvers.slip import BallProblem, ContactSlip, Slip, SlipLaw
 
 PAPER_FRICTION = ZhouHoeprich()
 
@@ -71,10 +79,14 @@ class FrictionModel:
     hertz: HertzLaw
     film: FilmLaw
     film_parameter: FilmParameterLaw = rms_film_parameter
+    inlet: InletLaw = ideal_inlet
     friction: FrictionLaw = PAPER_FRICTION
-    rolling: RollingLaw = hydrodynamic_rolling_force
-    elastic_resistance: ElasticResistanceLaw = elastic_resistance_moment
+    full_film: FullFilmLaw | None = None
+    rolling: RollingLaw = olaru_rolling
+    elastic_resistance: ElasticResistanceLaw = snare_resistance
+    slip: SlipLaw = curvature_slip
     ball_chain: BallChainLaw
+    ball_force: BallForceLaw = imposed_ball_force
     race_torques: RaceTorqueLaw
     ideal_torque: IdealTorqueLaw
     ball_to_ball_force: Annotated[
@@ -93,7 +105,8 @@ class FrictionModel:
         Ratio | None,
         Info(
             "Y",
-            "offset of the lines of pure rolling, at both contacts; if not imposed, it is solved for",
+            "offset of the lines of pure rolling, at both contacts, where curvature is the only slip; "
+            "if not imposed, it is solved for",
             at_least=0,
             at_most=1,
             hint="the paper imposes 0.34",
@@ -101,7 +114,12 @@ class FrictionModel:
     ] = None
 
     def __post_init__(self) -> None:
-        raise_if_any(faults_of("model", self, optional=("ball_to_ball_force", "pure_rolling_offset")))
+        faults = faults_of("model", self, optional=("ball_to_ball_force", "pure_rolling_offset"))
+        if self.pure_rolling_offset is not None and self.slip is not curvature_slip:
+            problem = "can only be imposed where curvature is the only slip"
+            remedy = "leave it out, or take the slip law of the paper"
+            faults.append(Fault("model.pure_rolling_offset", problem, str(self.pure_rolling_offset), remedy))
+        raise_if_any(faults)
 
     @classmethod
     def olaru2005(cls, *, literal_film_parameter: bool = False) -> FrictionModel:
@@ -134,6 +152,29 @@ class FrictionModel:
             frame=helix_frame,
             hertz=exact_hertz,
             film=HamrockDowson(),
+            ball_chain=two_neighbours,
+            race_torques=balanced_race_torques,
+            ideal_torque=virtual_work_torque,
+        )
+
+    @classmethod
+    def reference(cls) -> FrictionModel:
+        """The physics that the paper leaves out, and the model to use unless the paper is the question.
+
+        :meth:`corrected`, and: rolling force in all regimes, fully flooded (BibouletHoupert2010);
+        heat of the inlet (Gupta1992); asperities and film that share the load (ZhouHoeprich1991);
+        spin and the helix's lateral slip beside the curvature, over the whole ellipse and in
+        balance; a ball that friction cannot carry along skids, in balance, and is flagged.
+        """
+        return cls(
+            name="reference",
+            frame=helix_frame,
+            hertz=exact_hertz,
+            film=HamrockDowson(),
+            inlet=Inlet(),
+            friction=LoadSharing(),
+            rolling=biboulet_houpert_rolling,
+            slip=ellipse_slip,
             ball_chain=two_neighbours,
             race_torques=balanced_race_torques,
             ideal_torque=virtual_work_torque,
@@ -172,18 +213,31 @@ class FrictionModel:
         Q = self.contact_load(axial_load, screw.loaded_balls, screw.contact_angle, frame.lead_angle)
         v = frame.entrainment_speed(screw_speed)
         d_w, gamma = screw.ball_diameter, frame.curvature_ratio
+        spin = kinematics.relative_spin(screw_speed, frame.rolling_plane_sine)
+        lateral = kinematics.torsion_speed(screw_speed, d_w, frame.lead_angle)
+        motion = Motion(v, spin / 2, lateral / 2)
         laws = ContactLaws(
-            self.hertz, self.film, self.film_parameter, self.friction, self.rolling, self.elastic_resistance
-        )
+            self.hertz, self.film, self.film_parameter, self.inlet, self.friction, self.full_film, self.rolling,
+            self.elastic_resistance,
+        )  # fmt: skip
         on_screw = rolling_contact(
-            laws, screw, screw.screw_raceway, lubricant, geometry.screw_rolling_radius(d_w, gamma), Q, v
+            laws, screw, screw.screw_raceway, lubricant, geometry.screw_rolling_radius(d_w, gamma), Q, motion
         )
         on_nut = rolling_contact(
-            laws, screw, screw.nut_raceway, lubricant, geometry.nut_rolling_radius(d_w, gamma), Q, v
+            laws, screw, screw.nut_raceway, lubricant, geometry.nut_rolling_radius(d_w, gamma), Q, motion
         )
-        F_B = 1 / screw.loaded_balls if self.ball_to_ball_force is None else self.ball_to_ball_force
+        imposed = 1 / screw.loaded_balls if self.ball_to_ball_force is None else self.ball_to_ball_force
+        F_B = self.ball_force(imposed, Q)
         chain = self.ball_chain(self.ball_friction_coefficient, F_B, d_w, frame)
-        lines = self._pure_rolling(on_screw, on_nut, chain, frame, d_w)
+        asked = Resistances(
+            on_screw.hydrodynamic_rolling_force,
+            on_nut.hydrodynamic_rolling_force,
+            on_screw.elastic_resistance_moment,
+            on_nut.elastic_resistance_moment,
+            chain,
+        )
+        slip = self.slip(BallProblem(on_screw, on_nut, asked, d_w, frame, screw_speed, self.pure_rolling_offset))
+        carried = asked.scaled(slip.rolling_share)
         laws_and_numbers = (self, *self.laws_with_coefficients.values())
         return FrictionResult(
             parts=(screw, *screw.materials, lubricant, operation, *laws_and_numbers),
@@ -193,64 +247,62 @@ class FrictionModel:
             screw_speed=screw_speed,
             contact_load=Q,
             entrainment_speed=v,
-            ball_chain=chain,
-            ball_to_ball_force=F_B,
+            ball_chain=carried.chain,
+            ball_to_ball_force=slip.rolling_share * F_B,
+            spin_moment=slip.spin_moment,
+            lateral_force=slip.lateral_force,
+            rolling_share=slip.rolling_share,
             race_torques=self.race_torques,
             ideal_torque_law=self.ideal_torque,
-            converged=lines.converged,
-            **self._race_states(on_screw, on_nut, chain, lines, frame, d_w),
-        )
-
-    def _pure_rolling(
-        self, on_screw: Contact, on_nut: Contact, chain: BallChain, frame: Frame, ball_diameter: Any
-    ) -> pure_rolling.PureRolling:
-        if self.pure_rolling_offset is not None:
-            return pure_rolling.imposed(on_screw, on_nut, self.pure_rolling_offset)
-        without_curvature = Resistances(
-            on_screw.hydrodynamic_rolling_force,
-            on_nut.hydrodynamic_rolling_force,
-            on_screw.elastic_resistance_moment,
-            on_nut.elastic_resistance_moment,
-            chain,
-        )
-        balance = ball_balance(without_curvature, ball_diameter, frame, self.race_torques)
-        return pure_rolling.solve(
-            on_screw, on_nut, balance.screw_sliding_force, balance.nut_sliding_force, ball_diameter
+            converged=slip.converged,
+            slip_is_curvature_alone=self.slip is curvature_slip,
+            **self._race_states(on_screw, on_nut, carried, slip, frame, d_w),
         )
 
     def _race_states(
-        self,
-        on_screw: Contact,
-        on_nut: Contact,
-        chain: BallChain,
-        lines: pure_rolling.PureRolling,
-        frame: Frame,
-        ball_diameter: Any,
+        self, on_screw: Contact, on_nut: Contact, carried: Resistances, slip: Slip, frame: Frame, ball_diameter: Any
     ) -> dict[str, RaceState]:
-        F_Rs, F_Rn = on_screw.hydrodynamic_rolling_force, on_nut.hydrodynamic_rolling_force
-        M_s = lines.screw_moment + on_screw.elastic_resistance_moment
-        M_n = lines.nut_moment + on_nut.elastic_resistance_moment
-        balance = ball_balance(Resistances(F_Rs, F_Rn, M_s, M_n, chain), ball_diameter, frame, self.race_torques)
+        F_Rs, F_Rn, M_ERs, M_ERn, chain = carried
+        M_s = slip.screw.curvature_moment + M_ERs
+        M_n = slip.nut.curvature_moment + M_ERn
+        forces = ball_forces(Resistances(F_Rs, F_Rn, M_s, M_n, chain), ball_diameter, frame)
+        torques = self.race_torques(forces.screw_tangential_force, forces.nut_tangential_force, M_s, M_n, frame)
+        through = equilibrium.spin_torque(slip.spin_moment, frame.rolling_plane_sine) + equilibrium.torsion_torque(
+            slip.lateral_force, ball_diameter, frame.lead_angle
+        )
+
+        def state(contact: Contact, at_contact: ContactSlip, **changed: Any) -> RaceState:
+            return RaceState(
+                **{**fields_as_dict(contact), **changed},
+                pure_rolling_offset=at_contact.pure_rolling_offset,
+                curvature_friction_moment=at_contact.curvature_moment,
+                creep_speed=at_contact.creep_speed,
+                spin=at_contact.spin,
+                lateral_slip_speed=at_contact.lateral_slip_speed,
+            )
+
         return {
-            "screw": RaceState(
-                **vars(on_screw),
-                pure_rolling_offset=lines.screw_offset,
-                curvature_friction_moment=lines.screw_moment,
-                sliding_force=balance.screw_sliding_force,
+            "screw": state(
+                on_screw,
+                slip.screw,
+                hydrodynamic_rolling_force=F_Rs,
+                elastic_resistance_moment=M_ERs,
+                sliding_force=forces.screw_sliding_force,
                 contact_radius=frame.screw_contact_radius,
                 pressure_force=screw_pressure_force(F_Rs, frame.curvature_ratio),
-                tangential_force=balance.screw_tangential_force,
-                friction_torque=balance.torques.screw,
+                tangential_force=forces.screw_tangential_force,
+                friction_torque=torques.screw + through,
             ),
-            "nut": RaceState(
-                **vars(on_nut),
-                pure_rolling_offset=lines.nut_offset,
-                curvature_friction_moment=lines.nut_moment,
-                sliding_force=balance.nut_sliding_force,
+            "nut": state(
+                on_nut,
+                slip.nut,
+                hydrodynamic_rolling_force=F_Rn,
+                elastic_resistance_moment=M_ERn,
+                sliding_force=forces.nut_sliding_force,
                 contact_radius=frame.nut_contact_radius,
                 pressure_force=nut_pressure_force(F_Rn, frame.curvature_ratio),
-                tangential_force=balance.nut_tangential_force,
-                friction_torque=balance.torques.nut,
+                tangential_force=forces.nut_tangential_force,
+                friction_torque=torques.nut + through,
             ),
         }
 
@@ -262,6 +314,7 @@ def presets() -> Mapping[str, FrictionModel]:
         FrictionModel.olaru2005(),
         FrictionModel.olaru2005(literal_film_parameter=True),
         FrictionModel.corrected(),
+        FrictionModel.reference(),
     )
     return {model.name: model for model in models}
 

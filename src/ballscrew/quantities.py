@@ -67,6 +67,10 @@ TemperatureDifference = Annotated[Array, Unit("K")]
 Conductivity = Annotated[Array, Unit("W/(m K)")]
 HeatCapacity = Annotated[Array, Unit("J/(kg K)")]
 InverseLength = Annotated[Array, Unit("1/m")]
+ArealDensity = Annotated[Array, Unit("1/m^2")]
+Stiffness = Annotated[Array, Unit("N/m")]
+ShearRate = Annotated[Array, Unit("1/s")]
+TemperatureCoefficient = Annotated[Array, Unit("1/K")]
 
 
 @dataclasses.dataclass(frozen=True, slots=True)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 from ballscrew._arrays import lazy, namespace
-from ballscrew.components.balance import Resistances, ball_balance
+from ballscrew.components.balance import Resistances, ball_forces
 from ballscrew.components.contact import RaceState
 from ballscrew.components.frame import Frame
 from ballscrew.components.laws import BallChain, IdealTorqueLaw, RaceTorqueLaw
@@ -21,8 +21,29 @@ MECHANISMS: Mapping[str, str] = {
     "hydrodynamic_rolling": "hydrodynamic rolling",
     "elastic_hysteresis": "elastic hysteresis",
     "curvature": "curvature slip",
+    "spin": "spin slip",
+    "helix": "helix slip",
     "ball_to_ball": "ball to ball",
 }
+
+
+#: The four quadrants: directions of the load on the nut and of the rotation.
+QUADRANTS: Mapping[str, tuple[int, int]] = {
+    "drives forward": (1, 1),
+    "is back-driven in reverse": (1, -1),
+    "drives in reverse": (-1, -1),
+    "is back-driven forward": (-1, 1),
+}
+
+
+class Quadrant(NamedTuple):
+    """One of the four combinations of load and rotation."""
+
+    load_sign: int
+    speed_sign: int
+    shaft_torque: Torque
+    shaft_power: Power
+    efficiency: Ratio
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True, repr=False)
@@ -44,9 +65,15 @@ class FrictionResult:
     nut: RaceState
     ball_chain: BallChain
     ball_to_ball_force: Annotated[Force, Info("F_B", "net braking force between neighbouring balls")]
+    spin_moment: Annotated[Torque, Info("M_P", "moment about the contact normals, the same at both contacts", "N mm")]
+    lateral_force: Annotated[Force, Info("F_L", "friction across the path, the same at both contacts")]
+    rolling_share: Annotated[
+        Ratio, Info(r"\sigma", "share of the resistances to rolling that friction carries; below one the ball skids")
+    ]
     race_torques: RaceTorqueLaw
     ideal_torque_law: IdealTorqueLaw
     converged: Mask
+    slip_is_curvature_alone: bool
 
     def __repr__(self) -> str:
         """The few numbers one looks for first."""
@@ -83,8 +110,9 @@ class FrictionResult:
     ) -> Annotated[Ratio, Info(r"\eta", "efficiency, screw drives the nut", address="Olaru2005 §7 (36)")]:
         """Efficiency when the screw drives the nut.
 
-        Zero without load. Where both torques vanish, the limit of vanishing load: 0 in motion,
-        where friction falls more slowly than the load, and 1 at rest, where it falls faster.
+        Zero without load. Where both torques vanish, the limit of vanishing load in the models of
+        the paper: 0 in motion, where friction falls more slowly than the load, and 1 at rest, where
+        it falls faster. (A ball that skids has a limit between the two.)
         """
         ideal, friction = self.ideal_torque, self.screw_torque
         no_torque = ideal + friction == 0
@@ -102,6 +130,46 @@ class FrictionResult:
         xp = namespace(eta)
         none = eta == 0
         return xp.where(none, -xp.inf, transmission.back_driving_efficiency(xp.where(none, 1.0, eta)))[()]
+
+    @lazy
+    def holding_torque(
+        self,
+    ) -> Annotated[Torque, Info("M_h", "torque that holds the load when it drives; negative: that lowers it")]:
+        """Torque on the shaft when the load drives the screw: held where positive, self-locking where not."""
+        return transmission.holding_torque(self.ideal_torque, self.screw_torque)
+
+    @lazy
+    def self_locking(self) -> Annotated[Mask, Info("self-locking", "the load alone cannot turn the screw")]:
+        """Whether the load alone cannot turn the screw at this speed, that is with this friction."""
+        return self.holding_torque <= 0
+
+    def shaft_torque(self, load_sign: int, speed_sign: int) -> Torque:
+        """Torque on the shaft in one of four quadrants, positive the way that moves the nut against a load of +1.
+
+        ``load_sign`` is the direction of the load on the nut, ``speed_sign`` that of the rotation;
+        with equal signs the screw drives the nut against its load, with opposite signs the load
+        helps. Friction is the same in all four and opposes the rotation.
+        """
+        return load_sign * self.ideal_torque + speed_sign * self.screw_torque
+
+    @lazy
+    def quadrants(self) -> Mapping[str, Quadrant]:
+        """All four quadrants of load and rotation, by name: shaft torque, its power, and the efficiency.
+
+        The efficiency is that of the power that arrives: from the shaft where the screw drives,
+        from the load where the load does. Where the load should drive and the screw locks itself,
+        it is zero or less, and the shaft has to push too.
+        """
+        return {
+            name: Quadrant(
+                load,
+                speed,
+                self.shaft_torque(load, speed),
+                self.shaft_torque(load, speed) * speed * self.screw_speed,
+                self.efficiency if load == speed else self.back_driving_efficiency,
+            )
+            for name, (load, speed) in QUADRANTS.items()
+        }
 
     @lazy
     def ball_friction_moment(
@@ -133,44 +201,61 @@ class FrictionResult:
             "curvature": Resistances(zero, zero, M_Cs, M_Cn, nothing),
             "ball_to_ball": Resistances(zero, zero, zero, zero, BallChain(M_B, F_B)),
         }
-        z, d_w = self.ball_screw.loaded_balls, self.ball_screw.ball_diameter
-        return {
-            mechanism: equilibrium.total_friction_torque(
-                z, ball_balance(part, d_w, self.frame, self.race_torques).torques.screw
-            )
-            for mechanism, part in parts.items()
-        }
+        torques = {mechanism: self._screw_torque_of(part) for mechanism, part in parts.items()}
+        torques["spin"] = zero + equilibrium.spin_torque(self.spin_moment, self.frame.rolling_plane_sine)
+        torques["helix"] = zero + equilibrium.torsion_torque(
+            self.lateral_force, self.ball_screw.ball_diameter, self.frame.lead_angle
+        )
+        z = self.ball_screw.loaded_balls
+        return {mechanism: equilibrium.total_friction_torque(z, torques[mechanism]) for mechanism in MECHANISMS}
+
+    def _screw_torque_of(self, part: Resistances) -> Torque:
+        """Torque of one ball on the screw that a part of its resistances gives rise to."""
+        forces = ball_forces(part, self.ball_screw.ball_diameter, self.frame)
+        return self.race_torques(
+            forces.screw_tangential_force, forces.nut_tangential_force, part.screw_moment, part.nut_moment, self.frame
+        ).screw
 
     @lazy
     def dissipation(self) -> Mapping[str, Power]:
-        """Power dissipated by mechanism, W, from local forces and local speeds."""
-        s, n, chain, z = self.screw, self.nut, self.ball_chain, self.ball_screw.loaded_balls
-        v, cosine = self.entrainment_speed, self.frame.rolling_plane_cosine
-        ball = kinematics.ball_rotation(v, self.ball_screw.ball_diameter)
-        orbit = kinematics.orbital_rotation(v, n.contact_radius)
-        at_screw = kinematics.screw_contact_rotation(
-            ball, kinematics.screw_relative_rotation(v, s.contact_radius), cosine
+        """Power dissipated by mechanism, W, from local forces and local speeds.
+
+        The speeds are those of a ball whose races creep ahead of it, where the slip law tells how
+        much; what the sliding forces dissipate in creep counts as curvature slip.
+        """
+        s, n, chain, frame = self.screw, self.nut, self.ball_chain, self.frame
+        d_w, z, cosine = self.ball_screw.ball_diameter, self.ball_screw.loaded_balls, frame.rolling_plane_cosine
+        A_s, A_n = s.creep_speed, n.creep_speed
+        w = kinematics.ball_surface_speed(
+            self.entrainment_speed, A_s, A_n, s.contact_radius, n.contact_radius, frame.path_radius
         )
+        ball = kinematics.ball_rotation(w, d_w)
+        orbit = kinematics.orbital_rotation(w + A_n, n.contact_radius)
+        relative = kinematics.screw_relative_rotation(w + A_s, s.contact_radius)
+        at_screw = kinematics.screw_contact_rotation(ball, relative, cosine)
         at_nut = kinematics.nut_contact_rotation(ball, orbit, cosine)
-        return {
-            "hydrodynamic_rolling": z
-            * dissipation.hydrodynamic_rolling_power(s.hydrodynamic_rolling_force, n.hydrodynamic_rolling_force, v),
-            "elastic_hysteresis": z
-            * dissipation.contact_moment_power(
+        per_ball = {
+            "hydrodynamic_rolling": dissipation.hydrodynamic_rolling_power(
+                s.hydrodynamic_rolling_force, n.hydrodynamic_rolling_force, w + A_s / 2, w + A_n / 2
+            ),
+            "elastic_hysteresis": dissipation.contact_moment_power(
                 s.elastic_resistance_moment, n.elastic_resistance_moment, at_screw, at_nut
             ),
-            "curvature": z
-            * dissipation.contact_moment_power(
+            "curvature": dissipation.contact_moment_power(
                 s.curvature_friction_moment, n.curvature_friction_moment, at_screw, at_nut
+            )
+            + dissipation.creep_power(s.sliding_force, n.sliding_force, A_s, A_n),
+            "spin": dissipation.spin_power(
+                self.spin_moment, kinematics.relative_spin(self.screw_speed, frame.rolling_plane_sine)
             ),
-            "ball_to_ball": z
-            * dissipation.ball_chain_power(
-                chain.moment,
-                ball,
-                self.ball_to_ball_force,
-                kinematics.orbital_speed(orbit, self.frame.path_radius),
+            "helix": dissipation.torsion_power(
+                self.lateral_force, kinematics.torsion_speed(self.screw_speed, d_w, frame.lead_angle)
+            ),
+            "ball_to_ball": dissipation.ball_chain_power(
+                chain.moment, ball, self.ball_to_ball_force, kinematics.orbital_speed(orbit, frame.path_radius)
             ),
         }
+        return {mechanism: z * power for mechanism, power in per_ball.items()}
 
     @lazy
     def friction_power(self) -> Annotated[Power, Info("P", "power dissipated by friction")]:
@@ -180,7 +265,15 @@ class FrictionResult:
     @lazy
     def validity(self) -> Mapping[str, Mask]:
         """Where each condition of the model holds, by reason; see :data:`ballscrew.validity.REASONS`."""
-        return validity_masks(self.parts, self.screw, self.nut, self.converged, self.drive_torque)
+        return validity_masks(
+            self.parts,
+            self.screw,
+            self.nut,
+            self.converged,
+            self.rolling_share,
+            self.slip_is_curvature_alone,
+            self.drive_torque,
+        )
 
     @lazy
     def valid(self) -> Annotated[Mask, Info("valid", "all conditions of the model hold")]:

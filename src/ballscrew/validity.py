@@ -29,16 +29,22 @@ REASONS: Mapping[str, str] = {
     f"0 <= Y < {LARGEST_PURE_ROLLING_OFFSET}, where (15) holds",
     "radii_ratio": "the radii ratio k is outside the range of the Hertz law (k >= 1, and a largest k of each law)",
     "contact_pressure": f"the maximum pressure exceeds {LARGEST_PRESSURE / 1e9:g} GPa: the contact yields (ISO 76)",
-    "elastic_regime": "the load is too light for the elastic lubrication regime of (1) and (26) "
+    "elastic_regime": "the load is too light for the elastic lubrication regime of the film law (26), and of (1) "
     f"(M < {SMALLEST_ELASTIC_REGIME_PARAMETER})",
     "material_parameter": f"G is outside {MATERIAL_PARAMETER_RANGE[0]:.0f} to {MATERIAL_PARAMETER_RANGE[1]:.0f}, "
     "the materials and oils behind the film regression (26)",
-    "equilibrium": "the offset of the lines of pure rolling did not converge",
+    "equilibrium": "the slip of the ball did not converge",
 }
 
 
 def validity_masks(
-    parts: Sequence[Any], screw: RaceState, nut: RaceState, converged: Mask, drive_torque: Torque
+    parts: Sequence[Any],
+    screw: RaceState,
+    nut: RaceState,
+    converged: Mask,
+    rolling_share: Ratio,
+    slip_is_curvature_alone: bool,
+    drive_torque: Torque,
 ) -> Mapping[str, Mask]:
     """Masks by reason, in the shape of the torque; NaN fails every condition it enters.
 
@@ -57,6 +63,9 @@ def validity_masks(
             inputs = inputs & part.fits
     at_contacts = {reason: holds(screw) & holds(nut) for reason, holds in _AT_A_CONTACT.items()}
     masks = {"inputs": inputs, **at_contacts, "equilibrium": converged}
+    masks["skid"] = masks["skid"] & (rolling_share == 1)
+    if not slip_is_curvature_alone:
+        masks["pure_rolling_offset"] = everywhere
     return {reason: masks[reason] & everywhere for reason in REASONS}
 
 

@@ -9,16 +9,16 @@ import ballscrew as bs
 from ballscrew.analyses.sweep import known_outputs
 
 LAWS = {
-    "the root of a square": lambda lam: 0.1 * np.sqrt((lam - 1) ** 2),
-    "the fourth root of a fourth power": lambda lam: ((lam - 1) ** 4) ** 0.25,
-    "the square of a root": lambda lam: 0.02 + 0.1 * np.sqrt(lam) ** 2,
-    "either or": lambda lam: np.where(np.logical_xor(lam > 0.5, lam > 0.8), 0.1, 0.2),
-    "not of a choice": lambda lam: np.where(~np.where(lam > 0.5, lam > 0.8, False), 0.1, 0.2),
-    "a ufunc for whole numbers": lambda lam: np.ldexp(lam, 2),
-    "a method of arrays": lambda lam: lam.clip(0.02, 0.2),
-    "a table": lambda lam: np.interp(lam, [0.0, 3.0], [0.2, 0.02]),
-    "a high power": lambda lam: 0.2 / (1 + (lam - 1) ** 12),
-    "a negative power": lambda lam: 0.01 * lam**-2.0,
+    "the root of a square": lambda lam, conditions, full_film: 0.1 * np.sqrt((lam - 1) ** 2),
+    "the fourth root of a fourth power": lambda lam, conditions, full_film: ((lam - 1) ** 4) ** 0.25,
+    "the square of a root": lambda lam, conditions, full_film: 0.02 + 0.1 * np.sqrt(lam) ** 2,
+    "either or": lambda lam, conditions, full_film: np.where(np.logical_xor(lam > 0.5, lam > 0.8), 0.1, 0.2),
+    "not of a choice": lambda lam, conditions, full_film: np.where(~np.where(lam > 0.5, lam > 0.8, False), 0.1, 0.2),
+    "a ufunc for whole numbers": lambda lam, conditions, full_film: np.ldexp(lam, 2),
+    "a method of arrays": lambda lam, conditions, full_film: lam.clip(0.02, 0.2),
+    "a table": lambda lam, conditions, full_film: np.interp(lam, [0.0, 3.0], [0.2, 0.02]),
+    "a high power": lambda lam, conditions, full_film: 0.2 / (1 + (lam - 1) ** 12),
+    "a negative power": lambda lam, conditions, full_film: 0.01 * lam**-2.0,
 }
 
 
@@ -35,7 +35,7 @@ def test_the_same_as_plain_arrays(name, model, seed_screw, seed_oil):
 
 
 def test_a_law_that_fails_says_so_itself(model, seed_screw, seed_oil):
-    def broken(film_parameter):
+    def broken(film_parameter, conditions, full_film):
         raise RuntimeError("no such film")
 
     with pytest.raises(RuntimeError, match="no such film"):

@@ -227,12 +227,13 @@ def test_models_can_be_recorded(seed_screw, seed_oil, model):
     load, speed, viscosity, diameter, conformity, friction = map(tape.value, range(6))
     screw = dataclasses.replace(seed_screw, ball_diameter=diameter, nut_conformity=conformity)
     oil = dataclasses.replace(seed_oil, viscosity=viscosity)
-    traced = dataclasses.replace(model, friction=bs.ZhouHoeprich(boundary_friction_coefficient=friction))
+    law = dataclasses.replace(model.friction, boundary_friction_coefficient=friction)
+    traced = dataclasses.replace(model, friction=law)
     with np.errstate(all="ignore"):
         r = traced(screw, oil, axial_load=load, screw_speed=speed)
         assert isinstance(r.screw_torque, Traced)
         program = Program(tape, {"out": r.screw_torque})
-    values = (4000.0, 60.0, 0.1, 3.175e-3, 0.515, 0.2)
+    values = (4000.0, 60.0, 0.1, 3.175e-3, 0.515, model.friction.boundary_friction_coefficient)
     found = play(program, *(np.full(2, v) for v in values))
     plain = model(seed_screw, seed_oil, axial_load=4000.0, screw_speed=60.0).screw_torque
     assert np.allclose(found, plain, rtol=1e-13, atol=0)

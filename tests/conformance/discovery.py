@@ -82,6 +82,8 @@ RECURRENCES = {
 DIMENSIONAL_FITS = {
     "rheology.pressure_viscosity_estimate": "fit of a pressure coefficient to a power of a viscosity",
     "rheology.pressure_viscosity_linear": "the 273.15 is kelvin, and the slope is per kelvin",
+    "rheology.roelands_exponent": "the logarithm is that of a viscosity in Pa s, and a number is in 1/Pa",
+    "rheology.roelands_viscosity": "the logarithm is that of a viscosity in Pa s, and a number is in 1/Pa",
     "rolling.elastic_resistance_moment": "fit of a moment to powers of a length and a force",
 }
 
@@ -104,21 +106,43 @@ BY_UNIT = {
     "W/(m K)": (0.1, 50.0),
     "J/(kg K)": (400.0, 2000.0),
     "1/m": (1.0, 1000.0),
+    "1/m^2": (1e9, 1e11),
+    "1/s": (1e5, 1e7),
+    "1/K": (0.01, 0.06),
 }
 
 #: The same by name, where the unit alone does not keep the value in the domain.
 BY_NAME = {
     "across": (0.1, 0.6),
     "along": (0.1, 0.6),
+    "asperity_pressure": (1e6, 1e9),
+    "asperity_radius": (1e-6, 1e-4),
+    "combined_roughness": (1e-7, 1e-6),
+    "cell_variance": (1e-3, 0.1),
     "conformity": (0.51, 0.56),
     "ellipticity": (1.0, 15.0),
+    "equivalent_modulus": (1e11, 3e11),
     "exponent": (0.5, 1.5),
-    "film_parameter": (0.1, 3.0),
+    "eyring_stress": (2e6, 2e7),
+    # so far that the ends of the load shares are seen
+    "film_parameter": (0.1, 3.1),
+    "film_viscosity": (1.0, 100.0),
+    "inlet_film_ratio": (2.0, 200.0),
+    "limiting_shear_stress": (1e7, 2e8),
+    "line_load_parameter": (1e-5, 1e-3),
     "load_parameter": (1e-6, 1e-3),
+    "lower_line": (0.1, 0.4),
     "loaded_balls": (10.0, 200.0),
     "material_parameter": (1000.0, 10000.0),
+    "maximum_pressure": (5e8, 3e9),
+    "mean_pressure": (5e8, 2e9),
+    "pressure": (1e8, 1.5e9),
     "radii_ratio": (1.0, 60.0),
+    "roelands_exponent": (0.4, 0.8),
+    "slide_to_roll_ratio": (1e-3, 1.0),
     "speed_parameter": (1e-12, 1e-9),
+    "traction_ratio": (-0.3, 0.9),
+    "upper_line": (0.5, 0.9),
     "vogel_constant": (600.0, 1300.0),
     "vogel_temperature": (170.0, 190.0),
     "viscosity_at_infinity": (5e-8, 1e-7),

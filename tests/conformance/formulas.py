@@ -22,7 +22,7 @@ _BLOCK = re.compile(r"\.\. math:: (?P<formula>.*?)(?:\n\s*\n|\Z)", re.DOTALL)
 _OTHER_SPELLINGS = {"varphi": "phi", "lambda": "lam"}
 _FUNCTIONS = {"min": sympy.Min, "max": sympy.Max}
 
-_GREEK = "alpha|beta|gamma|delta|eta|kappa|lambda|mu|nu|omega|Omega|phi|varphi|pi|rho|sigma"
+_GREEK = "alpha|beta|gamma|delta|eta|kappa|lambda|mu|nu|omega|Omega|phi|varphi|pi|rho|sigma|tau"
 #: A letter before a bracket is a factor, but the parser would take it for a function.
 _FACTOR = re.compile(rf"(?<![A-Za-z\\])((?:[A-Za-z]|\\(?:{_GREEK}))'?(?:_\{{[^}}]*\}})?)\s*(?=(?:\\left)?\()")
 
@@ -105,7 +105,9 @@ def differences(equation: Equation, formula: str) -> list[str]:
     for point in range(POINTS):
         values = {symbols[name]: sympy.Rational(float(column[point])) for name, column in columns.items()}
         ours, theirs = (side.evalf(30, subs=values) for side in (from_code, read.rhs))
-        assert ours.is_Float, f"{equation.name} gives no real number at {values}"
-        if not (theirs.is_Float and abs(ours - theirs) <= RELATIVE * abs(ours)):
+        # a zero is no Float
+        assert ours.is_Number, f"{equation.name} gives no number at {values}"
+        assert ours.is_finite, f"{equation.name} gives no finite number at {values}"
+        if not (theirs.is_Number and abs(ours - theirs) <= RELATIVE * abs(ours)):
             found.append(f"code {ours}, formula {theirs} at {values}")
     return found

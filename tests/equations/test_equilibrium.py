@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from ballscrew.equations import equilibrium, rolling
+from ballscrew.equations import equilibrium, geometry, kinematics, rolling
 
 from .numbers import SCREWS
 
@@ -145,3 +145,14 @@ def test_a_straight_chain_does_not_brake():
     assert equilibrium.chain_braking_force(F_B, M_B, 1e12, 0.7) == pytest.approx(F_B, rel=1e-14)
     # Two neighbours each with M_B/2: their friction forces meet at the angle the chain makes at the ball.
     assert equilibrium.chain_braking_force(0.0, M_B, 0.02, 1.0) == pytest.approx(M_B / 0.02, rel=1e-14)
+
+
+@pytest.mark.parametrize("phi", [0.0, 0.04, 0.3])
+def test_spin_and_torsion_torques_are_virtual_work(phi):
+    # the torque's power is that of the moment in the spin, and of the force in the lateral slip
+    omega, alpha, d_w, M_P, F_L = 62.8, 0.7, 6.35e-3, 2e-4, 0.3
+    s_alpha = geometry.rolling_plane_sine(alpha, phi)
+    spin = equilibrium.spin_torque(M_P, s_alpha) * omega
+    assert spin == pytest.approx(M_P * kinematics.relative_spin(omega, s_alpha), rel=1e-13)
+    torsion = equilibrium.torsion_torque(F_L, d_w, phi) * omega
+    assert torsion == pytest.approx(F_L * kinematics.torsion_speed(omega, d_w, phi), rel=1e-13)

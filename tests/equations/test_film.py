@@ -24,6 +24,48 @@ def test_minimum_film_of_hamrock_and_dowson(U, G, W, kappa, H):
     assert film.minimum_film_thickness(1.5e-3, U, G, W, kappa, 0.68) == pytest.approx(1.5e-3 * H, rel=1e-6)
 
 
+@pytest.mark.parametrize(
+    ("U", "G", "W", "kappa", "H"),
+    # HamrockDowson1977, central film, check values of the reference sheet
+    [
+        (1e-11, 4500, 1e-6, 1, 1.765149e-5),
+        (1e-11, 4500, 1e-6, 3, 2.329407e-5),
+        (1e-10, 5000, 1e-4, 10, 9.078778e-5),
+    ],
+)
+def test_central_film_of_hamrock_and_dowson(U, G, W, kappa, H):
+    assert film.central_film_thickness(1.0, U, G, W, kappa) == pytest.approx(H, rel=1e-6)
+    assert film.central_film_thickness(1.5e-3, U, G, W, kappa) == pytest.approx(1.5e-3 * H, rel=1e-6)
+    assert film.central_film_thickness(1.5e-3, 0.0, G, W, kappa) == 0.0
+
+
+def test_slide_to_roll_ratio_counts_in_mean_speeds():
+    # surfaces at 3 and 1 m/s: they slide with 2 m/s on a mean of 2 m/s
+    assert film.slide_to_roll_ratio(3.0 - 1.0, (3.0 + 1.0) / 2) == 1.0
+
+
+@pytest.mark.parametrize(
+    ("p_0", "L", "S", "phi_T"),
+    # Gupta1992 worked out by hand: at L = 1 all powers of L are one, and at S = 1 those of S
+    [
+        (0.0, 1.0, 0.0, 1 / 1.213),
+        (0.0, 1.0, 1.0, 1 / 1.68799),
+        (2.26e9, 1.0, 0.0, 0.868 / 1.213),
+        (2.26e9, 1.0, 1.0, 0.868 / 1.68799),
+        # powers of 32 and 4 by logarithms: 32^0.42 = 2^2.1, 32^0.64 = 2^3.2, 4^0.83 = 2^1.66
+        (2.26e9, 32.0, 4.0, (1 - 0.132 * 2**2.1) / (1 + 0.213 * (1 + 2.23 * 2**1.66) * 2**3.2)),
+    ],
+)
+def test_inlet_heating_factor(p_0, L, S, phi_T):
+    assert film.inlet_heating_factor(p_0, 2.26e11, L, S) == pytest.approx(phi_T, rel=1e-13)
+
+
+def test_inlet_heating_leaves_the_film_alone_at_rest_and_never_turns_it_over():
+    assert film.inlet_heating_factor(2e9, 2.26e11, 0.0, 0.0) == 1.0
+    assert film.inlet_heating_factor(1.7e9, 2.26e11, 244.0, 0.0) > 0
+    assert film.inlet_heating_factor(1.7e9, 2.26e11, 245.0, 0.0) == 0.0
+
+
 @pytest.mark.equation("Olaru2005 §4 (26)")
 def test_minimum_film_as_printed():
     # reference sheet: mpmath, 40 digits, exponent 0.66

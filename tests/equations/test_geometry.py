@@ -109,3 +109,13 @@ def test_rolling_plane_cosine_is_an_angle_between_directions(lead):
     normal = np.array([1.0, 0.0, 0.0])
     axis_of_rolling = math.cos(alpha) * binormal + math.sin(alpha) * normal
     assert geometry.rolling_plane_cosine(alpha, phi) == pytest.approx(axis_of_rolling[2], rel=RELATIVE)
+
+
+@pytest.mark.parametrize("alpha", [0.4, math.pi / 4, 1.2])
+@pytest.mark.parametrize("phi", [0.0, 0.04, 0.3])
+def test_cosine_and_sine_of_the_rolling_plane_are_components_of_the_axis(alpha, phi):
+    radial, binormal = np.array([1.0, 0.0, 0.0]), np.array([0.0, -math.sin(phi), math.cos(phi)])
+    normal = math.cos(alpha) * radial + math.sin(alpha) * binormal
+    across = math.cos(alpha) * binormal - math.sin(alpha) * radial
+    assert geometry.rolling_plane_sine(alpha, phi) == pytest.approx(normal[2], rel=1e-13)
+    assert geometry.rolling_plane_cosine(alpha, phi) == pytest.approx(across[2], rel=1e-13)

@@ -93,3 +93,53 @@ def test_hertz_pressure_is_an_ellipsoid():
     assert hertz.hertz_pressure(2e9, 0.6, 0.0) == pytest.approx(1.6e9, rel=RELATIVE)
     assert hertz.hertz_pressure(2e9, 0.0, 1.0) == 0.0
     assert hertz.hertz_pressure(2e9, 0.48, 0.64) == pytest.approx(1.2e9, rel=RELATIVE)
+
+
+def brewe_hamrock(k):
+    kappa, E = hertz.ellipticity_brewe_hamrock(k), hertz.second_integral_brewe_hamrock(k)
+    major = hertz.semi_major_axis_coefficient(k, kappa, E)
+    return major, major / kappa, hertz.approach_coefficient(k, kappa, hertz.first_integral_brewe_hamrock(k), E)
+
+
+def test_brewe_and_hamrock_are_exact_for_a_circle():
+    assert hertz.ellipticity_brewe_hamrock(1.0) == 1.0
+    assert hertz.first_integral_brewe_hamrock(1.0) == pytest.approx(math.pi / 2, rel=RELATIVE)
+    assert hertz.second_integral_brewe_hamrock(1.0) == pytest.approx(math.pi / 2, rel=RELATIVE)
+    assert brewe_hamrock(1.0) == pytest.approx(exact_coefficients(1.0), rel=RELATIVE)
+
+
+@pytest.mark.parametrize(
+    ("k", "major", "minor", "approach"),
+    # measured against the exact solution; BreweHamrock1977 state 3 % for the ellipticity and the integrals
+    [(2.0, 0.017, 0.004, 0.024), (5.0, 0.027, 0.011, 0.026), (10.0, 0.027, 0.012, 0.017), (36.0, 0.013, 0.005, 0.012)],
+)
+def test_brewe_and_hamrock_are_close_to_the_exact_solution(k, major, minor, approach):
+    found, exact = brewe_hamrock(k), exact_coefficients(k)
+    for value, reference, within in zip(found, exact, (major, minor, approach), strict=True):
+        assert value == pytest.approx(reference, rel=within)
+        assert value != pytest.approx(reference, rel=1e-3)
+
+
+@pytest.mark.parametrize("k", [1.0, 5.0, 36.0])
+def test_contact_stiffness_is_the_slope_of_the_load(k):
+    R, E, Q = 1.5e-3, 2.26e11, 100.0
+    *_, c_d = exact_coefficients(k)
+
+    def approach(load):
+        return hertz.mutual_approach(c_d, R, load / (E * R**2))
+
+    step = 1e-3
+    slope = 2 * step / (approach(Q + step) - approach(Q - step))
+    W = Q / (E * R**2)
+    assert hertz.contact_stiffness(c_d, E, R, W) == pytest.approx(slope, rel=1e-7)
+    assert hertz.contact_stiffness(c_d, E, R, W) == pytest.approx(3 * Q / (2 * approach(Q)), rel=RELATIVE)
+    assert hertz.contact_stiffness(c_d, E, R, 0.0) == 0.0
+
+
+def test_mean_pressure_is_load_over_area():
+    Q, R, E = 100.0, 1.5e-3, 2.26e11
+    W = Q / (E * R**2)
+    major, minor, _ = exact_coefficients(5.0)
+    area = math.pi * hertz.semi_axis(major, R, W) * hertz.semi_axis(minor, R, W)
+    p_m = hertz.mean_pressure(hertz.maximum_pressure(major, minor, E, W))
+    assert p_m == pytest.approx(Q / area, rel=RELATIVE)

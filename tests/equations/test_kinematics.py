@@ -81,3 +81,45 @@ def test_curvature_sliding_speed_of_a_bent_contact(d_m, d_w, alpha, f):
         assert speed == pytest.approx(v / R_x * height_above_the_line, rel=1e-12, abs=1e-18)
     assert kinematics.curvature_sliding_speed(v, R_x, R_d, c, c) == 0.0
     assert kinematics.curvature_sliding_speed(v, R_x, R_d, -c, c) == 0.0
+
+
+@every_screw
+def test_ball_surface_speed_of_races_that_creep(d_m, d_w, alpha, f):
+    # Two speeds at each race, one of the screw's rotation: omega_s R_s = w + A_s, omega_c R_n = w + A_n,
+    # omega_s + omega_c = omega. Three equations for omega_s, omega_c and w.
+    omega, A_s, A_n = 62.8, 3e-3, -1e-3
+    gamma, L = geometry.curvature_ratio(d_w, d_m, alpha, 0.0), geometry.path_radius(d_m, 0.0)
+    R_s, R_n = geometry.screw_contact_radius(L, gamma), geometry.nut_contact_radius(L, gamma)
+    omega_s, omega_c, w = np.linalg.solve([[R_s, 0, -1], [0, R_n, -1], [1, 1, 0]], [A_s, A_n, omega])
+    v = kinematics.entrainment_speed(omega, L, gamma)
+    found = kinematics.ball_surface_speed(v, A_s, A_n, R_s, R_n, L)
+    assert found == pytest.approx(w, rel=1e-12)
+    assert kinematics.screw_relative_rotation(found + A_s, R_s) == pytest.approx(omega_s, rel=1e-12)
+    assert kinematics.orbital_rotation(found + A_n, R_n) == pytest.approx(omega_c, rel=1e-12)
+    assert kinematics.ball_surface_speed(v, 0.0, 0.0, R_s, R_n, L) == v
+
+
+@every_screw
+@pytest.mark.parametrize("lead", [0.0, 0.2, 1.0])
+def test_the_screw_moves_against_the_nut_by_spin_and_torsion(d_m, d_w, alpha, f, lead):
+    # The screw turns about its axis and shifts along it, so that its thread moves through that of the nut.
+    # Whatever the ball does, these are the differences that its two contacts have to take as slip.
+    omega = 62.8
+    phi = geometry.lead_angle(lead * d_m, d_m)
+    axis = np.array([0.0, 0.0, 1.0])
+    path = np.array([0.0, math.cos(phi), math.sin(phi)])
+    binormal = np.array([0.0, -math.sin(phi), math.cos(phi)])
+    radial = np.array([1.0, 0.0, 0.0])
+    normal = math.cos(alpha) * radial + math.sin(alpha) * binormal
+    across = np.cross(path, normal)
+
+    def screw_against_nut(place):
+        return np.cross(omega * axis, d_m / 2 * radial + place) + omega * lead * d_m / (2 * math.pi) * axis
+
+    # in the ball's middle they pass along its path
+    assert np.linalg.norm(np.cross(screw_against_nut(0 * axis), path)) == pytest.approx(0, abs=1e-12)
+    s_alpha = geometry.rolling_plane_sine(alpha, phi)
+    assert kinematics.relative_spin(omega, s_alpha) == pytest.approx(omega * axis @ normal, rel=RELATIVE)
+    # a ball that turns about its path moves by as much at one contact as it does against it at the other
+    D = abs(screw_against_nut(-d_w / 2 * normal) @ across)
+    assert kinematics.torsion_speed(omega, d_w, phi) == pytest.approx(D, rel=1e-12, abs=1e-15)

@@ -74,3 +74,41 @@ def test_pressure_viscosity_estimate():
     for nu in (1e-5, 1e-4, 5e-4):
         expected = math.exp(math.log(1.29e-7) + 0.204 * math.log(nu))
         assert rheology.pressure_viscosity_estimate(nu) == pytest.approx(expected, rel=RELATIVE)
+
+
+def test_barus_grows_by_e_over_one_inverse_coefficient():
+    assert rheology.barus_viscosity(0.1, 2e-8, 0.0) == 0.1
+    assert rheology.barus_viscosity(0.1, 2e-8, 5e7) == pytest.approx(0.1 * math.e, rel=RELATIVE)
+    assert rheology.barus_viscosity(0.1, 2e-8, 1e9) == pytest.approx(0.1 * math.e**20, rel=RELATIVE)
+
+
+@pytest.mark.parametrize("eta_0", [0.01, 0.1, 0.5])
+def test_roelands_has_the_given_pressure_viscosity_coefficient(eta_0):
+    # the coefficient is the slope of the logarithm at zero pressure, where Roelands and Barus touch
+    Z = rheology.roelands_exponent(eta_0, 2.2e-8)
+    step = 1e2
+    slope = math.log(rheology.roelands_viscosity(eta_0, step, Z) / eta_0) / step
+    assert slope == pytest.approx(2.2e-8, rel=1e-6)
+    assert rheology.roelands_viscosity(eta_0, 0.0, Z) == eta_0
+    assert rheology.roelands_viscosity(eta_0, 1e9, Z) < rheology.barus_viscosity(eta_0, 2.2e-8, 1e9) / 10
+
+
+def test_roelands_lines_meet_at_the_pole():
+    # Roelands1966: at -1/5.1e-9 Pa all isotherms meet at ln eta = -9.67
+    for eta_0, Z in ((0.01, 0.5), (0.3, 0.7)):
+        assert math.log(rheology.roelands_viscosity(eta_0, -1 / 5.1e-9, Z)) == pytest.approx(-9.67, rel=1e-12)
+
+
+@pytest.mark.parametrize("celsius", [20.0, 40.0, 100.0])
+def test_temperature_coefficient_is_the_slope_of_vogels_law(celsius):
+    T, step = 273.15 + celsius, 1e-3
+    law = (0.062e-3 / 887.6, 1021.7, 273.15 - 101.5517)  # Lubricants2023, Table A1
+    above, below = (rheology.kinematic_viscosity_vogel(T + s, *law) for s in (step, -step))
+    slope = -math.log(above / below) / (2 * step)
+    assert rheology.vogel_temperature_coefficient(T, law[1], law[2]) == pytest.approx(slope, rel=1e-8)
+
+
+def test_thermal_loading_parameter():
+    # 0.04 1/K * 0.1 Pa s * (0.6 m/s)^2 / 0.144 W/(m K)
+    assert rheology.thermal_loading_parameter(0.1, 0.04, 0.6, 0.144) == pytest.approx(0.01, rel=RELATIVE)
+    assert rheology.thermal_loading_parameter(0.1, 0.04, 0.0, 0.144) == 0.0

@@ -91,3 +91,34 @@ def test_back_driving_takes_the_same_friction_from_the_load():
     assert eta_b == pytest.approx((ideal - friction) / ideal, rel=RELATIVE)
     # at half the efficiency the screw just locks itself
     assert transmission.back_driving_efficiency(0.5) == 0.0
+
+
+@pytest.mark.parametrize("phi", [0.01, 0.04, 0.3])
+@pytest.mark.parametrize("rho", [0.0, 0.003, 0.1])
+def test_classical_efficiencies_balance_a_block_on_an_inclined_plane(phi, rho):
+    # the reaction leans from the normal by the friction angle, against the motion
+    load = 1000.0
+    up, down = load * math.tan(phi + rho), load * math.tan(phi - rho)
+    work = load * math.tan(phi)
+    assert transmission.classical_efficiency(phi, rho) == pytest.approx(work / up, rel=RELATIVE)
+    assert transmission.classical_back_driving_efficiency(phi, rho) == pytest.approx(down / work, rel=RELATIVE, abs=0)
+
+
+def test_classical_back_driving_lies_a_little_above():
+    # reference sheet: the friction of the thread grows with its force, that of a torque does not
+    phi = math.atan(0.005 / (math.pi * 0.04))
+    rho = math.atan(math.tan(phi) + 2 * 0.2 / (4000.0 * 0.04)) - phi
+    eta = transmission.classical_efficiency(phi, rho)
+    found = transmission.classical_back_driving_efficiency(phi, rho)
+    assert 0 < found - transmission.back_driving_efficiency(eta) < 2e-5
+    # both lock where the friction angle is the lead angle
+    assert transmission.classical_back_driving_efficiency(phi, phi) == 0
+
+
+def test_holding_torque_is_what_friction_leaves_of_the_load():
+    assert transmission.holding_torque(3.18, 0.2) == pytest.approx(2.98, rel=RELATIVE)
+    assert transmission.holding_torque(0.1, 0.2) == pytest.approx(-0.1, rel=RELATIVE)
+    eta = transmission.efficiency(3.18, 0.2)
+    assert transmission.holding_torque(3.18, 0.2) / 3.18 == pytest.approx(
+        transmission.back_driving_efficiency(eta), rel=RELATIVE
+    )

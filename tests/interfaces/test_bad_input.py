@@ -33,7 +33,7 @@ FAULTS = {
     "misspelt section": ("[lubricant]", "[lubricnt]", 'lubricnt: unknown section · did you mean "lubricant"?'),
     "unknown model": ('name = "olaru2005"', 'name = "olaru205"', 'did you mean "olaru2005"?'),
     "unknown law": ('name = "olaru2005"', 'hertz = "exat"', 'model.hertz: unknown law (exat) · did you mean "exact"?'),
-    "unknown coefficient": ("friction.boundary_", "friction.bondary_", 'did you mean "boundary_friction_coefficient"?'),
+    "unknown coefficient": ('name = "olaru2005"', "friction.decai = 1.4", 'did you mean "decay"?'),
     "kinematic viscosity": ('"0.1 Pa s"', '"100 cSt"', "lubricant.viscosity: wrong unit (100 cSt)"),
 }  # fmt: skip
 
@@ -217,7 +217,7 @@ def test_settings_are_never_lost(example, ballscrew):
 @pytest.mark.parametrize("encoding", ["ascii", "cp1252", "latin-1"])
 def test_terminals_of_other_encodings(encoding, example, ballscrew):
     """What a terminal cannot show is written otherwise; the answer is complete."""
-    for arguments in (["run", example], ["run", example, "--json"], ["schema"], ["--help"]):
+    for arguments in (["run", example], ["run", example, "--json"], ["compare", example], ["schema"], ["--help"]):
         process = ballscrew(*arguments, environment={"PYTHONIOENCODING": encoding, "PYTHONUTF8": "0"})
         assert process.returncode == 0
         assert process.stderr == ""
@@ -232,7 +232,7 @@ def test_a_full_output_is_one_line(example):
     import subprocess
     import sys
 
-    for command in (["run", example], ["run", example, "--json"], ["sweep", example]):
+    for command in (["run", example], ["run", example, "--json"], ["compare", example], ["sweep", example]):
         with Path("/dev/full").open("w") as full:
             program = [sys.executable, "-m", "ballscrew.interfaces.cli", *command]
             process = subprocess.run(program, stdout=full, stderr=subprocess.PIPE, text=True, check=False)

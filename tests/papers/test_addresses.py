@@ -31,7 +31,12 @@ SECTIONS = {
 #: Functions that name an address without being its home, and why.
 ALSO_NAMED_BY = {
     "Olaru2005 §2.1 (9)": {"transmission.contact_load": "the load that (9) needs and the paper does not print"},
-    "Olaru2005 §4 (22)": {"film.literal_film_parameter": "(22) to the letter, next to what it must mean"},
+    "Olaru2005 §2.2 (15)": {"slip.line_curvature_coefficient": "with spin; without it, it is (15)"},
+    "Olaru2005 §2.2 (17)": {"slip.half_distance_of_lines": "with spin; without it, half the distance is the Y of (17)"},
+    "Olaru2005 §4 (22)": {
+        "film.literal_film_parameter": "(22) to the letter, next to what it must mean",
+        "film.combined_roughness": "the denominator of (22) by itself",
+    },
 }
 
 ADDRESSES = [equation.address for equation in paper_equations()]

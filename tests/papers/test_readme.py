@@ -3,9 +3,12 @@
 import importlib.util
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[2]
 
 
+@pytest.fixture(scope="module")
 def make_readme():
     spec = importlib.util.spec_from_file_location("make_readme", ROOT / "docs" / "make_readme.py")
     module = importlib.util.module_from_spec(spec)
@@ -13,16 +16,32 @@ def make_readme():
     return module
 
 
-def test_the_table_of_claims_is_up_to_date():
+@pytest.fixture(scope="module")
+def text():
+    return (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def test_the_table_of_claims_is_up_to_date(make_readme, text):
     """If this fails, run ``make readme``."""
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    assert make_readme().with_claims(text) == text
+    assert make_readme.with_claims(text) == text
 
 
-def test_the_python_example_runs(capsys):
+def test_the_table_of_accuracy_is_up_to_date(make_readme, text):
+    """If this fails, run ``make readme``."""
+    assert make_readme.with_accuracy(text) == text
+
+
+def test_the_picture_is_a_figure_of_the_program(make_readme, text):
+    assert make_readme.PICTURE in {plot.name for plot in make_readme.figures.PLOTS}
+    assert "docs/images/parts_over_speed.png" in text
+    assert (make_readme.IMAGES / "parts_over_speed.png").is_file()
+
+
+def test_the_python_example_runs(text, capsys):
     """The ten lines of the README, as they stand there."""
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
     code = text.split("```python\n")[1].split("```")[0]
     assert len(code.splitlines()) <= 10
     exec(compile(code, "README.md", "exec"), {})
-    assert "hydrodynamic_rolling" in capsys.readouterr().out
+    shown = capsys.readouterr().out
+    assert "hydrodynamic_rolling" in shown
+    assert "helix" in shown

@@ -11,10 +11,18 @@ from ballscrew.result import FrictionResult
 
 RPM = math.pi / 30
 
-MODELS = {"olaru2005": bs.FrictionModel.olaru2005(), "corrected": bs.FrictionModel.corrected()}
-both_models = st.sampled_from(sorted(MODELS)).map(MODELS.get)
+MODELS = {
+    "olaru2005": bs.FrictionModel.olaru2005(),
+    "corrected": bs.FrictionModel.corrected(),
+    "reference": bs.FrictionModel.reference(),
+}
+all_models = st.sampled_from(sorted(MODELS)).map(MODELS.get)
+both_models = st.sampled_from(["corrected", "olaru2005"]).map(MODELS.get)
+#: Those in which action is reaction, and all power in is dissipated.
+balanced_models = st.sampled_from(["corrected", "reference"]).map(MODELS.get)
 corrected = MODELS["corrected"]
 olaru2005 = MODELS["olaru2005"]
+reference = MODELS["reference"]
 
 
 def floats(low: float, high: float) -> st.SearchStrategy[float]:
@@ -97,6 +105,45 @@ def fitting_cases(draw: st.DrawFn) -> Case:
     return Case(screw, oil, load, draw(moving))
 
 
+#: N/m²: a load per ball in units of its diameter squared, beyond the static rating of any screw.
+HEAVIEST = 1.5e8
+
+
+def box(size: int, seed: int, *, heaviest: float = HEAVIEST, at_rest: float = 0.05) -> Case:
+    """Random screws, oils and operating points as one case of arrays: no constructor looks at them.
+
+    All that is sold and a little more, with loads from next to nothing, and a share of it at rest.
+    """
+    rng = np.random.default_rng(seed)
+
+    def powers(low: float, high: float) -> np.ndarray:
+        return np.exp(rng.uniform(math.log(low), math.log(high), size))
+
+    d_m = powers(0.008, 0.150)
+    lead = d_m * powers(1 / 20, 1.0)
+    room = lead * np.cos(np.arctan(lead / (math.pi * d_m)))
+    d_w = np.minimum(d_m * rng.uniform(0.03, 0.3, size), 0.98 * room)
+    z = rng.integers(10, 301, size).astype(float)
+    alpha = np.radians(rng.uniform(20, 70, size))
+    screw = bs.BallScrew(
+        pitch_circle_diameter=d_m,
+        lead=lead,
+        ball_diameter=d_w,
+        loaded_balls=z,
+        contact_angle=alpha,
+        screw_conformity=rng.uniform(0.505, 0.56, size),
+        nut_conformity=rng.uniform(0.505, 0.56, size),
+        ball_roughness=rng.uniform(0.02e-6, 0.1e-6, size),
+        screw_roughness=rng.uniform(0.05e-6, 0.6e-6, size),
+        nut_roughness=rng.uniform(0.05e-6, 0.6e-6, size),
+    )
+    oil = bs.Lubricant(powers(0.005, 1.0), rng.uniform(1e-8, 2.5e-8, size))
+    load = np.minimum(powers(1.0, 50e3), heaviest * d_w**2 * z * np.sin(alpha))
+    # most of them anywhere up to 5000 rpm, some creeping
+    rpm = np.where(rng.random(size) < 0.25, powers(1e-3, 5000), rng.uniform(0, 5000, size))
+    return Case(screw, oil, load, rpm * RPM * (rng.random(size) >= at_rest))
+
+
 def torque_scale(r: FrictionResult) -> float:
     """The size of the torques that were added and subtracted on the way to a sum."""
     parts = sum(abs(part) for part in r.contributions.values())
@@ -114,14 +161,19 @@ def close(found: object, expected: object, relative: float = 1e-12, scale: objec
 # -- laws for isolating one mechanism -------------------------------------------------------------
 
 
-def no_rolling_resistance(E, R_x, k, G, U, W):
+def no_rolling_resistance(conditions):
     """Rolling law: none."""
-    return 0 * W
+    return 0 * conditions.contact_load
 
 
-def no_elastic_resistance(d_w, Q, k):
+def no_elastic_resistance(d_w, Q, k, b):
     """Elastic resistance: none."""
     return 0 * Q
+
+
+def constant_friction(coefficient):
+    """Friction law: the same coefficient, whatever the film."""
+    return lambda film_parameter, conditions, full_film: coefficient + 0 * film_parameter
 
 
 def without_losses_of_rolling(model: bs.FrictionModel) -> bs.FrictionModel:

@@ -6,7 +6,7 @@ import math
 import numpy as np
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from strategies import both_models, cases, close, fitting_cases, floats, powers
+from strategies import both_models, cases, close, constant_friction, fitting_cases, floats, powers
 
 import ballscrew as bs
 from ballscrew.equations import friction, hertz, kinematics
@@ -164,7 +164,7 @@ def test_torque_rises_with_roughness(case, model, factor):
 @given(fitting_cases(), both_models, st.floats(1.05, 10))
 def test_torque_rises_with_the_load(case, model, factor):
     """M_S rises with the load at constant friction coefficient."""
-    constant = dataclasses.replace(model, friction=lambda lam: 0.1 + 0 * lam)
+    constant = dataclasses.replace(model, friction=constant_friction(0.1))
     less, greater = case(constant), case(constant, axial_load=factor * case.axial_load)
     assume(less.validity["skid"])
     assert greater.screw_torque > less.screw_torque

@@ -2,15 +2,18 @@
 
 import dataclasses
 import math
+from typing import NamedTuple
 
 import mpmath
 import numpy as np
 import pytest
 
 import ballscrew as bs
+from ballscrew.components.balance import Resistances
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import equilibrium, friction
 from ballscrew.solvers import pure_rolling
+from ballscrew.solvers.slip import BallProblem
 
 CORRECTED = bs.FrictionModel.corrected()
 BOX = 100_000
@@ -31,9 +34,32 @@ def without_curvature(r):
     return equilibrium.screw_sliding_force(*forces), equilibrium.nut_sliding_force(*forces)
 
 
+class Outcome(NamedTuple):
+    """The solver's own answer for the contacts of a result, and the moments that go with it."""
+
+    screw_offset: object
+    nut_offset: object
+    residual: object
+    screw_moment: object
+    nut_moment: object
+
+
 def outcome(r):
-    """The solver's own answer for the contacts of a result."""
-    return pure_rolling.solve(r.screw, r.nut, *without_curvature(r), r.ball_screw.ball_diameter)
+    found = pure_rolling.solve(r.screw, r.nut, *without_curvature(r), r.ball_screw.ball_diameter)
+    moments = (side.curvature_moment_at(offset) for side, offset in zip((r.screw, r.nut), found[:2], strict=True))
+    return Outcome(*found, *moments)
+
+
+def ball_problem(r, pure_rolling_offset=None):
+    """What the slip law was asked for a result."""
+    sides = (r.screw, r.nut)
+    asked = Resistances(
+        *(side.hydrodynamic_rolling_force for side in sides),
+        *(side.elastic_resistance_moment for side in sides),
+        r.ball_chain,
+    )
+    d_w = r.ball_screw.ball_diameter
+    return BallProblem(*sides, asked, d_w, r.frame, r.screw_speed, pure_rolling_offset)
 
 
 def box(size=BOX, seed=2005, heaviest=1.5e8):
@@ -110,9 +136,11 @@ def moments_by_bisection(r):
 
 def test_converges_everywhere(anywhere):
     """A fixed number of steps is enough for every contact that fits its groove."""
-    found = outcome(anywhere)
+    found = pure_rolling.curvature_slip(ball_problem(anywhere))
     assert np.all(found.converged)
+    assert found.tolerance == pure_rolling.TOLERANCE
     assert np.max(found.residual) <= pure_rolling.TOLERANCE
+    assert np.max(outcome(anywhere).residual) <= pure_rolling.TOLERANCE
     assert np.all(anywhere.converged)
     assert np.all(anywhere.validity["equilibrium"])
 
@@ -201,14 +229,16 @@ def test_without_load_the_moments_vanish(seed_screw, seed_oil):
         assert np.array_equal(moment, np.zeros(3))
     for offset in (found.screw_offset, found.nut_offset):
         assert np.all((offset == 0) | (np.abs(offset - 1) < 1e-15))
-    assert np.all(found.converged)
+    assert np.all(found.residual == 0)
+    assert np.all(r.converged)
 
 
 def test_imposed_offset_is_taken_as_it_is(seed_screw, seed_oil):
     r = CORRECTED(seed_screw, seed_oil, axial_load=4000.0, screw_speed=60.0)
-    given = pure_rolling.imposed(r.screw, r.nut, 0.34)
-    assert given.screw_offset == given.nut_offset == 0.34
-    assert given.screw_moment == r.screw.curvature_moment_at(0.34)
+    given = pure_rolling.curvature_slip(ball_problem(r, 0.34))
+    assert given.screw.pure_rolling_offset == given.nut.pure_rolling_offset == 0.34
+    assert given.screw.curvature_moment == r.screw.curvature_moment_at(0.34)
+    assert given.nut.curvature_moment == r.nut.curvature_moment_at(0.34)
     assert given.converged
     model = dataclasses.replace(CORRECTED, pure_rolling_offset=0.34)
     assert model(seed_screw, seed_oil, axial_load=4000.0, screw_speed=60.0).nut.pure_rolling_offset == 0.34
@@ -226,7 +256,19 @@ def test_what_does_not_converge_says_so(seed_screw, seed_oil):
     assert not np.any(r.valid[open_])
     assert any(warning.startswith("equilibrium:") for warning in r.warnings)
     assert np.all(np.isfinite(r.screw_torque))
-    assert "conformity" in outcome(r).advice
+    assert "conformity" in pure_rolling.curvature_slip(ball_problem(r)).advice
+
+
+def test_curvature_alone_neither_spins_nor_creeps(seed_screw, seed_oil):
+    """The paper's slip law hands nothing through the ball but forces along the path, and never skids."""
+    r = CORRECTED(seed_screw, seed_oil, axial_load=4000.0, screw_speed=60.0)
+    found = pure_rolling.curvature_slip(ball_problem(r))
+    assert found.spin_moment == found.lateral_force == 0
+    assert found.rolling_share == r.rolling_share == 1
+    for side in (found.screw, found.nut, r.screw, r.nut):
+        assert side.creep_speed == side.spin == side.lateral_slip_speed == 0
+    assert found.screw.curvature_moment == r.screw.curvature_friction_moment
+    assert found.nut.curvature_moment == r.nut.curvature_friction_moment
 
 
 def test_a_point_does_not_see_its_neighbours(anywhere):

@@ -98,23 +98,26 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
         tape = self.tape
         if len(self.powers) == 1 and next(iter(self.powers.values())) == 1:
             return next(iter(self.powers))
-        # whole powers are multiplied out, as their base may be negative
-        whole = [i for i, p in sorted(self.powers.items()) if p == int(p) for _ in range(int(abs(p)))]
-        broken = {i: p for i, p in sorted(self.powers.items()) if p != int(p)}
+        # whole powers are multiplied out, as their base may be negative, and the latest first, as that
+        # is what other products share; alone, a root is cheaper than a logarithm
+        powers = sorted(self.powers.items(), reverse=True)
+        broken = [(i, p) for i, p in powers if p != int(p)]
+        roots = broken if all(abs(p) == 0.5 for _, p in broken) else []
         result: int | None = None
-        for i, power in broken.items():
+        for i, power in broken if not roots else []:
             logarithm = tape.value(tape.record(np.log, tape.value(i)))
             term = tape.record(np.multiply, logarithm, power)
             result = term if result is None else tape.record(np.add, tape.value(result), tape.value(term))
         if result is not None:
             result = tape.record(np.exp, tape.value(result))
-        for i in whole:
-            factor = tape.value(i)
-            if self.powers[i] < 0:
+        factors = [(i, p) for i, p in powers if p == int(p) for _ in range(int(abs(p)))]
+        factors += [(tape.record(np.sqrt, tape.value(i)), p) for i, p in roots]
+        for i, power in factors:
+            if power < 0:
                 start = 1.0 if result is None else tape.value(result)
-                result = tape.record(np.divide, start, factor)
+                result = tape.record(np.divide, start, tape.value(i))
             else:
-                result = i if result is None else tape.record(np.multiply, tape.value(result), factor)
+                result = i if result is None else tape.record(np.multiply, tape.value(result), tape.value(i))
         return tape.record(np.multiply, 1.0, 1.0) if result is None else result
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **kwargs: Any) -> Any:

@@ -1,13 +1,13 @@
-"""One ball between its forces: from resistances to sliding forces, tangential forces and torques."""
+"""One ball between its forces along the path: from resistances to sliding and tangential forces."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
 from ballscrew.components.frame import Frame
-from ballscrew.components.laws import BallChain, RaceTorqueLaw, RaceTorques
+from ballscrew.components.laws import BallChain
 from ballscrew.equations import equilibrium
-from ballscrew.quantities import Force, Length, Torque
+from ballscrew.quantities import Force, Length, Ratio, Torque
 
 
 class Resistances(NamedTuple):
@@ -19,25 +19,31 @@ class Resistances(NamedTuple):
     nut_moment: Torque
     chain: BallChain
 
+    def scaled(self, share: Ratio) -> Resistances:
+        """A share of them all."""
+        F_Rs, F_Rn, M_s, M_n, chain = self
+        return Resistances(
+            share * F_Rs,
+            share * F_Rn,
+            share * M_s,
+            share * M_n,
+            BallChain(share * chain.moment, share * chain.braking_force),
+        )
 
-class BallBalance(NamedTuple):
-    """The forces that keep the ball in equilibrium, and the torque they put on the races."""
+
+class BallForces(NamedTuple):
+    """The forces along the path that keep the ball in equilibrium."""
 
     screw_sliding_force: Force
     nut_sliding_force: Force
     screw_tangential_force: Force
     nut_tangential_force: Force
-    torques: RaceTorques
 
 
-def ball_balance(
-    resistances: Resistances, ball_diameter: Length, frame: Frame, race_torques: RaceTorqueLaw
-) -> BallBalance:
+def ball_forces(resistances: Resistances, ball_diameter: Length, frame: Frame) -> BallForces:
     """Equilibrium of one ball, Olaru2005 §3 and §6; linear in the resistances."""
     F_Rs, F_Rn, M_s, M_n, chain = resistances
     forces = (M_s + M_n, chain.moment, ball_diameter, F_Rs, F_Rn, frame.curvature_ratio, chain.braking_force)
     F_Ss = equilibrium.screw_sliding_force(*forces)
     F_Sn = equilibrium.nut_sliding_force(*forces)
-    F_s = equilibrium.tangential_force(F_Rs, F_Ss)
-    F_n = equilibrium.tangential_force(F_Rn, F_Sn)
-    return BallBalance(F_Ss, F_Sn, F_s, F_n, race_torques(F_s, F_n, M_s, M_n, frame))
+    return BallForces(F_Ss, F_Sn, equilibrium.tangential_force(F_Rs, F_Ss), equilibrium.tangential_force(F_Rn, F_Sn))

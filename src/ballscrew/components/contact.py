@@ -3,64 +3,39 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Annotated
+from typing import Annotated, Any
 
 from ballscrew._arrays import lazy, namespace
+from ballscrew.components.conditions import ContactConditions, Motion
 from ballscrew.components.laws import (
     ElasticResistanceLaw,
     FilmLaw,
     FilmParameterLaw,
     FrictionLaw,
+    FullFilmLaw,
     HertzLaw,
-    HertzShape,
+    InletLaw,
     RollingLaw,
 )
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew, Raceway
-from ballscrew.equations import friction, geometry, hertz, rheology, rolling
-from ballscrew.quantities import Force, Info, Length, Pressure, Ratio, Speed, Torque
+from ballscrew.equations import film, friction, geometry, hertz, rheology, rolling
+from ballscrew.quantities import AngularSpeed, Force, Info, Length, Ratio, Speed, Stiffness, Torque
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
-class Contact:
+class Contact(ContactConditions):
     """State of a ball–race contact as far as load and speed determine it.
 
     What the torque needs is computed at once, the rest when it is asked for.
     """
 
-    contact_load: Annotated[Force, Info("Q", "normal load of the contact")]
-    equivalent_modulus: Annotated[Pressure, Info("E'", "equivalent modulus of ball and race", "GPa")]
-    rolling_radius: Annotated[Length, Info("R_x", "equivalent radius in the rolling direction", "mm")]
-    transverse_radius: Annotated[Length, Info("R_y", "equivalent radius across the rolling direction", "mm")]
-    radii_ratio: Annotated[Ratio, Info("k", "ratio of the equivalent radii R_y/R_x")]
-    deformed_radius: Annotated[Length, Info("R_d", "radius of the deformed surface", "mm")]
-    hertz: HertzShape
-    material_parameter: Annotated[Ratio, Info("G", "dimensionless material parameter")]
-    speed_parameter: Annotated[Ratio, Info("U", "dimensionless speed parameter")]
-    load_parameter: Annotated[Ratio, Info("W", "dimensionless load parameter")]
-    semi_major_axis: Annotated[Length, Info("a", "semi-axis of the ellipse across the rolling direction", "mm")]
     minimum_film_thickness: Annotated[Length, Info("h", "minimum film thickness", "um")]
     film_parameter: Annotated[Ratio, Info(r"\lambda", "film thickness / combined roughness")]
+    inlet_film_factor: Annotated[Ratio, Info(r"\phi_T", "what the heat of the inlet leaves of the film")]
     friction_coefficient: Annotated[Ratio, Info(r"\mu_m", "friction coefficient of the contact")]
     hydrodynamic_rolling_force: Annotated[Force, Info("F_R", "hydrodynamic rolling force")]
     elastic_resistance_moment: Annotated[Torque, Info("M_ER", "elastic resistance moment", "N mm")]
-
-    @lazy
-    def ellipticity(self) -> Annotated[Ratio, Info(r"\kappa", "ratio of the semi-axes a/b")]:
-        """Ratio of the semi-axes a/b."""
-        return self.hertz.ellipticity
-
-    @lazy
-    def semi_minor_axis(
-        self,
-    ) -> Annotated[Length, Info("b", "semi-axis of the ellipse along the rolling direction", "mm")]:
-        """Semi-axis of the contact ellipse along the rolling direction."""
-        return hertz.semi_axis(self.hertz.minor, self.rolling_radius, self.load_parameter)
-
-    @lazy
-    def maximum_pressure(self) -> Annotated[Pressure, Info("p_0", "maximum contact pressure", "GPa")]:
-        """Maximum contact pressure."""
-        return hertz.maximum_pressure(self.hertz.major, self.hertz.minor, self.equivalent_modulus, self.load_parameter)
 
     @lazy
     def elastic_regime_parameter(self) -> Annotated[Ratio, Info("M", "elastic against rigid lubrication regime")]:
@@ -86,6 +61,9 @@ class RaceState(Contact):
     """State of a ball–race contact in the equilibrium of the ball: with forces and moments."""
 
     pure_rolling_offset: Annotated[Ratio, Info("Y", "offset of the lines of pure rolling / semi-major axis")]
+    creep_speed: Annotated[Speed, Info("A", "slip of the race ahead of the ball, in the middle of the contact", "mm/s")]
+    spin: Annotated[AngularSpeed, Info(r"\Omega_P", "spin in the contact, its share of that of the ball", "rad/s")]
+    lateral_slip_speed: Annotated[Speed, Info("D", "slip across the path, the contact's share", "mm/s")]
     curvature_friction_moment: Annotated[Torque, Info("M_C", "curvature friction moment", "N mm")]
     sliding_force: Annotated[Force, Info("F_S", "sliding force between ball and race")]
     contact_radius: Annotated[Length, Info("R", "lever of the tangential force about the screw axis", "mm")]
@@ -99,14 +77,37 @@ class RaceState(Contact):
         return self.friction_coefficient * self.contact_load
 
     @lazy
+    def spin_parameter(self) -> Annotated[Ratio, Info("E_s", "slip of the spin / slip of the curvature, at the rim")]:
+        """Spin against curvature; from one on, pure spin takes over. Zero at rest, infinite without load in motion."""
+        rotation = self.motion.entrainment_speed / self.rolling_radius
+        xp = namespace(rotation, self.spin, self.semi_major_axis)
+        # Ω a²/(2 R_d) and Ω_P a, both without one a
+        curvature = self.semi_major_axis * rotation / (2 * self.deformed_radius)
+        moving, loaded = rotation > 0, self.semi_major_axis > 0
+        ratio = self.spin / xp.where(moving & loaded, curvature, 1.0)
+        return xp.where(moving & (self.spin > 0), xp.where(loaded, ratio, xp.inf), 0.0)
+
+    @lazy
+    def contact_stiffness(
+        self,
+    ) -> Annotated[Stiffness, Info("c", "stiffness of the contact, exact Hertz", "N/um")]:
+        """Slope of the load over the mutual approach, exact Hertz."""
+        return hertz.contact_stiffness(
+            self._approach_coefficient, self.equivalent_modulus, self.rolling_radius, self.load_parameter
+        )
+
+    @lazy
     def mutual_approach(
         self,
     ) -> Annotated[Length, Info(r"\delta", "mutual approach of ball and race, exact Hertz", "um")]:
         """Mutual approach of ball and race by the exact Hertz solution, whatever fit the model uses."""
+        return hertz.mutual_approach(self._approach_coefficient, self.rolling_radius, self.load_parameter)
+
+    @lazy
+    def _approach_coefficient(self) -> Ratio:
         kappa = hertz.ellipticity(self.radii_ratio)
         integrals = hertz.elliptic_integrals(kappa)
-        coefficient = hertz.approach_coefficient(self.radii_ratio, kappa, integrals.K, integrals.E)
-        return hertz.mutual_approach(coefficient, self.rolling_radius, self.load_parameter)
+        return hertz.approach_coefficient(self.radii_ratio, kappa, integrals.K, integrals.E)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -116,9 +117,16 @@ class ContactLaws:
     hertz: HertzLaw
     film: FilmLaw
     film_parameter: FilmParameterLaw
+    inlet: InletLaw
     friction: FrictionLaw
+    full_film: FullFilmLaw | None
     rolling: RollingLaw
     elastic_resistance: ElasticResistanceLaw
+
+
+def fields_as_dict(part: ContactConditions) -> dict[str, Any]:
+    """The fields of a state by name, to build the next, fuller one from."""
+    return {field.name: getattr(part, field.name) for field in dataclasses.fields(part)}
 
 
 def rolling_contact(
@@ -128,25 +136,22 @@ def rolling_contact(
     lubricant: Lubricant,
     rolling_radius: Length,
     contact_load: Force,
-    entrainment_speed: Speed,
+    motion: Motion,
 ) -> Contact:
-    """The contact of one ball with one race under a load, at a speed.
+    """The contact of one ball with one race under a load, in motion.
 
     At rest there is no film, whatever the load; without load there is no contact, and the film is
     infinite (in motion) by the law's own limit.
     """
     E = screw.equivalent_modulus(raceway)
-    R_x = rolling_radius
+    R_x, v = rolling_radius, motion.entrainment_speed
     R_y = geometry.transverse_radius(screw.ball_diameter, raceway.conformity)
     k = geometry.radii_ratio(R_y, R_x)
     shape = laws.hertz(k)
     G = rheology.material_parameter(E, lubricant.pressure_viscosity_coefficient)
-    U = rheology.speed_parameter(lubricant.viscosity, entrainment_speed, E, R_x)
+    U = rheology.speed_parameter(lubricant.viscosity, v, E, R_x)
     W = rheology.load_parameter(contact_load, E, R_x)
-    xp = namespace(U, W)
-    h = xp.where(entrainment_speed == 0, 0.0, laws.film(R_x, U, G, W, shape.ellipticity))
-    lam = laws.film_parameter(h, screw.ball_roughness, raceway.roughness)
-    return Contact(
+    conditions = ContactConditions(
         contact_load=contact_load,
         equivalent_modulus=E,
         rolling_radius=R_x,
@@ -158,9 +163,23 @@ def rolling_contact(
         speed_parameter=U,
         load_parameter=W,
         semi_major_axis=hertz.semi_axis(shape.major, R_x, W),
+        combined_roughness=film.combined_roughness(screw.ball_roughness, raceway.roughness),
+        motion=motion,
+        lubricant=lubricant,
+    )
+    inlet = laws.inlet(conditions)
+    xp = namespace(U, W)
+    h = xp.where(v == 0, 0.0, inlet.film * laws.film(R_x, U, G, W, shape.ellipticity))
+    lam = laws.film_parameter(h, screw.ball_roughness, raceway.roughness)
+    full_film = None if laws.full_film is None else laws.full_film(conditions)
+    return Contact(
+        **fields_as_dict(conditions),
         minimum_film_thickness=h,
         film_parameter=lam,
-        friction_coefficient=laws.friction(lam),
-        hydrodynamic_rolling_force=laws.rolling(E, R_x, k, G, U, W),
-        elastic_resistance_moment=laws.elastic_resistance(screw.ball_diameter, contact_load, k),
+        inlet_film_factor=inlet.film,
+        friction_coefficient=laws.friction(lam, conditions, full_film),
+        hydrodynamic_rolling_force=inlet.rolling * laws.rolling(conditions),
+        elastic_resistance_moment=laws.elastic_resistance(
+            screw.ball_diameter, contact_load, k, conditions.semi_minor_axis
+        ),
     )

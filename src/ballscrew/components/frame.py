@@ -11,12 +11,13 @@ from ballscrew.quantities import Angle, AngularSpeed, Length, Ratio, Speed
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Frame:
-    """The four geometric quantities through which the helix enters the paper's equations."""
+    """The geometric quantities through which the helix enters the equations."""
 
     lead_angle: Angle
     path_radius: Length
     curvature_ratio: Ratio
     rolling_plane_cosine: Ratio
+    rolling_plane_sine: Ratio
 
     @property
     def screw_contact_radius(self) -> Length:
@@ -53,4 +54,5 @@ def _frame(screw: BallScrew, lead_angle: Angle) -> Frame:
         path_radius=geometry.path_radius(d_m, lead_angle),
         curvature_ratio=geometry.curvature_ratio(d_w, d_m, alpha, lead_angle),
         rolling_plane_cosine=geometry.rolling_plane_cosine(alpha, lead_angle),
+        rolling_plane_sine=geometry.rolling_plane_sine(alpha, lead_angle),
     )

@@ -10,11 +10,12 @@ from __future__ import annotations
 import dataclasses
 from typing import Annotated, NamedTuple, Protocol
 
+from ballscrew.components.conditions import ContactConditions, HertzShape
 from ballscrew.components.frame import Frame
 from ballscrew.components.screw import BallScrew
-from ballscrew.equations import equilibrium, film, friction, hertz, transmission
+from ballscrew.equations import equilibrium, friction, hertz, rolling, transmission
 from ballscrew.faults import faults_of, raise_if_any
-from ballscrew.quantities import Angle, Count, Force, Info, Length, Pressure, Ratio, Torque
+from ballscrew.quantities import Angle, Count, Force, Info, Length, Ratio, Torque
 
 # -- slots ----------------------------------------------------------------------------------------
 
@@ -57,31 +58,51 @@ class FilmParameterLaw(Protocol):
     def __call__(self, minimum_film_thickness: Length, ball_roughness: Length, race_roughness: Length, /) -> Ratio: ...
 
 
-class FrictionLaw(Protocol):
-    """Friction coefficient of a contact from its film parameter."""
+class InletFactors(NamedTuple):
+    """What the state of the inlet makes of the film thickness and of the rolling force."""
 
-    def __call__(self, film_parameter: Ratio, /) -> Ratio: ...
+    film: Ratio
+    rolling: Ratio
+
+
+class InletLaw(Protocol):
+    """Heating and filling of the inlet."""
+
+    def __call__(self, conditions: ContactConditions, /) -> InletFactors: ...
+
+
+class FullFilmLaw(Protocol):
+    """Friction coefficient of the film itself, where it alone carries the load."""
+
+    def __call__(self, conditions: ContactConditions, /) -> Ratio: ...
+
+
+class FrictionLaw(Protocol):
+    """Friction coefficient of a contact from its film parameter and, where a law needs it, its state."""
+
+    def __call__(
+        self, film_parameter: Ratio, conditions: ContactConditions, full_film_friction_coefficient: Ratio | None, /
+    ) -> Ratio: ...
 
 
 class RollingLaw(Protocol):
     """Hydrodynamic rolling force."""
 
-    def __call__(
-        self,
-        equivalent_modulus: Pressure,
-        rolling_radius: Length,
-        radii_ratio: Ratio,
-        material_parameter: Ratio,
-        speed_parameter: Ratio,
-        load_parameter: Ratio,
-        /,
-    ) -> Force: ...
+    def __call__(self, conditions: ContactConditions, /) -> Force: ...
 
 
 class ElasticResistanceLaw(Protocol):
     """Elastic resistance to rolling."""
 
-    def __call__(self, ball_diameter: Length, contact_load: Force, radii_ratio: Ratio, /) -> Torque: ...
+    def __call__(
+        self, ball_diameter: Length, contact_load: Force, radii_ratio: Ratio, semi_minor_axis: Length, /
+    ) -> Torque: ...
+
+
+class BallForceLaw(Protocol):
+    """Net braking force between neighbouring balls."""
+
+    def __call__(self, ball_to_ball_force: Force, contact_load: Force, /) -> Force: ...
 
 
 class BallChainLaw(Protocol):
@@ -120,15 +141,6 @@ class IdealTorqueLaw(Protocol):
 # -- Hertz contact --------------------------------------------------------------------------------
 
 
-class HertzShape(NamedTuple):
-    """Coefficients of a Hertz contact, and the largest radii ratio they are good for."""
-
-    major: Ratio
-    minor: Ratio
-    ellipticity: Ratio
-    largest_radii_ratio: float
-
-
 def houpert_hertz(radii_ratio: Ratio) -> HertzShape:
     """The paper's power laws, Olaru2005 §2.2 (18) and (19); 12 % too long at their limit k = 60."""
     major = hertz.semi_major_axis_coefficient_houpert(radii_ratio)
@@ -143,63 +155,39 @@ def exact_hertz(radii_ratio: Ratio) -> HertzShape:
     return HertzShape(major, major / kappa, kappa, largest_radii_ratio=1000.0)
 
 
-# -- film and friction ----------------------------------------------------------------------------
+def brewe_hamrock_hertz(radii_ratio: Ratio) -> HertzShape:
+    """The exact formulas with the fits of BreweHamrock1977 for ellipticity and elliptic integral."""
+    kappa = hertz.ellipticity_brewe_hamrock(radii_ratio)
+    second_integral = hertz.second_integral_brewe_hamrock(radii_ratio)
+    major = hertz.semi_major_axis_coefficient(radii_ratio, kappa, second_integral)
+    return HertzShape(major, major / kappa, kappa, largest_radii_ratio=100.0)
+
+
+# -- elastic resistance ---------------------------------------------------------------------------
+
+
+def snare_resistance(ball_diameter: Length, contact_load: Force, radii_ratio: Ratio, semi_minor_axis: Length) -> Torque:
+    """The paper's fit for steel, Olaru2005 §2.2 (20)."""
+    return rolling.elastic_resistance_moment(ball_diameter, contact_load, radii_ratio)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class HamrockDowson:
-    """Minimum film thickness by HamrockDowson1977; the paper prints the exponent as 0.66."""
+class Hysteresis:
+    """Elastic resistance as the part of the work of deformation that the material keeps, Johnson1985 §9.3."""
 
-    speed_exponent: Annotated[
-        Ratio, Info("m", "exponent of the speed parameter", above=0, below=1, hint="0.68; the paper prints 0.66")
-    ] = 0.68
-
-    def __post_init__(self) -> None:
-        raise_if_any(faults_of("model.film", self))
-
-    def __call__(
-        self,
-        rolling_radius: Length,
-        speed_parameter: Ratio,
-        material_parameter: Ratio,
-        load_parameter: Ratio,
-        ellipticity: Ratio,
-    ) -> Length:
-        """Minimum film thickness, m."""
-        return film.minimum_film_thickness(
-            rolling_radius, speed_parameter, material_parameter, load_parameter, ellipticity, self.speed_exponent
-        )
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class ZhouHoeprich:
-    """Friction coefficient between the boundary and the full-film value, Olaru2005 §5 (23)–(26).
-
-    After ZhouHoeprich1991. With the paper's coefficients the full-film value is reached at a film
-    parameter of 1.83, not at 2.5 to 3 as its text says. The decay and its exponent belong to the
-    surfaces; other published pairs are (2.32, 0.97), (1.90, 0.99) and (2.1, 0.85).
-    """
-
-    boundary_friction_coefficient: Annotated[
-        Ratio, Info(r"\mu_0", "friction coefficient without a film", at_least=0, hint="boundary friction is 0.1 to 0.2")
-    ] = 0.2
-    decay: Annotated[Ratio, Info("B", "decay of the asperities' share", at_least=0, hint="the paper has 1.42")] = 1.42
-    exponent: Annotated[Ratio, Info("C", "exponent of the film parameter", above=0, hint="the paper has 0.8")] = 0.8
-    full_film_friction_coefficient: Annotated[
-        Ratio, Info(r"\mu_f", "friction coefficient of the full film", at_least=0, hint="the paper has 0.02")
+    loss_factor: Annotated[
+        Ratio,
+        Info(r"\alpha", "share of the elastic work lost in hysteresis", at_least=0, hint="steel has 0.01 to 0.04"),
     ] = 0.02
 
     def __post_init__(self) -> None:
-        raise_if_any(faults_of("model.friction", self))
+        raise_if_any(faults_of("model.elastic_resistance", self))
 
-    def __call__(self, film_parameter: Ratio) -> Ratio:
-        """Friction coefficient."""
-        mu_a = friction.asperity_friction_coefficient(
-            film_parameter, self.boundary_friction_coefficient, self.decay, self.exponent
-        )
-        return friction.clamped_friction_coefficient(
-            mu_a, self.boundary_friction_coefficient, self.full_film_friction_coefficient
-        )
+    def __call__(
+        self, ball_diameter: Length, contact_load: Force, radii_ratio: Ratio, semi_minor_axis: Length
+    ) -> Torque:
+        """Moment about the ball."""
+        return rolling.hysteresis_moment(self.loss_factor, contact_load, semi_minor_axis)
 
 
 # -- the ball chain -------------------------------------------------------------------------------
@@ -229,6 +217,31 @@ def two_neighbours(
         ball_to_ball_force, moment, frame.path_radius, frame.rolling_plane_cosine
     )
     return BallChain(moment, braking_force)
+
+
+def imposed_ball_force(ball_to_ball_force: Force, contact_load: Force) -> Force:
+    """The same force at any load, as in the paper."""
+    return ball_to_ball_force
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ProportionalBallForce:
+    """A force that grows with the load of the ball; an imposed one does not count.
+
+    The default is about the paper's 1 N / z at the paper's load; no measured value is known.
+    """
+
+    share_of_load: Annotated[
+        Ratio,
+        Info("F_B/Q", "force between balls in units of the ball's load", at_least=0, hint="the paper has about 0.0002"),
+    ] = 0.0002
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("model.ball_force", self))
+
+    def __call__(self, ball_to_ball_force: Force, contact_load: Force) -> Force:
+        """Force between balls, N."""
+        return self.share_of_load * contact_load
 
 
 # -- torques --------------------------------------------------------------------------------------

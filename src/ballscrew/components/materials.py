@@ -21,6 +21,7 @@ from ballscrew.quantities import (
     PressureCoefficient,
     Quantity,
     Ratio,
+    TemperatureCoefficient,
     Viscosity,
     within_bounds,
 )
@@ -47,9 +48,11 @@ class Material:
 class Lubricant:
     """An oil at the temperature of the contact.
 
-    The thermal properties are not used by the models of the paper. Their defaults are round figures
-    for mineral oils: the density of Jungnickel2010; conductivity and heat capacity are from no
-    source (the reference oil FVA 3 has 0.134 W/(m K), Lubricants2023). Raises :class:`~ballscrew.faults.InputError` for
+    The temperature coefficient and the conductivity matter where the inlet heats; density and heat
+    capacity are not used yet. The defaults are round figures for mineral oils: the density of
+    Jungnickel2010; the others are from no source (the reference oil FVA 3 has 0.134 W/(m K),
+    Lubricants2023; ISO VG 100 at 40 °C has a temperature coefficient of 0.054 1/K by its constants
+    here, and 0.041 1/K at 60 °C). Raises :class:`~ballscrew.faults.InputError` for
     values that are not positive.
     """
 
@@ -73,6 +76,15 @@ class Lubricant:
             hint="mineral oils have 1e-8 to 2.5e-8 1/Pa",
         ),
     ] = 2.2e-8
+    temperature_coefficient: Annotated[
+        TemperatureCoefficient,
+        Info(
+            r"\beta",
+            "relative fall of the viscosity per kelvin",
+            above=0,
+            hint="mineral oils have 0.02 to 0.06 1/K near 40 degC",
+        ),
+    ] = 0.04
     density: Annotated[Density, Info(r"\rho", "density", above=0, hint="mineral oils have 870 kg/m^3")] = 870.0
     thermal_conductivity: Annotated[
         Conductivity, Info(r"k_f", "thermal conductivity", above=0, hint="mineral oils have 0.14 W/(m K)")
@@ -123,6 +135,9 @@ class Lubricant:
         return cls(
             viscosity=_plain(rheology.dynamic_viscosity(nu, oil["density"])),
             pressure_viscosity_coefficient=_plain(alpha_p),
+            temperature_coefficient=_plain(
+                rheology.vogel_temperature_coefficient(temperature, oil["vogel_constant"], oil["vogel_temperature"])
+            ),
             density=oil["density"],
         )
 

@@ -7,7 +7,8 @@ elastic moments of both contacts.
 
 from __future__ import annotations
 
-from ballscrew.quantities import Count, Force, Length, Ratio, Torque
+from ballscrew._arrays import namespace
+from ballscrew.quantities import Angle, Count, Force, Length, Ratio, Torque
 
 
 def screw_sliding_force(
@@ -138,6 +139,29 @@ def balanced_nut_torque(
     """
     F_t, R_r, M, c_alpha = tangential_force, contact_radius, contact_moment, rolling_plane_cosine
     return F_t * R_r - M * c_alpha
+
+
+def spin_torque(spin_moment: Torque, rolling_plane_sine: Ratio) -> Torque:
+    r"""Torque that the spin of one ball hands from the screw to the nut.
+
+    .. math:: M_r = M_P s_\alpha
+
+    The spin moments of the two contacts are equal and opposite, or the ball would spin up.
+    """
+    M_P, s_alpha = spin_moment, rolling_plane_sine
+    return M_P * s_alpha
+
+
+def torsion_torque(lateral_force: Force, ball_diameter: Length, lead_angle: Angle) -> Torque:
+    r"""Torque that the lateral slip of one ball hands from the screw to the nut.
+
+    .. math:: M_r = F_L \frac{d_w}{2} \sin\varphi
+
+    The lateral forces of the two contacts hold each other's moment about the path.
+    """
+    F_L, d_w, phi = lateral_force, ball_diameter, lead_angle
+    xp = namespace(F_L, d_w, phi)
+    return F_L * d_w / 2 * xp.sin(phi)
 
 
 def chain_braking_force(

@@ -57,6 +57,16 @@ def rolling_plane_cosine(contact_angle: Angle, lead_angle: Angle) -> Ratio:
     return xp.cos(alpha) * xp.cos(phi)
 
 
+def rolling_plane_sine(contact_angle: Angle, lead_angle: Angle) -> Ratio:
+    r"""Share of a moment about the contact normal that turns about the screw axis.
+
+    .. math:: s_\alpha = \sin\alpha \cos\varphi
+    """
+    alpha, phi = contact_angle, lead_angle
+    xp = namespace(alpha, phi)
+    return xp.sin(alpha) * xp.cos(phi)
+
+
 def nut_rolling_radius(ball_diameter: Length, curvature_ratio: Ratio) -> Length:
     r"""Equivalent radius in the rolling direction at the ball–nut contact.
 

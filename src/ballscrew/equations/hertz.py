@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ballscrew._arrays import namespace
-from ballscrew.quantities import Length, Pressure, Ratio
+from ballscrew.quantities import Length, Pressure, Ratio, Stiffness
 
 #: Steps of the arithmetic–geometric mean: full double precision for 1e-4 < ellipticity < 1e4.
 AGM_STEPS = 7
@@ -115,6 +115,43 @@ def ellipticity(radii_ratio: Ratio) -> Ratio:
     return xp.exp(log_kappa)
 
 
+def ellipticity_brewe_hamrock(radii_ratio: Ratio) -> Ratio:
+    r"""Ratio of the semi-axes a/b of a Hertz contact, power law.
+
+    .. math:: \kappa = k^{2/\pi}
+
+    BreweHamrock1977. For 1 ≤ k ≤ 100: exact at k = 1, 3.7 % low at 10, 1.2 % at 36, 3.2 % high at
+    100. The semi-axes that follow are within 2.6 %, at k = 36 within 0.9 %.
+    """
+    k = radii_ratio
+    xp = namespace(k)
+    return k ** (2 / xp.pi)
+
+
+def first_integral_brewe_hamrock(radii_ratio: Ratio) -> Ratio:
+    r"""Complete elliptic integral of the first kind, without solving for the ellipticity.
+
+    .. math:: K = \frac{\pi}{2} + \left(\frac{\pi}{2} - 1\right) \ln k
+
+    BreweHamrock1977. For 1 ≤ k ≤ 100: within 2.1 % there.
+    """
+    k = radii_ratio
+    xp = namespace(k)
+    return xp.pi / 2 + (xp.pi / 2 - 1) * xp.log(k)
+
+
+def second_integral_brewe_hamrock(radii_ratio: Ratio) -> Ratio:
+    r"""Complete elliptic integral of the second kind, without solving for the ellipticity.
+
+    .. math:: E = 1 + \frac{\frac{\pi}{2} - 1}{k}
+
+    BreweHamrock1977. For 1 ≤ k ≤ 100: within 1 % there.
+    """
+    k = radii_ratio
+    xp = namespace(k)
+    return 1 + (xp.pi / 2 - 1) / k
+
+
 def semi_major_axis_coefficient(radii_ratio: Ratio, ellipticity: Ratio, second_integral: Ratio) -> Ratio:
     r"""Coefficient of the semi-axis across the rolling direction, exact.
 
@@ -175,6 +212,30 @@ def mutual_approach(approach_coefficient: Ratio, rolling_radius: Length, load_pa
     """
     c_d, R_x, W = approach_coefficient, rolling_radius, load_parameter
     return c_d * R_x * W ** (2 / 3)
+
+
+def contact_stiffness(
+    approach_coefficient: Ratio, equivalent_modulus: Pressure, rolling_radius: Length, load_parameter: Ratio
+) -> Stiffness:
+    r"""Stiffness of the contact, 3Q/(2δ) written without dividing by the approach.
+
+    .. math:: K_c = \frac{3 E' R_x W^{1/3}}{2 c_d}
+
+    The derivative of the load by :func:`mutual_approach`; Johnson1985 §4.2. Zero at zero load.
+    """
+    c_d, E, R_x, W = approach_coefficient, equivalent_modulus, rolling_radius, load_parameter
+    return 3 * E * R_x * W ** (1 / 3) / (2 * c_d)
+
+
+def mean_pressure(maximum_pressure: Pressure) -> Pressure:
+    r"""Load over area of the contact ellipse.
+
+    .. math:: p_m = \frac{2 p_0}{3}
+
+    Johnson1985 §4.2.
+    """
+    p_0 = maximum_pressure
+    return 2 * p_0 / 3
 
 
 def hertz_pressure(maximum_pressure: Pressure, across: Ratio, along: Ratio) -> Pressure:

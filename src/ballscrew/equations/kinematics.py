@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from ballscrew.quantities import AngularSpeed, Length, Ratio, Speed
+from ballscrew._arrays import namespace
+from ballscrew.quantities import Angle, AngularSpeed, Length, Ratio, Speed
 
 
 def entrainment_speed(screw_speed: AngularSpeed, path_radius: Length, curvature_ratio: Ratio) -> Speed:
@@ -96,3 +97,47 @@ def curvature_sliding_speed(
     v, R_x, R_d = entrainment_speed, rolling_radius, deformed_radius
     y, c = position, pure_rolling_distance
     return v / R_x * (c**2 - y**2) / (2 * R_d)
+
+
+def ball_surface_speed(
+    entrainment_speed: Speed,
+    screw_creep_speed: Speed,
+    nut_creep_speed: Speed,
+    screw_contact_radius: Length,
+    nut_contact_radius: Length,
+    path_radius: Length,
+) -> Speed:
+    r"""Speed of the ball's surface in its contacts when the races creep ahead of it.
+
+    .. math:: w = v - \frac{A_s R_n + A_n R_s}{2 L}
+
+    From :math:`\omega_s + \omega_c = \omega` with :math:`\omega_s = (w + A_s)/R_s` and
+    :math:`\omega_c = (w + A_n)/R_n`; without creep it is the entrainment speed.
+    """
+    v, A_s, A_n = entrainment_speed, screw_creep_speed, nut_creep_speed
+    R_s, R_n, L = screw_contact_radius, nut_contact_radius, path_radius
+    return v - (A_s * R_n + A_n * R_s) / (2 * L)
+
+
+def relative_spin(screw_speed: AngularSpeed, rolling_plane_sine: Ratio) -> AngularSpeed:
+    r"""Rotation of screw against nut about the normal of a contact: what both contacts must spin.
+
+    .. math:: \Omega_P = \omega s_\alpha
+
+    Harris2001 §8.3 for a bearing; with a helix, :math:`s_\alpha = \sin\alpha\cos\varphi`.
+    """
+    omega, s_alpha = screw_speed, rolling_plane_sine
+    return omega * s_alpha
+
+
+def torsion_speed(screw_speed: AngularSpeed, ball_diameter: Length, lead_angle: Angle) -> Speed:
+    r"""Lateral slip that the helix forces on both contacts together.
+
+    .. math:: D = \omega \frac{d_w}{2} \sin\varphi
+
+    The screw turns against the nut about the ball's path at :math:`\omega\sin\varphi`; whatever
+    the ball does, its two contacts share that slip. None in a bearing.
+    """
+    omega, d_w, phi = screw_speed, ball_diameter, lead_angle
+    xp = namespace(omega, d_w, phi)
+    return omega * d_w / 2 * xp.sin(phi)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ballscrew._arrays import namespace
 from ballscrew.quantities import (
+    Conductivity,
     Density,
     Force,
     KinematicViscosity,
@@ -13,6 +14,7 @@ from ballscrew.quantities import (
     Ratio,
     Speed,
     Temperature,
+    TemperatureCoefficient,
     TemperatureDifference,
     Viscosity,
 )
@@ -102,3 +104,74 @@ def pressure_viscosity_linear(
     """
     T, a_1, a_2 = temperature, pressure_at_zero, pressure_slope
     return 1 / (a_1 + a_2 * (T - 273.15))
+
+
+def barus_viscosity(
+    viscosity: Viscosity, pressure_viscosity_coefficient: PressureCoefficient, pressure: Pressure
+) -> Viscosity:
+    r"""Viscosity under pressure, exponential.
+
+    .. math:: \eta = \eta_0 \exp\left(\alpha_p p\right)
+
+    Barus1893. Good to some 0.1 GPa; at 1 GPa an oil of 0.1 Pa s has thousands of times the viscosity
+    of :func:`roelands_viscosity`.
+    """
+    eta_0, alpha_p, p = viscosity, pressure_viscosity_coefficient, pressure
+    xp = namespace(eta_0, alpha_p, p)
+    return eta_0 * xp.exp(alpha_p * p)
+
+
+def roelands_exponent(viscosity: Viscosity, pressure_viscosity_coefficient: PressureCoefficient) -> Ratio:
+    r"""Pressure exponent of Roelands' law that has the given pressure–viscosity coefficient.
+
+    .. math:: Z = \frac{\alpha_p}{5.1 \cdot 10^{-9} \left(\ln \eta_0 + 9.67\right)}
+
+    Roelands1966. SI only: the logarithm is that of the viscosity in Pa s, above 6.3e-5 Pa s. Mineral
+    oils have 0.5 to 0.7.
+    """
+    eta_0, alpha_p = viscosity, pressure_viscosity_coefficient
+    xp = namespace(eta_0, alpha_p)
+    return alpha_p / (5.1e-9 * (xp.log(eta_0) + 9.67))
+
+
+def roelands_viscosity(viscosity: Viscosity, pressure: Pressure, roelands_exponent: Ratio) -> Viscosity:
+    r"""Viscosity under pressure, flatter than exponential.
+
+    .. math:: \eta = \eta_0 \exp\left(\left(\ln \eta_0 + 9.67\right)
+        \left(\left(1 + 5.1 \cdot 10^{-9} p\right)^Z - 1\right)\right)
+
+    Roelands1966. SI only: the numbers are in Pa s and 1/Pa. Measured to 0.5 GPa or so, used to some
+    GPa; real oils thicken faster there, and it tells nothing about the glass.
+    """
+    eta_0, p, Z = viscosity, pressure, roelands_exponent
+    xp = namespace(eta_0, p, Z)
+    return eta_0 * xp.exp((xp.log(eta_0) + 9.67) * ((1 + 5.1e-9 * p) ** Z - 1))
+
+
+def vogel_temperature_coefficient(
+    temperature: Temperature, vogel_constant: TemperatureDifference, vogel_temperature: Temperature
+) -> TemperatureCoefficient:
+    r"""Relative fall of the viscosity per kelvin, by Vogel's law.
+
+    .. math:: \beta = \frac{B}{(T - T_0)^2}
+
+    The slope of :func:`kinematic_viscosity_vogel`, Vogel1921; the density's own slope is left out.
+    """
+    T, B, T_0 = temperature, vogel_constant, vogel_temperature
+    return B / (T - T_0) ** 2
+
+
+def thermal_loading_parameter(
+    viscosity: Viscosity,
+    temperature_coefficient: TemperatureCoefficient,
+    entrainment_speed: Speed,
+    thermal_conductivity: Conductivity,
+) -> Ratio:
+    r"""Heat of the shear in the inlet against what the oil conducts away.
+
+    .. math:: L = \frac{\beta \eta_0 v^2}{k_f}
+
+    Gupta1992. Zero at rest.
+    """
+    eta_0, beta, v, k_f = viscosity, temperature_coefficient, entrainment_speed, thermal_conductivity
+    return beta * eta_0 * v**2 / k_f

@@ -63,3 +63,40 @@ def back_driving_efficiency(efficiency: Ratio) -> Ratio:
     """
     eta = efficiency
     return 2 - 1 / eta
+
+
+def holding_torque(ideal_torque: Torque, screw_torque: Torque) -> Torque:
+    r"""Torque that must be held against a load that drives the screw.
+
+    .. math:: M_h = M_{Sa} - M_S
+
+    With the same friction torque in both directions. Where it is negative the screw locks itself,
+    and it is minus the torque that turns the screw with the load.
+    """
+    M_Sa, M_S = ideal_torque, screw_torque
+    return M_Sa - M_S
+
+
+def classical_efficiency(lead_angle: Angle, friction_angle: Angle) -> Ratio:
+    r"""Efficiency of a screw as an inclined plane, screw drives the nut.
+
+    .. math:: \eta = \frac{\tan\varphi}{\tan\left(\varphi + \rho\right)}
+
+    Equals :func:`efficiency` where :math:`\tan(\varphi + \rho) = \tan\varphi + 2 M_S/(F d_m)`.
+    """
+    phi, rho = lead_angle, friction_angle
+    xp = namespace(phi, rho)
+    return xp.tan(phi) / xp.tan(phi + rho)
+
+
+def classical_back_driving_efficiency(lead_angle: Angle, friction_angle: Angle) -> Ratio:
+    r"""Efficiency of a screw as an inclined plane, the load drives the screw.
+
+    .. math:: \eta_b = \frac{\tan\left(\varphi - \rho\right)}{\tan\varphi}
+
+    Its friction grows with the force of the thread, not with the load alone, so it lies a little
+    above :func:`back_driving_efficiency`.
+    """
+    phi, rho = lead_angle, friction_angle
+    xp = namespace(phi, rho)
+    return xp.tan(phi - rho) / xp.tan(phi)

@@ -10,11 +10,12 @@ import errno
 import io
 import os
 import sys
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Sequence
 from pathlib import Path
 from typing import Annotated, Any, NoReturn
 
 import typer
+from typer.core import TyperCommand
 
 app = typer.Typer(
     name="ballscrew",
@@ -25,10 +26,27 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 
+
+class _Command(TyperCommand):
+    """A command whose help names the models. Their source is slow to load: only when it is asked for."""
+
+    def format_help(self, ctx: Any, formatter: Any) -> None:
+        from ballscrew.interfaces.schema import DEFAULT_MODEL, MODELS
+
+        models = ", ".join(f"{name} (default)" if name == DEFAULT_MODEL else name for name in MODELS)
+        for parameter in self.params:
+            text: str | None = getattr(parameter, "help", None)
+            if text is not None:
+                setattr(parameter, "help", text.replace(_MODELS, models))  # noqa: B010  (only options have one)
+        super().format_help(ctx, formatter)
+
+
+#: What stands for the names of the models in help texts.
+_MODELS = "{models}"
 CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML), for example examples/olaru2005.toml.")]
 ModelName = Annotated[
     str | None,
-    typer.Option("--model", metavar="NAME", help="olaru2005, olaru2005-literal or corrected; wins over the file."),
+    typer.Option("--model", metavar="NAME", help=f"{_MODELS}; wins over the file."),
 ]
 Settings = Annotated[
     list[str] | None,
@@ -36,7 +54,7 @@ Settings = Annotated[
 ]
 
 
-@app.command()
+@app.command(cls=_Command)
 def run(
     case: CaseFile,
     model: ModelName = None,
@@ -59,7 +77,38 @@ def run(
         report.print_result(loaded, result)
 
 
-@app.command()
+@app.command(cls=_Command)
+def compare(
+    case: CaseFile,
+    model: ModelName = None,
+    settings: Settings = None,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    to: Annotated[
+        Path | None,
+        typer.Option("--to", "-o", metavar="FILE", help="Also draw a picture of the spread: .png, .svg or .pdf."),
+    ] = None,
+) -> None:
+    """All models and all laws side by side at the operating point of a case file.
+
+    First the models as they are, then the model of the case with one law at a time in place of its
+    own: torque, its parts, efficiency in both directions, and what lies outside its validity.
+    """
+    from ballscrew.interfaces import comparison, config
+
+    loaded = config.load(case, settings or [], model)
+    if to is not None:
+        comparison.check_picture(to)
+    compared = comparison.compared(loaded)
+    if as_json:
+        typer.echo(comparison.json_text(loaded, compared))
+    else:
+        comparison.print_comparison(loaded, compared)
+    if to is not None:
+        comparison.draw(loaded, compared, to)
+        typer.echo(f"{to}: {len(compared.rows)} models and laws", err=as_json)
+
+
+@app.command(cls=_Command)
 def sweep(
     case: CaseFile,
     vary: Annotated[
@@ -98,7 +147,7 @@ def sweep(
         typer.echo(beware, err=True)
 
 
-@app.command()
+@app.command(cls=_Command)
 def reproduce(
     paper: Annotated[str, typer.Argument(help="Which paper: olaru2005.")],
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder for figures, data and claims.")],
@@ -114,7 +163,7 @@ def reproduce(
     typer.echo(f"{out}: {len(written)} files; read {out / 'claims.md'} first")
 
 
-@app.command()
+@app.command(cls=_Command)
 def schema() -> None:
     """JSON Schema of a case file."""
     import json
@@ -124,7 +173,7 @@ def schema() -> None:
     typer.echo(json.dumps(json_schema(), indent=2, ensure_ascii=False))
 
 
-@app.command()
+@app.command(cls=_Command)
 def cite(
     case: Annotated[Path | None, typer.Argument(help="Case file; without one, all sources.")] = None,
     model: ModelName = None,
@@ -174,8 +223,6 @@ def _step(what: str, done: int, total: int) -> None:
 
 def main() -> None:
     """Run a command; bad input ends with one line a fault and exit code 2, never with a traceback."""
-    from ballscrew.faults import Fault, InputError
-
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # a terminal that has no "·" still gets an answer
             stream.reconfigure(errors="backslashreplace")
@@ -184,18 +231,22 @@ def main() -> None:
             app()
         finally:
             sys.stdout.flush()
-    except InputError as error:
-        _refuse(error)
+    except ValueError as error:
+        from ballscrew.faults import InputError  # with NumPy: not for those who only ask for help
+
+        if not isinstance(error, InputError):
+            raise
+        _refuse(error.lines())
     except OSError as error:
         if error.errno not in (errno.ENOSPC, errno.EIO, errno.EPIPE):
             raise  # not the output: a defect of ours, to be seen as one
         # nobody can read what we say on a full or closed output; keep Python from trying again at exit
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        _refuse(InputError(Fault("stdout", "cannot be written", error.strerror or str(error), "choose another place")))
+        _refuse([f"stdout: cannot be written ({error.strerror or error}) · choose another place"])
 
 
-def _refuse(error: Any) -> NoReturn:
-    for line in error.lines():
+def _refuse(lines: Sequence[str]) -> NoReturn:
+    for line in lines:
         typer.echo(line, err=True)
     sys.exit(2)
 

@@ -15,11 +15,12 @@ from typing import Any
 from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.screw import MATERIALS, BallScrew, Operation
 from ballscrew.faults import Fault, InputError, nearest
-from ballscrew.interfaces.schema import COEFFICIENT_LAWS, DEFAULT_MODEL, LAWS, MODELS, validated
+from ballscrew.interfaces.schema import DEFAULT_MODEL, LAWS, MODELS, coefficients_of, law_of, name_of_law, validated
 from ballscrew.interfaces.units import in_people_units
 from ballscrew.model import FrictionModel
 from ballscrew.quantities import fields_of
 from ballscrew.references import citations_of, keys_in
+from ballscrew.solvers.pure_rolling import curvature_slip
 
 _NEEDED = ("screw", "lubricant", "operation")
 _SECTIONS = (*_NEEDED, "model", "sweep")
@@ -74,9 +75,11 @@ def override(tables: dict[str, Any], settings: Sequence[str]) -> dict[str, Any]:
         if not equals or not parents or not all([*parents, field]):
             faults.append(Fault("--set", "is not section.field=value", setting, 'write operation.axial_load="4 kN"'))
             continue
-        table = tables
+        table: dict[str, Any] = tables
         for parent in parents:
             inner = table.setdefault(parent, {})
+            if parents == ["model", parent] and parent in LAWS and isinstance(inner, str):
+                inner = table[parent] = {"law": inner}  # a law by name takes coefficients, too
             if not isinstance(inner, dict):
                 faults.append(Fault(f"--set {path}", "is not a table", parent, f"set {parent} itself"))
                 break
@@ -174,16 +177,30 @@ def _model(table: Any, chosen: str | None, faults: list[Fault]) -> FrictionModel
     name = named if chosen is None else chosen
     if isinstance(name, str) and name not in MODELS:
         faults.append(Fault("model.name", "unknown model", name, nearest(name, MODELS)))
-    if len(faults) > before:
+    preset = MODELS.get(name) if isinstance(name, str) else None
+    changes = _laws(table, preset or MODELS[DEFAULT_MODEL], faults) if isinstance(table, dict) else {}
+    if len(faults) > before or preset is None:
         return None
-    values.pop("name", None)
-    model = MODELS[name]
-    for slot in values:
-        if slot in LAWS:
-            values[slot] = LAWS[slot][values[slot]]
-        elif slot in COEFFICIENT_LAWS:
-            values[slot] = dataclasses.replace(getattr(model, slot), **values[slot])
-    return dataclasses.replace(model, **values)
+    numbers = {field: value for field, value in values.items() if field in fields_of(FrictionModel)}
+    try:
+        return changed(preset, {**changes, **numbers})
+    except InputError as error:
+        faults += error.faults
+        return None
+
+
+def _laws(table: Mapping[str, Any], preset: FrictionModel, faults: list[Fault]) -> dict[str, Any]:
+    """The laws that a table puts into slots."""
+    return {
+        slot: law_of(slot, written, getattr(preset, slot), faults) for slot, written in table.items() if slot in LAWS
+    }
+
+
+def changed(model: FrictionModel, changes: Mapping[str, Any]) -> FrictionModel:
+    """A model with other laws and numbers. The offset that the paper imposes goes with its slip law."""
+    if changes.get("slip", curvature_slip) is not curvature_slip:
+        changes = {"pure_rolling_offset": None, **changes}
+    return dataclasses.replace(model, **changes)
 
 
 def _sweep(table: Any, faults: list[Fault]) -> Mapping[str, str]:
@@ -205,8 +222,7 @@ def inputs(case: Case) -> dict[str, Any]:
         "model": {
             "name": model.name,
             **_numbers(model),
-            **{slot: _law_name(slot, getattr(model, slot)) for slot in LAWS},
-            **{slot: _numbers(getattr(model, slot)) for slot in COEFFICIENT_LAWS},
+            **{slot: _law(slot, getattr(model, slot)) for slot in LAWS},
         },
     }
 
@@ -217,8 +233,10 @@ def references(case: Case) -> list[str]:
     return [*citations_of(case.model), *of_oil]
 
 
-def _law_name(slot: str, law: Any) -> str:
-    return next(name for name, known in LAWS[slot].items() if known is law)
+def _law(slot: str, law: Any) -> str | dict[str, Any]:
+    """A law as a file names it: by name alone, or with its coefficients."""
+    name = name_of_law(slot, law)
+    return {"law": name, **_numbers(law)} if coefficients_of(slot, name) else name
 
 
 def _numbers(part: Any) -> dict[str, Any]:

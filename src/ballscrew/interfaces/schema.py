@@ -1,7 +1,8 @@
 """The case file as pydantic models, made from the annotations of the parts.
 
 One section is one model: a field for every quantity of the part, text with a unit in, SI out. The
-JSON Schema of the whole (``ballscrew schema``) comes from the same models.
+JSON Schema of the whole (``ballscrew schema``) comes from the same models. The names of models and
+laws stand here and nowhere else.
 """
 
 from __future__ import annotations
@@ -10,13 +11,13 @@ import dataclasses
 import functools
 import re
 import reprlib
-from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from collections.abc import Iterable, Mapping
+from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema, create_model
 from pydantic_core import PydanticCustomError
 
-from ballscrew.components import frame, laws
+from ballscrew.components import frame, laws, lubrication, mixed_friction
 from ballscrew.components.materials import TEMPERATURE, Lubricant, Material, grades
 from ballscrew.components.screw import MATERIALS, BallScrew, Operation
 from ballscrew.equations import film
@@ -24,22 +25,46 @@ from ballscrew.faults import Fault, fault_of, nearest
 from ballscrew.interfaces import units
 from ballscrew.model import FrictionModel, presets
 from ballscrew.quantities import Quantity, fields_of
+from ballscrew.solvers.ellipse_slip import ellipse_slip
+from ballscrew.solvers.line_slip import line_slip
+from ballscrew.solvers.pure_rolling import curvature_slip
 
 MODELS = presets()
-DEFAULT_MODEL = "corrected"
+DEFAULT_MODEL = "reference"
 
-#: Laws without coefficients, by slot of the model and name.
+#: The laws of each slot by name: functions, and classes where a law has coefficients.
 LAWS: Mapping[str, Mapping[str, Any]] = {
     "frame": {"bearing": frame.bearing_frame, "helix": frame.helix_frame},
-    "hertz": {"houpert": laws.houpert_hertz, "exact": laws.exact_hertz},
+    "hertz": {"houpert": laws.houpert_hertz, "exact": laws.exact_hertz, "brewe-hamrock": laws.brewe_hamrock_hertz},
+    "film": {"hamrock-dowson": lubrication.HamrockDowson},
     "film_parameter": {"root-sum-square": film.film_parameter, "literal": film.literal_film_parameter},
+    "inlet": {"ideal": lubrication.ideal_inlet, "heated": lubrication.Inlet},
+    "friction": {
+        "zhou-hoeprich": mixed_friction.ZhouHoeprich,
+        "load-sharing": mixed_friction.LoadSharing,
+        "balan": mixed_friction.BalanSharing,
+        "greenwood-tripp": mixed_friction.GreenwoodTrippSharing,
+    },
+    "full_film": {
+        "none": None,
+        "eyring": mixed_friction.EyringTraction,
+        "limiting-shear": mixed_friction.LimitingShearTraction,
+    },
+    "rolling": {
+        "olaru": lubrication.olaru_rolling,
+        "biboulet-houpert": lubrication.biboulet_houpert_rolling,
+        "houpert": lubrication.houpert_rolling,
+        "aihara": lubrication.aihara_rolling,
+    },
+    "elastic_resistance": {"snare": laws.snare_resistance, "hysteresis": laws.Hysteresis},
+    "slip": {"curvature": curvature_slip, "line": line_slip, "ellipse": ellipse_slip},
     "ball_chain": {"one-neighbour": laws.one_neighbour, "two-neighbours": laws.two_neighbours},
+    "ball_force": {"imposed": laws.imposed_ball_force, "proportional": laws.ProportionalBallForce},
     "race_torques": {"printed": laws.printed_race_torques, "balanced": laws.balanced_race_torques},
     "ideal_torque": {"printed": laws.printed_ideal_torque, "virtual-work": laws.virtual_work_torque},
 }
-#: Laws with coefficients, by slot.
-COEFFICIENT_LAWS: Mapping[str, type] = {"film": laws.HamrockDowson, "friction": laws.ZhouHoeprich}
-
+#: Laws that only the paper as printed has: in another model they break a balance.
+PRINTED_FORMS = frozenset({("film_parameter", "literal"), ("race_torques", "printed"), ("ideal_torque", "printed")})
 
 _MEANT = re.compile(r'did you mean "(\w+)"')
 
@@ -91,6 +116,42 @@ def _section(
     return create_model(title, __config__=ConfigDict(extra="forbid"), **fields, **others)
 
 
+def coefficients_of(slot: str, name: str) -> Mapping[str, Quantity]:
+    """The coefficients of a law by name; none for a law that is a function."""
+    law = LAWS[slot][name]
+    return fields_of(law) if isinstance(law, type) else {}
+
+
+def name_of_law(slot: str, law: Any) -> str:
+    """What a law is called in the case file."""
+    return next(name for name, known in LAWS[slot].items() if known is law or known is type(law))
+
+
+@functools.cache
+def _coefficients(slot: str, name: str) -> type[BaseModel]:
+    """The model of a table that sets coefficients of a law."""
+    return _section(name, coefficients_of(slot, name), LAWS[slot][name], required=False)
+
+
+def _slot(slot: str) -> tuple[Any, Any]:
+    """The field of a slot: the name of a law, or a table with its coefficients; see :func:`law_of` for the check."""
+    plain = [name for name in LAWS[slot] if not coefficients_of(slot, name)]
+    tables = [{"law": {"enum": plain}}] if plain else []
+    tables += [
+        {"law": {"const": name}, **{field: _json_schema(q) for field, q in found.items()}}
+        for name in LAWS[slot]
+        if (found := coefficients_of(slot, name))
+    ]
+    schema = {
+        "description": f"law of the slot {slot}: its name, or a table with coefficients",
+        "anyOf": [
+            {"type": "string", "enum": list(LAWS[slot])},
+            *({"type": "object", "properties": table, "additionalProperties": False} for table in tables),
+        ],
+    }
+    return Annotated[Any, WithJsonSchema(schema)], Field(default=None)
+
+
 @functools.cache
 def sections() -> Mapping[str, type[BaseModel]]:
     """The models of the sections of a case file."""
@@ -99,15 +160,7 @@ def sections() -> Mapping[str, type[BaseModel]]:
     grade = Annotated[
         str, WithJsonSchema({"type": "string", "enum": grades(), "description": "instead of a viscosity"})
     ]
-    law_names = {
-        slot: (Literal[tuple(known)], Field(default=None, description=f"law of the slot {slot}"))
-        for slot, known in LAWS.items()
-    }
-    coefficients = {
-        slot: (_section(cls.__name__, fields_of(cls), cls, required=False), Field(default=None))
-        for slot, cls in COEFFICIENT_LAWS.items()
-    }
-    model_name = Annotated[str, WithJsonSchema({"type": "string", "enum": list(MODELS), "default": DEFAULT_MODEL})]
+    model_name = Annotated[str, WithJsonSchema({"type": "string", "enum": list(MODELS)})]
     return {
         "screw": _section(
             "Screw", fields_of(BallScrew), BallScrew, required=True, **dict.fromkeys(MATERIALS, (material, None))
@@ -116,7 +169,8 @@ def sections() -> Mapping[str, type[BaseModel]]:
         "operation": _section("Operation", fields_of(Operation), Operation, required=True),
         "model": _section(
             "Model", fields_of(FrictionModel), FrictionModel, required=False,
-            name=(model_name, None), **law_names, **coefficients,
+            name=(model_name, Field(default=None, json_schema_extra={"default": DEFAULT_MODEL})),
+            **{slot: _slot(slot) for slot in LAWS},
         ),
     }  # fmt: skip
 
@@ -141,17 +195,73 @@ def case_file() -> type[BaseModel]:
 
 def json_schema() -> dict[str, Any]:
     """JSON Schema of a case file."""
-    schema = case_file().model_json_schema()
+    schema = _without_null(case_file().model_json_schema())
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}
 
 
+def _without_null(schema: Any) -> Any:
+    """A schema without defaults of null, which no case file can hold."""
+    if isinstance(schema, dict):
+        return {k: _without_null(v) for k, v in schema.items() if not (k == "default" and v is None)}
+    return [_without_null(item) for item in schema] if isinstance(schema, list) else schema
+
+
 def validated(section: str, table: Any, faults: list[Fault]) -> dict[str, Any]:
-    """The values of a section that are set, in SI; what is wrong goes to the list of faults."""
-    model = sections()[section]
+    """The values of a section that are set, in SI; what is wrong goes to the list of faults.
+
+    Laws are left as they are written: what they may be depends on the model (:func:`law_of`).
+    """
+    return _validated(section, sections()[section], table, faults)
+
+
+def law_of(slot: str, written: Any, present: Any, faults: list[Fault]) -> Any:
+    """The law that is written for a slot; what is wrong with it goes to the list of faults.
+
+    A name stands for the law with its own coefficients. A table sets coefficients: of the law that it
+    names with ``law``, or else of the law at present in the slot.
+    """
+    where = f"model.{slot}"
+    if not isinstance(written, str | dict):
+        remedy = f"write {slot} = {_either(LAWS[slot])}"
+        faults.append(Fault(where, "must be the name of a law, or a table", reprlib.repr(written), remedy))
+        return present
+    table = {"law": written} if isinstance(written, str) else dict(written)
+    place = where if isinstance(written, str) else f"{where}.law"
+    named = table.pop("law", None)
+    name = name_of_law(slot, present) if named is None else named
+    if not isinstance(name, str) or name not in LAWS[slot]:
+        given = name if isinstance(name, str) else reprlib.repr(name)
+        faults.append(Fault(place, "unknown law", given, nearest(given, LAWS[slot])))
+        return present
+    before = len(faults)
+    faults += [_no_coefficient(slot, name, field) for field in table if field not in coefficients_of(slot, name)]
+    if len(faults) > before or not coefficients_of(slot, name):
+        return LAWS[slot][name]
+    values = _validated(where, _coefficients(slot, name), table, faults)
+    return dataclasses.replace(present, **values) if named is None else LAWS[slot][name](**values)
+
+
+def _no_coefficient(slot: str, name: str, field: str) -> Fault:
+    known = coefficients_of(slot, name)
+    elsewhere = [other for other in LAWS[slot] if field in coefficients_of(slot, other)]
+    guess = nearest(field, known) if known else ""
+    if elsewhere:
+        remedy = f"it belongs to {slot}.law = {_either(elsewhere)}; "
+    else:
+        remedy = f"{guess} " if guess.startswith("did") else ""
+    has = ", ".join(known) or "no coefficients"
+    return Fault(f"model.{slot}.{field}", f'no coefficient of the law "{name}"', "", f"{remedy}{name} has {has}")
+
+
+def _either(names: Iterable[str]) -> str:
+    return " or ".join(f'"{name}"' for name in names)
+
+
+def _validated(where: str, model: type[BaseModel], table: Any, faults: list[Fault]) -> dict[str, Any]:
     try:
         return model.model_validate(table).model_dump(exclude_unset=True)
     except ValidationError as error:
-        found = [_fault(section, model, dict(problem)) for problem in error.errors(include_url=False)]
+        found = [_fault(where, model, dict(problem)) for problem in error.errors(include_url=False)]
     # a misspelt key is one fault, not also a missing one
     meant = {
         fault.where.rpartition(".")[0] + "." + match[1] for fault in found if (match := _MEANT.match(fault.remedy))
@@ -174,8 +284,6 @@ def _fault(section: str, model: type[BaseModel], problem: dict[str, Any]) -> Fau
             return Fault(where, "missing", "", f"add {path[-1]} = {sample}")
         case "extra_forbidden":
             return Fault(where, "unknown key", "", nearest(path[-1], _known(model, path[:-1])))
-        case "literal_error":
-            return Fault(where, "unknown law", given, nearest(given, LAWS[path[-1]]))
         case "model_type" | "dict_type" | "model_attributes_type":
             return Fault(where, "must be a table", given, f"write [{where}]")
         case "string_type":

@@ -9,12 +9,11 @@ screw and below 0.5 for any contact that fits its groove, so Newton's method can
 
 from __future__ import annotations
 
-import dataclasses
-
 from ballscrew._arrays import namespace
 from ballscrew.components.contact import Contact
 from ballscrew.equations import friction
-from ballscrew.quantities import Force, Length, Mask, Ratio, Torque
+from ballscrew.quantities import Force, Length, Ratio, Torque
+from ballscrew.solvers.slip import BallProblem, ContactSlip, Slip, sliding_forces
 
 #: A fixed number of steps: block sizes and neighbours in an array cannot change a result.
 NEWTON_STEPS = 5
@@ -22,47 +21,35 @@ NEWTON_STEPS = 5
 TOLERANCE = 1e-12
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class PureRolling:
-    """Outcome: the offsets, the curvature moments that go with them, and how well they close."""
+def curvature_slip(ball: BallProblem) -> Slip:
+    """The paper's slip law: curvature alone, its lines imposed at a given offset or found from equilibrium.
 
-    screw_offset: Ratio
-    nut_offset: Ratio
-    screw_moment: Torque
-    nut_moment: Torque
-    residual: Ratio
-
-    @property
-    def converged(self) -> Mask:
-        """Where the last step changed next to nothing."""
-        return self.residual <= TOLERANCE
-
-    @property
-    def advice(self) -> str:
-        """What to do where it did not converge."""
-        return "the contact is too large for its groove: check contact_load, ball_diameter and conformity"
-
-
-def imposed(screw: Contact, nut: Contact, pure_rolling_offset: Ratio) -> PureRolling:
-    """The paper's way: the same given offset at both contacts."""
-    return PureRolling(
-        screw_offset=pure_rolling_offset,
-        nut_offset=pure_rolling_offset,
-        screw_moment=screw.curvature_moment_at(pure_rolling_offset),
-        nut_moment=nut.curvature_moment_at(pure_rolling_offset),
-        residual=0.0,
+    No spin, no lateral slip, and the ball rolls as if the races did not creep. A ball that would
+    skid keeps its resistances; the result's ``skid`` validity tells.
+    """
+    if ball.pure_rolling_offset is not None:
+        offsets = (ball.pure_rolling_offset, ball.pure_rolling_offset)
+        residual: Ratio = 0.0
+    else:
+        screw_force, nut_force = sliding_forces(ball, 1.0)
+        *offsets, residual = solve(ball.screw, ball.nut, screw_force, nut_force, ball.ball_diameter)
+    screw, nut = (
+        ContactSlip(offset, contact.curvature_moment_at(offset), 0.0, 0.0, 0.0)
+        for contact, offset in zip((ball.screw, ball.nut), offsets, strict=True)
     )
+    return Slip(screw, nut, 0.0, 0.0, 1.0, residual, TOLERANCE)
 
 
 def solve(
     screw: Contact, nut: Contact, screw_force_at_rest: Force, nut_force_at_rest: Force, ball_diameter: Length
-) -> PureRolling:
+) -> tuple[Ratio, Ratio, Ratio]:
     """Offsets for which the traction of each contact is the sliding force that equilibrium asks for.
 
     ``screw_force_at_rest`` and ``nut_force_at_rest`` are the sliding forces without the curvature
     moments. Where a sliding force exceeds µQ the ball skids: no offset satisfies equilibrium, the
     traction saturates at its limit, and the result is flagged by its ``skid`` validity. Without
-    load the traction ratio is undefined; it is taken as saturated, and the moments vanish.
+    load the traction ratio is undefined; it is taken as saturated, and the moments vanish. Returns
+    the offsets at screw and nut, and the relative imbalance that is left.
     """
     xp = namespace(screw.contact_load, screw.friction_coefficient, screw_force_at_rest)
     zero = 0 * screw.contact_load
@@ -93,10 +80,4 @@ def solve(
     moments, _, (screw_offset, nut_offset) = sums(total)
     scale = xp.abs(moments) + xp.abs(total)
     residual = xp.abs(moments - total) / xp.where(scale > 0, scale, 1.0)
-    return PureRolling(
-        screw_offset=screw_offset,
-        nut_offset=nut_offset,
-        screw_moment=screw.curvature_moment_at(screw_offset),
-        nut_moment=nut.curvature_moment_at(nut_offset),
-        residual=residual,
-    )
+    return screw_offset, nut_offset, residual

@@ -14,7 +14,7 @@ from ballscrew.analyses.olaru2005 import case
 from ballscrew.analyses.olaru2005.claims import judged
 from ballscrew.analyses.olaru2005.observations import observe
 from ballscrew.analyses.olaru2005.verdicts import Finding, Verdict
-from ballscrew.components.laws import HamrockDowson
+from ballscrew.components.lubrication import HamrockDowson
 from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.screw import BallScrew
 from ballscrew.model import FrictionModel

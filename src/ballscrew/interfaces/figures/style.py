@@ -11,7 +11,7 @@ import dataclasses
 import textwrap
 from collections.abc import Callable, Generator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
@@ -30,6 +30,15 @@ BLUE, ORANGE, GREEN, PURPLE, SKY, RED, YELLOW = (
 #: From light to dark, for curves of one growing parameter; told apart in print, too.
 GROWING = ("#7FB8DA", "#3C8DBC", "#8A6FB0", "#B0457B", "#5B1A3A")
 INK, GREY, SHADE, LIGHT_SHADE = "#222222", "#666666", "#D9D9D9", "#F2F2F2"
+#: The same colour for a mechanism in all figures.
+MECHANISM_COLOURS: Mapping[str, str] = {
+    "hydrodynamic_rolling": SKY,
+    "elastic_hysteresis": GREEN,
+    "curvature": ORANGE,
+    "spin": BLUE,
+    "helix": RED,
+    "ball_to_ball": PURPLE,
+}
 LINE_STYLES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))
 
 STYLE: Any = {
@@ -68,6 +77,13 @@ STYLE: Any = {
 PANEL_WIDTH, PANEL_HEIGHT, CAPTION_LINE = 4.6, 3.5, 0.17
 _CAPTION_CHARACTERS_PER_INCH = 15.5
 
+
+#: What keeps dates and versions out of a file, by its kind.
+_NO_METADATA: Mapping[str, Any] = {
+    "png": {"Software": None},
+    "svg": {"Date": None, "Creator": None},
+    "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
+}
 
 #: The numbers of a figure: columns by heading, the unit in the heading.
 Columns = Mapping[str, Any]
@@ -110,11 +126,16 @@ def new_figure(
 def save(figure: Figure, folder: Path, name: str) -> list[Path]:
     """Write a figure as SVG and PNG; call within :func:`house_style`."""
     svg, png = folder / f"{name}.svg", folder / f"{name}.png"
-    figure.savefig(png, metadata={"Software": None})
+    save_as(figure, png, "png")
     # the places found for the PNG hold for the SVG: found once, and the same in both
     figure.set_layout_engine("none")
-    figure.savefig(svg, metadata={"Date": None, "Creator": None})
+    save_as(figure, svg, "svg")
     return [svg, png]
+
+
+def save_as(figure: Figure, to: Path | IO[bytes], kind: str) -> None:
+    """Write a figure as ``png``, ``svg`` or ``pdf``; call within :func:`house_style`."""
+    figure.savefig(to, format=kind, metadata=_NO_METADATA[kind])
 
 
 def shared_legend(axes: Sequence[Axes], **options: Any) -> None:

@@ -1,0 +1,302 @@
+"""The reference model against the contact integral: how far apart, where, and how much faster.
+
+``python benchmarks/reference.py`` prints tables for people, ``--markdown`` the same for the
+documentation, ``--json`` one object. The cases are random screws of a box (``box``), always the same
+for the same ``--seed``; all of them are used that can exist: balls that fit, and at most the Hertz
+pressure at which balls keep a dent.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import json
+import time
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+import ballscrew as bs
+from ballscrew.components.mixed_friction import ZhouHoeprich
+from ballscrew.components.screw import BallScrew
+from ballscrew.result import FrictionResult
+from ballscrew.solvers.contact_integral import ContactIntegral, contact_integral
+from ballscrew.solvers.free_ball import BallResistances
+from ballscrew.solvers.line_slip import line_slip
+from ballscrew.solvers.pure_rolling import curvature_slip
+from ballscrew.solvers.tractions import Coulomb
+from ballscrew.validity import LARGEST_PRESSURE
+
+Numbers = np.ndarray[Any, np.dtype[np.float64]]
+RPM = 2 * np.pi / 60
+#: Friction of the first table, the same everywhere, and nothing else that resists.
+DRY = 0.1
+#: How far the reference model may be off before a case is listed.
+FAR = 0.05
+
+
+@dataclasses.dataclass(frozen=True)
+class Box:
+    """Random screws, oils and operating points, as arrays."""
+
+    screw: BallScrew
+    oil: bs.Lubricant
+    axial_load: Numbers
+    screw_speed: Numbers
+
+    def one(self, i: int) -> BallScrew:
+        """The screw of a case."""
+        fields = {
+            name: np.asarray(value) for name, value in vars(self.screw).items() if not isinstance(value, bs.Material)
+        }
+        return BallScrew(**{name: (value[i] if value.ndim else value).item() for name, value in fields.items()})
+
+
+def box(size: int, seed: int) -> Box:
+    """Loads 1 N to 50 kN, 0 to 5000 rpm, leads d_m/20 to d_m, conformities 0.505 to 0.56, angles 20° to 70°."""
+    rng = np.random.default_rng(seed)
+
+    def log_uniform(low: float, high: float) -> Numbers:
+        return np.exp(rng.uniform(np.log(low), np.log(high), size))
+
+    d_m = log_uniform(0.008, 0.15)
+    d_w = d_m * rng.uniform(0.05, 0.2, size)
+    lead = np.maximum(d_m * log_uniform(0.05, 1), 1.1 * d_w)
+    screw = BallScrew(
+        pitch_circle_diameter=d_m,
+        lead=lead,
+        ball_diameter=d_w,
+        loaded_balls=rng.integers(10, 301, size).astype(float),
+        contact_angle=np.radians(rng.uniform(20, 70, size)),
+        screw_conformity=rng.uniform(0.505, 0.56, size),
+        nut_conformity=rng.uniform(0.505, 0.56, size),
+    )
+    oil = bs.Lubricant(viscosity=log_uniform(0.005, 1))
+    return Box(screw, oil, log_uniform(1, 5e4), rng.uniform(0, 5000, size) * RPM)
+
+
+def dry(model: bs.FrictionModel) -> bs.FrictionModel:
+    """A model whose slip is all that is left: the same friction everywhere, nothing else resists."""
+    return dataclasses.replace(
+        model,
+        friction=ZhouHoeprich(boundary_friction_coefficient=DRY, full_film_friction_coefficient=DRY, decay=0.0),
+        full_film=None,
+        rolling=lambda conditions: 0 * conditions.contact_load,
+        elastic_resistance=lambda d_w, Q, k, b: 0 * Q,  # noqa: ARG005  (the signature of the slot)
+        ball_to_ball_force=0.0,
+    )
+
+
+def slip_torque(result: FrictionResult) -> Numbers:
+    """Torque that the power of all slip asks for, creep included."""
+    power = result.dissipation["curvature"] + result.dissipation["spin"] + result.dissipation["helix"]
+    return power / result.screw_speed
+
+
+def judge(cases: Box, result: FrictionResult, i: int, *, alone: bool) -> ContactIntegral:
+    """The integral for a case, with the friction of the result; alone, or with all that resists a ball that rolls."""
+    s, n = result.screw, result.nut
+    share = float(np.broadcast_to(result.rolling_share, np.shape(result.contact_load))[i])
+    traction = tuple(Coulomb(float(side.friction_coefficient[i])) for side in (s, n))
+    carried = (
+        s.hydrodynamic_rolling_force,
+        n.hydrodynamic_rolling_force,
+        s.elastic_resistance_moment,
+        n.elastic_resistance_moment,
+        result.ball_friction_moment,
+        result.ball_to_ball_force,
+    )
+    asked = (float(np.broadcast_to(part, np.shape(result.contact_load))[i]) / share for part in carried)
+    return contact_integral(
+        cases.one(i),
+        float(result.contact_load[i]),
+        (traction[0], traction[1]),
+        resistances=BallResistances() if alone else BallResistances(*asked),
+        screw_speed=float(cases.screw_speed[i]),
+    )
+
+
+def evaluate(model: bs.FrictionModel, cases: Box) -> FrictionResult:
+    """A model at all cases."""
+    return model(cases.screw, cases.oil, axial_load=cases.axial_load, screw_speed=cases.screw_speed)
+
+
+@dataclasses.dataclass(frozen=True)
+class Table:
+    """One comparison: errors by model, and what was left out."""
+
+    title: str
+    errors: Mapping[str, Numbers]
+    cases: Numbers
+    notes: tuple[str, ...]
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Median, 95th percentile and largest of the absolute error, and the bias, by model."""
+        return [
+            {
+                "model": name,
+                "n": len(error),
+                "median": float(np.median(np.abs(error))),
+                "p95": float(np.percentile(np.abs(error), 95)),
+                "largest": float(np.max(np.abs(error))),
+                "bias": float(np.median(error)),
+            }
+            for name, error in self.errors.items()
+        ]
+
+
+def valid(result: FrictionResult) -> Numbers:
+    """Where the case can exist: elastic contacts."""
+    return np.asarray(
+        (result.screw.maximum_pressure <= LARGEST_PRESSURE) & (result.nut.maximum_pressure <= LARGEST_PRESSURE)
+    )
+
+
+def left_out(elastic: Numbers) -> str:
+    """How many cases cannot exist."""
+    return f"{np.sum(~elastic)} of {len(elastic)} left out above {LARGEST_PRESSURE / 1e9:g} GPa"
+
+
+def slip_alone(cases: Box) -> Table:
+    """Slip of a ball that nothing else resists, dry friction."""
+    reference = bs.FrictionModel.reference()
+    models = {
+        "curvature alone": dry(dataclasses.replace(reference, slip=curvature_slip)),
+        "line law": dry(dataclasses.replace(reference, slip=line_slip)),
+        "reference": dry(reference),
+    }
+    results = {name: evaluate(model, cases) for name, model in models.items()}
+    exact = results["reference"]
+    used = np.flatnonzero(valid(exact))
+    integrals = [judge(cases, exact, i, alone=True) for i in used]
+    found = np.array([integral.converged for integral in integrals])
+    truth = np.array([integral.slip_torque for integral in integrals])[found]
+    errors = {
+        name: result.screw_torque[used][found] / result.ball_screw.loaded_balls[used][found] / truth - 1
+        for name, result in results.items()
+    }
+    notes = (left_out(valid(exact)), f"{np.sum(~found)} without a balance")
+    return Table(f"Slip torque, dry friction of {DRY:g}, nothing else resists", errors, used[found], notes)
+
+
+def whole_model(cases: Box) -> tuple[Table, Table]:
+    """Slip torque and friction torque of the reference model as it is, with all that resists the ball."""
+    result = evaluate(bs.FrictionModel.reference(), cases)
+    elastic = valid(result)
+    rolls = np.asarray(result.rolling_share) == 1
+    used = np.flatnonzero(elastic & rolls)
+    integrals = [judge(cases, result, i, alone=False) for i in used]
+    found = np.array([integral.converged for integral in integrals])
+    z = result.ball_screw.loaded_balls[used][found]
+    kept = [integral for integral in integrals if integral.converged]
+    slip_errors = slip_torque(result)[used][found] / z / np.array([i.slip_torque for i in kept]) - 1
+    torque_errors = result.screw_torque[used][found] / z / np.array([i.screw_torque for i in kept]) - 1
+    skids = [judge(cases, result, i, alone=False) for i in np.flatnonzero(elastic & ~rolls)]
+    notes = (
+        left_out(elastic),
+        f"{len(skids)} skid by the model, {sum(not i.converged for i in skids)} of them by the integral",
+        f"{np.sum(~found)} skid by the integral alone",
+    )
+    return (
+        Table("Slip torque of the whole model, creep included", {"reference": slip_errors}, used[found], notes),
+        Table("Friction torque of the whole model", {"reference": torque_errors}, used[found], notes),
+    )
+
+
+def far_off(table: Table, cases: Box) -> list[dict[str, float]]:
+    """The cases beyond FAR, worst first, with what sets them apart."""
+    error = table.errors["reference"]
+    result = evaluate(bs.FrictionModel.reference(), cases)
+    order = [k for k in np.argsort(-np.abs(error)) if abs(error[k]) > FAR]
+    T = np.maximum(
+        np.abs(result.screw.sliding_force) / result.screw.traction_limit,
+        np.abs(result.nut.sliding_force) / result.nut.traction_limit,
+    )
+    return [
+        {
+            "error": float(error[k]),
+            "load": float(result.contact_load[i]),
+            "speed": float(cases.screw_speed[i] / RPM),
+            "lead": float(cases.screw.lead[i] / cases.screw.pitch_circle_diameter[i]),
+            "traction": float(T[i]),
+            "friction": float(result.screw.friction_coefficient[i]),
+            "balanced": bool(result.converged[i]),
+        }
+        for k, i in ((k, table.cases[k]) for k in order)
+    ]
+
+
+def speed(size: int = 200_000) -> dict[str, float]:
+    """Points a second of the reference model on plain arrays and in a sweep, and of the integral."""
+    rng = np.random.default_rng(0)
+    screw, oil = box(1, 7).one(0), bs.Lubricant(viscosity=0.1)
+    F, n = rng.uniform(100, 5000, size), rng.uniform(0, 1000, size) * RPM
+    model = bs.FrictionModel.reference()
+    arrays: list[float] = []
+    swept: list[float] = []
+    integral: list[float] = []
+    loads, speeds = np.sort(rng.uniform(100, 5000, 500)), np.sort(rng.uniform(0, 1000, 400)) * RPM
+    for _ in range(5):
+        start = time.perf_counter()
+        _ = model(screw, oil, axial_load=F, screw_speed=n).efficiency
+        arrays.append(size / (time.perf_counter() - start))
+        start = time.perf_counter()
+        bs.sweep(model, screw, oil, axial_load=loads, screw_speed=speeds)
+        swept.append(loads.size * speeds.size / (time.perf_counter() - start))
+        start = time.perf_counter()
+        for load in (1.0, 3.0, 10.0, 30.0, 100.0):
+            contact_integral(screw, load, Coulomb(DRY))
+        integral.append(5 / (time.perf_counter() - start))
+    medians = {
+        name: float(np.median(rates)) for name, rates in (("arrays", arrays), ("sweep", swept), ("integral", integral))
+    }
+    return {**medians, "ratio": medians["arrays"] / medians["integral"]}
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Print what was asked for."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--cases", type=int, default=600, help="random screws (default %(default)s)")
+    parser.add_argument("--seed", type=int, default=2005, help="of the random screws (default %(default)s)")
+    parser.add_argument("--json", action="store_true", help="one JSON object")
+    parser.add_argument("--no-speed", action="store_true", help="accuracy only")
+    parser.add_argument("--markdown", action="store_true", help="tables for the documentation, without times")
+    chosen = parser.parse_args(arguments)
+    cases = box(chosen.cases, chosen.seed)
+    tables = (slip_alone(cases), *whole_model(cases))
+    if chosen.json:
+        listed = [{"title": t.title, "rows": t.rows(), "notes": t.notes, "far": far_off(t, cases)} for t in tables]
+        print(json.dumps({"tables": listed, "speed": None if chosen.no_speed else speed()}, indent=2))
+        return
+    for table in tables:
+        print(_markdown(table, cases))
+    if not (chosen.markdown or chosen.no_speed):
+        rates = speed()
+        print(f"reference model on arrays {rates['arrays']:.3g} points/s, in a sweep {rates['sweep']:.3g} points/s;")
+        print(f"contact integral {rates['integral']:.3g} points/s; ratio {rates['ratio']:.0f}")
+
+
+def _markdown(table: Table, cases: Box) -> str:
+    lines = [f"**{table.title}** ({'; '.join(table.notes)})", ""]
+    lines += ["| slip law | cases | median | 95 % within | largest | bias |", "| --- | --- | --- | --- | --- | --- |"]
+    lines += [
+        f"| {row['model']} | {row['n']} | {row['median']:.2%} | {row['p95']:.2%} | {row['largest']:.1%} "
+        f"| {row['bias']:+.2%} |"
+        for row in table.rows()
+    ]
+    far = far_off(table, cases)
+    if far:
+        lines += ["", f"Beyond {FAR:.0%} ({len(far)} cases):", ""]
+        lines += ["| error | load of a ball | speed | lead/d_m | largest traction | friction | balanced |"]
+        lines += ["| --- | --- | --- | --- | --- | --- | --- |"]
+        lines += [
+            f"| {row['error']:+.1%} | {row['load']:.3g} N | {row['speed']:.0f} rpm | {row['lead']:.2f} | "
+            f"{row['traction']:.3f} | {row['friction']:.3f} | {'yes' if row['balanced'] else 'no'} |"
+            for row in far[:12]
+        ]
+    return "\n".join(lines) + "\n"
+
+
+if __name__ == "__main__":
+    main()

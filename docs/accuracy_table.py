@@ -1,0 +1,32 @@
+"""The reference model against the contact integral, as the benchmark prints it."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+BENCHMARK = Path(__file__).parents[1] / "benchmarks" / "reference.py"
+
+
+def _printed(*options: str) -> str:
+    command = [sys.executable, str(BENCHMARK), *options]
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout
+
+
+def page() -> str:
+    """All tables, for the documentation."""
+    return _printed("--markdown")
+
+
+def short_table() -> str:
+    """One line for each comparison of the reference model, for the README."""
+    tables = json.loads(_printed("--json", "--no-speed"))["tables"]
+    lines = [["reference model against the integral", "screws", "median", "95 % within", "largest"], ["---"] * 5]
+    for table in tables:
+        row = next(row for row in table["rows"] if row["model"] == "reference")
+        errors = [f"{100 * row['median']:.1g} %", f"{100 * row['p95']:.1f} %", f"{100 * row['largest']:.1f} %"]
+        title = table["title"][0].lower() + table["title"][1:]
+        lines.append([title, str(row["n"]), *errors])
+    return "".join("| " + " | ".join(line) + " |\n" for line in lines)

@@ -1,0 +1,132 @@
+"""Models and laws side by side at one operating point: how far apart they are, and which can be trusted there."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.model import FrictionModel
+from ballscrew.result import FrictionResult
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Candidate:
+    """A model to compare: what it is called and, if it is the case's with another law, in which slot.
+
+    One that does not count is shown, but enters no spread.
+    """
+
+    name: str
+    model: FrictionModel
+    slot: str = ""
+    counts: bool = True
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Row:
+    """A candidate, and what came out of it."""
+
+    candidate: Candidate
+    result: FrictionResult
+    #: Friction torque over that of the case's model, less one; NaN where that is zero.
+    change: float
+
+    @property
+    def torque(self) -> float:
+        """Friction torque on the screw, N m."""
+        return float(self.result.screw_torque)
+
+    @property
+    def outside(self) -> tuple[str, ...]:
+        """The reasons for which it is not valid here."""
+        return tuple(reason for reason, holds in self.result.validity.items() if not holds)
+
+
+class Spread(NamedTuple):
+    """The rows with the least and with the greatest friction torque."""
+
+    least: Row
+    greatest: Row
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Comparison:
+    """The case's own model, all models, and the case's model with one law at a time in place of its own."""
+
+    case: Row
+    models: Sequence[Row]
+    laws: Sequence[Row]
+
+    @property
+    def rows(self) -> list[Row]:
+        """All rows, the case's first, each once."""
+        return [self.case, *(row for row in (*self.models, *self.laws) if row is not self.case)]
+
+    @property
+    def spread_of_models(self) -> Spread | None:
+        """Over all models, valid or not; None where no torque is finite."""
+        return _spread(self.models)
+
+    @property
+    def spread_of_laws(self) -> Spread | None:
+        """Over the case's model and the laws that count and are valid here; None where none is."""
+        return _spread(row for row in (self.case, *self.laws) if row.candidate.counts and not row.outside)
+
+    @property
+    def spans(self) -> Mapping[str, tuple[float, float]]:
+        """By slot, how far the laws that count and are valid here move the torque; the widest first."""
+        spans: dict[str, tuple[float, float]] = {}
+        for row in self.laws:
+            if row.candidate.counts and not row.outside and math.isfinite(row.change):
+                low, high = spans.get(row.candidate.slot, (0.0, 0.0))
+                spans[row.candidate.slot] = (min(low, row.change), max(high, row.change))
+        return dict(sorted(spans.items(), key=lambda item: item[1][0] - item[1][1]))
+
+
+def _spread(rows: Iterable[Row]) -> Spread | None:
+    finite = [row for row in rows if math.isfinite(row.torque)]
+    if not finite:
+        return None
+    return Spread(min(finite, key=lambda row: row.torque), max(finite, key=lambda row: row.torque))
+
+
+def compare(
+    case: FrictionModel,
+    models: Sequence[Candidate],
+    laws: Sequence[Candidate],
+    screw: BallScrew,
+    lubricant: Lubricant,
+    operation: Operation,
+) -> Comparison:
+    """Evaluate the case's model, other models, and the case's with other laws, at one operating point.
+
+    Where one of the models is the case's own, their rows are one.
+    """
+
+    def result_of(model: FrictionModel) -> FrictionResult:
+        return model(screw, lubricant, axial_load=operation.axial_load, screw_speed=operation.screw_speed)
+
+    name = next((candidate.name for candidate in models if candidate.model is case), "this case")
+    own = Row(Candidate(name, case), result_of(case), 0.0)
+
+    def row(candidate: Candidate) -> Row:
+        result = result_of(candidate.model)
+        change = float(result.screw_torque) / own.torque - 1 if own.torque else math.nan
+        return Row(candidate, result, change)
+
+    return Comparison(
+        own,
+        [own if candidate.model is case else row(candidate) for candidate in models],
+        [row(candidate) for candidate in laws],
+    )
+
+
+def same_law(one: Any, other: Any) -> bool:
+    """Whether two laws are the same, with the same coefficients."""
+    if dataclasses.is_dataclass(one) and type(one) is type(other):
+        return vars(one) == vars(other)
+    return one is other

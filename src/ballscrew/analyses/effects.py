@@ -1,0 +1,244 @@
+"""What each effect adds: from the corrected paper to the reference model, one effect at a time.
+
+Two screws, each at one operating point: the paper's, with its close grooves and its small lead, and
+one of a catalogue, with open grooves and a steep lead. Curves of the effects by themselves are in
+:mod:`ballscrew.analyses.effect_curves`.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from ballscrew.analyses.olaru2005 import case as paper
+from ballscrew.components.laws import ProportionalBallForce
+from ballscrew.components.lubrication import Inlet, houpert_rolling
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.mixed_friction import LoadSharing
+from ballscrew.components.screw import BallScrew
+from ballscrew.model import PAPER_FRICTION, FrictionModel
+from ballscrew.result import MECHANISMS, FrictionResult
+from ballscrew.solvers.ellipse_slip import ellipse_slip
+from ballscrew.solvers.line_slip import line_slip
+from ballscrew.solvers.slip import BallProblem, Slip
+
+RPM = paper.RPM
+#: Published pairs of decay and exponent of the asperities' share, each for its surfaces (ZhouHoeprich).
+DECAYS = ((1.42, 0.8), (2.32, 0.97), (1.90, 0.99), (2.1, 0.85))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Case:
+    """A screw, its oil, and the operating point at which the effects are sized."""
+
+    name: str
+    title: str
+    words: str
+    screw: BallScrew
+    oil: Lubricant
+    axial_load: float
+    screw_speed: float
+
+    def result(self, model: FrictionModel, **changes: Any) -> FrictionResult:
+        """The model at the operating point, with another load, speed or field of the screw where given."""
+        point = {name: changes.pop(name, getattr(self, name)) for name in ("axial_load", "screw_speed")}
+        return model(dataclasses.replace(self.screw, **changes), self.oil, **point)
+
+
+PAPER = Case(
+    name="paper",
+    title="the paper's screw",
+    words="Screw 40 × 5, d_w 3.175 mm, f 0.515, 45°, 56 balls; F = 4000 N, n = 600 rpm, viscosity 0.1 Pa s. "
+    "Assumed: E′ 226 GPa, α_p 22 1/GPa, F_B = 1/z N.",
+    screw=paper.SCREW,
+    oil=paper.OIL,
+    axial_load=paper.AXIAL_LOAD,
+    screw_speed=paper.SCREW_SPEED,
+)
+#: Four turns of a catalogue screw 40 × 10: 75 balls carry (ISO 3408-5: 20 a turn, a quarter turn
+#: lost), which makes a dynamic load rating of 50 kN; the load is a tenth of that.
+CATALOGUE = Case(
+    name="catalogue",
+    title="a catalogue screw",
+    words="Screw 40 × 10, d_m 41.4 mm, d_w 6.35 mm, f 0.54, 45°, 75 balls (four turns); F = 5000 N, a tenth of "
+    "C_a, n = 600 rpm, ISO VG 100 at 40 °C. Assumed: E′ 226 GPa, roughness as in the paper, F_B = 1/z N.",
+    screw=BallScrew(
+        pitch_circle_diameter=0.0414,
+        lead=0.010,
+        ball_diameter=6.35e-3,
+        loaded_balls=75,
+        contact_angle=math.pi / 4,
+        screw_conformity=0.54,
+        nut_conformity=0.54,
+    ),
+    oil=Lubricant.from_grade("ISO VG 100", temperature=313.15),
+    axial_load=5000.0,
+    screw_speed=600 * RPM,
+)
+CASES: Mapping[str, Case] = {case.name: case for case in (PAPER, CATALOGUE)}
+
+
+def spin_over_ellipse(ball: BallProblem) -> Slip:
+    """The slip of the reference model on a path without a lead angle: nothing is dragged sideways."""
+    return ellipse_slip(ball._replace(frame=dataclasses.replace(ball.frame, lead_angle=0.0)))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Step:
+    """One effect: in a word, in words, and the model with all effects so far."""
+
+    short: str
+    words: str
+    model: FrictionModel
+
+
+@functools.cache
+def steps() -> tuple[Step, ...]:
+    """The corrected model first, then one effect after the other; the last is the reference model."""
+    reference, so_far = FrictionModel.reference(), FrictionModel.corrected()
+    paper_boundary = LoadSharing(boundary_friction_coefficient=PAPER_FRICTION.boundary_friction_coefficient)
+    changes: tuple[tuple[str, str, dict[str, Any]], ...] = (
+        ("rolling", "rolling force in all regimes, fully flooded", {"rolling": reference.rolling}),
+        ("inlet heat", "the inlet heats itself", {"inlet": reference.inlet}),
+        ("load sharing", "asperities and film share the load, µ_0 0.2 as before", {"friction": paper_boundary}),
+        ("µ_0 0.12", "boundary friction 0.12 for 0.2", {"friction": reference.friction}),
+        ("spin", "spin, on the line across the contact", {"slip": line_slip}),
+        ("ellipse", "the whole ellipse for the line", {"slip": spin_over_ellipse}),
+        ("helix", "the helix drags the balls sideways", {"slip": reference.slip, "name": reference.name}),
+    )
+    found = [Step("corrected", "the paper, corrected", so_far)]
+    for short, words, change in changes:
+        so_far = dataclasses.replace(so_far, **change)
+        found.append(Step(short, words, so_far))
+    return tuple(found)
+
+
+@dataclasses.dataclass(frozen=True)
+class Effect:
+    """Friction torque (N m), its parts, and the efficiency, with an effect and all before it."""
+
+    short: str
+    words: str
+    torque: float
+    added: float
+    parts: Mapping[str, float]
+    efficiency: float
+    friction_coefficient: float
+
+
+def effects(case: Case) -> tuple[Effect, ...]:
+    """The steps at the operating point of a case; ``added`` is the change of torque against the step before."""
+    found: list[Effect] = []
+    for step in steps():
+        result = case.result(step.model)
+        torque = float(result.screw_torque)
+        found.append(
+            Effect(
+                short=step.short,
+                words=step.words,
+                torque=torque,
+                added=torque - found[-1].torque if found else 0.0,
+                parts={mechanism: float(result.contributions[mechanism]) for mechanism in MECHANISMS},
+                efficiency=float(result.efficiency),
+                friction_coefficient=float(result.screw.friction_coefficient),
+            )
+        )
+    return tuple(found)
+
+
+# -- what is not known ----------------------------------------------------------------------------
+
+
+@dataclasses.dataclass(frozen=True)
+class Doubt:
+    """One thing that a sheet of a screw does not say, and the torques (N m) that it leaves open."""
+
+    words: str
+    taken: str
+    tried: str
+    torques: tuple[float, ...]
+    reference: float
+
+    @property
+    def lowest(self) -> float:
+        """Largest fall against the reference, relative."""
+        return min(*self.torques, self.reference) / self.reference - 1
+
+    @property
+    def highest(self) -> float:
+        """Largest rise against the reference, relative."""
+        return max(*self.torques, self.reference) / self.reference - 1
+
+
+def doubts(case: Case) -> tuple[Doubt, ...]:
+    """What the reference model takes for granted, the widest doubt first."""
+    reference = FrictionModel.reference()
+    at_reference = float(case.result(reference).screw_torque)
+
+    def friction(**coefficients: float) -> FrictionModel:
+        return dataclasses.replace(reference, friction=LoadSharing(**coefficients))
+
+    def torques(*models: FrictionModel) -> tuple[float, ...]:
+        return tuple(float(case.result(model).screw_torque) for model in models)
+
+    def thinner(factor: float) -> Case:
+        oil = dataclasses.replace(case.oil, viscosity=factor * case.oil.viscosity)
+        return dataclasses.replace(case, oil=oil)
+
+    def rough(*heights: float) -> tuple[float, ...]:
+        return tuple(
+            float(case.result(reference, screw_roughness=height, nut_roughness=height).screw_torque)
+            for height in heights
+        )
+
+    z = case.screw.loaded_balls
+    found = (
+        (
+            "boundary friction µ_0",
+            "0.12",
+            "0.08, 0.20",
+            torques(*(friction(boundary_friction_coefficient=mu) for mu in (0.08, 0.2))),
+        ),
+        (
+            "the asperities' share: B, C",
+            "1.42, 0.80",
+            "the other three published pairs",
+            torques(*(friction(decay=B, exponent=C) for B, C in DECAYS[1:])),
+        ),
+        (
+            "temperature of the oil",
+            "as stated",
+            "half and twice the viscosity",
+            tuple(float(thinner(factor).result(reference).screw_torque) for factor in (0.5, 2.0)),
+        ),
+        ("roughness of the races", "0.3 µm", "0.15, 0.5 µm", rough(0.15e-6, 0.5e-6)),
+        (
+            "friction of the film alone",
+            "0.02",
+            "0.05 (SKF2018)",
+            torques(friction(full_film_friction_coefficient=0.05)),
+        ),
+        (
+            "oil in the inlet",
+            "flooded",
+            "S = 10, and the law of Houpert1987",
+            torques(
+                dataclasses.replace(reference, inlet=Inlet(inlet_film_ratio=10.0)),
+                dataclasses.replace(reference, rolling=houpert_rolling),
+            ),
+        ),
+        (
+            "force between the balls",
+            "1/z N",
+            "0, 5/z N, 1/z N + Q/500",
+            torques(
+                *(dataclasses.replace(reference, ball_to_ball_force=total / z) for total in (0.0, 5.0)),
+                dataclasses.replace(reference, ball_force=ProportionalBallForce()),
+            ),
+        ),
+    )
+    rows = [Doubt(*row, reference=at_reference) for row in found]
+    return tuple(sorted(rows, key=lambda row: row.lowest - row.highest))

@@ -1,0 +1,100 @@
+"""What is known of a ball–race contact before its film and its friction: the ground all laws stand on."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Annotated, NamedTuple
+
+from ballscrew._arrays import lazy, namespace
+from ballscrew.components.materials import Lubricant
+from ballscrew.equations import film, hertz, rheology, slip
+from ballscrew.quantities import AngularSpeed, Force, Info, Length, Pressure, Ratio, Speed
+
+
+class HertzShape(NamedTuple):
+    """Coefficients of a Hertz contact, and the largest radii ratio they are good for."""
+
+    major: Ratio
+    minor: Ratio
+    ellipticity: Ratio
+    largest_radii_ratio: float
+
+
+class Motion(NamedTuple):
+    """How a contact moves: it rolls, and takes half of the spin and of the lateral slip of its ball."""
+
+    entrainment_speed: Speed
+    spin: AngularSpeed
+    lateral_slip_speed: Speed
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class ContactConditions:
+    """Geometry, load, motion and oil of a contact. What only some laws ask for is computed when asked."""
+
+    contact_load: Annotated[Force, Info("Q", "normal load of the contact")]
+    equivalent_modulus: Annotated[Pressure, Info("E'", "equivalent modulus of ball and race", "GPa")]
+    rolling_radius: Annotated[Length, Info("R_x", "equivalent radius in the rolling direction", "mm")]
+    transverse_radius: Annotated[Length, Info("R_y", "equivalent radius across the rolling direction", "mm")]
+    radii_ratio: Annotated[Ratio, Info("k", "ratio of the equivalent radii R_y/R_x")]
+    deformed_radius: Annotated[Length, Info("R_d", "radius of the deformed surface", "mm")]
+    hertz: HertzShape
+    material_parameter: Annotated[Ratio, Info("G", "dimensionless material parameter")]
+    speed_parameter: Annotated[Ratio, Info("U", "dimensionless speed parameter")]
+    load_parameter: Annotated[Ratio, Info("W", "dimensionless load parameter")]
+    semi_major_axis: Annotated[Length, Info("a", "semi-axis of the ellipse across the rolling direction", "mm")]
+    combined_roughness: Annotated[Length, Info(r"\sigma", "combined RMS roughness of ball and race", "um")]
+    motion: Motion
+    lubricant: Lubricant
+
+    @lazy
+    def ellipticity(self) -> Annotated[Ratio, Info(r"\kappa", "ratio of the semi-axes a/b")]:
+        """Ratio of the semi-axes a/b."""
+        return self.hertz.ellipticity
+
+    @lazy
+    def semi_minor_axis(
+        self,
+    ) -> Annotated[Length, Info("b", "semi-axis of the ellipse along the rolling direction", "mm")]:
+        """Semi-axis of the contact ellipse along the rolling direction."""
+        return hertz.semi_axis(self.hertz.minor, self.rolling_radius, self.load_parameter)
+
+    @lazy
+    def maximum_pressure(self) -> Annotated[Pressure, Info("p_0", "maximum contact pressure", "GPa")]:
+        """Maximum contact pressure."""
+        return hertz.maximum_pressure(self.hertz.major, self.hertz.minor, self.equivalent_modulus, self.load_parameter)
+
+    @lazy
+    def mean_pressure(self) -> Annotated[Pressure, Info("p_m", "mean contact pressure", "GPa")]:
+        """Mean contact pressure."""
+        return hertz.mean_pressure(self.maximum_pressure)
+
+    @lazy
+    def nominal_sliding_speed(self) -> Annotated[Speed, Info("u_s", "sliding speed before equilibrium is known, RMS")]:
+        """Sliding speed over the ellipse before the equilibrium is known."""
+        v, spin, lateral = self.motion
+        curvature = slip.curvature_slip_speed(self.semi_major_axis, self.deformed_radius, v / self.rolling_radius)
+        return slip.nominal_sliding_speed(curvature, spin * self.semi_major_axis, lateral, self.hertz.ellipticity)
+
+    @lazy
+    def thermal_loading_parameter(self) -> Annotated[Ratio, Info("L", "heat of the inlet against its conduction")]:
+        """Heat of the shear in the inlet against what the oil conducts away."""
+        oil = self.lubricant
+        return rheology.thermal_loading_parameter(
+            oil.viscosity, oil.temperature_coefficient, self.motion.entrainment_speed, oil.thermal_conductivity
+        )
+
+    @lazy
+    def central_film_thickness(
+        self,
+    ) -> Annotated[Length, Info("h_c", "central film thickness, inlet cool and full", "um")]:
+        """Central film thickness by HamrockDowson1977; none at rest."""
+        v = self.motion.entrainment_speed
+        thickness = film.central_film_thickness(
+            self.rolling_radius,
+            self.speed_parameter,
+            self.material_parameter,
+            self.load_parameter,
+            self.hertz.ellipticity,
+        )
+        return namespace(v, thickness).where(v == 0, 0.0, thickness)

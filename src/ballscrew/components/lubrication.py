@@ -1,0 +1,123 @@
+"""The film: how thick it is, what the heat of the inlet leaves of it, and how it resists rolling."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Annotated
+
+from ballscrew._arrays import namespace
+from ballscrew.components.conditions import ContactConditions
+from ballscrew.components.laws import InletFactors
+from ballscrew.equations import film, rolling
+from ballscrew.faults import faults_of, raise_if_any
+from ballscrew.quantities import Force, Info, Length, Pressure, Ratio
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class HamrockDowson:
+    """Minimum film thickness by HamrockDowson1977; the paper prints the exponent as 0.66."""
+
+    speed_exponent: Annotated[
+        Ratio, Info("m", "exponent of the speed parameter", above=0, below=1, hint="0.68; the paper prints 0.66")
+    ] = 0.68
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("model.film", self))
+
+    def __call__(
+        self,
+        rolling_radius: Length,
+        speed_parameter: Ratio,
+        material_parameter: Ratio,
+        load_parameter: Ratio,
+        ellipticity: Ratio,
+    ) -> Length:
+        """Minimum film thickness, m."""
+        return film.minimum_film_thickness(
+            rolling_radius, speed_parameter, material_parameter, load_parameter, ellipticity, self.speed_exponent
+        )
+
+
+# -- the inlet ------------------------------------------------------------------------------------
+
+
+def ideal_inlet(conditions: ContactConditions) -> InletFactors:
+    """The paper's: the inlet is full and as warm as the rest, Olaru2005 §2.1."""
+    return InletFactors(1.0, 1.0)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Inlet:
+    """An inlet that its own shear heats (Gupta1992) and that may not be full (BibouletHoupertLines2010).
+
+    The heating thins the film and the rolling force alike; missing oil lowers the rolling force only.
+    """
+
+    inlet_film_ratio: Annotated[
+        Ratio,
+        Info("S", "film where the inlet begins / fully flooded film", above=0, hint="1e6 for a flooded inlet"),
+    ] = 1e6
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("model.inlet", self))
+
+    def __call__(self, conditions: ContactConditions) -> InletFactors:
+        """Factors of the film thickness and of the rolling force."""
+        v, u_s = conditions.motion.entrainment_speed, conditions.nominal_sliding_speed
+        xp = namespace(v, u_s)
+        # at rest nothing heats, whatever slides against what
+        slide_to_roll = xp.where(v > 0, film.slide_to_roll_ratio(u_s, xp.where(v > 0, v, 1.0)), 0.0)
+        heating = film.inlet_heating_factor(
+            conditions.maximum_pressure,
+            conditions.equivalent_modulus,
+            conditions.thermal_loading_parameter,
+            slide_to_roll,
+        )
+        return InletFactors(heating, heating * rolling.rolling_starvation_factor(self.inlet_film_ratio))
+
+
+# -- rolling --------------------------------------------------------------------------------------
+
+
+def olaru_rolling(conditions: ContactConditions) -> Force:
+    """The paper's, Olaru2005 §2.1 (1): a moderate supply of oil, elastic regime only."""
+    E, R_x, k, U, W = _groups(conditions)
+    return rolling.hydrodynamic_rolling_force(E, R_x, k, conditions.material_parameter, U, W)
+
+
+def biboulet_houpert_rolling(conditions: ContactConditions) -> Force:
+    """Both regimes and what lies between, fully flooded, BibouletHoupert2010 in the form of Balan2015."""
+    E, R_x, k, U, W = _groups(conditions)
+    return rolling.blended_rolling_force(
+        rolling.rigid_rolling_force(E, R_x, k, W, U),
+        rolling.elastic_rolling_force(E, R_x, k, W, U),
+        rolling.rigid_regime_share(k, W, U),
+    )
+
+
+def houpert_rolling(conditions: ContactConditions) -> Force:
+    """The fit that the paper rounds, Houpert1987: a moderate supply of oil, elastic regime only."""
+    E, R_x, _, U, W = _groups(conditions)
+    kappa = conditions.hertz.ellipticity
+    beta = rolling.ellipse_shape_parameter(conditions.hertz.major, conditions.hertz.minor)
+    return rolling.elastic_rolling_force_houpert(E, R_x, beta, kappa, conditions.material_parameter, W, U)
+
+
+def aihara_rolling(conditions: ContactConditions) -> Force:
+    """The law of Aihara1987 for rollers, on a line as long as the ellipse; with its own inlet heating."""
+    _, R_x, _, U, W = _groups(conditions)
+    return rolling.rolling_force_aihara(
+        R_x,
+        conditions.semi_major_axis,
+        conditions.lubricant.pressure_viscosity_coefficient,
+        conditions.material_parameter,
+        U,
+        rolling.line_load_parameter(conditions.hertz.major, W),
+        conditions.thermal_loading_parameter,
+    )
+
+
+def _groups(conditions: ContactConditions) -> tuple[Pressure, Length, Ratio, Ratio, Ratio]:
+    """E', R_x, k, U and W."""
+    c = conditions
+    return c.equivalent_modulus, c.rolling_radius, c.radii_ratio, c.speed_parameter, c.load_parameter

@@ -1,0 +1,276 @@
+"""The laws behind the effects, drawn: slip over spin, slip in the contacts, rolling forces, load shares."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Ellipse
+
+from ballscrew.analyses import effect_curves as curves
+from ballscrew.analyses.effects import PAPER, RPM, Case
+from ballscrew.interfaces.figures import style
+from ballscrew.interfaces.figures.effects import Cases, case_caption, mathtext
+from ballscrew.interfaces.figures.style import Columns, Plot
+from ballscrew.result import FrictionResult
+
+# -- slip over spin -------------------------------------------------------------------------------
+
+
+def slip_over_spin(cases: Cases) -> Figure:
+    """Curvature and spin moment, and the slip power they make, over the spin parameter."""
+    words = (
+        "Slip on the line across the contact, no net force. Dashed: the polynomials of Houpert 1999, made for "
+        "E_s up to 1. Dotted: from there on one line of pure rolling is left. Circles: the screw "
+        "contacts with half of the spin, before the ball finds its balance."
+    )
+    figure, panels = style.new_figure(case_caption(cases, words))
+    found = curves.spin_curves()
+    moments, powers = panels
+    E_s = found.spin_parameter
+    for words, closed, polynomial, colour in (
+        ("curvature moment", found.curvature, found.curvature_polynomial, style.ORANGE),
+        ("spin moment", found.spin, found.spin_polynomial, style.RED),
+    ):
+        moments.plot(E_s, closed, color=colour, label=words)
+        moments.plot(E_s, polynomial, "--", color=colour, linewidth=1.2, label=f"{words}, polynomial")
+    moments.set_ylim(-0.25, 2.25)
+    moments.set_ylabel("moment / its largest value (1)")
+    moments.set_title("moments")
+    powers.stackplot(
+        E_s,
+        [found.curvature_power, found.spin_power],
+        labels=["curvature slip", "spin slip"],
+        colors=(style.ORANGE, style.RED),
+        linewidth=0,
+    )
+    total = found.curvature_power + found.spin_power
+    powers.plot(E_s, total, color=style.INK, label="slip power")
+    for case in cases.values():
+        at = half_spin_parameter(case)
+        height = float(np.interp(at, E_s, total))
+        powers.plot(at, height, "o", color="white", markeredgecolor=style.INK, markersize=6)
+        powers.annotate(case.title, (at, height), xytext=(9, -5), textcoords="offset points", ha="left", fontsize=9)
+    powers.set_ylabel("slip power / that of curvature alone (1)")
+    powers.set_title("power")
+    powers.set_ylim(bottom=0)
+    for panel in panels:
+        panel.axvline(found.one_line_from, color=style.GREY, linestyle=":", linewidth=1.2)
+        panel.set_xlim(0, 2.5)
+        panel.set_xlabel("spin parameter E$_s$ (1)")
+        panel.legend(loc="upper left")
+    return figure
+
+
+def half_spin_parameter(case: Case) -> float:
+    """Spin parameter of the screw contact with half of the ball's spin."""
+    contact = case.result(curves.MODELS["reference"]).screw
+    return float(contact.spin_parameter * contact.motion.spin / contact.spin)
+
+
+def _spin_table(_cases: Cases) -> Columns:
+    found = curves.spin_curves()
+    return {
+        "spin parameter (1)": found.spin_parameter,
+        "curvature moment (1)": found.curvature,
+        "spin moment (1)": found.spin,
+        "curvature moment, polynomial (1)": found.curvature_polynomial,
+        "spin moment, polynomial (1)": found.spin_polynomial,
+        "power of curvature slip (1)": found.curvature_power,
+        "power of spin slip (1)": found.spin_power,
+    }
+
+
+# -- slip in the contacts -------------------------------------------------------------------------
+
+
+def slip_fields(cases: Cases) -> Figure:
+    """The slip over both contacts of both screws: its size, its direction, and where the ball rolls purely."""
+    words = (
+        "Reference model; slip of race against ball. Colour: its size; arrows: its direction and size; dashed: no "
+        "slip along the path. The ellipses are drawn wider along the path than they are."
+    )
+    figure, panels = style.new_figure(case_caption(cases, words), rows=2, height=2.75)
+    for row, case in zip((panels[:2], panels[2:]), cases.values(), strict=True):
+        result = case.result(curves.MODELS["reference"])
+        fastest = max(_speeds(result, on_screw).max() for on_screw in (True, False))
+        images: list[Any] = []
+        for panel, on_screw in zip(row, (True, False), strict=True):
+            images.append(_slip_field(panel, result, on_screw, fastest))
+            panel.set_title(f"{case.title}: ball on {'screw' if on_screw else 'nut'}")
+            panel.set_xlabel("across the path (mm)")
+            panel.set_ylabel("along the path (mm)")
+        bar = figure.colorbar(images[-1], ax=list(row), pad=0.02, aspect=14)
+        bar.set_label("slip (mm/s)")
+    return figure
+
+
+def _grid(points: int) -> tuple[Any, Any]:
+    across, along = np.meshgrid(np.linspace(-1, 1, points), np.linspace(-1, 1, points))
+    return across, along
+
+
+def _speeds(result: FrictionResult, on_screw: bool) -> Any:
+    """Size of the slip over the contact, mm/s; nothing outside the ellipse."""
+    across, along = _grid(121)
+    picture = curves.slip_picture(result, on_screw, across, along)
+    speed = np.hypot(picture.slip_along, picture.slip_across) * 1e3
+    return np.ma.masked_where(across**2 + along**2 > 1.02, speed)
+
+
+def _slip_field(panel: Axes, result: FrictionResult, on_screw: bool, fastest: float) -> Any:
+    contact = result.screw if on_screw else result.nut
+    a, b = float(contact.semi_major_axis) * 1e3, float(contact.semi_minor_axis) * 1e3
+    outline = Ellipse((0, 0), 2 * a, 2 * b, facecolor="none", edgecolor=style.INK, linewidth=1.3, zorder=3)
+    panel.add_patch(outline)
+    image = panel.imshow(
+        _speeds(result, on_screw),
+        extent=(-a, a, -b, b),
+        origin="lower",
+        aspect="auto",
+        cmap="YlOrBr",
+        vmin=0,
+        vmax=1.15 * fastest,
+        interpolation="bilinear",
+    )
+    image.set_clip_path(outline)
+    across = np.concatenate([np.linspace(-0.9, 0.9, 13) * width for width in (0.72, 1.0, 0.72)])
+    along = np.repeat([-0.55, 0.0, 0.55], 13)
+    picture = curves.slip_picture(result, on_screw, across, along)
+    panel.quiver(
+        across * a,
+        along * b,
+        picture.slip_across * 1e3,
+        picture.slip_along * 1e3,
+        angles="uv",
+        pivot="mid",
+        scale=1.5 * fastest,
+        scale_units="inches",
+        units="inches",
+        width=0.016,
+        color=style.INK,
+        zorder=4,
+    )
+    heights = np.linspace(-1, 1, 4001)
+    path = curves.slip_picture(result, on_screw, heights, 0 * heights).slip_along
+    for height in heights[1:][np.diff(np.sign(path)) != 0]:
+        half = b * float(np.sqrt(1 - height**2))
+        panel.plot([height * a] * 2, [-half, half], color=style.INK, linestyle="--", linewidth=1, zorder=3)
+    panel.set_xlim(-1.12 * a, 1.12 * a)
+    panel.set_ylim(-1.25 * b, 1.25 * b)
+    panel.grid(visible=False)
+    return image
+
+
+def _field_table(cases: Cases) -> Columns:
+    columns: dict[str, Any] = {"height across / semi-axis (1)": np.linspace(-1, 1, 201)}
+    for case in cases.values():
+        result = case.result(curves.MODELS["reference"])
+        for on_screw in (True, False):
+            t = columns["height across / semi-axis (1)"]
+            picture = curves.slip_picture(result, on_screw, t, 0 * t)
+            where = f"{case.title}, {'screw' if on_screw else 'nut'}"
+            columns[f"slip along the path, {where} (mm/s)"] = picture.slip_along * 1e3
+            columns[f"slip across the path in the middle, {where} (mm/s)"] = picture.slip_across * 1e3 + 0 * t
+    return columns
+
+
+# -- rolling forces -------------------------------------------------------------------------------
+
+_LAW_LINES = (("-", style.BLUE), ("-.", style.GREEN), ("--", style.ORANGE), (":", style.PURPLE))
+
+
+def rolling_laws(cases: Cases) -> Figure:
+    """Rolling forces by law, in units of the reference's, over load and speed; faint beyond their range."""
+    words = (
+        "Rolling force at the screw contact of the paper's screw, inlet cool, in units of the force by Biboulet and "
+        "Houpert. Faint: the contact is nearer rigid than elastic (M < 6.6), where these laws were not made. "
+        "Aihara's is a law for rollers, taken for a roller as long as the ellipse, with its own heating."
+    )
+    figure, panels = style.new_figure(case_caption({"paper": cases["paper"]}, words), sharey=True)
+    over_load, over_speed = curves.rolling_over_load(), curves.rolling_over_speed()
+    for panel, found, scale, x in (
+        (panels[0], over_load, 1.0, "contact load Q of a ball (N)"),
+        (panels[1], over_speed, RPM, "screw speed n (rpm)"),
+    ):
+        base = found.forces["Biboulet and Houpert 2010"]
+        for (name, force), (line, colour) in zip(found.forces.items(), _LAW_LINES, strict=True):
+            ratio = force / base
+            within = found.elastic if name in curves.ELASTIC_ONLY else np.ones_like(found.elastic)
+            panel.plot(found.abscissa / scale, ratio, ls=line, color=colour, alpha=0.3, linewidth=1.2)
+            panel.plot(found.abscissa / scale, np.where(within, ratio, np.nan), ls=line, color=colour, label=name)
+        panel.set_xscale("log")
+        panel.set_xlabel(x)
+        panel.set_ylabel("rolling force / that of the reference (1)")
+        panel.set_ylim(0, 1.75)
+    panels[0].set_title("over load, at 600 rpm")
+    panels[1].set_title("over speed, at 101 N a ball")
+    panels[0].legend(loc="lower right")
+    panels[1].legend(loc="lower left")
+    return figure
+
+
+def _rolling_table(_cases: Cases) -> Columns:
+    columns: dict[str, Any] = {}
+    for found, heading, scale in (
+        (curves.rolling_over_load(), "contact load (N)", 1.0),
+        (curves.rolling_over_speed(), "screw speed (rpm)", RPM),
+    ):
+        x = heading.partition(" (")[0]
+        columns[heading] = found.abscissa / scale
+        for name, force in found.forces.items():
+            columns[f"rolling force over {x}, {name} (N)"] = force
+        columns[f"elastic over {x} (1 = yes)"] = found.elastic.astype(int)
+    return columns
+
+
+# -- load shares ----------------------------------------------------------------------------------
+
+
+def load_shares(cases: Cases) -> Figure:
+    """The asperities' share of the load, and the friction coefficient that follows, over the film parameter."""
+    words = (
+        "Left, laws for the share of the load that asperities carry, Greenwood and Tripp's at the pressure of the "
+        "paper's screw. Right, friction coefficients with B 1.42, C 0.8; the film alone has 0.02. Dotted: λ at the "
+        "screw contact of the paper's screw."
+    )
+    figure, panels = style.new_figure(case_caption({"paper": cases["paper"]}, words))
+    found = curves.share_curves()
+    lines = zip(found.shares.items(), (*style.GROWING[:4], style.GREEN, style.ORANGE), strict=True)
+    for index, ((name, share), colour) in enumerate(lines):
+        line = style.LINE_STYLES[index % 5]
+        panels[0].plot(found.film_parameter, share, ls=line, color=colour, label=name)
+    for (name, mu), (line, colour) in zip(
+        found.coefficients.items(), (("--", style.ORANGE), ("-.", style.PURPLE), ("-", style.BLUE)), strict=True
+    ):
+        panels[1].plot(found.film_parameter, mu, ls=line, color=colour, label=mathtext(name))
+    at = float(PAPER.result(curves.MODELS["reference"]).screw.film_parameter)
+    for panel, title, y in zip(
+        panels, ("who carries the load", "what friction follows"),
+        ("share of the asperities w (1)", "friction coefficient µ$_m$ (1)"), strict=True,
+    ):  # fmt: skip
+        panel.axvline(at, color=style.GREY, linestyle=":", linewidth=1.2)
+        panel.set_title(title)
+        panel.set_xlim(0, 4)
+        panel.set_ylim(bottom=0)
+        panel.set_xlabel("film parameter λ (1)")
+        panel.set_ylabel(y)
+        panel.legend(loc="upper right", fontsize=8)
+    return figure
+
+
+def _share_table(_cases: Cases) -> Columns:
+    found = curves.share_curves()
+    columns: dict[str, Any] = {"film parameter (1)": found.film_parameter}
+    columns |= {f"share of the asperities, {name} (1)": share for name, share in found.shares.items()}
+    return columns | {f"friction coefficient, {name} (1)": mu for name, mu in found.coefficients.items()}
+
+
+PLOTS = (
+    Plot("effects_slip_over_spin", slip_over_spin, _spin_table),
+    Plot("effects_slip_fields", slip_fields, _field_table),
+    Plot("effects_rolling_laws", rolling_laws, _rolling_table),
+    Plot("effects_load_shares", load_shares, _share_table),
+)

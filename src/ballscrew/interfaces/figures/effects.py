@@ -1,0 +1,298 @@
+"""What each effect adds, drawn for two screws: steps to the reference model, parts over speed, lead and load."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ballscrew.analyses import effect_curves as curves
+from ballscrew.analyses.effects import CASES, Case, Effect, effects
+from ballscrew.analyses.effects import steps as reference_steps
+from ballscrew.interfaces.figures import style
+from ballscrew.interfaces.figures.style import Columns, Plot
+from ballscrew.result import MECHANISMS, FrictionResult
+
+Cases = Mapping[str, Case]
+
+SPEED, TORQUE = "screw speed n (rpm)", "friction torque M$_S$ (N m)"
+LOAD, LEAD = "axial load F (N)", "lead P$_h$ (mm)"
+#: From the bottom of a stack to its top.
+STACK: Mapping[str, str] = {
+    "ball_to_ball": style.PURPLE,
+    "elastic_hysteresis": style.GREEN,
+    "hydrodynamic_rolling": style.SKY,
+    "curvature": style.ORANGE,
+    "spin": style.RED,
+    "helix": style.BLUE,
+}
+MODEL_LINES: Mapping[str, tuple[str, Any, str]] = {
+    "olaru2005": ("as printed", ":", style.GREY),
+    "corrected": ("corrected", "--", style.ORANGE),
+    "reference": ("reference", "-", style.BLUE),
+}
+
+
+def mathtext(words: str) -> str:
+    """Plain words with their symbols' indices set low: ``d_m`` and the like."""
+    return re.sub(r"(\w)_(\w+)", r"\1$_{\2}$", words)
+
+
+def case_caption(cases: Cases, words: str) -> str:
+    """The cases of the panels, and what is to be said of the figure."""
+    told = " ".join(f"{case.title[0].upper()}{case.title[1:]}: {case.words}" for case in cases.values())
+    return mathtext(f"{words} {told}")
+
+
+def drawn_cases() -> Cases:
+    """The cases of the figures."""
+    return CASES
+
+
+def titled(panels: Sequence[Axes], cases: Cases) -> list[tuple[Axes, Case]]:
+    """Each panel with its case, titled."""
+    pairs = list(zip(panels, cases.values(), strict=True))
+    for panel, case in pairs:
+        panel.set_title(case.title)
+    return pairs
+
+
+def _label(panels: Sequence[Axes], x: str, y: str) -> None:
+    for panel in panels:
+        panel.set_xlabel(x)
+        panel.set_ylabel(y)
+
+
+def _upward_legend(panel: Axes, **options: Any) -> None:
+    """A legend in the order of the stack, its top first."""
+    handles, labels = panel.get_legend_handles_labels()
+    panel.legend(handles[::-1], labels[::-1], **options)
+
+
+def _legend_above(figure: Figure, panel: Axes) -> None:
+    """The legend of a panel above all of them."""
+    figure.legend(*panel.get_legend_handles_labels(), loc="outside upper center", ncols=4)
+
+
+def _stack(panel: Axes, x: Any, result: FrictionResult, total: Any = 1.0) -> None:
+    """The parts of the torque over ``x``, in units of ``total``."""
+    panel.stackplot(
+        x,
+        [np.asarray(result.contributions[mechanism]) / total for mechanism in STACK],
+        labels=[MECHANISMS[mechanism] for mechanism in STACK],
+        colors=tuple(STACK.values()),
+        linewidth=0,
+    )
+
+
+def _parts(x_heading: str, x: Any, result: FrictionResult, where: str) -> Columns:
+    columns: dict[str, Any] = {x_heading: x}
+    for mechanism, words in MECHANISMS.items():
+        columns[f"{words}, {where} (N m)"] = np.asarray(result.contributions[mechanism])
+    return columns
+
+
+# -- the steps ------------------------------------------------------------------------------------
+
+
+def steps(cases: Cases) -> Figure:
+    """The parts of the torque after each effect, from the corrected paper down to the reference model."""
+    caption = case_caption(
+        cases,
+        "Reference model built up: each bar has all effects above it; at its end the torque, and what the effect adds.",
+    )
+    figure, panels = style.new_figure(caption, height=3.9, sharey=True)
+    for panel, case in titled(panels, cases):
+        found = effects(case)
+        _bars(panel, found)
+        panel.set_xlim(0, 1.32 * max(effect.torque for effect in found))
+    names = [mathtext(step.short) for step in reference_steps()]
+    panels[0].set_yticks(range(len(names)), names)
+    panels[0].invert_yaxis()
+    for panel in panels:
+        panel.grid(visible=False, axis="y")
+        panel.set_xlabel(TORQUE)
+    _legend_above(figure, panels[1])
+    return figure
+
+
+def _bars(panel: Axes, found: Sequence[Effect]) -> None:
+    rows = range(len(found))
+    left = np.zeros(len(found))
+    for mechanism, colour in STACK.items():
+        widths = np.array([effect.parts[mechanism] for effect in found])
+        panel.barh(rows, widths, left=left, height=0.66, color=colour, label=MECHANISMS[mechanism])
+        left = left + widths
+    for row, effect in enumerate(found):
+        added = f"  {effect.added:+.3f}".replace("-", "−") if row else ""
+        panel.text(effect.torque, row, f" {effect.torque:.3f}{added}", va="center", ha="left", fontsize=9)
+
+
+def _steps_table(cases: Cases) -> Columns:
+    columns: dict[str, Any] = {}
+    for case in cases.values():
+        found = effects(case)
+        columns.setdefault("with all effects down to", [effect.words for effect in found])
+        columns[f"friction torque, {case.title} (N m)"] = [effect.torque for effect in found]
+        columns[f"efficiency, {case.title} (1)"] = [effect.efficiency for effect in found]
+        for mechanism, words in MECHANISMS.items():
+            columns[f"{words}, {case.title} (N m)"] = [effect.parts[mechanism] for effect in found]
+    return columns
+
+
+# -- over speed -----------------------------------------------------------------------------------
+
+
+def parts_over_speed(cases: Cases) -> Figure:
+    """The parts of the torque over speed, reference model."""
+    figure, panels = style.new_figure(case_caption(cases, "Reference model; the speed varies, all else as stated."))
+    for panel, case in titled(panels, cases):
+        speed, results = curves.over_speed(case)
+        result = results["reference"]
+        _stack(panel, speed, result)
+        panel.plot(speed, result.screw_torque, color=style.INK, label="total")
+        panel.set_xlim(0, 3000)
+        panel.set_ylim(0, 1.5 * float(np.max(result.screw_torque)))
+        _upward_legend(panel, loc="upper left", ncols=2)
+    _label(panels, SPEED, TORQUE)
+    return figure
+
+
+def _speed_table(cases: Cases) -> Columns:
+    columns: dict[str, Any] = {}
+    for case in cases.values():
+        speed, results = curves.over_speed(case)
+        columns |= _parts("screw speed (rpm)", speed, results["reference"], case.title)
+    return columns
+
+
+# -- three models ---------------------------------------------------------------------------------
+
+
+def models_over_speed_and_load(cases: Cases) -> Figure:
+    """The torque of the three models over speed and over load."""
+    caption = case_caption(cases, "Above, the speed varies, below, the load; all else as stated.")
+    figure, panels = style.new_figure(caption, rows=2, height=2.9)
+    for row, x, of in ((panels[:2], SPEED, curves.over_speed), (panels[2:], LOAD, curves.over_load)):
+        for panel, case in titled(row, cases):
+            abscissa, results = of(case)
+            for name, (words, line, colour) in MODEL_LINES.items():
+                panel.plot(abscissa, results[name].screw_torque, ls=line, color=colour, label=words)
+            panel.set_xlim(0, float(abscissa[-1]))
+            panel.set_ylim(bottom=0)
+        _label(row, x, TORQUE)
+    style.shared_legend(panels, loc="lower right")
+    return figure
+
+
+def _models_table(cases: Cases) -> Columns:
+    columns: dict[str, Any] = {}
+    for case in cases.values():
+        for x, of in (("speed", curves.over_speed), ("load", curves.over_load)):
+            abscissa, results = of(case)
+            columns[f"{x}, {case.title} ({'rpm' if x == 'speed' else 'N'})"] = _padded(abscissa)
+            for name, result in results.items():
+                columns[f"friction torque over {x}, {name}, {case.title} (N m)"] = _padded(result.screw_torque)
+    return columns
+
+
+def _padded(values: Any, length: int = 200) -> list[Any]:
+    """A column as long as the others, empty below."""
+    return [*np.asarray(values).tolist(), *[""] * (length - len(values))]
+
+
+# -- over lead ------------------------------------------------------------------------------------
+
+
+def parts_over_lead(cases: Cases) -> Figure:
+    """The parts of the torque over the lead, reference model: the helix takes over."""
+    words = (
+        "Reference model; the lead varies from a twentieth of d_m, or where the balls have room, to d_m. Dotted: the "
+        "screw's own lead."
+    )
+    figure, panels = style.new_figure(case_caption(cases, words))
+    for panel, case in titled(panels, cases):
+        lead, result = curves.over_lead(case)
+        _stack(panel, lead * 1e3, result)
+        panel.plot(lead * 1e3, result.screw_torque, color=style.INK, label="total")
+        panel.axvline(float(case.screw.lead) * 1e3, color=style.INK, linestyle=":", linewidth=1.2)
+        panel.set_xlim(lead[0] * 1e3, lead[-1] * 1e3)
+        panel.set_ylim(0, 1.45 * float(np.max(result.screw_torque)))
+        _upward_legend(panel, loc="upper left", ncols=2)
+    _label(panels, LEAD, TORQUE)
+    return figure
+
+
+def _lead_table(cases: Cases) -> Columns:
+    columns: dict[str, Any] = {}
+    for case in cases.values():
+        lead, result = curves.over_lead(case)
+        columns |= _parts(f"lead, {case.title} (mm)", lead * 1e3, result, case.title)
+    return columns
+
+
+# -- over load ------------------------------------------------------------------------------------
+
+
+def light_load(cases: Cases) -> Figure:
+    """The parts of the torque over six decades of load, and the loads at which the ball skids."""
+    words = (
+        "Above, the parts of the reference model in units of its torque; below, the torque of three models, where "
+        "those of the paper ask for more than friction can give. Shaded: the ball skids; striped: the film is "
+        "nearer rigid than elastic, M < 6.6."
+    )
+    figure, panels = style.new_figure(case_caption(cases, words), rows=2, height=2.9)
+    for shares, torques, case in zip(panels[:2], panels[2:], cases.values(), strict=True):
+        load, results = curves.over_light_load(case)
+        result = results["reference"]
+        _stack(shares, load, result, result.screw_torque)
+        shares.plot(load, result.rolling_share, color=style.INK, label="share of rolling carried")
+        for name, (label, line, colour) in MODEL_LINES.items():
+            torques.loglog(load, results[name].screw_torque, ls=line, color=colour, label=label)
+        skids, rigid = skid_load(case), _largest(load, ~np.asarray(result.validity["elastic_regime"]))
+        for panel in (shares, torques):
+            panel.set_title(case.title)
+            panel.set_xscale("log")
+            panel.set_xlim(load[0], load[-1])
+            panel.axvspan(load[0], skids, facecolor=style.GREY, alpha=0.35, zorder=2.5, label="the ball skids")
+            panel.axvspan(skids, rigid, facecolor="none", edgecolor=style.GREY, hatch="//", linewidth=0, zorder=2.5)
+        shares.set_ylim(0, 1)
+    _label(panels[:2], LOAD, "share of torque (1)")
+    _label(panels[2:], LOAD, TORQUE)
+    _legend_above(figure, panels[0])
+    panels[2].legend(loc="lower right")
+    return figure
+
+
+def skid_load(case: Case) -> float:
+    """The largest axial load at which the reference model's ball skids, N."""
+    load, results = curves.over_light_load(case)
+    return _largest(load, ~np.asarray(results["reference"].validity["skid"]))
+
+
+def _largest(values: Any, mask: Any) -> float:
+    return float(np.max(values[mask], initial=values[0]))
+
+
+def _light_table(cases: Cases) -> Columns:
+    columns: dict[str, Any] = {}
+    for case in cases.values():
+        load, results = curves.over_light_load(case)
+        result = results["reference"]
+        columns |= _parts(f"axial load, {case.title} (N)", load, result, case.title)
+        columns[f"share of rolling carried, {case.title} (1)"] = np.asarray(result.rolling_share)
+        columns[f"the ball skids, {case.title} (1 = yes)"] = (~np.asarray(result.validity["skid"])).astype(int)
+    return columns
+
+
+PLOTS = (
+    Plot("effects_steps", steps, _steps_table),
+    Plot("effects_parts_over_speed", parts_over_speed, _speed_table),
+    Plot("effects_models", models_over_speed_and_load, _models_table),
+    Plot("effects_lead", parts_over_lead, _lead_table),
+    Plot("effects_light_load", light_load, _light_table),
+)

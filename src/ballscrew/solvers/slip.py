@@ -1,0 +1,100 @@
+"""What a slip law is asked, and what it answers: how the contacts of a ball slip so that it is in balance."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import NamedTuple, Protocol
+
+from ballscrew._arrays import namespace
+from ballscrew.components.balance import Resistances, ball_forces
+from ballscrew.components.contact import Contact
+from ballscrew.components.frame import Frame
+from ballscrew.quantities import AngularSpeed, Force, Length, Mask, Ratio, Speed, Torque
+
+
+class BallProblem(NamedTuple):
+    """One ball under load, all that resists it but the slip, and the speed of the screw."""
+
+    screw: Contact
+    nut: Contact
+    resistances: Resistances
+    ball_diameter: Length
+    frame: Frame
+    screw_speed: AngularSpeed
+    pure_rolling_offset: Ratio | None
+
+
+class ContactSlip(NamedTuple):
+    """How one contact slips, and the moment about the ball that its curvature gives rise to."""
+
+    pure_rolling_offset: Ratio
+    curvature_moment: Torque
+    creep_speed: Speed
+    spin: AngularSpeed
+    lateral_slip_speed: Speed
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Slip:
+    """Outcome: the slip at both contacts, what they hand through the ball, and how well it closes.
+
+    ``rolling_share`` is the share of the other resistances that friction can carry: below one the
+    ball skids, and they fall until it is in balance.
+    """
+
+    screw: ContactSlip
+    nut: ContactSlip
+    spin_moment: Torque
+    lateral_force: Force
+    rolling_share: Ratio
+    residual: Ratio
+    tolerance: float
+
+    @property
+    def converged(self) -> Mask:
+        """Where the forces of the slip meet those of the balance."""
+        return self.residual <= self.tolerance
+
+    @property
+    def advice(self) -> str:
+        """What to do where it did not converge."""
+        return "the contact is too large for its groove: check contact_load, ball_diameter and conformity"
+
+
+class SlipLaw(Protocol):
+    """How the contacts of a ball slip."""
+
+    def __call__(self, ball: BallProblem, /) -> Slip:
+        """The slip with which the ball is in balance."""
+        ...
+
+
+def contact_rotation(ball: BallProblem, contact: Contact) -> Ratio:
+    """Rotation of ball against race in the contact, for one rad/s of the screw."""
+    return ball.frame.entrainment_speed(1.0) / contact.rolling_radius
+
+
+def sliding_forces(ball: BallProblem, rolling_share: Ratio) -> tuple[Force, Force]:
+    """Sliding forces at screw and nut that hold what resists the ball, without the curvature moments."""
+    forces = ball_forces(ball.resistances.scaled(rolling_share), ball.ball_diameter, ball.frame)
+    return forces.screw_sliding_force, forces.nut_sliding_force
+
+
+def carried_share(ball: BallProblem) -> Ratio:
+    """Share of the resistances, slip aside, that the friction of both contacts can carry; one at most.
+
+    What friction can carry is its coefficient times the load, less what the curvature moments may
+    ask of it at most, 0.1 µQa²/R_d at each contact.
+    """
+    xp = namespace(ball.screw.contact_load, ball.screw.friction_coefficient, ball.screw.speed_parameter)
+    limits = [contact.friction_coefficient * contact.contact_load for contact in (ball.screw, ball.nut)]
+    curvature = sum(
+        0.1 * limit * contact.semi_major_axis**2 / (contact.deformed_radius * ball.ball_diameter)
+        for limit, contact in zip(limits, (ball.screw, ball.nut), strict=True)
+    )
+    share = 1.0
+    for limit, force in zip(limits, sliding_forces(ball, 1.0), strict=True):
+        needed = xp.abs(force)
+        left = xp.maximum(limit - curvature, 0.0)
+        share = xp.minimum(share, xp.where(needed > left, left / xp.where(needed > left, needed, 1.0), 1.0))
+    return share

@@ -1,0 +1,214 @@
+"""What each effect adds: the way from the corrected model to the reference, and the effects by themselves."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from ballscrew.analyses import effect_curves as curves
+from ballscrew.analyses.effects import CASES, CATALOGUE, PAPER, doubts, effects, steps
+from ballscrew.model import FrictionModel
+from ballscrew.solvers.contact_integral import contact_integral
+from ballscrew.solvers.free_ball import BallResistances
+from ballscrew.solvers.tractions import Coulomb
+
+BY_NAME = pytest.mark.parametrize("case", CASES.values(), ids=CASES)
+
+
+@pytest.fixture(scope="module", params=CASES.values(), ids=CASES)
+def found(request):
+    return request.param, {effect.short: effect for effect in effects(request.param)}
+
+
+# -- the steps ------------------------------------------------------------------------------------
+
+
+def test_the_way_starts_at_the_corrected_model_and_ends_at_the_reference():
+    first, *_, last = steps()
+    assert first.model.label == "corrected"
+    assert last.model.label == "reference"
+
+
+@BY_NAME
+def test_the_last_step_gives_what_the_reference_gives(case):
+    reached, reference = case.result(steps()[-1].model), case.result(FrictionModel.reference())
+    assert reached.screw_torque == reference.screw_torque
+    assert reached.efficiency == reference.efficiency
+    assert dict(reached.contributions) == dict(reference.contributions)
+
+
+def test_a_step_changes_one_slot():
+    for before, after in zip(steps(), steps()[1:], strict=False):
+        fields = {field.name for field in dataclasses.fields(FrictionModel)} - {"name"}
+        changed = {name for name in fields if getattr(before.model, name) is not getattr(after.model, name)}
+        assert len(changed) == 1, after.short
+
+
+def test_parts_sum_to_the_torque_and_additions_to_the_difference(found):
+    _, by_name = found
+    every = list(by_name.values())
+    for effect in every:
+        assert sum(effect.parts.values()) == pytest.approx(effect.torque, rel=1e-12)
+    assert sum(effect.added for effect in every) == pytest.approx(every[-1].torque - every[0].torque, rel=1e-12)
+
+
+@BY_NAME
+def test_every_step_conserves_energy(case):
+    for step in steps():
+        result = case.result(step.model)
+        assert result.friction_power == pytest.approx(result.screw_torque * case.screw_speed, rel=1e-12), step.short
+
+
+@BY_NAME
+def test_every_step_is_valid(case):
+    for step in steps():
+        assert case.result(step.model).warnings == [], step.short
+
+
+def test_signs_of_the_effects(found):
+    """Rolling in all regimes, sharing, spin, the ellipse and the helix add; heat and less boundary friction take."""
+    _, by_name = found
+    signs = {name: math.copysign(1, effect.added) for name, effect in by_name.items() if name != "corrected"}
+    less = {name for name, sign in signs.items() if sign < 0}
+    assert less == {"inlet heat", "µ_0 0.12"}
+
+
+def test_effects_touch_the_parts_they_should(found):
+    _, by_name = found
+    for before, after, still in (
+        ("corrected", "rolling", ("elastic_hysteresis", "ball_to_ball")),
+        ("inlet heat", "load sharing", ("hydrodynamic_rolling", "elastic_hysteresis", "ball_to_ball")),
+        ("µ_0 0.12", "spin", ("hydrodynamic_rolling", "elastic_hysteresis", "ball_to_ball")),
+        ("ellipse", "helix", ("hydrodynamic_rolling", "elastic_hysteresis", "ball_to_ball")),
+    ):
+        for part in still:
+            assert by_name[before].parts[part] == by_name[after].parts[part]
+    for name, effect in by_name.items():
+        assert (effect.parts["helix"] > 0) == (name == "helix")
+        assert (effect.parts["spin"] > 0) == (name in {"spin", "ellipse", "helix"})
+
+
+def test_spin_and_helix_matter_more_with_open_grooves_and_a_steep_lead():
+    close, open_ = ({effect.short: effect for effect in effects(case)} for case in (PAPER, CATALOGUE))
+    for name in ("spin", "helix"):
+        assert open_[name].added / open_["µ_0 0.12"].torque > 3 * close[name].added / close["µ_0 0.12"].torque
+
+
+@BY_NAME
+def test_doubts_are_sorted_and_bracket_the_reference(case):
+    found = doubts(case)
+    reference = float(case.result(FrictionModel.reference()).screw_torque)
+    widths = [doubt.highest - doubt.lowest for doubt in found]
+    assert widths == sorted(widths, reverse=True)
+    for doubt in found:
+        assert doubt.reference == reference
+        assert doubt.lowest <= 0 <= doubt.highest
+        assert doubt.highest - doubt.lowest > 0.01
+
+
+def test_the_catalogue_screw_is_what_it_is_said_to_be():
+    """20 balls a turn, four turns less a quarter; 5 kN a tenth of the rating by ISO 3408-5."""
+    screw = CATALOGUE.screw
+    d_m, d_w, phi = 41.4, 6.35, float(screw.lead_angle)
+    a_turn, turns = math.floor(math.pi * d_m / (d_w * math.cos(phi))), 4 - 0.24
+    assert screw.loaded_balls == round(a_turn * turns)
+    gamma, alpha, f = d_w * math.cos(math.pi / 4) / d_m, math.pi / 4, 0.52
+    f_c = 9.32 * 10 * (1 - math.sin(alpha) / 3) * gamma**0.3 * (1 - gamma) ** 1.39 / (1 + gamma) ** (1 / 3)
+    f_c *= (1 / (1 - 1 / (2 * f))) ** 0.41
+    C_s = f_c * math.cos(alpha) ** 0.86 * a_turn ** (2 / 3) * d_w**1.8 * math.tan(alpha) * math.cos(phi) ** 1.3
+    C_i = C_s * (1 + ((1 - gamma) / (1 + gamma)) ** (1.723 * 10 / 3)) ** -0.3
+    assert pytest.approx(CATALOGUE.axial_load, rel=0.02) == 0.1 * C_i * turns**0.86
+
+
+# -- curves ---------------------------------------------------------------------------------------
+
+
+def test_spin_curves_have_their_limits():
+    found = curves.spin_curves()
+    assert found.curvature[0] == 1
+    assert found.spin[0] == pytest.approx(0, abs=1e-15)
+    assert found.curvature[-1] == pytest.approx(0, abs=1e-12)
+    assert found.spin[-1] == pytest.approx(1, abs=1e-12)
+    assert found.one_line_from == pytest.approx(1, abs=0.01)
+    assert np.all(np.diff(found.curvature_power + found.spin_power) > 0)
+
+
+def test_polynomials_of_spin_hold_up_to_one_and_blow_up_beyond():
+    found = curves.spin_curves()
+    within = found.spin_parameter <= curves.LARGEST_SPIN_OF_POLYNOMIALS
+    for closed, polynomial in (
+        (found.curvature, found.curvature_polynomial),
+        (found.spin, found.spin_polynomial),
+    ):
+        assert np.max(np.abs(closed - polynomial)[within]) < 0.0094
+        assert abs(closed - polynomial)[-1] > 1
+
+
+@BY_NAME
+def test_the_slip_picture_is_that_of_the_integral(case):
+    """Sign by sign and point by point: the strips settle where the integral does."""
+    result = case.result(FrictionModel.reference())
+    s, n = result.screw, result.nut
+    integral = contact_integral(
+        case.screw,
+        float(result.contact_load),
+        (Coulomb(float(s.friction_coefficient)), Coulomb(float(n.friction_coefficient))),
+        resistances=BallResistances(
+            float(s.hydrodynamic_rolling_force),
+            float(n.hydrodynamic_rolling_force),
+            float(s.elastic_resistance_moment),
+            float(n.elastic_resistance_moment),
+            float(result.ball_friction_moment),
+            float(result.ball_to_ball_force),
+        ),
+        screw_speed=case.screw_speed,
+    )
+    for on_screw, mine, theirs in ((True, s, integral.screw), (False, n, integral.nut)):
+        field = theirs.field
+        across, along = field.across / float(mine.semi_major_axis), field.along / float(mine.semi_minor_axis)
+        picture = curves.slip_picture(result, on_screw, across, along)
+        load = field.pressure * field.area
+        for found, expected in ((picture.slip_along, field.slip_along), (picture.slip_across, field.slip_across)):
+            difference, size = (np.sqrt(load @ value**2) for value in (found - expected, expected))
+            assert difference < 0.05 * size
+
+
+def test_rolling_laws_agree_within_a_factor_where_they_hold():
+    for found in (curves.rolling_over_load(), curves.rolling_over_speed()):
+        base = found.forces["Biboulet and Houpert 2010"]
+        for name in curves.ELASTIC_ONLY:
+            ratio = (found.forces[name] / base)[found.elastic]
+            assert np.all((ratio > 0.3) & (ratio < 1.6)), name
+
+
+def test_load_shares_fall_from_one_to_nothing():
+    found = curves.share_curves()
+    for name, share in found.shares.items():
+        assert np.all(np.diff(share) <= 0), name
+        assert share[-1] < 0.02
+        if "Greenwood" not in name:  # it knows the pressure, and not that asperities must carry all without a film
+            assert share[0] == 1
+
+
+@BY_NAME
+def test_parts_over_lead(case):
+    lead, result = curves.over_lead(case)
+    assert lead[-1] == pytest.approx(case.screw.pitch_circle_diameter)
+    assert np.all(result.valid)
+    assert np.all(np.diff(result.contributions["helix"]) > 0)
+    assert np.all(np.diff(result.screw_torque) > 0)
+
+
+@BY_NAME
+def test_the_ball_skids_at_light_load_only(case):
+    load, results = curves.over_light_load(case)
+    result = results["reference"]
+    skids = ~np.asarray(result.validity["skid"])
+    assert skids[0]
+    assert not skids[-1]
+    assert np.count_nonzero(np.diff(skids.astype(int))) == 1
+    assert np.all((np.asarray(result.rolling_share) < 1) == skids)
+    power = result.friction_power / (result.screw_torque * case.screw_speed)
+    assert power == pytest.approx(1, rel=1e-12)
+    assert load[skids].max() < 0.01 * case.axial_load

@@ -1,0 +1,336 @@
+"""``ballscrew compare``: all models and laws on one case, as table, JSON and picture."""
+
+import json
+import math
+import re
+import subprocess
+import sys
+
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
+
+import ballscrew as bs
+from ballscrew.analyses.comparison import same_law
+from ballscrew.interfaces import comparison, config, schema
+from ballscrew.interfaces.figures import comparison as figures
+from ballscrew.interfaces.figures import style
+from ballscrew.model import presets
+from ballscrew.result import MECHANISMS
+
+
+@pytest.fixture(scope="module")
+def paper():
+    from pathlib import Path
+
+    return config.load(Path(__file__).parents[2] / "examples" / "olaru2005.toml", model="reference")
+
+
+@pytest.fixture(scope="module")
+def found(paper):
+    return comparison.compared(paper)
+
+
+def document_of(process):
+    assert process.returncode == 0, process.stderr
+    return json.loads(process.stdout)
+
+
+# -- what is compared -----------------------------------------------------------------------------
+
+
+def test_every_model_and_every_other_law_once(paper, found):
+    assert [row.candidate.name for row in found.models] == list(presets())
+    assert found.case is found.models[-1]
+    expected = {
+        (slot, name)
+        for slot, known in schema.LAWS.items()
+        for name in known
+        if name != schema.name_of_law(slot, getattr(paper.model, slot))
+    }
+    laws = [(row.candidate.slot, row.candidate.name) for row in found.laws]
+    assert len(laws) == len(set(laws))
+    # the film exponent of the paper is the only law that differs by its coefficients alone
+    assert set(laws) == expected | {("film", "as in olaru2005")}
+
+
+def test_each_row_is_the_model_with_one_law_replaced(paper, found):
+    for row in found.laws:
+        slot = row.candidate.slot
+        changed = [
+            name for name in schema.LAWS if not same_law(getattr(row.candidate.model, name), getattr(paper.model, name))
+        ]
+        assert changed == [slot]
+        point = {name: getattr(paper.operation, name) for name in ("axial_load", "screw_speed")}
+        alone = row.candidate.model(paper.screw, paper.lubricant, **point)
+        assert row.torque == float(alone.screw_torque)
+        assert row.change == pytest.approx(row.torque / found.case.torque - 1, rel=1e-12)
+
+
+def test_spreads(found):
+    torques = [row.torque for row in found.models]
+    assert [row.torque for row in found.spread_of_models] == [min(torques), max(torques)]
+    counting = [row for row in (found.case, *found.laws) if row.candidate.counts and not row.outside]
+    torques = [row.torque for row in counting]
+    assert [row.torque for row in found.spread_of_laws] == [min(torques), max(torques)]
+    widths = [high - low for low, high in found.spans.values()]
+    assert widths == sorted(widths, reverse=True)
+    assert all(low <= 0 <= high for low, high in found.spans.values())
+    assert not {"race_torques", "ideal_torque", "film_parameter"} & set(found.spans)
+
+
+def test_what_the_case_changes_is_a_row_of_its_own(example):
+    case = config.load(example, ["model.friction.boundary_friction_coefficient=0.15"], "reference")
+    found = comparison.compared(case)
+    assert found.case not in found.models
+    assert found.rows[0] is found.case
+    assert found.case.candidate.name == "this case"
+    friction = {
+        row.candidate.name: row.candidate.model.friction for row in found.laws if row.candidate.slot == "friction"
+    }
+    # what the case has changed holds for the other laws, too
+    assert friction.pop("as in reference").boundary_friction_coefficient == 0.12
+    assert friction.pop("as in olaru2005").boundary_friction_coefficient == 0.2
+    assert {law.boundary_friction_coefficient for law in friction.values()} == {0.15}
+    assert len(friction) == 3
+
+
+@pytest.mark.parametrize("name", presets())
+def test_any_model_can_be_the_case(name, example):
+    found = comparison.compared(config.load(example, model=name))
+    assert found.case.candidate.name == name
+    assert all(math.isfinite(row.torque) for row in found.rows)
+    for row in found.rows:
+        assert sum(map(float, row.result.contributions.values())) == pytest.approx(row.torque, rel=1e-10)
+
+
+def test_nothing_finite_has_no_spread(example, ballscrew):
+    found = comparison.compared(config.load(example, ["operation.axial_load=1e300 N"], "reference"))
+    assert not any(math.isfinite(row.torque) for row in found.rows)
+    assert found.spread_of_models is None
+    assert found.spread_of_laws is None
+    assert found.spans == {}
+    process = ballscrew("compare", example, "--set", "operation.axial_load=1e300 N", "--to", "spread.png")
+    assert process.returncode == 0, process.stderr
+    assert "none is valid here" in process.stdout
+    assert not re.search("nan|inf ", process.stdout)
+
+
+# -- the terminal ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("load", ["4 kN", "20 N", "0 N", "100 kN"])
+def test_the_table_is_readable_at_100_columns(load, example, ballscrew):
+    process = ballscrew("compare", example, "--model", "reference", "--set", f"operation.axial_load={load}")
+    assert process.returncode == 0
+    assert process.stderr == ""
+    table = process.stdout.split("\n\n")[1].splitlines()
+    assert max(map(len, table)) <= 100
+    assert not re.search("nan|inf ", process.stdout)
+    for slot in schema.LAWS:
+        assert any(line.startswith(f"{slot.replace('_', ' ')}, in place of ") for line in table)
+
+
+def test_the_table_holds_the_numbers(example, found, ballscrew):
+    lines = ballscrew("compare", example, "--model", "reference").stdout.splitlines()
+    rows = [line.split() for line in lines if line.startswith("  ")]
+    assert len(rows) == len(found.rows)
+    by_name = {row[0]: row for row in rows}
+    corrected = next(row for row in found.models if row.candidate.name == "corrected")
+    assert by_name["corrected"][1] == f"{corrected.torque:.4f}"
+    assert by_name["corrected"][2] == f"{corrected.change:+.1%}"
+    assert by_name["reference"][2] == "case"
+    parts = [float(part) for part in by_name["corrected"][3 : 3 + len(MECHANISMS)]]
+    assert sum(parts) == pytest.approx(corrected.torque, abs=3e-4)
+    assert by_name["corrected"][-2:] == [
+        f"{float(corrected.result.efficiency):.4f}",
+        f"{float(corrected.result.back_driving_efficiency):.4f}",
+    ]
+
+
+def test_the_spread_in_words(example, found, ballscrew):
+    text = ballscrew("compare", example, "--model", "reference").stdout
+    least, greatest = found.spread_of_models
+    assert f"models       {least.torque:.4g} N m (olaru2005-literal) to {greatest.torque:.4g} N m (reference)" in text
+    assert "valid laws   " in text
+    assert "matters most " in text
+    assert text.count("†") == 4  # three of the paper's own forms, and what that means
+    assert "known to be incomplete or misprinted" in text
+
+
+def test_where_it_is_not_valid_is_said(example, ballscrew):
+    text = ballscrew("compare", example, "--model", "reference", "--set", "operation.axial_load=10 N").stdout
+    assert "not valid here: olaru2005, olaru2005-literal, corrected, reference" in text
+    assert "none is valid here" in text
+    assert "a  skid: " in text
+    assert "b  elastic_regime: " in text
+    assert " locks " in text
+    assert all(line.endswith("b") for line in text.splitlines() if line.startswith("  "))
+
+
+def test_json(example, found, ballscrew):
+    document = document_of(ballscrew("compare", example, "--model", "reference", "--json"))
+    assert list(document) == ["inputs", "case", "models", "laws", "spread", "units", "reasons", "provenance"]
+    assert document["case"] == document["models"][-1]
+    assert document["case"]["change"] == 0
+    assert len(document["models"]) + len(document["laws"]) == len(found.rows)
+    for shown, row in zip(document["laws"], found.laws, strict=True):
+        assert (shown["slot"], shown["name"]) == (row.candidate.slot, row.candidate.name)
+        assert shown["screw_torque"] == pytest.approx(row.torque, rel=1e-12)
+        assert list(shown["contributions"]) == list(MECHANISMS)
+        assert shown["valid"] == (not shown["not_valid_because"])
+    assert document["spread"]["models"]["least"]["name"] == "olaru2005-literal"
+    assert document["spread"]["valid_laws"]["greatest"]["screw_torque"] == found.spread_of_laws.greatest.torque
+    assert {(r["slot"], r["name"]) for r in document["laws"] if not r["counts"]} == schema.PRINTED_FORMS
+
+
+def test_json_of_nothing(example, ballscrew):
+    """No load: no torque, no change to tell, and not a number that JSON does not know."""
+    document = document_of(
+        ballscrew("compare", example, "--json", "--set", "operation.axial_load=0 N", "--model", "reference")
+    )
+    assert document["case"]["screw_torque"] == 0
+    assert all(row["change"] is None for row in document["laws"])
+    assert document["case"]["back_driving_efficiency"] is None
+    assert document["spread"]["valid_laws"] is None
+    assert "skid" in document["reasons"]
+
+
+# -- the picture ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("suffix", ["png", "svg", "pdf"])
+def test_picture(suffix, example, tmp_path, ballscrew):
+    path = tmp_path / f"spread.{suffix}"
+    process = ballscrew("compare", example, "--to", path)
+    assert process.returncode == 0, process.stderr
+    assert process.stdout.splitlines()[-1] == f"{path}: 25 models and laws"
+    assert list(tmp_path.iterdir()) == [path]
+    first = path.read_bytes()
+    assert first.startswith({"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}[suffix])
+    again = ballscrew("compare", example, "--json", "--to", path)
+    assert document_of(again)["case"]["name"] == "olaru2005"
+    assert again.stderr.startswith(f"{path}: ")
+    assert path.read_bytes() == first
+
+
+def test_bad_places_for_a_picture(example, tmp_path, ballscrew):
+    before = sorted(tmp_path.iterdir())
+    for target, expected in [
+        (tmp_path / "spread.doc", "--to: unknown kind of file"),
+        (tmp_path / "none" / "spread.png", "--to: cannot be written"),
+        (tmp_path, "--to: unknown kind of file"),
+    ]:
+        process = ballscrew("compare", example, "--to", target)
+        assert process.returncode == 2
+        assert process.stdout == ""
+        assert process.stderr.startswith(expected)
+        assert len(process.stderr.strip().splitlines()) == 1
+    assert sorted(tmp_path.iterdir()) == before
+
+
+def test_a_full_disk_leaves_the_old_picture(example, tmp_path):
+    """A limit on the size of files stands for the disk."""
+    import resource
+
+    target = tmp_path / "spread.png"
+    target.write_text("old", encoding="utf-8")
+    program = [sys.executable, "-m", "ballscrew.interfaces.cli", "compare", str(example), "--to", str(target)]
+    process = subprocess.run(
+        program,
+        capture_output=True,
+        text=True,
+        check=False,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, 10_000)),
+    )
+    assert process.returncode == 2
+    assert process.stderr.strip().splitlines()[-1].startswith("--to: cannot be written")
+    assert target.read_text(encoding="utf-8") == "old"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+@pytest.fixture(scope="module", params=["4 kN", "2 N", "0 N"])
+def figure(request, paper):
+    import dataclasses
+
+    load = float(request.param.removesuffix(" kN").removesuffix(" N")) * (1000 if "k" in request.param else 1)
+    case = dataclasses.replace(paper, operation=dataclasses.replace(paper.operation, axial_load=load))
+    with style.house_style():
+        drawn = comparison.picture(case, comparison.compared(case))
+        FigureCanvasAgg(drawn)
+        drawn.draw_without_rendering()
+    return drawn
+
+
+def test_picture_has_title_units_and_case(figure):
+    assert re.fullmatch(r"\d+ N, 600 rpm, model reference", figure.get_suptitle())
+    torques, efficiencies = figure.axes
+    assert torques.get_xlabel() == "friction torque on the screw (N m)"
+    assert efficiencies.get_xlabel() == "efficiency η"
+    labels = [tick.get_text() for tick in torques.get_yticklabels()]
+    assert labels[:5] == ["models as they are", *presets()]
+    caption = " ".join(figure.texts[0].get_text().split())
+    assert "56 balls" in caption
+    assert "226.4 GPa" in caption
+
+
+def test_bars_add_up(figure, paper):
+    torques = figure.axes[0]
+    rows = len([t for t in torques.texts if t.get_text()])
+    assert rows == 25
+    lengths = {}
+    for bar in torques.patches:
+        y = round(bar.get_y() + bar.get_height() / 2)
+        lengths[y] = lengths.get(y, 0.0) + bar.get_width()
+    words = {round(text.xy[1]): text.get_text() for text in torques.texts}
+    for y, length in lengths.items():
+        assert float(words[y].split()[0]) == pytest.approx(length, rel=1e-3)
+
+
+def test_what_is_not_valid_is_hatched(figure):
+    torques = figure.axes[0]
+    labels = [text.get_text() for text in torques.get_legend().get_texts()]
+    light = not figure.get_suptitle().startswith("4000")
+    assert any(bar.get_hatch() for bar in torques.patches if bar.get_width()) == light or not light
+    assert ("not valid here" in labels) == light
+    if light:
+        assert "Hatched: not valid here" in " ".join(figure.texts[0].get_text().split())
+        assert all(bar.get_hatch() for bar in torques.patches)
+
+
+def test_nothing_is_clipped(figure):
+    renderer = figure.canvas.get_renderer()
+    page = figure.bbox.padded(1.0)
+    for text in (
+        *figure.texts,
+        *figure.axes[0].texts,
+        *figure.axes[0].get_yticklabels(),
+        *figure.axes[0].get_legend().findobj(Text),
+    ):
+        box = text.get_window_extent(renderer)
+        inside = page.x0 <= box.x0 and box.x1 <= page.x1 and page.y0 <= box.y0 and box.y1 <= page.y1
+        assert inside, text.get_text()
+    left, right = figure.axes
+    numbers = max(text.get_window_extent(renderer).x1 for text in left.texts)
+    assert numbers < right.get_window_extent(renderer).x0
+    legends = [panel.get_legend().get_window_extent(renderer) for panel in figure.axes]
+    assert legends[0].x1 <= legends[1].x0
+
+
+def test_colours_tell_all_mechanisms_apart():
+    assert set(style.MECHANISM_COLOURS) == set(MECHANISMS)
+    assert len(set(style.MECHANISM_COLOURS.values())) == len(MECHANISMS)
+
+
+def test_compare_loads_no_pyplot_and_no_xarray_without_a_picture(example):
+    code = (
+        "import sys; from ballscrew.interfaces import cli; sys.argv = ['ballscrew', 'compare', sys.argv[1], '--json']\n"
+        "try: cli.main()\n"
+        "except SystemExit: pass\n"
+        "heavy = {'xarray', 'pandas', 'matplotlib', 'scipy.optimize'} & set(sys.modules)\n"
+        "sys.exit(sorted(heavy) and str(heavy) or 0)"
+    )
+    process = subprocess.run([sys.executable, "-c", code, example], capture_output=True, text=True, check=False)
+    assert process.returncode == 0, process.stderr
+    assert bs.__version__ in process.stdout
+    assert figures.spread.__module__ not in process.stdout

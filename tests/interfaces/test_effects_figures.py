@@ -1,0 +1,139 @@
+"""The figures of the effects: units on the axes, the case in the caption, nothing clipped, the numbers beside them."""
+
+import importlib.util
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
+
+from ballscrew.interfaces.figures import effect_laws, effects, style
+
+PLOTS = {plot.name: plot for plot in (*effects.PLOTS, *effect_laws.PLOTS)}
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module", params=PLOTS)
+def plot(request):
+    return PLOTS[request.param]
+
+
+@pytest.fixture(scope="module")
+def figure(plot):
+    """Laid out as for a PNG."""
+    with style.house_style():
+        drawn = plot.draw(effects.drawn_cases())
+        FigureCanvasAgg(drawn)
+        drawn.draw_without_rendering()
+    return drawn
+
+
+def test_axes_name_their_units(plot, figure):
+    units = r"\((rpm|N|N m|mm|mm/s|1)\)$"
+    for panel in figure.axes:
+        if panel.get_label() != "<colorbar>":
+            assert re.search(units, panel.get_xlabel())
+        if plot.name != "effects_steps":  # words there
+            assert re.search(units, panel.get_ylabel())
+
+
+def test_caption_states_the_case(figure):
+    caption = " ".join(" ".join(text.get_text() for text in figure.texts).split())
+    assert "56 balls" in caption
+    assert "E′ 226 GPa" in caption
+    assert "Assumed" in caption
+    assert "_m " not in caption  # indices are set low
+
+
+def test_panels_are_titled(figure):
+    for panel in figure.axes:
+        assert panel.get_title(loc="left") or panel.get_label() == "<colorbar>"
+
+
+def test_nothing_is_clipped(figure):
+    renderer = figure.canvas.get_renderer()
+    page = figure.bbox.padded(1.0)
+    undrawn = set()
+    for panel in figure.findobj(Axes):
+        for axis in (panel.xaxis, panel.yaxis):
+            low, high = sorted(axis.get_view_interval())
+            for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks()):
+                if not low <= tick.get_loc() <= high:
+                    undrawn |= {tick.label1, tick.label2}
+    for text in figure.findobj(Text):
+        if text.get_text() and text.get_visible() and text not in undrawn:
+            box = text.get_window_extent(renderer)
+            inside = page.x0 <= box.x0 and box.x1 <= page.x1 and page.y0 <= box.y0 and box.y1 <= page.y1
+            assert inside, text.get_text()
+
+
+def test_table_holds_the_numbers(plot):
+    table = plot.table(effects.drawn_cases())
+    assert len({len(column) for column in table.values()}) == 1
+    for heading, column in table.items():
+        values = [value for value in column if value != ""]
+        if not isinstance(values[0], str):
+            assert re.search(r"\(.+\)$", heading), heading
+            assert np.all(np.isfinite(np.asarray(values, float)))
+
+
+def test_the_bars_end_at_the_torque():
+    with style.house_style():
+        figure = PLOTS["effects_steps"].draw(effects.drawn_cases())
+    table = PLOTS["effects_steps"].table(effects.drawn_cases())
+    for panel, case in zip(figure.axes, effects.drawn_cases().values(), strict=True):
+        ends = [bar.get_x() + bar.get_width() for bar in panel.containers[-1]]
+        assert ends == pytest.approx(table[f"friction torque, {case.title} (N m)"])
+
+
+def test_skid_is_shaded():
+    with style.house_style():
+        figure = PLOTS["effects_light_load"].draw(effects.drawn_cases())
+    for panel in figure.axes:
+        assert "the ball skids" in panel.get_legend_handles_labels()[1]
+
+
+def test_the_slip_fields_fill_their_ellipses():
+    with style.house_style():
+        figure = PLOTS["effects_slip_fields"].draw(effects.drawn_cases())
+    panels = [panel for panel in figure.axes if panel.images]
+    assert len(panels) == 4
+    for panel in panels:
+        left, right, bottom, top = panel.images[0].get_extent()
+        assert right == -left == pytest.approx(panel.patches[0].width / 2)
+        assert top == -bottom == pytest.approx(panel.patches[0].height / 2)
+
+
+def test_two_runs_give_the_same_bytes(tmp_path):
+    for name in ("one", "two"):
+        with style.house_style():
+            style.save(PLOTS["effects_slip_fields"].draw(effects.drawn_cases()), tmp_path, name)
+    for kind in ("svg", "png"):
+        assert (tmp_path / f"one.{kind}").read_bytes() == (tmp_path / f"two.{kind}").read_bytes()
+
+
+@pytest.fixture(scope="module")
+def page():
+    """The script that writes what the page shows."""
+    spec = importlib.util.spec_from_file_location("effect_tables", ROOT / "docs" / "effect_tables.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_all_the_page_shows_is_written(page, tmp_path):
+    page.write(tmp_path)
+    text = (ROOT / "docs" / "effects.md").read_text(encoding="utf-8")
+    shown = set(re.findall(r"generated/effects/([\w.]+)", text))
+    assert {f"{name}.svg" for name in PLOTS} <= shown
+    assert all((tmp_path / name).is_file() for name in shown)
+
+
+def test_all_numbers_of_the_pages_are_known(page):
+    numbers = page.numbers()
+    for path in (ROOT / "docs").glob("*.md"):
+        for name in re.findall(r"\{\{ (\w+) \}\}", path.read_text(encoding="utf-8")):
+            assert name in numbers, (path, name)
