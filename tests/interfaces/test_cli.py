@@ -4,6 +4,10 @@ import csv
 import io
 import json
 import math
+import re
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import openpyxl
@@ -11,7 +15,9 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
+from ballscrew.result import MECHANISMS
 
+ROOT = Path(__file__).parents[2]
 PAPER = {
     "pitch_circle_diameter": 0.040, "lead": 0.005, "ball_diameter": 3.175e-3, "loaded_balls": 56,
     "contact_angle": math.pi / 4, "screw_conformity": 0.515, "nut_conformity": 0.515,
@@ -29,6 +35,7 @@ def paper_result(model):
         ("olaru2005", bs.FrictionModel.olaru2005()),
         ("olaru2005-literal", bs.FrictionModel.olaru2005(literal_film_parameter=True)),
         ("corrected", bs.FrictionModel.corrected()),
+        ("reference", bs.FrictionModel.reference()),
     ],
 )
 def test_json_is_the_python_result(name, model, example, ballscrew):
@@ -76,6 +83,124 @@ def test_tables_for_people(example, ballscrew):
         assert text in process.stdout
     locked = ballscrew("run", example, "--set", "operation.axial_load=10 N", "--set", "model.ball_to_ball_force=1 N")
     assert "self-locking" in locked.stdout
+
+
+def test_the_reference_model_for_people(example, ballscrew):
+    """All mechanisms as bars, both directions, four quadrants, and how the contacts slip."""
+    text = ballscrew("run", example, "--model", "reference").stdout
+    r = paper_result(bs.FrictionModel.reference())
+    for mechanism, words in MECHANISMS.items():
+        part = f"{float(r.contributions[mechanism]):.4g} N m"
+        assert any(line.startswith(words) and part in line and "█" in line for line in text.splitlines())
+    assert f"back-drives: the load turns the screw; {float(r.holding_torque):.4g} N m on the shaft hold it" in text
+    rows = {line[:26].strip(): line[26:].split() for line in text.splitlines()}
+    for name, quadrant in r.quadrants.items():
+        assert rows[name][:2] == ["+" if sign > 0 else "-" for sign in (quadrant.load_sign, quadrant.speed_sign)]
+        assert float(rows[name][2]) == pytest.approx(float(quadrant.shaft_torque), rel=1e-3)
+        assert float(rows[name][5]) == pytest.approx(float(quadrant.shaft_power), rel=1e-3)
+        assert float(rows[name][7]) == pytest.approx(float(quadrant.efficiency), rel=1e-3)
+    assert f"{float(r.screw.spin_parameter):.4g}" in text
+    assert f"{1000 * float(r.nut.creep_speed):.4g} mm/s" in text
+    assert "lines of pure rolling" not in text
+    assert "skids" not in text
+    assert "beware" not in text
+
+
+def test_what_is_zero_is_left_out(example, ballscrew):
+    text = ballscrew("run", example).stdout
+    assert "spin slip" not in text
+    assert "helix slip" not in text
+    assert "offset of the lines of pure rolling" in text
+    none = ballscrew("run", example, "--model", "reference", "--set", "operation.axial_load=0 N").stdout
+    assert "no load drives the screw" in none
+    assert "Where the friction" not in none
+    assert not re.search(r"nan|inf\b| -0 ", none)
+
+
+def test_a_ball_that_skids_is_said(example, ballscrew):
+    text = ballscrew("run", example, "--model", "reference", "--set", "operation.axial_load=2 N").stdout
+    assert re.search(
+        r"^skids: friction carries only \d+\.\d% of what resists the rolling of a ball$", text, re.MULTILINE
+    )
+    assert "beware  skid: " in text
+    assert re.search(r"^self-locking: .* [\d.]+ N m on the shaft lower it$", text, re.MULTILINE)
+    locked = [line for line in text.splitlines() if line.startswith("is back-driven")]
+    assert len(locked) == 2
+    assert all(line.rstrip().endswith("locks") for line in locked)
+
+
+def test_at_rest(example, ballscrew):
+    text = ballscrew("run", example, "--model", "reference", "--set", "operation.screw_speed=0 rpm").stdout
+    assert "on the shaft hold it at rest" in text
+    assert not re.search(r"nan|inf\b| -0 ", text)
+
+
+def test_json_of_the_reference_model(example, ballscrew):
+    document = json.loads(ballscrew("run", example, "--model", "reference", "--json").stdout)
+    r, found = paper_result(bs.FrictionModel.reference()), document["results"]
+    for name in ("holding_torque", "spin_moment", "lateral_force", "rolling_share"):
+        assert found[name] == pytest.approx(float(getattr(r, name)), rel=1e-12)
+    assert found["self_locking"] is False
+    assert found["valid"] is True
+    assert list(found["quadrants"]) == list(r.quadrants)
+    for name, quadrant in r.quadrants.items():
+        assert found["quadrants"][name] == pytest.approx(quadrant._asdict(), rel=1e-12)
+        assert document["units"]["quadrants"][name]["shaft_power"] == "W"
+    assert list(found["contributions"]) == list(MECHANISMS)
+    assert found["screw"]["spin_parameter"] == pytest.approx(float(r.screw.spin_parameter), rel=1e-12)
+    rest = ballscrew("run", example, "--model", "reference", "--json", "--set", "operation.screw_speed=0 rpm")
+    found = json.loads(rest.stdout, parse_constant=pytest.fail)["results"]
+    assert found["screw"]["elastic_regime_parameter"] is None
+    assert "-0.0" not in rest.stdout
+
+
+def test_users_get_the_reference_model(example, tmp_path, ballscrew):
+    text = example.read_text(encoding="utf-8")
+    case = tmp_path / "case.toml"
+    case.write_text(text[: text.index("[model]")], encoding="utf-8")
+    document = json.loads(ballscrew("run", case, "--json").stdout)
+    assert document["provenance"]["model"] == "reference"
+    expected = paper_result(bs.FrictionModel.reference())
+    assert document["results"]["screw_torque"] == pytest.approx(float(expected.screw_torque), rel=1e-12)
+    assert "BibouletHoupert2010" in document["provenance"]["references"]
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "examples").glob("*.toml")), ids=lambda path: path.stem)
+def test_every_example(path, tmp_path, ballscrew):
+    """Also with what stands in its comments put in."""
+    for command in ("run", "compare", "sweep"):
+        process = ballscrew(command, path)
+        assert process.returncode == 0, process.stderr
+        assert process.stderr == ""
+    text = path.read_text(encoding="utf-8")
+    uncommented = re.sub(r"^# (\[model\]|[\w.]+ = )", r"\1", text, flags=re.MULTILINE)
+    assert uncommented.count("=") > text.count("\n#") > 0
+    case = tmp_path / "case.toml"
+    case.write_text(uncommented, encoding="utf-8")
+    assert uncommented != text
+    document = json.loads(ballscrew("run", case, "--json").stdout)
+    assert ", changed: " in document["provenance"]["model"]
+
+
+def test_sweep_of_the_reference_model(example, ballscrew):
+    outputs = ("screw_torque", "contribution_spin", "contribution_helix", "screw_spin_parameter", "holding_torque",
+               "self_locking", "rolling_share", "spin_moment", "nut_creep_speed", "valid")  # fmt: skip
+    wanted = [word for name in outputs for word in ("--output", name)]
+    axes = ["--vary", "axial_load=2, 4000 N", "--vary", "screw_speed=600 rpm"]
+    process = ballscrew("sweep", example, "--model", "reference", *axes, *wanted)
+    rows = list(csv.reader(io.StringIO(process.stdout)))
+    assert [heading.partition(" [")[0].replace(" ", "_") for heading in rows[0][2:]] == list(outputs)
+    found = dict(zip(outputs, map(float, rows[2][2:]), strict=True))
+    r = paper_result(bs.FrictionModel.reference())
+    assert found["contribution_spin"] == pytest.approx(float(r.contributions["spin"]), rel=1e-8)
+    assert found["contribution_helix"] == pytest.approx(float(r.contributions["helix"]), rel=1e-8)
+    assert found["holding_torque"] == pytest.approx(float(r.holding_torque), rel=1e-8)
+    assert (found["self_locking"], found["rolling_share"], found["valid"]) == (0, 1, 1)
+    assert found["nut_creep_speed"] == pytest.approx(1000 * float(r.nut.creep_speed), rel=1e-8)
+    light = dict(zip(outputs, map(float, rows[1][2:]), strict=True))
+    assert (light["self_locking"], light["valid"]) == (1, 0)
+    assert light["rolling_share"] < 1
+    assert process.stderr.startswith("beware: 1 of 2 points")
 
 
 def test_a_grade_instead_of_a_viscosity(example, tmp_path, ballscrew):
@@ -188,9 +313,6 @@ def test_schema_describes_the_example(example, ballscrew):
 
 def test_run_loads_nothing_heavy(example, ballscrew):
     """A single point must not wait for xarray, pandas, matplotlib or a compiler."""
-    import subprocess
-    import sys
-
     code = (
         "import sys; from ballscrew.interfaces import cli; sys.argv = ['ballscrew', 'run', sys.argv[1], '--json']\n"
         "try: cli.main()\n"
@@ -206,8 +328,23 @@ def test_run_loads_nothing_heavy(example, ballscrew):
 def test_version_and_help(ballscrew):
     assert ballscrew("--version").stdout.strip() == f"ballscrew {bs.__version__}"
     text = ballscrew("--help").stdout
-    for command in ("run", "sweep", "reproduce", "schema", "cite"):
+    for command in ("run", "compare", "sweep", "reproduce", "schema", "cite"):
         assert command in text
+    for command in ("run", "compare", "sweep", "cite"):
+        words = " ".join(ballscrew(command, "--help").stdout.split())
+        assert "olaru2005, olaru2005-literal, corrected, reference (default); wins over the file" in words
+
+
+def test_help_loads_nothing():
+    """Help is instant: not even NumPy is loaded."""
+    code = (
+        "import sys; from ballscrew.interfaces import cli; sys.argv = ['ballscrew', '--help']\n"
+        "try: cli.main()\n"
+        "except SystemExit: pass\n"
+        "sys.exit(sorted({'numpy', 'pydantic', 'pint', 'rich.console'} & set(sys.modules)) or 0)"
+    )
+    process = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert process.returncode == 0, process.stderr
 
 
 def test_front_door():

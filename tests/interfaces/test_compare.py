@@ -104,6 +104,15 @@ def test_any_model_can_be_the_case(name, example):
         assert sum(map(float, row.result.contributions.values())) == pytest.approx(row.torque, rel=1e-10)
 
 
+def test_an_imposed_offset_does_not_stand_in_the_way(example):
+    settings = ["model.slip=curvature", "model.pure_rolling_offset=0.3"]
+    found = comparison.compared(config.load(example, settings, "reference"))
+    models = {row.candidate.name: row.candidate.model for row in found.laws if row.candidate.slot == "slip"}
+    assert set(models) == {"line", "ellipse"}
+    assert all(model.pure_rolling_offset is None for model in models.values())
+    assert found.case.candidate.model.pure_rolling_offset == 0.3
+
+
 def test_nothing_finite_has_no_spread(example, ballscrew):
     found = comparison.compared(config.load(example, ["operation.axial_load=1e300 N"], "reference"))
     assert not any(math.isfinite(row.torque) for row in found.rows)

@@ -232,7 +232,7 @@ def test_bad_settings_are_one_line(setting, expected, example, ballscrew):
 def test_sweep_over_coefficients_of_other_laws(example, ballscrew):
     laws_ = ["--set", "model.friction=greenwood-tripp", "--model", "reference"]
     process = ballscrew(
-        "sweep", example, *laws_, "--vary", "friction.asperity_radius=5, 50 um", "--output", "screw_torque"
+        "sweep", example, *laws_, "--vary", "friction.asperity_radius=5, 500 um", "--output", "screw_torque"
     )
     rows = process.stdout.splitlines()
     assert rows[0] == "friction asperity radius [um],screw torque [N m]"

@@ -38,6 +38,17 @@ class HamrockDowson:
         )
 
 
+def hamrock_dowson_central(
+    rolling_radius: Length,
+    speed_parameter: Ratio,
+    material_parameter: Ratio,
+    load_parameter: Ratio,
+    ellipticity: Ratio,
+) -> Length:
+    """Central in place of minimum film thickness, HamrockDowson1977: for a film parameter of the middle."""
+    return film.central_film_thickness(rolling_radius, speed_parameter, material_parameter, load_parameter, ellipticity)
+
+
 # -- the inlet ------------------------------------------------------------------------------------
 
 

@@ -101,7 +101,9 @@ class BalanSharing:
         full_film_friction_coefficient: Ratio | None = None,
     ) -> Ratio:
         """Friction coefficient."""
-        share = mixed_lubrication.asperity_load_share_balan(film_parameter)
+        # no share is left beyond 2, and an infinite film, without load, would be infinity over infinity
+        bounded = namespace(film_parameter).minimum(film_parameter, 4.0)
+        share = mixed_lubrication.asperity_load_share_balan(bounded)
         return _shared(self, share, full_film_friction_coefficient)
 
 
@@ -109,7 +111,11 @@ class BalanSharing:
 class GreenwoodTrippSharing:
     """Asperities and film share the load, the asperities as elastic hills (GreenwoodTripp1970).
 
-    The only share that knows the pressure and the height of the roughness.
+    The share is the pressure of the hills over what they have to carry: the mean pressure of the
+    contact, or, where hills of that size could not carry it even with the mean planes in touch, their
+    pressure at touch. So a dry contact is dry. With the defaults the hills carry some 0.1 GPa at most,
+    so in a ball screw it is nearly always the second: the share is then a matter of the film
+    parameter alone.
     """
 
     boundary_friction_coefficient: Boundary = 0.12
@@ -132,14 +138,20 @@ class GreenwoodTrippSharing:
         full_film_friction_coefficient: Ratio | None = None,
     ) -> Ratio:
         """Friction coefficient."""
-        pressure = mixed_lubrication.asperity_pressure(
-            mixed_lubrication.asperity_contact_integral(film_parameter),
-            conditions.equivalent_modulus,
-            self.asperity_density,
-            self.asperity_radius,
-            conditions.combined_roughness,
+        pressure, most = (
+            mixed_lubrication.asperity_pressure(
+                mixed_lubrication.asperity_contact_integral(separation),
+                conditions.equivalent_modulus,
+                self.asperity_density,
+                self.asperity_radius,
+                conditions.combined_roughness,
+            )
+            for separation in (film_parameter, 0.0)
         )
-        share = mixed_lubrication.asperity_load_share_greenwood_tripp(pressure, conditions.mean_pressure)
+        xp = namespace(pressure, most)
+        # above zero, so that no asperities against no load is none
+        needed = xp.maximum(xp.minimum(conditions.mean_pressure, most), 1e-300)
+        share = mixed_lubrication.asperity_load_share_greenwood_tripp(pressure, needed)
         return _shared(self, share, full_film_friction_coefficient)
 
 

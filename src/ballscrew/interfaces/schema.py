@@ -36,7 +36,10 @@ DEFAULT_MODEL = "reference"
 LAWS: Mapping[str, Mapping[str, Any]] = {
     "frame": {"bearing": frame.bearing_frame, "helix": frame.helix_frame},
     "hertz": {"houpert": laws.houpert_hertz, "exact": laws.exact_hertz, "brewe-hamrock": laws.brewe_hamrock_hertz},
-    "film": {"hamrock-dowson": lubrication.HamrockDowson},
+    "film": {
+        "hamrock-dowson": lubrication.HamrockDowson,
+        "hamrock-dowson-central": lubrication.hamrock_dowson_central,
+    },
     "film_parameter": {"root-sum-square": film.film_parameter, "literal": film.literal_film_parameter},
     "inlet": {"ideal": lubrication.ideal_inlet, "heated": lubrication.Inlet},
     "friction": {

@@ -32,14 +32,17 @@ from ballscrew.solvers.strips import SMALLEST_SLIP, Forces, Side, forces_of, sha
 
 #: Share of Newton's second term at each evaluation of the forces; the rest is Weiszfeld's, which
 #: cannot overshoot. A fixed number, so that neighbours in an array change nothing.
-NEWTON_SHARES = (0.9, 0.99, 0.999, 0.999, 0.999, 0.999)
+NEWTON_SHARES = (0.5, 0.9, 0.99, 0.999, 0.999, 0.999)
 #: Where a step has made it worse, this much of it is tried instead.
-BACKTRACK = 0.25
+BACKTRACK = 0.5
 #: A ball whose contacts carry more than this share of their friction along the path is about to
 #: skid, and its creep grows without limit: it is cut here.
 LARGEST_TRACTION_RATIO = 0.999
-#: Imbalance, in units of friction times load, that counts as balanced. What it does to the torque
-#: is smaller by an order.
+#: Creep in units of the speed of rolling at which a ball has long been skidding. How fast it still
+#: turns then, the model does not tell; up to here no power of its resistances changes sign.
+LARGEST_CREEP = 0.5
+#: Imbalance, in units of friction times load, that counts as balanced: 99.8 % of random screws whose balls
+#: do not skid. What it does to the torque is smaller by an order.
 TOLERANCE = 1e-2
 #: What rounding may add to the power without a step being called worse.
 ROUNDING = 1e-13
@@ -83,8 +86,8 @@ def ellipse_slip(ball: BallProblem) -> Slip:
     on_screw = settled.screw_creep, total_spin - settled.nut_spin, total_lateral - settled.nut_lateral
     on_nut = settled.nut_creep, settled.nut_spin, settled.nut_lateral
     return Slip(
-        screw=_contact_slip(sides[0], settled.screw_moment, ball.screw_speed, *on_screw),
-        nut=_contact_slip(sides[1], settled.nut_moment, ball.screw_speed, *on_nut),
+        screw=_contact_slip(ball, sides[0], settled.screw_moment, *on_screw),
+        nut=_contact_slip(ball, sides[1], settled.nut_moment, *on_nut),
         spin_moment=settled.spin_moment,
         lateral_force=settled.lateral_force,
         rolling_share=share,
@@ -103,11 +106,14 @@ def _side(ball: BallProblem, contact: Contact, sliding_force: Force) -> Side:
 
 
 def _contact_slip(
-    side: Side, moment: Torque, screw_speed: AngularSpeed, creep: Speed, spin: AngularSpeed, lateral: Speed
+    ball: BallProblem, side: Side, moment: Torque, creep: Speed, spin: AngularSpeed, lateral: Speed
 ) -> ContactSlip:
+    """The slip at the speed of the screw; the creep of a ball that skids is cut, so that it still rolls forward."""
     xp = namespace(side.curvature, creep)
+    omega, most = ball.screw_speed, LARGEST_CREEP * ball.frame.entrainment_speed(1.0)
     offset = xp.sqrt(xp.maximum(-creep / xp.where(side.curvature > 0, side.curvature, 1.0), 0.0))
-    return ContactSlip(offset, moment, screw_speed * creep, screw_speed * spin, screw_speed * lateral)
+    cut = xp.minimum(xp.maximum(creep, -most), most)
+    return ContactSlip(offset, moment, omega * cut, omega * spin, omega * lateral)
 
 
 class _Passed(NamedTuple):

@@ -19,7 +19,7 @@ from ballscrew.quantities import AngularSpeed, Force, Length, Mask, Ratio, Speed
 from ballscrew.solvers.slip import BallProblem, ContactSlip, Slip, carried_share, contact_rotation, sliding_forces
 
 #: Steps of the search for the split of the spin; the last ones are Newton's and double the digits.
-STEPS = 20
+STEPS = 40
 #: Imbalance of the spin moments, in units of friction, load and semi-axis, that counts as balanced.
 TOLERANCE = 1e-8
 #: Just short of skidding: beyond, the slope of the lines over the force has no limit.
