@@ -40,6 +40,7 @@ readme: $(READY)
 
 bench: $(READY)
 	$(BIN)/python benchmarks/sweep.py
+	$(BIN)/python benchmarks/reference.py
 
 clean:
 	rm -rf .venv out build dist

@@ -187,8 +187,7 @@ def test_load_shares_fall_from_one_to_nothing():
     for name, share in found.shares.items():
         assert np.all(np.diff(share) <= 0), name
         assert share[-1] < 0.02
-        if "Greenwood" not in name:  # it knows the pressure, and not that asperities must carry all without a film
-            assert share[0] == 1
+        assert share[0] == 1, name
 
 
 @BY_NAME

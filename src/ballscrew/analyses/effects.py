@@ -233,10 +233,10 @@ def doubts(case: Case) -> tuple[Doubt, ...]:
         (
             "force between the balls",
             "1/z N",
-            "0, 5/z N, 1/z N + Q/500",
+            "0, 5/z N, Q/500",
             torques(
                 *(dataclasses.replace(reference, ball_to_ball_force=total / z) for total in (0.0, 5.0)),
-                dataclasses.replace(reference, ball_force=ProportionalBallForce()),
+                dataclasses.replace(reference, ball_force=ProportionalBallForce(share_of_load=0.002)),
             ),
         ),
     )

@@ -115,7 +115,10 @@ def houpert_rolling(conditions: ContactConditions) -> Force:
 
 
 def aihara_rolling(conditions: ContactConditions) -> Force:
-    """The law of Aihara1987 for rollers, on a line as long as the ellipse; with its own inlet heating."""
+    """The law of Aihara1987 for rollers, on a line as long as the ellipse.
+
+    It has the heat of the inlet in it: with the inlet law ``Inlet`` that counts twice, which matters at high speed.
+    """
     _, R_x, _, U, W = _groups(conditions)
     return rolling.rolling_force_aihara(
         R_x,

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
 #: Headings of the mechanisms where there is little room.
 SHORT: Mapping[str, str] = {
-    "hydrodynamic_rolling": "rolling",
-    "elastic_hysteresis": "elastic",
+    "hydrodynamic_rolling": "roll.",
+    "elastic_hysteresis": "elast.",
     "curvature": "curv.",
     "spin": "spin",
     "helix": "helix",
@@ -189,7 +189,7 @@ def _table(case: config.Case, found: Comparison) -> list[tuple[str, str | None]]
     def cells(row: Row) -> list[str]:
         forward, back = float(row.result.efficiency), float(row.result.back_driving_efficiency)
         return [
-            f"  {name_of(row)}",
+            f" {name_of(row)}",
             number(row.torque),
             "case" if row is found.case else _percent(row.change),
             *(number(float(row.result.contributions[name])) for name in shown),

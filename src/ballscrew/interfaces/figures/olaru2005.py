@@ -138,7 +138,7 @@ def parts_over_speed(data: xr.Dataset) -> Figure:
             _rpm(data)[sparse],
             [part[sparse] for part in parts],
             labels=[MECHANISMS[name] for name in names],
-            colors=(style.PURPLE, style.GREEN, style.SKY, style.ORANGE),
+            colors=[style.MECHANISM_COLOURS[name] for name in names],
             linewidth=0,
         )
         panel.plot(_rpm(data), model["fig6_screw_torque"], color=style.INK, label="total")

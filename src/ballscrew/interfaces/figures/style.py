@@ -35,8 +35,8 @@ MECHANISM_COLOURS: Mapping[str, str] = {
     "hydrodynamic_rolling": SKY,
     "elastic_hysteresis": GREEN,
     "curvature": ORANGE,
-    "spin": BLUE,
-    "helix": RED,
+    "spin": RED,
+    "helix": BLUE,
     "ball_to_ball": PURPLE,
 }
 LINE_STYLES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))
