@@ -24,7 +24,7 @@ LARGEST_PRESSURE = 4.2e9
 
 REASONS: Mapping[str, str] = {
     "inputs": "inputs must be finite and within their bounds, the balls must fit, and the torque must be finite",
-    "skid": "the sliding force exceeds friction coefficient times load at a contact: the ball would skid",
+    "skid": "the sliding force exceeds friction coefficient times load at a contact: the ball skids",
     "pure_rolling_offset": "the lines of pure rolling lie outside "
     f"0 <= Y < {LARGEST_PURE_ROLLING_OFFSET}, where (15) holds",
     "radii_ratio": "the radii ratio k is outside the range of the Hertz law (k >= 1, and a largest k of each law)",

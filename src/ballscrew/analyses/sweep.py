@@ -41,6 +41,10 @@ DEFAULT_OUTPUTS = (
 )
 
 
+#: Outputs that are truth values, besides the validity.
+TRUTHS = frozenset({"self_locking"})
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class Output:
     """One thing a sweep can return: how to read it off a result, and what it is."""
@@ -51,8 +55,8 @@ class Output:
 
     @property
     def dtype(self) -> type:
-        """Truth values for what says where the model holds, numbers for all else."""
-        return bool if self.name.startswith("valid") else float
+        """Truth values for what is true or not, numbers for all else."""
+        return bool if self.name.startswith("valid") or self.name in TRUTHS else float
 
 
 @functools.cache

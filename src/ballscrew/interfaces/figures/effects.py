@@ -23,12 +23,8 @@ SPEED, TORQUE = "screw speed n (rpm)", "friction torque M$_S$ (N m)"
 LOAD, LEAD = "axial load F (N)", "lead P$_h$ (mm)"
 #: From the bottom of a stack to its top.
 STACK: Mapping[str, str] = {
-    "ball_to_ball": style.PURPLE,
-    "elastic_hysteresis": style.GREEN,
-    "hydrodynamic_rolling": style.SKY,
-    "curvature": style.ORANGE,
-    "spin": style.RED,
-    "helix": style.BLUE,
+    mechanism: style.MECHANISM_COLOURS[mechanism]
+    for mechanism in ("ball_to_ball", "elastic_hysteresis", "hydrodynamic_rolling", "curvature", "spin", "helix")
 }
 MODEL_LINES: Mapping[str, tuple[str, Any, str]] = {
     "olaru2005": ("as printed", ":", style.GREY),
