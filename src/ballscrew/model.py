@@ -188,6 +188,7 @@ class FrictionModel:
         Array values are never refused: where they make no sense the result says so in its validity.
         """
         operation = Operation(axial_load=as_array(axial_load), screw_speed=as_array(screw_speed))
+        raise_if_any(_misfits(operation))
         with np.errstate(all="ignore"):
             return self._evaluate(screw, lubricant, operation)
 
@@ -305,6 +306,18 @@ class FrictionModel:
                 friction_torque=torques.nut + through,
             ),
         }
+
+
+def _misfits(operation: Operation) -> list[Fault]:
+    """Whether NumPy arrays of loads and speeds fit together."""
+    shapes = [np.shape(value) for value in vars(operation).values() if isinstance(value, np.ndarray)]
+    try:
+        np.broadcast_shapes(*shapes)
+    except ValueError:
+        given = " and ".join(map(str, shapes))
+        remedy = "give one speed for each load; for every load at every speed use ballscrew.sweep"
+        return [Fault("operation", "loads and speeds do not fit together", given, remedy)]
+    return []
 
 
 @functools.cache

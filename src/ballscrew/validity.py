@@ -22,15 +22,20 @@ MATERIAL_PARAMETER_RANGE = (2000.0, 7500.0)
 #: Above this pressure balls and races keep a dent of 1e-4 of the ball diameter (ISO76), Pa.
 LARGEST_PRESSURE = 4.2e9
 
+#: Below this the heat of the inlet is no longer a correction of the film but its master.
+SMALLEST_INLET_FACTOR = 0.5
+
 REASONS: Mapping[str, str] = {
     "inputs": "inputs must be finite and within their bounds, the balls must fit, and the torque must be finite",
-    "skid": "the sliding force exceeds friction coefficient times load at a contact: the ball skids",
+    "skid": "the sliding force exceeds friction coefficient times load at a contact: the ball skids; "
+    "more load or less speed ends it",
     "pure_rolling_offset": "the lines of pure rolling lie outside "
     f"0 <= Y < {LARGEST_PURE_ROLLING_OFFSET}, where (15) holds",
     "radii_ratio": "the radii ratio k is outside the range of the Hertz law (k >= 1, and a largest k of each law)",
     "contact_pressure": f"the maximum pressure exceeds {LARGEST_PRESSURE / 1e9:g} GPa: the contact yields (ISO 76)",
-    "elastic_regime": "the load is too light for the elastic lubrication regime of the film law (26), and of (1) "
-    f"(M < {SMALLEST_ELASTIC_REGIME_PARAMETER})",
+    "elastic_regime": f"the load is too light for the film law (M < {SMALLEST_ELASTIC_REGIME_PARAMETER}): "
+    "film and friction are estimates; more load or less speed leads back",
+    "inlet_heating": "the heat of the inlet takes more than half of the film: too fast for its factor to be trusted",
     "material_parameter": f"G is outside {MATERIAL_PARAMETER_RANGE[0]:.0f} to {MATERIAL_PARAMETER_RANGE[1]:.0f}, "
     "the materials and oils behind the film regression (26)",
     "equilibrium": "the slip of the ball did not converge",
@@ -87,5 +92,6 @@ _AT_A_CONTACT: Mapping[str, Callable[[RaceState], Mask]] = {
     "radii_ratio": lambda side: _within(side.radii_ratio, 1.0, side.hertz.largest_radii_ratio),
     "contact_pressure": lambda side: side.maximum_pressure <= LARGEST_PRESSURE,
     "elastic_regime": lambda side: side.elastic_regime_parameter >= SMALLEST_ELASTIC_REGIME_PARAMETER,
+    "inlet_heating": lambda side: side.inlet_film_factor >= SMALLEST_INLET_FACTOR,
     "material_parameter": lambda side: _within(side.material_parameter, *MATERIAL_PARAMETER_RANGE),
 }
