@@ -6,6 +6,7 @@ BIN := .venv/bin
 READY := .venv/.ready
 
 $(READY): pyproject.toml constraints.txt
+	@echo "setting up .venv (a minute or two)"
 	@if command -v uv >/dev/null 2>&1; then \
 		uv venv --quiet --allow-existing --python $(PYTHON) .venv && \
 		uv pip install --quiet --python $(BIN)/python --constraint constraints.txt --editable '.[dev]'; \

@@ -21,6 +21,7 @@ import ballscrew as bs
 from ballscrew.components.mixed_friction import ZhouHoeprich
 from ballscrew.components.screw import BallScrew
 from ballscrew.result import FrictionResult
+from ballscrew.solvers import strips
 from ballscrew.solvers.contact_integral import ContactIntegral, contact_integral
 from ballscrew.solvers.free_ball import BallResistances
 from ballscrew.solvers.line_slip import line_slip
@@ -260,9 +261,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--cases", type=int, default=600, help="random screws (default %(default)s)")
     parser.add_argument("--seed", type=int, default=2005, help="of the random screws (default %(default)s)")
     parser.add_argument("--json", action="store_true", help="one JSON object")
+    parser.add_argument(
+        "--strips", type=int, default=strips.NUMBER_OF_STRIPS, help="of a contact (default %(default)s)"
+    )
+    parser.add_argument("--aligned", type=float, default=strips.ALIGNED, help="share of variance (default %(default)s)")
     parser.add_argument("--no-speed", action="store_true", help="accuracy only")
     parser.add_argument("--markdown", action="store_true", help="tables for the documentation, without times")
     chosen = parser.parse_args(arguments)
+    strips.STRIPS, strips.ALIGNED = strips.strips_of(chosen.strips), chosen.aligned
     cases = box(chosen.cases, chosen.seed)
     tables = (slip_alone(cases), *whole_model(cases))
     if chosen.json:

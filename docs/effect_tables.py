@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ballscrew.analyses import effect_curves as curves
-from ballscrew.analyses.effects import CASES, doubts, effects
+from ballscrew.analyses.effects import CASES, RPM, doubts, effects
 from ballscrew.interfaces.figures import effect_laws, style
 from ballscrew.interfaces.figures import effects as figures
 from ballscrew.model import FrictionModel
@@ -42,14 +42,14 @@ def steps_table(case) -> str:
     return _table([heading, ["---", *["---:"] * (len(heading) - 1)], *rows])
 
 
-def doubts_table() -> str:
-    """What the reference model takes for granted, and how far the torque moves with it."""
+def doubts_table(rows: int | None = None) -> str:
+    """What the reference model takes for granted, and how far the torque moves with it: all, or the widest."""
     every = {name: doubts(case) for name, case in CASES.items()}
     by_words = {name: {doubt.words: doubt for doubt in found} for name, found in every.items()}
     heading = ["what", "taken", "tried", *(case.title for case in CASES.values())]
     rows = [
         [first.words, first.taken, first.tried, *(_span(found[first.words]) for found in by_words.values())]
-        for first in every["catalogue"]
+        for first in every["catalogue"][:rows]
     ]
     return _table([heading, ["---"] * len(heading), *rows])
 
@@ -74,12 +74,36 @@ def numbers() -> dict[str, str]:
         found[f"{name}_slip_ratio"] = f"{slip / before:.1f}"
         found[f"{name}_heating"] = f"{float(r.screw.inlet_film_factor):.3f}"
         found[f"{name}_film"] = f"{float(r.screw.film_parameter):.2f}"
-        found[f"{name}_skid"] = f"{figures.skid_load(case):.0f}"
-        found[f"{name}_skid_ball"] = f"{figures.skid_load(case) / case.axial_load * float(r.contact_load):.1f}"
+        skid, fast = light_loads(case)[1:]
+        found[f"{name}_skid"] = f"{skid:.0f}"
+        found[f"{name}_skid_ball"] = f"{skid / case.axial_load * float(r.contact_load):.1f}"
+        found[f"{name}_skid_fast"] = f"{fast:.0f}"
+        found[f"{name}_light_efficiency"] = f"{float(case.result(reference, axial_load=1.0).efficiency):.2f}"
         _, steep = curves.over_lead(case)
         share = steep.contributions["helix"][-1] / steep.screw_torque[-1]
         found[f"{name}_steep"] = f"{float(share):.0%}".replace("%", " %")
     return found
+
+
+#: Skidding is told at the speed of the case and at this one.
+FAST = 3000
+
+
+def light_loads(case) -> tuple[float, float, float]:
+    """Axial loads (N) below which the film law is left, the ball skids, and the ball skids at the fast speed."""
+    flagged = curves.largest_flagged_load
+    return flagged(case, "elastic_regime"), flagged(case, "skid"), flagged(case, "skid", FAST * RPM)
+
+
+def light_load_words(case) -> str:
+    """The same in a sentence or two."""
+    film, skid, fast = light_loads(case)
+    a_ball = float(case.result(FrictionModel.reference()).contact_load) / case.axial_load
+    return (
+        f"At {case.title} and {case.screw_speed / RPM:.0f} rpm the film leaves the regime its law was made for below"
+        f" {film:.0f} N on the nut ({film * a_ball:.1f} N a ball), and the ball skids below {skid:.0f} N"
+        f" ({skid * a_ball:.1f} N a ball). Both loads grow with speed: at {FAST} rpm it skids below {fast:.0f} N."
+    )
 
 
 def _step(steps, i: int, title: str) -> str:

@@ -3,45 +3,81 @@
 from __future__ import annotations
 
 import dataclasses
+import tomllib
 from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
 
 from ballscrew.components.materials import Lubricant, Material, grades
-from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.components.screw import MATERIALS, BallScrew, Operation
 from ballscrew.interfaces import units
 from ballscrew.model import FrictionModel
 from ballscrew.quantities import Quantity, fields_of
 
+EXAMPLE = Path(__file__).parents[1] / "examples" / "feed_drive.toml"
+
+#: Each section by its name in the file, with the part whose fields it holds.
 PARTS = {
     "[screw]": BallScrew,
-    "[screw.ball_material] and so on": Material,
+    ", ".join(f"[screw.{name}]" for name in MATERIALS): Material,
     "[lubricant]": Lubricant,
     "[operation]": Operation,
     "[model]": FrictionModel,
 }
+#: Examples of fields that are neither in the example file nor have a default.
+OTHERS: dict[str, Any] = {"viscosity": "0.1 Pa s", "ball_to_ball_force": "0.02 N", "pure_rolling_offset": 0.34}
 
 
 def field_table() -> str:
     """One table for each table of the file."""
-    return "\n".join(line for title, cls in PARTS.items() for line in _lines(title, cls)) + (
-        f"\nInstead of `viscosity`, `grade` ({', '.join(grades())}; `VG68` is `ISO VG 68`) and `temperature`"
-        " (-20 to 150 degC, 40 degC if left out).\n"
-    )
+    return "\n".join(line for title, cls in PARTS.items() for line in _lines(title, cls)) + "\n"
+
+
+def examples() -> Iterator[tuple[str, Quantity, Any]]:
+    """For every field its section, its quantity, and a value as one could write it."""
+    for title, cls in PARTS.items():
+        for quantity in fields_of(cls).values():
+            yield title, quantity, _example(title, cls, quantity)
 
 
 def _lines(title: str, cls: type) -> Iterator[str]:
-    yield f"\n`{title}`\n"
+    yield "\n" + ", ".join(f"`{name}`" for name in title.split(", ")) + "\n"
     yield "| field | symbol | example | needed | bounds | meaning |"
     yield "|---|---|---|---|---|---|"
-    defaults = {field.name: field.default for field in dataclasses.fields(cls)}
     for name, quantity in fields_of(cls).items():
-        default = defaults[name]
+        default = _default(cls, name)
         needed = "yes" if default is dataclasses.MISSING else f"no: {_shown(default, quantity)}"
-        example = "56" if quantity.info.whole else "0.5" if quantity.unit == "1" else f'"1 {quantity.shown_in}"'
+        example = _written(_example(title, cls, quantity))
         bounds, meaning = _bounds(quantity), quantity.info.meaning
         yield f"| `{name}` | ${quantity.info.symbol}$ | `{example}` | {needed} | {bounds} | {meaning} |"
+    if cls is Lubricant:
+        yield (
+            f"\nInstead of `viscosity`, `grade` ({', '.join(grades())}; `VG68` is `ISO VG 68`) and `temperature`"
+            " (-20 to 150 degC, 40 degC if left out)."
+        )
 
 
-def _shown(default: object, quantity: Quantity) -> str:
+def _default(cls: type, name: str) -> Any:
+    return next(field.default for field in dataclasses.fields(cls) if field.name == name)
+
+
+def _example(title: str, cls: type, quantity: Quantity) -> Any:
+    """The value of the example file, or the default."""
+    name = quantity.name
+    written = tomllib.loads(EXAMPLE.read_text(encoding="utf-8")).get(title.strip("[]"), {})
+    if name in written:
+        return written[name]
+    if name in OTHERS:
+        return OTHERS[name]
+    value = units.from_si(_default(cls, name), quantity)
+    return value if quantity.unit == "1" else f"{value:.4g} {quantity.shown_in}"
+
+
+def _written(value: Any) -> str:
+    return f'"{value}"' if isinstance(value, str) else f"{value}"
+
+
+def _shown(default: Any, quantity: Quantity) -> str:
     return "see its meaning" if default is None else units.shown(default, quantity)
 
 

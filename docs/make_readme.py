@@ -1,11 +1,15 @@
-"""Write what the README shows and the program produces: two tables, and the picture.
+"""Write what the README shows and the program produces: tables, numbers, what the example prints, and the picture.
 
 ``python docs/make_readme.py`` (or ``make readme``) rewrites them in place.
 """
 
+import contextlib
+import io
 import sys
+import textwrap
 from pathlib import Path
 
+from ballscrew.analyses.effects import PAPER
 from ballscrew.interfaces.figures import effects as figures
 from ballscrew.interfaces.figures import style
 from ballscrew.interfaces.reproduce import claims_table
@@ -14,6 +18,7 @@ HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))
 
 from accuracy_table import short_table  # noqa: E402  (after the path of its folder)
+from effect_tables import doubts_table, light_load_words  # noqa: E402
 
 README = HERE.parent / "README.md"
 IMAGES = HERE / "images"
@@ -38,8 +43,34 @@ def with_accuracy(text: str) -> str:
     return with_block(text, "accuracy", short_table())
 
 
+def with_doubts(text: str) -> str:
+    """The README with the three widest doubts as they are now."""
+    return with_block(text, "doubts", doubts_table(rows=3))
+
+
+def with_light_load(text: str) -> str:
+    """The README with the loads at which the paper's screw skids as they are now."""
+    return with_block(text, "light load", textwrap.fill(light_load_words(PAPER), 130) + "\n")
+
+
+def example(text: str) -> str:
+    """The Python example of the README."""
+    return text.split("```python\n")[1].split("```")[0]
+
+
+def with_example(text: str) -> str:
+    """The README with what its example prints now."""
+    shown = io.StringIO()
+    with contextlib.redirect_stdout(shown):
+        exec(compile(example(text), "README.md", "exec"), {})
+    return with_block(text, "example", f"```text\n{shown.getvalue()}```\n")
+
+
 def main() -> None:
-    README.write_text(with_accuracy(with_claims(README.read_text(encoding="utf-8"))), encoding="utf-8")
+    text = README.read_text(encoding="utf-8")
+    for part in (with_claims, with_accuracy, with_doubts, with_light_load, with_example):
+        text = part(text)
+    README.write_text(text, encoding="utf-8")
     IMAGES.mkdir(exist_ok=True)
     plot = next(plot for plot in figures.PLOTS if plot.name == PICTURE)
     with style.house_style():

@@ -112,7 +112,8 @@ class FrictionResult:
 
         Zero without load. Where both torques vanish, the limit of vanishing load in the models of
         the paper: 0 in motion, where friction falls more slowly than the load, and 1 at rest, where
-        it falls faster. (A ball that skids has a limit between the two.)
+        it falls faster. In the reference model the ball skids under vanishing load, and the limit
+        in motion lies between the two: there the 0 is a convention (no load, no useful work).
         """
         ideal, friction = self.ideal_torque, self.screw_torque
         no_torque = ideal + friction == 0
@@ -140,8 +141,8 @@ class FrictionResult:
 
     @lazy
     def self_locking(self) -> Annotated[Mask, Info("self-locking", "the load alone cannot turn the screw")]:
-        """Whether the load alone cannot turn the screw at this speed, that is with this friction."""
-        return self.holding_torque <= 0
+        """Whether there is a load, and it alone cannot turn the screw at this speed, that is with this friction."""
+        return (self.ideal_torque > 0) & (self.holding_torque <= 0)
 
     def shaft_torque(self, load_sign: int, speed_sign: int) -> Torque:
         """Torque on the shaft in one of four quadrants, positive the way that moves the nut against a load of +1.
@@ -221,7 +222,9 @@ class FrictionResult:
         """Power dissipated by mechanism, W, from local forces and local speeds.
 
         The speeds are those of a ball whose races creep ahead of it, where the slip law tells how
-        much; what the sliding forces dissipate in creep counts as curvature slip.
+        much; what the sliding forces dissipate in creep counts as curvature slip. That the sum is the
+        torque's power says that the ball is in balance, not that its slip has settled: the forces
+        are those of the balance, and how far the slip is from them, ``converged`` tells.
         """
         s, n, chain, frame = self.screw, self.nut, self.ball_chain, self.frame
         d_w, z, cosine = self.ball_screw.ball_diameter, self.ball_screw.loaded_balls, frame.rolling_plane_cosine
@@ -245,12 +248,8 @@ class FrictionResult:
                 s.curvature_friction_moment, n.curvature_friction_moment, at_screw, at_nut
             )
             + dissipation.creep_power(s.sliding_force, n.sliding_force, A_s, A_n),
-            "spin": dissipation.spin_power(
-                self.spin_moment, kinematics.relative_spin(self.screw_speed, frame.rolling_plane_sine)
-            ),
-            "helix": dissipation.torsion_power(
-                self.lateral_force, kinematics.torsion_speed(self.screw_speed, d_w, frame.lead_angle)
-            ),
+            "spin": dissipation.spin_power(self.spin_moment, s.spin + n.spin),
+            "helix": dissipation.torsion_power(self.lateral_force, s.lateral_slip_speed + n.lateral_slip_speed),
             "ball_to_ball": dissipation.ball_chain_power(
                 chain.moment, ball, self.ball_to_ball_force, kinematics.orbital_speed(orbit, frame.path_radius)
             ),

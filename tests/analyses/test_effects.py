@@ -2,12 +2,14 @@
 
 import dataclasses
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from ballscrew.analyses import effect_curves as curves
-from ballscrew.analyses.effects import CASES, CATALOGUE, PAPER, doubts, effects, steps
+from ballscrew.analyses.effects import CASES, CATALOGUE, PAPER, RPM, doubts, effects, steps
+from ballscrew.interfaces import config
 from ballscrew.model import FrictionModel
 from ballscrew.solvers.contact_integral import contact_integral
 from ballscrew.solvers.free_ball import BallResistances
@@ -119,6 +121,38 @@ def test_the_catalogue_screw_is_what_it_is_said_to_be():
     C_s = f_c * math.cos(alpha) ** 0.86 * a_turn ** (2 / 3) * d_w**1.8 * math.tan(alpha) * math.cos(phi) ** 1.3
     C_i = C_s * (1 + ((1 - gamma) / (1 + gamma)) ** (1.723 * 10 / 3)) ** -0.3
     assert pytest.approx(CATALOGUE.axial_load, rel=0.02) == 0.1 * C_i * turns**0.86
+
+
+def test_the_catalogue_screw_is_the_example_file():
+    example = config.load(Path(__file__).parents[2] / "examples" / "feed_drive.toml")
+    assert example.model.label == "reference"
+    mine = CATALOGUE.result(FrictionModel.reference())
+    theirs = example.model(example.screw, example.lubricant, **vars(example.operation))
+    assert float(theirs.screw_torque) == pytest.approx(float(mine.screw_torque), rel=1e-12)
+    for name in ("pitch_circle_diameter", "lead", "ball_diameter", "loaded_balls", "contact_angle"):
+        assert getattr(example.screw, name) == pytest.approx(getattr(CATALOGUE.screw, name), rel=1e-12)
+
+
+@BY_NAME
+def test_the_load_of_skidding_grows_with_speed(case):
+    slow, fast = (curves.largest_flagged_load(case, "skid", speed * RPM) for speed in (600, 3000))
+    assert slow < 0.4 * fast
+    assert slow == curves.largest_flagged_load(case, "skid")
+    assert curves.largest_flagged_load(case, "contact_pressure") == 0
+
+
+@BY_NAME
+def test_no_load_and_no_speed_give_what_the_page_on_validity_says(case):
+    for name, model in curves.MODELS.items():
+        unloaded = case.result(model, axial_load=0.0)
+        assert not unloaded.validity["skid"]
+        assert unloaded.efficiency == 0
+        parts = {part for part, torque in unloaded.contributions.items() if torque}
+        assert parts == (set() if name == "reference" else {"ball_to_ball"})
+        at_rest, slow = case.result(model, screw_speed=0.0), case.result(model, screw_speed=1e-6)
+        assert at_rest.warnings == []
+        assert at_rest.contributions["hydrodynamic_rolling"] == 0
+        assert at_rest.screw_torque == pytest.approx(slow.screw_torque, rel=1e-3)
 
 
 # -- curves ---------------------------------------------------------------------------------------

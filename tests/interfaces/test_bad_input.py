@@ -34,6 +34,19 @@ FAULTS = {
     "unknown model": ('name = "olaru2005"', 'name = "olaru205"', 'did you mean "olaru2005"?'),
     "unknown law": ('name = "olaru2005"', 'hertz = "exat"', 'model.hertz: unknown law (exat) · did you mean "exact"?'),
     "unknown coefficient": ('name = "olaru2005"', "friction.decai = 1.4", 'did you mean "decay"?'),
+    "coefficient without its law": (
+        'name = "olaru2005"', "boundary_friction_coefficient = 0.2",
+        'model.boundary_friction_coefficient: unknown key · did you mean "friction.boundary_friction_coefficient"?',
+    ),
+    "law by name and with coefficients": (
+        'name = "olaru2005"', 'friction = "balan"\nfriction.decay = 1.4',
+        '· a law with coefficients: write friction.law = "balan"',
+    ),
+    "force that does not count": (
+        'name = "olaru2005"', 'ball_force = "proportional"\nball_to_ball_force = "1 N"',
+        'model.ball_to_ball_force: does not count with ball_force = "proportional" (1 N)',
+    ),
+    "turns for balls": ("loaded_balls = 56", 'loaded_balls = "4 turns"', "about turns · pi · pitch_circle_diameter"),
     "kinematic viscosity": ('"0.1 Pa s"', '"100 cSt"', "lubricant.viscosity: wrong unit (100 cSt)"),
 }  # fmt: skip
 
@@ -96,12 +109,12 @@ def test_files_that_are_no_case(tmp_path, ballscrew):
 
 
 def test_unwritable_output(tmp_path, example, ballscrew):
-    single_line_fault(ballscrew("sweep", example, "--to", tmp_path / "none" / "map.csv"), "--to: cannot be written")
     single_line_fault(ballscrew("sweep", example, "--to", tmp_path), "--to: unknown kind of file")
     single_line_fault(ballscrew("sweep", example, "--to", tmp_path / "map.doc"), "end it in .csv, .xlsx or .nc")
     file = tmp_path / "file"
     file.write_text("kept", encoding="utf-8")
     single_line_fault(ballscrew("reproduce", "olaru2005", "--out", file / "out"), "cannot")
+    single_line_fault(ballscrew("sweep", example, "--to", file / "map.csv"), "--to: cannot be written")
     assert file.read_text(encoding="utf-8") == "kept"
     assert sorted(tmp_path.iterdir()) == [file]
 

@@ -18,6 +18,8 @@ import ballscrew as bs
 from ballscrew.result import MECHANISMS
 
 ROOT = Path(__file__).parents[2]
+LEFT_OUT = "left out: seals, preload, return path, churning; not compared with measurements"
+REST = ("--set", "operation.screw_speed=0 rpm")
 PAPER = {
     "pitch_circle_diameter": 0.040, "lead": 0.005, "ball_diameter": 3.175e-3, "loaded_balls": 56,
     "contact_angle": math.pi / 4, "screw_conformity": 0.515, "nut_conformity": 0.515,
@@ -99,6 +101,11 @@ def test_the_reference_model_for_people(example, ballscrew):
         assert float(rows[name][2]) == pytest.approx(float(quadrant.shaft_torque), rel=1e-3)
         assert float(rows[name][5]) == pytest.approx(float(quadrant.shaft_power), rel=1e-3)
         assert float(rows[name][7]) == pytest.approx(float(quadrant.efficiency), rel=1e-3)
+    rest = bs.FrictionModel.reference()(r.ball_screw, bs.Lubricant(viscosity=0.1), axial_load=4000.0, screw_speed=0.0)
+    assert f"{float(rest.holding_torque):.4g} N m on the shaft hold it at rest" in text
+    assert LEFT_OUT in text.splitlines()
+    assert "screw pitch circle 40 mm, lead 5 mm, balls 3.175 mm, contact angle 45 deg, 56 loaded balls" in text
+    assert all(text.count(f"\n{name}  ") == 1 for name in ("spin parameter E_s", "creep of the race", "lateral slip"))
     assert f"{float(r.screw.spin_parameter):.4g}" in text
     assert f"{1000 * float(r.nut.creep_speed):.4g} mm/s" in text
     assert "lines of pure rolling" not in text
@@ -112,7 +119,9 @@ def test_what_is_zero_is_left_out(example, ballscrew):
     assert "helix slip" not in text
     assert "offset of the lines of pure rolling" in text
     none = ballscrew("run", example, "--model", "reference", "--set", "operation.axial_load=0 N").stdout
-    assert "no load drives the screw" in none
+    assert "no load: nothing to hold" in none
+    assert "skid" not in none
+    assert "locks" not in none
     assert "Where the friction" not in none
     assert not re.search(r"nan|inf\b| -0 ", none)
 
@@ -123,7 +132,13 @@ def test_a_ball_that_skids_is_said(example, ballscrew):
         r"^skids: friction carries only \d+\.\d% of what resists the rolling of a ball$", text, re.MULTILINE
     )
     assert "beware  skid: " in text
-    assert re.search(r"^self-locking: .* [\d.]+ N m on the shaft lower it$", text, re.MULTILINE)
+    for when in ("at this speed", "at rest"):
+        line = rf"^self-locking: .* {when}; [\d.]+ N m on the shaft lower it \(outside the model's validity\)$"
+        assert re.search(line, text, re.MULTILINE)
+    lines = text.splitlines()
+    first = next(i for i, line in enumerate(lines) if line.startswith("beware"))
+    assert lines[first - 1].startswith("skids")
+    assert lines.index(LEFT_OUT) < next(i for i, line in enumerate(lines) if line.startswith("Where the friction"))
     locked = [line for line in text.splitlines() if line.startswith("is back-driven")]
     assert len(locked) == 2
     assert all(line.rstrip().endswith("locks") for line in locked)
@@ -131,7 +146,10 @@ def test_a_ball_that_skids_is_said(example, ballscrew):
 
 def test_at_rest(example, ballscrew):
     text = ballscrew("run", example, "--model", "reference", "--set", "operation.screw_speed=0 rpm").stdout
-    assert "on the shaft hold it at rest" in text
+    assert text.count("on the shaft hold it at rest") == 1
+    light = ballscrew("run", example, "--model", "reference", *REST, "--set", "operation.axial_load=2 N").stdout
+    assert re.search(r"^at rest: friction carries only \d+\.\d% of what resists rolling$", light, re.MULTILINE)
+    assert "skid" not in light
     assert not re.search(r"nan|inf\b| -0 ", text)
 
 
@@ -215,7 +233,7 @@ def test_a_grade_instead_of_a_viscosity(example, tmp_path, ballscrew):
     assert (oil["grade"], oil["temperature"]) == ("ISO VG 100", 298.15)
     assert oil["viscosity"] == bs.Lubricant.from_grade("ISO VG 100", 298.15).viscosity
     assert "Jungnickel2010" in document["provenance"]["references"]
-    assert "oil ISO VG 100: " in ballscrew("run", case).stdout
+    assert "oil ISO VG 100 at 25 degC: viscosity " in ballscrew("run", case).stdout
     assert "@misc{Jungnickel2010" in ballscrew("cite", case).stdout
 
 
@@ -266,11 +284,11 @@ def test_axes_from_the_case_file(example, tmp_path, ballscrew):
 
 @pytest.mark.parametrize("suffix", ["csv", "xlsx", "nc"])
 def test_files_hold_the_same_numbers(suffix, example, tmp_path, ballscrew):
-    path = tmp_path / f"map.{suffix}"
+    path = tmp_path / "new" / "folder" / f"map.{suffix}"
     axes = ["--vary", "axial_load=1000:4000:3 N", "--vary", "screw_speed=300:600:2 rpm"]
     process = ballscrew("sweep", example, *axes, "--output", "efficiency", "--output", "screw_torque", "--to", path)
     assert process.returncode == 0, process.stderr
-    assert list(tmp_path.iterdir()) == [path]
+    assert list(path.parent.iterdir()) == [path]
     expected = paper_result(bs.FrictionModel.olaru2005())
     if suffix == "nc":
         with xr.open_dataset(path, engine="h5netcdf") as dataset:
@@ -279,13 +297,26 @@ def test_files_hold_the_same_numbers(suffix, example, tmp_path, ballscrew):
             torque, efficiency = dataset.screw_torque.values[-1, -1], dataset.efficiency.values[-1, -1]
     elif suffix == "xlsx":
         book = openpyxl.load_workbook(path)
-        assert book.sheetnames == ["efficiency", "screw_torque", "points", "inputs"]
+        assert book.sheetnames == ["efficiency", "screw_torque", "valid", "points", "inputs"]
+        assert book["valid"].cell(4, 3).value == 1
+        inputs = {row[0]: row[1:] for row in book["inputs"].iter_rows(values_only=True)}
+        assert inputs["screw_lead"] == (0.005, "m")
+        assert inputs["lubricant_viscosity"] == (0.1, "Pa s")
+        assert "operation_axial_load" not in inputs
         torque, efficiency = book["screw_torque"].cell(4, 3).value, book["efficiency"].cell(4, 3).value
     else:
         rows = list(csv.reader(io.StringIO(path.read_text(encoding="utf-8"))))
-        efficiency, torque = map(float, rows[-1][2:])
+        efficiency, torque, valid = map(float, rows[-1][2:])
+        assert valid == 1
     assert torque == pytest.approx(float(expected.screw_torque), rel=1e-10)
     assert efficiency == pytest.approx(float(expected.efficiency), rel=1e-10)
+
+
+def test_changed_laws_are_named(example, ballscrew):
+    settings = ["--set", "model.rolling=houpert", "--set", "model.friction.boundary_friction_coefficient=0.15"]
+    text = ballscrew("run", example, "--model", "reference", *settings).stdout
+    changed = "changed: friction load-sharing (boundary friction coefficient 0.15), rolling houpert"
+    assert f"4000 N, 600 rpm, model reference, {changed}" in text.replace("\n", " ")
 
 
 def test_cite_names_what_the_model_uses(example, ballscrew):

@@ -163,6 +163,9 @@ def test_the_spread_in_words(example, found, ballscrew):
     assert f"models       {least.torque:.4g} N m (olaru2005-literal) to {greatest.torque:.4g} N m (reference)" in text
     assert "valid laws   " in text
     assert "matters most " in text
+    assert "coefficients are not varied here" in text
+    assert "full film, in place of constant" in text
+    assert text.splitlines()[2].split()[-5:] == ["η", "drive", "η", "load", "out"]
     assert text.count("†") == 4  # three of the paper's own forms, and what that means
     assert "known to be incomplete or misprinted" in text
 
@@ -227,7 +230,7 @@ def test_bad_places_for_a_picture(example, tmp_path, ballscrew):
     before = sorted(tmp_path.iterdir())
     for target, expected in [
         (tmp_path / "spread.doc", "--to: unknown kind of file"),
-        (tmp_path / "none" / "spread.png", "--to: cannot be written"),
+        (example / "spread.png", "--to: cannot be written"),
         (tmp_path, "--to: unknown kind of file"),
     ]:
         process = ballscrew("compare", example, "--to", target)

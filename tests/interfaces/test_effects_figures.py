@@ -48,6 +48,17 @@ def test_caption_states_the_case(figure):
     assert "_m " not in caption  # indices are set low
 
 
+def test_caption_leaves_out_what_varies():
+    for name, varied, stated in (
+        ("effects_parts_over_speed", "n =", "F ="),
+        ("effects_light_load", "F =", "n ="),
+    ):
+        with style.house_style():
+            caption = PLOTS[name].draw(effects.drawn_cases()).texts[-1].get_text()
+        assert varied not in caption.replace("\N{NO-BREAK SPACE}", " ")
+        assert stated in caption.replace("\N{NO-BREAK SPACE}", " ")
+
+
 def test_panels_are_titled(figure):
     for panel in figure.axes:
         assert panel.get_title(loc="left") or panel.get_label() == "<colorbar>"

@@ -235,7 +235,7 @@ def test_sweep_over_coefficients_of_other_laws(example, ballscrew):
         "sweep", example, *laws_, "--vary", "friction.asperity_radius=5, 500 um", "--output", "screw_torque"
     )
     rows = process.stdout.splitlines()
-    assert rows[0] == "friction asperity radius [um],screw torque [N m]"
+    assert rows[0] == "friction asperity radius [um],screw torque [N m],valid"
     assert float(rows[1].split(",")[1]) != float(rows[2].split(",")[1])
 
 

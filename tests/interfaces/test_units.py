@@ -50,17 +50,34 @@ def test_written_values_in_si(name, written, expected):
     [
         ("lead", 5, "needs a unit", 'write "5 mm"'),
         ("lead", "5", "needs a unit", 'write "5 mm"'),
-        ("lead", "5 N", "wrong unit", "use a unit such as mm"),
-        ("lead", "5 mmm", "unknown unit", 'did you mean "mm"?'),
+        ("lead", "5 N", "wrong unit", "use a unit such as mm, um or in"),
+        ("lead", "5 mmm", "unknown unit", "use a unit such as mm, um or in"),
+        ("lead", "5 MM", "unknown unit", 'did you mean "mm"?'),
+        ("axial_load", "5 KN", "unknown unit", 'did you mean "kN"?'),
+        ("axial_load", "5 NM", "unknown unit", "use a unit such as N, kN or lbf"),
+        ("viscosity", "100 mPas", "wrong unit", 'did you mean "mPa s"?'),
+        ("temperature", "40 C", "unknown unit", "use a unit such as degC, K or degF"),
         ("lead", "3,5 mm", "is not a number with a unit", "write a decimal point"),
         ("lead", "five mm", "is not a number with a unit", 'write it like "1 mm"'),
         ("lead", "", "is not a number with a unit", 'write it like "1 mm"'),
         ("lead", True, "must be a number with a unit", 'write it like "1 mm"'),
         ("lead", ["5 mm"], "must be a number with a unit", 'write it like "1 mm"'),
-        ("screw_speed", "600 1/min", "wrong unit", "rpm, not 1/min"),
+        *(
+            ("screw_speed", f"600 {unit}", problem, 'write it in rpm, such as "1500 rpm"')
+            for unit, problem in {
+                "U/min": "unknown unit",
+                "Hz": "unknown unit",
+                "1/min": "wrong unit",
+                "1/s": "wrong unit",
+            }.items()
+        ),
         ("viscosity", "100 cSt", "wrong unit", "ISO VG 100"),
         ("contact_angle", 45, "needs a unit", 'write "45 deg"'),
-        ("loaded_balls", "56 mm", "takes no unit", "write 56"),
+        ("loaded_balls", "56 mm", "takes no unit", "a number of balls: about turns"),
+        ("loaded_balls", "4 turns", "takes no unit", "turns · pi · pitch_circle_diameter / ball_diameter"),
+        ("loaded_balls", "4 %", "takes no unit", "a number of balls"),
+        ("screw_conformity", "52 %", "takes no unit", "write 0.52"),
+        ("screw_conformity", "1.7 mm", "takes no unit", "it is a plain number: grooves have 0.515 to 0.54"),
     ],
 )
 def test_faults_name_the_value_and_the_remedy(name, written, problem, remedy):
@@ -78,3 +95,26 @@ def test_every_quantity_can_be_written_as_its_own_example(name):
     value = units.parse(name, written, quantity)
     assert isinstance(value, float)
     assert units.from_si(value, quantity) == pytest.approx(1, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["loaded_balls", "screw_conformity", "starts"])
+@pytest.mark.parametrize("unit", ["turns", "mm", "balls", "kN"])
+def test_no_remedy_drops_a_word(name, unit):
+    """4 turns are not 4 balls."""
+    fault = units.parse(name, f"4 {unit}", KNOWN[name])
+    assert isinstance(fault, Fault)
+    assert "write 4" not in fault.remedy
+
+
+@pytest.mark.parametrize("name", sorted(KNOWN))
+def test_units_in_messages_are_of_the_right_kind(name):
+    """A unit proposed for a misspelt one is the same but for capitals, and the parser takes it."""
+    quantity = KNOWN[name]
+    if quantity.unit == "1":
+        return
+    for unit in units._usual(quantity):
+        assert isinstance(units.parse(name, f"1 {unit}", quantity), float)
+        for written in (unit.upper(), unit.lower(), unit.swapcase()):
+            fault = units.parse(name, f"1 {written}", quantity)
+            if isinstance(fault, Fault) and fault.remedy.startswith("did you mean"):
+                assert fault.remedy.split('"')[1].lower() == written.lower()

@@ -37,11 +37,23 @@ def test_the_picture_is_a_figure_of_the_program(make_readme, text):
     assert (make_readme.IMAGES / "parts_over_speed.png").is_file()
 
 
-def test_the_python_example_runs(text, capsys):
-    """The ten lines of the README, as they stand there."""
-    code = text.split("```python\n")[1].split("```")[0]
-    assert len(code.splitlines()) <= 10
-    exec(compile(code, "README.md", "exec"), {})
-    shown = capsys.readouterr().out
-    assert "hydrodynamic_rolling" in shown
+def test_the_widest_doubts_are_up_to_date(make_readme, text):
+    """If this fails, run ``make readme``."""
+    assert make_readme.with_doubts(text) == text
+
+
+def test_the_loads_of_skidding_are_up_to_date(make_readme, text):
+    """If this fails, run ``make readme``."""
+    assert make_readme.with_light_load(text) == text
+
+
+def test_the_python_example_prints_what_stands_below_it(make_readme, text):
+    """If this fails, run ``make readme``."""
+    assert make_readme.with_example(text) == text
+
+
+def test_the_python_example_is_ten_lines_and_readable(make_readme, text):
+    assert len([line for line in make_readme.example(text).splitlines() if line]) == 10
+    shown = text.split("<!-- example: begin -->")[1].split("<!-- example: end -->")[0]
     assert "helix" in shown
+    assert "np." not in shown

@@ -189,6 +189,21 @@ def over_light_load(case: Case) -> tuple[Values, Mapping[str, FrictionResult]]:
 
 
 @functools.cache
+def largest_flagged_load(case: Case, reason: str, screw_speed: float | None = None) -> float:
+    """The largest axial load (N) at which the reference model is not valid for a reason; zero if there is none.
+
+    At the speed of the case, or at another (rad/s).
+    """
+    speed = case.screw_speed if screw_speed is None else screw_speed
+    load, found = np.geomspace(1e-4, 2.0, 501) * case.axial_load, 0.0
+    for _ in range(2):  # the second time between the load that was found and the next
+        result = case.result(MODELS["reference"], axial_load=load, screw_speed=speed)
+        found = float(np.max(load[~np.asarray(result.validity[reason])], initial=0.0))
+        load = np.linspace(found, np.min(load[load > found], initial=load[-1]), 501)
+    return found
+
+
+@functools.cache
 def over_lead(case: Case) -> tuple[Values, FrictionResult]:
     """Leads (m) from d_m/20, or where the balls have room, to d_m, and the reference model there."""
     screw = case.screw

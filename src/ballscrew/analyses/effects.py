@@ -36,11 +36,18 @@ class Case:
 
     name: str
     title: str
-    words: str
+    #: What a caption says of it, by what it is about: screw, axial_load, screw_speed, oil, assumed.
+    words: Mapping[str, str]
     screw: BallScrew
     oil: Lubricant
     axial_load: float
     screw_speed: float
+
+    def told(self, *varied: str) -> str:
+        """The case in words, without the load or the speed where they vary."""
+        kept = {about: words for about, words in self.words.items() if about not in varied}
+        point = ", ".join(kept[about] for about in ("axial_load", "screw_speed", "oil") if about in kept)
+        return f"{kept['screw']}; {point}. Assumed: {kept['assumed']}."
 
     def result(self, model: FrictionModel, **changes: Any) -> FrictionResult:
         """The model at the operating point, with another load, speed or field of the screw where given."""
@@ -51,20 +58,31 @@ class Case:
 PAPER = Case(
     name="paper",
     title="the paper's screw",
-    words="Screw 40 × 5, d_w 3.175 mm, f 0.515, 45°, 56 balls; F = 4000 N, n = 600 rpm, viscosity 0.1 Pa s. "
-    "Assumed: E′ 226 GPa, α_p 22 1/GPa, F_B = 1/z N.",
+    words={
+        "screw": "40 × 5, d_w 3.175 mm, f 0.515, 45°, 56 balls",
+        "axial_load": "F = 4000 N",
+        "screw_speed": "n = 600 rpm",
+        "oil": "viscosity 0.1 Pa s",
+        "assumed": "E′ 226 GPa, α_p 22 1/GPa, F_B = 1/z N",
+    },
     screw=paper.SCREW,
     oil=paper.OIL,
     axial_load=paper.AXIAL_LOAD,
     screw_speed=paper.SCREW_SPEED,
 )
 #: Four turns of a catalogue screw 40 × 10: 75 balls carry (ISO 3408-5: 20 a turn, a quarter turn
-#: lost), which makes a dynamic load rating of 50 kN; the load is a tenth of that.
+#: lost), which makes a dynamic load rating of 50 kN; the load is a tenth of that. The same as
+#: ``examples/feed_drive.toml``.
 CATALOGUE = Case(
     name="catalogue",
     title="a catalogue screw",
-    words="Screw 40 × 10, d_m 41.4 mm, d_w 6.35 mm, f 0.54, 45°, 75 balls (four turns); F = 5000 N, a tenth of "
-    "C_a, n = 600 rpm, ISO VG 100 at 40 °C. Assumed: E′ 226 GPa, roughness as in the paper, F_B = 1/z N.",
+    words={
+        "screw": "40 × 10, d_m 41.4 mm, d_w 6.35 mm, f 0.54, 45°, 75 balls (four turns)",
+        "axial_load": "F = 5000 N, a tenth of C_a",
+        "screw_speed": "n = 600 rpm",
+        "oil": "ISO VG 100 at 40 °C",
+        "assumed": "E′ 226 GPa, roughness as in the paper, F_B = 1/z N",
+    },
     screw=BallScrew(
         pitch_circle_diameter=0.0414,
         lead=0.010,

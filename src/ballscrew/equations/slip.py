@@ -12,7 +12,7 @@ changes sign at two heights or at one. Over the *ellipse* with D, it is summed o
 from __future__ import annotations
 
 from ballscrew._arrays import namespace
-from ballscrew.quantities import AngularSpeed, Length, Ratio, Speed
+from ballscrew.quantities import AngularSpeed, Force, Length, Ratio, Speed, Torque
 
 
 def curvature_slip_speed(semi_major_axis: Length, deformed_radius: Length, contact_rotation: AngularSpeed) -> Speed:
@@ -97,6 +97,18 @@ def line_spin_coefficient(lower_line: Ratio, upper_line: Ratio) -> Ratio:
     """
     t_1, t_2 = lower_line, upper_line
     return -4 * ((t_2**2 - t_1**2) / 2 - (t_2**4 - t_1**4) / 4)
+
+
+def pure_spin_moment(traction_limit: Force, semi_major_axis: Length) -> Torque:
+    r"""Spin moment of a slender contact that does nothing but spin.
+
+    .. math:: M_P = \frac{3}{8} F_\mu a
+
+    Houpert2002. The traction limit is friction coefficient times load; a circular contact has
+    3π/16 in place of 3/8.
+    """
+    F_mu, a = traction_limit, semi_major_axis
+    return 3 / 8 * F_mu * a
 
 
 def curvature_factor_polynomial(spin_parameter: Ratio) -> Ratio:

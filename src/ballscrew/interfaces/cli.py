@@ -143,7 +143,7 @@ def sweep(
     else:
         export.write(dataset, plan, to)
         typer.echo(f"{to}: {export.size_in_words(dataset, plan)}, model {loaded.model.label}")
-    if beware := export.warning(dataset):
+    if beware := export.warning(loaded, plan, dataset):
         typer.echo(beware, err=True)
 
 

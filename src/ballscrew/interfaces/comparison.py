@@ -35,6 +35,11 @@ SHORT: Mapping[str, str] = {
 }
 PRINTED_MARK = "†"
 PRINTED_WORDS = "the paper's own form, known to be incomplete or misprinted: shown, but in no spread of laws"
+_LEGEND = (
+    "η drive: the screw drives the nut; η load: the load drives the screw; "
+    "out: letters of what lies outside the model's validity",
+    "only laws are exchanged: coefficients are not varied here",
+)
 _PICTURES = (".png", ".svg", ".pdf")
 #: Slots named in the line on what matters most.
 _MOST_TELLING = 3
@@ -94,12 +99,17 @@ def compared(case: config.Case) -> Comparison:
 
 def name_of(row: Row) -> str:
     """What a row is called, with a mark where it does not count."""
-    return row.candidate.name + ("" if row.candidate.counts else f" {PRINTED_MARK}")
+    return _law_in_words(row.candidate.slot, row.candidate.name) + ("" if row.candidate.counts else f" {PRINTED_MARK}")
 
 
 def slot_in_words(slot: str, case: config.Case) -> str:
     """A slot and the law that the case has in it."""
-    return f"{slot.replace('_', ' ')}, in place of {name_of_law(slot, getattr(case.model, slot))}"
+    return f"{slot.replace('_', ' ')}, in place of {_law_in_words(slot, name_of_law(slot, getattr(case.model, slot)))}"
+
+
+def _law_in_words(slot: str, name: str) -> str:
+    """The name of a law; no law of the full film is the constant coefficient that the friction law has."""
+    return "constant" if (slot, name) == ("full_film", "none") else name
 
 
 def summary(found: Comparison) -> list[str]:
@@ -161,6 +171,8 @@ def print_comparison(case: config.Case, found: Comparison) -> None:
     say("")
     for line in summary(found):
         say(line)
+    for line in _LEGEND:
+        say(line)
     if any(not row.candidate.counts for row in found.rows):
         say(f"{PRINTED_MARK}  {PRINTED_WORDS}")
     for reason, letter in _letters(found).items():
@@ -203,9 +215,9 @@ def _table(case: config.Case, found: Comparison) -> list[tuple[str, str | None]]
         "total",
         "change",
         *(SHORT.get(name, name) for name in shown),
-        "η",
-        "η back",
-        "fails",
+        "η drive",
+        "η load",
+        "out",
     ]
     groups = [(title, [(row, cells(row)) for row in rows]) for title, rows in _groups(case, found)]
     lines = [heading, *(line for _, rows in groups for _, line in rows)]

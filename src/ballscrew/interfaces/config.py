@@ -7,11 +7,13 @@ Every fault of a file is found before anything is computed, and each is one line
 from __future__ import annotations
 
 import dataclasses
+import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.screw import MATERIALS, BallScrew, Operation
 from ballscrew.faults import Fault, InputError, nearest
@@ -59,10 +61,22 @@ def read(path: Path) -> dict[str, Any]:
     try:
         tables = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
-        raise InputError(Fault(where, "is not TOML", str(error), _START)) from None
+        raise InputError(Fault(where, "is not TOML", str(error), _toml_remedy(str(error), text))) from None
     if not tables:
         raise InputError(Fault(where, "is empty", "", _START))
     return tables
+
+
+def _toml_remedy(error: str, text: str) -> str:
+    """What to write instead: most often a law is given by name and with coefficients."""
+    line = re.search(r"Cannot overwrite a value \(at line (\d+)", error)
+    if line is None:
+        return _START
+    key = re.match(r"\s*(?:model\.)?(\w+)\.", text.splitlines()[int(line[1]) - 1])
+    slot = key[1] if key and key[1] in LAWS else "rolling"
+    given = re.search(rf"""^\s*{slot}\s*=\s*["']([\w-]+)["']""", text, re.MULTILINE)
+    law = given[1] if given else "houpert"
+    return f'a law with coefficients: write {slot}.law = "{law}" beside them'
 
 
 def override(tables: dict[str, Any], settings: Sequence[str]) -> dict[str, Any]:
@@ -179,6 +193,12 @@ def _model(table: Any, chosen: str | None, faults: list[Fault]) -> FrictionModel
         faults.append(Fault("model.name", "unknown model", name, nearest(name, MODELS)))
     preset = MODELS.get(name) if isinstance(name, str) else None
     changes = _laws(table, preset or MODELS[DEFAULT_MODEL], faults) if isinstance(table, dict) else {}
+    if isinstance(changes.get("ball_force"), ProportionalBallForce) and "ball_to_ball_force" in table:
+        remedy = 'leave it out and set ball_force.share_of_load, or write ball_force = "imposed"'
+        given = str(table["ball_to_ball_force"])
+        faults.append(
+            Fault("model.ball_to_ball_force", 'does not count with ball_force = "proportional"', given, remedy)
+        )
     if len(faults) > before or preset is None:
         return None
     numbers = {field: value for field, value in values.items() if field in fields_of(FrictionModel)}

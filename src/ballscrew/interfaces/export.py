@@ -16,11 +16,14 @@ import numpy as np
 import xarray as xr
 
 from ballscrew.analyses.sweep import DEFAULT_OUTPUTS, OPERATION, inputs_of, known_outputs, sweep
+from ballscrew.components.laws import ProportionalBallForce
+from ballscrew.components.materials import TEMPERATURE, Lubricant, Material
+from ballscrew.components.screw import MATERIALS
 from ballscrew.faults import Fault, InputError, fault_of, nearest
 from ballscrew.interfaces import units
 from ballscrew.interfaces.config import Case
 from ballscrew.interfaces.files import check_writable, whole
-from ballscrew.quantities import Quantity
+from ballscrew.quantities import Quantity, fields_of
 from ballscrew.validity import REASONS
 
 _RANGE = re.compile(r"(?P<start>[^:]+):(?P<stop>[^:]+):\s*(?P<count>\d{1,9})\s*(?P<unit>1\s*/.*|[^\d\s.].*)?")
@@ -31,6 +34,8 @@ _NEEDS = {".csv": (), ".xlsx": ("xlsxwriter",), ".nc": ("h5netcdf", "h5py")}
 _XLSX_ROWS = 1_048_576
 _XLSX_COLUMNS = 16_384
 _LONGEST_AXIS = 10_000_000
+#: What of an oil of a grade depends on its temperature.
+OF_TEMPERATURE = ("viscosity", "pressure_viscosity_coefficient", "temperature_coefficient")
 #: Above this, a sweep in memory is refused.
 _MOST_VALUES = 200_000_000
 
@@ -42,22 +47,34 @@ class Plan:
     axes: Mapping[str, np.ndarray]
     outputs: tuple[str, ...]
     quantities: Mapping[str, Quantity]
+    #: SI units of the inputs, by section_field.
+    units: Mapping[str, str]
 
     @property
     def is_table(self) -> bool:
         """One output over two axes reads best as a table."""
         return len(self.axes) == 2 and len(self.outputs) == 1
 
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The outputs wanted, and whether a point is valid."""
+        return tuple(dict.fromkeys((*self.outputs, "valid")))
+
 
 def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None) -> Plan:
     """What to sweep. Raises :class:`~ballscrew.faults.InputError` before anything is computed."""
     faults: list[Fault] = []
-    known = inputs_of(case.model, case.screw, case.lubricant)
+    known = dict(inputs_of(case.model, case.screw, case.lubricant))
+    if "grade" in case.oil:
+        known["temperature"] = ("lubricant", TEMPERATURE)
     axes: dict[str, np.ndarray] = {}
     for written, text in _texts(vary, faults).items() if vary else case.sweep.items():
         section, name = _split(written)
         if name not in known or section not in ("", known[name][0]):
-            faults.append(Fault(f"sweep.{written}", "unknown field", "", nearest(name, known)))
+            remedy = nearest(name, known)
+            if name == "temperature" and section in ("", "lubricant"):
+                remedy = 'give the oil by its grade, such as grade = "ISO VG 100", or vary the viscosity'
+            faults.append(Fault(f"sweep.{written}", "unknown field", "", remedy))
             continue
         values = _axis(f"sweep.{name}", text, known[name][1])
         if isinstance(values, Fault):
@@ -73,6 +90,11 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
     faults += [
         Fault("--output", "is what is varied", n, "leave it out: it is a column anyway") for n in chosen if n in axes
     ]
+    if "ball_to_ball_force" in axes and isinstance(case.model.ball_force, ProportionalBallForce):
+        remedy = "vary ball_force.share_of_load"
+        faults.append(Fault("sweep.ball_to_ball_force", 'does not count with ball_force = "proportional"', "", remedy))
+    of_temperature = [name for name in OF_TEMPERATURE if "temperature" in axes and name in axes]
+    faults += [Fault(f"sweep.{n}", "goes with the temperature", "", "vary one of the two") for n in of_temperature]
     size = math.prod(len(values) for values in axes.values())
     if size * len(chosen) > _MOST_VALUES:
         remedy = "take fewer values an axis, or fewer outputs"
@@ -83,7 +105,11 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
     if to is not None:
         check_writable("--to", to)
     quantities = {name: quantity for name, (_, quantity) in known.items()}
-    return Plan(axes, chosen, quantities | {name: possible[name].quantity for name in (*chosen, "valid")})
+    si = {f"{part}_{name.replace('.', '_')}": quantity.unit for name, (part, quantity) in known.items()}
+    si |= {
+        f"screw_{part}_{name}": quantity.unit for part in MATERIALS for name, quantity in fields_of(Material).items()
+    }
+    return Plan(axes, chosen, quantities | {name: possible[name].quantity for name in (*chosen, "valid")}, si)
 
 
 def _split(written: str) -> tuple[str, str]:
@@ -167,11 +193,32 @@ def evaluate(case: Case, plan: Plan, done: Callable[[int, int], None] | None = N
     """
     fixed = {name: getattr(case.operation, name) for name in OPERATION if name not in plan.axes}
     names = dict.fromkeys((*plan.outputs, "valid", *(f"validity_{reason}" for reason in REASONS)))
-    return sweep(case.model, case.screw, case.lubricant, outputs=tuple(names), done=done, **plan.axes, **fixed)
+    axes = dict(plan.axes)
+    varied: dict[str, Any] = {}
+    for name, values in axes.items():
+        varied |= _oils(case, values) if name == "temperature" else {name: values}
+    dataset = sweep(case.model, case.screw, case.lubricant, outputs=tuple(names), done=done, **varied, **fixed)
+    if "temperature" in axes:
+        dataset["temperature"].attrs = {"units": TEMPERATURE.unit, "long_name": TEMPERATURE.info.meaning}
+    oil = {name: value for name, value in case.oil.items() if name not in axes}
+    dataset.attrs |= {f"lubricant_{name}": value for name, value in oil.items()}
+    return dataset
 
 
-def warning(dataset: xr.Dataset) -> str:
-    """How many points lie outside the model's validity and why, in words; nothing if none does."""
+def _oils(case: Case, temperatures: np.ndarray) -> dict[str, xr.DataArray]:
+    """What of an oil depends on its temperature; what the case gives itself stays as it is."""
+    oils = Lubricant.from_grade(case.oil["grade"], temperatures)  # pyright: ignore[reportArgumentType]
+    made = Lubricant.from_grade(**case.oil)
+    own = [name for name in OF_TEMPERATURE if getattr(made, name) == getattr(case.lubricant, name)]
+    dim, coords = "temperature", {"temperature": temperatures}
+    return {name: xr.DataArray(np.broadcast_to(getattr(oils, name), temperatures.shape), coords, dim) for name in own}
+
+
+def warning(case: Case, plan: Plan, dataset: xr.Dataset) -> str:
+    """How many points lie outside the model's validity and why, in words; nothing if none does.
+
+    Of the points that cannot be computed at all, the first is named, with what ``run`` says of it.
+    """
     outside = int((~dataset["valid"]).sum())
     if not outside:
         return ""
@@ -179,7 +226,34 @@ def warning(dataset: xr.Dataset) -> str:
     counts = ", ".join(f"{reason} {int((~mask).sum())}" for reason, mask in masks.items() if not mask.all())
     lines = [f"beware: {outside} of {dataset['valid'].size} points lie outside the model's validity ({counts})"]
     lines += [f"beware  {reason}: {REASONS[reason]}" for reason, mask in masks.items() if not mask.all()]
+    lines += _first_impossible(case, plan, masks["inputs"])
     return "\n".join(lines)
+
+
+def _first_impossible(case: Case, plan: Plan, possible: xr.DataArray) -> list[str]:
+    """The first point that is empty, and why."""
+    if possible.all():
+        return []
+    position = np.unravel_index(int(np.argmin(possible.to_numpy())), possible.shape)
+    at = dict(zip(map(str, possible.dims), position, strict=True))
+    point = {name: float(values[at[name]]) for name, values in plan.axes.items()}
+    words = ", ".join(f"{n.replace('_', ' ')} {units.shown(v, plan.quantities[n])}" for n, v in point.items())
+    known = inputs_of(case.model, case.screw, case.lubricant)
+    changes = {name: value for name, value in point.items() if name in known and known[name][0] == "screw"}
+    reason = REASONS["inputs"]
+    try:
+        dataclasses.replace(case.screw, **changes)
+    except InputError as error:
+        sizes = fields_of(case.screw)
+        found = []
+        for fault in error.faults:
+            quantity = sizes[fault.where.rpartition(".")[2]]
+            given = units.shown(getattr(case.screw, quantity.name), quantity)
+            given = units.shown(point[quantity.name], quantity) if quantity.name in point else given
+            found.append(str(units.in_people_units(fault, quantity, given)))
+        reason = "; ".join(found)
+    count = int((~possible).sum())
+    return [f"empty cells: {count} points, the first at {words}: {reason}"]
 
 
 def size_in_words(dataset: xr.Dataset, plan: Plan) -> str:
@@ -218,23 +292,31 @@ def table(dataset: xr.Dataset, plan: Plan, name: str) -> Iterator[list[Any]]:
         f"{units.heading(plan.quantities[name], name)}: {_heading(plan, down)} down, {_heading(plan, across)} across"
     )
     yield [corner, *_shown(dataset[across], plan, across)]
-    values = _shown(dataset[name].transpose(down, across), plan, name)
+    values = _cells(dataset, plan, name).reshape(len(dataset[down]), len(dataset[across]))
     for position, row in zip(_shown(dataset[down], plan, down), values, strict=True):
         yield [position, *row]
 
 
 def _rows(dataset: xr.Dataset, plan: Plan) -> Iterator[list[Any]]:
     """A heading, then one row a point."""
-    names = [*plan.axes, *plan.outputs]
+    names = [*plan.axes, *plan.columns]
     yield [_heading(plan, name) for name in names]
-    columns = [
-        _shown(xr.broadcast(dataset[name], dataset)[0].transpose(*dataset.sizes), plan, name).ravel() for name in names
-    ]
+    columns = [_cells(dataset, plan, name).ravel() for name in names]
     yield from (list(row) for row in zip(*(column.tolist() for column in columns), strict=True))
 
 
 def _heading(plan: Plan, name: str) -> str:
     return units.heading(plan.quantities[name], name)
+
+
+def _cells(dataset: xr.Dataset, plan: Plan, name: str) -> np.ndarray:
+    """One variable at all points; empty where the inputs make no sense."""
+    order = tuple(plan.axes)
+    whole_grid = dataset["valid"].transpose(*order)
+    cells = _shown(xr.broadcast(dataset[name], whole_grid)[0].transpose(*order), plan, name)
+    if name in plan.axes or name.startswith("valid"):
+        return cells
+    return np.where(dataset["validity_inputs"].transpose(*order).to_numpy(), cells, np.array(None, dtype=object))
 
 
 def _shown(array: xr.DataArray, plan: Plan, name: str) -> np.ndarray:
@@ -253,6 +335,17 @@ def _shown(array: xr.DataArray, plan: Plan, name: str) -> np.ndarray:
     return cells
 
 
+def _inputs(dataset: xr.Dataset, plan: Plan) -> Iterator[list[Any]]:
+    """All that is not varied, in SI, as numbers with their units, and where the numbers come from."""
+    yield ["input", "value", "unit (SI)"]
+    fixed = {name: dataset[name] for name in OPERATION if name not in plan.axes}
+    for name, value in fixed.items():
+        yield [f"operation_{name}", float(value), plan.quantities[name].unit]
+    for name, value in dataset.attrs.items():
+        number = isinstance(value, int | float | np.number) and not isinstance(value, bool)
+        yield [name, float(value) if number else str(value), plan.units.get(str(name), "") if number else ""]
+
+
 def _xlsx(dataset: xr.Dataset, plan: Plan) -> bytes:
     """One sheet a table where there are two axes, and one sheet with a row a point."""
     import xlsxwriter
@@ -262,9 +355,9 @@ def _xlsx(dataset: xr.Dataset, plan: Plan) -> bytes:
     bold = workbook.add_format({"bold": True})
     sheets: dict[str, Iterator[list[Any]]] = {}
     if len(plan.axes) == 2:
-        sheets |= {name[:31]: table(dataset, plan, name) for name in plan.outputs}
+        sheets |= {name[:31]: table(dataset, plan, name) for name in plan.columns}
     sheets["points"] = _rows(dataset, plan)
-    sheets["inputs"] = iter([["input", "value (SI)"], *([name, str(value)] for name, value in dataset.attrs.items())])
+    sheets["inputs"] = _inputs(dataset, plan)
     for title, rows in sheets.items():
         sheet = workbook.add_worksheet(title)
         sheet.freeze_panes(1, 1 if title != "points" else 0)

@@ -17,10 +17,14 @@ def unwritable(where: str, path: Path, error: OSError) -> InputError:
 
 
 def check_writable(where: str, path: Path) -> None:
-    """Raise :class:`~ballscrew.faults.InputError` now rather than after the work is done."""
+    """Raise :class:`~ballscrew.faults.InputError` now rather than after the work is done.
+
+    The folder is made where there is none.
+    """
     try:
         if path.is_dir():
             raise IsADirectoryError(21, "is a folder")
+        path.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=path.parent):
             pass
     except OSError as error:

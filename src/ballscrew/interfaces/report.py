@@ -13,9 +13,10 @@ from rich.table import Table
 
 from ballscrew import __version__
 from ballscrew.components.contact import RaceState
-from ballscrew.components.materials import Lubricant
+from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew, Operation
 from ballscrew.interfaces import config, units
+from ballscrew.interfaces.schema import LAWS, MODELS, coefficients_of, name_of_law
 from ballscrew.quantities import Quantity, fields_of, quantities_of
 from ballscrew.result import MECHANISMS, QUADRANTS, FrictionResult
 
@@ -37,6 +38,19 @@ SHOWN_OF_CONTACT: Mapping[bool, Sequence[str]] = {
     True: (*_FILM, "pure_rolling_offset", *_FORCES),
     False: (*_FILM, "spin_parameter", "creep_speed", "lateral_slip_speed", *_FORCES),
 }
+#: Names of a contact's results where there is little room.
+SHORT: Mapping[str, str] = {
+    "semi_major_axis": "semi-axis across the rolling direction",
+    "semi_minor_axis": "semi-axis along the rolling direction",
+    "spin_parameter": "spin parameter E_s",
+    "creep_speed": "creep of the race",
+    "lateral_slip_speed": "lateral slip",
+    "traction_limit": "traction limit",
+}
+#: What an oil of a grade has where no temperature is given, K.
+DEFAULT_TEMPERATURE = 313.15
+LEFT_OUT = "left out: seals, preload, return path, churning; not compared with measurements"
+_OUTSIDE = " (outside the model's validity)"
 _BAR_WIDTH = 24
 #: What is varied, not computed.
 _OPERATION = fields_of(Operation)
@@ -108,34 +122,54 @@ def operating_point(case: config.Case) -> str:
 def print_result(case: config.Case, result: FrictionResult) -> None:
     """Tables on the terminal: torque and efficiency, its parts, both directions, both contacts, what to beware of."""
     console = Console(highlight=False)
-    console.print(f"[bold]{operating_point(case)}[/bold], model [bold]{case.model.label}[/bold]\n")
-    console.print(assumed(case, result) + "\n", highlight=False, style="dim", soft_wrap=True)
+    console.print(f"[bold]{operating_point(case)}, {model_in_words(case)}[/bold]\n", soft_wrap=True)
+    for line in (design(case, plain_text=True), *assumed(case, result).split("; ")):
+        console.print(line, style="dim", markup=False, soft_wrap=True)
+    console.print()
     console.print(_quantities(result))
-    for line in verdicts(result):
+    for line in verdicts(result, at_rest(case)):
         console.print(line, style="bold", markup=False, soft_wrap=True)
+    # without load nothing can skid, and at rest the verdict has said it
+    said = float(result.axial_load) == 0 or (float(result.screw_speed) == 0 and float(result.rolling_share) < 1)
+    for warning in result.warnings:
+        if said and warning.startswith("skid: "):
+            continue
+        console.print(f"beware  {warning}", style="yellow", markup=False, soft_wrap=True)
+    console.print(LEFT_OUT, markup=False, soft_wrap=True)
     if any(float(part) for part in result.contributions.values()):
         console.print(_parts(result, "█" if "utf" in console.encoding.lower() else "#"))
     console.print(_quadrants(result))
     console.print(_contacts(result))
-    for warning in result.warnings:
-        console.print(f"beware  {warning}", style="yellow", markup=False, soft_wrap=True)
 
 
-def verdicts(result: FrictionResult) -> list[str]:
-    """What drives what, and whether the balls roll, in words."""
+def at_rest(case: config.Case) -> FrictionResult:
+    """The case at rest: what a brake is sized for."""
+    return case.model(case.screw, case.lubricant, axial_load=case.operation.axial_load, screw_speed=0.0)
+
+
+def verdicts(result: FrictionResult, rest: FrictionResult) -> list[str]:
+    """What drives what, in motion and at rest, and whether the balls roll, in words."""
     if float(result.axial_load) == 0:
-        return ["no load drives the screw"]
-    held, share = float(result.holding_torque), float(result.rolling_share)
-    torque = units.shown(abs(held), quantities_of(FrictionResult)["holding_torque"])
-    when = "at this speed" if float(result.screw_speed) else "at rest"
-    lines: list[str] = []
-    if held > 0:
-        lines.append(f"back-drives: the load turns the screw; {torque} on the shaft hold it {when}")
-    elif held <= 0:
-        lines.append(f"self-locking: the load alone does not turn the screw {when}; {torque} on the shaft lower it")
-    if share < 1:
+        return ["no load: nothing to hold"]
+    moving, share = bool(result.screw_speed), float(result.rolling_share)
+    lines = [line for line in (_holding(result, "at this speed") if moving else "", _holding(rest, "at rest")) if line]
+    if share < 1 and moving:
         lines.append(f"skids: friction carries only {share:.1%} of what resists the rolling of a ball")
+    elif share < 1:
+        lines.append(f"at rest: friction carries only {share:.1%} of what resists rolling")
     return lines
+
+
+def _holding(result: FrictionResult, when: str) -> str:
+    """Whether the load turns the screw, and the torque that holds or lowers it; nothing where there is no number."""
+    held = float(result.holding_torque)
+    torque = units.shown(abs(held), quantities_of(FrictionResult)["holding_torque"])
+    beware = "" if result.valid else _OUTSIDE
+    if held > 0:
+        return f"back-drives: the load turns the screw; {torque} on the shaft hold it {when}{beware}"
+    if held <= 0:
+        return f"self-locking: the load alone does not turn the screw {when}; {torque} on the shaft lower it{beware}"
+    return ""
 
 
 def _table(title: str, *columns: str) -> Table:
@@ -159,8 +193,11 @@ def assumed(case: config.Case, result: FrictionResult) -> str:
         return units.shown(getattr(part, name), known[name])
 
     roughness = ", ".join(shown(case.screw, f"{part}_roughness") for part in ("ball", "screw", "nut"))
-    made_from = f"{case.oil['grade']}: " if "grade" in case.oil else ""
-    oil = f"{shown(case.lubricant, 'viscosity')}, {shown(case.lubricant, 'pressure_viscosity_coefficient')}"
+    made_from = f"{case.oil['grade']} at {_temperature(case)}: " if "grade" in case.oil else ""
+    oil = (
+        f"viscosity {shown(case.lubricant, 'viscosity')}, "
+        f"pressure–viscosity coefficient {shown(case.lubricant, 'pressure_viscosity_coefficient')}"
+    )
     modulus, between_balls = shown(result.screw, "equivalent_modulus"), shown(result, "ball_to_ball_force")
     return (
         f"oil {made_from}{oil}; equivalent modulus {modulus}; roughness of balls, screw, nut {roughness}; "
@@ -168,13 +205,45 @@ def assumed(case: config.Case, result: FrictionResult) -> str:
     )
 
 
-def design(case: config.Case) -> str:
-    """The screw in one line, for a caption."""
+def _temperature(case: config.Case) -> str:
+    return units.shown(case.oil.get("temperature", DEFAULT_TEMPERATURE), TEMPERATURE)
+
+
+def model_in_words(case: config.Case) -> str:
+    """The model, and the laws and numbers that are not as in its preset."""
+    changed = case.model.label.partition(", changed: ")[2]
+    words = [_changed(case, name) for name in changed.split(", ") if name]
+    return f"model {case.model.name}" + (f", changed: {', '.join(words)}" if words else "")
+
+
+def _changed(case: config.Case, name: str) -> str:
+    """A law by its name and with the coefficients that are not as in the preset, or a number."""
+    value, label = getattr(case.model, name), name.replace("_", " ")
+    if name not in LAWS:
+        number = fields_of(case.model).get(name)
+        return label if number is None or value is None else f"{label} {units.shown(value, number)}"
+    law, preset = name_of_law(name, value), getattr(MODELS[case.model.name], name)
+    usual: Any = preset if type(preset) is type(value) else type(value)
+    numbers = [
+        f"{coefficient.replace('_', ' ')} {units.shown(getattr(value, coefficient), quantity)}"
+        for coefficient, quantity in coefficients_of(name, law).items()
+        if getattr(value, coefficient) != getattr(usual, coefficient)
+    ]
+    return f"{label} {law}" + (f" ({', '.join(numbers)})" if numbers else "")
+
+
+def design(case: config.Case, plain_text: bool = False) -> str:
+    """The screw in one line, for a caption or as plain text for the terminal."""
     known = fields_of(BallScrew)
-    fields = {"d$_m$": "pitch_circle_diameter", "lead": "lead", "d$_w$": "ball_diameter", "α": "contact_angle"}
+    names = ("pitch_circle_diameter", "lead", "ball_diameter", "contact_angle")
+    symbols = ("pitch circle", "lead", "balls", "contact angle") if plain_text else ("d$_m$", "lead", "d$_w$", "α")
+    fields = dict(zip(symbols, names, strict=True))
     sizes = [f"{symbol} {units.shown(getattr(case.screw, name), known[name])}" for symbol, name in fields.items()]
+    starts = f", {case.screw.starts:g} starts" if case.screw.starts > 1 else ""
     conformities = f"conformity {case.screw.screw_conformity:g} and {case.screw.nut_conformity:g}"
-    return f"screw {', '.join(sizes)}, {case.screw.loaded_balls:g} balls, {conformities}"
+    return (
+        f"screw {', '.join(sizes)}, {case.screw.loaded_balls:g} {'loaded ' * plain_text}balls{starts}, {conformities}"
+    )
 
 
 def _shown(value: Any, quantity: Quantity) -> str:
@@ -208,6 +277,7 @@ def _parts(result: FrictionResult, block: str) -> Table:
 
 def _quadrants(result: FrictionResult) -> Table:
     """All four quadrants of load and rotation; the signs are those of the first."""
+    loaded = float(result.axial_load) != 0
     known = quantities_of(FrictionResult)
     table = _table("\nThe screw, by direction of load and rotation", "", "load", "rotation", "torque", "power", "η")
     for name, quadrant in result.quadrants.items():
@@ -218,7 +288,7 @@ def _quadrants(result: FrictionResult) -> Table:
             name,
             *signs,
             *(_shown(getattr(quadrant, name), known[_OF_QUADRANT[name]]) for name in ("shaft_torque", "shaft_power")),
-            _shown(efficiency, known["efficiency"]) if drives else "locks",
+            _shown(efficiency, known["efficiency"]) if drives else "locks" if loaded else "–",
         )
     return table
 
@@ -228,5 +298,5 @@ def _contacts(result: FrictionResult) -> Table:
     table = _table("\nContacts", "", "screw", "nut")
     for name in SHOWN_OF_CONTACT[result.slip_is_curvature_alone]:
         cells = [_shown(getattr(side, name), known[name]) for side in (result.screw, result.nut)]
-        table.add_row(known[name].info.meaning, *cells)
+        table.add_row(SHORT.get(name, known[name].info.meaning), *cells)
     return table

@@ -69,6 +69,23 @@ LAWS: Mapping[str, Mapping[str, Any]] = {
 #: Laws that only the paper as printed has: in another model they break a balance.
 PRINTED_FORMS = frozenset({("film_parameter", "literal"), ("race_torques", "printed"), ("ideal_torque", "printed")})
 
+#: What stands in the schema as an example: examples/feed_drive.toml, and what has no default.
+EXAMPLES: Mapping[str, str | float] = {
+    "pitch_circle_diameter": "41.4 mm",
+    "lead": "10 mm",
+    "ball_diameter": "6.35 mm",
+    "loaded_balls": 75,
+    "contact_angle": "45 deg",
+    "screw_conformity": 0.54,
+    "nut_conformity": 0.54,
+    "temperature": "40 degC",
+    "axial_load": "5 kN",
+    "screw_speed": "600 rpm",
+    "viscosity": "88 mPa s",
+    "ball_to_ball_force": "0.0167 N",
+    "pure_rolling_offset": 0.34,
+}
+
 _MEANT = re.compile(r'did you mean "(\w+)"')
 
 
@@ -84,12 +101,22 @@ def _si(raw: object, quantity: Quantity) -> float:
     return int(value) if quantity.info.whole else value
 
 
-def _json_schema(quantity: Quantity) -> dict[str, Any]:
+def _example(quantity: Quantity, default: Any) -> str | float:
+    """What a field may hold: that of the feed drive in the examples, or else the default."""
+    if quantity.name in EXAMPLES:
+        return EXAMPLES[quantity.name]
+    assert default is not None, quantity.name
+    number = units.from_si(default, quantity)
+    return default if quantity.unit == "1" else f"{number:.6g} {quantity.shown_in}"
+
+
+def _json_schema(quantity: Quantity, default: Any) -> dict[str, Any]:
     """What a field looks like in the file: text with a unit, or a plain number within its bounds."""
     info = quantity.info
+    examples = [_example(quantity, default)]
     description = {"description": info.meaning, "x-symbol": info.symbol}
     if quantity.unit != "1":
-        return {**description, "type": "string", "examples": [f"1 {quantity.shown_in}"], "x-si-unit": quantity.unit}
+        return {**description, "type": "string", "examples": examples, "x-si-unit": quantity.unit}
     bounds = {
         "exclusiveMinimum": info.above,
         "minimum": info.at_least,
@@ -97,13 +124,14 @@ def _json_schema(quantity: Quantity) -> dict[str, Any]:
         "maximum": info.at_most,
     }
     kind = "integer" if info.whole else "number"
-    return {**description, "type": kind, **{name: bound for name, bound in bounds.items() if bound is not None}}
+    given = {name: bound for name, bound in bounds.items() if bound is not None}
+    return {**description, "type": kind, "examples": examples, **given}
 
 
-def _field(quantity: Quantity, default: Any) -> tuple[Any, Any]:
+def _field(quantity: Quantity, default: Any, shown: Any) -> tuple[Any, Any]:
     read = BeforeValidator(functools.partial(_si, quantity=quantity))
     kind = int if quantity.info.whole else float
-    return Annotated[kind, read, WithJsonSchema(_json_schema(quantity))], Field(default=default)
+    return Annotated[kind, read, WithJsonSchema(_json_schema(quantity, shown))], Field(default=default)
 
 
 def _section(
@@ -115,8 +143,15 @@ def _section(
         for field in dataclasses.fields(cls)
         if field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
     }
-    fields = {n: _field(q, ... if required and n in needed else None) for n, q in quantities.items()}
+    own = _defaults(cls)
+    fields = {n: _field(q, ... if required and n in needed else None, own.get(n)) for n, q in quantities.items()}
     return create_model(title, __config__=ConfigDict(extra="forbid"), **fields, **others)
+
+
+def _defaults(cls: type) -> dict[str, Any]:
+    """The defaults of a dataclass by field, where it has any."""
+    fields = dataclasses.fields(cls)
+    return {field.name: field.default for field in fields if field.default is not dataclasses.MISSING}
 
 
 def coefficients_of(slot: str, name: str) -> Mapping[str, Quantity]:
@@ -141,7 +176,10 @@ def _slot(slot: str) -> tuple[Any, Any]:
     plain = [name for name in LAWS[slot] if not coefficients_of(slot, name)]
     tables = [{"law": {"enum": plain}}] if plain else []
     tables += [
-        {"law": {"const": name}, **{field: _json_schema(q) for field, q in found.items()}}
+        {
+            "law": {"const": name},
+            **{field: _json_schema(q, _defaults(LAWS[slot][name]).get(field)) for field, q in found.items()},
+        }
         for name in LAWS[slot]
         if (found := coefficients_of(slot, name))
     ]
@@ -286,6 +324,10 @@ def _fault(section: str, model: type[BaseModel], problem: dict[str, Any]) -> Fau
             sample = "a number" if quantity.unit == "1" else f'"… {quantity.shown_in}"'
             return Fault(where, "missing", "", f"add {path[-1]} = {sample}")
         case "extra_forbidden":
+            # a coefficient of a law, written without the slot of its law
+            slots = [slot for slot in LAWS if any(path[-1] in coefficients_of(slot, name) for name in LAWS[slot])]
+            if where == f"model.{path[-1]}" and slots:
+                return Fault(where, "unknown key", "", f'did you mean "{slots[0]}.{path[-1]}"?')
             return Fault(where, "unknown key", "", nearest(path[-1], _known(model, path[:-1])))
         case "model_type" | "dict_type" | "model_attributes_type":
             return Fault(where, "must be a table", given, f"write [{where}]")

@@ -5,10 +5,11 @@ from __future__ import annotations
 import functools
 import re
 import reprlib
+from collections.abc import Mapping, Sequence
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
-from ballscrew.faults import Fault, as_float, nearest
+from ballscrew.faults import Fault, as_float
 from ballscrew.quantities import Quantity
 
 if TYPE_CHECKING:
@@ -24,6 +25,19 @@ _FACTOR = r"(?:[A-Za-zµμ°]+(?:(?:\^|\*\*)?[-+]?\d|[²³]|⁻[¹²³])?)"
 _PRODUCT = rf"{_FACTOR}(?:(?:\s*[*·/]\s*|\s+){_FACTOR}){{0,4}}"
 _UNIT = re.compile(rf"(?:1\s*/\s*)?{_PRODUCT}(?:\s*/\s*\({_PRODUCT}\))?")
 _LONGEST_UNIT = 40
+#: Units that people use for a quantity, by its SI unit; the first ones are named in messages.
+_USUAL: Mapping[str, Sequence[str]] = {
+    "m": ("mm", "um", "in", "m", "cm", "nm"),
+    "rad": ("deg", "rad"),
+    "rad/s": ("rpm", "rev/s", "rad/s", "deg/s"),
+    "N": ("N", "kN", "lbf", "MN", "kgf"),
+    "N m": ("N m", "N mm"),
+    "Pa": ("MPa", "GPa", "psi", "Pa", "bar"),
+    "1/Pa": ("1/GPa", "1/Pa"),
+    "Pa s": ("mPa s", "Pa s", "cP"),
+    "K": ("degC", "K", "degF"),
+}
+_NAMED = 3
 #: Writings that pint's parser does not know, and what stands for them.
 _SPELLINGS = {
     "µ": "u",
@@ -118,7 +132,7 @@ def parse(where: str, raw: object, quantity: Quantity) -> float | Fault:
         return Fault(where, problem, given, "write a decimal point" if "," in given else _fix(quantity))
     number, unit = as_float(match["number"]), match["unit"] or ""
     if quantity.unit == "1":
-        return number if not unit else Fault(where, "takes no unit", given, f"write {match['number']}")
+        return number if not unit else Fault(where, "takes no unit", given, _plain_number(number, unit, quantity))
     if not unit:
         return Fault(where, "needs a unit", given, f"write {example_of(quantity, match['number'])}")
     return _converted(where, number, unit, quantity, given)
@@ -134,6 +148,37 @@ def _fix(quantity: Quantity) -> str:
     return "write a plain number" if quantity.unit == "1" else f"write it like {example_of(quantity)}"
 
 
+def _plain_number(number: float, unit: str, quantity: Quantity) -> str:
+    """The remedy for a plain number with a unit; to drop the unit could make another number of it."""
+    if quantity.name == "loaded_balls":
+        return "a number of balls: about turns · pi · pitch_circle_diameter / ball_diameter"
+    if unit == "%" and not quantity.info.whole:
+        return f"write {number / 100:.12g}"
+    return "it is a plain number" + (f": {quantity.info.hint}" if quantity.info.hint else "")
+
+
+def _usual(quantity: Quantity) -> list[str]:
+    """The units people use for a quantity, the one it is shown in first."""
+    return list(dict.fromkeys([quantity.shown_in, *_USUAL.get(quantity.unit, ()), quantity.unit]))
+
+
+def _advice(quantity: Quantity) -> str:
+    """What unit to write."""
+    if quantity.unit == "rad/s":
+        return 'write it in rpm, such as "1500 rpm"'
+    *others, last = _usual(quantity)[:_NAMED]
+    return f"use a unit such as {', '.join(others)} or {last}" if others else f"use the unit {last}"
+
+
+def _meant(unit: str, quantity: Quantity) -> str:
+    """The usual unit that is written the same but for capitals, blanks and points; nothing else is guessed."""
+
+    def bare(text: str) -> str:
+        return re.sub(r"[\s·*]", "", text).replace("µ", "u").replace("μ", "u").lower()
+
+    return next((usual for usual in _usual(quantity) if bare(usual) == bare(unit)), "")
+
+
 def _converted(where: str, number: float, unit: str, quantity: Quantity, given: str) -> float | Fault:
     import pint
 
@@ -142,15 +187,11 @@ def _converted(where: str, number: float, unit: str, quantity: Quantity, given: 
             raise pint.UndefinedUnitError(unit)
         return to_si(number, unit, quantity)
     except pint.DimensionalityError:
-        remedy = f"use a unit such as {quantity.shown_in}"
+        meant = _meant(unit, quantity)
+        remedy = f'did you mean "{meant}"?' if meant else _advice(quantity)
         if quantity.name == "viscosity":
             remedy += '; for a kinematic viscosity multiply by the density, or give grade = "ISO VG 100"'
-        if quantity.unit == "rad/s":
-            remedy += " (rpm, not 1/min)"
         return Fault(where, "wrong unit", given, remedy)
     except Exception:  # pint and Python's tokenizer raise many kinds for text that is no unit
-        guess = nearest(
-            unit[:_LONGEST_UNIT], [quantity.shown_in, quantity.unit, *(n for n in dir(registry()) if n.isalpha())]
-        )
-        advice = f"use a unit such as {quantity.shown_in}"
-        return Fault(where, "unknown unit", given, f"{guess} · {advice}" if guess.startswith("did") else advice)
+        meant = _meant(unit[:_LONGEST_UNIT], quantity)
+        return Fault(where, "unknown unit", given, f'did you mean "{meant}"?' if meant else _advice(quantity))

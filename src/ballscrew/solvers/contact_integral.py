@@ -64,7 +64,12 @@ SKIDS = "the ball skids: what resists it exceeds what friction can carry; raise 
 SLIDES = "the ball slides along its path faster than it rolls"
 TOO_LARGE = "the contact is too large for its groove: check contact_load, ball_diameter and conformity"
 NO_LOAD = "no load, no contact: give a contact_load above zero"
-NOT_FOUND = "the balance of the ball was not found: please report the case"
+NOT_FOUND = (
+    "the balance of the ball was not found: most likely one race sticks while the film of the other carries "
+    "next to nothing; if not, please report the case"
+)
+#: How far the drive torque's power may be from what is dissipated; beyond, the balance is none.
+LARGEST_POWER_ERROR = 1e-6
 
 CONTACT_LOAD = Quantity(
     "contact_load", "N", Info("Q", "normal load of a contact", at_least=0, hint="give its magnitude")
@@ -178,7 +183,9 @@ def contact_integral(
         found = balance(ball)
         if not found.converged:
             return _without_balance(SKIDS if found.skids else NOT_FOUND, found.iterations)
-        return _with_balance(ball, found, (on_screw, on_nut))
+        result = _with_balance(ball, found, (on_screw, on_nut))
+        closes = abs(result.power_balance_error) <= LARGEST_POWER_ERROR
+        return result if closes else _without_balance(NOT_FOUND, found.iterations)
 
     coarse = outcome(resolution)
     if not (check_resolution and coarse.converged):

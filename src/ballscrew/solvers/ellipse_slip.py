@@ -41,8 +41,9 @@ LARGEST_TRACTION_RATIO = 0.999
 #: Creep in units of the speed of rolling at which a ball has long been skidding. How fast it still
 #: turns then, the model does not tell; up to here no power of its resistances changes sign.
 LARGEST_CREEP = 0.5
-#: Imbalance, in units of friction times load, that counts as balanced: 99.8 % of random screws whose balls
-#: do not skid. What it does to the torque is smaller by an order.
+#: Imbalance, in units of friction times load, that counts as balanced: it is for 99.8 % of the random screws
+#: of ``benchmarks/reference.py`` that roll with elastic contacts. What it does to the torque is smaller by an
+#: order.
 TOLERANCE = 1e-2
 #: What rounding may add to the power without a step being called worse.
 ROUNDING = 1e-13

@@ -122,7 +122,7 @@ def _spin(side: _Side, spin: AngularSpeed) -> _Spin:
     E_s = spin * a / curvature
     lines = pure_rolling_lines(E_s, side.traction)
     t_1, t_2 = lines.lower, lines.upper
-    largest = 3 / 8 * side.traction_limit * a
+    largest = slip.pure_spin_moment(side.traction_limit, a)
     # with the force kept, (1 - t_1²) dt_1 = (1 - t_2²) dt_2, while t_1 + t_2 = -E_s
     moved = xp.where(lines.are_two, 2 - t_1**2 - t_2**2, 1.0)
     upper_slope = -(1 - t_1**2) / moved

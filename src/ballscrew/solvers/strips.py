@@ -16,8 +16,8 @@ from ballscrew._arrays import namespace
 from ballscrew.equations import slip
 from ballscrew.quantities import AngularSpeed, Force, Length, Ratio, Speed
 
-#: Strips of the ellipse. Against the integral, the 95th percentile of the error is 0.5 % with 8 and with 10
-#: (``benchmarks/reference.py``): what is left is not the strips' but the mean along the path.
+#: Strips of the ellipse. Against the integral, the 95th percentile of the error is 0.5 % with 8 and rises a little
+#: with more (``benchmarks/reference.py --strips``): what is left is not the strips' but the mean along the path.
 NUMBER_OF_STRIPS = 8
 #: Share of the variance of heights that counts. Slip along the path that varies within a strip adds to
 #: its mean size only where it changes sign; the root of the mean square would add everywhere. With a
@@ -35,7 +35,7 @@ class Strip(NamedTuple):
     variance: float
 
 
-def _strips(number: int) -> tuple[Strip, ...]:
+def strips_of(number: int) -> tuple[Strip, ...]:
     """Strips of equal width; Hertz pressure, summed along the strip, goes with 1 - t²."""
 
     def moment(power: int) -> np.ndarray[Any, Any]:
@@ -47,7 +47,7 @@ def _strips(number: int) -> tuple[Strip, ...]:
     return tuple(Strip(*map(float, strip)) for strip in zip(share, height, variance, strict=True))
 
 
-STRIPS = _strips(NUMBER_OF_STRIPS)
+STRIPS = strips_of(NUMBER_OF_STRIPS)
 
 
 class Side(NamedTuple):

@@ -22,8 +22,8 @@ from ballscrew.result import FrictionResult
 def slip_over_spin(cases: Cases) -> Figure:
     """Curvature and spin moment, and the slip power they make, over the spin parameter."""
     words = (
-        "Slip on the line across the contact, no net force. Dashed: the polynomials of Houpert 1999, made for "
-        "E_s up to 1. Dotted: from there on one line of pure rolling is left. Circles: the screw "
+        "Slip on the line across the contact, no net force. Dashed, in the same colours: the polynomials of Houpert "
+        "1999, made for E_s up to 1. Dotted: from there on one line of pure rolling is left. Circles: the screw "
         "contacts with half of the spin, before the ball finds its balance."
     )
     figure, panels = style.new_figure(case_caption(cases, words))
@@ -35,7 +35,7 @@ def slip_over_spin(cases: Cases) -> Figure:
         ("spin moment", found.spin, found.spin_polynomial, style.RED),
     ):
         moments.plot(E_s, closed, color=colour, label=words)
-        moments.plot(E_s, polynomial, "--", color=colour, linewidth=1.2, label=f"{words}, polynomial")
+        moments.plot(E_s, polynomial, "--", color=colour, linewidth=1.2)
     moments.set_ylim(-0.25, 2.25)
     moments.set_ylabel("moment / its largest value (1)")
     moments.set_title("moments")
@@ -52,12 +52,16 @@ def slip_over_spin(cases: Cases) -> Figure:
         at = half_spin_parameter(case)
         height = float(np.interp(at, E_s, total))
         powers.plot(at, height, "o", color="white", markeredgecolor=style.INK, markersize=6)
-        powers.annotate(case.title, (at, height), xytext=(9, -5), textcoords="offset points", ha="left", fontsize=9)
+        powers.annotate(
+            case.title, (at, height), xytext=(10, -6), textcoords="offset points", ha="left", fontsize=9,
+            bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.9, "boxstyle": "round,pad=0.2"},
+        )  # fmt: skip
     powers.set_ylabel("slip power / that of curvature alone (1)")
     powers.set_title("power")
     powers.set_ylim(bottom=0)
-    for panel in panels:
-        panel.axvline(found.one_line_from, color=style.GREY, linestyle=":", linewidth=1.2)
+    at_one_line = float(np.interp(found.one_line_from, E_s, total))
+    for panel, bottom, top in ((moments, -0.25, 1.0), (powers, 0.0, at_one_line)):
+        panel.vlines(found.one_line_from, bottom, top, color=style.INK, linestyle=":", linewidth=1.2)
         panel.set_xlim(0, 2.5)
         panel.set_xlabel("spin parameter E$_s$ (1)")
         panel.legend(loc="upper left")
@@ -136,8 +140,8 @@ def _slip_field(panel: Axes, result: FrictionResult, on_screw: bool, fastest: fl
         interpolation="bilinear",
     )
     image.set_clip_path(outline)
-    across = np.concatenate([np.linspace(-0.9, 0.9, 13) * width for width in (0.72, 1.0, 0.72)])
-    along = np.repeat([-0.55, 0.0, 0.55], 13)
+    across = np.concatenate([np.linspace(-0.88, 0.88, 9) * width for width in (0.72, 1.0, 0.72)])
+    along = np.repeat([-0.55, 0.0, 0.55], 9)
     picture = curves.slip_picture(result, on_screw, across, along)
     panel.quiver(
         across * a,
@@ -146,7 +150,7 @@ def _slip_field(panel: Axes, result: FrictionResult, on_screw: bool, fastest: fl
         picture.slip_along * 1e3,
         angles="uv",
         pivot="mid",
-        scale=1.5 * fastest,
+        scale=1.8 * fastest,
         scale_units="inches",
         units="inches",
         width=0.016,
@@ -189,7 +193,8 @@ def rolling_laws(cases: Cases) -> Figure:
         "Houpert. Faint: the contact is nearer rigid than elastic (M < 6.6), where these laws were not made. "
         "Aihara's is a law for rollers, taken for a roller as long as the ellipse, with its own heating."
     )
-    figure, panels = style.new_figure(case_caption({"paper": cases["paper"]}, words), sharey=True)
+    caption = case_caption({"paper": cases["paper"]}, words, ["axial_load", "screw_speed"])
+    figure, panels = style.new_figure(caption, sharey=True)
     over_load, over_speed = curves.rolling_over_load(), curves.rolling_over_speed()
     for panel, found, scale, x in (
         (panels[0], over_load, 1.0, "contact load Q of a ball (N)"),
@@ -205,9 +210,10 @@ def rolling_laws(cases: Cases) -> Figure:
         panel.set_xlabel(x)
         panel.set_ylabel("rolling force / that of the reference (1)")
         panel.set_ylim(0, 1.75)
-    panels[0].set_title("over load, at 600 rpm")
-    panels[1].set_title("over speed, at 101 N a ball")
-    panels[0].legend(loc="lower right")
+    at = PAPER.result(curves.MODELS["reference"])
+    panels[0].set_title(f"over load, at {PAPER.screw_speed / RPM:.0f} rpm")
+    panels[1].set_title(f"over speed, at {float(at.contact_load):.0f} N a ball")
+    panels[0].legend(loc="upper left")
     panels[1].legend(loc="lower left")
     return figure
 

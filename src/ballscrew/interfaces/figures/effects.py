@@ -38,10 +38,17 @@ def mathtext(words: str) -> str:
     return re.sub(r"(\w)_(\w+)", r"\1$_{\2}$", words)
 
 
-def case_caption(cases: Cases, words: str) -> str:
-    """The cases of the panels, and what is to be said of the figure."""
-    told = " ".join(f"{case.title[0].upper()}{case.title[1:]}: {case.words}" for case in cases.values())
-    return mathtext(f"{words} {told}")
+#: Blanks at which a line of a caption must not end: in "F = 4000 N", "40 × 10", "1/z N".
+_TIED = re.compile(
+    r"(?<=[=×]) | (?=[=×])|(?<=\d) (?=(?:mm|N|rpm|GPa|Pa|1/GPa|balls)\b|°C)|(?<=1/z) |(?<=\bPa) (?=s\b)"
+    r"|(?<=_\w) (?=\d)|(?<=\bf) (?=\d)|(?<=E′) "
+)
+
+
+def case_caption(cases: Cases, words: str, varied: Sequence[str] = ()) -> str:
+    """What is to be said of the figure, and the cases of the panels, without what varies in them."""
+    told = " ".join(f"{case.title[0].upper()}{case.title[1:]}: {case.told(*varied)}" for case in cases.values())
+    return mathtext(_TIED.sub("\N{NO-BREAK SPACE}", f"{words} {told}"))
 
 
 def drawn_cases() -> Cases:
@@ -145,7 +152,7 @@ def _steps_table(cases: Cases) -> Columns:
 
 def parts_over_speed(cases: Cases) -> Figure:
     """The parts of the torque over speed, reference model."""
-    figure, panels = style.new_figure(case_caption(cases, "Reference model; the speed varies, all else as stated."))
+    figure, panels = style.new_figure(case_caption(cases, "Reference model.", ["screw_speed"]))
     for panel, case in titled(panels, cases):
         speed, results = curves.over_speed(case)
         result = results["reference"]
@@ -171,7 +178,7 @@ def _speed_table(cases: Cases) -> Columns:
 
 def models_over_speed_and_load(cases: Cases) -> Figure:
     """The torque of the three models over speed and over load."""
-    caption = case_caption(cases, "Above, the speed varies, below, the load; all else as stated.")
+    caption = case_caption(cases, "Above over speed, at the load stated; below over load, at the speed stated.")
     figure, panels = style.new_figure(caption, rows=2, height=2.9)
     for row, x, of in ((panels[:2], SPEED, curves.over_speed), (panels[2:], LOAD, curves.over_load)):
         for panel, case in titled(row, cases):
@@ -215,7 +222,9 @@ def parts_over_lead(cases: Cases) -> Figure:
         lead, result = curves.over_lead(case)
         _stack(panel, lead * 1e3, result)
         panel.plot(lead * 1e3, result.screw_torque, color=style.INK, label="total")
-        panel.axvline(float(case.screw.lead) * 1e3, color=style.INK, linestyle=":", linewidth=1.2)
+        own = float(case.screw.lead)
+        height = float(np.interp(own, lead, np.asarray(result.screw_torque)))
+        panel.vlines(own * 1e3, 0, height, color=style.INK, linestyle=":", linewidth=1.2)
         panel.set_xlim(lead[0] * 1e3, lead[-1] * 1e3)
         panel.set_ylim(0, 1.45 * float(np.max(result.screw_torque)))
         _upward_legend(panel, loc="upper left", ncols=2)
@@ -241,7 +250,7 @@ def light_load(cases: Cases) -> Figure:
         "those of the paper ask for more than friction can give. Shaded: the ball skids; striped: the film is "
         "nearer rigid than elastic, M < 6.6."
     )
-    figure, panels = style.new_figure(case_caption(cases, words), rows=2, height=2.9)
+    figure, panels = style.new_figure(case_caption(cases, words, ["axial_load"]), rows=2, height=2.9)
     for shares, torques, case in zip(panels[:2], panels[2:], cases.values(), strict=True):
         load, results = curves.over_light_load(case)
         result = results["reference"]
@@ -249,7 +258,7 @@ def light_load(cases: Cases) -> Figure:
         shares.plot(load, result.rolling_share, color=style.INK, label="share of rolling carried")
         for name, (label, line, colour) in MODEL_LINES.items():
             torques.loglog(load, results[name].screw_torque, ls=line, color=colour, label=label)
-        skids, rigid = skid_load(case), _largest(load, ~np.asarray(result.validity["elastic_regime"]))
+        skids, rigid = (curves.largest_flagged_load(case, reason) for reason in ("skid", "elastic_regime"))
         for panel in (shares, torques):
             panel.set_title(case.title)
             panel.set_xscale("log")
@@ -262,16 +271,6 @@ def light_load(cases: Cases) -> Figure:
     _legend_above(figure, panels[0])
     panels[2].legend(loc="lower right")
     return figure
-
-
-def skid_load(case: Case) -> float:
-    """The largest axial load at which the reference model's ball skids, N."""
-    load, results = curves.over_light_load(case)
-    return _largest(load, ~np.asarray(results["reference"].validity["skid"]))
-
-
-def _largest(values: Any, mask: Any) -> float:
-    return float(np.max(values[mask], initial=values[0]))
 
 
 def _light_table(cases: Cases) -> Columns:
