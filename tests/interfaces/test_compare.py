@@ -50,8 +50,17 @@ def test_every_model_and_every_other_law_once(paper, found):
     }
     laws = [(row.candidate.slot, row.candidate.name) for row in found.laws]
     assert len(laws) == len(set(laws))
-    # the film exponent of the paper is the only law that differs by its coefficients alone
-    assert set(laws) == expected | {("film", "as in olaru2005")}
+    # other laws take the coefficients of the case; the paper's film exponent and its boundary friction
+    # come with the model that has them
+    assert set(laws) == expected | {("film", "as in olaru2005"), ("friction", "as in olaru2005")}
+
+
+def test_another_law_keeps_the_coefficients_it_shares_with_that_of_the_case(paper, found):
+    mine = paper.model.friction.boundary_friction_coefficient
+    rows = {row.candidate.name: row.candidate.model.friction for row in found.laws if row.candidate.slot == "friction"}
+    assert rows["zhou-hoeprich"].boundary_friction_coefficient == mine
+    assert rows["balan"].boundary_friction_coefficient == mine
+    assert rows["as in olaru2005"].boundary_friction_coefficient != mine
 
 
 def test_each_row_is_the_model_with_one_law_replaced(paper, found):

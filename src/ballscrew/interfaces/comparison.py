@@ -65,7 +65,7 @@ def _other_laws(slot: str, own: Any) -> list[tuple[str, Any]]:
     """The laws that a slot could have instead, by name; then other coefficients that a model has for them."""
     present = getattr(own, slot)
     named = name_of_law(slot, present)
-    kept = _changed_coefficients(present)
+    kept = _coefficients(present)
     found: list[tuple[str, Any]] = []
     for name, law in LAWS[slot].items():
         if name != named:
@@ -79,13 +79,11 @@ def _other_laws(slot: str, own: Any) -> list[tuple[str, Any]]:
     return found
 
 
-def _changed_coefficients(law: Any) -> dict[str, Any]:
-    """The coefficients of a law that are not its defaults."""
+def _coefficients(law: Any) -> dict[str, Any]:
+    """The coefficients of a law; another law takes those it has too, so that only the law differs."""
     if not dataclasses.is_dataclass(law):
         return {}
-    return {
-        field.name: value for field in dataclasses.fields(law) if (value := getattr(law, field.name)) != field.default
-    }
+    return {field.name: getattr(law, field.name) for field in dataclasses.fields(law)}
 
 
 def compared(case: config.Case) -> Comparison:
