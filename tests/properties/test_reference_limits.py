@@ -10,6 +10,7 @@ from strategies import RPM, Case, box, constant_friction, reference, torque_scal
 import ballscrew as bs
 from ballscrew.analyses.olaru2005 import OIL, SCREW
 from ballscrew.components.frame import bearing_frame
+from ballscrew.components.lubrication import Inlet, ideal_inlet
 from ballscrew.result import MECHANISMS
 
 SIZE = 4000
@@ -224,3 +225,24 @@ def test_gradients_of_the_parts_are_bounded(moving):
         assert np.all(np.isfinite(slope)), mechanism
         assert np.quantile(np.abs(slope), 0.999) < 6, mechanism
     assert np.all(torque_scale(up) > 0)
+
+
+# -- what is flagged at the ends -----------------------------------------------------------------
+
+
+def test_an_inlet_that_heat_rules_is_flagged():
+    """From a factor of one half down, and never where the inlet is taken as cool."""
+    speeds = np.array([60.0, 600.0, 6000.0])
+    model = bs.FrictionModel.reference()
+    r = model(SCREW, OIL, axial_load=4000.0, screw_speed=speeds)
+    factor = np.minimum(r.screw.inlet_film_factor, r.nut.inlet_film_factor)
+    assert isinstance(model.inlet, Inlet)
+    assert np.array_equal(r.validity["inlet_heating"], factor >= 0.5)
+    assert list(r.validity["inlet_heating"]) == [True, True, False]
+    cool = dataclasses.replace(model, inlet=ideal_inlet)(SCREW, OIL, axial_load=4000.0, screw_speed=speeds)
+    assert np.all(cool.validity["inlet_heating"])
+
+
+def test_no_load_is_nothing_to_lock():
+    r = bs.FrictionModel.reference()(SCREW, OIL, axial_load=np.array([0.0, 4000.0]), screw_speed=60.0)
+    assert not np.any(r.self_locking)

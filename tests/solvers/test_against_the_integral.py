@@ -3,12 +3,21 @@
 The bounds are those the model was built for: 2 % in the median and 5 % at the 95th percentile.
 """
 
+import dataclasses
 import json
+import math
 import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+import ballscrew as bs
+from ballscrew.components.frame import bearing_frame
+from ballscrew.components.mixed_friction import ZhouHoeprich
+from ballscrew.solvers.contact_integral import contact_integral
+from ballscrew.solvers.tractions import Coulomb
 
 ROOT = Path(__file__).parents[2]
 CASES = 360
@@ -55,3 +64,37 @@ def test_integral_and_model_agree_on_what_skids(tables):
     assert by_model >= 100
     assert by_both >= 0.98 * by_model
     assert unseen == "0 skid by the integral alone"
+
+
+def test_without_a_helix_it_is_the_bearing_of_the_integral():
+    """Screws rolled in the plane, as a bearing: the same slip torque as the integral in that frame."""
+    dry = ZhouHoeprich(boundary_friction_coefficient=0.1, full_film_friction_coefficient=0.1, decay=0.0)
+    model = dataclasses.replace(
+        bs.FrictionModel.reference(),
+        frame=bearing_frame,
+        friction=dry,
+        rolling=lambda conditions: 0 * conditions.contact_load,
+        elastic_resistance=lambda d_w, Q, k, b: 0 * Q,
+        ball_to_ball_force=0.0,
+    )
+    rng, errors = np.random.default_rng(12), []
+    while len(errors) < 60:
+        d_m = rng.uniform(0.01, 0.1)
+        d_w = d_m * rng.uniform(0.05, 0.2)
+        screw = bs.BallScrew(
+            pitch_circle_diameter=d_m,
+            lead=1.5 * d_w,
+            ball_diameter=d_w,
+            loaded_balls=1,
+            contact_angle=math.radians(rng.uniform(20, 70)),
+            screw_conformity=rng.uniform(0.505, 0.56),
+            nut_conformity=rng.uniform(0.505, 0.56),
+        )
+        load = 10 ** rng.uniform(5, 7.5) * d_w**2
+        r = model(screw, bs.Lubricant(viscosity=0.1), axial_load=load * math.sin(screw.contact_angle), screw_speed=10.0)
+        if not (r.converged and r.validity["contact_pressure"]):
+            continue
+        judge = contact_integral(screw, float(r.contact_load), Coulomb(0.1), frame=bearing_frame(screw))
+        errors.append(float(r.screw_torque) / judge.screw_torque - 1)
+    assert np.median(np.abs(errors)) <= 0.01
+    assert np.max(np.abs(errors)) <= 0.03

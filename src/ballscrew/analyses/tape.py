@@ -136,6 +136,10 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
             return _times(inputs[0], inputs[1], 1.0)
         if ufunc is np.divide and not any(map(_is_mask, inputs)):
             return _times(inputs[0], inputs[1], -1.0)
+        if ufunc in (np.add, np.subtract) and _is_nothing(inputs[1]) and not _is_mask(inputs[0]):
+            return inputs[0]
+        if ufunc is np.add and _is_nothing(inputs[0]) and not _is_mask(inputs[1]):
+            return inputs[1]
         if ufunc is np.power and not isinstance(inputs[1], Traced):
             return self._raised(float(inputs[1]))
         if (
@@ -200,6 +204,11 @@ def _folds(power: float, exponent: float) -> bool:
     if not whole[1]:
         return total != int(total) and (not whole[0] or power % 2 == 1)
     return whole[0] or total != int(total)
+
+
+def _is_nothing(value: Any) -> bool:
+    """Whether a constant is the number zero: what a law without an effect adds."""
+    return isinstance(value, float | int | np.floating) and not isinstance(value, bool) and value == 0
 
 
 def _is_mask(value: Any) -> bool:
