@@ -58,7 +58,10 @@ class Slip:
     @property
     def advice(self) -> str:
         """What to do where it did not converge."""
-        return "the contact is too large for its groove: check contact_load, ball_diameter and conformity"
+        return (
+            "the contact is too large for its groove (check contact_load, ball_diameter and conformity), "
+            "or the ball is about to skid (more load or less speed)"
+        )
 
 
 class SlipLaw(Protocol):
