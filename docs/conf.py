@@ -7,7 +7,7 @@ HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE / "_ext"), str(HERE)]
 
 import ballscrew  # noqa: E402  (after the path of the extension)
-import effect_tables  # noqa: E402
+import effect_tables  # noqa: E402  (likewise)
 
 project = "ballscrew"
 author = "The ballscrew authors"

@@ -18,7 +18,7 @@ HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))
 
 from accuracy_table import short_table  # noqa: E402  (after the path of its folder)
-from effect_tables import doubts_table, light_load_words  # noqa: E402
+from effect_tables import doubts_table, light_load_words  # noqa: E402  (likewise)
 
 README = HERE.parent / "README.md"
 IMAGES = HERE / "images"

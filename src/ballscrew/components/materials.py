@@ -21,6 +21,7 @@ from ballscrew.quantities import (
     PressureCoefficient,
     Quantity,
     Ratio,
+    Temperature,
     TemperatureCoefficient,
     Viscosity,
     within_bounds,
@@ -97,7 +98,7 @@ class Lubricant:
         raise_if_any(faults_of("lubricant", self))
 
     @classmethod
-    def from_grade(cls, grade: str, temperature: float = 313.15) -> Lubricant:
+    def from_grade(cls, grade: str, temperature: Temperature = 313.15) -> Lubricant:
         """An oil by its grade (``"ISO VG 100"``, ``"FVA 3"``) at a temperature in kelvin.
 
         Viscosity by Vogel's law with the constants of ``data/lubricants.toml``; for ISO VG grades

@@ -207,7 +207,7 @@ def evaluate(case: Case, plan: Plan, done: Callable[[int, int], None] | None = N
 
 def _oils(case: Case, temperatures: np.ndarray) -> dict[str, xr.DataArray]:
     """What of an oil depends on its temperature; what the case gives itself stays as it is."""
-    oils = Lubricant.from_grade(case.oil["grade"], temperatures)  # pyright: ignore[reportArgumentType]
+    oils = Lubricant.from_grade(case.oil["grade"], temperatures)
     made = Lubricant.from_grade(**case.oil)
     own = [name for name in OF_TEMPERATURE if getattr(made, name) == getattr(case.lubricant, name)]
     dim, coords = "temperature", {"temperature": temperatures}

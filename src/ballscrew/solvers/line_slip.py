@@ -5,7 +5,8 @@ on one, and every force is a polynomial in their heights (:mod:`ballscrew.equati
 along the path and spin then fix the lines at each contact. What remains is how the contacts share
 the spin: so that its moments are equal, or, where one contact cannot hold what the other bears even
 in pure spin, the weaker takes nearly all of it and the other all but sticks. The helix's lateral
-slip is not in it; the forces are 1 to 4 % below those of the whole ellipse.
+slip is not in it, nor that of the spin across the path: without a helix the torque is 2 to 5 % below
+that of the whole ellipse in the median, and 10 % where the contact is wide.
 """
 
 from __future__ import annotations
@@ -84,8 +85,7 @@ def line_slip(ball: BallProblem) -> Slip:
     scale = sides[0].traction_limit * screw.semi_major_axis + sides[1].traction_limit * nut.semi_major_axis
     # where one contact cannot hold what the other bears, its moment is all that can be handed on
     moment = xp.minimum(s.moment, n.moment)
-    sticks = (high - low) <= 1e-5 * total_spin
-    residual = xp.where(sticks, 0.0, xp.abs(s.moment - n.moment) / xp.where(scale > 0, scale, 1.0))
+    residual = xp.abs(s.moment - n.moment) / xp.where(scale > 0, scale, 1.0)
     return Slip(
         screw=_contact_slip(sides[0], s, ball, total_spin - on_nut),
         nut=_contact_slip(sides[1], n, ball, on_nut),
