@@ -80,10 +80,13 @@ RECURRENCES = {
 
 #: Right in SI only, because a number in them has a unit that is not written (test_units).
 DIMENSIONAL_FITS = {
+    "parasitic.ball_drag_force_harris": "the exponent 1.95 of a speed",
     "rheology.pressure_viscosity_estimate": "fit of a pressure coefficient to a power of a viscosity",
     "rheology.pressure_viscosity_linear": "the 273.15 is kelvin, and the slope is per kelvin",
     "rheology.roelands_exponent": "the logarithm is that of a viscosity in Pa s, and a number is in 1/Pa",
     "rheology.roelands_viscosity": "the logarithm is that of a viscosity in Pa s, and a number is in 1/Pa",
+    "rating.screw_turn_rating": "fit of a force to powers of a length and a number, in millimetres and newtons",
+    "rating.static_load_factor": "the 27.74 is in N/mm^2, a property of steel",
     "rolling.elastic_resistance_moment": "fit of a moment to powers of a length and a force",
 }
 
@@ -94,6 +97,7 @@ BY_UNIT = {
     "rad": (0.1, 1.2),
     "N": (1.0, 1000.0),
     "N m": (1e-3, 10.0),
+    "N/m": (1e8, 3e9),
     "W": (0.1, 10.0),
     "Pa": (1e9, 3e11),
     "1/Pa": (1e-8, 3e-8),
@@ -118,6 +122,9 @@ BY_NAME = {
     "asperity_pressure": (1e6, 1e9),
     "asperity_radius": (1e-6, 1e-4),
     "combined_roughness": (1e-7, 1e-6),
+    "ball_reynolds_number": (1.0, 1000.0),
+    "balls_per_turn": (10.0, 60.0),
+    "buckling_root": (1.0, 7.0),
     "cell_variance": (1e-3, 0.1),
     "conformity": (0.51, 0.56),
     "ellipticity": (1.0, 15.0),
@@ -128,24 +135,32 @@ BY_NAME = {
     "film_parameter": (0.1, 3.1),
     "film_viscosity": (1.0, 100.0),
     "inlet_film_ratio": (2.0, 200.0),
+    "lip_friction": (10.0, 200.0),
     "limiting_shear_stress": (1e7, 2e8),
     "line_load_parameter": (1e-5, 1e-3),
     "load_parameter": (1e-6, 1e-3),
     "lower_line": (0.1, 0.4),
     "loaded_balls": (10.0, 200.0),
+    "loaded_turns": (1.0, 6.0),
     "material_parameter": (1000.0, 10000.0),
     "maximum_pressure": (5e8, 3e9),
     "mean_pressure": (5e8, 2e9),
+    "nut_conformity": (0.51, 0.56),
+    # so light that some loads set a half free
+    "preload": (10.0, 200.0),
     "pressure": (1e8, 1.5e9),
     "radii_ratio": (1.0, 60.0),
     "roelands_exponent": (0.4, 0.8),
+    "screw_conformity": (0.51, 0.56),
     "slide_to_roll_ratio": (1e-3, 1.0),
     "speed_parameter": (1e-12, 1e-9),
     "traction_ratio": (-0.3, 0.9),
+    "unsupported_length": (0.2, 3.0),
     "upper_line": (0.5, 0.9),
     "vogel_constant": (600.0, 1300.0),
     "vogel_temperature": (170.0, 190.0),
     "viscosity_at_infinity": (5e-8, 1e-7),
+    "whirling_root": (1.0, 5.0),
 }
 
 

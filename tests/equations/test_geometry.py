@@ -1,6 +1,8 @@
 """Truth: the paper's printed forms, and geometry that can be measured on a drawing."""
 
+import csv
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -119,3 +121,32 @@ def test_cosine_and_sine_of_the_rolling_plane_are_components_of_the_axis(alpha, 
     across = math.cos(alpha) * binormal - math.sin(alpha) * radial
     assert geometry.rolling_plane_sine(alpha, phi) == pytest.approx(normal[2], rel=1e-13)
     assert geometry.rolling_plane_cosine(alpha, phi) == pytest.approx(across[2], rel=1e-13)
+
+
+def hiwin():
+    with (Path(__file__).parents[1] / "data" / "hiwin_fsc.csv").open(encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+@pytest.mark.parametrize("row", hiwin(), ids=lambda row: row["model"])
+def test_groove_root_diameter_of_a_catalogue(row):
+    # all rows have a conformity of 0.54 to a micrometre, but those with balls of 3.175 mm, which have 0.56
+    d_m, d_w, d_r = (float(row[f"{name}_diameter_mm"]) for name in ("pitch_circle", "ball", "root"))
+    conformity = 0.56 if d_w == 3.175 else 0.54
+    found = geometry.groove_root_diameter(d_m, d_w, conformity, math.pi / 4)
+    assert found == pytest.approx(d_r, abs=1e-3)
+
+
+@every_screw
+def test_groove_root_is_where_both_circles_meet(d_m, d_w, alpha, f):
+    # The plane across the groove: the ball at the origin, the axis of the screw below. Each circle touches the ball
+    # at the contact angle from within the groove, so that its centre lies (f - 1/2) d_w on the far side of the ball.
+    offset = (f - 0.5) * d_w
+    centre = np.array([offset * math.sin(alpha), offset * math.cos(alpha)])
+    root = np.array([0.0, geometry.groove_root_diameter(d_m, d_w, f, alpha) / 2 - d_m / 2])
+    for side in (-1, 1):
+        assert np.linalg.norm(root - centre * [side, 1]) == pytest.approx(f * d_w, rel=RELATIVE)
+
+
+def test_groove_root_of_a_perfect_fit_is_a_ball_below():
+    assert geometry.groove_root_diameter(0.04, 0.006, 0.5, 0.9) == pytest.approx(0.034, rel=RELATIVE)

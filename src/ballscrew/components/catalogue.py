@@ -12,11 +12,17 @@ from typing import Annotated, Any
 
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import geometry
-from ballscrew.faults import Fault, InputError, faults_of, nearest, raise_if_any
-from ballscrew.quantities import Angle, Count, Force, Info, Length, Ratio, Stiffness
+from ballscrew.faults import Fault, InputError, faults_of, nearest, raise_if_any, shown
+from ballscrew.quantities import Angle, Count, Force, Info, Length, Ratio, Stiffness, Unit
 
 #: Turns that carry no load where the balls of a nut leave and enter (ISO3408-5, as it fits the ratings of catalogues).
 TURNS_WITHOUT_LOAD = 0.24
+
+#: A ball this much smaller than its pitch circle is a slip of the unit; real ones have a ratio of 5 to 50.
+SMALLEST_BALL = 1e-3
+
+#: How good the default conformity is.
+CONFORMITY_DOUBT = 0.01
 
 _OPTIONAL = ("pitch_circle_diameter", "root_diameter", "dynamic_load_rating", "static_load_rating", "rigidity")
 
@@ -25,8 +31,9 @@ _OPTIONAL = ("pitch_circle_diameter", "root_diameter", "dynamic_load_rating", "s
 class CatalogueRow:
     """A ball screw as a catalogue lists it; what the catalogue leaves out is None or has a stated default.
 
-    Defaults: a conformity of 0.54, which the root diameters of a catalogue imply and measured grooves
-    (0.542, 0.544) confirm, good to about ±0.01; a contact angle of 45°; a pitch circle as large as the nominal diameter.
+    Defaults: a conformity of 0.54, which most root diameters of a catalogue imply (HIWIN's grooves for balls of
+    3.175 mm have 0.56) and measured grooves (0.542, 0.544) confirm, good to about ±0.01; a contact angle of 45°; one
+    thread start; a pitch circle as large as the nominal diameter (those listed are 1.5 to 5 % larger).
     Raises :class:`~ballscrew.faults.InputError` for values out of bounds.
     """
 
@@ -63,28 +70,60 @@ class CatalogueRow:
         Force | None, Info("C_{0a}", "static axial load rating", "kN", above=0, hint="ratings are positive")
     ] = None
     rigidity: Annotated[
-        Stiffness | None, Info("R_{nu}", "axial stiffness of the nut", "N/um", above=0, hint="300 to 3000 N/um")
+        Stiffness | None,
+        Info(
+            "R_{nu}",
+            "nut stiffness as listed, at the greatest preload",
+            "N/um",
+            above=0,
+            hint="300 N/um to 3000 N/um",
+        ),
     ] = None
+    #: How the nut is braced, by the name that the interfaces know it by; nothing where the catalogue does not say.
+    nut: str = ""
     source: str = ""
 
     def __post_init__(self) -> None:
-        raise_if_any(faults_of(self.name or "row", self, optional=_OPTIONAL))
+        where = self.name or "row"
+        raise_if_any(faults_of(where, self, optional=_OPTIONAL))
+        if self.ball_diameter < SMALLEST_BALL * self.ball_circle:
+            problem, given = "too small for the pitch circle", shown(self.ball_diameter, "m")
+            bound = SMALLEST_BALL * self.ball_circle
+            raise InputError(
+                Fault(f"{where}.ball_diameter", problem, given, "check the unit; {bound} or more", bound, "m")
+            )
 
     @property
-    def ball_circle(self) -> Length:
+    def ball_circle(self) -> Annotated[Length, Info("d_m", "pitch circle diameter that counts", "mm")]:
         """Pitch circle diameter; the nominal diameter where the catalogue gives none."""
         return self.nominal_diameter if self.pitch_circle_diameter is None else self.pitch_circle_diameter
 
     @property
-    def balls_per_turn(self) -> int:
-        """Whole balls that find room in one turn."""
-        phi = geometry.lead_angle(self.lead, self.ball_circle)
-        return math.floor(math.pi * self.ball_circle / (self.ball_diameter * math.cos(phi)))
+    def lead_angle(self) -> Annotated[Angle, Info(r"\varphi", "lead angle of the helix of the ball centres", "deg")]:
+        """Lead angle of the helix of the ball centres."""
+        return geometry.lead_angle(self.lead, self.ball_circle)
 
     @property
-    def loaded_turns(self) -> Ratio:
+    def balls_per_turn(self) -> Annotated[int, Unit("1"), Info("z_1", "whole balls that find room in one turn")]:
+        """Whole balls that find room in one turn."""
+        return math.floor(math.pi * (self.ball_circle / self.ball_diameter) / math.cos(self.lead_angle))
+
+    @property
+    def loaded_turns(self) -> Annotated[Ratio, Info("i_l", "turns that carry load")]:
         """Turns that carry load."""
         return self.turns - TURNS_WITHOUT_LOAD
+
+    @property
+    def loaded_balls(self) -> Annotated[int, Unit("1"), Info("z", "balls of one nut body that carry load")]:
+        """Balls of one nut body that carry load."""
+        return max(1, round(self.balls_per_turn * self.loaded_turns))
+
+    @property
+    def groove_root_diameter(
+        self,
+    ) -> Annotated[Length, Info("d_r", "diameter at the bottom of the groove, from the conformity", "mm")]:
+        """Diameter at the bottom of the groove that the conformity implies; compare ``root_diameter``."""
+        return geometry.groove_root_diameter(self.ball_circle, self.ball_diameter, self.conformity, self.contact_angle)
 
     def screw(self, **changes: Any) -> BallScrew:
         """The screw of the row, with the loaded balls of one nut body; ``changes`` are fields of ``BallScrew``."""
@@ -92,7 +131,7 @@ class CatalogueRow:
             "pitch_circle_diameter": self.ball_circle,
             "lead": self.lead,
             "ball_diameter": self.ball_diameter,
-            "loaded_balls": max(1, round(self.balls_per_turn * self.loaded_turns)),
+            "loaded_balls": self.loaded_balls,
             "contact_angle": self.contact_angle,
             "screw_conformity": self.conformity,
             "nut_conformity": self.conformity,
@@ -105,7 +144,11 @@ class CatalogueRow:
 def catalogue() -> Mapping[str, CatalogueRow]:
     """The rows shipped, by name (``data/screws.toml``)."""
     text = resources.files("ballscrew").joinpath("data/screws.toml").read_text(encoding="utf-8")
-    return {name: CatalogueRow(name=name, **row) for name, row in tomllib.loads(text).items()}
+    return {
+        name: CatalogueRow(name=name, nut=table["nut"], source=table["source"], **fields)
+        for table in tomllib.loads(text)["catalogue"]
+        for name, fields in table["rows"].items()
+    }
 
 
 def row(name: str) -> CatalogueRow:

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Annotated, TypeAlias
+from typing import Annotated, NamedTuple, TypeAlias
 
-from ballscrew.faults import faults_of, raise_if_any
+import numpy as np
+
+from ballscrew.components.screw import BallScrew
+from ballscrew.faults import Fault, faults_of, raise_if_any
 from ballscrew.quantities import Force, Info, Length
 
 Preload = Annotated[
@@ -78,3 +81,57 @@ class OffsetLeadNut:
 
 
 Nut: TypeAlias = SingleNut | OversizeBallNut | DoubleNut | OffsetLeadNut
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class Bodies:
+    """The bodies of screw and nut between the balls, as bars, and where the load enters them.
+
+    Raises :class:`~ballscrew.faults.InputError` for diameters that are not positive or do not fit.
+    """
+
+    screw_diameter: Annotated[
+        Length, Info("d_c", "diameter of the screw's bar, about its root diameter", "mm", above=0, hint="d_m - d_w")
+    ]
+    nut_outer_diameter: Annotated[
+        Length, Info("D_o", "outer diameter of the nut's tube", "mm", above=0, hint="about 1.5 d_m")
+    ]
+    nut_inner_diameter: Annotated[
+        Length, Info("D_i", "inner diameter of the nut's tube", "mm", above=0, hint="about d_m + d_w")
+    ]
+    #: Whether screw and nut are held on the same side of the balls: one is pulled where the other is pushed.
+    same_side: bool = True
+
+    def __post_init__(self) -> None:
+        faults = faults_of("bodies", self)
+        if not faults and np.any(self.nut_outer_diameter <= self.nut_inner_diameter):
+            remedy = "give the outer diameter of the nut, not that of its bore"
+            faults.append(Fault("bodies.nut_outer_diameter", "must exceed the inner diameter", "", remedy))
+        raise_if_any(faults)
+
+    @classmethod
+    def of(cls, screw: BallScrew, *, same_side: bool = True) -> Bodies:
+        """Bodies of a usual size: the core of the screw, and a nut one and a half pitch circles wide."""
+        d_m, d_w = screw.pitch_circle_diameter, screw.ball_diameter
+        return cls(
+            screw_diameter=d_m - d_w,
+            nut_outer_diameter=1.5 * d_m,
+            nut_inner_diameter=d_m + d_w,
+            same_side=same_side,
+        )
+
+
+class Deviations(NamedTuple):
+    """How each ball and its place on the lead differ from the drawing, the ball axis last.
+
+    Of a double nut both halves in a row, the one that carries the load first.
+    """
+
+    ball_diameter: Length = 0.0
+    lead: Length = 0.0
+
+    @classmethod
+    def scattered(cls, balls: int, *, seed: int, ball_diameter: Length = 0.0, lead: Length = 0.0) -> Deviations:
+        """Normal scatter with these standard deviations; the same seed gives the same balls."""
+        generator = np.random.default_rng(seed)
+        return cls(ball_diameter * generator.standard_normal(balls), lead * generator.standard_normal(balls))

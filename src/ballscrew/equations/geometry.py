@@ -142,3 +142,18 @@ def nut_contact_radius(path_radius: Length, curvature_ratio: Ratio) -> Length:
     """
     L, gamma = path_radius, curvature_ratio
     return L * (1 + gamma)
+
+
+def groove_root_diameter(
+    pitch_circle_diameter: Length, ball_diameter: Length, conformity: Ratio, contact_angle: Angle
+) -> Length:
+    r"""Diameter of the screw at the bottom of its groove, a gothic arch of two circles of radius f d_w.
+
+    .. math:: d_r = d_m + d_w \left[(2 f - 1) \cos\alpha - \sqrt{4 f^2 - (2 f - 1)^2 (\sin\alpha)^2}\right]
+
+    Each circle touches the ball at the contact angle; they meet at the bottom. Measured across the
+    groove, as drawings show it. With :math:`f = 0.5` it is :math:`d_m - d_w`.
+    """
+    d_m, d_w, f, alpha = pitch_circle_diameter, ball_diameter, conformity, contact_angle
+    xp = namespace(d_m, d_w, f, alpha)
+    return d_m + d_w * ((2 * f - 1) * xp.cos(alpha) - xp.sqrt(4 * f**2 - (2 * f - 1) ** 2 * xp.sin(alpha) ** 2))

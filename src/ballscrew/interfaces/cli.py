@@ -17,6 +17,8 @@ from typing import Annotated, Any, NoReturn
 import typer
 from typer.core import TyperCommand
 
+from ballscrew.interfaces import cli_catalogue
+
 app = typer.Typer(
     name="ballscrew",
     help="What a ball screw loses to friction: torque, efficiency, back-driving, and why, term by term.",
@@ -25,6 +27,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
+app.add_typer(cli_catalogue.app, name="catalogue")
 
 
 class _Command(TyperCommand):

@@ -1,0 +1,230 @@
+"""Whether a screw lasts: its ratings by geometry, and one table of checks against its limits."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ballscrew._arrays import as_array
+from ballscrew.components.catalogue import CatalogueRow
+from ballscrew.components.installation import Installation, Limits
+from ballscrew.components.nut import Nut, SingleNut
+from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.equations import geometry, life, rating, shaft
+from ballscrew.faults import Fault, raise_if_any, shown
+from ballscrew.quantities import AngularSpeed, Force, Length, Pressure, Ratio
+from ballscrew.validity import LARGEST_PRESSURE
+
+#: With this conformity the formulas of ISO3408-5 give the ratings of catalogues (HIWIN2016), whose grooves have 0.54.
+RATING_CONFORMITY = 0.52
+HOUR = 3600.0
+
+_SINGLE = SingleNut()
+_USUAL = Limits()
+
+
+class Ratings(NamedTuple):
+    """What one nut body, or one half, is rated for."""
+
+    dynamic: Force
+    static: Force
+
+
+def ratings_of(row: CatalogueRow, rating_conformity: Ratio = RATING_CONFORMITY) -> Ratings:
+    """Dynamic and static axial load rating of a row by its geometry; those printed in its catalogue play no part."""
+    d_m, d_w, alpha = row.ball_circle, row.ball_diameter, row.contact_angle
+    phi, f = row.lead_angle, rating_conformity
+    # the standard leaves the lead out of the curvature
+    gamma = geometry.curvature_ratio(d_w, d_m, alpha, lead_angle=0.0)
+    f_c = rating.geometry_factor(rating.contact_angle_factor(alpha), rating.curvature_factor(gamma), f)
+    C_s = rating.screw_turn_rating(f_c, alpha, row.balls_per_turn, d_w, phi)
+    C_i = rating.turn_rating(C_s, rating.turn_rating_ratio(gamma, f, f))
+    k_0 = rating.static_load_factor(gamma, f)
+    return Ratings(
+        dynamic=float(rating.dynamic_load_rating(C_i, row.loaded_turns)),
+        static=float(rating.static_load_rating(k_0, row.balls_per_turn, row.loaded_turns, d_w, alpha, phi)),
+    )
+
+
+def mean_load(loads: Sequence[Force], revolutions: Sequence[Ratio]) -> Force:
+    """The steady load that tires a nut without preload as much as these loads, each for so many revolutions."""
+    return np.average(np.power(loads, 3.0), weights=revolutions) ** (1 / 3)
+
+
+def loads_of_halves(nut: Nut, axial_load: Force) -> tuple[Force, ...]:
+    """The load of a nut; with preload that of the half, or flank, which the axial load presses, then of the other."""
+    if isinstance(nut, SingleNut) or nut.preload == 0:
+        return (axial_load,)
+    relieved = life.relieved_half_load(nut.preload, life.preload_release(axial_load, nut.preload))
+    return axial_load + relieved, relieved
+
+
+class Check(NamedTuple):
+    """One line of the table, in SI. It passes where the utilisation, demand over capacity, is at most one.
+
+    None stands for what is not known; the words then say what to give.
+    """
+
+    name: str
+    value: float | None
+    limit: float | None
+    unit: str
+    utilisation: float | None
+    passes: bool | None
+    words: str
+
+
+def checks(
+    screw: BallScrew,
+    *,
+    axial_load: Force,
+    screw_speed: AngularSpeed,
+    nut: Nut = _SINGLE,
+    dynamic_load_rating: Force | None = None,
+    static_load_rating: Force | None = None,
+    maximum_pressure: Pressure | None = None,
+    largest_load: Force | None = None,
+    root_diameter: Length | None = None,
+    installation: Installation | None = None,
+    limits: Limits = _USUAL,
+) -> tuple[Check, ...]:
+    """The checks of a screw at one operating point, all of them every time; one without its inputs says so.
+
+    ``axial_load`` is the mean load, which tires the screw, always in one direction; ``largest_load`` (the mean where
+    None) may break it. The ratings are those of one nut body or half, as are the loaded balls of the screw.
+    ``maximum_pressure`` is that of the most loaded contact. Without a ``root_diameter`` that of the groove is taken.
+    Raises :class:`~ballscrew.faults.InputError` for values that are not positive, loads and speed below zero, and a
+    largest load below the mean.
+    """
+    Operation(axial_load=axial_load, screw_speed=screw_speed)
+    _raise_for_nonsense(axial_load, largest_load, dynamic_load_rating, static_load_rating, root_diameter)
+    largest = axial_load if largest_load is None else largest_load
+    d_r = _groove_bottom(screw) if root_diameter is None else root_diameter
+    with np.errstate(divide="ignore"):
+        return (
+            _static_safety(static_load_rating, loads_of_halves(nut, largest)[0], limits),
+            *_life(dynamic_load_rating, loads_of_halves(nut, axial_load), screw_speed, limits),
+            _contact_pressure(maximum_pressure),
+            _shaft_stress(largest, d_r, limits),
+            _buckling(screw, largest, d_r, installation, limits),
+            _critical_speed(screw, screw_speed, d_r, installation, limits),
+            _diameter_speed_product(screw, screw_speed, limits),
+        )
+
+
+def _raise_for_nonsense(
+    axial_load: Force,
+    largest_load: Force | None,
+    dynamic_load_rating: Force | None,
+    static_load_rating: Force | None,
+    root_diameter: Length | None,
+) -> None:
+    given = {
+        "dynamic_load_rating": (dynamic_load_rating, "N"),
+        "static_load_rating": (static_load_rating, "N"),
+        "root_diameter": (root_diameter, "m"),
+    }
+    faults = [
+        Fault(f"checks.{name}", "must be positive", shown(value, unit), "leave it out where it is not known")
+        for name, (value, unit) in given.items()
+        if value is not None and not value > 0
+    ]
+    if largest_load is not None and not largest_load >= axial_load:
+        remedy = "give the greatest magnitude, or leave it out"
+        faults.append(Fault("checks.largest_load", "is below the mean load", shown(largest_load, "N"), remedy))
+    raise_if_any(faults)
+
+
+def _groove_bottom(screw: BallScrew) -> Length:
+    return geometry.groove_root_diameter(
+        screw.pitch_circle_diameter, screw.ball_diameter, screw.screw_conformity, screw.contact_angle
+    )
+
+
+def _not_checked(name: str, unit: str, give: str) -> Check:
+    return Check(name, None, None, unit, None, None, f"not checked: give {give}")
+
+
+def _at_most(name: str, value: float, limit: float, unit: str, words: str) -> Check:
+    utilisation = float(value / limit)
+    return Check(name, float(value), float(limit), unit, utilisation, utilisation <= 1, words)
+
+
+def _at_least(name: str, value: float, limit: float, unit: str, words: str) -> Check:
+    utilisation = float(limit / as_array(value))
+    return Check(name, float(value), float(limit), unit, utilisation, utilisation <= 1, words)
+
+
+def _static_safety(rated: Force | None, load: Force, limits: Limits) -> Check:
+    name = "static_safety"
+    if rated is None:
+        return _not_checked(name, "1", "static_load_rating")
+    words = "static rating against the largest load, preload included"
+    return _at_least(name, life.static_safety(rated, as_array(load)), limits.static_safety, "1", words)
+
+
+def _life(rated: Force | None, loads: Sequence[Force], speed: AngularSpeed, limits: Limits) -> tuple[Check, Check]:
+    names = ("life", "running_time")
+    if rated is None:
+        give = "dynamic_load_rating"
+        return _not_checked(names[0], "1", give), _not_checked(names[1], "s", give)
+    lives = [life.basic_life(rated, as_array(load)) for load in loads]
+    revolutions = lives[0] if len(lives) == 1 else life.combined_life(*lives)
+    time = life.running_time(revolutions, as_array(speed))
+    words = f"nine of ten outlive {float(revolutions):.3g} revolutions, preload included"
+    hours = f"{float(time / HOUR):.3g} h at this speed"
+    required = limits.running_time
+    if required is None:
+        advice = "not judged: give limits.running_time"
+        return (
+            Check(names[0], float(revolutions), None, "1", None, None, f"{words}; {advice}"),
+            Check(names[1], float(time), None, "s", None, None, f"{hours}; {advice}"),
+        )
+    turns = required / life.running_time(1.0, as_array(speed))
+    return (
+        _at_least(names[0], revolutions, turns, "1", words),
+        _at_least(names[1], time, required, "s", hours),
+    )
+
+
+def _contact_pressure(pressure: Pressure | None) -> Check:
+    name = "contact_pressure"
+    if pressure is None:
+        return _not_checked(name, "Pa", "maximum_pressure")
+    words = "largest Hertz pressure against that which leaves a dent of 1e-4 of the ball diameter (ISO 76)"
+    return _at_most(name, pressure, LARGEST_PRESSURE, "Pa", words)
+
+
+def _shaft_stress(load: Force, d_r: Length, limits: Limits) -> Check:
+    words = "largest load over the core of the shaft, pulled or pushed"
+    return _at_most("shaft_stress", shaft.shaft_stress(load, d_r), limits.shaft_stress, "Pa", words)
+
+
+def _buckling(screw: BallScrew, load: Force, d_r: Length, installation: Installation | None, limits: Limits) -> Check:
+    name = "buckling"
+    if installation is None:
+        return _not_checked(name, "N", "installation")
+    ends, E = installation.ends, screw.screw_material.young_modulus
+    euler = shaft.buckling_load(ends.buckling_root, E, d_r, installation.unsupported_length)
+    words = f"largest load, if it pushes, against Euler's over {limits.buckling_safety:g}, ends {ends.words}"
+    return _at_most(name, load, euler / limits.buckling_safety, "N", words)
+
+
+def _critical_speed(
+    screw: BallScrew, speed: AngularSpeed, d_r: Length, installation: Installation | None, limits: Limits
+) -> Check:
+    name = "critical_speed"
+    if installation is None:
+        return _not_checked(name, "rad/s", "installation")
+    ends, E, rho = installation.ends, screw.screw_material.young_modulus, installation.shaft_density
+    critical = shaft.critical_speed(ends.whirling_root, E, rho, d_r, installation.unsupported_length)
+    words = f"speed against {limits.critical_speed_share:g} of that at which the shaft whirls, ends {ends.words}"
+    return _at_most(name, speed, critical * limits.critical_speed_share, "rad/s", words)
+
+
+def _diameter_speed_product(screw: BallScrew, speed: AngularSpeed, limits: Limits) -> Check:
+    value = shaft.diameter_speed_product(screw.pitch_circle_diameter, speed)
+    words = "DN value, pitch circle diameter times speed, which the return of the balls must stand"
+    return _at_most("diameter_speed_product", value, limits.diameter_speed_product, "m/s", words)

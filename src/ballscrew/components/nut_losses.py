@@ -1,0 +1,296 @@
+"""What a nut loses without load: vendors' laws of the preload's drag, and the terms beside the loaded contacts.
+
+The drag laws are whole torques of a preloaded nut without load, to hold against a computed one. The
+parasitic laws are terms to add to the friction of the loaded balls, each on its own. By default each of
+them is nothing: no open data gives a number for every nut.
+"""
+# ruff: noqa: ARG002, D102 - laws of one slot share one signature, said once
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+import tomllib
+from importlib import resources
+from typing import Annotated, NamedTuple, Protocol
+
+from ballscrew.components.frame import helix_frame
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.screw import BallScrew
+from ballscrew.equations import geometry, kinematics, parasitic, preload, transmission
+from ballscrew.faults import Fault, InputError, faults_of, raise_if_any
+from ballscrew.quantities import AngularSpeed, Count, Force, Info, Length, Ratio, Speed, Torque
+
+#: Coefficients behind the no-load torques of Rexroth2006: their middle meets the tables within their digits.
+DOUBLE_NUT_DRAG = 0.0040
+OVERSIZE_BALL_DRAG = 0.0100
+
+#: Diameters and leads this close are one, in m: a table gives whole millimetres.
+SAME_SIZE = 1e-6
+
+
+class DragLaw(Protocol):
+    """Drag torque of a preloaded nut without load, seals apart."""
+
+    def __call__(
+        self, preload_force: Force, nominal_diameter: Length, pitch_circle_diameter: Length, lead: Length, /
+    ) -> Torque: ...
+
+
+class ParasiticLaw(Protocol):
+    """Torque on the screw of something beside the loaded contacts."""
+
+    def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed, /) -> Torque: ...
+
+
+# -- drag of the preload --------------------------------------------------------------------------
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class JISDrag:
+    """The rule of JISB1192 for all preloaded nuts, as THKCatalogue prints it."""
+
+    drag_coefficient: Annotated[Ratio, Info("k_p", "factor of the rule", at_least=0, hint="the standard has 0.05")] = (
+        0.05
+    )
+    drag_exponent: Annotated[
+        Ratio, Info("m", "exponent of the tangent of the lead angle", at_least=0, hint="the standard has 0.5")
+    ] = 0.5
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("losses.jis_drag", self))
+
+    def __call__(
+        self, preload_force: Force, nominal_diameter: Length, pitch_circle_diameter: Length, lead: Length
+    ) -> Torque:
+        """Drag torque, N m."""
+        phi = geometry.lead_angle(lead, pitch_circle_diameter)
+        K_p = preload.preload_torque_coefficient(phi, self.drag_coefficient, self.drag_exponent)
+        return preload.preload_torque(K_p, preload_force, lead)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class RexrothDrag:
+    """The rule behind the tables of Rexroth2006, at 100 rpm; the lead does not count."""
+
+    drag_coefficient: Annotated[
+        Ratio,
+        Info("c_p", "friction coefficient on the nominal diameter", at_least=0, hint="0.004, with oversize balls 0.01"),
+    ] = DOUBLE_NUT_DRAG
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("losses.rexroth_drag", self))
+
+    def __call__(
+        self, preload_force: Force, nominal_diameter: Length, pitch_circle_diameter: Length, lead: Length
+    ) -> Torque:
+        """Drag torque, N m."""
+        return preload.diameter_drag_torque(preload_force, nominal_diameter, self.drag_coefficient)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class EfficiencyDrag:
+    """The drag of a double nut from the efficiency of its halves, with the same friction torque in both."""
+
+    efficiency: Annotated[
+        Ratio, Info(r"\eta", "efficiency of one half at the preload", above=0, at_most=1, hint="0.85 to 0.97")
+    ]
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("losses.efficiency_drag", self))
+
+    def __call__(
+        self, preload_force: Force, nominal_diameter: Length, pitch_circle_diameter: Length, lead: Length
+    ) -> Torque:
+        """Drag torque, N m."""
+        eta_b = transmission.back_driving_efficiency(self.efficiency)
+        K_p = preload.preload_torque_coefficient_of_halves(self.efficiency, eta_b)
+        return preload.preload_torque(K_p, preload_force, lead)
+
+
+# -- seals ----------------------------------------------------------------------------------------
+
+
+class SealRow(NamedTuple):
+    """Torque of the two standard seals of a vendor's nut; leads from the smallest to the largest."""
+
+    nominal_diameter: float
+    smallest_lead: float
+    largest_lead: float
+    torque: float
+
+    def distance(self, nominal_diameter: float, lead: float) -> tuple[float, float]:
+        """How far a screw is from the row, in diameter and in lead."""
+        outside = max(self.smallest_lead - lead, lead - self.largest_lead, 0.0)
+        return abs(nominal_diameter - self.nominal_diameter), outside
+
+    def __str__(self) -> str:
+        diameter = f"{self.nominal_diameter * 1e3:g} mm"
+        if math.isinf(self.largest_lead):
+            return f"{diameter}, any lead"
+        first, last = self.smallest_lead * 1e3, self.largest_lead * 1e3
+        return f"{diameter}, lead {first:g} mm" + (f" to {last:g} mm" if last > first else "")
+
+
+@functools.cache
+def seal_table() -> tuple[SealRow, ...]:
+    """The rows shipped (``data/seals.toml``, Rexroth2006)."""
+    text = resources.files("ballscrew").joinpath("data/seals.toml").read_text(encoding="utf-8")
+    rows: list[SealRow] = []
+    for row in tomllib.loads(text)["seals"]:
+        smallest, largest = row.get("leads", (0.0, math.inf))
+        rows.append(SealRow(row["nominal_diameter"], smallest, largest, row["torque"]))
+    return tuple(rows)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Seals:
+    """Seals whose torque is known: measured, or a vendor's."""
+
+    seal_torque: Annotated[
+        Torque,
+        Info(
+            "M_W",
+            "torque of all seals of the nut",
+            at_least=0,
+            hint="rubber: 0.08 N m at 16 mm, 0.4 N m at 40 mm (Seals.of_table)",
+        ),
+    ] = 0.0
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("losses.seals", self))
+
+    @classmethod
+    def of_table(cls, nominal_diameter: float, lead: float) -> Seals:
+        """The two standard seals of Rexroth2006, by nominal diameter and lead.
+
+        Raises :class:`~ballscrew.faults.InputError` with the nearest row for a screw that the table does not have.
+        """
+        found = min(seal_table(), key=lambda row: row.distance(nominal_diameter, lead))
+        if not all(distance <= SAME_SIZE for distance in found.distance(nominal_diameter, lead)):
+            given = f"{nominal_diameter * 1e3:g} mm, lead {lead * 1e3:g} mm"
+            raise InputError(Fault("losses.seals", "not in the table of seal torques", given, f"nearest: {found}"))
+        return cls(seal_torque=found.torque)
+
+    def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Torque:
+        """Torque of the seals, N m; the same at any speed."""
+        return self.seal_torque
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class LipSeals:
+    """Seals whose lips rub all around the screw, on its pitch circle."""
+
+    lip_friction: Annotated[
+        parasitic.LineForce,
+        Info("q", "friction force on each length of lip", at_least=0, hint="rubber has 61 N/m to 109 N/m"),
+    ] = 0.0
+    lips: Annotated[
+        Count, Info("n_l", "number of sealing lips", at_least=0, whole=True, hint="one at each end of the nut: 2")
+    ] = 2
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("losses.lip_seals", self))
+
+    def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Torque:
+        """Torque of the seals, N m; the same at any speed."""
+        return parasitic.seal_torque(self.lips, self.lip_friction, screw.pitch_circle_diameter)
+
+
+# -- oil and returns ------------------------------------------------------------------------------
+
+OilShare = Annotated[
+    Ratio,
+    Info(
+        "X",
+        "share of the space around the balls that is oil",
+        at_least=0,
+        at_most=1,
+        hint="1 if the nut is full of oil; no measured value is known for less",
+    ),
+]
+MovingBalls = Annotated[
+    Count | None,
+    Info("z_m", "balls that move through the oil", at_least=0, whole=True, hint="all bodies of the nut and returns"),
+]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Churning:
+    """Oil in the way of the balls: the drag of single spheres, SchillerNaumann1933.
+
+    Without a number of balls the loaded balls of the screw count: those of one nut body.
+    """
+
+    oil_share: OilShare = 0.0
+    balls: MovingBalls = None
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("losses.churning", self, optional=("balls",)))
+
+    def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Torque:
+        """Torque on the screw, N m."""
+        eta_0, d_w, v_o = lubricant.viscosity, screw.ball_diameter, _orbital_speed(screw, screw_speed)
+        R_e = parasitic.ball_reynolds_number(lubricant.density, v_o, d_w, eta_0)
+        force = parasitic.ball_drag_force(self.oil_share, eta_0, d_w, v_o, R_e)
+        return parasitic.path_torque(_balls(self.balls, screw), force, _path_advance(screw))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class HarrisChurning:
+    """Oil in the way of the balls as bearings have it at high speed, Harris2001; thin oil only.
+
+    Without a number of balls the loaded balls of the screw count: those of one nut body.
+    """
+
+    oil_share: OilShare = 0.0
+    drag_coefficient: Annotated[
+        Ratio, Info("C_v", "drag coefficient of a ball", at_least=0, hint="a sphere has 0.44 in turbulent flow")
+    ] = 0.44
+    balls: MovingBalls = None
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("losses.churning", self, optional=("balls",)))
+
+    def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Torque:
+        """Torque on the screw, N m."""
+        v_o = _orbital_speed(screw, screw_speed)
+        force = parasitic.ball_drag_force_harris(
+            self.oil_share, self.drag_coefficient, lubricant.density, screw.ball_diameter, v_o
+        )
+        return parasitic.path_torque(_balls(self.balls, screw), force, _path_advance(screw))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Recirculation:
+    """The return of the balls: a force that the screw must push the train of balls with, through each return."""
+
+    return_force: Annotated[
+        Force, Info("F_r", "force against the balls in one return", at_least=0, hint="no measured value is known")
+    ] = 0.0
+    returns: Annotated[
+        Count, Info("n_r", "number of returns", at_least=0, whole=True, hint="one for each circuit of balls")
+    ] = 1
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("losses.recirculation", self))
+
+    def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Torque:
+        """Torque on the screw, N m; the same at any speed."""
+        return parasitic.path_torque(self.returns, self.return_force, _path_advance(screw))
+
+
+def _balls(balls: Count | None, screw: BallScrew) -> Count:
+    return screw.loaded_balls if balls is None else balls
+
+
+def _path_advance(screw: BallScrew) -> Length:
+    frame = helix_frame(screw)
+    return parasitic.path_advance(frame.path_radius, frame.curvature_ratio)
+
+
+def _orbital_speed(screw: BallScrew, screw_speed: AngularSpeed) -> Speed:
+    frame = helix_frame(screw)
+    rotation = kinematics.orbital_rotation(frame.entrainment_speed(screw_speed), frame.nut_contact_radius)
+    return kinematics.orbital_speed(rotation, frame.path_radius)

@@ -1,0 +1,288 @@
+"""Rows of catalogues for people and programs: those shipped, or those of a table of the user's own."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ballscrew import __version__
+from ballscrew.components.catalogue import CONFORMITY_DOUBT, TURNS_WITHOUT_LOAD, CatalogueRow, catalogue
+from ballscrew.components.screw import BallScrew
+from ballscrew.faults import Fault, InputError, nearest, raise_if_any
+from ballscrew.interfaces import units
+from ballscrew.interfaces.headings import Column
+from ballscrew.interfaces.nuts import NUTS
+from ballscrew.interfaces.report import plain
+from ballscrew.interfaces.rows import Row, made, read
+from ballscrew.quantities import Quantity, fields_of, quantities_of
+
+_FIELDS = fields_of(CatalogueRow)
+_DERIVED = {name: quantity for name, quantity in quantities_of(CatalogueRow).items() if name not in _FIELDS}
+_DEFAULTS = {field.name: field.default for field in dataclasses.fields(CatalogueRow)}
+_REQUIRED = ("nominal_diameter", "lead", "ball_diameter", "turns")
+_ALIASES: Mapping[str, tuple[str, ...]] = {
+    "nominal_diameter": ("d0", "d", "diameter", "screw diameter", "shaft diameter"),
+    "lead": ("Ph", "P"),
+    "ball_diameter": ("Dw", "Da", "Db", "ball", "ball size", "balls"),
+    "turns": ("i", "circuits", "number of turns", "number of circuits", "effective turns"),
+    "starts": ("number of starts", "thread starts"),
+    "pitch_circle_diameter": ("Dpw", "dm", "ball circle", "ball circle diameter", "pitch circle", "PCD", "BCD"),
+    "root_diameter": ("dr", "d2", "root", "core diameter", "minor diameter"),
+    "contact_angle": ("alpha", "α"),
+    "conformity": ("f", "groove conformity"),
+    "dynamic_load_rating": (
+        "Ca", "C", "Cdyn", "dynamic", "dynamic load", "dynamic rating", "dynamic axial load rating",
+        "basic dynamic load rating",
+    ),
+    "static_load_rating": (
+        "C0a", "C0", "Coa", "Co", "C0stat", "static", "static load", "static rating", "static axial load rating",
+        "basic static load rating",
+    ),
+    "rigidity": ("stiffness", "Rnu", "K", "nut rigidity", "nut stiffness", "axial stiffness", "rigidity_10pct"),
+}  # fmt: skip
+COLUMNS = (
+    Column("name", aliases=("model", "model no", "part number", "part no", "designation", "type", "size")),
+    *(Column(name, quantity, _ALIASES[name], name in _REQUIRED) for name, quantity in _FIELDS.items()),
+    Column("nut", aliases=("nut type", "kind of nut")),
+    Column("source"),
+)
+#: Columns of the list: a row of the catalogue in the units people think in.
+_LIST = ("name", "d0 x lead [mm]", "ball [mm]", "turns", "balls/turn", "loaded", "C_a [kN]", "C_0a [kN]", "source")
+_TEXTS = (0, len(_LIST) - 1)
+
+
+def load(path: Path | None, keep_going: bool = False) -> tuple[Mapping[str, CatalogueRow], Sequence[str]]:
+    """The rows of a table, or those shipped, by name, and what is to be said of rows left out."""
+    if path is None:
+        return catalogue(), ()
+    table = read(path, COLUMNS)
+    taken: dict[str, int] = {}
+    found, notes = made(table, lambda row: _made(row, path.name, taken), keep_going)
+    return {row.name: row for row in found}, notes
+
+
+def _made(row: Row, file: str, taken: dict[str, int]) -> CatalogueRow:
+    """The catalogue row of a row of a table; without a name it is called by its sizes."""
+    values = dict(row.values)
+    name = values.setdefault("name", _called_by_sizes(values))
+    values.setdefault("source", f"{file} row {row.line}")
+    faults: list[Fault] = []
+    if name in taken:
+        faults.append(Fault("row.name", "is given twice", name, f"row {taken[name]} has it, too: name both apart"))
+    kind = values.get("nut", "").lower().replace(" ", "-")
+    if kind and kind not in NUTS:
+        faults.append(Fault("row.nut", "unknown kind of nut", values["nut"], nearest(kind, NUTS)))
+    try:
+        found = CatalogueRow(**{**values, "nut": kind})
+        found.screw()
+    except InputError as error:
+        raise InputError(*faults, *error.faults) from None
+    raise_if_any(faults)
+    taken[name] = row.line
+    return found
+
+
+def _called_by_sizes(values: Mapping[str, Any]) -> str:
+    sizes = [units.from_si(values[name], _FIELDS[name]) for name in ("nominal_diameter", "lead", "ball_diameter")]
+    return f"{'x'.join(f'{size:.6g}' for size in sizes)}-{values['turns']:g}"
+
+
+def chosen(rows: Mapping[str, CatalogueRow], words: str) -> list[CatalogueRow]:
+    """The rows that have all these words in name, source or kind of nut."""
+    found = [
+        row
+        for row in rows.values()
+        if all(word in f"{row.name} {row.source} {row.nut}".casefold() for word in words.casefold().split())
+    ]
+    if not found:
+        raise InputError(Fault("catalogue", "no row has these words", words, "leave them out to see all rows"))
+    return found
+
+
+def named(rows: Mapping[str, CatalogueRow], name: str) -> CatalogueRow:
+    """The row of that name, whatever its capitals."""
+    found = {known.casefold(): row for known, row in rows.items()}.get(name.casefold())
+    if found is not None:
+        return rows.get(name, found)
+    containing = [f'"{known}"' for known in rows if name and name.casefold() in known.casefold()][:3]
+    remedy = f"did you mean {' or '.join(containing)}?" if containing else nearest(name, rows)
+    if not remedy.startswith("did"):
+        remedy = 'see "ballscrew catalogue list"'
+    raise InputError(Fault("catalogue", "unknown row", name, remedy))
+
+
+# -- for people -----------------------------------------------------------------------------------
+
+
+def list_text(rows: Sequence[CatalogueRow]) -> str:
+    """One line a row."""
+    cells = [list(_LIST), *map(_cells, rows)]
+    widths = [max(len(row[place]) for row in cells) for place in range(len(_LIST))]
+    lines = [
+        "  ".join(
+            cell.ljust(width) if place in _TEXTS else cell.rjust(width)
+            for place, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ).rstrip()
+        for row in cells
+    ]
+    return "\n".join(lines)
+
+
+def _cells(row: CatalogueRow) -> list[str]:
+    size = " x ".join(_number(row, name) for name in ("nominal_diameter", "lead"))
+    numbers = [
+        _number(row, name)
+        for name in (
+            "ball_diameter", "turns", "balls_per_turn", "loaded_balls", "dynamic_load_rating", "static_load_rating",
+        )
+    ]  # fmt: skip
+    return [row.name, size, *numbers, row.source]
+
+
+def _number(row: CatalogueRow, name: str) -> str:
+    value = getattr(row, name)
+    return "-" if value is None else f"{units.from_si(float(value), quantities_of(CatalogueRow)[name]):.5g}"
+
+
+def show_text(row: CatalogueRow) -> str:
+    """What a catalogue lists of a screw, what follows from it, and what was assumed."""
+    kind = f", nut: {row.nut}" if row.nut else ""
+    lines = [f"{row.name} ({row.source}){kind}", "", "Listed"]
+    unlisted = assumed(row)
+    lines += [
+        _line(q, getattr(row, n)) for n, q in _FIELDS.items() if n not in unlisted and getattr(row, n) is not None
+    ]
+    lines += ["", "Derived"]
+    lines += [
+        _line(q, getattr(row, n)) + (_root_doubt(row) if n == "groove_root_diameter" else "")
+        for n, q in _DERIVED.items()
+    ]
+    lines += ["", "Assumed", *(f"  {words}" for words in unlisted.values())]
+    return "\n".join(lines)
+
+
+def _line(quantity: Quantity, value: Any) -> str:
+    return f"  {quantity.info.meaning:<58} {units.shown(value, quantity, digits=5)}"
+
+
+def _root_doubt(row: CatalogueRow) -> str:
+    """How far the root diameter moves with the conformity, and what the catalogue has."""
+    quantity = _DERIVED["groove_root_diameter"]
+    around = [
+        dataclasses.replace(row, conformity=row.conformity + doubt).groove_root_diameter
+        for doubt in (CONFORMITY_DOUBT, -CONFORMITY_DOUBT)
+        if 0.5 < row.conformity + doubt <= 1
+    ]
+    span = " to ".join(units.shown(value, quantity, digits=5) for value in around)
+    listed = "" if row.root_diameter is None else f"; listed: {units.shown(row.root_diameter, quantity, digits=5)}"
+    return f" ({span} for a conformity of {row.conformity:g} ± {CONFORMITY_DOUBT:g}{listed})"
+
+
+def assumed(row: CatalogueRow) -> dict[str, str]:
+    """In words, what stands for what a catalogue leaves out, by field."""
+    angle = units.shown(row.contact_angle, _FIELDS["contact_angle"])
+    words = {
+        "starts": "one thread start",
+        "contact_angle": f"contact angle {angle}, the usual one",
+        "conformity": f"conformity {row.conformity:g} ± {CONFORMITY_DOUBT:g}, as most listed root diameters imply",
+    }
+    found = {name: text for name, text in words.items() if getattr(row, name) == _DEFAULTS[name]}
+    if row.pitch_circle_diameter is None:
+        found["pitch_circle_diameter"] = (
+            "pitch circle as large as the nominal diameter; those that a catalogue lists are 1.5 to 5 % larger"
+        )
+    found["loaded_turns"] = f"{TURNS_WITHOUT_LOAD:g} turns without load where the balls leave and enter (ISO 3408-5)"
+    return found
+
+
+def case_text(row: CatalogueRow) -> str:
+    """A complete case file of a row: a usual oil, a tenth of the dynamic load rating, 600 rpm."""
+    screw = row.screw()
+    fields = fields_of(BallScrew)
+    names = [
+        "pitch_circle_diameter",
+        "lead",
+        "ball_diameter",
+        "loaded_balls",
+        "contact_angle",
+        "screw_conformity",
+        "nut_conformity",
+    ]
+    names += ["starts"] if screw.starts > 1 else []
+    unlisted = assumed(row)
+    comments = {
+        "pitch_circle_diameter": "the nominal diameter; the row lists no pitch circle"
+        if row.pitch_circle_diameter is None
+        else "",
+        "loaded_balls": f"{row.balls_per_turn} a turn, {row.loaded_turns:g} of {row.turns:g} turns; one nut body",
+        "contact_angle": "not listed, the usual one" if "contact_angle" in unlisted else "",
+        "screw_conformity": f"not listed, good to {CONFORMITY_DOUBT:g}" if "conformity" in unlisted else "",
+    }
+    rating = row.dynamic_load_rating
+    load = 1000.0 if rating is None else rating / 10
+    of_load = (
+        "an example; the row lists no dynamic load rating"
+        if rating is None
+        else f"a tenth of C_a = {rating / 1000:.6g} kN"
+    )
+    lines = [
+        f"# {row.name}: {row.source}",
+        "# The screw of a catalogue row; the oil and the operating point are examples."
+        + (f" Nut: {row.nut}." if row.nut else ""),
+        "",
+        "[screw]",
+        *(_setting(name, _written(getattr(screw, name), fields[name]), comments.get(name, "")) for name in names),
+        "",
+        "[lubricant]",
+        'grade = "ISO VG 100"',
+        'temperature = "40 degC"',
+        "",
+        "[operation]",
+        _setting("axial_load", f'"{load / 1000:.6g} kN"', of_load),
+        _setting("screw_speed", '"600 rpm"', ""),
+    ]
+    # no letters that a terminal or a redirection could write in another encoding than UTF-8
+    return "\n".join(lines).encode("ascii", "backslashreplace").decode()
+
+
+def _setting(name: str, value: str, comment: str) -> str:
+    setting = f"{name} = {value}"
+    return f"{setting:<38}  # {comment}" if comment else setting
+
+
+def _written(value: float, quantity: Quantity) -> str:
+    number = f"{units.from_si(value, quantity):.12g}"
+    return number if quantity.unit == "1" else f'"{number} {quantity.shown_in}"'
+
+
+# -- for programs ---------------------------------------------------------------------------------
+
+
+def list_json(rows: Sequence[CatalogueRow]) -> str:
+    """One JSON object with all rows, SI."""
+    return _json({"rows": [_document(row) for row in rows]})
+
+
+def show_json(row: CatalogueRow) -> str:
+    """One JSON object with one row, SI."""
+    return _json({**_document(row), "assumed": assumed(row)})
+
+
+def _document(row: CatalogueRow) -> dict[str, Any]:
+    return {
+        "name": row.name,
+        "nut": row.nut or None,
+        "source": row.source,
+        "row": {name: getattr(row, name) for name in _FIELDS},
+        "derived": {name: getattr(row, name) for name in _DERIVED},
+    }
+
+
+def _json(document: dict[str, Any]) -> str:
+    parts = {"row": _FIELDS, "derived": _DERIVED}
+    found = {part: {name: quantity.unit for name, quantity in names.items()} for part, names in parts.items()}
+    document |= {"units": found, "provenance": {"version": __version__}}
+    return json.dumps(plain(document), indent=2, ensure_ascii=False, allow_nan=False)

@@ -1,0 +1,67 @@
+"""``ballscrew catalogue``: rows of catalogues, shipped or one's own. The work is done in ``interfaces/catalogue``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+app = typer.Typer(
+    help="Screws as catalogues list them, and case files made of them.", no_args_is_help=True, rich_markup_mode=None
+)
+
+Rows = Annotated[
+    Path | None,
+    typer.Option("--rows", metavar="FILE", help="A table of your own, .csv or .xlsx, in place of the rows shipped."),
+]
+KeepGoing = Annotated[
+    bool, typer.Option("--keep-going", help="Leave faulty rows of the table out, and say which; fails if none is good.")
+]
+AsJson = Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")]
+
+
+@app.command("list")
+def list_rows(
+    words: Annotated[list[str] | None, typer.Argument(help="Only rows with these words: rexroth 40x10.")] = None,
+    rows: Rows = None,
+    as_json: AsJson = False,
+    keep_going: KeepGoing = False,
+) -> None:
+    """All rows, one line each."""
+    from ballscrew.interfaces import catalogue
+
+    found, notes = catalogue.load(rows, keep_going)
+    chosen = catalogue.chosen(found, " ".join(words or []))
+    _say(notes)
+    typer.echo(catalogue.list_json(chosen) if as_json else catalogue.list_text(chosen))
+
+
+@app.command()
+def show(
+    name: Annotated[str, typer.Argument(help="Name of the row: hiwin-40-20k4.")],
+    rows: Rows = None,
+    as_json: AsJson = False,
+    as_case: Annotated[bool, typer.Option("--case", help="A case file of the row, ready for ballscrew run.")] = False,
+    keep_going: KeepGoing = False,
+) -> None:
+    """One row: what is listed, what follows from it, what was assumed."""
+    from ballscrew.faults import Fault, InputError
+    from ballscrew.interfaces import catalogue
+
+    if as_case and as_json:
+        raise InputError(Fault("--case", "does not go with --json", "", "give one of the two"))
+    found, notes = catalogue.load(rows, keep_going)
+    row = catalogue.named(found, name)
+    _say(notes)
+    if as_case:
+        typer.echo(catalogue.case_text(row))
+    else:
+        typer.echo(catalogue.show_json(row) if as_json else catalogue.show_text(row))
+
+
+def _say(notes: Sequence[str]) -> None:
+    """What is left out, on the error stream."""
+    for note in notes:
+        typer.echo(note, err=True)

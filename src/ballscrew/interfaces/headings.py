@@ -1,0 +1,210 @@
+"""Headings as people write them: which column is meant, and in which unit its numbers are.
+
+A heading is the name of a column, or one of the other names it has in the field, with its unit:
+``lead_mm``, ``Ph [mm]``, ``Dynamic load rating Ca (kN)``, ``stiffness_kgf_per_um``. Capitals, blanks and hyphens
+do not count.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import functools
+import re
+import unicodedata
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from ballscrew.faults import Fault, InputError, raise_if_any
+from ballscrew.interfaces import units
+from ballscrew.interfaces.sheets import HEADINGS_WITHIN, Record
+from ballscrew.quantities import Quantity
+
+#: What stands for nothing in a cell.
+NOTHING = ("", "-", "–", "—")
+
+_BRACKETED = re.compile(r"(?P<name>.*?)[\s_]*[\[(](?P<unit>[^\[\]()]*)[\])]")
+_WORD = re.compile(r"[^\W_]+")
+#: Units as headings have them, and as they stand in case files.
+_UNITS = {"Nm": "N m", "Nmm": "N mm", "Ncm": "N cm"}
+
+
+@dataclasses.dataclass(frozen=True)
+class Column:
+    """A column that a table may have: of a quantity, or of text where there is none."""
+
+    name: str
+    quantity: Quantity | None = None
+    aliases: tuple[str, ...] = ()
+    required: bool = False
+
+    def answers_to(self, name: str) -> bool:
+        """Whether the column has this name."""
+        return _bare(name) in self._names
+
+    @functools.cached_property
+    def _names(self) -> frozenset[str]:
+        return frozenset(map(_bare, (self.name, *self.aliases)))
+
+    @property
+    def example(self) -> str:
+        """A heading for it."""
+        if self.quantity is None or self.quantity.unit == "1":
+            return self.name
+        return f"{self.name} [{self.quantity.shown_in}]"
+
+
+@dataclasses.dataclass(frozen=True)
+class Heading:
+    """A heading as written: its column and its place, and what its numbers are in SI: ``offset + scale · number``."""
+
+    written: str
+    column: Column
+    place: int
+    unit: str = ""
+    offset: float = 0.0
+    scale: float = 1.0
+
+
+@functools.lru_cache(maxsize=4096)
+def _bare(name: str) -> str:
+    """A name without what does not count: capitals, blanks, hyphens, subscripts."""
+    return "".join(_WORD.findall(unicodedata.normalize("NFKC", name).casefold()))
+
+
+def _is_named(text: str, column: Column) -> bool:
+    """Whether a text is a name of the column, or two of them: "Dynamic load rating Ca"."""
+    words = list(_WORD.finditer(text))
+    return column.answers_to(text) or any(
+        column.answers_to(text[: word.start()]) and column.answers_to(text[word.start() :]) for word in words[1:]
+    )
+
+
+def heading_of(cell: Any, place: int, columns: Sequence[Column]) -> Heading | None:
+    """The heading that a cell is, with its unit; None where no column is meant."""
+    if not isinstance(cell, str) or not cell:
+        return None
+    written = " ".join(cell.split())
+    bracketed = _BRACKETED.fullmatch(written)
+    name, unit = (bracketed["name"], bracketed["unit"].strip()) if bracketed else (written, "")
+    for column in columns:
+        if _is_named(name, column):
+            no_unit = unit in NOTHING or column.answers_to(unit)
+            return Heading(written, column, place, "" if no_unit else _spelt(unit))
+    for column in () if bracketed else columns:
+        unit = _unit_behind(name, column)
+        if unit:
+            return Heading(written, column, place, unit)
+    return None
+
+
+def _unit_behind(written: str, column: Column) -> str:
+    """The unit behind the name of a column, ``mm`` in ``lead_mm``; nothing where there is none that fits."""
+    if column.quantity is None or column.quantity.unit == "1":
+        return ""
+    for word in reversed(list(_WORD.finditer(written))[1:]):
+        unit = _spelt(written[word.start() :])
+        if _is_named(written[: word.start()], column) and not isinstance(_scale("", unit, column.quantity), Fault):
+            return unit
+    return ""
+
+
+def _spelt(unit: str) -> str:
+    """A unit of a heading in the spelling of case files: ``kgf_per_um`` is ``kgf/um``."""
+    unit = re.sub(r"[\s_]+per[\s_]+", "/", unit.strip()).replace("_", " ")
+    return _UNITS.get(unit, unit)
+
+
+def _scale(where: str, unit: str, quantity: Quantity) -> tuple[float, float] | Fault:
+    """Offset and scale of a unit: what 0 and one more are in SI."""
+    zero, one = (units.parse(where, f"{number} {unit}", quantity) for number in ("0", "1"))
+    if isinstance(zero, Fault) or isinstance(one, Fault):
+        fault = zero if isinstance(zero, Fault) else one
+        assert isinstance(fault, Fault)
+        return dataclasses.replace(fault, given=unit)
+    return zero, one - zero
+
+
+def headings_in(path: Path, found: Sequence[Record], columns: Sequence[Column]) -> tuple[int, list[Heading]]:
+    """Which row has the headings, and those of columns that are known."""
+    best: tuple[int, list[Heading]] = (0, [])
+    for number, record in enumerate(found[:HEADINGS_WITHIN]):
+        headings = [heading_of(cell, place, columns) for place, cell in enumerate(record.cells)]
+        known = [heading for heading in headings if heading is not None]
+        if len(known) > len(best[1]):
+            best = number, known
+    if not best[1]:
+        needed = ", ".join(column.example for column in columns if column.required)
+        raise InputError(
+            Fault(
+                str(path), "has no heading that is known", _listed(found[0].cells), f"begin with a row like: {needed}"
+            )
+        )
+    return best
+
+
+def _listed(cells: Sequence[Any]) -> str:
+    return ", ".join(f'"{cell}"' for cell in cells if cell != "")
+
+
+def checked(
+    path: Path, headings: Sequence[Heading], first: Record, body: Sequence[Record], columns: Sequence[Column]
+) -> list[Heading]:
+    """The headings with the scale of their units. Raises if one is missing, double or without a unit."""
+    faults: list[Fault] = []
+    known: list[Heading] = []
+    for heading in headings:
+        twin = next((other for other in known if other.column is heading.column), None)
+        where, quantity = f'{path.name} column "{heading.written}"', heading.column.quantity
+        if twin is not None:
+            meaning = heading.column.name.replace("_", " ")
+            faults.append(Fault(where, f'means the same as "{twin.written}"', meaning, "leave out one of the two"))
+        elif quantity is None or (quantity.unit == "1" and not heading.unit):
+            known.append(heading)
+        elif quantity.unit == "1":
+            faults.append(Fault(where, "takes no unit", heading.unit, "it is a plain number; leave the unit out"))
+        elif heading.unit:
+            scale = _scale(where, heading.unit, quantity)
+            if isinstance(scale, Fault):
+                faults.append(scale)
+            else:
+                known.append(dataclasses.replace(heading, offset=scale[0], scale=scale[1]))
+        else:
+            cells = [record.cells[heading.place] for record in body if heading.place < len(record.cells)]
+            filled = [cell for cell in cells if cell not in NOTHING]
+            if not filled or any(isinstance(cell, str) and units.unit_in(cell.replace(",", ".")) for cell in filled):
+                known.append(heading)
+            else:
+                faults.append(Fault(where, "needs a unit", "", f'write "{heading.written} [{quantity.shown_in}]"'))
+    raise_if_any(faults)
+    missing = [column for column in columns if column.required and all(h.column is not column for h in known)]
+    raise_if_any([_missing(path, column, headings, first) for column in missing])
+    return known
+
+
+def _missing(path: Path, column: Column, headings: Sequence[Heading], first: Record) -> Fault:
+    """The fault of a column that is not there, perhaps under a name that is not known."""
+    known = {heading.place for heading in headings}
+    others = {
+        _bare(" ".join(words)): cell
+        for place, cell in enumerate(first.cells)
+        if place not in known and isinstance(cell, str)
+        for words in [_WORD.findall(cell)]
+        for words in (words, words[:-1])  # with and without a unit behind the name
+        if words
+    }
+    names = [_bare(name) for name in (column.name, *column.aliases)]
+    alike = [other for name in names for other in difflib.get_close_matches(name, others, n=1, cutoff=0.7)]
+    guess = f'write it for "{others[alike[0]]}"' if alike else f"it may also be called {', '.join(column.aliases[:3])}"
+    return Fault(path.name, f'has no column "{column.example}"', "", guess)
+
+
+def unused(first: Record, headings: Sequence[Heading], body: Sequence[Record]) -> list[str]:
+    """Columns that hold something and are not known."""
+    known = {heading.place for heading in headings}
+    found = {place: f'"{cell}"' for place, cell in enumerate(first.cells) if cell != "" and place not in known}
+    for record in body:
+        nameless = (place for place, cell in enumerate(record.cells[: len(first.cells)]) if cell != "")
+        found |= {place: f"column {place + 1} (no heading)" for place in nameless if place not in {*known, *found}}
+    return [found[place] for place in sorted(found)]

@@ -1,0 +1,196 @@
+"""Tables people bring: CSV or spreadsheets in their own words and units, checked rows in SI out.
+
+As in case files, a dimensional value needs a unit: in its heading (:mod:`ballscrew.interfaces.headings`) or
+behind the number, which comes first.
+
+Every row is either good or has a fault that names file, row, column and value: none is lost silently.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypeVar
+
+from ballscrew.faults import Fault, InputError, as_float, fault_of, raise_if_any
+from ballscrew.interfaces import decimals, units
+from ballscrew.interfaces.headings import NOTHING, Column, Heading, checked, heading_of, headings_in, unused
+from ballscrew.interfaces.sheets import Record, records
+
+T = TypeVar("T")
+
+_NUMBER = re.compile(r"[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|nan|inf(?:inity)?)", re.IGNORECASE)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Row:
+    """A good row: its number in the file, values in SI (or text) by column, and the same as written."""
+
+    line: int
+    values: Mapping[str, Any]
+    written: Mapping[str, str]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Table:
+    """The rows of a file, good ones and the faults of the others (with the number of the row)."""
+
+    file: str
+    headings: Mapping[str, Heading]
+    rows: Sequence[Row]
+    faults: Sequence[tuple[int, Fault]]
+    #: How many rows there are, good or not.
+    count: int
+    #: Headings of columns that nobody asked for.
+    unused: Sequence[str]
+
+    def where(self, line: int, name: str) -> str:
+        """``screws.csv row 7, column "Ph [mm]"``."""
+        column = f'column "{self.headings[name].written}"' if name in self.headings else name.replace("_", " ")
+        return f"{self.file} row {line}, {column}"
+
+    def fault(self, row: Row, fault: Fault) -> Fault:
+        """The fault of what was made of a row, in the words of the row."""
+        name = fault.where.rpartition(".")[2]
+        heading = self.headings.get(name)
+        given = row.written.get(name, fault.given)
+        if heading is not None and heading.column.quantity is not None:
+            fault = units.in_people_units(fault, heading.column.quantity, given)
+        return dataclasses.replace(fault, where=self.where(row.line, name), given=given)
+
+
+def read(path: Path, columns: Sequence[Column]) -> Table:
+    """The table of a file. Raises :class:`~ballscrew.faults.InputError` for faults of the table as a whole."""
+    found = records(path, lambda cell: heading_of(cell, 0, columns) is not None)
+    start, matched = headings_in(path, found, columns)
+    body = found[start + 1 :]
+    headings = checked(path, matched, found[start], body, columns)
+    if not body:
+        raise InputError(Fault(str(path), "has no rows below its headings", "", "give one row a screw or value"))
+    table = Table(
+        path.name, {h.column.name: h for h in headings}, (), (), len(body), unused(found[start], headings, body)
+    )
+    decimal = decimals.evidence(_texts(headings, body))
+    rows: list[Row] = []
+    faults: list[tuple[int, Fault]] = []
+    for record in body:
+        row = _row(table, record, found[start].cells, decimal)
+        if isinstance(row, Row):
+            rows.append(row)
+        else:
+            faults += [(record.line, fault) for fault in row]
+    return dataclasses.replace(table, rows=rows, faults=faults)
+
+
+def made(table: Table, make: Callable[[Row], T], keep_going: bool = False) -> tuple[list[T], list[str]]:
+    """What ``make`` makes of the good rows, and what is to be said of the others, one line each.
+
+    Faults that ``make`` raises are faults of the row. Raises :class:`~ballscrew.faults.InputError` if there
+    is any fault; with ``keep_going`` only if no row is good.
+    """
+    found: list[T] = []
+    faults = list(table.faults)
+    for row in table.rows:
+        try:
+            found.append(make(row))
+        except InputError as error:
+            faults += [(row.line, table.fault(row, fault)) for fault in error.faults]
+    ordered = [fault for _, fault in sorted(faults, key=lambda numbered: numbered[0])]
+    if not (keep_going and found):
+        raise_if_any(ordered)
+    lines = [str(fault) for fault in ordered]
+    if ordered:
+        lines.append(f"{table.file}: {table.count - len(found)} of {table.count} rows left out")
+    if table.unused:
+        lines.insert(0, f"{table.file}: columns not used: {', '.join(table.unused)}")
+    return found, lines
+
+
+# -- cells ----------------------------------------------------------------------------------------
+
+
+def _texts(headings: Sequence[Heading], body: Sequence[Record]) -> Iterator[str]:
+    """The cells that are numbers as text."""
+    places = [heading.place for heading in headings if heading.column.quantity is not None]
+    for record in body:
+        yield from (
+            cell for cell in (record.cells[p] for p in places if p < len(record.cells)) if isinstance(cell, str)
+        )
+
+
+def _row(table: Table, record: Record, first: Sequence[Any], decimal: frozenset[str]) -> Row | list[Fault]:
+    """A row in SI, or all its faults."""
+    needed = max(place for place, cell in enumerate(first) if cell != "") + 1
+    if len(record.cells) < needed or any(cell != "" for cell in record.cells[len(first) :]):
+        problem = f"has {len(record.cells)} cells, the headings {needed}"
+        remedy = "give every column a cell, be it empty; put quotes around text that holds a delimiter"
+        return [Fault(f"{table.file} row {record.line}", problem, "", remedy)]
+    values: dict[str, Any] = {}
+    written: dict[str, str] = {}
+    faults: list[Fault] = []
+    for name, heading in table.headings.items():
+        where, cell = table.where(record.line, name), record.cells[heading.place]
+        text = _shown(cell)
+        if text in NOTHING:
+            if heading.column.required:
+                faults.append(Fault(where, "is empty", "", "give a value; of merged cells only the first has one"))
+            continue
+        value = text if heading.column.quantity is None else _value(where, cell, text, heading, decimal)
+        if isinstance(value, Fault):
+            faults.append(value)
+        else:
+            values[name], written[name] = value, text
+    return faults or Row(record.line, values, written)
+
+
+def _shown(cell: Any) -> str:
+    """A cell as text, on one line and without what no terminal shows."""
+    if isinstance(cell, float):
+        return f"{cell:.12g}"
+    return " ".join("".join(c if c.isprintable() else " " for c in str(cell)).split())
+
+
+def _value(where: str, cell: Any, text: str, heading: Heading, decimal: frozenset[str]) -> float | int | Fault:
+    """A number in SI and within the bounds of its quantity, or the fault in it."""
+    quantity = heading.column.quantity
+    assert quantity is not None
+    if isinstance(cell, float | int) and not isinstance(cell, bool):
+        value = _converted(where, as_float(cell), text, heading)
+    elif isinstance(cell, str):
+        value = _parsed(where, text.replace("−", "-"), heading, decimal)
+    else:
+        value = Fault(
+            where, "is not a number", text, "a spreadsheet makes dates of numbers: format the cell as a number"
+        )
+    fault = value if isinstance(value, Fault) else fault_of("", quantity, value)
+    if fault is not None:
+        fault = units.in_people_units(fault, quantity, fault.given if fault is value else text)
+        return dataclasses.replace(fault, where=where, given=text)
+    assert not isinstance(value, Fault)
+    return int(value) if quantity.info.whole else value
+
+
+def _parsed(where: str, text: str, heading: Heading, decimal: frozenset[str]) -> float | Fault:
+    """The number of a text; a unit of its own comes before that of the heading."""
+    quantity = heading.column.quantity
+    assert quantity is not None
+    plain = decimals.with_point(where, text, decimal)
+    if isinstance(plain, Fault):
+        return plain
+    if _NUMBER.fullmatch(plain):
+        return _converted(where, as_float(plain), text, heading)
+    if units.unit_in(plain):
+        return units.parse(where, plain, quantity)
+    remedy = (
+        "write a plain number" if quantity.unit == "1" else f"write a number in {heading.unit or quantity.shown_in}"
+    )
+    return Fault(where, "is not a number", text, remedy)
+
+
+def _converted(where: str, number: float, text: str, heading: Heading) -> float | Fault:
+    quantity = heading.column.quantity
+    if quantity is not None and quantity.unit != "1" and not heading.unit:
+        return Fault(where, "needs a unit", text, f'write "{text} {quantity.shown_in}", or the unit in the heading')
+    return heading.offset + heading.scale * number

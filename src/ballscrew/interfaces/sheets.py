@@ -1,0 +1,141 @@
+"""Files with a table in them, as numbered rows of cells: text with delimiters, or a spreadsheet.
+
+Of a spreadsheet the first sheet that is not empty counts; cells with an error in them (#DIV/0!) read as empty.
+"""
+
+from __future__ import annotations
+
+import codecs
+import csv
+import io
+import itertools
+import re
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ballscrew.faults import Fault, InputError
+
+#: Endings of files that are read as spreadsheets, and how such files begin whatever they are called.
+SPREADSHEETS = (".xlsx", ".xlsm", ".xlsb", ".xls", ".ods")
+_MAGIC = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
+_DELIMITERS = (";", "\t", ",")
+#: The headings stand within this many rows: some tables have a title above them.
+HEADINGS_WITHIN = 10
+#: A spreadsheet may begin with a line for other spreadsheets: which delimiter it has.
+_DECLARATION = "sep="
+#: What spreadsheets write for a cell that went wrong; no comment, though it begins like one.
+_ERROR = re.compile(r"#(?:N/A|NV|[A-Z0-9/]+[!?])")
+
+
+class Record(NamedTuple):
+    """The cells of a row, and the number that an editor or a spreadsheet shows beside it."""
+
+    line: int
+    cells: Sequence[Any]
+
+
+def records(path: Path, is_heading: Callable[[str], bool]) -> list[Record]:
+    """The rows of a file that are neither blank nor comments.
+
+    Of the delimiters, the one that makes most headings counts. Raises
+    :class:`~ballscrew.faults.InputError` for what is no table.
+    """
+    data = _bytes(path)
+    spreadsheet = path.suffix.lower() in SPREADSHEETS or data.startswith(_MAGIC)
+    found = _of_spreadsheet(path, data) if spreadsheet else _of_text(path, _text(path, data), is_heading)
+    if not found:
+        raise InputError(Fault(str(path), "is empty", "", "give a table with headings and rows"))
+    return found
+
+
+def _bytes(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except (OSError, ValueError) as error:
+        missing = isinstance(error, FileNotFoundError)
+        reason = "" if missing else getattr(error, "strerror", None) or str(error)
+        problem = "does not exist" if missing else "cannot be read"
+        raise InputError(Fault(str(path), problem, reason, "give the path of a CSV or XLSX file")) from None
+
+
+def _text(path: Path, data: bytes) -> str:
+    """What the bytes say: UTF-8, UTF-16 if they begin so, or else the old encoding of Western spreadsheets."""
+    wide = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+    for encoding in ("utf-16",) if wide else ("utf-8-sig", "cp1252"):
+        try:
+            text = data.decode(encoding)
+        except UnicodeDecodeError:
+            continue
+        if "\0" not in text:
+            return text
+    raise InputError(Fault(str(path), "is neither text nor a spreadsheet", "", "save it as CSV in UTF-8, or as XLSX"))
+
+
+def _of_text(path: Path, text: str, is_heading: Callable[[str], bool]) -> list[Record]:
+    line = 0
+    try:
+        delimiter = _delimiter(text, is_heading)
+        found: list[Record] = []
+        lines = iter(io.StringIO(text, newline=""))
+        for first in lines:
+            line += 1
+            if not _counts(first):
+                continue
+            # a quoted cell may go on over several lines
+            reader = csv.reader(itertools.chain([first], lines), delimiter=delimiter, strict=True)
+            cells = [cell.strip() for cell in next(reader)]
+            if any(cells):
+                found.append(Record(line, cells))
+            line += reader.line_num - 1
+    except csv.Error as error:
+        where = f"{path.name} row {line}" if line else str(path)
+        raise InputError(Fault(where, "cannot be split into cells", str(error), "check its quotes")) from None
+    return found
+
+
+def _counts(line: str) -> bool:
+    """Whether a line of text is one of the table."""
+    start = line.strip()
+    comment = start.startswith("#") and not _ERROR.match(start)
+    return bool(start) and not comment and not start.lower().startswith(_DECLARATION)
+
+
+def _delimiter(text: str, is_heading: Callable[[str], bool]) -> str:
+    """The delimiter that makes most headings of a line near the top, or else most cells."""
+    lines = list(itertools.islice(filter(_counts, io.StringIO(text, newline="")), HEADINGS_WITHIN))
+
+    def score(delimiter: str) -> tuple[int, int]:
+        split = list(csv.reader(lines, delimiter=delimiter))
+        headings = max((sum(map(is_heading, cells)) for cells in split), default=0)
+        return headings, max(map(len, split), default=0)
+
+    return max(_DELIMITERS, key=score)
+
+
+def _of_spreadsheet(path: Path, data: bytes) -> list[Record]:
+    try:
+        from python_calamine import CalamineError, CalamineWorkbook
+    except ImportError:
+        remedy = 'pip install "ballscrew[data]", or save it as CSV'
+        raise InputError(Fault(str(path), "needs python-calamine", "", remedy)) from None
+    try:
+        workbook = CalamineWorkbook.from_filelike(io.BytesIO(data))
+        for name in workbook.sheet_names:
+            rows = workbook.get_sheet_by_name(name).to_python(skip_empty_area=False)
+            found = list(_filled(rows))
+            if found:
+                return found
+    except CalamineError as error:
+        problem, remedy = "is no spreadsheet that can be read", "save it as XLSX without a password, or as CSV"
+        raise InputError(Fault(str(path), problem, str(error), remedy)) from None
+    return []
+
+
+def _filled(rows: Sequence[Sequence[Any]]) -> Iterator[Record]:
+    for line, row in enumerate(rows, start=1):
+        cells = [cell.strip() if isinstance(cell, str) else cell for cell in row]
+        filled = [cell for cell in cells if cell != ""]
+        comment = len(filled) == 1 and str(filled[0]).startswith("#")
+        if filled and not comment:
+            yield Record(line, cells)

@@ -1,0 +1,238 @@
+r"""Balls as springs between screw and nut, and the chain that elastic bodies make of them.
+
+Arrays have the balls first and the operating points last. The force of a ball rises with the displacement of
+the screw at its place, whatever the nut, so that each balance here has one solution.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.equations import deflection
+
+Field = NDArray[np.float64]
+
+#: Imbalance that counts as none, in units of the forces at work.
+BALANCED = 1e-13
+#: Steps of a search at most, and halvings of a Newton step that has made it worse.
+STEPS, HALVINGS = 100, 12
+#: Rounding of a place, in units of itself.
+ROUNDING = 1e-15
+
+
+class Flanks(NamedTuple):
+    """One flank pair of each ball: which way it faces, where it stands without displacement, and its ball's excess."""
+
+    #: One where an axial displacement of the screw loads the pair, minus one where it relieves it.
+    facing: Field
+    #: Displacement across the path without one of the screw.
+    offset: Field
+    #: What the ball is too big by for its grooves.
+    excess: Field
+
+
+class FlankLoads(NamedTuple):
+    """Load of a flank pair, sine of its contact angle, axial force on the screw, and slope of that by displacement."""
+
+    load: Field
+    sine: Field
+    axial_force: Field
+    slope: Field
+
+
+class BallSprings(NamedTuple):
+    """The springs of the balls: one flank pair each, or two."""
+
+    load_deflection: Field
+    centre_distance: Field
+    contact_angle: Field
+    lead_cosine: Field
+    #: How many balls each stands for.
+    balls: Field
+    #: Whether the contact angle keeps its value without load.
+    constant_angle: bool
+    flanks: tuple[Flanks, ...]
+
+    def loads(self, flanks: Flanks, displacement: Field) -> FlankLoads:
+        """What flank pairs carry where the screw has an axial displacement."""
+        A, alpha, c_phi = self.centre_distance, self.contact_angle, self.lead_cosine
+        xi = flanks.facing * displacement * c_phi + flanks.offset
+        if self.constant_angle:
+            sine, turning = np.sin(alpha), 0.0
+            approach = xi * sine + flanks.excess
+        else:
+            s = deflection.loaded_centre_distance(A, alpha, xi)
+            sine = deflection.loaded_contact_sine(A, alpha, xi, s)
+            approach = deflection.ball_approach(A, alpha, xi, s, flanks.excess)
+            turning = (1 - sine**2) / s
+        delta = np.maximum(approach, 0.0)
+        load = deflection.hertz_load(self.load_deflection, delta)
+        slope = (1.5 * self.load_deflection * np.sqrt(delta) * sine**2 + load * turning) * c_phi**2
+        return FlankLoads(load, sine, flanks.facing * load * sine * c_phi, slope)
+
+    def forces(self, displacement: Field) -> tuple[Field, Field]:
+        """Axial force of each ball (of all it stands for), and its slope by the displacement."""
+        loads = [self.loads(flanks, displacement) for flanks in self.flanks]
+        force, slope = sum(pair.axial_force for pair in loads), sum(pair.slope for pair in loads)
+        return self.balls * force, self.balls * slope
+
+    def touch(self, flanks: Flanks) -> Field:
+        """Displacement across the path at which a flank pair just touches."""
+        A, alpha = self.centre_distance, self.contact_angle
+        if self.constant_angle:
+            return -flanks.excess / np.sin(alpha)
+        return np.sqrt((A - flanks.excess) ** 2 - (A * np.cos(alpha)) ** 2) - A * np.sin(alpha)
+
+    def of(self, rows: slice) -> BallSprings:
+        """Some of the balls."""
+        return self._replace(flanks=tuple(Flanks(*(part[rows] for part in flanks)) for flanks in self.flanks))
+
+    def of_kinds(self, number: int) -> BallSprings:
+        """One mean ball for so many in a row, which are of a kind."""
+
+        def mean(part: Field) -> Field:
+            return part.reshape(-1, number, part.shape[-1]).mean(axis=1)
+
+        return self._replace(
+            balls=number * self.balls, flanks=tuple(Flanks(*map(mean, each)) for each in self.flanks)
+        )
+
+    def at(self, points: NDArray[np.intp]) -> BallSprings:
+        """Some of the operating points."""
+        *numbers, constant_angle, flanks = self
+        return BallSprings(
+            *(_some(number, points) for number in numbers),
+            constant_angle,
+            tuple(Flanks(*(_some(part, points) for part in each)) for each in flanks),
+        )
+
+
+class Bars(NamedTuple):
+    """Axial stiffness of the bodies from ball to ball, and the share of the load that enters at the first ball.
+
+    The rest enters at the last one.
+    """
+
+    stiffness: Field
+    first_share: Field
+
+    def of(self, rows: slice, first_share: float) -> Bars:
+        """The bars between some of the balls, where the load enters otherwise."""
+        return Bars(self.stiffness[rows], first_share + 0 * self.first_share)
+
+    def at(self, points: NDArray[np.intp]) -> Bars:
+        """Some of the operating points."""
+        return Bars(_some(self.stiffness, points), _some(self.first_share, points))
+
+
+def _some(values: Field, points: NDArray[np.intp]) -> Field:
+    """Columns of an array, or all of it where the points do not differ."""
+    return values if values.shape[-1] == 1 else values[..., points]
+
+
+def rigid_balance(
+    springs: BallSprings, load: Field, scale: Field, guess: Field, tolerance: float = BALANCED
+) -> Field:
+    """The one displacement of a rigid screw in a rigid nut that balances a load.
+
+    Newton's steps within a bracket; a step that leaves it is replaced by a bisection. ``scale`` are the
+    forces against which an imbalance is judged, ``guess`` is a displacement of the right size.
+    """
+
+    def imbalance(x: Field) -> tuple[Field, Field]:
+        force, slope = springs.forces(x[None])
+        return force.sum(axis=0) - load, slope.sum(axis=0)
+
+    reach = np.maximum(guess, 1e-12)
+    low, high = -reach, reach
+    for _ in range(STEPS):
+        too_high, too_low = imbalance(low)[0] > 0, imbalance(high)[0] < 0
+        if not (too_high.any() or too_low.any()):
+            break
+        low, high = np.where(too_high, 2 * low, low), np.where(too_low, 2 * high, high)
+    x = np.clip(guess, low, high)
+    for _ in range(STEPS):
+        left, slope = imbalance(x)
+        low, high = np.where(left < 0, x, low), np.where(left > 0, x, high)
+        done = (np.abs(left) <= tolerance * scale) | (high - low <= 1e-16 * reach)
+        if done.all():
+            break
+        newton = x - left / np.where(slope > 0, slope, 1.0)
+        inside = (newton > low) & (newton < high) & (slope > 0)
+        x = np.where(done, x, np.where(inside, newton, (low + high) / 2))
+    return x + 0 * springs.flanks[0].facing
+
+
+def chain_balance(springs: BallSprings, bars: Bars, load: Field, scale: Field, start: Field) -> Field:
+    """The displacements at which a chain of bars carries a load, from a start.
+
+    Newton's method with a tridiagonal matrix, for the points that are still open. It points downhill for the
+    sum of the squares of the imbalances; where the full step overshoots, a part of it is taken.
+    """
+    x = start.copy()
+    size = np.empty_like(load)
+    among = np.arange(load.size)
+    left, slope = _imbalances(springs, bars, load, x)
+    here, links = springs, bars
+    for _ in range(STEPS):
+        size[among] = _size(left)
+        # places are rounded, and stiff bars make forces of that
+        rounding = ROUNDING * np.sqrt(len(x)) * np.max(links.stiffness * np.abs(x[1:, among]), axis=0, initial=0.0)
+        still = size[among] > BALANCED * scale[among] + rounding
+        if not still.any():
+            break
+        if not still.all():
+            among, left, slope = among[still], left[:, still], slope[:, still]
+            here, links = springs.at(among), bars.at(among)
+        step, at = tridiagonal(links.stiffness, slope, left), x[:, among]
+        share = np.ones(among.size)
+        for _ in range(HALVINGS):
+            left, slope = _imbalances(here, links, load[among], at + share * step)
+            worse = ~(_size(left) < size[among])
+            if not worse.any():
+                break
+            share = np.where(worse, share / 2, share)
+        x[:, among] = at + share * step
+    # a common shift brings the sum of the forces to the load where rounding was in the way of the balls
+    force, slope = springs.forces(x)
+    stiffness = np.sum(slope, axis=0)
+    return x + np.where(stiffness > 0, (load - np.sum(force, axis=0)) / np.where(stiffness > 0, stiffness, 1.0), 0.0)
+
+
+def _imbalances(springs: BallSprings, bars: Bars, load: Field, x: Field) -> tuple[Field, Field]:
+    """Force left at each ball, and the slope of the ball's own force."""
+    force, slope = springs.forces(x)
+    passed_on = bars.stiffness * np.diff(x, axis=0)
+    left = -force
+    left[0] += bars.first_share * load
+    left[-1] += (1 - bars.first_share) * load
+    left[:-1] += passed_on
+    left[1:] -= passed_on
+    return left, slope
+
+
+def _size(left: Field) -> Field:
+    return np.sqrt(np.sum(left**2, axis=0))
+
+
+def tridiagonal(bars: Field, grounds: Field, right: Field) -> Field:
+    """Displacements of a chain of linear springs under forces: Thomas' elimination, which needs no pivots here.
+
+    Each diagonal is the spring to ground plus what is left of the chain behind, in series with a
+    bar: sums of what is not negative, so that stiff bars cost no digits.
+    """
+    behind = np.empty_like(right)
+    carried = np.empty_like(right)
+    behind[0], carried[0] = grounds[0], right[0]
+    for i in range(1, len(right)):
+        share = bars[i - 1] / (bars[i - 1] + behind[i - 1])
+        behind[i] = grounds[i] + share * behind[i - 1]
+        carried[i] = right[i] + share * carried[i - 1]
+    moved = np.empty_like(right)
+    moved[-1] = carried[-1] / np.where(behind[-1] > 0, behind[-1], 1.0)
+    for i in range(len(right) - 2, -1, -1):
+        moved[i] = (carried[i] + bars[i] * moved[i + 1]) / (bars[i] + behind[i])
+    return moved

@@ -1,0 +1,228 @@
+"""The table of checks: every line is there, says what it needs, and judges as it should."""
+
+import dataclasses
+import math
+
+import pytest
+
+import ballscrew as bs
+from ballscrew.analyses.checks import HOUR, checks, loads_of_halves, mean_load, ratings_of
+from ballscrew.components.catalogue import CatalogueRow
+from ballscrew.components.installation import Ends, Installation, Limits
+from ballscrew.components.nut import DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
+from ballscrew.equations import life, shaft
+
+RPM = math.tau / 60
+NAMES = (
+    "static_safety",
+    "life",
+    "running_time",
+    "contact_pressure",
+    "shaft_stress",
+    "buckling",
+    "critical_speed",
+    "diameter_speed_product",
+)
+ROW = CatalogueRow(
+    name="40-20K4",
+    nominal_diameter=0.040,
+    lead=0.020,
+    ball_diameter=6.35e-3,
+    turns=4,
+    pitch_circle_diameter=0.0414,
+)
+SCREW = ROW.screw()
+RATINGS = ratings_of(ROW)
+MOUNTED = Installation(unsupported_length=1.2, ends=Ends.FIXED_SUPPORTED)
+PRELOADED = (DoubleNut, OffsetLeadNut, OversizeBallNut)
+
+
+def table(**changes):
+    known = {
+        "axial_load": 5000.0,
+        "screw_speed": 1000 * RPM,
+        "dynamic_load_rating": RATINGS.dynamic,
+        "static_load_rating": RATINGS.static,
+        "maximum_pressure": 1.5e9,
+        "installation": MOUNTED,
+    }
+    return {check.name: check for check in checks(SCREW, **{**known, **changes})}
+
+
+def test_every_line_is_there_in_order():
+    assert tuple(table()) == NAMES
+    assert tuple(check.name for check in checks(SCREW, axial_load=1.0, screw_speed=1.0)) == NAMES
+
+
+def test_a_line_without_its_inputs_says_what_to_give():
+    missing = {check.name: check for check in checks(SCREW, axial_load=5000.0, screw_speed=100.0)}
+    wanted = {
+        "static_safety": "static_load_rating",
+        "life": "dynamic_load_rating",
+        "running_time": "dynamic_load_rating",
+        "contact_pressure": "maximum_pressure",
+        "buckling": "installation",
+        "critical_speed": "installation",
+    }
+    assert {name for name, check in missing.items() if check.passes is None} == set(wanted)
+    for name, give in wanted.items():
+        assert missing[name].words == f"not checked: give {give}"
+        assert missing[name][1:3] == (None, None)
+        assert missing[name].utilisation is None
+        assert missing[name].unit == table()[name].unit
+
+
+def test_utilisation_decides():
+    for check in table(limits=Limits(running_time=1e3 * HOUR)).values():
+        assert check.passes is (check.utilisation <= 1)
+        assert isinstance(check.value, float)
+        assert check.words
+
+
+def test_a_good_screw_passes():
+    assert all(check.passes for check in table(limits=Limits(running_time=1e3 * HOUR)).values())
+
+
+@pytest.mark.parametrize(
+    ("name", "changes"),
+    [
+        ("static_safety", {"largest_load": 0.51 * RATINGS.static}),
+        ("life", {"limits": Limits(running_time=1e6 * HOUR)}),
+        ("running_time", {"limits": Limits(running_time=1e6 * HOUR)}),
+        ("contact_pressure", {"maximum_pressure": 4.3e9}),
+        ("contact_pressure", {"maximum_pressure": math.nan}),
+        ("shaft_stress", {"largest_load": 147e6 * math.pi / 4 * 0.0350**2}),
+        ("buckling", {"installation": Installation(unsupported_length=8.0, ends=Ends.FIXED_FREE)}),
+        ("critical_speed", {"installation": Installation(unsupported_length=3.0, ends=Ends.FIXED_FREE)}),
+        ("diameter_speed_product", {"screw_speed": 1700 * RPM}),
+    ],
+)
+def test_each_line_can_fail(name, changes):
+    assert table(**changes)[name].passes is False
+
+
+def test_life_is_that_of_the_equations():
+    found = table()
+    revolutions = 1e6 * (RATINGS.dynamic / 5000.0) ** 3
+    assert found["life"].value == pytest.approx(revolutions, rel=1e-12)
+    assert found["running_time"].value == pytest.approx(revolutions / 1000 * 60, rel=1e-12)
+    assert found["life"].passes is None
+    assert "give limits.running_time" in found["life"].words
+
+
+def test_life_and_time_say_the_same():
+    found = table(limits=Limits(running_time=5000 * HOUR))
+    assert found["life"].limit == pytest.approx(5000 * 60 * 1000, rel=1e-12)
+    assert found["life"].utilisation == pytest.approx(found["running_time"].utilisation, rel=1e-12)
+
+
+@pytest.mark.parametrize("kind", PRELOADED)
+def test_preload_costs_life_and_safety(kind):
+    alone, braced = table(), table(nut=kind(preload=2500.0))
+    first, second = loads_of_halves(kind(preload=2500.0), 5000.0)
+    assert first - second == pytest.approx(5000.0, rel=1e-12)
+    lives = [life.basic_life(RATINGS.dynamic, load) for load in (first, second)]
+    assert braced["life"].value == pytest.approx(life.combined_life(*lives), rel=1e-12)
+    assert braced["life"].value < alone["life"].value
+    assert braced["static_safety"].value == pytest.approx(RATINGS.static / first, rel=1e-12)
+    # the shaft does not know of the preload
+    assert braced["buckling"] == alone["buckling"]
+
+
+@pytest.mark.parametrize("nut", [SingleNut(), DoubleNut(preload=0.0)])
+def test_without_preload_the_nut_carries_the_load(nut):
+    assert loads_of_halves(nut, 800.0) == (800.0,)
+
+
+@pytest.mark.parametrize("kind", PRELOADED)
+def test_preload_alone_tires_both_halves(kind):
+    preload = 3000.0
+    found = table(axial_load=0.0, nut=kind(preload=preload))
+    one = life.basic_life(RATINGS.dynamic, preload)
+    assert found["life"].value == pytest.approx(one * 2 ** (-0.9), rel=1e-12)
+
+
+def test_a_heavy_load_makes_the_preload_forgotten():
+    braced = table(axial_load=9000.0, nut=DoubleNut(preload=2500.0))
+    assert braced["life"].value == pytest.approx(table(axial_load=9000.0)["life"].value, rel=1e-12)
+
+
+def test_at_rest_without_load():
+    found = table(axial_load=0.0, screw_speed=0.0, limits=Limits(running_time=HOUR))
+    assert found["life"].value == found["running_time"].value == found["static_safety"].value == math.inf
+    assert all(check.passes for check in found.values())
+    loaded = table(screw_speed=0.0, limits=Limits(running_time=HOUR))
+    assert loaded["running_time"].value == math.inf
+    assert loaded["life"].limit == 0
+
+
+def test_the_largest_load_breaks_and_the_mean_load_tires():
+    mean, peak = table(), table(largest_load=20e3)
+    for name in ("static_safety", "shaft_stress", "buckling"):
+        assert peak[name].utilisation == pytest.approx(4 * mean[name].utilisation, rel=1e-12)
+    assert peak["life"] == mean["life"]
+
+
+def test_shaft_lines_are_those_of_the_equations():
+    found = table(root_diameter=0.030)
+    E = SCREW.screw_material.young_modulus
+    euler = shaft.buckling_load(Ends.FIXED_SUPPORTED.buckling_root, E, 0.030, 1.2)
+    assert found["buckling"].limit == pytest.approx(euler / 2, rel=1e-12)
+    whirl = shaft.critical_speed(Ends.FIXED_SUPPORTED.whirling_root, E, 7850.0, 0.030, 1.2)
+    assert found["critical_speed"].limit == pytest.approx(0.8 * whirl, rel=1e-12)
+    assert "fixed–supported" in found["buckling"].words
+
+
+def test_the_root_of_the_groove_stands_in_for_one_not_given():
+    # HIWIN S99TE20-1610: 34.91 mm
+    assert table()["buckling"].limit == pytest.approx(table(root_diameter=34.91e-3)["buckling"].limit, rel=2e-4)
+
+
+def test_dn_value_counts_in_millimetres_and_turns_a_minute():
+    check = table(screw_speed=70e3 / 41.4 * RPM)["diameter_speed_product"]
+    assert check.utilisation == pytest.approx(1, rel=1e-12)
+
+
+def test_mean_load_is_cubic():
+    assert mean_load([1000.0, 2000.0], [3.0, 1.0]) == pytest.approx((11 / 4) ** (1 / 3) * 1000, rel=1e-12)
+    # each load takes its share of the life: Palmgren and Miner
+    loads, revolutions = [800.0, 3000.0, 1500.0], [2e5, 5e4, 3e5]
+    used = sum(n / life.basic_life(40e3, F) for F, n in zip(loads, revolutions, strict=True))
+    assert sum(revolutions) / life.basic_life(40e3, mean_load(loads, revolutions)) == pytest.approx(used, rel=1e-12)
+
+
+def test_ratings_ignore_what_the_catalogue_prints():
+    printed = dataclasses.replace(ROW, dynamic_load_rating=1.0, static_load_rating=1.0)
+    assert ratings_of(printed) == RATINGS
+
+
+def test_ratings_without_a_pitch_circle_use_the_nominal_diameter():
+    bare = dataclasses.replace(ROW, pitch_circle_diameter=None)
+    assert ratings_of(bare) == ratings_of(dataclasses.replace(ROW, pitch_circle_diameter=0.040))
+    assert ratings_of(bare) != RATINGS
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"axial_load": -1.0}, "operation.axial_load: must not be negative"),
+        ({"dynamic_load_rating": 0.0}, "checks.dynamic_load_rating: must be positive"),
+        ({"static_load_rating": -2.0}, "checks.static_load_rating: must be positive"),
+        ({"root_diameter": math.nan}, "checks.root_diameter: must be positive"),
+        ({"largest_load": 4000.0}, "checks.largest_load: is below the mean load"),
+    ],
+)
+def test_nonsense_is_refused(changes, words):
+    with pytest.raises(bs.InputError, match=words):
+        table(**changes)
+
+
+def test_an_installation_wants_sane_values():
+    with pytest.raises(bs.InputError, match=r"installation\.unsupported_length: must be positive"):
+        Installation(unsupported_length=0.0, ends=Ends.FIXED_FREE)
+    with pytest.raises(bs.InputError, match=r"installation\.ends: must be one of Ends .* known: Ends\.FIXED_FIXED"):
+        Installation(unsupported_length=1.0, ends="fixed")
+    with pytest.raises(bs.InputError, match=r"limits\.buckling_safety: must be at least 1"):
+        Limits(buckling_safety=0.5)
+    with pytest.raises(bs.InputError, match=r"limits\.running_time: must be positive"):
+        Limits(running_time=0.0)

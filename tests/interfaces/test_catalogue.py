@@ -1,0 +1,305 @@
+"""``ballscrew catalogue``: rows shipped and rows of one's own, for people, programs and case files."""
+
+import csv
+import dataclasses
+import json
+import math
+from pathlib import Path
+
+import openpyxl
+import pytest
+
+import ballscrew as bs
+from ballscrew.components.catalogue import SMALLEST_BALL, CatalogueRow, catalogue
+from ballscrew.faults import InputError
+from ballscrew.interfaces import catalogue as people
+from ballscrew.interfaces import config
+from ballscrew.interfaces.nuts import NUTS
+
+DATA = Path(__file__).parents[1] / "data"
+ROWS = catalogue()
+KGF = 9.80665
+GOOD = {"nominal_diameter": 0.04, "lead": 0.01, "ball_diameter": 0.006, "turns": 4}
+every_row = pytest.mark.parametrize("row", ROWS.values(), ids=ROWS)
+
+
+def of_file(name):
+    with (DATA / name).open(encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+def refused(process, *expected):
+    assert process.returncode == 2
+    assert process.stdout == ""
+    lines = process.stderr.strip().splitlines()
+    assert "Traceback" not in process.stderr
+    assert len(lines) == len(expected), process.stderr
+    for line, text in zip(lines, expected, strict=True):
+        assert text in line
+
+
+# -- the rows shipped -----------------------------------------------------------------------------
+
+
+@every_row
+def test_rows_shipped_make_screws(row):
+    screw = row.screw()
+    assert screw.loaded_balls == row.loaded_balls
+    assert row.nut in NUTS
+    assert row.source
+    assert row.name == row.name.lower()
+    assert 10 <= row.balls_per_turn <= 60
+    assert row.groove_root_diameter < row.nominal_diameter
+    assert row.static_load_rating > row.dynamic_load_rating > 0
+
+
+@pytest.mark.parametrize(("file", "kind"), [("rexroth_double_nut.csv", "double"), ("rexroth_single_nut.csv", "single")])
+def test_rexroth_rows_are_those_of_the_tables(file, kind):
+    found = of_file(file)
+    assert sum(name.startswith("rexroth") and name.endswith(kind) for name in ROWS) == len(found)
+    for line in found:
+        size = (line[f"{name}_mm"] for name in ("nominal_diameter", "lead", "ball_diameter"))
+        row = ROWS[f"rexroth-{'x'.join(size)}-{line['circuits']}-{kind}"]
+        for name in ("nominal_diameter", "lead", "ball_diameter"):
+            assert getattr(row, name) == pytest.approx(float(line[f"{name}_mm"]) / 1000, rel=1e-15)
+        assert row.turns == int(line["circuits"])
+        assert row.dynamic_load_rating == float(line["dynamic_load_rating_N"])
+        assert row.static_load_rating == float(line["static_load_rating_N"])
+        rigidity = line.get("rigidity_10pct_N_per_um")
+        assert row.rigidity == (None if rigidity is None else float(rigidity) * 1e6)
+        assert row.nut == {"double": "double", "single": "oversize-balls"}[kind]
+        assert row.source == "Rexroth R310RU 3301 (2006.02)"
+
+
+def test_hiwin_rows_are_those_of_the_table():
+    found = of_file("hiwin_fsc.csv")
+    assert sum(name.startswith("hiwin") for name in ROWS) == len(found)
+    for line in found:
+        row = ROWS[f"hiwin-{line['model'].lower()}"]
+        for name in ("nominal_diameter", "lead", "ball_diameter", "pitch_circle_diameter", "root_diameter"):
+            assert getattr(row, name) == pytest.approx(float(line[f"{name}_mm"]) / 1000, rel=1e-15)
+        assert row.turns == int(line["circuits"])
+        assert row.dynamic_load_rating == pytest.approx(float(line["dynamic_load_rating_kgf"]) * KGF, rel=1e-14)
+        assert row.static_load_rating == pytest.approx(float(line["static_load_rating_kgf"]) * KGF, rel=1e-14)
+        assert row.rigidity == pytest.approx(float(line["stiffness_kgf_per_um"]) * KGF * 1e6, rel=1e-14)
+        assert (row.nut, row.source) == ("single", "HIWIN S99TE20-1610")
+
+
+def test_what_is_said_of_pitch_circles_is_so():
+    """Where none is listed, people read that those listed are 1.5 to 5 % larger than the nominal diameter."""
+    ratios = [row.pitch_circle_diameter / row.nominal_diameter for row in ROWS.values() if row.pitch_circle_diameter]
+    assert min(ratios) == pytest.approx(1.015)
+    assert max(ratios) == pytest.approx(1.05)
+
+
+def test_a_ball_in_the_wrong_unit_is_seen():
+    with pytest.raises(
+        InputError, match=r"A\.ball_diameter: too small for the pitch circle \(6e-06 m\) · check the unit"
+    ):
+        CatalogueRow(name="A", **{**GOOD, "ball_diameter": 6e-6})
+    assert CatalogueRow(name="A", **{**GOOD, "ball_diameter": 1.001 * SMALLEST_BALL * 0.04})
+    with pytest.raises(InputError, match="too small for the pitch circle"):
+        CatalogueRow(name="A", **{**GOOD, "ball_diameter": 1e-320})
+
+
+# -- for people -----------------------------------------------------------------------------------
+
+
+def test_list(ballscrew):
+    process = ballscrew("catalogue", "list")
+    assert process.returncode == 0, process.stderr
+    lines = process.stdout.splitlines()
+    assert len(lines) == len(ROWS) + 1
+    expected = "name d0 x lead [mm] ball [mm] turns balls/turn loaded C_a [kN] C_0a [kN] source"
+    assert " ".join(lines[0].split()) == expected
+    expected = "rexroth-16x5x3-4-double 16 x 5 3 4 16 60 12.3 16.1 Rexroth R310RU 3301 (2006.02)"
+    assert " ".join(lines[1].split()) == expected
+    assert len({line.index("R310RU") for line in lines if "R310RU" in line}) == 1
+
+
+def test_list_with_words(ballscrew):
+    process = ballscrew("catalogue", "list", "REXROTH", "40x", "double")
+    assert [line.split()[0] for line in process.stdout.splitlines()[1:]] == ["rexroth-40x10x6-6-double"]
+    refused(ballscrew("catalogue", "list", "nsk"), "catalogue: no row has these words (nsk) · leave them out")
+
+
+def test_show(ballscrew):
+    process = ballscrew("catalogue", "show", "HIWIN-40-20K4")
+    assert process.returncode == 0, process.stderr
+    rows = {line[:60].strip(): line[60:].strip() for line in process.stdout.splitlines()}
+    assert rows["dynamic axial load rating"] == "50.308 kN"
+    assert rows["lead angle of the helix of the ball centres"] == "8.7421 deg"
+    assert rows["whole balls that find room in one turn"] == "20"
+    assert rows["balls of one nut body that carry load"] == "75"
+    assert rows["pitch circle diameter that counts"] == "41.4 mm"
+    root = rows["diameter at the bottom of the groove, from the conformity"]
+    assert root == "34.911 mm (34.879 mm to 34.944 mm for a conformity of 0.54 ± 0.01; listed: 34.91 mm)"
+    for text in ("conformity 0.54 ± 0.01, as most", "contact angle 45 deg, the usual one", "0.24 turns without load"):
+        assert f"\n  {text}" in process.stdout
+    assert "pitch circle as large" not in process.stdout
+    assert "pitch circle as large" in ballscrew("catalogue", "show", "rexroth-40x10x6-6-double").stdout
+
+
+def test_names_that_are_not_there(ballscrew):
+    refused(ballscrew("catalogue", "show", "40-20k4"), 'unknown row (40-20k4) · did you mean "hiwin-40-20k4"?')
+    refused(ballscrew("catalogue", "show", "hiwin-40-20k5"), "did you mean")
+    refused(ballscrew("catalogue", "show", "?"), 'catalogue: unknown row (?) · see "ballscrew catalogue list"')
+    refused(ballscrew("catalogue", "show", "hiwin-40-20k4", "--case", "--json"), "--case: does not go with --json")
+
+
+@every_row
+def test_a_case_is_the_screw_of_the_row(row, tmp_path):
+    path = tmp_path / "my.toml"
+    path.write_text(people.case_text(row), encoding="ascii")
+    case = config.load(path)
+    for field in dataclasses.fields(case.screw):
+        expected, found = getattr(row.screw(), field.name), getattr(case.screw, field.name)
+        if isinstance(expected, bs.Material):
+            assert dataclasses.astuple(found) == dataclasses.astuple(expected)
+        else:
+            assert found == pytest.approx(expected, rel=1e-12), field.name
+    assert case.operation.axial_load == pytest.approx(row.dynamic_load_rating / 10, rel=1e-5)
+    assert case.operation.screw_speed == pytest.approx(20 * math.pi)
+    assert case.oil == {"grade": "ISO VG 100", "temperature": pytest.approx(313.15)}
+
+
+def test_a_case_runs(ballscrew, tmp_path):
+    process = ballscrew("catalogue", "show", "rexroth-63x40x6.5-3-single", "--case")
+    assert "# a tenth of C_a = 53.4 kN" in process.stdout
+    (tmp_path / "my.toml").write_text(process.stdout, encoding="utf-8")
+    result = ballscrew("run", "my.toml", "--json")
+    assert result.returncode == 0, result.stderr
+    assert json.loads(result.stdout)["inputs"]["operation"]["axial_load"] == pytest.approx(5340.0)
+
+
+def test_json(ballscrew):
+    document = json.loads(ballscrew("catalogue", "show", "rexroth-40x10x6-6-double", "--json").stdout)
+    row = ROWS["rexroth-40x10x6-6-double"]
+    assert (document["name"], document["nut"], document["source"]) == (row.name, row.nut, row.source)
+    assert document["row"]["rigidity"] == 1250e6
+    assert document["row"]["pitch_circle_diameter"] is None
+    assert document["derived"]["loaded_balls"] == 121
+    assert document["derived"]["groove_root_diameter"] == pytest.approx(row.groove_root_diameter)
+    assert set(document["units"]["row"]) == set(document["row"])
+    assert set(document["units"]["derived"]) == set(document["derived"])
+    assert (document["units"]["row"]["rigidity"], document["units"]["derived"]["lead_angle"]) == ("N/m", "rad")
+    assert set(document["assumed"]) == {
+        "starts", "contact_angle", "conformity", "pitch_circle_diameter", "loaded_turns",
+    }  # fmt: skip
+    assert document["provenance"] == {"version": bs.__version__}
+    listed = json.loads(ballscrew("catalogue", "list", "double", "--json").stdout)
+    assert listed["rows"][3] == {key: document[key] for key in listed["rows"][3]}
+    assert listed["units"] == document["units"]
+    assert [found["name"] for found in listed["rows"]] == [name for name in ROWS if "double" in name]
+
+
+# -- rows of one's own ----------------------------------------------------------------------------
+
+OWN = """\
+Part number;d0 [mm];Ph [mm];Dw [mm];i;Ca [kN];alpha [°];f;Nut;starts
+Größe 1;40;20;6,35;4;50,3;45;0,52;Double;2
+;40;5;3,175;2,5;;;;;
+"""
+
+
+def test_rows_of_ones_own(ballscrew, tmp_path):
+    (tmp_path / "own.csv").write_text(OWN, encoding="cp1252")
+    process = ballscrew("catalogue", "list", "--rows", "own.csv")
+    assert process.returncode == 0, process.stderr
+    assert process.stderr == ""
+    names = [line.split("  ")[0] for line in process.stdout.splitlines()[1:]]
+    assert names == ["Größe 1", "40x5x3.175-2.5"]
+    assert process.stdout.splitlines()[2].split()[-6:] == ["88", "-", "-", "own.csv", "row", "3"]
+    case = ballscrew(
+        "catalogue", "show", "größe 1", "--rows", "own.csv", "--case", environment={"PYTHONIOENCODING": "cp1252"}
+    )
+    (tmp_path / "my.toml").write_text(case.stdout, encoding="utf-8")
+    screw = config.load(tmp_path / "my.toml").screw
+    assert (screw.screw_conformity, screw.nut_conformity, screw.starts) == (0.52, 0.52, 2)
+    assert "# G\\xf6\\xdfe 1: own.csv row 2" in case.stdout
+    assert "Nut: double." in case.stdout
+    unrated = ballscrew("catalogue", "show", "40x5x3.175-2.5", "--rows", "own.csv", "--case").stdout
+    assert '"1 kN"' in unrated
+    assert "an example; the row lists no dynamic load rating" in unrated
+    (tmp_path / "my.toml").write_text(unrated, encoding="utf-8")
+    assert ballscrew("run", "my.toml").returncode == 0
+    shown = ballscrew("catalogue", "show", "Größe 1", "--rows", "own.csv").stdout
+    assert "Assumed\n  contact angle 45 deg" in shown  # it says 45 deg itself, which is what is usual
+
+
+def test_own_rows_as_the_vendors_list_them(ballscrew):
+    for name, like in [("rexroth_double_nut.csv", "rexroth-16x5x3-4-double"), ("hiwin_fsc.csv", "hiwin-20-5k4")]:
+        process = ballscrew("catalogue", "list", "--rows", DATA / name, "--json")
+        assert process.returncode == 0, process.stderr
+        first = json.loads(process.stdout)["rows"][0]["row"]
+        for field, value in first.items():
+            expected = getattr(ROWS[like], field)
+            assert value == (None if expected is None else pytest.approx(expected, rel=1e-12)), field
+
+
+def test_a_spreadsheet_of_ones_own(ballscrew, tmp_path):
+    book = openpyxl.Workbook()
+    book.active.append(["model", "d0 [mm]", "Ph [mm]", "Dw [mm]", "turns"])
+    book.active.append(["A", 40, 10, 6.35, 4])
+    book.active.append(["A", 40, 10, 6.35, 3])
+    book.active.append(["B", 40, 10, 25, 3])
+    book.save(tmp_path / "own.xlsx")
+    refused(
+        ballscrew("catalogue", "list", "--rows", "own.xlsx"),
+        'own.xlsx row 3, column "model": is given twice (A) · row 2 has it, too: name both apart',
+        'own.xlsx row 4, column "Dw [mm]": too big for the pitch circle (25) · keep it below half the pitch circle '
+        "diameter, 20 mm",
+    )
+    process = ballscrew("catalogue", "list", "--rows", "own.xlsx", "--keep-going")
+    assert process.returncode == 0
+    assert [line.split()[0] for line in process.stdout.splitlines()] == ["name", "A"]
+    assert process.stderr.splitlines()[-1] == "own.xlsx: 2 of 3 rows left out"
+    assert len(process.stderr.splitlines()) == 3
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("Double", "duble", 'own.csv row 2, column "Nut": unknown kind of nut (duble) · did you mean "double"?'),
+        ("6,35", "-6,35", 'own.csv row 2, column "Dw [mm]": must be positive (-6,35) · lengths are positive'),
+        ("6,35", "", 'own.csv row 2, column "Dw [mm]": is empty'),
+        (
+            "6,35",
+            "0,00635",
+            'column "Dw [mm]": too small for the pitch circle (0,00635) · check the unit; 0.04 mm or more',
+        ),
+        ("0,52", "0,5", 'own.csv row 2, column "f": must be above 0.5 (0,5)'),
+        ("45", "90", 'own.csv row 2, column "alpha [°]": must be below 90 deg (90)'),
+        ("4;50,3", "0,2;50,3", 'own.csv row 2, column "i": must be above 0.24 (0,2)'),
+        ("50,3", "50.300,5", 'own.csv row 2, column "Ca [kN]": has a separator of thousands (50.300,5)'),
+        ("Dw [mm]", "Dw", 'own.csv column "Dw": needs a unit · write "Dw [mm]"'),
+        (
+            "Dw [mm]",
+            "ball_diametr [mm]",
+            'own.csv: has no column "ball_diameter [mm]" · write it for "ball_diametr [mm]"',
+        ),
+        ("Ca [kN]", "Ph_mm", 'own.csv column "Ph_mm": means the same as "Ph [mm]"'),
+        (OWN, "", "own.csv: is empty"),
+        (OWN[OWN.index("Größe") :], "", "own.csv: has no rows below its headings"),
+        (";20;", ";1;", 'column "Dw [mm]": too big for the lead: balls of neighbouring turns overlap (6,35) · keep it'),
+    ],
+)
+def test_bad_rows(old, new, expected, ballscrew, tmp_path):
+    assert old in OWN
+    (tmp_path / "own.csv").write_text(OWN.replace(old, new, 1), encoding="utf-8")
+    refused(ballscrew("catalogue", "list", "--rows", "own.csv"), expected)
+
+
+def test_files_that_are_no_table(ballscrew, tmp_path):
+    refused(ballscrew("catalogue", "list", "--rows", "none.csv"), "none.csv: does not exist")
+    refused(ballscrew("catalogue", "list", "--rows", tmp_path), "cannot be read (Is a directory)")
+    (tmp_path / "bad.csv").write_text("d0 [mm];Ph [mm];Dw [mm];i\n40;-1;6;4\n", encoding="utf-8")
+    refused(ballscrew("catalogue", "list", "--rows", "bad.csv", "--keep-going"), "must be positive (-1)")
+
+
+def test_help_is_quick_and_says_what_there_is(ballscrew):
+    process = ballscrew("catalogue", "list", "--help")
+    assert process.returncode == 0
+    for text in ("--rows", "--json", "--keep-going"):
+        assert text in process.stdout
+    assert "--case" in ballscrew("catalogue", "show", "--help").stdout
