@@ -213,22 +213,12 @@ class FrictionModel:
         frame = self.frame(screw)
         Q = self.contact_load(axial_load, screw.loaded_balls, screw.contact_angle, frame.lead_angle)
         v = frame.entrainment_speed(screw_speed)
-        d_w, gamma = screw.ball_diameter, frame.curvature_ratio
+        d_w = screw.ball_diameter
         spin = kinematics.relative_spin(screw_speed, frame.rolling_plane_sine)
         lateral = kinematics.torsion_speed(screw_speed, d_w, frame.lead_angle)
         motion = Motion(v, spin / 2, lateral / 2)
-        laws = ContactLaws(
-            self.hertz, self.film, self.film_parameter, self.inlet, self.friction, self.full_film, self.rolling,
-            self.elastic_resistance,
-        )  # fmt: skip
-        on_screw = rolling_contact(
-            laws, screw, screw.screw_raceway, lubricant, geometry.screw_rolling_radius(d_w, gamma), Q, motion
-        )
-        on_nut = rolling_contact(
-            laws, screw, screw.nut_raceway, lubricant, geometry.nut_rolling_radius(d_w, gamma), Q, motion
-        )
-        imposed = 1 / screw.loaded_balls if self.ball_to_ball_force is None else self.ball_to_ball_force
-        F_B = self.ball_force(imposed, Q)
+        on_screw, on_nut = self.contacts(screw, lubricant, frame, Q, (motion, motion))
+        F_B = self.ball_force(self.imposed_ball_force(screw), Q)
         chain = self.ball_chain(self.ball_friction_coefficient, F_B, d_w, frame)
         asked = Resistances(
             on_screw.hydrodynamic_rolling_force,
@@ -259,6 +249,29 @@ class FrictionModel:
             slip_is_curvature_alone=self.slip is curvature_slip,
             **self._race_states(on_screw, on_nut, carried, slip, frame, d_w),
         )
+
+    def contacts(
+        self, screw: BallScrew, lubricant: Lubricant, frame: Frame, contact_load: Force, motions: tuple[Motion, Motion]
+    ) -> tuple[Contact, Contact]:
+        """The contacts of a ball with screw and nut under a load, in motion; what slips in them comes later."""
+        laws = ContactLaws(
+            self.hertz, self.film, self.film_parameter, self.inlet, self.friction, self.full_film, self.rolling,
+            self.elastic_resistance,
+        )  # fmt: skip
+        d_w, gamma = screw.ball_diameter, frame.curvature_ratio
+        sides = (
+            (screw.screw_raceway, geometry.screw_rolling_radius(d_w, gamma)),
+            (screw.nut_raceway, geometry.nut_rolling_radius(d_w, gamma)),
+        )
+        on_screw, on_nut = (
+            rolling_contact(laws, screw, raceway, lubricant, rolling_radius, contact_load, motion)
+            for (raceway, rolling_radius), motion in zip(sides, motions, strict=True)
+        )
+        return on_screw, on_nut
+
+    def imposed_ball_force(self, screw: BallScrew) -> Force:
+        """The ball-to-ball force where the load does not set it: the paper's 1 N over the number of balls, or given."""
+        return 1 / screw.loaded_balls if self.ball_to_ball_force is None else self.ball_to_ball_force
 
     def _race_states(
         self, on_screw: Contact, on_nut: Contact, carried: Resistances, slip: Slip, frame: Frame, ball_diameter: Any

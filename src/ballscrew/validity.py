@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ballscrew._arrays import namespace
-from ballscrew.components.contact import RaceState
+from ballscrew.components.contact import Contact, RaceState
 from ballscrew.components.screw import BallScrew
 from ballscrew.faults import is_concrete
 from ballscrew.quantities import Mask, Ratio, Torque, fields_of, within_bounds
@@ -66,12 +66,19 @@ def validity_masks(
                 inputs = inputs & within_bounds(quantity.info, value)
         if isinstance(part, BallScrew):
             inputs = inputs & part.fits
-    at_contacts = {reason: holds(screw) & holds(nut) for reason, holds in _AT_A_CONTACT.items()}
-    masks = {"inputs": inputs, **at_contacts, "equilibrium": converged}
+    of_slip = {reason: holds(screw) & holds(nut) for reason, holds in _OF_THE_SLIP.items()}
+    on_screw, on_nut = contact_masks(screw), contact_masks(nut)
+    of_contacts = {reason: on_screw[reason] & on_nut[reason] for reason in on_screw}
+    masks = {"inputs": inputs, **of_slip, **of_contacts, "equilibrium": converged}
     masks["skid"] = masks["skid"] & (rolling_share == 1)
     if not slip_is_curvature_alone:
         masks["pure_rolling_offset"] = everywhere
     return {reason: masks[reason] & everywhere for reason in REASONS}
+
+
+def contact_masks(contact: Contact) -> dict[str, Mask]:
+    """Masks of the conditions that load, geometry and film of a contact must meet, by reason."""
+    return {reason: holds(contact) for reason, holds in _OF_A_CONTACT.items()}
 
 
 def _no_skid(side: RaceState) -> Mask:
@@ -83,15 +90,18 @@ def _within(value: Ratio, least: float, most: float) -> Mask:
     return (value >= least) & (value <= most)
 
 
-#: The conditions that are judged at each contact, by reason.
-_AT_A_CONTACT: Mapping[str, Callable[[RaceState], Mask]] = {
+#: The conditions on the slip at a contact, by reason.
+_OF_THE_SLIP: Mapping[str, Callable[[RaceState], Mask]] = {
     "skid": _no_skid,
     "pure_rolling_offset": lambda side: (
         (side.pure_rolling_offset >= 0) & (side.pure_rolling_offset < LARGEST_PURE_ROLLING_OFFSET)
     ),
-    "radii_ratio": lambda side: _within(side.radii_ratio, 1.0, side.hertz.largest_radii_ratio),
-    "contact_pressure": lambda side: side.maximum_pressure <= LARGEST_PRESSURE,
-    "elastic_regime": lambda side: side.elastic_regime_parameter >= SMALLEST_ELASTIC_REGIME_PARAMETER,
-    "inlet_heating": lambda side: side.inlet_film_factor >= SMALLEST_INLET_FACTOR,
-    "material_parameter": lambda side: _within(side.material_parameter, *MATERIAL_PARAMETER_RANGE),
+}
+#: The conditions on a contact that its slip has no part in, by reason.
+_OF_A_CONTACT: Mapping[str, Callable[[Contact], Mask]] = {
+    "radii_ratio": lambda contact: _within(contact.radii_ratio, 1.0, contact.hertz.largest_radii_ratio),
+    "contact_pressure": lambda contact: contact.maximum_pressure <= LARGEST_PRESSURE,
+    "elastic_regime": lambda contact: contact.elastic_regime_parameter >= SMALLEST_ELASTIC_REGIME_PARAMETER,
+    "inlet_heating": lambda contact: contact.inlet_film_factor >= SMALLEST_INLET_FACTOR,
+    "material_parameter": lambda contact: _within(contact.material_parameter, *MATERIAL_PARAMETER_RANGE),
 }

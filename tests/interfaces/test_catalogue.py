@@ -133,7 +133,7 @@ def test_show(ballscrew):
     assert rows["balls of one nut body that carry load"] == "75"
     assert rows["pitch circle diameter that counts"] == "41.4 mm"
     root = rows["diameter at the bottom of the groove, from the conformity"]
-    assert root == "34.911 mm (34.879 mm to 34.944 mm for a conformity of 0.54 ± 0.01; listed: 34.91 mm)"
+    assert root == "34.911 mm (34.878 mm to 34.944 mm for a conformity of 0.54 ± 0.01; listed: 34.91 mm)"
     for text in ("conformity 0.54 ± 0.01, as most", "contact angle 45 deg, the usual one", "0.24 turns without load"):
         assert f"\n  {text}" in process.stdout
     assert "pitch circle as large" not in process.stdout
@@ -216,7 +216,7 @@ def test_rows_of_ones_own(ballscrew, tmp_path):
     (tmp_path / "my.toml").write_text(case.stdout, encoding="utf-8")
     screw = config.load(tmp_path / "my.toml").screw
     assert (screw.screw_conformity, screw.nut_conformity, screw.starts) == (0.52, 0.52, 2)
-    assert "# G\\xf6\\xdfe 1: own.csv row 2" in case.stdout
+    assert "# Gr\\xf6\\xdfe 1: own.csv row 2" in case.stdout
     assert "Nut: double." in case.stdout
     unrated = ballscrew("catalogue", "show", "40x5x3.175-2.5", "--rows", "own.csv", "--case").stdout
     assert '"1 kN"' in unrated
@@ -271,6 +271,7 @@ def test_a_spreadsheet_of_ones_own(ballscrew, tmp_path):
         ("0,52", "0,5", 'own.csv row 2, column "f": must be above 0.5 (0,5)'),
         ("45", "90", 'own.csv row 2, column "alpha [°]": must be below 90 deg (90)'),
         ("4;50,3", "0,2;50,3", 'own.csv row 2, column "i": must be above 0.24 (0,2)'),
+        ("4;50,3", "1e308;50,3", 'own.csv row 2, column "i": must be at most 100 (1e308)'),
         ("50,3", "50.300,5", 'own.csv row 2, column "Ca [kN]": has a separator of thousands (50.300,5)'),
         ("Dw [mm]", "Dw", 'own.csv column "Dw": needs a unit · write "Dw [mm]"'),
         (

@@ -197,7 +197,7 @@ def test_a_heading_with_another_delimiter_in_it(table):
         ("Ph [mm]\nfive\n", 'row 2, column "Ph [mm]": is not a number (five) · write a number in mm'),
         ("Ph [mm],i\n#DIV/0!,4\n", 'row 2, column "Ph [mm]": is not a number (#DIV/0!) · write a number in mm'),
         ("Ph [mm],i\n5,#N/A\n", 'row 2, column "i": is not a number (#N/A) · write a plain number'),
-        ("Ph [mm],i\n5,0.1\n", 'row 2, column "i": must be above 0.24 (0.1) · 2 to 6'),
+        ("Ph [mm],i\n5,0.1\n", 'row 2, column "i": must be above 0.24 (0.1) · nuts have 2 to 6'),
         ("Ph [mm],i\n5,4 mm\n", 'row 2, column "i": takes no unit (4 mm)'),
         ("Ph [mm],i\n5,54 %\n", 'row 2, column "i": takes no unit (54 %) · write 0.54'),
         ("Ph [mm],starts\n5,1.5\n", 'row 2, column "starts": must be a whole number (1.5)'),

@@ -54,4 +54,4 @@ def ball(part, load, law, pairs, resistances):
         ContactPatch.of(hertz_ellipse(load, part.equivalent_modulus(way), d_w, way.conformity, R_x), law, (64, 16))
         for way, R_x in zip(raceways, radii, strict=True)
     ]
-    return FreeBall.of(part, frame, tuple(patches), pairs, resistances, 1.0)
+    return FreeBall.of(part, frame, [tuple(patches)] * pairs, resistances, 1.0)

@@ -43,7 +43,13 @@ class CatalogueRow:
     ball_diameter: Annotated[Length, Info("d_w", "ball diameter", "mm", above=0, hint="lengths are positive")]
     turns: Annotated[
         Ratio,
-        Info("i", "turns of balls in one nut body, all circuits together", above=TURNS_WITHOUT_LOAD, hint="2 to 6"),
+        Info(
+            "i",
+            "turns of balls in one nut body, all circuits together",
+            above=TURNS_WITHOUT_LOAD,
+            at_most=100,
+            hint="nuts have 2 to 6",
+        ),
     ]
     starts: Annotated[
         Count, Info("N", "number of thread starts", at_least=1, whole=True, hint="give a whole number, 1 or more")

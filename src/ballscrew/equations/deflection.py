@@ -17,9 +17,7 @@ def groove_centre_distance(screw_conformity: Ratio, nut_conformity: Ratio, ball_
     return (f_s + f_n - 1) * d_w
 
 
-def loaded_centre_distance(
-    groove_centre_distance: Length, contact_angle: Angle, flank_displacement: Length
-) -> Length:
+def loaded_centre_distance(groove_centre_distance: Length, contact_angle: Angle, flank_displacement: Length) -> Length:
     r"""Distance of the groove centres when screw and nut have moved against each other.
 
     .. math:: s = \sqrt{\left(A \cos\alpha\right)^2 + \left(A \sin\alpha + \xi\right)^2}
@@ -77,7 +75,9 @@ def contact_load_deflection(
     return E * xp.sqrt(R_x) * c_d ** (-3 / 2)
 
 
-def series_load_deflection(screw_load_deflection: LoadDeflection, nut_load_deflection: LoadDeflection) -> LoadDeflection:
+def series_load_deflection(
+    screw_load_deflection: LoadDeflection, nut_load_deflection: LoadDeflection
+) -> LoadDeflection:
     r"""Load over approach to the power of one and a half, of the two contacts of a ball in series.
 
     .. math:: K = \left(K_s^{-2/3} + K_n^{-2/3}\right)^{-3/2}

@@ -96,17 +96,17 @@ class BallSprings(NamedTuple):
         def mean(part: Field) -> Field:
             return part.reshape(-1, number, part.shape[-1]).mean(axis=1)
 
-        return self._replace(
-            balls=number * self.balls, flanks=tuple(Flanks(*map(mean, each)) for each in self.flanks)
-        )
+        return self._replace(balls=number * self.balls, flanks=tuple(Flanks(*map(mean, each)) for each in self.flanks))
 
     def at(self, points: NDArray[np.intp]) -> BallSprings:
         """Some of the operating points."""
-        *numbers, constant_angle, flanks = self
-        return BallSprings(
-            *(_some(number, points) for number in numbers),
-            constant_angle,
-            tuple(Flanks(*(_some(part, points) for part in each)) for each in flanks),
+        return self._replace(
+            load_deflection=_some(self.load_deflection, points),
+            centre_distance=_some(self.centre_distance, points),
+            contact_angle=_some(self.contact_angle, points),
+            lead_cosine=_some(self.lead_cosine, points),
+            balls=_some(self.balls, points),
+            flanks=tuple(Flanks(*(_some(part, points) for part in each)) for each in self.flanks),
         )
 
 
@@ -133,9 +133,7 @@ def _some(values: Field, points: NDArray[np.intp]) -> Field:
     return values if values.shape[-1] == 1 else values[..., points]
 
 
-def rigid_balance(
-    springs: BallSprings, load: Field, scale: Field, guess: Field, tolerance: float = BALANCED
-) -> Field:
+def rigid_balance(springs: BallSprings, load: Field, scale: Field, guess: Field, tolerance: float = BALANCED) -> Field:
     """The one displacement of a rigid screw in a rigid nut that balances a load.
 
     Newton's steps within a bracket; a step that leaves it is replaced by a bisection. ``scale`` are the

@@ -31,6 +31,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -143,6 +144,7 @@ def contact_integral(
     traction: TractionLaw | tuple[TractionLaw, TractionLaw],
     *,
     flank_pairs: int = 1,
+    second_load: Force | None = None,
     resistances: BallResistances | None = None,
     screw_speed: AngularSpeed = 1.0,
     frame: Frame | None = None,
@@ -152,38 +154,46 @@ def contact_integral(
     """The friction of one ball of a screw by the full integral over its contacts.
 
     ``traction`` is the law of both races, or a pair (screw, nut). ``flank_pairs=2`` is an oversize
-    ball: four contacts, each with the contact load. ``frame`` is the screw's helix unless given; with
-    ``bearing_frame(screw)`` it is a plain bearing. ``resolution`` counts points across and along the
-    path; ``check_resolution`` solves again on a finer grid.
+    ball: four contacts, each with the contact load, or with ``second_load`` on the second pair.
+    ``frame`` is the screw's helix unless given; with ``bearing_frame(screw)`` it is a plain bearing.
+    ``resolution`` counts points across and along the path; ``check_resolution`` solves again on a
+    finer grid.
 
     Raises :class:`~ballscrew.faults.InputError` for input that is not one number within its bounds.
     Physics never raises: where the ball skids or outgrows its groove, the outcome says so.
     """
     laws = on_both_races(traction)
     resistances = BallResistances() if resistances is None else resistances
-    raise_if_any(_faults(screw, contact_load, flank_pairs, resistances, screw_speed, resolution))
+    raise_if_any(_faults(screw, contact_load, flank_pairs, second_load, resistances, screw_speed, resolution))
     frame = helix_frame(screw) if frame is None else frame
     d_w, gamma = screw.ball_diameter, frame.curvature_ratio
     sides = (
         (screw.screw_raceway, geometry.screw_rolling_radius(d_w, gamma)),
         (screw.nut_raceway, geometry.nut_rolling_radius(d_w, gamma)),
     )
-    on_screw, on_nut = (
-        hertz_ellipse(contact_load, screw.equivalent_modulus(raceway), d_w, raceway.conformity, R_x)
-        for raceway, R_x in sides
-    )
-    if contact_load == 0:
+    loads = (contact_load, contact_load if second_load is None else second_load)[:flank_pairs]
+    ellipses = [
+        tuple(
+            hertz_ellipse(load, screw.equivalent_modulus(raceway), d_w, raceway.conformity, R_x)
+            for raceway, R_x in sides
+        )
+        for load in loads
+    ]
+    if min(loads) == 0:
         return _without_balance(NO_LOAD)
-    if not (on_screw.fits and on_nut.fits):
+    if not all(ellipse.fits for pair in ellipses for ellipse in pair):
         return _without_balance(TOO_LARGE)
 
     def outcome(points: tuple[int, int]) -> ContactIntegral:
-        patches = ContactPatch.of(on_screw, laws[0], points), ContactPatch.of(on_nut, laws[1], points)
-        ball = FreeBall.of(screw, frame, patches, flank_pairs, resistances, float(screw_speed))
+        patches = [
+            (ContactPatch.of(at_screw, laws[0], points), ContactPatch.of(at_nut, laws[1], points))
+            for at_screw, at_nut in ellipses
+        ]
+        ball = FreeBall.of(screw, frame, patches, resistances, float(screw_speed))
         found = balance(ball)
         if not found.converged:
             return _without_balance(SKIDS if found.skids else NOT_FOUND, found.iterations)
-        result = _with_balance(ball, found, (on_screw, on_nut))
+        result = _with_balance(ball, found, [ellipse for pair in ellipses for ellipse in pair])
         closes = abs(result.power_balance_error) <= LARGEST_POWER_ERROR
         return result if closes else _without_balance(NOT_FOUND, found.iterations)
 
@@ -262,12 +272,12 @@ def _along(
     return None, long, iterations
 
 
-def _with_balance(ball: FreeBall, found: Balance, ellipses: tuple[Ellipse, Ellipse]) -> ContactIntegral:
+def _with_balance(ball: FreeBall, found: Balance, ellipses: Sequence[Ellipse]) -> ContactIntegral:
     """The outcome where the ball is in balance."""
     omega, unknowns = ball.screw_speed, ball.rolling + found.change
     contacts: list[RaceContact] = []
     torques = {True: ball.screw_resistance, False: ball.nut_resistance}
-    for side in ball.sides:
+    for side, ellipse in zip(ball.sides, ellipses, strict=True):
         twist = side.twist(found.change)
         wrench, _, capacity = side.patch.answer(twist, found.blur)
         field = side.patch.field(twist, found.blur)
@@ -280,7 +290,7 @@ def _with_balance(ball: FreeBall, found: Balance, ellipses: tuple[Ellipse, Ellip
                 sliding_speed=float(twist[ALONG]),
                 spin=float(twist[SPIN]),
                 slip_power=field.dissipation,
-                ellipse=ellipses[0 if side.on_screw else 1],
+                ellipse=ellipse,
                 field=field,
             )
         )
@@ -320,6 +330,7 @@ def _faults(
     screw: BallScrew,
     contact_load: Force,
     flank_pairs: int,
+    second_load: Force | None,
     resistances: BallResistances,
     screw_speed: AngularSpeed,
     resolution: Any,
@@ -334,7 +345,8 @@ def _faults(
             if not is_concrete(value):
                 faults.append(Fault(f"{section}.{name}", "must be one number", shown(value, "1"), one_at_a_time))
     section = "contact_integral"
-    for quantity, value in ((CONTACT_LOAD, contact_load), (SCREW_SPEED, screw_speed)):
+    second = [] if second_load is None else [(dataclasses.replace(CONTACT_LOAD, name="second_load"), second_load)]
+    for quantity, value in ((CONTACT_LOAD, contact_load), *second, (SCREW_SPEED, screw_speed)):
         if is_concrete(value):
             faults += [fault for fault in [fault_of(section, quantity, value)] if fault is not None]
         else:
@@ -345,6 +357,8 @@ def _faults(
     if flank_pairs not in (1, 2):
         remedy = "give 1 for two contacts, 2 for the four of an oversize ball"
         faults.append(Fault(f"{section}.flank_pairs", "must be 1 or 2", shown(flank_pairs, "1"), remedy))
+    if second and flank_pairs != 2:
+        faults.append(Fault(f"{section}.second_load", "needs two flank pairs", "", "give flank_pairs=2 with it"))
     if len(resolution) != 2 or not all(isinstance(points, int) and points >= 2 for points in resolution):
         remedy = "give the points across and along the path, such as (64, 16)"
         faults.append(Fault(f"{section}.resolution", "must be two whole numbers, 2 or more", repr(resolution), remedy))

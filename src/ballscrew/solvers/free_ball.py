@@ -104,12 +104,11 @@ class FreeBall:
         cls,
         screw: BallScrew,
         frame: Frame,
-        patches: tuple[ContactPatch, ContactPatch],
-        flank_pairs: int,
+        patches: Sequence[tuple[ContactPatch, ContactPatch]],
         resistances: BallResistances,
         screw_speed: AngularSpeed,
     ) -> FreeBall:
-        """The ball of a screw, from its patches on screw and nut."""
+        """The ball of a screw, from its patches on screw and nut, of one flank pair or of two."""
         alpha, phi = float(screw.contact_angle), float(frame.lead_angle)
         rho, L, gamma = float(screw.ball_diameter) / 2, float(frame.path_radius), float(frame.curvature_ratio)
         # the path, and what is outward and normal of it, in the directions t, c, N of the first nut contact
@@ -117,22 +116,22 @@ class FreeBall:
         outward = np.array([0.0, -np.sin(alpha), np.cos(alpha)])
         binormal = np.array([0.0, np.cos(alpha), np.sin(alpha)])
         axis = np.sin(phi) * path + np.cos(phi) * binormal
-        nut_normals = [np.cos(alpha) * outward + side * np.sin(alpha) * binormal for side in (1, -1)[:flank_pairs]]
+        nut_normals = [np.cos(alpha) * outward + side * np.sin(alpha) * binormal for side in (1, -1)[: len(patches)]]
         rolling_axes = [_cross(normal, path) for normal in nut_normals]
-        ball_axis = rolling_axes[0] if flank_pairs == 1 else binormal
+        ball_axis = rolling_axes[0] if len(patches) == 1 else binormal
 
         orbit = screw_speed * (1 - gamma) / 2
         rotation = screw_speed / 2 * np.sin(phi) * path - orbit * L / rho / (rolling_axes[0] @ ball_axis) * ball_axis
         spin = screw_speed * float(axis @ nut_normals[0])
-        if flank_pairs == 1:
+        if len(patches) == 1:
             rotation = rotation + spin / 2 * nut_normals[0]
         rolling = np.append(rotation, orbit)
 
         sides: list[Side] = []
         for normal, patch, on_screw in [
             (sign * normal, patch, on_screw)
-            for normal in nut_normals
-            for sign, patch, on_screw in ((-1, patches[0], True), (1, patches[1], False))
+            for normal, (at_screw, at_nut) in zip(nut_normals, patches, strict=True)
+            for sign, patch, on_screw in ((-1, at_screw, True), (1, at_nut, False))
         ]:
             axes, middle = np.array([path, _cross(normal, path), normal]), rho * normal
             of_screw = _twist(axes, L * path + _cross(axis, middle), axis)
@@ -148,7 +147,7 @@ class FreeBall:
             resistance=gradient,
             screw_resistance=by_screw,
             nut_resistance=by_nut,
-            levers=np.array([rho, rho, max(float(np.max(patch.across)) for patch in patches), L]),
+            levers=np.array([rho, rho, max(float(np.max(patch.across)) for pair in patches for patch in pair), L]),
             screw_speed=screw_speed,
             rolling_speed=float(kinematics.entrainment_speed(screw_speed, L, gamma)),
             spin=spin,

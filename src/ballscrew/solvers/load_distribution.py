@@ -28,7 +28,7 @@ from ballscrew.components.frame import helix_frame
 from ballscrew.components.nut import Bodies, Deviations, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut
 from ballscrew.components.screw import BallScrew, Raceway
 from ballscrew.equations import deflection, geometry, hertz
-from ballscrew.faults import Fault, is_concrete, raise_if_any, shown
+from ballscrew.faults import Fault, is_concrete, raise_if_any
 from ballscrew.quantities import Angle, Force, Info, Length, LoadDeflection, Mask, Ratio, Stiffness
 from ballscrew.solvers.ball_springs import (
     BallSprings,
@@ -76,7 +76,9 @@ class BallLoads:
     @property
     def advice(self) -> str:
         """What to do where it did not converge."""
-        return "the balls outgrow their grooves: check load, preload and deviations against ball_diameter and conformity"
+        return (
+            "the balls outgrow their grooves: check load, preload and deviations against ball_diameter and conformity"
+        )
 
 
 def ball_loads(
@@ -277,12 +279,12 @@ def _by_facing(springs: BallSprings, displacement: Field) -> list[tuple[Field, F
     loads = [(flanks.facing, springs.loads(flanks, displacement)) for flanks in springs.flanks]
 
     def of(facing: int) -> tuple[Field, Field, Field]:
-        there = [(pair == facing, load) for pair, load in loads]
-        return (
-            sum(np.where(is_there, load.load, 0.0) for is_there, load in there),
-            sum(np.where(is_there, np.arcsin(load.sine), 0.0) for is_there, load in there),
-            sum(np.where(is_there, facing * load.axial_force, 0.0) for is_there, load in there),
-        )
+        load = angle = force = np.zeros_like(displacement)
+        for pair, there in loads:
+            load = load + np.where(pair == facing, there.load, 0.0)
+            angle = angle + np.where(pair == facing, np.arcsin(there.sine), 0.0)
+            force = force + np.where(pair == facing, facing * there.axial_force, 0.0)
+        return load, angle, force
 
     return [of(1), of(-1)]
 
@@ -323,7 +325,9 @@ def _balance(case: _Case, point: _Point, springs: BallSprings, bars: Bars, load:
     if not case.elastic:
         return rigid_balance(springs, load, forces, guess)
     start = rigid_balance(springs.of_kinds(case.balls), load, forces, guess, START)
-    return chain_balance(springs, bars, load, forces, np.broadcast_to(start[0], (len(springs.flanks[0].facing), load.size)))
+    return chain_balance(
+        springs, bars, load, forces, np.broadcast_to(start[0], (len(springs.flanks[0].facing), load.size))
+    )
 
 
 def _braced(case: _Case, point: _Point, springs: BallSprings, bars: Bars) -> tuple[BallSprings, Field]:

@@ -1,0 +1,267 @@
+"""A friction model on a whole nut: its preload, the load on every ball, and what it loses besides its balls.
+
+The paper sums the torque over the balls, Olaru2005 §6 (33) and (34); here the terms are unequal. Balls of a
+single or a double nut have two contacts, each ball its own load and contact angle
+(:mod:`ballscrew.solvers.load_distribution`); oversize balls have four
+(:mod:`ballscrew.solvers.four_point_slip`).
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Annotated, Any, NamedTuple
+
+import numpy as np
+
+from ballscrew._arrays import as_array, lazy
+from ballscrew.components.conditions import Motion
+from ballscrew.components.contact import Contact
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.nut import Bodies, Deviations, Nut, OversizeBallNut
+from ballscrew.components.nut_losses import ParasiticLaw
+from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.equations import kinematics, transmission
+from ballscrew.faults import Fault, raise_if_any
+from ballscrew.model import FrictionModel
+from ballscrew.quantities import AngularSpeed, Force, Info, Mask, Power, Pressure, Ratio, Torque
+from ballscrew.result import MECHANISMS
+from ballscrew.solvers.ellipse_slip import ellipse_slip
+from ballscrew.solvers.four_point_slip import FlankPair, FourPointBall, four_point_slip
+from ballscrew.solvers.load_distribution import BallLoads, ball_loads
+from ballscrew.validity import REASONS, contact_masks
+
+#: What can be wrong with a nut beyond what can be wrong with a ball.
+NUT_REASONS: Mapping[str, str] = {**REASONS, "load_distribution": "the loads of the balls did not converge"}
+
+
+class LoadedPair(NamedTuple):
+    """The contacts on one pair of flanks of all balls, the ball axis last."""
+
+    load: Force
+    screw: Contact
+    nut: Contact
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class NutFriction:
+    """Friction of a ball screw with its nut at one operating point, or at an array of them."""
+
+    model: FrictionModel
+    ball_screw: BallScrew
+    nut: Nut
+    axial_load: Annotated[Force, Info("F", "axial load on the nut")]
+    screw_speed: Annotated[AngularSpeed, Info(r"\omega", "speed of the screw", "rpm")]
+    loads: BallLoads
+    pairs: tuple[LoadedPair, ...]
+    #: Torque on the screw by mechanism: those of the balls, then those of the nut, N m. They sum to ``screw_torque``.
+    contributions: Mapping[str, Torque]
+    nut_torque: Annotated[Torque, Info("M_N", "friction torque on the nut")]
+    validity: Mapping[str, Mask]
+
+    def __repr__(self) -> str:
+        """The few numbers one looks for first."""
+        shown = {name: getattr(self, name) for name in ("screw_torque", "efficiency", "valid")}
+        return f"NutFriction({', '.join(f'{name}={value}' for name, value in shown.items())})"
+
+    @lazy
+    def screw_torque(self) -> Annotated[Torque, Info("M_S", "friction torque on the screw")]:
+        """Friction torque on the screw."""
+        return sum(self.contributions.values())
+
+    @lazy
+    def ideal_torque(self) -> Annotated[Torque, Info("M_Sa", "drive torque without friction")]:
+        """Drive torque without friction."""
+        return self.model.ideal_torque(self.axial_load, self.ball_screw, self.model.frame(self.ball_screw))
+
+    @lazy
+    def drive_torque(self) -> Annotated[Torque, Info("M_Sa + M_S", "drive torque with friction")]:
+        """Torque that drives the screw against the load."""
+        return self.ideal_torque + self.screw_torque
+
+    @lazy
+    def efficiency(self) -> Annotated[Ratio, Info(r"\eta", "efficiency, screw drives the nut")]:
+        """Efficiency when the screw drives the nut. Zero without load."""
+        drive = self.drive_torque
+        return transmission.efficiency(self.ideal_torque, np.where(drive > 0, drive, 1.0) - self.ideal_torque)
+
+    @lazy
+    def back_driving_efficiency(self) -> Annotated[Ratio, Info(r"\eta_b", "efficiency, the load drives the screw")]:
+        """Efficiency when the load drives the screw; zero or less means self-locking."""
+        eta = self.efficiency
+        none = eta == 0
+        return np.where(none, -np.inf, transmission.back_driving_efficiency(np.where(none, 1.0, eta)))[()]
+
+    @lazy
+    def friction_power(self) -> Annotated[Power, Info("P", "power dissipated by friction")]:
+        """Power dissipated by friction."""
+        return self.screw_torque * self.screw_speed
+
+    @lazy
+    def largest_contact_load(self) -> Annotated[Force, Info("Q_max", "load of the most loaded contact")]:
+        """Load of the most loaded contact."""
+        return np.max([np.max(pair.load, axis=-1) for pair in self.pairs], axis=0)
+
+    @lazy
+    def maximum_pressure(self) -> Annotated[Pressure, Info("p_0", "greatest contact pressure", "GPa")]:
+        """Greatest contact pressure of all balls."""
+        contacts = [contact for pair in self.pairs for contact in (pair.screw, pair.nut)]
+        return np.max([np.max(contact.maximum_pressure, axis=-1) for contact in contacts], axis=0)
+
+    @lazy
+    def valid(self) -> Annotated[Mask, Info("valid", "all conditions of the model hold")]:
+        """Where all conditions of the model hold."""
+        return np.all(np.stack(np.broadcast_arrays(*self.validity.values())), axis=0)
+
+    @property
+    def warnings(self) -> list[str]:
+        """The conditions that fail somewhere, in words: ``"reason: explanation"``."""
+        return [f"{reason}: {NUT_REASONS[reason]}" for reason, mask in self.validity.items() if not np.all(mask)]
+
+
+def nut_friction(
+    model: FrictionModel,
+    screw: BallScrew,
+    nut: Nut,
+    lubricant: Lubricant,
+    *,
+    axial_load: Force,
+    screw_speed: AngularSpeed,
+    bodies: Bodies | None = None,
+    deviations: Deviations | None = None,
+    losses: Mapping[str, ParasiticLaw] | None = None,
+) -> NutFriction:
+    """Friction of a screw with its nut at an axial load (N) and a screw speed (rad/s); arrays broadcast.
+
+    The loaded balls of the screw are those of one nut body or half. ``bodies`` and ``deviations`` make balls of a kind
+    unequal; ``losses`` are further laws by name, such as ``{"seals": Seals(seal_torque=0.2)}``.
+    Raises :class:`~ballscrew.faults.InputError` for numbers out of bounds, and for a model that knows no four
+    contacts where the nut has them.
+    """
+    operation = Operation(axial_load=as_array(axial_load), screw_speed=as_array(screw_speed))
+    four = isinstance(nut, OversizeBallNut)
+    if four and model.slip is not ellipse_slip:
+        remedy = 'take the model reference, or slip = "ellipse"'
+        raise_if_any(
+            [Fault("model.slip", "knows no balls with four contacts, as an oversize-ball nut has", "", remedy)]
+        )
+    loads = ball_loads(screw, nut, operation.axial_load, bodies=bodies, deviations=deviations)
+    model = dataclasses.replace(model, ball_to_ball_force=model.imposed_ball_force(screw))
+    ball = _Ball(
+        model=_per_ball(model),
+        screw=dataclasses.replace(_per_ball(screw), loaded_balls=1),
+        lubricant=_per_ball(lubricant),
+        screw_speed=_per_ball(operation.screw_speed),
+    )
+    with np.errstate(all="ignore"):
+        balls = _on_four_contacts(ball, loads) if four else _on_two_contacts(ball, loads)
+        all_balls = dataclasses.replace(screw, loaded_balls=np.sum(loads.balls, axis=-1)[()])
+        further = {name: law(all_balls, lubricant, operation.screw_speed) for name, law in (losses or {}).items()}
+    loaded = loads.forward_load + loads.backward_load > 0
+    return NutFriction(
+        model=model,
+        ball_screw=screw,
+        nut=nut,
+        axial_load=operation.axial_load,
+        screw_speed=operation.screw_speed,
+        loads=loads,
+        pairs=balls.pairs,
+        contributions={
+            **{name: np.sum(loads.balls * balls.contributions[name], axis=-1) for name in MECHANISMS},
+            **further,
+        },
+        nut_torque=np.sum(loads.balls * balls.nut_torque, axis=-1) + sum(further.values()),
+        validity={
+            **{reason: np.all(mask | ~loaded, axis=-1) for reason, mask in balls.validity.items()},
+            "load_distribution": loads.converged,
+        },
+    )
+
+
+class _Ball(NamedTuple):
+    """What a model is asked about each ball; a last axis for the balls wherever there are arrays."""
+
+    model: FrictionModel
+    screw: BallScrew
+    lubricant: Lubricant
+    screw_speed: AngularSpeed
+
+
+class _Balls(NamedTuple):
+    """What each ball answers."""
+
+    contributions: Mapping[str, Torque]
+    nut_torque: Torque
+    pairs: tuple[LoadedPair, ...]
+    validity: Mapping[str, Mask]
+
+
+def _given_load(axial_load: Force, *_: Any) -> Force:
+    """The load of a ball where it is known: it is what the model is called with."""
+    return axial_load
+
+
+def _on_two_contacts(ball: _Ball, loads: BallLoads) -> _Balls:
+    """Balls that touch one flank pair each, this or that."""
+    load = loads.forward_load + loads.backward_load
+    angle = np.where(loads.forward_load > 0, loads.forward_angle, loads.backward_angle)
+    angle = np.where(load > 0, angle, ball.screw.contact_angle)
+    screw = dataclasses.replace(ball.screw, contact_angle=angle)
+    one = dataclasses.replace(ball.model, contact_load=_given_load)
+    result = one(screw, ball.lubricant, axial_load=load, screw_speed=ball.screw_speed)
+    pair = LoadedPair(load, result.screw, result.nut)
+    return _Balls(result.contributions, result.nut_torque, (pair,), result.validity)
+
+
+def _on_four_contacts(ball: _Ball, loads: BallLoads) -> _Balls:
+    """Balls that touch both flanks; where a flank is relieved of its load, it takes no part."""
+    model, screw, omega = ball.model, ball.screw, ball.screw_speed
+    sides = ((loads.forward_load, loads.forward_angle), (loads.backward_load, loads.backward_angle))
+    pairs: list[LoadedPair] = []
+    masks: list[Mapping[str, Mask]] = []
+    for load, angle in sides:
+        at_angle = dataclasses.replace(screw, contact_angle=np.where(load > 0, angle, screw.contact_angle))
+        frame = model.frame(at_angle)
+        lateral = kinematics.torsion_speed(omega, screw.ball_diameter, frame.lead_angle) / 2
+        v = frame.entrainment_speed(omega)
+        # the ball turns about the binormal; what of its rotation does not roll spins, at the screw more than at the nut
+        at_nut = kinematics.ball_rotation(v, screw.ball_diameter) * np.tan(at_angle.contact_angle)
+        at_screw = at_nut + kinematics.relative_spin(omega, frame.rolling_plane_sine)
+        contacts = model.contacts(
+            at_angle, ball.lubricant, frame, load, (Motion(v, at_screw, lateral), Motion(v, at_nut, lateral))
+        )
+        pairs.append(LoadedPair(load, *contacts))
+        masks += [
+            {reason: mask | (load == 0) for reason, mask in contact_masks(contact).items()} for contact in contacts
+        ]
+    frame = model.frame(screw)
+    F_B = model.ball_force(model.imposed_ball_force(screw), loads.forward_load + loads.backward_load)
+    moment = model.ball_chain(model.ball_friction_coefficient, F_B, screw.ball_diameter, frame).moment
+    forward, backward = (
+        FlankPair(pair.screw, pair.nut, np.where(pair.load > 0, angle, screw.contact_angle))
+        for pair, (_, angle) in zip(pairs, sides, strict=True)
+    )
+    slip = four_point_slip(
+        FourPointBall(forward, backward, moment, F_B, screw.ball_diameter, frame.lead_angle, frame.path_radius)
+    )
+    torque = sum(slip.contributions.values())
+    everywhere = {reason: np.isfinite(torque) for reason in REASONS}
+    validity = {**everywhere, **{r: np.logical_and.reduce([mask[r] for mask in masks]) for r in masks[0]}}
+    validity["skid"] = slip.rolling_share == 1
+    validity["equilibrium"] = slip.converged
+    return _Balls(slip.contributions, slip.nut_torque, tuple(pairs), validity)
+
+
+def _per_ball(part: Any) -> Any:
+    """A part with a last axis for the balls wherever it has arrays."""
+    if isinstance(part, np.ndarray):
+        return _last_axis(part)
+    if not dataclasses.is_dataclass(part) or isinstance(part, type):
+        return part
+    values = {field.name: getattr(part, field.name) for field in dataclasses.fields(part)}
+    changed = {name: new for name, value in values.items() if (new := _per_ball(value)) is not value}
+    return dataclasses.replace(part, **changed) if changed else part
+
+
+def _last_axis(value: Any) -> Any:
+    return value[..., None] if np.ndim(value) else value
