@@ -42,6 +42,8 @@ readme: $(READY)
 bench: $(READY)
 	$(BIN)/python benchmarks/sweep.py
 	$(BIN)/python benchmarks/reference.py
+	$(BIN)/python benchmarks/four_point.py
+	$(BIN)/python benchmarks/loads.py
 
 clean:
 	rm -rf .venv out build dist

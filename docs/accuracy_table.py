@@ -1,4 +1,4 @@
-"""The reference model against the contact integral, as the benchmark prints it."""
+"""The models against the contact integral, as the benchmarks print it."""
 
 from __future__ import annotations
 
@@ -7,22 +7,23 @@ import subprocess
 import sys
 from pathlib import Path
 
-BENCHMARK = Path(__file__).parents[1] / "benchmarks" / "reference.py"
+BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
 
 
-def _printed(*options: str) -> str:
-    command = [sys.executable, str(BENCHMARK), *options]
+def printed(benchmark: str, *options: str) -> str:
+    """What a benchmark prints."""
+    command = [sys.executable, str(BENCHMARKS / benchmark), *options]
     return subprocess.run(command, check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout
 
 
 def page() -> str:
     """All tables, for the documentation."""
-    return _printed("--markdown")
+    return printed("reference.py", "--markdown")
 
 
 def short_table() -> str:
     """One line for each comparison of the reference model, for the README."""
-    tables = json.loads(_printed("--json", "--no-speed"))["tables"]
+    tables = json.loads(printed("reference.py", "--json", "--no-speed"))["tables"]
     lines = [["reference model against the integral", "screws", "median", "95 % within", "largest"], ["---"] * 5]
     for table in tables:
         row = next(row for row in table["rows"] if row["model"] == "reference")

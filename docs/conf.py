@@ -8,6 +8,7 @@ sys.path[:0] = [str(HERE / "_ext"), str(HERE)]
 
 import ballscrew  # noqa: E402  (after the path of the extension)
 import effect_tables  # noqa: E402  (likewise)
+import validation_tables  # noqa: E402  (likewise)
 
 project = "ballscrew"
 author = "The ballscrew authors"
@@ -17,7 +18,7 @@ version = release = ballscrew.__version__
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinxcontrib.bibtex", "mathml"]
 myst_enable_extensions = ["dollarmath", "colon_fence", "deflist", "substitution"]
 myst_heading_anchors = 3
-myst_substitutions = effect_tables.numbers()
+myst_substitutions = {**effect_tables.numbers(), **validation_tables.numbers()}
 html_math_renderer = "mathml"
 html_theme = "furo"
 html_title = "ballscrew"
@@ -48,6 +49,7 @@ def generate(_app):
     for name, text in pages.items():
         (generated / name).write_text(text, encoding="utf-8")
     effect_tables.write(generated / "effects")
+    validation_tables.write(generated / "validation")
     reproduce_olaru2005(generated / "olaru2005")
 
 

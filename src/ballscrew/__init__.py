@@ -11,10 +11,16 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ballscrew.analyses.sweep import sweep as sweep
+    from ballscrew.assembly import nut_friction as nut_friction
+    from ballscrew.components.catalogue import catalogue as catalogue
     from ballscrew.components.lubrication import HamrockDowson as HamrockDowson
     from ballscrew.components.materials import Lubricant as Lubricant
     from ballscrew.components.materials import Material as Material
     from ballscrew.components.mixed_friction import ZhouHoeprich as ZhouHoeprich
+    from ballscrew.components.nut import DoubleNut as DoubleNut
+    from ballscrew.components.nut import OffsetLeadNut as OffsetLeadNut
+    from ballscrew.components.nut import OversizeBallNut as OversizeBallNut
+    from ballscrew.components.nut import SingleNut as SingleNut
     from ballscrew.components.screw import BallScrew as BallScrew
     from ballscrew.faults import InputError as InputError
     from ballscrew.model import FrictionModel as FrictionModel
@@ -24,26 +30,38 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "BallScrew": "ballscrew.components.screw",
+    "DoubleNut": "ballscrew.components.nut",
     "FrictionModel": "ballscrew.model",
     "FrictionResult": "ballscrew.result",
     "HamrockDowson": "ballscrew.components.lubrication",
     "InputError": "ballscrew.faults",
     "Lubricant": "ballscrew.components.materials",
     "Material": "ballscrew.components.materials",
+    "OffsetLeadNut": "ballscrew.components.nut",
+    "OversizeBallNut": "ballscrew.components.nut",
+    "SingleNut": "ballscrew.components.nut",
     "ZhouHoeprich": "ballscrew.components.mixed_friction",
+    "catalogue": "ballscrew.components.catalogue",
+    "nut_friction": "ballscrew.assembly",
     "sweep": "ballscrew.analyses.sweep",
 }
 
 __all__ = [
     "BallScrew",
+    "DoubleNut",
     "FrictionModel",
     "FrictionResult",
     "HamrockDowson",
     "InputError",
     "Lubricant",
     "Material",
+    "OffsetLeadNut",
+    "OversizeBallNut",
+    "SingleNut",
     "ZhouHoeprich",
     "__version__",
+    "catalogue",
+    "nut_friction",
     "sweep",
 ]
 

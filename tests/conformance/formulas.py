@@ -22,7 +22,7 @@ _BLOCK = re.compile(r"\.\. math:: (?P<formula>.*?)(?:\n\s*\n|\Z)", re.DOTALL)
 _OTHER_SPELLINGS = {"varphi": "phi", "lambda": "lam"}
 _FUNCTIONS = {"min": sympy.Min, "max": sympy.Max}
 
-_GREEK = "alpha|beta|gamma|delta|eta|kappa|lambda|mu|nu|omega|Omega|phi|varphi|pi|rho|sigma|tau"
+_GREEK = "alpha|beta|gamma|delta|eta|kappa|lambda|mu|nu|omega|Omega|phi|varphi|pi|rho|sigma|tau|xi"
 #: A letter before a bracket is a factor, but the parser would take it for a function.
 _FACTOR = re.compile(rf"(?<![A-Za-z\\])((?:[A-Za-z]|\\(?:{_GREEK}))'?(?:_\{{[^}}]*\}})?)\s*(?=(?:\\left)?\()")
 

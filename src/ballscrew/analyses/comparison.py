@@ -7,8 +7,11 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
+from ballscrew.analyses.nut_parts import NutParts
+from ballscrew.assembly import NutFriction
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.equations import transmission
 from ballscrew.model import FrictionModel
 from ballscrew.result import FrictionResult
 
@@ -31,7 +34,7 @@ class Row:
     """A candidate, and what came out of it."""
 
     candidate: Candidate
-    result: FrictionResult
+    result: FrictionResult | NutFriction
     #: Friction torque over that of the case's model, less one; NaN where that is zero.
     change: float
 
@@ -39,6 +42,16 @@ class Row:
     def torque(self) -> float:
         """Friction torque on the screw, N m."""
         return float(self.result.screw_torque)
+
+    @property
+    def holding_torque(self) -> float:
+        """Torque on the shaft when the load drives the screw; negative: that lowers it."""
+        return float(transmission.holding_torque(self.result.ideal_torque, self.result.screw_torque))
+
+    @property
+    def self_locking(self) -> bool:
+        """Whether there is a load, and it alone cannot turn the screw."""
+        return bool(self.result.ideal_torque > 0) and self.holding_torque <= 0
 
     @property
     def outside(self) -> tuple[str, ...]:
@@ -101,14 +114,19 @@ def compare(
     screw: BallScrew,
     lubricant: Lubricant,
     operation: Operation,
+    parts: NutParts | None = None,
 ) -> Comparison:
     """Evaluate the case's model, other models, and the case's with other laws, at one operating point.
 
-    Where one of the models is the case's own, their rows are one.
+    Where one of the models is the case's own, their rows are one. With ``parts`` it is done on a whole nut; what
+    knows no such nut is left out.
     """
 
-    def result_of(model: FrictionModel) -> FrictionResult:
-        return model(screw, lubricant, axial_load=operation.axial_load, screw_speed=operation.screw_speed)
+    def result_of(model: FrictionModel) -> FrictionResult | NutFriction:
+        load, speed = operation.axial_load, operation.screw_speed
+        if parts is not None:
+            return parts.friction(model, screw, lubricant, axial_load=load, screw_speed=speed)
+        return model(screw, lubricant, axial_load=load, screw_speed=speed)
 
     name = next((candidate.name for candidate in models if candidate.model is case), "this case")
     own = Row(Candidate(name, case), result_of(case), 0.0)
@@ -118,6 +136,7 @@ def compare(
         change = float(result.screw_torque) / own.torque - 1 if own.torque else math.nan
         return Row(candidate, result, change)
 
+    models, laws = ([c for c in found if parts is None or parts.knows(c.model)] for found in (models, laws))
     return Comparison(
         own,
         [own if candidate.model is case else row(candidate) for candidate in models],

@@ -5,14 +5,16 @@ from __future__ import annotations
 import dataclasses
 import functools
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 
 import ballscrew
 from ballscrew._arrays import BLOCK_SIZE, map_blocks
+from ballscrew.analyses.nut_parts import NutParts
 from ballscrew.analyses.tape import Program, Tape
+from ballscrew.assembly import NUT_REASONS, NutFriction
 from ballscrew.components.contact import RaceState
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import MATERIALS, BallScrew, Operation
@@ -21,6 +23,7 @@ from ballscrew.model import FrictionModel
 from ballscrew.quantities import Info, Quantity, fields_of, quantities_of
 from ballscrew.references import citations_of
 from ballscrew.result import MECHANISMS, FrictionResult
+from ballscrew.solvers.load_distribution import BallLoads
 from ballscrew.validity import REASONS
 
 #: The fields of the operating point, which every sweep needs.
@@ -41,6 +44,24 @@ DEFAULT_OUTPUTS = (
 )
 
 
+#: What of the loads of the balls of a nut is one number.
+OF_LOADS = ("deflection", "rigidity", "remaining_preload", "lift_off_load", "residual")
+#: What a sweep over a whole nut returns unless told otherwise.
+NUT_OUTPUTS = (
+    "screw_torque",
+    "nut_torque",
+    "ideal_torque",
+    "efficiency",
+    "back_driving_efficiency",
+    "largest_contact_load",
+    "maximum_pressure",
+    "deflection",
+    "rigidity",
+    "remaining_preload",
+    "valid",
+)
+
+
 #: Outputs that are truth values, besides the validity.
 TRUTHS = frozenset({"self_locking"})
 
@@ -51,7 +72,7 @@ class Output:
 
     name: str
     quantity: Quantity
-    read: Callable[[FrictionResult], Any]
+    read: Callable[[Any], Any]
 
     @property
     def dtype(self) -> type:
@@ -60,23 +81,31 @@ class Output:
 
 
 @functools.cache
-def known_outputs() -> Mapping[str, Output]:
-    """Everything a sweep can return, by name: ``screw_torque``, ``nut_film_parameter``, ``contribution_curvature``…"""
+def known_outputs(nut: NutParts | None = None) -> Mapping[str, Output]:
+    """Everything a sweep can return, by name: ``screw_torque``, ``nut_film_parameter``, ``contribution_curvature``…
+
+    On a whole nut there are ``rigidity`` and other results of the loads of all balls, and no single contacts.
+    """
     found: dict[str, Output] = {}
-    for name, quantity in quantities_of(FrictionResult).items():
+    result = FrictionResult if nut is None else NutFriction
+    for name, quantity in quantities_of(result).items():
         if name not in OPERATION:
             found[name] = Output(name, quantity, lambda r, n=name: getattr(r, n))
     torque = quantities_of(FrictionResult)["screw_torque"]
-    for mechanism, words in MECHANISMS.items():
+    losses = {} if nut is None else {name: name for name in nut.losses}
+    for mechanism, words in {**MECHANISMS, **losses}.items():
         info = dataclasses.replace(
             torque.info, symbol=f"M_S ({words})", meaning=f"friction torque on the screw by {words}"
         )
         name = f"contribution_{mechanism}"
         found[name] = Output(name, Quantity(name, torque.unit, info), lambda r, m=mechanism: r.contributions[m])
     mask = quantities_of(FrictionResult)["valid"]
-    for reason, words in REASONS.items():
+    for reason, words in (REASONS if nut is None else NUT_REASONS).items():
         name, info = f"validity_{reason}", Info(reason, f"holds where true; where false, {words}")
         found[name] = Output(name, Quantity(name, mask.unit, info), lambda r, n=reason: r.validity[n])
+    if nut is not None:
+        of_loads = {name: quantities_of(BallLoads)[name] for name in OF_LOADS}
+        return found | {n: Output(n, q, lambda r, n=n: getattr(r.loads, n)) for n, q in of_loads.items()}
     for side in ("screw", "nut"):
         for name, quantity in quantities_of(RaceState).items():
             info = dataclasses.replace(quantity.info, meaning=f"{quantity.info.meaning}, ball–{side} contact")
@@ -87,13 +116,16 @@ def known_outputs() -> Mapping[str, Output]:
     return found
 
 
-def inputs_of(model: FrictionModel, screw: BallScrew, lubricant: Lubricant) -> Mapping[str, tuple[str, Quantity]]:
+def inputs_of(
+    model: FrictionModel, screw: BallScrew, lubricant: Lubricant, nut: NutParts | None = None
+) -> Mapping[str, tuple[str, Quantity]]:
     """Everything a sweep can vary: name to (part, quantity).
 
     Names are those of the fields; a coefficient of a law is ``law.field``, for example
     ``friction.boundary_friction_coefficient``.
     """
     parts = {"operation": Operation, "screw": screw, "lubricant": lubricant, "model": model}
+    parts |= {} if nut is None else {"nut": nut.nut}
     found = {name: (part, quantity) for part, value in parts.items() for name, quantity in fields_of(value).items()}
     for slot, law in model.laws_with_coefficients.items():
         found |= {f"{slot}.{name}": ("model", quantity) for name, quantity in fields_of(law).items()}
@@ -105,6 +137,7 @@ def sweep(
     screw: BallScrew,
     lubricant: Lubricant,
     *,
+    nut: NutParts | None = None,
     outputs: Sequence[str] | None = None,
     block_size: int | None = None,
     threads: int | None = None,
@@ -119,7 +152,7 @@ def sweep(
     own name; ``xarray.DataArray`` values that share a dimension vary together along it, so random
     points are ``xr.DataArray(values, dims="point")``. The dataset has the dimensions in the order
     given. Only the ``outputs`` asked for are kept (see :func:`known_outputs`; a default handful
-    otherwise).
+    otherwise). With a ``nut`` it is a whole nut whose friction is computed, and the fields of the nut can be varied.
 
     Work goes block by block on a few threads, and ``done(finished, total)`` is told the progress.
     Raises :class:`~ballscrew.faults.InputError` for unknown names and missing or bad values.
@@ -128,15 +161,16 @@ def sweep(
     raise_if_any(
         [Fault(f"sweep.{n}", "must be 1 or more", str(v), "") for n, v in counts.items() if v is not None and v < 1]
     )
-    wanted = _wanted(outputs)
-    axes = _axes(model, screw, lubricant, varied)
+    parts = _Parts(model, screw, lubricant, nut)
+    wanted = _wanted(outputs, nut)
+    axes = _axes(parts, varied)
     sizes = _sizes(axes, wanted)
     shape = tuple(sizes.values())
     total = int(np.prod(shape, dtype=np.int64))
     results = {name: np.empty(total, dtype=output.dtype) for name, output in wanted.items()}
     varying = [name for name, axis in axes.items() if axis.dims]
     fixed = {name: axis.to_numpy()[()] for name, axis in axes.items() if not axis.dims}
-    program = _recorded(model, screw, lubricant, wanted, varying, fixed)
+    program = _recorded(parts, wanted, varying, fixed)
 
     def evaluate(block: slice) -> None:
         points = _points(axes, sizes, varying, block)
@@ -144,34 +178,55 @@ def sweep(
             if program is not None:
                 program.play([points[name] for name in varying], {name: v[block] for name, v in results.items()})
             else:
-                result = _assemble(model, screw, lubricant, fixed | points)
+                result = _assemble(parts, fixed | points)
                 for name, output in wanted.items():
                     results[name][block] = output.read(result)
 
     map_blocks(
         evaluate,
         total,
-        block_size=block_size or BLOCK_SIZE,
+        block_size=block_size or max(1, BLOCK_SIZE // parts.balls),
         threads=threads,
         done=None if done is None else lambda n: done(n, total),
     )
-    return _dataset(model, screw, lubricant, axes, sizes, wanted, {n: v.reshape(shape) for n, v in results.items()})
+    return _dataset(parts, axes, sizes, wanted, {n: v.reshape(shape) for n, v in results.items()})
 
 
-def _wanted(names: Sequence[str] | None) -> dict[str, Output]:
-    known = known_outputs()
-    names = (names,) if isinstance(names, str) else DEFAULT_OUTPUTS if names is None or not len(names) else names
+class _Parts(NamedTuple):
+    """What is evaluated."""
+
+    model: FrictionModel
+    screw: BallScrew
+    lubricant: Lubricant
+    nut: NutParts | None
+
+    @property
+    def by_section(self) -> dict[str, Any]:
+        """The parts with fields that can be varied."""
+        nut = {} if self.nut is None else {"nut": self.nut.nut}
+        return {"screw": self.screw, "lubricant": self.lubricant, "model": self.model, **nut}
+
+    @property
+    def balls(self) -> int:
+        """How many balls are solved for at each point."""
+        if self.nut is None or not self.nut.one_by_one:
+            return 1
+        return self.nut.halves * int(np.max(self.screw.loaded_balls))
+
+
+def _wanted(names: Sequence[str] | None, nut: NutParts | None) -> dict[str, Output]:
+    known = known_outputs(nut)
+    usual = DEFAULT_OUTPUTS if nut is None else NUT_OUTPUTS
+    names = (names,) if isinstance(names, str) else usual if names is None or not len(names) else names
     chosen = [str(name).replace(".", "_") for name in names]
     raise_if_any([Fault("sweep.outputs", "unknown output", n, nearest(n, known)) for n in chosen if n not in known])
     return {name: known[name] for name in chosen}
 
 
-def _axes(
-    model: FrictionModel, screw: BallScrew, lubricant: Lubricant, varied: Mapping[str, Any]
-) -> dict[str, xr.DataArray]:
+def _axes(subject: _Parts, varied: Mapping[str, Any]) -> dict[str, xr.DataArray]:
     """The values to vary as labelled arrays; all faults in them at once."""
-    known = inputs_of(model, screw, lubricant)
-    parts = {"screw": screw, "lubricant": lubricant, "model": model}
+    known = inputs_of(*subject)
+    parts = subject.by_section
     faults = [Fault(f"sweep.{name}", "unknown name", "", nearest(name, known)) for name in varied if name not in known]
     faults += [Fault(f"sweep.{name}", "missing", "", f"give {name}=[…]") for name in OPERATION if name not in varied]
     faults += [
@@ -236,19 +291,16 @@ def _sizes(axes: Mapping[str, xr.DataArray], wanted: Mapping[str, Output]) -> di
 
 
 def _recorded(
-    model: FrictionModel,
-    screw: BallScrew,
-    lubricant: Lubricant,
-    wanted: Mapping[str, Output],
-    varying: Sequence[str],
-    fixed: Mapping[str, Any],
+    subject: _Parts, wanted: Mapping[str, Output], varying: Sequence[str], fixed: Mapping[str, Any]
 ) -> Program | None:
-    """The model as a program of the varying inputs, or None if a law of the user's wants plain arrays."""
+    """The model as a program of the varying inputs; None for a nut, or if a law of the user's wants plain arrays."""
+    if subject.nut is not None:
+        return None
     tape = Tape(len(varying))
     points: dict[str, Any] = {**fixed, **{name: tape.value(i) for i, name in enumerate(varying)}}
     try:
         with np.errstate(all="ignore"):
-            result = _assemble(model, screw, lubricant, points)
+            result = _assemble(subject, points)
             program = Program(tape, {name: output.read(result) for name, output in wanted.items()})
             program.play([np.ones(1)] * len(varying), {n: np.empty(1, output.dtype) for n, output in wanted.items()})
     except Exception:  # whatever a law of the user's cannot do with a recording, it may do with arrays
@@ -267,10 +319,10 @@ def _points(
     return {name: axes[name].to_numpy()[tuple(indices[str(d)] for d in axes[name].dims)] for name in varying}
 
 
-def _assemble(model: FrictionModel, screw: BallScrew, lubricant: Lubricant, points: dict[str, Any]) -> FrictionResult:
+def _assemble(subject: _Parts, points: dict[str, Any]) -> FrictionResult | NutFriction:
     """Put the values of a block into the parts, and evaluate."""
-    parts: dict[str, Any] = {"screw": screw, "lubricant": lubricant, "model": model}
-    where = {name: part for name, (part, _) in inputs_of(model, screw, lubricant).items()}
+    parts = subject.by_section
+    where = {name: part for name, (part, _) in inputs_of(*subject).items()}
     operation = {name: points[name] for name in OPERATION}
     for name, values in points.items():
         if name in operation:
@@ -279,19 +331,20 @@ def _assemble(model: FrictionModel, screw: BallScrew, lubricant: Lubricant, poin
         law, _, field = name.rpartition(".")
         change = {field: values} if not law else {law: dataclasses.replace(getattr(part, law), **{field: values})}
         parts[where[name]] = dataclasses.replace(part, **change)
-    return parts["model"](parts["screw"], parts["lubricant"], **operation)
+    if subject.nut is None:
+        return parts["model"](parts["screw"], parts["lubricant"], **operation)
+    nut = dataclasses.replace(subject.nut, nut=parts["nut"])
+    return nut.friction(parts["model"], parts["screw"], parts["lubricant"], **operation)
 
 
 def _dataset(
-    model: FrictionModel,
-    screw: BallScrew,
-    lubricant: Lubricant,
+    subject: _Parts,
     axes: Mapping[str, xr.DataArray],
     sizes: Mapping[str, int],
     wanted: Mapping[str, Output],
     results: Mapping[str, np.ndarray],
 ) -> xr.Dataset:
-    known = inputs_of(model, screw, lubricant)
+    model, screw, known = subject.model, subject.screw, inputs_of(*subject)
     coordinates: dict[str, Any] = {
         str(label): values
         for axis in axes.values()
@@ -308,8 +361,9 @@ def _dataset(
         f"{part}_{name.replace('.', '_')}": value
         for name, (part, _) in known.items()
         if part != "operation" and name not in axes
-        if (value := _read({"screw": screw, "lubricant": lubricant, "model": model}[part], name)) is not None
+        if (value := _read(subject.by_section[part], name)) is not None
     }
+    fixed |= {} if subject.nut is None else subject.nut.attributes(subject.screw)
     for name, material in zip(MATERIALS, screw.materials, strict=True):
         fixed |= {f"screw_{name}_{field}": getattr(material, field) for field in fields_of(material)}
     slots = {field.name: getattr(model, field.name) for field in dataclasses.fields(model)}

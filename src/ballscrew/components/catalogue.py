@@ -12,7 +12,7 @@ from typing import Annotated, Any
 
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import geometry
-from ballscrew.faults import Fault, InputError, faults_of, nearest, raise_if_any, shown
+from ballscrew.faults import Fault, InputError, faults_of, raise_if_any, shown
 from ballscrew.quantities import Angle, Count, Force, Info, Length, Ratio, Stiffness, Unit
 
 #: Turns that carry no load where the balls of a nut leave and enter (ISO3408-5, as it fits the ratings of catalogues).
@@ -155,11 +155,3 @@ def catalogue() -> Mapping[str, CatalogueRow]:
         for table in tomllib.loads(text)["catalogue"]
         for name, fields in table["rows"].items()
     }
-
-
-def row(name: str) -> CatalogueRow:
-    """The row of that name. Raises :class:`~ballscrew.faults.InputError` with the nearest one if there is none."""
-    rows = catalogue()
-    if name not in rows:
-        raise InputError(Fault("catalogue", "unknown row", name, nearest(name, rows)))
-    return rows[name]

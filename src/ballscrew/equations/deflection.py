@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ballscrew._arrays import namespace
-from ballscrew.quantities import Angle, Area, Force, Length, LoadDeflection, Pressure, Ratio, Stiffness
+from ballscrew.quantities import Angle, Force, Length, LoadDeflection, Pressure, Ratio
 
 
 def groove_centre_distance(screw_conformity: Ratio, nut_conformity: Ratio, ball_diameter: Length) -> Length:
@@ -96,23 +96,3 @@ def hertz_load(load_deflection: LoadDeflection, ball_approach: Length) -> Force:
     K, delta = load_deflection, ball_approach
     xp = namespace(K, delta)
     return K * delta * xp.sqrt(delta)
-
-
-def body_stiffness(young_modulus: Pressure, section_area: Area, length: Length) -> Stiffness:
-    r"""Axial stiffness of a length of screw or nut.
-
-    .. math:: k = \frac{E A}{l}
-    """
-    E, A, l = young_modulus, section_area, length  # noqa: E741  (the letter of the formula)
-    return E * A / l
-
-
-def lift_off_load(preload: Force) -> Force:
-    r"""Axial load at which the second half of a double nut carries nothing any more.
-
-    .. math:: F_l = 2^{3/2} F_{pr}
-
-    With a constant contact angle and rigid bodies; both halves alike.
-    """
-    F_pr = preload
-    return 2 ** (3 / 2) * F_pr

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -13,9 +12,9 @@ from ballscrew.components.catalogue import CONFORMITY_DOUBT, TURNS_WITHOUT_LOAD,
 from ballscrew.components.screw import BallScrew
 from ballscrew.faults import Fault, InputError, nearest, raise_if_any
 from ballscrew.interfaces import units
+from ballscrew.interfaces.documents import as_json
 from ballscrew.interfaces.headings import Column
-from ballscrew.interfaces.nuts import NUTS
-from ballscrew.interfaces.report import plain
+from ballscrew.interfaces.nuts import LISTED, NUTS
 from ballscrew.interfaces.rows import Row, made, read
 from ballscrew.quantities import Quantity, fields_of, quantities_of
 
@@ -49,6 +48,8 @@ COLUMNS = (
     Column("nut", aliases=("nut type", "kind of nut")),
     Column("source"),
 )
+#: Preloads of the kinds of nut, as catalogues have them.
+EXAMPLE_PRELOADS: Mapping[str, str] = {"double": "7 %", "offset-lead": "7 %", "oversize-balls": "5 %"}
 #: Columns of the list: a row of the catalogue in the units people think in.
 _LIST = ("name", "d0 x lead [mm]", "ball [mm]", "turns", "balls/turn", "loaded", "C_a [kN]", "C_0a [kN]", "source")
 _TEXTS = (0, len(_LIST) - 1)
@@ -102,8 +103,8 @@ def chosen(rows: Mapping[str, CatalogueRow], words: str) -> list[CatalogueRow]:
     return found
 
 
-def named(rows: Mapping[str, CatalogueRow], name: str) -> CatalogueRow:
-    """The row of that name, whatever its capitals."""
+def named(rows: Mapping[str, CatalogueRow], name: str, where: str = "catalogue") -> CatalogueRow:
+    """The row of that name, whatever its capitals; a fault is one of ``where`` the name was given."""
     found = {known.casefold(): row for known, row in rows.items()}.get(name.casefold())
     if found is not None:
         return rows.get(name, found)
@@ -111,7 +112,7 @@ def named(rows: Mapping[str, CatalogueRow], name: str) -> CatalogueRow:
     remedy = f"did you mean {' or '.join(containing)}?" if containing else nearest(name, rows)
     if not remedy.startswith("did"):
         remedy = 'see "ballscrew catalogue list"'
-    raise InputError(Fault("catalogue", "unknown row", name, remedy))
+    raise InputError(Fault(where, "unknown row", name, remedy))
 
 
 # -- for people -----------------------------------------------------------------------------------
@@ -221,6 +222,7 @@ def case_text(row: CatalogueRow) -> str:
         "contact_angle": "not listed, the usual one" if "contact_angle" in unlisted else "",
         "screw_conformity": f"not listed, good to {CONFORMITY_DOUBT:g}" if "conformity" in unlisted else "",
     }
+    listed = [name for name in LISTED if getattr(row, name) is not None]
     rating = row.dynamic_load_rating
     load = 1000.0 if rating is None else rating / 10
     of_load = (
@@ -230,11 +232,15 @@ def case_text(row: CatalogueRow) -> str:
     )
     lines = [
         f"# {row.name}: {row.source}",
-        "# The screw of a catalogue row; the oil and the operating point are examples."
+        "# The screw of a catalogue row; preload, oil and operating point are examples."
         + (f" Nut: {row.nut}." if row.nut else ""),
         "",
         "[screw]",
         *(_setting(name, _written(getattr(screw, name), fields[name]), comments.get(name, "")) for name in names),
+        *(_setting(name, _written(getattr(row, name), LISTED[name]), "as listed") for name in listed),
+        "",
+        "[nut]",
+        *_nut(row),
         "",
         "[lubricant]",
         'grade = "ISO VG 100"',
@@ -246,6 +252,16 @@ def case_text(row: CatalogueRow) -> str:
     ]
     # no letters that a terminal or a redirection could write in another encoding than UTF-8
     return "\n".join(lines).encode("ascii", "backslashreplace").decode()
+
+
+def _nut(row: CatalogueRow) -> list[str]:
+    """The nut of a row, with a preload as an example where its kind has one."""
+    kind = row.nut or "single"
+    lines = [_setting("type", f'"{kind}"', "" if row.nut else "the row says nothing of its nut")]
+    if "preload" in fields_of(NUTS[kind]):
+        comment = "of the dynamic load rating" + ("" if row.dynamic_load_rating else ", computed from the geometry")
+        lines.append(_setting("preload", f'"{EXAMPLE_PRELOADS[kind]}"', f"an example: {comment}"))
+    return lines
 
 
 def _setting(name: str, value: str, comment: str) -> str:
@@ -285,4 +301,4 @@ def _json(document: dict[str, Any]) -> str:
     parts = {"row": _FIELDS, "derived": _DERIVED}
     found = {part: {name: quantity.unit for name, quantity in names.items()} for part, names in parts.items()}
     document |= {"units": found, "provenance": {"version": __version__}}
-    return json.dumps(plain(document), indent=2, ensure_ascii=False, allow_nan=False)
+    return as_json(document)

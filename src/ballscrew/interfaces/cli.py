@@ -17,7 +17,7 @@ from typing import Annotated, Any, NoReturn
 import typer
 from typer.core import TyperCommand
 
-from ballscrew.interfaces import cli_catalogue
+from ballscrew.interfaces import cli_catalogue, cli_check, cli_validate
 
 app = typer.Typer(
     name="ballscrew",
@@ -65,9 +65,15 @@ def run(
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
 ) -> None:
     """Friction at the operating point of a case file."""
-    from ballscrew.interfaces import config, report
+    from ballscrew.interfaces import config, nut_report, report
 
     loaded = config.load(case, settings or [], model)
+    if loaded.parts is not None:
+        if as_json:
+            typer.echo(nut_report.json_text(loaded, loaded.parts))
+        else:
+            nut_report.print_result(loaded, loaded.parts)
+        return
     result = loaded.model(
         loaded.screw,
         loaded.lubricant,
@@ -164,6 +170,10 @@ def reproduce(
 
     written = reproduce_olaru2005(out, _step)
     typer.echo(f"{out}: {len(written)} files; read {out / 'claims.md'} first")
+
+
+app.command(cls=_Command)(cli_check.check)
+app.command(cls=_Command)(cli_validate.validate)
 
 
 @app.command(cls=_Command)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import io
-import json
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -14,12 +13,13 @@ from rich.console import Console
 
 from ballscrew import __version__
 from ballscrew.analyses.comparison import Candidate, Comparison, Row, Spread, compare, same_law
+from ballscrew.assembly import NUT_REASONS
 from ballscrew.faults import Fault, InputError
-from ballscrew.interfaces import config, report
+from ballscrew.interfaces import config, nut_report, report
+from ballscrew.interfaces.documents import as_json
 from ballscrew.interfaces.files import check_writable, whole
 from ballscrew.interfaces.schema import LAWS, MODELS, PRINTED_FORMS, coefficients_of, name_of_law
-from ballscrew.result import MECHANISMS
-from ballscrew.validity import REASONS
+from ballscrew.result import MECHANISMS, FrictionResult
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -89,7 +89,14 @@ def _coefficients(law: Any) -> dict[str, Any]:
 def compared(case: config.Case) -> Comparison:
     """The comparison of a case."""
     models, laws = candidates(case)
-    return compare(case.model, models, laws, case.screw, case.lubricant, case.operation)
+    return compare(case.model, models, laws, case.screw, case.lubricant, case.operation, case.parts)
+
+
+def _unknown(case: config.Case) -> str:
+    """The models that know no nut such as that of the case."""
+    models, _ = candidates(case)
+    names = [c.name for c in models if case.parts is not None and not case.parts.knows(c.model)]
+    return f"left out: {', '.join(names)} and other laws of slip, which know no balls with four contacts" * bool(names)
 
 
 # -- words ----------------------------------------------------------------------------------------
@@ -163,7 +170,7 @@ def print_comparison(case: config.Case, found: Comparison) -> None:
     def say(text: str, style: str | None = None) -> None:
         console.print(text, style=style, markup=False, soft_wrap=True)
 
-    say(f"{report.operating_point(case)}, model {case.model.label}\n", "bold")
+    say(f"{_operating_point(case)}, model {case.model.label}\n", "bold")
     for line, style in _table(case, found):
         say(line, style)
     say("")
@@ -173,19 +180,28 @@ def print_comparison(case: config.Case, found: Comparison) -> None:
         say(line)
     if any(not row.candidate.counts for row in found.rows):
         say(f"{PRINTED_MARK}  {PRINTED_WORDS}")
+    if unknown := _unknown(case):
+        say(unknown)
     for reason, letter in _letters(found).items():
-        say(f"{letter}  {reason}: {REASONS[reason]}", "yellow")
+        say(f"{letter}  {reason}: {NUT_REASONS[reason]}", "yellow")
+
+
+def _operating_point(case: config.Case) -> str:
+    """Load and speed, and the nut where there is one."""
+    nut = [] if case.parts is None else [nut_report.nut_in_words(case.parts)]
+    return ", ".join([report.operating_point(case), *nut])
 
 
 def _letters(found: Comparison) -> dict[str, str]:
     """A letter for each reason that fails somewhere."""
-    failing = [reason for reason in REASONS if any(reason in row.outside for row in found.rows)]
+    failing = [reason for reason in NUT_REASONS if any(reason in row.outside for row in found.rows)]
     return dict(zip(failing, "abcdefghijklmnopqrstuvwxyz", strict=False))
 
 
 def mechanisms_in(found: Comparison) -> list[str]:
     """The mechanisms that are not zero everywhere."""
-    return [name for name in MECHANISMS if any(float(row.result.contributions[name]) for row in found.rows)]
+    names = found.case.result.contributions
+    return [name for name in names if any(float(row.result.contributions[name]) for row in found.rows)]
 
 
 def _table(case: config.Case, found: Comparison) -> list[tuple[str, str | None]]:
@@ -260,10 +276,10 @@ def json_text(case: config.Case, found: Comparison) -> str:
             "change_by_slot": {slot: list(span) for slot, span in found.spans.items()},
         },
         "units": {"screw_torque": "N m", "contributions": "N m", "holding_torque": "N m"},
-        "reasons": {reason: REASONS[reason] for reason in reasons},
+        "reasons": {reason: NUT_REASONS[reason] for reason in reasons},
         "provenance": {"version": __version__, "model": case.model.label, "references": config.references(case)},
     }
-    return json.dumps(report.plain(document), indent=2, ensure_ascii=False, allow_nan=False)
+    return as_json(document)
 
 
 def _row(row: Row) -> dict[str, Any]:
@@ -275,8 +291,8 @@ def _row(row: Row) -> dict[str, Any]:
         "contributions": dict(r.contributions),
         "efficiency": r.efficiency,
         "back_driving_efficiency": r.back_driving_efficiency,
-        "holding_torque": r.holding_torque,
-        "self_locking": r.self_locking,
+        "holding_torque": row.holding_torque,
+        "self_locking": row.self_locking,
         "valid": not row.outside,
         "not_valid_because": list(row.outside),
     }
@@ -318,13 +334,15 @@ def picture(case: config.Case, found: Comparison) -> Figure:
     from ballscrew.interfaces.figures import comparison as figures
 
     notes = _letters(found)
-    title = f"{report.operating_point(case)}, model {case.model.label}"
-    caption = " ".join([f"{report.design(case)}; {report.assumed(case, found.case.result)}.", *_remarks(found, notes)])
+    title = f"{_operating_point(case)}, model {case.model.label}"
+    result = found.case.result
+    assumed = report.assumed(case, result if isinstance(result, FrictionResult) else None)
+    caption = " ".join([f"{report.design(case)}; {assumed}.", *_remarks(found, notes)])
     lines: list[figures.Line] = []
     for heading, rows in _groups(case, found):
         lines.append(figures.Line(heading))
         lines += [figures.Line(name_of(row), row, _beside(row, found, notes)) for row in rows]
-    shown = {name: MECHANISMS[name] for name in mechanisms_in(found)}
+    shown = {name: MECHANISMS.get(name, name) for name in mechanisms_in(found)}
     return figures.spread(title, caption, lines, found.case, shown)
 
 

@@ -11,13 +11,28 @@ import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
+from ballscrew.analyses.nut_parts import NutParts
+from ballscrew.calibrations import calibrated, calibration
+from ballscrew.components.catalogue import CatalogueRow
+from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.screw import MATERIALS, BallScrew, Operation
-from ballscrew.faults import Fault, InputError, nearest
-from ballscrew.interfaces.schema import DEFAULT_MODEL, LAWS, MODELS, coefficients_of, law_of, name_of_law, validated
+from ballscrew.faults import Fault, InputError, nearest, raise_if_any
+from ballscrew.interfaces import nut_tables, units
+from ballscrew.interfaces.nuts import ENDS, LISTED, kind_of
+from ballscrew.interfaces.schema import (
+    DEFAULT_MODEL,
+    LAWS,
+    MODELS,
+    NUT_TABLES,
+    coefficients_of,
+    law_of,
+    name_of_law,
+    validated,
+)
 from ballscrew.interfaces.units import in_people_units
 from ballscrew.model import FrictionModel
 from ballscrew.quantities import fields_of
@@ -25,8 +40,9 @@ from ballscrew.references import citations_of, keys_in
 from ballscrew.solvers.pure_rolling import curvature_slip
 
 _NEEDED = ("screw", "lubricant", "operation")
-_SECTIONS = (*_NEEDED, "model", "sweep")
+_SECTIONS = (*_NEEDED, *NUT_TABLES, "model", "sweep")
 _START = "start from examples/olaru2005.toml"
+_USUAL_LIMITS = Limits()
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -40,11 +56,21 @@ class Case:
     sweep: Mapping[str, str]
     #: Grade and temperature the oil was made from, where it was.
     oil: Mapping[str, Any]
+    #: The catalogue row the screw was made from, where it was.
+    row: CatalogueRow | None = None
+    #: Load ratings and root diameter, where a catalogue or the case lists them.
+    listed: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
+    #: The nut with its preload, bodies and losses; without one the screw is only its loaded balls.
+    parts: NutParts | None = None
+    installation: Installation | None = None
+    limits: Limits = _USUAL_LIMITS
+    #: In words, what was derived from other numbers.
+    notes: Sequence[str] = ()
 
 
 def load(path: Path, settings: Sequence[str] = (), model: str | None = None) -> Case:
     """The case of a file, with settings from the command line. Raises ``InputError`` with all faults."""
-    return build(override(read(path), settings), model)
+    return build(override(read(path), settings), model, path.parent)
 
 
 def read(path: Path) -> dict[str, Any]:
@@ -113,8 +139,16 @@ def _literal(text: str) -> Any:
         return text
 
 
-def build(tables: Mapping[str, Any], model: str | None = None) -> Case:
-    """The case that tables describe. Raises ``InputError`` with all faults found."""
+def build(
+    tables: Mapping[str, Any],
+    model: str | None = None,
+    folder: Path = Path(),
+    rows: Mapping[str, CatalogueRow] | None = None,
+) -> Case:
+    """The case that tables describe. Raises ``InputError`` with all faults found.
+
+    A catalogue row is one of ``rows``, or of the file in ``folder`` that the case names, or of those shipped.
+    """
     unknown = {name: nearest(name, _SECTIONS) for name in tables if name not in _SECTIONS}
     faults = [Fault(name, "unknown section", "", guess) for name, guess in unknown.items()]
     faults += [
@@ -122,32 +156,58 @@ def build(tables: Mapping[str, Any], model: str | None = None) -> Case:
         for name in _NEEDED
         if name not in tables and f'did you mean "{name}"?' not in unknown.values()
     ]
-    screw = _screw(tables["screw"], faults) if "screw" in tables else None
+    made = _screw(tables["screw"], folder, rows, faults) if "screw" in tables else _NO_SCREW
     lubricant, oil = _lubricant(tables["lubricant"], faults) if "lubricant" in tables else (None, {})
     operation = _operation(tables["operation"], faults) if "operation" in tables else None
     friction_model = _model(tables.get("model", {}), model, faults)
     sweep = _sweep(tables.get("sweep", {}), faults)
+    parts, notes = nut_tables.nut_parts(tables, *made, faults)
+    mounted = nut_tables.installation(tables["installation"], faults) if "installation" in tables else None
+    limits = nut_tables.limits(tables["limits"], faults) if "limits" in tables else _USUAL_LIMITS
+    screw = made.screw
     if faults or screw is None or lubricant is None or operation is None or friction_model is None:
         raise InputError(*faults)
-    return Case(friction_model, screw, lubricant, operation, sweep, oil)
+    return Case(
+        friction_model, screw, lubricant, operation, sweep, oil, made.row, made.listed, parts, mounted, limits, notes
+    )
 
 
-def _screw(table: Any, faults: list[Fault]) -> BallScrew | None:
+class _MadeScrew(NamedTuple):
+    """A screw, the row it was made from, and what is listed of it."""
+
+    screw: BallScrew | None
+    row: CatalogueRow | None
+    listed: Mapping[str, float]
+
+
+_NO_SCREW = _MadeScrew(None, None, {})
+
+
+def _screw(table: Any, folder: Path, rows: Mapping[str, CatalogueRow] | None, faults: list[Fault]) -> _MadeScrew:
+    """The screw of a table, or of a catalogue row with what the table changes."""
     before = len(faults)
     values = validated("screw", table, faults)
+    row = nut_tables.row_of(table, folder, rows, faults) if isinstance(table, dict) else None
     if len(faults) > before:
-        return None
+        return _NO_SCREW
+    given = {name: value for name, value in values.items() if name not in ("catalogue", "catalogue_file")}
+    of_row = {} if row is None else {name: getattr(row, name) for name in LISTED}
+    listed = {name: given.pop(name, of_row.get(name)) for name in LISTED}
     for name in MATERIALS:
-        if name in values:
-            values[name] = Material(**values[name])
+        if name in given:
+            given[name] = Material(**given[name])
     try:
-        return BallScrew(**values)
+        screw = BallScrew(**given) if row is None else row.screw(**given)
     except InputError as error:
         known = fields_of(BallScrew)
         for fault in error.faults:
-            name = fault.where.rpartition(".")[2]
-            faults.append(in_people_units(fault, known[name], str(table[name])))
-        return None
+            quantity = known[fault.where.rpartition(".")[2]]
+            written = table.get(quantity.name)
+            if written is None and row is not None:
+                written = units.shown(getattr(row, quantity.name), quantity)
+            faults.append(in_people_units(fault, quantity, str(written)))
+        return _NO_SCREW
+    return _MadeScrew(screw, row, {name: value for name, value in listed.items() if value is not None})
 
 
 def _lubricant(table: Any, faults: list[Fault]) -> tuple[Lubricant | None, Mapping[str, Any]]:
@@ -203,10 +263,21 @@ def _model(table: Any, chosen: str | None, faults: list[Fault]) -> FrictionModel
         return None
     numbers = {field: value for field, value in values.items() if field in fields_of(FrictionModel)}
     try:
-        return changed(preset, {**changes, **numbers})
+        model = changed(preset, {**changes, **numbers})
+        return _calibrated(model, table) if "calibration" in table else model
     except InputError as error:
         faults += error.faults
         return None
+
+
+def _calibrated(model: FrictionModel, table: Mapping[str, Any]) -> FrictionModel:
+    """The model with a named calibration; the table may not set what it sets."""
+    friction: Any = table.get("friction")
+    name, twice = table["calibration"], ["ball_force"] if "ball_force" in table else []
+    if isinstance(friction, dict) and "boundary_friction_coefficient" in friction:
+        twice.append("friction.boundary_friction_coefficient")
+    raise_if_any([Fault(f"model.{field}", "is set by the calibration", name, "leave one out") for field in twice])
+    return calibrated(model, calibration(name))
 
 
 def _laws(table: Mapping[str, Any], preset: FrictionModel, faults: list[Fault]) -> dict[str, Any]:
@@ -235,8 +306,10 @@ def _sweep(table: Any, faults: list[Fault]) -> Mapping[str, str]:
 def inputs(case: Case) -> dict[str, Any]:
     """All inputs of a case in SI, by section: what ``--json`` prints."""
     model = case.model
+    of_row = {} if case.row is None else {"catalogue": case.row.name, "source": case.row.source}
+    materials = {name: _numbers(getattr(case.screw, name)) for name in MATERIALS}
     return {
-        "screw": {**_numbers(case.screw), **{name: _numbers(getattr(case.screw, name)) for name in MATERIALS}},
+        "screw": {**of_row, **_numbers(case.screw), **case.listed, **materials},
         "lubricant": {**case.oil, **_numbers(case.lubricant)},
         "operation": _numbers(case.operation),
         "model": {
@@ -244,13 +317,32 @@ def inputs(case: Case) -> dict[str, Any]:
             **_numbers(model),
             **{slot: _law(slot, getattr(model, slot)) for slot in LAWS},
         },
+        **({} if case.parts is None else _inputs_of_nut(case.parts, case.screw)),
+        **({} if case.installation is None else {"installation": _mounting(case.installation)}),
+        **({} if case.limits is _USUAL_LIMITS else {"limits": _numbers(case.limits)}),
     }
+
+
+def _inputs_of_nut(parts: NutParts, screw: BallScrew) -> dict[str, Any]:
+    bodies = parts.bodies_of(screw)
+    return {
+        "nut": {"type": kind_of(parts.nut), **_numbers(parts.nut)},
+        **({} if bodies is None else {"bodies": {**_numbers(bodies), "same_side": bodies.same_side}}),
+        **({} if parts.scatter is None else {"deviations": _numbers(parts.scatter)}),
+        **({"losses": {slot: _law(slot, law) for slot, law in parts.losses.items()}} if parts.losses else {}),
+    }
+
+
+def _mounting(mounted: Installation) -> dict[str, Any]:
+    return {**_numbers(mounted), "ends": next(name for name, known in ENDS.items() if known is mounted.ends)}
 
 
 def references(case: Case) -> list[str]:
     """Keys of the sources of the model, and of the oil where it was made from a grade."""
     of_oil = keys_in(Lubricant.from_grade.__doc__) if case.oil else ()
-    return [*citations_of(case.model), *of_oil]
+    losses = {} if case.parts is None else case.parts.losses
+    of_nut = [key for law in losses.values() for key in keys_in(type(law).__doc__)]
+    return list(dict.fromkeys([*citations_of(case.model), *of_oil, *of_nut]))
 
 
 def _law(slot: str, law: Any) -> str | dict[str, Any]:

@@ -15,7 +15,8 @@ from typing import IO, Any
 import numpy as np
 import xarray as xr
 
-from ballscrew.analyses.sweep import DEFAULT_OUTPUTS, OPERATION, inputs_of, known_outputs, sweep
+from ballscrew.analyses.sweep import DEFAULT_OUTPUTS, NUT_OUTPUTS, OPERATION, inputs_of, known_outputs, sweep
+from ballscrew.assembly import NUT_REASONS
 from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.components.materials import TEMPERATURE, Lubricant, Material
 from ballscrew.components.screw import MATERIALS
@@ -27,7 +28,7 @@ from ballscrew.quantities import Quantity, fields_of
 from ballscrew.validity import REASONS
 
 _RANGE = re.compile(r"(?P<start>[^:]+):(?P<stop>[^:]+):\s*(?P<count>\d{1,9})\s*(?P<unit>1\s*/.*|[^\d\s.].*)?")
-_SECTIONS = ("operation", "screw", "lubricant", "model")
+_SECTIONS = ("operation", "screw", "lubricant", "model", "nut")
 #: What each kind of file needs beyond the core, and what to install for it.
 _NEEDS = {".csv": (), ".xlsx": ("xlsxwriter",), ".nc": ("h5netcdf", "h5py")}
 #: A worksheet ends here; larger sweeps belong into NetCDF.
@@ -64,7 +65,7 @@ class Plan:
 def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None) -> Plan:
     """What to sweep. Raises :class:`~ballscrew.faults.InputError` before anything is computed."""
     faults: list[Fault] = []
-    known = dict(inputs_of(case.model, case.screw, case.lubricant))
+    known = dict(inputs_of(case.model, case.screw, case.lubricant, case.parts))
     if "grade" in case.oil:
         known["temperature"] = ("lubricant", TEMPERATURE)
     axes: dict[str, np.ndarray] = {}
@@ -83,9 +84,10 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
             axes[name] = values
     if not vary and not case.sweep:
         axes = {name: np.linspace(0.1, 1.0, 10) * (getattr(case.operation, name) or 1.0) for name in OPERATION}
+    usual = DEFAULT_OUTPUTS if case.parts is None else NUT_OUTPUTS
     chosen = tuple(name.replace(".", "_") for name in wanted)
-    chosen = chosen or (("efficiency",) if to is None and len(axes) == 2 else DEFAULT_OUTPUTS)
-    possible = known_outputs()
+    chosen = chosen or (("efficiency",) if to is None and len(axes) == 2 else usual)
+    possible = known_outputs(case.parts)
     faults += [Fault("--output", "unknown output", n, nearest(n, possible)) for n in chosen if n not in possible]
     faults += [
         Fault("--output", "is what is varied", n, "leave it out: it is a column anyway") for n in chosen if n in axes
@@ -95,6 +97,9 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
         faults.append(Fault("sweep.ball_to_ball_force", 'does not count with ball_force = "proportional"', "", remedy))
     of_temperature = [name for name in OF_TEMPERATURE if "temperature" in axes and name in axes]
     faults += [Fault(f"sweep.{n}", "goes with the temperature", "", "vary one of the two") for n in of_temperature]
+    if "loaded_balls" in axes and case.parts is not None and case.parts.one_by_one:
+        remedy = "leave out [bodies] and [deviations]"
+        faults.append(Fault("sweep.loaded_balls", "cannot be varied where balls differ", "", remedy))
     size = math.prod(len(values) for values in axes.values())
     if size * len(chosen) > _MOST_VALUES:
         remedy = "take fewer values an axis, or fewer outputs"
@@ -192,17 +197,24 @@ def evaluate(case: Case, plan: Plan, done: Callable[[int, int], None] | None = N
     It also says which points are valid, and why not, whether that was asked for or not.
     """
     fixed = {name: getattr(case.operation, name) for name in OPERATION if name not in plan.axes}
-    names = dict.fromkeys((*plan.outputs, "valid", *(f"validity_{reason}" for reason in REASONS)))
+    names = dict.fromkeys((*plan.outputs, "valid", *(f"validity_{reason}" for reason in _reasons(case))))
     axes = dict(plan.axes)
     varied: dict[str, Any] = {}
     for name, values in axes.items():
         varied |= _oils(case, values) if name == "temperature" else {name: values}
-    dataset = sweep(case.model, case.screw, case.lubricant, outputs=tuple(names), done=done, **varied, **fixed)
+    dataset = sweep(
+        case.model, case.screw, case.lubricant, nut=case.parts, outputs=tuple(names), done=done, **varied, **fixed
+    )
     if "temperature" in axes:
         dataset["temperature"].attrs = {"units": TEMPERATURE.unit, "long_name": TEMPERATURE.info.meaning}
     oil = {name: value for name, value in case.oil.items() if name not in axes}
     dataset.attrs |= {f"lubricant_{name}": value for name, value in oil.items()}
     return dataset
+
+
+def _reasons(case: Case) -> Mapping[str, str]:
+    """What can be wrong with a point, in words."""
+    return REASONS if case.parts is None else NUT_REASONS
 
 
 def _oils(case: Case, temperatures: np.ndarray) -> dict[str, xr.DataArray]:
@@ -222,10 +234,11 @@ def warning(case: Case, plan: Plan, dataset: xr.Dataset) -> str:
     outside = int((~dataset["valid"]).sum())
     if not outside:
         return ""
-    masks = {reason: dataset[f"validity_{reason}"] for reason in REASONS}
+    reasons = _reasons(case)
+    masks = {reason: dataset[f"validity_{reason}"] for reason in reasons}
     counts = ", ".join(f"{reason} {int((~mask).sum())}" for reason, mask in masks.items() if not mask.all())
     lines = [f"beware: {outside} of {dataset['valid'].size} points lie outside the model's validity ({counts})"]
-    lines += [f"beware  {reason}: {REASONS[reason]}" for reason, mask in masks.items() if not mask.all()]
+    lines += [f"beware  {reason}: {reasons[reason]}" for reason, mask in masks.items() if not mask.all()]
     lines += _first_impossible(case, plan, masks["inputs"])
     return "\n".join(lines)
 

@@ -1,10 +1,15 @@
-"""The kinds of nut by the names that catalogues, case files and tables use."""
+"""Nuts and what they lose, by the names that catalogues, case files and tables use."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ballscrew.components import nut_losses
+from ballscrew.components.catalogue import CatalogueRow
+from ballscrew.components.installation import Ends
 from ballscrew.components.nut import DoubleNut, Nut, OffsetLeadNut, OversizeBallNut, SingleNut
+from ballscrew.components.nut_losses import ParasiticLaw
+from ballscrew.quantities import Info, Quantity, fields_of
 
 #: The names of the kinds of nut stand here and nowhere else.
 NUTS: Mapping[str, type[Nut]] = {
@@ -13,3 +18,27 @@ NUTS: Mapping[str, type[Nut]] = {
     "double": DoubleNut,
     "offset-lead": OffsetLeadNut,
 }
+#: What a nut loses besides its balls, and the laws of each; the first is meant where none is named.
+LOSSES: Mapping[str, Mapping[str, type[ParasiticLaw]]] = {
+    "seals": {"known": nut_losses.Seals, "lips": nut_losses.LipSeals},
+    "churning": {"spheres": nut_losses.Churning, "harris": nut_losses.HarrisChurning},
+    "recirculation": {"force": nut_losses.Recirculation},
+}
+#: How the ends of a shaft are held.
+ENDS: Mapping[str, Ends] = {ends.name.lower().replace("_", "-"): ends for ends in Ends}
+#: What a catalogue lists of a screw besides its geometry, and a case may.
+LISTED: Mapping[str, Quantity] = {
+    name: fields_of(CatalogueRow)[name] for name in ("dynamic_load_rating", "static_load_rating", "root_diameter")
+}
+#: All fields of all nuts.
+NUT_FIELDS: Mapping[str, Quantity] = {name: q for cls in NUTS.values() for name, q in fields_of(cls).items()}
+PERCENT = Quantity("preload", "1", Info("p", "share of the dynamic load rating, %", at_least=0, at_most=100))
+
+
+class Share(float):
+    """A preload as a share of the dynamic load rating."""
+
+
+def kind_of(nut: Nut) -> str:
+    """What a nut is called."""
+    return next(name for name, cls in NUTS.items() if type(nut) is cls)

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import numpy as np
 from rich.console import Console
 from rich.table import Table
 
 from ballscrew import __version__
 from ballscrew.components.contact import RaceState
+from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew, Operation
 from ballscrew.interfaces import config, units
+from ballscrew.interfaces.documents import as_json
 from ballscrew.interfaces.schema import LAWS, MODELS, coefficients_of, name_of_law
 from ballscrew.quantities import Quantity, fields_of, quantities_of
 from ballscrew.result import MECHANISMS, QUADRANTS, FrictionResult
@@ -96,22 +96,7 @@ def json_text(case: config.Case, result: FrictionResult) -> str:
         "warnings": result.warnings,
         "provenance": {"version": __version__, "model": case.model.label, "references": config.references(case)},
     }
-    return json.dumps(plain(document), indent=2, ensure_ascii=False, allow_nan=False)
-
-
-def plain(value: Any) -> Any:
-    """Numbers JSON can say: NumPy's as Python's, what is not finite as null."""
-    if isinstance(value, Mapping):
-        return {key: plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [plain(item) for item in value]
-    if isinstance(value, bool | np.bool_):
-        return bool(value)
-    if isinstance(value, np.ndarray | np.generic):
-        return plain(value.item())
-    if isinstance(value, float):
-        return value + 0.0 if math.isfinite(value) else None
-    return value
+    return as_json(document)
 
 
 def operating_point(case: config.Case) -> str:
@@ -137,7 +122,7 @@ def print_result(case: config.Case, result: FrictionResult) -> None:
         console.print(f"beware  {warning}", style="yellow", markup=False, soft_wrap=True)
     console.print(LEFT_OUT, markup=False, soft_wrap=True)
     if any(float(part) for part in result.contributions.values()):
-        console.print(_parts(result, "█" if "utf" in console.encoding.lower() else "#"))
+        console.print(parts_table(result.contributions, float(result.screw_torque), console.encoding))
     console.print(_quadrants(result))
     console.print(_contacts(result))
 
@@ -172,7 +157,8 @@ def _holding(result: FrictionResult, when: str) -> str:
     return ""
 
 
-def _table(title: str, *columns: str) -> Table:
+def table_of(title: str, *columns: str) -> Table:
+    """A table of the house: a bold title, the first column to the left and the others to the right."""
     table = Table(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False)
     table.add_column(columns[0])
     for column in columns[1:]:
@@ -180,8 +166,8 @@ def _table(title: str, *columns: str) -> Table:
     return table
 
 
-def assumed(case: config.Case, result: FrictionResult) -> str:
-    """What people seldom write down and the result depends on."""
+def assumed(case: config.Case, result: FrictionResult | None = None) -> str:
+    """What people seldom write down and the result depends on. Without a ``result`` the balls are those of a nut."""
     known = {
         **quantities_of(RaceState),
         **quantities_of(FrictionResult),
@@ -198,11 +184,20 @@ def assumed(case: config.Case, result: FrictionResult) -> str:
         f"viscosity {shown(case.lubricant, 'viscosity')}, "
         f"pressure–viscosity coefficient {shown(case.lubricant, 'pressure_viscosity_coefficient')}"
     )
-    modulus, between_balls = shown(result.screw, "equivalent_modulus"), shown(result, "ball_to_ball_force")
+    modulus = units.shown(case.screw.equivalent_modulus(case.screw.screw_raceway), known["equivalent_modulus"])
     return (
         f"oil {made_from}{oil}; equivalent modulus {modulus}; roughness of balls, screw, nut {roughness}; "
-        f"force between balls {between_balls}"
+        f"force between balls {_between_balls(case, result)}"
     )
+
+
+def _between_balls(case: config.Case, result: FrictionResult | None) -> str:
+    """The force between balls; on a nut each ball may have its own load, and a share of it."""
+    model = case.model
+    if result is None and isinstance(model.ball_force, ProportionalBallForce):
+        return f"{model.ball_force.share_of_load:.4g} of the load of each"
+    force = model.imposed_ball_force(case.screw) if result is None else result.ball_to_ball_force
+    return units.shown(force, quantities_of(FrictionResult)["ball_to_ball_force"])
 
 
 def _temperature(case: config.Case) -> str:
@@ -246,32 +241,33 @@ def design(case: config.Case, plain_text: bool = False) -> str:
     )
 
 
-def _shown(value: Any, quantity: Quantity) -> str:
+def shown_or_dash(value: Any, quantity: Quantity) -> str:
     """A value with its unit; a dash where there is none."""
     return units.shown(value + 0.0, quantity) if math.isfinite(value) else "–"  # adding zero: no "-0"
 
 
 def _quantities(result: FrictionResult) -> Table:
     known = quantities_of(FrictionResult)
-    table = _table("Torque and efficiency", "", "")
+    table = table_of("Torque and efficiency", "", "")
     for name in SHOWN:
-        table.add_row(known[name].info.meaning, _shown(getattr(result, name), known[name]))
+        table.add_row(known[name].info.meaning, shown_or_dash(getattr(result, name), known[name]))
     return table
 
 
-def _parts(result: FrictionResult, block: str) -> Table:
+def parts_table(contributions: Mapping[str, Any], total: float, encoding: str) -> Table:
     """The parts of the torque as bars, so that the eye sees what matters; what is zero is left out."""
     quantity = quantities_of(FrictionResult)["screw_torque"]
-    table = _table("\nWhere the friction torque on the screw comes from", "", "", "", "")
+    block = "█" if "utf" in encoding.lower() else "#"
+    table = table_of("\nWhere the friction torque on the screw comes from", "", "", "", "")
     table.columns[-1].justify = "left"
-    total = float(result.screw_torque)
-    for mechanism, words in MECHANISMS.items():
-        part = float(result.contributions[mechanism])
+    for mechanism, value in contributions.items():
+        part = float(value)
         if part == 0:
             continue
         share = part / total if total else 0.0
         bar = block * round(_BAR_WIDTH * max(0.0, min(share, 1.0))) if math.isfinite(share) else ""
-        table.add_row(words, _shown(part, quantity), f"{share:.1%}" if math.isfinite(share) else "–", bar)
+        words = MECHANISMS.get(mechanism, mechanism)
+        table.add_row(words, shown_or_dash(part, quantity), f"{share:.1%}" if math.isfinite(share) else "–", bar)
     return table
 
 
@@ -279,7 +275,7 @@ def _quadrants(result: FrictionResult) -> Table:
     """All four quadrants of load and rotation; the signs are those of the first."""
     loaded = float(result.axial_load) != 0
     known = quantities_of(FrictionResult)
-    table = _table("\nThe screw, by direction of load and rotation", "", "load", "rotation", "torque", "power", "η")
+    table = table_of("\nThe screw, by direction of load and rotation", "", "load", "rotation", "torque", "power", "η")
     for name, quadrant in result.quadrants.items():
         signs = ["+" if sign > 0 else "-" for sign in (quadrant.load_sign, quadrant.speed_sign)]
         efficiency = float(quadrant.efficiency)
@@ -287,16 +283,16 @@ def _quadrants(result: FrictionResult) -> Table:
         table.add_row(
             name,
             *signs,
-            *(_shown(getattr(quadrant, name), known[_OF_QUADRANT[name]]) for name in ("shaft_torque", "shaft_power")),
-            _shown(efficiency, known["efficiency"]) if drives else "locks" if loaded else "–",
+            *(shown_or_dash(getattr(quadrant, n), known[_OF_QUADRANT[n]]) for n in ("shaft_torque", "shaft_power")),
+            shown_or_dash(efficiency, known["efficiency"]) if drives else "locks" if loaded else "–",
         )
     return table
 
 
 def _contacts(result: FrictionResult) -> Table:
     known = quantities_of(RaceState)
-    table = _table("\nContacts", "", "screw", "nut")
+    table = table_of("\nContacts", "", "screw", "nut")
     for name in SHOWN_OF_CONTACT[result.slip_is_curvature_alone]:
-        cells = [_shown(getattr(side, name), known[name]) for side in (result.screw, result.nut)]
+        cells = [shown_or_dash(getattr(side, name), known[name]) for side in (result.screw, result.nut)]
         table.add_row(SHORT.get(name, known[name].info.meaning), *cells)
     return table

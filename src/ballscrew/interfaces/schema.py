@@ -15,14 +15,19 @@ from collections.abc import Iterable, Mapping
 from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema, create_model
-from pydantic_core import PydanticCustomError
 
+from ballscrew.analyses.nut_parts import Scatter
+from ballscrew.calibrations import calibrations
 from ballscrew.components import frame, laws, lubrication, mixed_friction
+from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.materials import TEMPERATURE, Lubricant, Material, grades
+from ballscrew.components.nut import Bodies, DoubleNut
 from ballscrew.components.screw import MATERIALS, BallScrew, Operation
 from ballscrew.equations import film
-from ballscrew.faults import Fault, fault_of, nearest
-from ballscrew.interfaces import units
+from ballscrew.faults import Fault, nearest
+from ballscrew.interfaces.fields import EXAMPLES as EXAMPLES
+from ballscrew.interfaces.fields import defaults_of, json_of, read_preload, section_of
+from ballscrew.interfaces.nuts import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS
 from ballscrew.model import FrictionModel, presets
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.solvers.ellipse_slip import ellipse_slip
@@ -68,125 +73,47 @@ LAWS: Mapping[str, Mapping[str, Any]] = {
 }
 #: Laws that only the paper as printed has: in another model they break a balance.
 PRINTED_FORMS = frozenset({("film_parameter", "literal"), ("race_torques", "printed"), ("ideal_torque", "printed")})
+_SLOTS = {**LAWS, **LOSSES}
 
-#: What stands in the schema as an example: examples/feed_drive.toml, and what has no default.
-EXAMPLES: Mapping[str, str | float] = {
-    "pitch_circle_diameter": "41.4 mm",
-    "lead": "10 mm",
-    "ball_diameter": "6.35 mm",
-    "loaded_balls": 75,
-    "contact_angle": "45 deg",
-    "screw_conformity": 0.54,
-    "nut_conformity": 0.54,
-    "temperature": "40 degC",
-    "axial_load": "5 kN",
-    "screw_speed": "600 rpm",
-    "viscosity": "88 mPa s",
-    "ball_to_ball_force": "0.0167 N",
-    "pure_rolling_offset": 0.34,
-}
+#: The tables on the nut and on how the screw is mounted; all may be left out.
+NUT_TABLES = ("nut", "bodies", "deviations", "losses", "installation", "limits")
 
 _MEANT = re.compile(r'did you mean "(\w+)"')
 
 
-def _si(raw: object, quantity: Quantity) -> float:
-    """A raw value in SI and within its bounds, or the fault in it as pydantic wants to hear it."""
-    value = units.parse("", raw, quantity)
-    fault = value if isinstance(value, Fault) else fault_of("", quantity, value)
-    if fault is not None:
-        fault = units.in_people_units(fault, quantity, fault.given if fault is value else str(raw))
-        words = {"problem": fault.problem, "given": fault.given, "remedy": fault.remedy}
-        raise PydanticCustomError("fault", "{problem}", words)
-    assert isinstance(value, float)
-    return int(value) if quantity.info.whole else value
-
-
-def _example(quantity: Quantity, default: Any) -> str | float:
-    """What a field may hold: that of the feed drive in the examples, or else the default."""
-    if quantity.name in EXAMPLES:
-        return EXAMPLES[quantity.name]
-    assert default is not None, quantity.name
-    number = units.from_si(default, quantity)
-    return default if quantity.unit == "1" else f"{number:.6g} {quantity.shown_in}"
-
-
-def _json_schema(quantity: Quantity, default: Any) -> dict[str, Any]:
-    """What a field looks like in the file: text with a unit, or a plain number within its bounds."""
-    info = quantity.info
-    examples = [_example(quantity, default)]
-    description = {"description": info.meaning, "x-symbol": info.symbol}
-    if quantity.unit != "1":
-        return {**description, "type": "string", "examples": examples, "x-si-unit": quantity.unit}
-    bounds = {
-        "exclusiveMinimum": info.above,
-        "minimum": info.at_least,
-        "exclusiveMaximum": info.below,
-        "maximum": info.at_most,
-    }
-    kind = "integer" if info.whole else "number"
-    given = {name: bound for name, bound in bounds.items() if bound is not None}
-    return {**description, "type": kind, "examples": examples, **given}
-
-
-def _field(quantity: Quantity, default: Any, shown: Any) -> tuple[Any, Any]:
-    read = BeforeValidator(functools.partial(_si, quantity=quantity))
-    kind = int if quantity.info.whole else float
-    return Annotated[kind, read, WithJsonSchema(_json_schema(quantity, shown))], Field(default=default)
-
-
-def _section(
-    title: str, quantities: Mapping[str, Quantity], cls: type, /, required: bool, **others: Any
-) -> type[BaseModel]:
-    """A model with a field for each quantity; unset fields keep the default of the part."""
-    needed = {
-        field.name
-        for field in dataclasses.fields(cls)
-        if field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
-    }
-    own = _defaults(cls)
-    fields = {n: _field(q, ... if required and n in needed else None, own.get(n)) for n, q in quantities.items()}
-    return create_model(title, __config__=ConfigDict(extra="forbid"), **fields, **others)
-
-
-def _defaults(cls: type) -> dict[str, Any]:
-    """The defaults of a dataclass by field, where it has any."""
-    fields = dataclasses.fields(cls)
-    return {field.name: field.default for field in fields if field.default is not dataclasses.MISSING}
-
-
 def coefficients_of(slot: str, name: str) -> Mapping[str, Quantity]:
     """The coefficients of a law by name; none for a law that is a function."""
-    law = LAWS[slot][name]
+    law = _SLOTS[slot][name]
     return fields_of(law) if isinstance(law, type) else {}
 
 
 def name_of_law(slot: str, law: Any) -> str:
     """What a law is called in the case file."""
-    return next(name for name, known in LAWS[slot].items() if known is law or known is type(law))
+    return next(name for name, known in _SLOTS[slot].items() if known is law or known is type(law))
 
 
 @functools.cache
 def _coefficients(slot: str, name: str) -> type[BaseModel]:
     """The model of a table that sets coefficients of a law."""
-    return _section(name, coefficients_of(slot, name), LAWS[slot][name], required=False)
+    return section_of(name, coefficients_of(slot, name), _SLOTS[slot][name], required=False)
 
 
 def _slot(slot: str) -> tuple[Any, Any]:
     """The field of a slot: the name of a law, or a table with its coefficients; see :func:`law_of` for the check."""
-    plain = [name for name in LAWS[slot] if not coefficients_of(slot, name)]
+    plain = [name for name in _SLOTS[slot] if not coefficients_of(slot, name)]
     tables = [{"law": {"enum": plain}}] if plain else []
     tables += [
         {
             "law": {"const": name},
-            **{field: _json_schema(q, _defaults(LAWS[slot][name]).get(field)) for field, q in found.items()},
+            **{field: json_of(q, defaults_of(_SLOTS[slot][name]).get(field)) for field, q in found.items()},
         }
-        for name in LAWS[slot]
+        for name in _SLOTS[slot]
         if (found := coefficients_of(slot, name))
     ]
     schema = {
-        "description": f"law of the slot {slot}: its name, or a table with coefficients",
+        "description": f"law of {_place(slot)}: its name, or a table with coefficients",
         "anyOf": [
-            {"type": "string", "enum": list(LAWS[slot])},
+            {"type": "string", "enum": list(_SLOTS[slot])},
             *({"type": "object", "properties": table, "additionalProperties": False} for table in tables),
         ],
     }
@@ -196,31 +123,62 @@ def _slot(slot: str) -> tuple[Any, Any]:
 @functools.cache
 def sections() -> Mapping[str, type[BaseModel]]:
     """The models of the sections of a case file."""
-    material = _section("Material", fields_of(Material), Material, required=False)
+    material = section_of("Material", fields_of(Material), Material, required=False)
     oil = {**fields_of(Lubricant), "temperature": TEMPERATURE}
     grade = Annotated[
         str, WithJsonSchema({"type": "string", "enum": grades(), "description": "instead of a viscosity"})
     ]
     model_name = Annotated[str, WithJsonSchema({"type": "string", "enum": list(MODELS)})]
+    screw = {**fields_of(BallScrew), **LISTED}
+    materials = dict.fromkeys(MATERIALS, (material, None))
+    row = Annotated[str, Field(description="name of a catalogue row; the other fields then override it")]
+    file = Annotated[str, Field(description="table with the row, beside the case file, in place of the rows shipped")]
+    preload = json_of(NUT_FIELDS["preload"], None) | {"examples": ["3 kN", "7 %"]}
+    same_side = Annotated[bool, Field(strict=True, description="whether screw and nut are held on the same side")]
     return {
-        "screw": _section(
-            "Screw", fields_of(BallScrew), BallScrew, required=True, **dict.fromkeys(MATERIALS, (material, None))
+        "screw": section_of(
+            "Screw", screw, BallScrew, required=True, catalogue=(row, None), catalogue_file=(file, None), **materials
         ),
-        "lubricant": _section("Lubricant", oil, Lubricant, required=False, grade=(grade, None)),
-        "operation": _section("Operation", fields_of(Operation), Operation, required=True),
-        "model": _section(
+        "screw_of_row": section_of(
+            "ScrewOfRow", screw, BallScrew, required=False,
+            catalogue=(row, ...), catalogue_file=(file, None), **materials,
+        ),
+        "lubricant": section_of("Lubricant", oil, Lubricant, required=False, grade=(grade, None)),
+        "operation": section_of("Operation", fields_of(Operation), Operation, required=True),
+        "model": section_of(
             "Model", fields_of(FrictionModel), FrictionModel, required=False,
             name=(model_name, Field(default=None, json_schema_extra={"default": DEFAULT_MODEL})),
+            calibration=(_one_of(calibrations(), "named calibration of two of its numbers"), None),
             **{slot: _slot(slot) for slot in LAWS},
         ),
+        "nut": section_of(
+            "Nut", {name: q for name, q in NUT_FIELDS.items() if name != "preload"}, DoubleNut, required=False,
+            type=(_one_of(NUTS, "kind of nut"), None),
+            preload=(Annotated[Any, BeforeValidator(read_preload), WithJsonSchema(preload)], None),
+        ),
+        "bodies": section_of("Bodies", fields_of(Bodies), Bodies, required=False, same_side=(same_side, None)),
+        "deviations": section_of("Deviations", fields_of(Scatter), Scatter, required=False),
+        "losses": section_of("Losses", {}, Scatter, required=False, **{slot: _slot(slot) for slot in LOSSES}),
+        "installation": section_of(
+            "Installation", fields_of(Installation), Installation, required=False,
+            ends=(_one_of(ENDS, "how the ends of the shaft are held"), None),
+        ),
+        "limits": section_of("Limits", fields_of(Limits), Limits, required=False),
     }  # fmt: skip
+
+
+def _one_of(names: Iterable[str], meaning: str) -> Any:
+    """A text that must be one of these names; the check is that of whoever looks the name up."""
+    return Annotated[str, WithJsonSchema({"type": "string", "enum": list(names), "description": meaning})]
 
 
 @functools.cache
 def case_file() -> type[BaseModel]:
     """The model of a whole case file."""
     parts = sections()
-    needed: dict[str, Any] = {name: (parts[name], ...) for name in ("screw", "lubricant", "operation")}
+    needed: dict[str, Any] = {name: (parts[name], ...) for name in ("lubricant", "operation")}
+    screw: Any = parts["screw"] | parts["screw_of_row"]
+    others: dict[str, Any] = {name: (parts[name], Field(default=None)) for name in NUT_TABLES}
     axes = Annotated[
         dict[str, str],
         Field(description='axes of a sweep by field, "100:4000:14 N" (start:stop:count) or "100, 200, 500 N"'),
@@ -228,7 +186,9 @@ def case_file() -> type[BaseModel]:
     return create_model(
         "BallscrewCase",
         __config__=ConfigDict(extra="forbid", title="ballscrew case file"),
+        screw=(screw, ...),
         **needed,
+        **others,
         model=(parts["model"], Field(default=None)),
         sweep=(axes, Field(default=None)),
     )
@@ -252,7 +212,8 @@ def validated(section: str, table: Any, faults: list[Fault]) -> dict[str, Any]:
 
     Laws are left as they are written: what they may be depends on the model (:func:`law_of`).
     """
-    return _validated(section, sections()[section], table, faults)
+    of_row = section == "screw" and isinstance(table, dict) and ("catalogue" in table or "catalogue_file" in table)
+    return _validated(section, sections()["screw_of_row" if of_row else section], table, faults)
 
 
 def law_of(slot: str, written: Any, present: Any, faults: list[Fault]) -> Any:
@@ -261,37 +222,42 @@ def law_of(slot: str, written: Any, present: Any, faults: list[Fault]) -> Any:
     A name stands for the law with its own coefficients. A table sets coefficients: of the law that it
     names with ``law``, or else of the law at present in the slot.
     """
-    where = f"model.{slot}"
+    where = _place(slot)
     if not isinstance(written, str | dict):
-        remedy = f"write {slot} = {_either(LAWS[slot])}"
+        remedy = f"write {slot} = {_either(_SLOTS[slot])}"
         faults.append(Fault(where, "must be the name of a law, or a table", reprlib.repr(written), remedy))
         return present
     table = {"law": written} if isinstance(written, str) else dict(written)
     place = where if isinstance(written, str) else f"{where}.law"
     named = table.pop("law", None)
     name = name_of_law(slot, present) if named is None else named
-    if not isinstance(name, str) or name not in LAWS[slot]:
+    if not isinstance(name, str) or name not in _SLOTS[slot]:
         given = name if isinstance(name, str) else reprlib.repr(name)
-        faults.append(Fault(place, "unknown law", given, nearest(given, LAWS[slot])))
+        faults.append(Fault(place, "unknown law", given, nearest(given, _SLOTS[slot])))
         return present
     before = len(faults)
     faults += [_no_coefficient(slot, name, field) for field in table if field not in coefficients_of(slot, name)]
     if len(faults) > before or not coefficients_of(slot, name):
-        return LAWS[slot][name]
+        return _SLOTS[slot][name]
     values = _validated(where, _coefficients(slot, name), table, faults)
-    return dataclasses.replace(present, **values) if named is None else LAWS[slot][name](**values)
+    return dataclasses.replace(present, **values) if named is None else _SLOTS[slot][name](**values)
 
 
 def _no_coefficient(slot: str, name: str, field: str) -> Fault:
     known = coefficients_of(slot, name)
-    elsewhere = [other for other in LAWS[slot] if field in coefficients_of(slot, other)]
+    elsewhere = [other for other in _SLOTS[slot] if field in coefficients_of(slot, other)]
     guess = nearest(field, known) if known else ""
     if elsewhere:
         remedy = f"it belongs to {slot}.law = {_either(elsewhere)}; "
     else:
         remedy = f"{guess} " if guess.startswith("did") else ""
     has = ", ".join(known) or "no coefficients"
-    return Fault(f"model.{slot}.{field}", f'no coefficient of the law "{name}"', "", f"{remedy}{name} has {has}")
+    return Fault(f"{_place(slot)}.{field}", f'no coefficient of the law "{name}"', "", f"{remedy}{name} has {has}")
+
+
+def _place(slot: str) -> str:
+    """Where a slot stands in the file."""
+    return f"{'losses' if slot in LOSSES else 'model'}.{slot}"
 
 
 def _either(names: Iterable[str]) -> str:
@@ -307,6 +273,8 @@ def _validated(where: str, model: type[BaseModel], table: Any, faults: list[Faul
     meant = {
         fault.where.rpartition(".")[0] + "." + match[1] for fault in found if (match := _MEANT.match(fault.remedy))
     }
+    if "screw.catalogue" in meant:
+        meant |= {f"screw.{name}" for name in fields_of(BallScrew)}
     faults += [fault for fault in found if not (fault.problem == "missing" and fault.where in meant)]
     return {}
 
@@ -320,8 +288,9 @@ def _fault(section: str, model: type[BaseModel], problem: dict[str, Any]) -> Fau
         case "fault":
             return Fault(where, problem["ctx"]["problem"], problem["ctx"]["given"], problem["ctx"]["remedy"])
         case "missing":
-            quantity = fields_of({"screw": BallScrew, "operation": Operation}[section])[path[-1]]
-            sample = "a number" if quantity.unit == "1" else f'"… {quantity.shown_in}"'
+            quantity = {**fields_of(BallScrew), **fields_of(Operation)}.get(path[-1])
+            unit = "" if quantity is None else f" {quantity.shown_in}"
+            sample = "a number" if quantity is not None and quantity.unit == "1" else f'"…{unit}"'
             return Fault(where, "missing", "", f"add {path[-1]} = {sample}")
         case "extra_forbidden":
             # a coefficient of a law, written without the slot of its law
@@ -331,6 +300,8 @@ def _fault(section: str, model: type[BaseModel], problem: dict[str, Any]) -> Fau
             return Fault(where, "unknown key", "", nearest(path[-1], _known(model, path[:-1])))
         case "model_type" | "dict_type" | "model_attributes_type":
             return Fault(where, "must be a table", given, f"write [{where}]")
+        case "bool_type":
+            return Fault(where, "must be true or false", given, "without quotes")
         case "string_type":
             return Fault(where, "must be text", given, "put it in quotes")
         case _:

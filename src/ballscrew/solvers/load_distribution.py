@@ -65,7 +65,7 @@ class BallLoads:
     deflection: Annotated[Length, Info("x", "axial displacement of the screw against the nut by the load", "um")]
     rigidity: Annotated[Stiffness, Info("R_nu", "axial rigidity of the nut at this load", "N/um")]
     remaining_preload: Annotated[Force, Info("F_b", "axial force left on the flank that the load relieves")]
-    lift_off_load: Annotated[Force, Info("F_l", "axial load that lifts the balls off the other flank, bodies rigid")]
+    lift_off_load: Annotated[Force, Info("F_l", "axial load that lifts the other flank off, balls alike and bodies rigid")]
     residual: Annotated[Ratio, Info(r"\epsilon", "imbalance / (load + preload)")]
 
     @property
@@ -269,7 +269,7 @@ def _solved(case: _Case, *numbers: Field) -> tuple[Field, ...]:
         _travel(case, point, bars, found, point.load) - _travel(case, point, bars, at_rest, 0 * point.load),
         1 / _compliance(case, point, bars, springs.forces(found)[1]),
         on_backward,
-        _lift_off_load(case, point, springs),
+        _lift_off_load(case, point),
         imbalance,
     )
 
@@ -380,11 +380,15 @@ def _parallel_compliance(case: _Case, point: _Point, bars: Bars) -> Ratio:
     return bars.first_share * (1 - bars.first_share) * np.sum(1 / bars.stiffness, axis=0)
 
 
-def _lift_off_load(case: _Case, point: _Point, springs: BallSprings) -> Force:
-    """The load of a rigid screw that has moved until the other flanks just touch."""
+def _lift_off_load(case: _Case, point: _Point) -> Force:
+    """The load of a rigid screw with balls that are all alike when the other flanks just touch."""
     if not (case.halves == 2 or case.oversize):
         return 0 * point.load
+    none = np.zeros((case.halves, 1))
+    alike = case._replace(balls=1, one_by_one=False, elastic=False, scatters=False, excess=none, lead_error=none)
+    springs, bars = _springs(alike, point), _bars(alike, point)
+    if case.halves == 2:
+        springs, _ = _braced(alike, point, springs, bars)
     own, other = springs.flanks[0], springs.flanks[-1]
-    lifted = np.where(other.facing < 0, other.offset - springs.touch(other), -np.inf).max(axis=0) / point.lead_cosine
-    carried = springs.balls * springs.loads(own, lifted).axial_force
-    return np.sum(np.where(own.facing > 0, carried, 0.0), axis=0)
+    lifted = (other.offset - springs.touch(other))[-1] / point.lead_cosine
+    return springs.balls * springs.loads(own, lifted).axial_force[0]

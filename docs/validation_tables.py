@@ -1,0 +1,168 @@
+"""What the page on validation shows: the command's own output, its figure, the calibration and the residuals."""
+
+from __future__ import annotations
+
+import functools
+import subprocess
+import sys
+from pathlib import Path
+
+from ballscrew.analyses.validation import DESCRIPTORS, trends
+from ballscrew.calibrations import PARAMETERS, calibration
+from ballscrew.interfaces import validation
+
+SCRIPT = Path(__file__).parents[1] / "benchmarks" / "fit_calibration.py"
+SYMBOLS = {"boundary_friction_coefficient": "µ₀", "share_of_load": "F_B/Q"}
+#: Largest error of a rating in the standard's own tests.
+C_A, C_0A = 0.015, 0.01
+
+
+@functools.cache
+def found():
+    """All sets: the request, and the entries of each set."""
+    asked = validation.request()
+    return asked, [entries for entries, _ in validation.evaluate(asked)]
+
+
+def write(folder: Path) -> None:
+    """Tables as Markdown, the command's output as text, the figure as SVG."""
+    folder.mkdir(parents=True, exist_ok=True)
+    asked, sets = found()
+    rivals = subprocess.run(
+        [sys.executable, str(SCRIPT), "--rivals"], check=True, stdout=subprocess.PIPE, encoding="utf-8"
+    ).stdout
+    pages = {
+        "summary.md": summary(),
+        "calibration.md": calibration_table(),
+        "rivals.md": rivals,
+        "trends.md": trends_table(),
+        "definitions.md": definitions_table(),
+        "oil.md": oil_table(),
+        "rows.txt": "\n\n".join(validation.text_of(entries, asked) for entries in sets) + "\n",
+    }
+    for name, text in pages.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    validation.draw(sets, asked, folder / "validation.svg")
+
+
+def summary() -> str:
+    """One line for each set and model."""
+    lines = [["set", "model", "n", "mean ratio", "scatter", "in the vendor's band", "other laws, mean ratio"]]
+    lines.append(["---"] * len(lines[0]))
+    for entry in _entries():
+        laws = ", ".join(f"{validation.WORDS[name]} {value:.2f}" for name, value in entry.mean_laws.items())
+        share = "no band" if entry.share_in_band is None else _percent(entry.share_in_band)
+        scatter = f"{entry.std_ratio:.3f}" if len(entry.counted) > 1 else "–"
+        who = entry.calibration or "as it is"
+        lines.append([entry.data.name, who, str(len(entry.counted)), f"{entry.mean_ratio:.3f}", scatter, share, laws])
+    return _table(lines)
+
+
+def oil_table() -> str:
+    """What another temperature of the oil, which the vendor does not state, makes of the no-load torques."""
+    names = ("rexroth-double-nut", "rexroth-single-nut")
+    lines = [["oil", *(f"{name}, {who}" for name in names for who in ("as it is", "calibrated"))], ["---"] * 5]
+    for temperature in ("15 degC", "25 degC", "40 degC"):
+        asked = validation.request(names, temperature=temperature)
+        entries = [entry for entries, _ in validation.evaluate(asked) for entry in entries]
+        cells = [
+            f"{entry.mean_ratio:.2f} ± {entry.std_ratio:.2f}, {_percent(entry.share_in_band)}" for entry in entries
+        ]
+        lines.append([f"{asked.conditions.grade}, {temperature.replace('degC', '°C')}", *cells])
+    return _table(lines)
+
+
+def definitions_table() -> str:
+    """What other definitions of the same value would give."""
+    lines = [["set", "definition", "mean ratio"], ["---"] * 3]
+    for entry in _entries():
+        if entry.mean_definitions and entry.data.name != "hiwin-ratings":
+            lines.append([entry.data.name, f"as compared: {entry.data.words.partition(', against')[0]}", _mean(entry)])
+            lines += [["", validation.WORDS[name], f"{value:.3f}"] for name, value in entry.mean_definitions.items()]
+    return _table(lines)
+
+
+def calibration_table() -> str:
+    """The two numbers, their errors, and what is left."""
+    stored = calibration(validation.DEFAULT_CALIBRATION)
+    lines = [["number", "where", "value", "standard error"], ["---"] * 4]
+    for (name, where), error in zip(PARAMETERS.items(), stored.standard_errors, strict=True):
+        lines.append([SYMBOLS[name], f"`{where}`", f"{getattr(stored, name):.4g}", f"{error:.1g}"])
+    (a, b), (_, d) = stored.covariance
+    words = [
+        f"\nCovariance: {a:.3g}, {b:.3g}, {d:.3g} (µ₀ µ₀, µ₀ F_B/Q, F_B/Q F_B/Q);",
+        f"correlation {stored.correlation:.2f}. {stored.rows} rows; objective: {stored.objective};",
+        f"its sum is {stored.cost:.2f}. Command: `{stored.command}`.",
+    ]
+    return _table(lines) + " ".join(words) + "\n"
+
+
+def trends_table() -> str:
+    """How the ratio goes with what the rows are like."""
+    lines = [["set", "model", "against", "exponent", "correlation"], ["---"] * 5]
+    for entry in _entries():
+        if not (entry.data.calibratable or entry.data.name == "balan-2015"):
+            continue
+        for trend in trends(entry.counted):
+            words = DESCRIPTORS[trend.descriptor].words
+            exponent = f"{trend.exponent:+.2f} ± {trend.doubt:.2f}".replace("-", "−")
+            correlation = f"{trend.correlation:+.2f}".replace("-", "−")
+            lines.append([entry.data.name, entry.calibration or "as it is", words, exponent, correlation])
+    return _table(lines)
+
+
+def numbers() -> dict[str, str]:
+    """What stands in the text between double braces."""
+    by_key = {(entry.data.name, entry.calibration is not None): entry for entry in _entries()}
+    values: dict[str, str] = {}
+    for key, name in (("double", "rexroth-double-nut"), ("single", "rexroth-single-nut"), ("thk", "thk-jis")):
+        for calibrated in (False, True):
+            entry = by_key[name, calibrated]
+            prefix = f"{key}_{'calibrated' if calibrated else 'raw'}"
+            values[f"{prefix}_mean"] = f"{entry.mean_ratio:.2f}"
+            values[f"{prefix}_share"] = _percent(entry.share_in_band)
+            values[f"{prefix}_outside"] = ", ".join(
+                f"{point.name} ({point.ratio:.2f})" for point in entry.points if point.in_band is False
+            )
+            above = [apart for apart in entry.apart if apart.ratio > 1]
+            values[f"{prefix}_above"] = f"{len(above)} of {len(entry.apart)}"
+    steep, fine = _steep_and_fine(by_key["rexroth-single-nut", True])
+    values |= {"single_steep": f"{steep:.2f}", "single_fine": f"{fine:.2f}"}
+    balan = by_key["balan-2015", False]
+    slow, fast = min(p.ratio for p in balan.points), max(p.ratio for p in balan.points)
+    values |= {"balan_mean": _mean(balan), "balan_slow": f"{slow:.2f}", "balan_fast": f"{fast:.2f}"}
+    values["thk_rexroth"] = f"{by_key['thk-jis', False].mean_laws['rexroth']:.2f}"
+    double = by_key["rexroth-double-nut", False].mean_laws
+    values |= {"double_jis": f"{double['jis']:.2f}", "double_efficiency": f"{double['efficiency']:.2f}"}
+    ratings = by_key["hiwin-ratings", False].points
+    off = [p for p in ratings if abs(p.ratio - 1) > C_A or abs(p.definitions["static"] - 1) > C_0A]
+    values["ratings_good"] = f"{len(ratings) - len(off)} of {len(ratings)}"
+    values["ratings_off"] = "; ".join(
+        f"{p.name}: C_a {p.ratio:.3f}, C_0a {p.definitions['static']:.3f}, with one ball less a turn"
+        f" {p.definitions['one_ball_less']:.3f} and {p.definitions['static_one_ball_less']:.3f}"
+        for p in off
+    )
+    return {f"validation_{key}": value for key, value in values.items()}
+
+
+def _steep_and_fine(entry) -> tuple[float, float]:
+    """Mean ratio of the rows whose lead is as long as their diameter, and of the others."""
+    steep = [p.ratio for p in entry.points if p.descriptors["steepness"] >= 1]
+    fine = [p.ratio for p in entry.points if p.descriptors["steepness"] < 1]
+    return sum(steep) / len(steep), sum(fine) / len(fine)
+
+
+def _entries():
+    return [entry for entries in found()[1] for entry in entries]
+
+
+def _mean(entry) -> str:
+    return f"{entry.mean_ratio:.3f}"
+
+
+def _percent(share: float) -> str:
+    return f"{share:.0%}".replace("%", " %")
+
+
+def _table(lines) -> str:
+    return "".join("| " + " | ".join(line) + " |\n" for line in lines)

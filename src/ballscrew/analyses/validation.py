@@ -1,0 +1,279 @@
+"""A model against what vendors and laboratories state: row by row, and what the rows say together.
+
+A set of data (:mod:`ballscrew.analyses.validation_sets`) makes points of the rows of a table. A point has the value of
+the model and that of the table, most often the middle of a vendor's band.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+
+from ballscrew.components.materials import TEMPERATURE, Lubricant
+from ballscrew.components.screw import Operation
+from ballscrew.faults import Fault, InputError
+from ballscrew.model import FrictionModel
+from ballscrew.quantities import AngularSpeed, Info, Quantity, Temperature, Viscosity, fields_of
+
+RPM = math.pi / 30
+#: Values of a row in SI (or text) by column.
+Values: TypeAlias = Mapping[str, Any]
+
+
+class Descriptor(NamedTuple):
+    """What a row is like, to see which effect a model lacks."""
+
+    words: str
+    quantity: Quantity
+
+
+def _descriptor(name: str, unit: str, words: str, shown_in: str = "") -> Descriptor:
+    return Descriptor(words, Quantity(name, unit, Info(name, words, shown_in)))
+
+
+#: What rows may differ in, by name.
+DESCRIPTORS: Mapping[str, Descriptor] = {
+    "size": _descriptor("size", "m", "nominal diameter", "mm"),
+    "lead": _descriptor("lead", "m", "lead", "mm"),
+    "steepness": _descriptor("steepness", "1", "lead / nominal diameter"),
+    "ball": _descriptor("ball", "m", "ball diameter", "mm"),
+    "preload_share": _descriptor("preload_share", "1", "preload / dynamic load rating"),
+    "film_parameter": _descriptor("film_parameter", "1", "film parameter at the screw"),
+    "speed": _descriptor("speed", "rad/s", "speed", "rpm"),
+}
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class Conditions:
+    """Oil and speed at which a model is asked. The defaults are those of the no-load torques of Rexroth2006.
+
+    The vendor names the speed; the oil is an assumption.
+    """
+
+    grade: str = "ISO VG 100"
+    temperature: Temperature = 298.15
+    #: In place of grade and temperature.
+    viscosity: Viscosity | None = None
+    screw_speed: AngularSpeed = 100 * RPM
+
+    def of(self, values: Values) -> Conditions:
+        """These conditions, but for those that a row has of its own.
+
+        Raises :class:`~ballscrew.faults.InputError` for a viscosity beside a grade or a temperature.
+        """
+        own = {name: values[name] for name in CONDITIONS if name in values}
+        if "viscosity" in own and ("grade" in own or "temperature" in own):
+            raise InputError(Fault("row.viscosity", "contradicts the grade", "", "give one of the two"))
+        return dataclasses.replace(self, **own)
+
+    @property
+    def lubricant(self) -> Lubricant:
+        """The oil. Raises :class:`~ballscrew.faults.InputError` for an unknown grade, or a temperature out of range."""
+        if self.viscosity is not None:
+            return Lubricant(viscosity=self.viscosity)
+        return Lubricant.from_grade(self.grade, self.temperature)
+
+
+#: The conditions that a row may have of its own, by column; None is text.
+CONDITIONS: Mapping[str, Quantity | None] = {
+    "grade": None,
+    "temperature": TEMPERATURE,
+    "viscosity": fields_of(Lubricant)["viscosity"],
+    "screw_speed": fields_of(Operation)["screw_speed"],
+}
+
+
+class Band(NamedTuple):
+    """What a row states: its middle, and the ends of the band where it has one."""
+
+    middle: float
+    low: float | None = None
+    high: float | None = None
+
+
+class Apart(NamedTuple):
+    """A value of which a row states no more than a maximum: told, but in no mean."""
+
+    name: str
+    value: float
+    maximum: float
+
+    @property
+    def ratio(self) -> float:
+        """Model / maximum."""
+        return self.value / self.maximum
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class Point:
+    """One value of a model and of a row, SI."""
+
+    name: str
+    value: float
+    band: Band
+    #: What the row is like, by the names of DESCRIPTORS.
+    descriptors: Mapping[str, float]
+    #: Ratios to the same middle of other definitions and of other laws, by name.
+    definitions: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
+    laws: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
+    apart: Sequence[Apart] = ()
+    warnings: Sequence[str] = ()
+
+    @property
+    def ratio(self) -> float:
+        """Model / middle of the band."""
+        return self.value / self.band.middle
+
+    @property
+    def residual(self) -> float:
+        """Model − middle of the band."""
+        return self.value - self.band.middle
+
+    @property
+    def deviation(self) -> float | None:
+        """Model − middle, in halves of the band; None where there is no band."""
+        low, high = self.band.low, self.band.high
+        return None if low is None or high is None else 2 * self.residual / (high - low)
+
+    @property
+    def in_band(self) -> bool | None:
+        """Whether the value lies in the band, ends included; None where there is no band or no value."""
+        low, high = self.band.low, self.band.high
+        return None if low is None or high is None or not math.isfinite(self.value) else low <= self.value <= high
+
+
+Evaluation: TypeAlias = Callable[[FrictionModel, Values, Conditions], list[Point]]
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class ValidationSet:
+    """A declared set of data: which columns its rows have, and what a model is asked for a row.
+
+    ``evaluate`` raises :class:`~ballscrew.faults.InputError` for rows that make no sense.
+    """
+
+    name: str
+    #: What is compared, and with what.
+    words: str
+    source: str
+    #: The file with the rows shipped, in ``data/validation``.
+    file: str
+    #: Unit of the values, and the one people think in.
+    quantity: Quantity
+    #: What the rows state, by column, beside the size of the screw.
+    columns: Mapping[str, Quantity]
+    #: Columns without which a row is no use; those of a catalogue row are asked for where it is of a screw.
+    required: Sequence[str]
+    evaluate: Evaluation
+    #: Two names of DESCRIPTORS to draw the ratio against.
+    axes: tuple[str, str]
+    #: Whether rows are of screws of a catalogue.
+    of_screws: bool = True
+    #: Whether a friction coefficient or a ball-to-ball force moves the value.
+    calibratable: bool = False
+    #: Whether oil and speed move the value, and are those of :class:`Conditions`.
+    conditioned: bool = False
+    #: Whether the model must know balls with four contacts.
+    four_contacts: bool = False
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class Entry:
+    """A set evaluated with one model."""
+
+    data: ValidationSet
+    model: FrictionModel
+    calibration: str | None
+    points: Sequence[Point]
+
+    @property
+    def counted(self) -> Sequence[Point]:
+        """The points with a number."""
+        return [point for point in self.points if math.isfinite(point.ratio)]
+
+    @property
+    def mean_ratio(self) -> float:
+        """Mean of model / middle."""
+        return mean([point.ratio for point in self.counted])
+
+    @property
+    def std_ratio(self) -> float:
+        """Standard deviation of model / middle, of a sample: divided by n − 1. NaN for less than two points."""
+        ratios = [point.ratio for point in self.counted]
+        return float(np.std(ratios, ddof=1)) if len(ratios) > 1 else math.nan
+
+    @property
+    def share_in_band(self) -> float | None:
+        """Share of the points with a band that lie in theirs; None where no point has one."""
+        inside = [point.in_band for point in self.counted if point.in_band is not None]
+        return sum(inside) / len(inside) if inside else None
+
+    @property
+    def mean_laws(self) -> dict[str, float]:
+        """Mean of law / middle by law, for the laws that all points have."""
+        return _means([point.laws for point in self.points])
+
+    @property
+    def mean_definitions(self) -> dict[str, float]:
+        """Mean ratio by other definition, for those that all points have."""
+        return _means([point.definitions for point in self.points])
+
+    @property
+    def apart(self) -> Sequence[Apart]:
+        """What is told apart, of all points."""
+        return [apart for point in self.points for apart in point.apart]
+
+    @property
+    def warnings(self) -> dict[str, int]:
+        """The model's warnings, and for how many points each."""
+        every = [warning for point in self.points for warning in point.warnings]
+        return {warning: every.count(warning) for warning in dict.fromkeys(every)}
+
+
+def mean(numbers: Sequence[float]) -> float:
+    """Mean; NaN of nothing."""
+    return float(np.mean(numbers)) if len(numbers) else math.nan
+
+
+def _means(found: Sequence[Mapping[str, float]]) -> dict[str, float]:
+    names = [name for name in (found[0] if found else ()) if all(name in one for one in found)]
+    return {name: mean([one[name] for one in found]) for name in names}
+
+
+# -- which effect is missing ----------------------------------------------------------------------
+
+
+class Trend(NamedTuple):
+    """How the ratio goes with what the rows are like: ratio ∝ descriptor ^ exponent."""
+
+    descriptor: str
+    exponent: float
+    #: Half width of the interval of two standard errors around the exponent.
+    doubt: float
+    correlation: float
+
+
+def trends(points: Sequence[Point]) -> list[Trend]:
+    """The trends of the logarithm of the ratio, the strongest correlation first; each descriptor by itself.
+
+    Descriptors that do not vary are left out. Sizes, balls and leads of real screws grow together: an effect of one
+    shows in all of them.
+    """
+    found: list[Trend] = []
+    log_ratio = np.log([point.ratio for point in points])
+    for name in DESCRIPTORS:
+        values = [point.descriptors[name] for point in points if name in point.descriptors]
+        if len(values) < len(points) or len(points) < 3 or min(values) <= 0 or max(values) <= min(values) * (1 + 1e-9):
+            continue
+        x = np.log(values)
+        x, y = x - x.mean(), log_ratio - log_ratio.mean()
+        exponent = float(x @ y / (x @ x))
+        left = y - exponent * x
+        error = math.sqrt(float(left @ left) / (len(points) - 2) / float(x @ x))
+        scatter = math.sqrt(float(x @ x) * float(y @ y))
+        found.append(Trend(name, exponent, 2 * error, float(x @ y) / scatter if scatter else math.nan))
+    return sorted(found, key=lambda trend: -abs(trend.correlation))

@@ -1,0 +1,267 @@
+"""What a model is asked for a row of each set of data, and what its row states."""
+# ruff: noqa: ARG001 - what is asked for rows has one signature, said once
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ballscrew.analyses.checks import ratings_of
+from ballscrew.analyses.validation import Apart, Band, Conditions, Point, Values
+from ballscrew.assembly import NutFriction, nut_friction
+from ballscrew.components.catalogue import CatalogueRow
+from ballscrew.components.conditions import ContactConditions, Motion
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.nut import Bodies, DoubleNut, Nut, OversizeBallNut, SingleNut
+from ballscrew.components.nut_losses import OVERSIZE_BALL_DRAG, EfficiencyDrag, JISDrag, RexrothDrag
+from ballscrew.components.screw import STEEL, BallScrew
+from ballscrew.equations import geometry, hertz, rheology
+from ballscrew.faults import Fault, InputError
+from ballscrew.model import FrictionModel
+from ballscrew.quantities import Torque, fields_of
+from ballscrew.solvers.load_distribution import ball_loads
+
+#: The share of the dynamic load rating at which THK514E defines the rigidity of a nut without preload (as recalled).
+RIGIDITY_LOAD = 0.30
+#: The share of the dynamic load rating that vendors preload double nuts with at most.
+USUAL_PRELOAD = 0.10
+
+_SCREW = tuple(fields_of(CatalogueRow))
+
+
+# -- screws of a catalogue ------------------------------------------------------------------------
+
+
+def screw_of(values: Values) -> CatalogueRow:
+    """The catalogue row of the values of a row; without a name it is called by its sizes."""
+    fields = {name: values[name] for name in _SCREW if name in values}
+    sizes = "x".join(f"{1000 * values[name]:.6g}" for name in ("nominal_diameter", "lead", "ball_diameter"))
+    row = CatalogueRow(name=values.get("name") or f"{sizes}-{values['turns']:g}", **fields)
+    row.screw()
+    return row
+
+
+def _descriptors(row: CatalogueRow) -> dict[str, float]:
+    d_0 = float(row.nominal_diameter)
+    return {"size": d_0, "lead": row.lead, "steepness": row.lead / d_0, "ball": row.ball_diameter}
+
+
+def _stated(values: Values, name: str) -> Band:
+    """The band of two columns. Raises for ends that are the wrong way round."""
+    low, high = float(values[f"{name}_min"]), float(values[f"{name}_max"])
+    if not low < high:
+        raise InputError(Fault(f"row.{name}_max", "does not exceed the minimum", "", "the smallest torque comes first"))
+    return Band((low + high) / 2, low, high)
+
+
+def _unloaded(
+    model: FrictionModel, row: CatalogueRow, nut: Nut, conditions: Conditions
+) -> tuple[NutFriction, dict[str, float]]:
+    """A nut without load at these conditions, and what its row is like."""
+    found = nut_friction(
+        model, row.screw(), nut, conditions.lubricant, axial_load=0.0, screw_speed=conditions.screw_speed
+    )
+    film = float(np.min([np.min(pair.screw.film_parameter) for pair in found.pairs]))
+    return found, {**_descriptors(row), "film_parameter": film}
+
+
+def _drag_laws(
+    model: FrictionModel, row: CatalogueRow, preload: float, conditions: Conditions, middle: float, two_contacts: bool
+) -> dict[str, float]:
+    """What the rules of vendors and of first principles give, over the middle of the band."""
+    laws: dict[str, Any] = {"jis": JISDrag(), "rexroth": RexrothDrag() if two_contacts else None}
+    if two_contacts:
+        half = model(row.screw(), conditions.lubricant, axial_load=preload, screw_speed=conditions.screw_speed)
+        laws["efficiency"] = EfficiencyDrag(float(half.efficiency))
+    else:
+        laws["rexroth"] = RexrothDrag(OVERSIZE_BALL_DRAG)
+    size = (row.nominal_diameter, row.ball_circle, row.lead)
+    return {name: float(law(preload, *size)) / middle for name, law in laws.items()}
+
+
+def _preloaded(values: Values, percent: int) -> float:
+    return percent / 100 * float(values["dynamic_load_rating"])
+
+
+def double_nut(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
+    """No-load torque of a double nut at preloads of 7 and 10 %."""
+    row, at = screw_of(values), conditions.of(values)
+    points: list[Point] = []
+    for percent in (7, 10):
+        band, preload = _stated(values, f"no_load_torque_{percent}pct"), _preloaded(values, percent)
+        found, descriptors = _unloaded(model, row, DoubleNut(preload=preload), at)
+        points.append(
+            Point(
+                name=f"{row.name} at {percent} %",
+                value=float(found.screw_torque),
+                band=band,
+                descriptors={**descriptors, "preload_share": percent / 100},
+                laws=_drag_laws(model, row, preload, at, band.middle, two_contacts=True),
+                warnings=found.warnings,
+            )
+        )
+    return points
+
+
+def single_nut(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
+    """No-load torque of a nut with oversize balls at a preload of 5 %; at 2 % there is a maximum only."""
+    row, at = screw_of(values), conditions.of(values)
+    band, preload = _stated(values, "no_load_torque_5pct"), _preloaded(values, 5)
+    found, descriptors = _unloaded(model, row, OversizeBallNut(preload=preload), at)
+    apart: list[Apart] = []
+    if "no_load_torque_2pct_max" in values:
+        light, _ = _unloaded(model, row, OversizeBallNut(preload=_preloaded(values, 2)), at)
+        apart.append(Apart(f"{row.name} at 2 %", float(light.screw_torque), float(values["no_load_torque_2pct_max"])))
+    return [
+        Point(
+            name=f"{row.name} at 5 %",
+            value=float(found.screw_torque),
+            band=band,
+            descriptors={**descriptors, "preload_share": 0.05},
+            laws=_drag_laws(model, row, preload, at, band.middle, two_contacts=False),
+            apart=apart,
+            warnings=found.warnings,
+        )
+    ]
+
+
+def worked_example(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
+    """Preload drag of a double nut whose preload is given as a force."""
+    row, at = screw_of(values), conditions.of(values)
+    stated, preload = _stated(values, "drag_torque"), float(values["preload"])
+    band = stated._replace(middle=float(values["drag_torque"]))
+    found, descriptors = _unloaded(model, row, DoubleNut(preload=preload), at)
+    laws = _drag_laws(model, row, preload, at, band.middle, two_contacts=True)
+    return [
+        Point(
+            name=row.name,
+            value=float(found.screw_torque),
+            band=band,
+            descriptors=descriptors,
+            laws=laws,
+            warnings=found.warnings,
+        )
+    ]
+
+
+# -- ratings and rigidity -------------------------------------------------------------------------
+
+
+def ratings(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
+    """Dynamic load rating by geometry, the static one beside it, and both with one ball less a turn."""
+    row = screw_of(values)
+    found, z = ratings_of(row), row.balls_per_turn
+    dynamic, static = float(values["dynamic_load_rating"]), float(values["static_load_rating"])
+    fewer = (z - 1) / z
+    return [
+        Point(
+            name=row.name,
+            value=found.dynamic,
+            band=Band(dynamic),
+            descriptors=_descriptors(row),
+            definitions={
+                "static": found.static / static,
+                "one_ball_less": found.dynamic * fewer ** (2 / 3) / dynamic,
+                "static_one_ball_less": found.static * fewer / static,
+            },
+        )
+    ]
+
+
+def rigidity_by_catalogue(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
+    """Load over displacement of a rigid nut without preload at 30 % of its rating, and other definitions."""
+    row = screw_of(values)
+    screw, rated, listed = row.screw(), float(values["dynamic_load_rating"]), float(values["rigidity"])
+    load, preload = RIGIDITY_LOAD * rated, USUAL_PRELOAD * rated
+    single = ball_loads(screw, SingleNut(), load)
+    definitions = {
+        "tangent_at_30": float(single.rigidity),
+        "double_nut_at_10": _tangent(screw, preload, None),
+        "double_nut_at_10_elastic": _tangent(screw, preload, Bodies.of(screw)),
+    }
+    return [
+        Point(
+            name=row.name,
+            value=load / float(single.deflection),
+            band=Band(listed),
+            descriptors=_descriptors(row),
+            definitions={name: value / listed for name, value in definitions.items()},
+        )
+    ]
+
+
+def rigidity_of_double_nuts(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
+    """Rigidity of a double nut without load, screw and nut elastic, and rigid beside it."""
+    row = screw_of(values)
+    screw = row.screw()
+    points: list[Point] = []
+    for percent, column in ((7, "rigidity_7pct"), (10, "rigidity")):
+        listed, preload = float(values[column]), _preloaded(values, percent)
+        points.append(
+            Point(
+                name=f"{row.name} at {percent} %",
+                value=_tangent(screw, preload, Bodies.of(screw)),
+                band=Band(listed),
+                descriptors={**_descriptors(row), "preload_share": percent / 100},
+                definitions={"rigid_bodies": _tangent(screw, preload, None) / listed},
+            )
+        )
+    return points
+
+
+def _tangent(screw: BallScrew, preload: float, bodies: Bodies | None) -> float:
+    return float(ball_loads(screw, DoubleNut(preload=preload), 0.0, bodies=bodies).rigidity)
+
+
+# -- balls between rings --------------------------------------------------------------------------
+
+#: Pitch radius of the rings of Balan2015, by the sizes of a bearing 51205 (not printed there), and of their grooves.
+RING_RADIUS = 0.018
+GROOVE_RADIUS = 4.16e-3
+_CONTACTS = 6
+
+
+def ring_torque(model: FrictionModel, ball_diameter: float, load: float, viscosity: float, speed: float) -> Torque:
+    """Torque of three balls between two grooved rings, Balan2015: T_z = 6 r F_R by the rolling law of the model.
+
+    One ring turns, so the balls are entrained at half of its speed. Nothing but rolling: the rest is small there.
+    """
+    oil, R_x, v = Lubricant(viscosity=viscosity), ball_diameter / 2, speed * RING_RADIUS / 2
+    E = hertz.equivalent_modulus(STEEL.young_modulus, STEEL.poisson_ratio, STEEL.young_modulus, STEEL.poisson_ratio)
+    R_y = 1 / (1 / R_x - 1 / GROOVE_RADIUS)
+    shape = model.hertz(R_y / R_x)
+    W = rheology.load_parameter(load, E, R_x)
+    conditions = ContactConditions(
+        contact_load=load,
+        equivalent_modulus=E,
+        rolling_radius=R_x,
+        transverse_radius=R_y,
+        radii_ratio=R_y / R_x,
+        deformed_radius=geometry.deformed_radius(ball_diameter, GROOVE_RADIUS / ball_diameter),
+        hertz=shape,
+        material_parameter=rheology.material_parameter(E, oil.pressure_viscosity_coefficient),
+        speed_parameter=rheology.speed_parameter(viscosity, v, E, R_x),
+        load_parameter=W,
+        semi_major_axis=hertz.semi_axis(shape.major, R_x, W),
+        combined_roughness=math.hypot(0.06e-6, 0.03e-6),
+        motion=Motion(v, 0.0, 0.0),
+        lubricant=oil,
+    )
+    return _CONTACTS * RING_RADIUS * model.rolling(conditions)
+
+
+def rings(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
+    """The fit of the measured torque at the speed that the rings start with."""
+    d_w, Q, rpm = (float(values[name]) for name in ("ball_diameter", "contact_load", "speed"))
+    fit = float(values["K"]) * rpm ** float(values["n"])
+    name = f"{1000 * d_w:g} mm at {rpm * 30 / math.pi:.0f} rpm"
+    return [
+        Point(
+            name=name,
+            value=float(ring_torque(model, d_w, Q, float(values["viscosity"]), rpm)),
+            band=Band(fit),
+            descriptors={"ball": d_w, "speed": rpm},
+        )
+    ]

@@ -1,0 +1,148 @@
+"""The declared sets of data: which columns their rows have, and what a model is asked for each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ballscrew.analyses import validation_rows as rows
+from ballscrew.analyses.validation import ValidationSet
+from ballscrew.quantities import Info, Quantity
+
+
+def _positive(name: str, unit: str, words: str, shown_in: str = "") -> Quantity:
+    return Quantity(name, unit, Info(name, words, shown_in, above=0, hint="give a positive value"))
+
+
+def _quantities(*quantities: Quantity) -> dict[str, Quantity]:
+    return {quantity.name: quantity for quantity in quantities}
+
+
+_RIGIDITY = Quantity("rigidity", "N/m", Info("R", "rigidity", "N/um"))
+
+
+def _torque(shown_in: str) -> Quantity:
+    return Quantity("torque", "N m", Info("T", "torque", shown_in))
+
+
+def _band_columns(name: str, words: str, shown_in: str = "N m") -> dict[str, Quantity]:
+    return _quantities(*(_positive(f"{name}_{end}", "N m", f"{words}, {end}imum", shown_in) for end in ("min", "max")))
+
+
+_REXROTH = "Bosch Rexroth R310RU 3301 (2006.02)"
+_HIWIN = "HIWIN S99TE20-1610"
+_OF_DOUBLE_NUTS = {
+    **_band_columns("no_load_torque_7pct", "no-load torque at a preload of 7 %"),
+    **_band_columns("no_load_torque_10pct", "no-load torque at a preload of 10 %"),
+    **_quantities(_positive("rigidity_7pct", "N/m", "rigidity at a preload of 7 %", "N/um")),
+}
+_OF_SINGLE_NUTS = {
+    **_quantities(_positive("no_load_torque_2pct_max", "N m", "no-load torque at a preload of 2 %, maximum")),
+    **_band_columns("no_load_torque_5pct", "no-load torque at a preload of 5 %"),
+}
+_OF_THE_EXAMPLE = {
+    **_quantities(_positive("preload", "N", "preload"), _positive("drag_torque", "N m", "drag torque", "N mm")),
+    **_band_columns("drag_torque", "drag torque", "N mm"),
+}
+_OF_RINGS = _quantities(
+    _positive("ball_diameter", "m", "ball diameter", "mm"),
+    _positive("contact_load", "N", "load of a ball"),
+    _positive("viscosity", "Pa s", "dynamic viscosity", "mPa s"),
+    _positive("speed", "rad/s", "speed that the rings start with", "rpm"),
+    _positive("K", "N m", "torque of the fit at 1 rad/s"),
+    Quantity("n", "1", Info("n", "exponent of the speed")),
+)
+
+SETS: Mapping[str, ValidationSet] = {
+    found.name: found
+    for found in (
+        ValidationSet(
+            name="rexroth-double-nut",
+            words="no-load torque of double nuts, two contacts a ball, preloads of 7 and 10 %, against the vendor's "
+            "band",
+            source=_REXROTH,
+            file="rexroth-double-nut.csv",
+            quantity=_torque("N m"),
+            columns=_OF_DOUBLE_NUTS,
+            required=("dynamic_load_rating", *(name for name in _OF_DOUBLE_NUTS if name != "rigidity_7pct")),
+            evaluate=rows.double_nut,
+            axes=("size", "steepness"),
+            calibratable=True,
+            conditioned=True,
+        ),
+        ValidationSet(
+            name="rexroth-single-nut",
+            words="no-load torque of single nuts, oversize balls with four contacts, preload of 5 %, against the "
+            "vendor's band; at 2 % against the vendor's maximum, apart",
+            source=_REXROTH,
+            file="rexroth-single-nut.csv",
+            quantity=_torque("N m"),
+            columns=_OF_SINGLE_NUTS,
+            required=("dynamic_load_rating", "no_load_torque_5pct_min", "no_load_torque_5pct_max"),
+            evaluate=rows.single_nut,
+            axes=("size", "steepness"),
+            calibratable=True,
+            conditioned=True,
+            four_contacts=True,
+        ),
+        ValidationSet(
+            name="thk-jis",
+            words="preload drag of a double nut, against a worked example by JIS B 1192 and its tolerance",
+            source="THK catalogue",
+            file="thk-jis.csv",
+            quantity=_torque("N mm"),
+            columns=_OF_THE_EXAMPLE,
+            required=tuple(_OF_THE_EXAMPLE),
+            evaluate=rows.worked_example,
+            axes=("size", "steepness"),
+            calibratable=True,
+            conditioned=True,
+        ),
+        ValidationSet(
+            name="balan-2015",
+            words="torque of three balls between grooved rings, against a fit of measurements, at the start of a run",
+            source="Lubricants 2015 3:222-243",
+            file="balan-2015.csv",
+            quantity=_torque("uN m"),
+            columns=_OF_RINGS,
+            required=tuple(_OF_RINGS),
+            evaluate=rows.rings,
+            axes=("speed", "ball"),
+            of_screws=False,
+        ),
+        ValidationSet(
+            name="hiwin-ratings",
+            words="dynamic load rating by geometry, against the catalogue; the static one beside it",
+            source=_HIWIN,
+            file="hiwin.csv",
+            quantity=Quantity("rating", "N", Info("C_a", "dynamic load rating", "kN")),
+            columns={},
+            required=("dynamic_load_rating", "static_load_rating"),
+            evaluate=rows.ratings,
+            axes=("size", "steepness"),
+        ),
+        ValidationSet(
+            name="hiwin-stiffness",
+            words="load over displacement of a rigid nut without preload at 30 % of its rating, against the catalogue, "
+            "whose definition is assumed",
+            source=_HIWIN,
+            file="hiwin.csv",
+            quantity=_RIGIDITY,
+            columns={},
+            required=("dynamic_load_rating", "rigidity"),
+            evaluate=rows.rigidity_by_catalogue,
+            axes=("size", "steepness"),
+        ),
+        ValidationSet(
+            name="rexroth-rigidity",
+            words="rigidity of double nuts without load, screw and nut elastic, preloads of 7 and 10 %, against the "
+            "catalogue",
+            source=_REXROTH,
+            file="rexroth-double-nut.csv",
+            quantity=_RIGIDITY,
+            columns=_OF_DOUBLE_NUTS,
+            required=("dynamic_load_rating", "rigidity_7pct", "rigidity"),
+            evaluate=rows.rigidity_of_double_nuts,
+            axes=("size", "steepness"),
+        ),
+    )
+}

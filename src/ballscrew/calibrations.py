@@ -1,0 +1,102 @@
+"""Named calibrations: two numbers of a model, fitted once to rows that are shipped, and how sure the fit is of them.
+
+``benchmarks/fit_calibration.py`` fits them and writes ``data/calibrations.toml``; nothing else does.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+import tomllib
+from collections.abc import Mapping, Sequence
+from importlib import resources
+from typing import Any
+
+from ballscrew.components.laws import ProportionalBallForce
+from ballscrew.components.mixed_friction import AnyFriction
+from ballscrew.faults import Fault, InputError, nearest
+from ballscrew.model import FrictionModel
+from ballscrew.quantities import Ratio
+
+#: The two numbers, in the order of the covariance, and where they stand in a model.
+PARAMETERS: Mapping[str, str] = {
+    "boundary_friction_coefficient": "friction.boundary_friction_coefficient",
+    "share_of_load": "ball_force.share_of_load",
+}
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class Calibration:
+    """A boundary friction coefficient, and a ball-to-ball force in units of the load of a ball, for all screws."""
+
+    name: str
+    #: The model that was fitted.
+    model: str
+    boundary_friction_coefficient: float
+    share_of_load: float
+    covariance: Sequence[Sequence[float]]
+    #: How many values were fitted, and what is left: the sum of the squares of (model − middle) / half the band.
+    rows: int
+    cost: float
+    objective: str
+    #: SHA-256 of the files with the rows.
+    data: Mapping[str, str]
+    version: str
+    command: str
+
+    @property
+    def standard_errors(self) -> tuple[float, float]:
+        """Standard errors of the two numbers."""
+        return math.sqrt(self.covariance[0][0]), math.sqrt(self.covariance[1][1])
+
+    @property
+    def correlation(self) -> float:
+        """Correlation of the errors of the two numbers."""
+        one, other = self.standard_errors
+        return self.covariance[0][1] / (one * other)
+
+
+@functools.cache
+def calibrations() -> Mapping[str, Calibration]:
+    """The calibrations shipped, by name (``data/calibrations.toml``)."""
+    text = resources.files("ballscrew").joinpath("data/calibrations.toml").read_text(encoding="utf-8")
+    tables: dict[str, dict[str, Any]] = tomllib.loads(text)
+    return {name: Calibration(name=name, **table) for name, table in tables.items()}
+
+
+def calibration(name: str) -> Calibration:
+    """The calibration of that name. Raises :class:`~ballscrew.faults.InputError` with the nearest if there is none."""
+    known = calibrations()
+    if name not in known:
+        raise InputError(Fault("model.calibration", "unknown calibration", name, nearest(name, known)))
+    return known[name]
+
+
+def calibrated(model: FrictionModel, found: Calibration) -> FrictionModel:
+    """The model with the two numbers of a calibration.
+
+    Raises :class:`~ballscrew.faults.InputError` for a model that has no boundary friction, or whose force between the
+    balls is imposed.
+    """
+    return with_parameters(model, found.boundary_friction_coefficient, found.share_of_load)
+
+
+def with_parameters(model: FrictionModel, boundary_friction_coefficient: Ratio, share_of_load: Ratio) -> FrictionModel:
+    """The model with these two numbers; raises as :func:`calibrated` does."""
+    friction, faults = model.friction, list[Fault]()
+    if model.ball_to_ball_force is not None:
+        problem = "does not count with a calibration, which sets the force between the balls"
+        faults.append(
+            Fault("model.ball_to_ball_force", problem, str(model.ball_to_ball_force), "leave one of the two out")
+        )
+    if isinstance(friction, AnyFriction) and not faults:
+        return dataclasses.replace(
+            model,
+            friction=dataclasses.replace(friction, boundary_friction_coefficient=boundary_friction_coefficient),
+            ball_force=ProportionalBallForce(share_of_load),
+        )
+    if not isinstance(friction, AnyFriction):
+        remedy = 'take a friction law that has one, such as "load-sharing"'
+        faults.append(Fault("model.friction", "has no boundary friction to calibrate", "", remedy))
+    raise InputError(*faults)

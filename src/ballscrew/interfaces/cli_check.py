@@ -1,0 +1,88 @@
+"""``ballscrew check``: does this screw do? The work is done in ``interfaces/check``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def check(
+    name: Annotated[
+        str | None, typer.Argument(metavar="[CASE_OR_ROW]", help="Case file (TOML), or name of a catalogue row.")
+    ] = None,
+    rows: Annotated[
+        Path | None,
+        typer.Option(
+            "--rows", metavar="FILE", help="A table of your own, .csv or .xlsx; without a name, all its rows."
+        ),
+    ] = None,
+    every: Annotated[bool, typer.Option("--all", help="All rows, one line each.")] = False,
+    axial_load: Annotated[
+        str | None, typer.Option("--axial-load", metavar="FORCE", help='"5 kN"; a tenth of C_a if left out.')
+    ] = None,
+    speed: Annotated[
+        str | None, typer.Option("--speed", metavar="SPEED", help='"1500 rpm"; 600 rpm if left out.')
+    ] = None,
+    nut: Annotated[
+        str | None, typer.Option("--nut", metavar="TYPE", help="single, oversize-balls, double, offset-lead.")
+    ] = None,
+    preload: Annotated[
+        str | None, typer.Option("--preload", metavar="FORCE", help='"3 kN", or "7 %" of C_a; none if left out.')
+    ] = None,
+    length: Annotated[
+        str | None, typer.Option("--length", metavar="LENGTH", help='Longest stretch without support, "1.2 m".')
+    ] = None,
+    ends: Annotated[
+        str | None,
+        typer.Option("--ends", metavar="ENDS", help="fixed-fixed, fixed-supported, supported-supported, fixed-free."),
+    ] = None,
+    grade: Annotated[
+        str | None, typer.Option("--grade", metavar="GRADE", help='Of the oil: "ISO VG 68"; ISO VG 100 if left out.')
+    ] = None,
+    temperature: Annotated[
+        str | None, typer.Option("--temperature", metavar="T", help='Of the oil: "50 degC"; 40 degC if left out.')
+    ] = None,
+    model: Annotated[str | None, typer.Option("--model", metavar="NAME", help="{models}; wins over the file.")] = None,
+    calibration: Annotated[
+        str | None, typer.Option("--calibration", metavar="NAME", help="Named calibration of the model.")
+    ] = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set", metavar="SECTION.FIELD=VALUE", help='Any other value: --set losses.seals.seal_torque="0.4 N m".'
+        ),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, of many rows a list; SI units.")] = False,
+    keep_going: Annotated[
+        bool, typer.Option("--keep-going", help="Leave faulty rows out, and say which; fails if none is good.")
+    ] = False,
+) -> None:
+    """From a catalogue row or a case to torque, efficiency, stiffness, life, and whether it does.
+
+    What is not given is assumed, and the output says what was.
+    """
+    from ballscrew.interfaces import check as work
+
+    given = {
+        "operation.axial_load": axial_load,
+        "operation.screw_speed": speed,
+        "nut.type": nut,
+        "nut.preload": preload,
+        "installation.unsupported_length": length,
+        "installation.ends": ends,
+        "lubricant.grade": grade,
+        "lubricant.temperature": temperature,
+        "model.calibration": calibration,
+    }
+    asked = work.Asked({key: value for key, value in given.items() if value is not None}, settings or [], model)
+    if every or name is None:
+        found, notes = work.every_row(name, rows, asked, keep_going)
+        text = work.list_json(found) if as_json else work.list_text(found)
+    else:
+        one, notes = work.one(name, rows, asked, keep_going)
+        text = work.json_text(one) if as_json else work.text(one)
+    for note in notes:
+        typer.echo(note, err=True)
+    typer.echo(text)

@@ -1,0 +1,72 @@
+"""``ballscrew validate``: the model against vendors and laboratories. The work is done in ``interfaces/validation``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def validate(
+    sets: Annotated[
+        list[str] | None, typer.Argument(metavar="SET", help="Sets of data: rexroth-double-nut; without one, all.")
+    ] = None,
+    rows: Annotated[
+        Path | None,
+        typer.Option("--rows", metavar="FILE", help="A table of your own with the columns of the set, .csv or .xlsx."),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON list, SI units.")] = False,
+    to: Annotated[
+        Path | None, typer.Option("--to", "-o", metavar="FILE", help="Also draw the ratios: .png, .svg or .pdf.")
+    ] = None,
+    keep_going: Annotated[
+        bool, typer.Option("--keep-going", help="Leave faulty rows out, and say which; fails if none is good.")
+    ] = False,
+    model: Annotated[str, typer.Option("--model", metavar="NAME", help="{models}.")] = "reference",
+    calibration: Annotated[
+        str | None, typer.Option("--calibration", metavar="NAME", help="Which calibration follows: rexroth-2006.")
+    ] = None,
+    temperature: Annotated[
+        str | None, typer.Option("--temperature", metavar="VALUE", help='Of the oil, where a row has none: "25 degC".')
+    ] = None,
+    grade: Annotated[
+        str | None, typer.Option("--grade", metavar="NAME", help='Oil, where a row has none: "ISO VG 100".')
+    ] = None,
+    speed: Annotated[
+        str | None, typer.Option("--speed", metavar="VALUE", help='Of the screw, where a row has none: "100 rpm".')
+    ] = None,
+) -> None:
+    """The model against what vendors and laboratories state.
+
+    For each set the ratio model / stated (the middle of the vendor's band), its scatter, the share of rows inside the
+    band, and every row; first the model as it is, then with a named calibration of two numbers.
+    """
+    from ballscrew.interfaces import validation
+
+    asked = validation.request(
+        sets or [],
+        model=model,
+        calibration_name=calibration,
+        rows=rows,
+        keep_going=keep_going,
+        grade=grade,
+        temperature=temperature,
+        speed=speed,
+    )
+    if to is not None:
+        validation.check_picture(to)
+    found = []
+    for note in asked.notes:
+        typer.echo(note, err=True)
+    for entries, notes in validation.evaluate(asked):
+        found.append(entries)
+        for note in notes:
+            typer.echo(note, err=True)
+        if not as_json:
+            typer.echo(("\n" if len(found) > 1 else "") + validation.text_of(entries, asked))
+    if as_json:
+        typer.echo(validation.json_text([entry for entries in found for entry in entries]))
+    if to is not None:
+        validation.draw(found, asked, to)
+        typer.echo(f"{to}: {len(found)} sets", err=as_json)

@@ -1,0 +1,118 @@
+"""Fields and sections of a case file as pydantic has them, made from the annotations of the parts."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+from collections.abc import Mapping
+from typing import Annotated, Any
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, create_model
+from pydantic_core import PydanticCustomError
+
+from ballscrew.faults import Fault, fault_of
+from ballscrew.interfaces import units
+from ballscrew.interfaces.nuts import NUT_FIELDS, PERCENT, Share
+from ballscrew.quantities import Quantity
+
+#: What stands in the schema as an example: examples/feed_drive.toml, and what has no default.
+EXAMPLES: Mapping[str, str | float] = {
+    "pitch_circle_diameter": "41.4 mm",
+    "lead": "10 mm",
+    "ball_diameter": "6.35 mm",
+    "loaded_balls": 75,
+    "contact_angle": "45 deg",
+    "screw_conformity": 0.54,
+    "nut_conformity": 0.54,
+    "temperature": "40 degC",
+    "axial_load": "5 kN",
+    "screw_speed": "600 rpm",
+    "viscosity": "88 mPa s",
+    "ball_to_ball_force": "0.0167 N",
+    "pure_rolling_offset": 0.34,
+    "dynamic_load_rating": "50.3 kN",
+    "static_load_rating": "131 kN",
+    "root_diameter": "34.9 mm",
+    "preload": "3 kN",
+    "axial_play": "20 um",
+    "screw_diameter": "35 mm",
+    "nut_outer_diameter": "62 mm",
+    "nut_inner_diameter": "48 mm",
+    "lip_friction": "80 N/m",
+    "seal_torque": "0.2 N m",
+    "balls": 165,
+    "unsupported_length": "1 m",
+    "running_time": "20000 h",
+}
+
+
+def _si(raw: object, quantity: Quantity) -> float:
+    """A raw value in SI and within its bounds, or the fault in it as pydantic wants to hear it."""
+    value = units.parse("", raw, quantity)
+    fault = value if isinstance(value, Fault) else fault_of("", quantity, value)
+    if fault is not None:
+        fault = units.in_people_units(fault, quantity, fault.given if fault is value else str(raw))
+        words = {"problem": fault.problem, "given": fault.given, "remedy": fault.remedy}
+        raise PydanticCustomError("fault", "{problem}", words)
+    assert isinstance(value, float)
+    return int(value) if quantity.info.whole else value
+
+
+def read_preload(raw: object) -> float:
+    """A preload in N, or as a share of the dynamic load rating."""
+    if isinstance(raw, str) and raw.rstrip().endswith("%"):
+        return Share(_si(raw.strip()[:-1].strip(), PERCENT) / 100)
+    return _si(raw, NUT_FIELDS["preload"])
+
+
+def _example(quantity: Quantity, default: Any) -> str | float:
+    """What a field may hold: that of the feed drive in the examples, or else the default."""
+    if quantity.name in EXAMPLES:
+        return EXAMPLES[quantity.name]
+    assert default is not None, quantity.name
+    number = units.from_si(default, quantity)
+    return default if quantity.unit == "1" else f"{number:.6g} {quantity.shown_in}"
+
+
+def json_of(quantity: Quantity, default: Any) -> dict[str, Any]:
+    """What a field looks like in the file: text with a unit, or a plain number within its bounds."""
+    info = quantity.info
+    examples = [_example(quantity, default)]
+    description = {"description": info.meaning, "x-symbol": info.symbol}
+    if quantity.unit != "1":
+        return {**description, "type": "string", "examples": examples, "x-si-unit": quantity.unit}
+    bounds = {
+        "exclusiveMinimum": info.above,
+        "minimum": info.at_least,
+        "exclusiveMaximum": info.below,
+        "maximum": info.at_most,
+    }
+    kind = "integer" if info.whole else "number"
+    given = {name: bound for name, bound in bounds.items() if bound is not None}
+    return {**description, "type": kind, "examples": examples, **given}
+
+
+def _field(quantity: Quantity, default: Any, shown: Any) -> tuple[Any, Any]:
+    read = BeforeValidator(functools.partial(_si, quantity=quantity))
+    kind = int if quantity.info.whole else float
+    return Annotated[kind, read, WithJsonSchema(json_of(quantity, shown))], Field(default=default)
+
+
+def section_of(
+    title: str, quantities: Mapping[str, Quantity], cls: type, /, required: bool, **others: Any
+) -> type[BaseModel]:
+    """A model with a field for each quantity; unset fields keep the default of the part."""
+    needed = {
+        field.name
+        for field in dataclasses.fields(cls)
+        if field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
+    }
+    own = defaults_of(cls)
+    fields = {n: _field(q, ... if required and n in needed else None, own.get(n)) for n, q in quantities.items()}
+    return create_model(title, __config__=ConfigDict(extra="forbid"), **fields, **others)
+
+
+def defaults_of(cls: type) -> dict[str, Any]:
+    """The defaults of a dataclass by field, where it has any."""
+    fields = dataclasses.fields(cls)
+    return {field.name: field.default for field in fields if field.default is not dataclasses.MISSING}

@@ -1,0 +1,196 @@
+"""The tables of a case file on the nut and its surroundings: checked parts out, and words on what was derived."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ballscrew.analyses.checks import Ratings, ratings_of
+from ballscrew.analyses.nut_parts import NutParts, Scatter
+from ballscrew.components.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow
+from ballscrew.components.installation import Installation, Limits
+from ballscrew.components.nut import Nut, SingleNut
+from ballscrew.components.nut_losses import ParasiticLaw
+from ballscrew.components.screw import BallScrew
+from ballscrew.equations import geometry
+from ballscrew.faults import Fault, InputError, nearest
+from ballscrew.interfaces import catalogue, units
+from ballscrew.interfaces.nuts import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS, Share
+from ballscrew.interfaces.schema import law_of, validated
+from ballscrew.quantities import fields_of
+
+#: What a screw with a nut consists of besides its balls.
+_OF_NUT = ("nut", "bodies", "deviations", "losses")
+
+
+def row_of(
+    table: Mapping[str, Any], folder: Path, rows: Mapping[str, CatalogueRow] | None, faults: list[Fault]
+) -> CatalogueRow | None:
+    """The catalogue row that a table [screw] names: of ``rows``, or of its file, or of those shipped."""
+    name, file = table.get("catalogue"), table.get("catalogue_file")
+    if not isinstance(name, str) or not isinstance(file, str | None):
+        return None
+    try:
+        found = catalogue.load(None if file is None else folder / file)[0] if rows is None else rows
+        return catalogue.named(found, name, "screw.catalogue")
+    except InputError as error:
+        faults += error.faults
+        return None
+
+
+def ratings(screw: BallScrew, row: CatalogueRow | None) -> Ratings:
+    """The ratings of a screw by its geometry. Raises ``InputError`` for one that no catalogue could have."""
+    made = None if row is None else row.screw()
+    same = made is not None and all(getattr(made, name) == getattr(screw, name) for name in fields_of(screw))
+    return ratings_of(row if row is not None and same else _as_row(screw))
+
+
+def _as_row(screw: BallScrew) -> CatalogueRow:
+    """The row that a catalogue would have of a screw; its turns are those of its balls, which are whole."""
+    d_m, d_w, phi = screw.pitch_circle_diameter, screw.ball_diameter, screw.lead_angle
+    balls_per_turn = math.floor(math.pi * d_m / d_w / math.cos(phi))
+    return CatalogueRow(
+        name="screw",
+        nominal_diameter=d_m,
+        pitch_circle_diameter=d_m,
+        lead=screw.lead,
+        ball_diameter=d_w,
+        turns=screw.loaded_balls / balls_per_turn + TURNS_WITHOUT_LOAD,
+        starts=screw.starts,
+        contact_angle=screw.contact_angle,
+        conformity=screw.screw_conformity,
+    )
+
+
+def root_diameter(screw: BallScrew, listed: Mapping[str, float]) -> float:
+    """The diameter at the bottom of the groove: listed, or from the conformity."""
+    return listed.get("root_diameter") or float(
+        geometry.groove_root_diameter(
+            screw.pitch_circle_diameter, screw.ball_diameter, screw.screw_conformity, screw.contact_angle
+        )
+    )
+
+
+def _dynamic_rating(screw: BallScrew, row: CatalogueRow | None, listed: Mapping[str, float]) -> tuple[float, str]:
+    """The dynamic load rating of one nut body and where it is from. Raises ``InputError`` where there is none."""
+    if "dynamic_load_rating" in listed:
+        return listed["dynamic_load_rating"], "as listed"
+    return ratings(screw, row).dynamic, "computed from the geometry (ISO 3408-5)"
+
+
+def _in_words(share: float, rating: float, source: str) -> str:
+    """``preload 5.047 kN: 7 % of the dynamic load rating 72.1 kN, as listed``."""
+    force, rated = (units.shown(value, LISTED["dynamic_load_rating"]) for value in (share * rating, rating))
+    return f"preload {force}: {100 * share:.4g} % of the dynamic load rating {rated}, {source}"
+
+
+def nut_parts(
+    tables: Mapping[str, Any],
+    screw: BallScrew | None,
+    row: CatalogueRow | None,
+    listed: Mapping[str, float],
+    faults: list[Fault],
+) -> tuple[NutParts | None, Sequence[str]]:
+    """The nut and what goes with it, and words on its preload; None where no table speaks of it."""
+    if not any(name in tables for name in _OF_NUT):
+        return None, ()
+    before = len(faults)
+    nut, notes = _nut(tables["nut"], screw, row, listed, faults) if "nut" in tables else (SingleNut(), ())
+    bodies = validated("bodies", tables["bodies"], faults) if "bodies" in tables else None
+    scatter = validated("deviations", tables["deviations"], faults) if "deviations" in tables else None
+    losses = _losses(tables["losses"], faults) if "losses" in tables else {}
+    if len(faults) > before or nut is None:
+        return None, ()
+    parts = NutParts(nut=nut, bodies=bodies, scatter=None if scatter is None else Scatter(**scatter), losses=losses)
+    try:
+        if screw is not None:
+            parts.bodies_of(screw)
+    except InputError as error:
+        faults += error.faults
+    return parts, notes
+
+
+def _nut(
+    table: Any, screw: BallScrew | None, row: CatalogueRow | None, listed: Mapping[str, float], faults: list[Fault]
+) -> tuple[Nut | None, Sequence[str]]:
+    before = len(faults)
+    values = validated("nut", table, faults)
+    if len(faults) > before:
+        return None, ()
+    kind = values.pop("type", (row.nut or "single") if row is not None else None)
+    if kind is None:
+        faults.append(Fault("nut.type", "missing", "", f"add type = {_either(NUTS)}"))
+    elif kind not in NUTS:
+        faults.append(Fault("nut.type", "unknown kind of nut", kind, nearest(kind, NUTS)))
+    else:
+        faults += _misplaced(kind, table)
+        if "preload" in fields_of(NUTS[kind]) and "preload" not in values:
+            remedy = 'add preload = "3 kN", or "7 %" of the dynamic load rating'
+            faults.append(Fault("nut.preload", "missing", "", remedy))
+    if len(faults) > before or kind is None:
+        return None, ()
+    preload = values.get("preload")
+    if not isinstance(preload, Share):
+        return NUTS[kind](**values), ()
+    if screw is None:
+        return None, ()  # its own faults are there already
+    try:
+        rating, source = _dynamic_rating(screw, row, listed)
+    except InputError:
+        remedy = 'add dynamic_load_rating = "… kN" to [screw], or give a force'
+        given = str(table["preload"])
+        faults.append(Fault("nut.preload", "is a share of a dynamic load rating that is not known", given, remedy))
+        return None, ()
+    return NUTS[kind](**{**values, "preload": preload * rating}), (_in_words(preload, rating, source),)
+
+
+def _misplaced(kind: str, table: Mapping[str, Any]) -> list[Fault]:
+    """Faults of fields that another kind of nut has."""
+    own = fields_of(NUTS[kind])
+    return [
+        Fault(
+            f"nut.{name}",
+            f'a nut of type "{kind}" has none',
+            str(table[name]),
+            f"leave it out, or take type = {_either(n for n, cls in NUTS.items() if name in fields_of(cls))}",
+        )
+        for name in NUT_FIELDS
+        if name in table and name not in own
+    ]
+
+
+def _either(names: Any) -> str:
+    return " or ".join(f'"{name}"' for name in names)
+
+
+def _losses(table: Any, faults: list[Fault]) -> dict[str, ParasiticLaw]:
+    """The laws of the table, by what they are of."""
+    before = len(faults)
+    validated("losses", table, faults)
+    if len(faults) > before:
+        return {}
+    return {slot: law_of(slot, written, next(iter(LOSSES[slot].values()))(), faults) for slot, written in table.items()}
+
+
+def installation(table: Any, faults: list[Fault]) -> Installation | None:
+    """How the screw is mounted."""
+    before = len(faults)
+    values = validated("installation", table, faults)
+    if len(faults) == before:
+        if "unsupported_length" not in values:
+            faults.append(Fault("installation.unsupported_length", "missing", "", 'add unsupported_length = "1 m"'))
+        ends = values.get("ends")
+        if ends is None:
+            faults.append(Fault("installation.ends", "missing", "", f"add ends = {_either(ENDS)}"))
+        elif ends not in ENDS:
+            faults.append(Fault("installation.ends", "unknown kind of ends", ends, nearest(ends, ENDS)))
+    return Installation(**{**values, "ends": ENDS[values["ends"]]}) if len(faults) == before else None
+
+
+def limits(table: Any, faults: list[Fault]) -> Limits:
+    """The limits of the checks."""
+    before = len(faults)
+    values = validated("limits", table, faults)
+    return Limits(**values) if len(faults) == before else Limits()

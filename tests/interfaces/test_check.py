@@ -1,0 +1,255 @@
+"""``ballscrew check``: from a row, shipped or one's own, or from a case to everything in one command."""
+
+import json
+import math
+from pathlib import Path
+
+import openpyxl
+import pytest
+
+import ballscrew as bs
+from ballscrew.analyses.checks import ratings_of
+from ballscrew.components.nut import Bodies
+from ballscrew.interfaces import check as work
+from ballscrew.interfaces import config
+
+ROOT = Path(__file__).parents[2]
+EXAMPLE = ROOT / "examples" / "catalogue_screw.toml"
+SCREWS = ROOT / "examples" / "screws.csv"
+NAME = "rexroth-40x10x6-6-double"
+ROW = bs.catalogue()[NAME]
+RPM = 2 * math.pi / 60
+NOTHING = work.Asked({}, [], None)
+
+#: The same screw with other headings, a decimal comma and semicolons.
+OWN = """\
+Part number;Screw diameter [mm];Ph [mm];Ball size [mm];Circuits;Ca [kN];Coa [kN];Type of nut
+mine;40;10;6,0;6;72,1;132,2;Double
+bad;40;10;-6;6;72,1;132,2;Double
+""".replace("Type of nut", "nut type")
+
+
+def refused(process, *expected):
+    assert process.returncode == 2
+    assert process.stdout == ""
+    assert "Traceback" not in process.stderr
+    lines = process.stderr.strip().splitlines()
+    assert len(lines) == len(expected), process.stderr
+    for line, text in zip(lines, expected, strict=True):
+        assert text in line
+
+
+def checked(name=NAME, **given):
+    return work.one(str(name), None, work.Asked({k.replace("__", "."): v for k, v in given.items()}, [], None), False)[
+        0
+    ]
+
+
+# -- a row ----------------------------------------------------------------------------------------
+
+
+def test_a_row_is_checked_in_one_command(ballscrew):
+    process = ballscrew("check", NAME, "--preload", "7 %", "--length", "1.2 m", "--ends", "fixed-supported")
+    assert process.returncode == 0, process.stderr
+    assert process.stderr == ""
+    text = " ".join(process.stdout.split())
+    for words in (
+        f"{NAME} (Rexroth R310RU 3301 (2006.02)): 7210 N, 600 rpm, double nut, preload 5047 N, model reference",
+        "efficiency, screw drives the nut", "efficiency, the load drives the screw", "torque without load",
+        "axial rigidity of the nut", "dynamic axial load rating 72.1 kN", "static safety", "nine of ten outlive",
+        "buckling", "critical speed", "diameter speed product", "verdict: passes; 2 of 8 not judged",
+        "assumed axial load 7.21 kN: a tenth of C_a speed 600 rpm oil ISO VG 100", "conformity 0.54 ± 0.01",
+        "screw and nut elastic, of a usual size", "5.047 kN: 7 % of the dynamic load rating 72.1 kN, as listed",
+    ):  # fmt: skip
+        assert words in text, words
+    assert "not checked" not in text
+
+
+def test_numbers_are_those_of_python(ballscrew):
+    document = json.loads(ballscrew("check", NAME, "--preload", "7 %", "--json").stdout, parse_constant=pytest.fail)
+    screw, oil = ROW.screw(), bs.Lubricant.from_grade("ISO VG 100", 313.15)
+    expected = bs.nut_friction(
+        bs.FrictionModel.reference(), screw, bs.DoubleNut(0.07 * 72100), oil, axial_load=7210.0, screw_speed=600 * RPM,
+        bodies=Bodies.of(screw),
+    )  # fmt: skip
+    found = document["results"]
+    assert found["screw_torque"] == pytest.approx(float(expected.screw_torque), rel=1e-9)
+    assert found["efficiency"] == pytest.approx(float(expected.efficiency), rel=1e-9)
+    assert found["back_driving_efficiency"] == pytest.approx(float(expected.back_driving_efficiency), rel=1e-9)
+    assert document["loads"]["rigidity"] == pytest.approx(float(expected.loads.rigidity), rel=1e-9)
+    assert document["ratings"]["listed"] == {"dynamic_load_rating": 72100, "static_load_rating": 132200}
+    computed = ratings_of(ROW)
+    assert document["ratings"]["computed"]["dynamic_load_rating"] == pytest.approx(computed.dynamic, rel=1e-12)
+    assert document["ratings"]["computed"]["static_load_rating"] == pytest.approx(computed.static, rel=1e-12)
+    by_name = {check["name"]: check for check in document["checks"]}
+    assert by_name["life"]["value"] / (600 / 60) == pytest.approx(by_name["running_time"]["value"])
+    assert by_name["contact_pressure"]["value"] == pytest.approx(found["maximum_pressure"])
+    assert by_name["buckling"]["passes"] is None
+    assert document["units"]["ratings"]["dynamic_load_rating"] == "N"
+    assert document["inputs"]["screw"]["catalogue"] == NAME
+
+
+@pytest.mark.parametrize("row", bs.catalogue().values(), ids=bs.catalogue())
+def test_every_row_shipped(row):
+    """Without a preload, at a tenth of its rating: all is finite, and a longer life asks for a smaller load."""
+    found = checked(row.name)
+    assert found.result.found.valid, found.result.found.warnings
+    assert 0.8 < float(found.result.found.efficiency) < 1
+    assert found.check("life").value == pytest.approx(1e9)
+    assert found.check("contact_pressure").passes
+    assert all(check.passes is not False or check.name == "diameter_speed_product" for check in found.checks)
+
+
+def test_what_is_given_counts():
+    found = checked(
+        operation__axial_load="10 kN", operation__screw_speed="1000 rpm", nut__type="single", lubricant__grade="VG68",
+        lubricant__temperature="50 degC", installation__unsupported_length="4 m", installation__ends="fixed-free",
+    )  # fmt: skip
+    case = found.case
+    assert (case.operation.axial_load, case.operation.screw_speed) == (10_000, pytest.approx(1000 * RPM))
+    assert isinstance(found.parts.nut, bs.SingleNut)
+    assert case.oil["temperature"] == pytest.approx(323.15)
+    assert found.check("critical_speed").passes is False
+    assert "fails: buckling, critical speed" in found.verdict
+    assumed = " ".join(found.assumed)
+    for words in ("axial load", "speed 600", "as listed", "none was given"):
+        assert words not in assumed
+    assert "no preload: none was given" in checked().assumed
+
+
+def test_a_row_without_ratings_and_settings(ballscrew, tmp_path):
+    (tmp_path / "own.csv").write_text("name,d0 [mm],Ph [mm],Dw [mm],i\nA,40,10,6.35,4\n", encoding="utf-8")
+    process = ballscrew("check", "a", "--rows", "own.csv", "--set", "limits.running_time=20000 h")
+    assert process.returncode == 0, process.stderr
+    text = " ".join(process.stdout.split())
+    assert "single nut, as the row lists none" in text
+    assert "dynamic load rating computed from the geometry: none is listed" in text
+    assert "dynamic axial load rating –" in text
+    assert "life 1e+09 7.2e+08 72.0% passes" in text
+
+
+def test_calibrations_and_models(ballscrew):
+    plain = json.loads(ballscrew("check", NAME, "--json").stdout)["results"]["screw_torque"]
+    other = json.loads(ballscrew("check", NAME, "--json", "--model", "corrected").stdout)["results"]["screw_torque"]
+    assert other < plain
+    refused(ballscrew("check", NAME, "--calibration", "nonsense"), "calibration")
+
+
+# -- a case ---------------------------------------------------------------------------------------
+
+
+def test_a_case_is_checked_as_run_has_it(ballscrew):
+    document = json.loads(ballscrew("check", EXAMPLE, "--json").stdout)
+    alone = json.loads(ballscrew("run", EXAMPLE, "--json").stdout)
+    assert document["results"] == alone["results"]
+    assert document["loads"] == alone["loads"]
+    assert document["inputs"] == alone["inputs"]
+    assert document["verdict"] == "passes"
+    assert all(check["passes"] is True for check in document["checks"])
+
+
+def test_a_case_without_a_nut(ballscrew):
+    drive = ROOT / "examples" / "feed_drive.toml"
+    found = checked(drive)
+    case = config.load(drive)
+    alone = case.model(case.screw, case.lubricant, axial_load=5000.0, screw_speed=600 * RPM)
+    # the contact angle opens under load, which the single ball does not know
+    assert float(found.result.found.screw_torque) == pytest.approx(float(alone.screw_torque), rel=0.02)
+    assert "no [nut] given: a single nut" in found.assumed
+    assert ballscrew("check", drive, "--nut", "double", "--preload", "5 kN").returncode == 0
+
+
+def test_a_case_of_a_row_without_a_nut(tmp_path):
+    text = EXAMPLE.read_text(encoding="utf-8")
+    (tmp_path / "case.toml").write_text(text.replace("[nut]", "[lib]").replace("[lib]\npreload", "#"), encoding="utf-8")
+    found = checked(tmp_path / "case.toml")
+    assert isinstance(found.parts.nut, bs.DoubleNut)
+    assert found.parts.nut.preload == 0
+    assert "no [nut] given: the nut of the row, without preload" in found.assumed
+
+
+# -- many rows ------------------------------------------------------------------------------------
+
+
+def test_ones_own_screw_is_the_one_shipped(ballscrew, tmp_path):
+    (tmp_path / "own.csv").write_text(OWN.replace("-6;", "6;"), encoding="cp1252")
+    own = json.loads(ballscrew("check", "mine", "--rows", "own.csv", "--preload", "7 %", "--json").stdout)
+    shipped = json.loads(ballscrew("check", NAME, "--preload", "7 %", "--json").stdout)
+    assert own["results"] == shipped["results"]
+    assert own["checks"] == shipped["checks"]
+    assert own["ratings"] == shipped["ratings"]
+
+
+def test_all_rows_of_a_table(ballscrew):
+    process = ballscrew("check", "--rows", SCREWS)
+    assert process.returncode == 0, process.stderr
+    lines = process.stdout.splitlines()
+    assert [line.split()[0] for line in lines] == ["name", "A-40x10-4", "A-40x10-5", "A-32x5-4.5", "A-50x20-3.5"]
+    assert all("passes; 4 of 8 not judged" in line for line in lines[1:])
+    documents = json.loads(ballscrew("check", "--rows", SCREWS, "--json").stdout)
+    assert [document["name"] for document in documents] == [line.split()[0] for line in lines[1:]]
+    assert "balls" not in documents[0]["loads"]
+    listed = ballscrew("check", "double", "--all")
+    assert len(listed.stdout.splitlines()) == 1 + sum(row.nut == "double" for row in bs.catalogue().values())
+
+
+def test_bad_rows_are_named_and_good_ones_kept(ballscrew, tmp_path):
+    (tmp_path / "own.csv").write_text(OWN, encoding="utf-8")
+    problem = 'own.csv row 3, column "Ball size [mm]": must be positive (-6) · lengths are positive'
+    refused(ballscrew("check", "--rows", "own.csv"), problem)
+    refused(ballscrew("check", "mine", "--rows", "own.csv"), problem)
+    process = ballscrew("check", "--rows", "own.csv", "--keep-going")
+    assert process.returncode == 0
+    assert process.stderr.splitlines() == [problem, "own.csv: 1 of 2 rows left out"]
+    assert [line.split()[0] for line in process.stdout.splitlines()] == ["name", "mine"]
+    assert ballscrew("check", "mine", "--rows", "own.csv", "--keep-going").returncode == 0
+    (tmp_path / "own.csv").write_text(OWN.replace("mine;40", "mine;0"), encoding="utf-8")
+    assert ballscrew("check", "--rows", "own.csv", "--keep-going").returncode == 2
+
+
+def test_rows_that_do_not_go_with_what_was_asked(ballscrew):
+    problem = 'A-50x20-3.5 (screws.csv row 5), nut.preload: a nut of type "single" has none (5 %)'
+    refused(ballscrew("check", "--rows", SCREWS, "--preload", "5 %"), problem)
+    process = ballscrew("check", "--rows", SCREWS, "--preload", "5 %", "--keep-going")
+    assert problem in process.stderr
+    assert process.stderr.splitlines()[-1] == "1 of 4 rows left out"
+    assert len(process.stdout.splitlines()) == 4
+    # what is wrong with all rows alike is said once
+    refused(ballscrew("check", "--rows", SCREWS, "--speed", "5 mm"), "operation.screw_speed: wrong unit (5 mm)")
+
+
+def test_a_spreadsheet(ballscrew, tmp_path):
+    book = openpyxl.Workbook()
+    book.active.append(["model", "d0 [mm]", "Ph [mm]", "Dw [mm]", "turns", "nut"])
+    book.active.append(["A", 40, 10, 6.35, 4, "double"])
+    book.save(tmp_path / "own.xlsx")
+    process = ballscrew("check", "--rows", "own.xlsx", "--preload", "5 %")
+    assert process.returncode == 0, process.stderr
+    assert process.stdout.splitlines()[1].startswith("A ")
+
+
+# -- what is wrong --------------------------------------------------------------------------------
+
+
+def test_bad_input(ballscrew, tmp_path):
+    refused(ballscrew("check", "40x10x6-6-double"), f'unknown row (40x10x6-6-double) · did you mean "{NAME}"?')
+    refused(ballscrew("check", "none.toml"), "none.toml: does not exist")
+    refused(ballscrew("check", "some/where"), "does not exist")
+    refused(ballscrew("check", SCREWS), f"is a table, not a case · write --rows {SCREWS}")
+    refused(ballscrew("check", NAME, "--axial-load", "5 mm"), "operation.axial_load: wrong unit (5 mm)")
+    refused(ballscrew("check", NAME, "--preload", "7"), "nut.preload: needs a unit (7)")
+    refused(
+        ballscrew("check", NAME, "--nut", "duble"), 'nut.type: unknown kind of nut (duble) · did you mean "double"?'
+    )
+    refused(ballscrew("check", NAME, "--length", "1 m"), "installation.ends: missing · add ends")
+    refused(ballscrew("check", NAME, "--ends", "fixed", "--length", "1 m"), "installation.ends: unknown kind of ends")
+    refused(ballscrew("check", NAME, "--grade", "VG 99"), "lubricant.grade")
+    refused(ballscrew("check", NAME, "--set", "nut=double"), "--set: is not section.field=value")
+    refused(ballscrew("check", NAME, "--set", "screw.lead=1 mm"), "too big for the lead")
+
+
+def test_help_is_there(ballscrew):
+    text = ballscrew("check", "--help").stdout
+    for option in ("--rows", "--axial-load", "--preload", "--length", "--ends", "--calibration", "--keep-going"):
+        assert option in text
+    assert "{models}" not in text

@@ -1,0 +1,298 @@
+"""``ballscrew validate``: text, JSON and picture; rows of one's own, good and bad."""
+
+import json
+import re
+
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
+
+from ballscrew.analyses.validation_sets import SETS
+from ballscrew.calibrations import calibration
+from ballscrew.faults import InputError
+from ballscrew.interfaces import config, validation
+from ballscrew.interfaces.figures import style
+from ballscrew.interfaces.figures import validation as figures
+from ballscrew.model import FrictionModel
+
+HEADINGS = (
+    "nominal_diameter_mm,lead_mm,ball_diameter_mm,circuits,dynamic_load_rating_N,static_load_rating_N,"
+    "no_load_torque_2pct_max_Nm,no_load_torque_5pct_min_Nm,no_load_torque_5pct_max_Nm"
+)
+GOOD = "40,12,6,4,49900,86200,.40,.75,1.25"
+OTHER = "20,5,3,5,17500,27300,.07,.09,.26"
+
+
+def documents(process):
+    assert process.returncode == 0, process.stderr
+    return json.loads(process.stdout)
+
+
+def refused(process, *expected):
+    assert process.returncode == 2
+    assert process.stdout == ""
+    assert "Traceback" not in process.stderr
+    lines = process.stderr.strip().splitlines()
+    assert len(lines) == len(expected), process.stderr
+    for line, text in zip(lines, expected, strict=True):
+        assert text in line
+
+
+@pytest.fixture
+def own(tmp_path):
+    def write(*rows, headings=HEADINGS):
+        path = tmp_path / "own.csv"
+        path.write_text("\n".join([headings, *rows]) + "\n", encoding="utf-8")
+        return path.name
+
+    return write
+
+
+# -- JSON -----------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def every():
+    asked = validation.request()
+    return json.loads(validation.json_text([e for entries, _ in validation.evaluate(asked) for e in entries]))
+
+
+def test_a_list_uncalibrated_first_calibrated_last(every):
+    assert isinstance(every, list)
+    names = [one["set"] for one in every]
+    assert list(dict.fromkeys(names)) == list(SETS)
+    for name, data in SETS.items():
+        kinds = [one["calibration"] for one in every if one["set"] == name]
+        assert kinds == [None, "rexroth-2006"] if data.calibratable else [None]
+    keys = ["set", "model", "calibration", "n", "mean_ratio", "std_ratio", "share_in_band"]
+    for one in every:
+        assert set(keys) | {"rows"} <= set(one)
+        assert one["model"] == "reference"
+        assert one["n"] == len(one["rows"])
+
+
+def test_means_are_those_of_the_rows(every):
+    for one in every:
+        ratios = [row["ratio"] for row in one["rows"]]
+        assert one["mean_ratio"] == pytest.approx(sum(ratios) / len(ratios))
+        bands = [row["in_band"] for row in one["rows"] if row["low"] is not None]
+        assert one["share_in_band"] == (pytest.approx(sum(bands) / len(bands)) if bands else None)
+        for row in one["rows"]:
+            assert row["ratio"] == pytest.approx(row["value"] / row["middle"])
+            if row["low"] is not None:
+                assert row["in_band"] == (row["low"] <= row["value"] <= row["high"])
+                assert row["low"] < row["middle"] < row["high"]
+
+
+def test_static_ratings_stand_beside_the_dynamic_ones(every):
+    ratings = next(one for one in every if one["set"] == "hiwin-ratings")
+    assert ratings["share_in_band"] is None
+    assert all(0.9 < row["static_ratio"] < 1.1 for row in ratings["rows"])
+
+
+def test_rows_with_a_maximum_only_are_apart(every):
+    single = next(one for one in every if one["set"] == "rexroth-single-nut")
+    for row in single["rows"]:
+        (apart,) = row["apart"]
+        assert apart["ratio"] == pytest.approx(apart["value"] / apart["maximum"])
+        assert apart["value"] < row["value"]
+
+
+def test_what_is_not_finite_is_null(own, ballscrew):
+    one = documents(ballscrew("validate", "thk-jis", "--json"))[0]
+    assert one["n"] == 1
+    assert one["std_ratio"] is None
+
+
+# -- rows of one's own ----------------------------------------------------------------------------
+
+
+def test_own_rows(ballscrew, own):
+    file = own(GOOD, OTHER)
+    before, after = documents(ballscrew("validate", "rexroth-single-nut", "--rows", file, "--json"))
+    assert (before["n"], after["n"]) == (2, 2)
+    assert (before["calibration"], after["calibration"]) == (None, "rexroth-2006")
+    shipped = {row["name"]: row for row in documents(ballscrew("validate", "rexroth-single-nut", "--json"))[0]["rows"]}
+    for row in before["rows"]:
+        assert row == shipped[row["name"]]
+
+
+def test_own_rows_with_oil_and_speed(ballscrew, own):
+    file = own(f"{GOOD},100 rpm,25 degC", f"{GOOD},500 rpm,60 degC", headings=f"{HEADINGS},speed,temperature")
+    slow, fast = documents(ballscrew("validate", "rexroth-single-nut", "--rows", file, "--json"))[0]["rows"]
+    assert slow["value"] != fast["value"]
+    file = own(GOOD)
+    options = ("--speed", "500 rpm", "--temperature", "60 degC")
+    (found,) = documents(ballscrew("validate", "rexroth-single-nut", "--rows", file, "--json", *options))[0]["rows"]
+    assert found["value"] == pytest.approx(fast["value"], rel=1e-12)
+
+
+def test_a_bad_row_is_named(ballscrew, own):
+    file = own(GOOD, OTHER.replace(".09,.26", ".26,.09"), OTHER.replace("17500", "many"))
+    expected = (
+        'own.csv row 3, column "no_load_torque_5pct_max_Nm": does not exceed the minimum (.09)',
+        'own.csv row 4, column "dynamic_load_rating_N": is not a number (many)',
+    )
+    refused(ballscrew("validate", "rexroth-single-nut", "--rows", file), *expected)
+    process = ballscrew("validate", "rexroth-single-nut", "--rows", file, "--json", "--keep-going")
+    assert documents(process)[0]["n"] == 1
+    lines = process.stderr.strip().splitlines()
+    assert [text in line for line, text in zip(lines, (*expected, "2 of 3 rows left out"), strict=True)] == [True] * 3
+
+
+def test_a_file_needs_its_columns_and_its_set(ballscrew, own):
+    file = own("40,12,6,4,49900,.75", headings=HEADINGS.replace(",static_load_rating_N", "").rpartition(",")[0][:-28])
+    refused(ballscrew("validate", "--rows", file), "--rows: needs exactly one set (none) · name the set whose columns")
+    process = ballscrew("validate", "rexroth-single-nut", "--rows", file)
+    assert process.returncode == 2
+    assert 'own.csv: has no column "no_load_torque_5pct_m' in process.stderr
+
+
+# -- options --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        (("rexroth-double",), 'validate: unknown set (rexroth-double) · did you mean "rexroth-double-nut"?'),
+        (("--model", "refrence"), '--model: unknown model (refrence) · did you mean "reference"?'),
+        (
+            ("--calibration", "rexroth"),
+            'model.calibration: unknown calibration (rexroth) · did you mean "rexroth-2006"',
+        ),
+        (("--temperature", "25"), '--temperature: needs a unit (25) · write "25 degC"'),
+        (("--temperature", "900 degC"), "--temperature: must be at most 150 degC (900 degC)"),
+        (("--speed", "-5 rpm"), "--speed: must not be negative (-5 rpm)"),
+        (("--grade", "VG 101010"), "--grade: unknown grade (VG 101010)"),
+        (("--to", "ratios.bmp"), "--to: unknown kind of file (ratios.bmp)"),
+        (("hiwin-ratings", "--speed", "5 rpm"), "validate: oil and speed do not move these sets (hiwin-ratings)"),
+        (
+            ("rexroth-single-nut", "--model", "olaru2005"),
+            "rexroth-single-nut: model olaru2005 knows no balls with four",
+        ),
+    ],
+)
+def test_bad_options(ballscrew, options, expected):
+    refused(ballscrew("validate", *options), expected)
+
+
+def test_another_model_is_as_it_is(ballscrew):
+    process = ballscrew("validate", "rexroth-double-nut", "--model", "olaru2005", "--json")
+    (found,) = documents(process)
+    assert (found["model"], found["calibration"]) == ("olaru2005", None)
+    assert found["mean_ratio"] < 0.5
+    asked = ("validate", "rexroth-double-nut", "--model", "olaru2005", "--calibration", "rexroth-2006", "--json")
+    assert [one["calibration"] for one in documents(ballscrew(*asked))] == [None, "rexroth-2006"]
+
+
+def test_sets_that_a_model_cannot_do_are_left_out_aloud():
+    asked = validation.request(model="olaru2005")
+    assert "rexroth-single-nut" not in [data.name for data in asked.sets]
+    assert asked.notes == ["rexroth-single-nut: left out, the model olaru2005 knows no balls with four contacts"]
+
+
+# -- for people -----------------------------------------------------------------------------------
+
+
+def test_text(ballscrew):
+    process = ballscrew("validate", "rexroth-double-nut", "rexroth-single-nut")
+    assert process.returncode == 0, process.stderr
+    double, single = process.stdout.split("\n\nrexroth-single-nut: ")
+    words = " ".join(double.split())
+    assert "100 rpm, ISO VG 100 at 25 degC, no load, no wipers" in words
+    assert re.search(r"uncalibrated \(reference\) n = 24, mean ratio 0\.647 ± 0\.145, 29% of rows in their band", words)
+    assert re.search(r"calibrated \(rexroth-2006\) n = 24, mean ratio 1\.03\d ± 0\.13\d, 96% of rows", words)
+    assert words.index("uncalibrated") < words.index(" calibrated (")
+    rows = [line for line in double.splitlines() if re.search(r" at (7|10) %", line)]
+    assert len(rows) == 24
+    assert sum(line.count("outside") for line in rows) == 17 + 1
+    assert "apart, with a maximum only, which is in no mean:" in single
+    assert len(re.findall(r" at 2 %", single)) >= 18
+
+
+def test_warnings_of_the_model_are_told(ballscrew):
+    process = ballscrew("validate", "rexroth-double-nut", "--speed", "100000 rpm")
+    assert process.returncode == 0, process.stderr
+    assert re.search(r"beware, uncalibrated \(reference\), \d+ rows: \w+: ", process.stdout)
+    assert "beware" not in ballscrew("validate", "rexroth-double-nut").stdout
+
+
+def test_picture(ballscrew, tmp_path):
+    for name in ("a.svg", "b.svg", "c.png", "d.pdf"):
+        process = ballscrew("validate", "thk-jis", "--to", name)
+        assert process.returncode == 0, process.stderr
+        assert f"{name}: 1 sets" in process.stdout
+    assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
+
+
+def test_picture_shows_axes_case_and_all_ratios():
+    asked = validation.request()
+    found = [entries for entries, _ in validation.evaluate(asked)]
+    with style.house_style():
+        figure = figures.ratios(found, validation.caption(found, asked))
+        canvas = FigureCanvasAgg(figure)
+        figure.draw_without_rendering()
+        page = figure.bbox.padded(1.0)
+        for text in figure.findobj(Text):
+            if text.get_text() and text.get_visible() and text not in _tick_labels(figure):
+                box = text.get_window_extent(canvas.get_renderer())
+                inside = page.x0 <= box.x0 and box.x1 <= page.x1 and page.y0 <= box.y0 and box.y1 <= page.y1
+                assert inside, text.get_text()
+    assert len(figure.axes) == 2 * len(SETS)
+    for panel, entries in zip(figure.axes[::2], found, strict=True):
+        assert panel.get_ylabel() == "model / stated (1)"
+        assert re.search(r"\((mm|rpm)\)$", panel.get_xlabel())
+        _, top = panel.get_ylim()
+        assert all(0 < point.ratio < top for entry in entries for point in entry.points)
+    words = " ".join(" ".join(text.get_text() for text in figure.texts).split())
+    for said in ("100 rpm, ISO VG 100 at 25 degC", "Model reference", "boundary friction 0.142", "0.002 of the load"):
+        assert said in words
+
+
+def _tick_labels(figure):
+    return {label for panel in figure.axes for axis in (panel.xaxis, panel.yaxis) for label in axis.get_ticklabels()}
+
+
+def test_help_is_instant(ballscrew):
+    process = ballscrew("validate", "--help")
+    assert process.returncode == 0
+    assert "reference (default)" in " ".join(process.stdout.split())
+
+
+# -- in a case file -------------------------------------------------------------------------------
+
+
+CASE = {
+    "screw": {
+        "pitch_circle_diameter": "41.4 mm", "lead": "10 mm", "ball_diameter": "6.35 mm", "loaded_balls": 75,
+        "contact_angle": "45 deg", "screw_conformity": 0.54, "nut_conformity": 0.54,
+    },
+    "lubricant": {"viscosity": "100 mPa s"},
+    "operation": {"axial_load": "5 kN", "screw_speed": "600 rpm"},
+}  # fmt: skip
+
+
+def test_a_case_with_a_calibration():
+    model = config.build({**CASE, "model": {"calibration": "rexroth-2006"}}).model
+    stored = calibration("rexroth-2006")
+    assert model.friction.boundary_friction_coefficient == stored.boundary_friction_coefficient
+    assert model.ball_force.share_of_load == stored.share_of_load
+    assert model.slip is FrictionModel.reference().slip
+
+
+@pytest.mark.parametrize(
+    ("table", "expected"),
+    [
+        ({"calibration": "rexroth-2007"}, r"model\.calibration: unknown calibration \(rexroth-2007\)"),
+        ({"calibration": 5}, r"model\.calibration: must be text"),
+        ({"calibration": "rexroth-2006", "ball_force": "imposed"}, r"model\.ball_force: is set by the calibration"),
+        (
+            {"calibration": "rexroth-2006", "friction": {"boundary_friction_coefficient": 0.1}},
+            r"model\.friction\.boundary_friction_coefficient: is set by the calibration",
+        ),
+        ({"calibration": "rexroth-2006", "ball_to_ball_force": "1 N"}, r"model\.ball_to_ball_force: does not count"),
+    ],
+)
+def test_a_case_that_contradicts_its_calibration(table, expected):
+    with pytest.raises(InputError, match=expected):
+        config.build({**CASE, "model": table})

@@ -1,0 +1,321 @@
+"""Laws of physics that the loads of the balls obey, on ten thousand random nuts."""
+
+import dataclasses
+import itertools
+import math
+
+import numpy as np
+import pytest
+from nut_cases import KINDS, nut_case
+
+from ballscrew.components.nut import Deviations, DoubleNut, OversizeBallNut, SingleNut
+from ballscrew.solvers.load_distribution import TOLERANCE, ball_loads
+
+#: 4 kinds × elastic or not × scatter or not × side, and this many points of each: ten thousand and more.
+POINTS = 330
+VARIANTS = [
+    dict(kind=kind, elastic=elastic, scatter=scatter, same_side=same_side)
+    for kind, elastic, scatter, same_side in itertools.product(KINDS, (False, True), (False, True), (True, False))
+]
+NAMES = ["-".join(str(value) for value in variant.values()) for variant in VARIANTS]
+#: Force that stiff bodies make of a place's rounding where nothing is there to carry.
+NOTHING = 1e-6
+
+
+def solved(case, **changed):
+    values = {"bodies": case.bodies, "deviations": case.deviations, **changed}
+    load = values.pop("load", case.load)
+    return ball_loads(values.pop("screw", case.screw), values.pop("nut", case.nut), load, **values)
+
+
+@pytest.fixture(scope="module", params=range(len(VARIANTS)), ids=NAMES)
+def drawn(request):
+    case = nut_case(size=POINTS, seed=100 + request.param, **VARIANTS[request.param])
+    return case, solved(case)
+
+
+def axial(r, screw):
+    """What balls put on the screw by their forward and by their backward flanks."""
+    c_phi = np.cos(screw.lead_angle)
+    forward = np.sum(r.balls * r.forward_load * np.sin(r.forward_angle), axis=-1) * c_phi
+    return forward, np.sum(r.balls * r.backward_load * np.sin(r.backward_angle), axis=-1) * c_phi
+
+
+# -- balance ---------------------------------------------------------------------------------------
+
+
+def test_balls_balance_the_load(drawn):
+    """Σ Q sin α cos φ over all balls is the load; 1e-10 of load and preload, the tolerance of the solver."""
+    case, r = drawn
+    forward, backward = axial(r, case.screw)
+    assert np.all(np.abs(forward - backward - case.load) <= TOLERANCE * (forward + backward) + NOTHING)
+    assert np.all(np.abs(backward - r.remaining_preload) <= 1e-12 * (forward + backward) + NOTHING)
+    assert np.all(r.converged)
+
+
+def test_everything_is_a_number(drawn):
+    _, r = drawn
+    for field in dataclasses.fields(r):
+        assert np.all(np.isfinite(getattr(r, field.name))), field.name
+
+
+def test_balls_are_pressed_and_never_pulled(drawn):
+    case, r = drawn
+    size = case.load + case.preload
+    assert np.all(r.forward_load >= 0)
+    assert np.all(r.backward_load >= 0)
+    assert np.all(r.remaining_preload >= 0)
+    for load, angle in ((r.forward_load, r.forward_angle), (r.backward_load, r.backward_angle)):
+        assert np.all((angle[load > 0] > 0) & (angle[load > 0] < math.pi / 2))
+    # a load pushes the screw in; rounding of a place is 1e-18 m
+    assert np.all(r.deflection >= -1e-16)
+    assert np.all(r.deflection[(case.load == 0) & (case.preload > 0)] <= 1e-16)
+    assert np.all(r.rigidity[size > 0] > 0)
+
+
+def test_without_load_the_halves_hold_each_other(drawn):
+    """Invariant 22: at F = 0 both halves carry the preload; oversize balls scatter around it."""
+    case, _ = drawn
+    if isinstance(case.nut, SingleNut):
+        return
+    r = solved(case, load=0 * case.load)
+    forward, backward = axial(r, case.screw)
+    assert np.all(np.abs(forward - backward) <= TOLERANCE * (forward + backward) + NOTHING)
+    if case.deviations is None or not isinstance(case.nut, OversizeBallNut):
+        assert np.all(np.abs(forward - case.preload) <= TOLERANCE * case.preload + NOTHING)
+
+
+def test_nothing_without_load_and_preload(drawn):
+    case, _ = drawn
+    nut = case.nut if isinstance(case.nut, SingleNut) else dataclasses.replace(case.nut, preload=0.0)
+    r = solved(case, load=0 * case.load, nut=nut)
+    # oversize balls that scatter brace each other
+    if case.deviations is None or not isinstance(nut, OversizeBallNut):
+        forward, backward = axial(r, case.screw)
+        assert np.all(forward + backward <= NOTHING)
+    # nothing holds the place
+    assert np.all(np.abs(r.deflection) <= 1e-10)
+
+
+# -- symmetries ------------------------------------------------------------------------------------
+
+
+def test_an_array_is_a_row_of_numbers(drawn):
+    """Neighbours in an array change nothing but the order of a sum: 1e-11 of the forces.
+
+    Elastic bodies pass what rounding leaves of a place on to their balls, in both.
+    """
+    case, r = drawn
+    for i in range(0, POINTS, 66):
+        one = solved(case.one(i))
+        forces = case.load[i] + case.preload[i] + np.max(r.forward_load[i])
+        for name in ("forward_load", "backward_load"):
+            assert np.max(np.abs(getattr(one, name) - getattr(r, name)[i])) <= 1e-11 * forces, name
+        assert abs(one.deflection - r.deflection[i]) <= 1e-11 * r.deflection[i] + 1e-17
+
+
+def test_two_supports_on_opposite_sides_read_the_chain_from_either_end():
+    """With screw and nut of one stiffness (E A), the chain reversed is the same: loads mirrored."""
+    case = nut_case("single", 50, 3, elastic=True, same_side=False, scatter=True, balls=23)
+    tube = np.sqrt(case.bodies.screw_diameter**2 + case.bodies.nut_inner_diameter**2)
+    equal = dataclasses.replace(case.bodies, nut_outer_diameter=tube)
+    there, back = (
+        solved(case, bodies=equal, deviations=Deviations(*(part[::step] for part in case.deviations)))
+        for step in (1, -1)
+    )
+    largest = np.max(there.forward_load, axis=-1, keepdims=True)
+    assert np.max(np.abs(there.forward_load - back.forward_load[..., ::-1]) / np.where(largest > 0, largest, 1)) <= 1e-10
+    assert np.max(np.abs(there.deflection - back.deflection)) <= 1e-15
+    # unequal, they are not
+    one, other = (
+        solved(case, deviations=Deviations(*(part[::step] for part in case.deviations))) for step in (1, -1)
+    )
+    assert np.max(np.abs(one.deflection - other.deflection)) > 1e-9
+
+
+@pytest.mark.parametrize("kind", ["single", "oversize"])
+def test_on_rigid_bodies_the_order_of_the_balls_is_nothing(kind):
+    """Invariant 21: permutation of the balls permutes their loads."""
+    case = nut_case(kind, 100, 4, elastic=False, scatter=True, balls=31)
+    order = np.random.default_rng(0).permutation(31)
+    r, mixed = solved(case), solved(case, deviations=Deviations(*(part[order] for part in case.deviations)))
+    size = np.max(r.forward_load, axis=-1, keepdims=True) + 1e-9
+    assert np.max(np.abs(r.forward_load[..., order] - mixed.forward_load) / size) <= 1e-10
+    assert np.max(np.abs(r.backward_load[..., order] - mixed.backward_load) / size) <= 1e-10
+
+
+def test_a_common_error_of_the_lead_is_a_shift():
+    """All balls displaced alike: a single nut touches later, and carries as before."""
+    case = nut_case("single", 100, 5, elastic=True, balls=20)
+    r, shifted = solved(case), solved(case, deviations=Deviations(lead=2e-6))
+    size = np.max(r.forward_load, axis=-1, keepdims=True) + 1e-9
+    assert np.max(np.abs(r.forward_load - shifted.forward_load) / size) <= 1e-9
+    assert np.max(np.abs(r.deflection - shifted.deflection)) <= 1e-15
+
+
+@pytest.mark.parametrize("variant", VARIANTS, ids=NAMES)
+def test_units_do_not_matter(variant):
+    """Lengths a thousandfold, forces a million: E in N/m² is in the same number."""
+    case = nut_case(size=60, seed=9, balls=17, **variant)
+    larger = {
+        name: 1e3 * getattr(case.screw, name) for name in ("pitch_circle_diameter", "lead", "ball_diameter")
+    }
+    nut = case.nut
+    if not isinstance(nut, SingleNut):
+        nut = dataclasses.replace(nut, preload=1e6 * nut.preload)
+    if hasattr(nut, "spacing"):
+        nut = dataclasses.replace(nut, spacing=1e3 * nut.spacing)
+    bodies = case.bodies and dataclasses.replace(
+        case.bodies,
+        **{name: 1e3 * getattr(case.bodies, name) for name in vars(case.bodies) if name.endswith("diameter")},
+    )
+    deviations = case.deviations and Deviations(*(1e3 * part for part in case.deviations))
+    screw = dataclasses.replace(case.screw, **larger)
+    r = solved(case)
+    s = solved(case, screw=screw, nut=nut, load=1e6 * case.load, bodies=bodies, deviations=deviations)
+    forces = (case.load + case.preload)[:, None] + 1e-9
+    assert np.max(np.abs(s.forward_load / 1e6 - r.forward_load) / forces) <= 1e-9
+    assert np.max(np.abs(s.backward_load / 1e6 - r.backward_load) / forces) <= 1e-9
+    assert np.max(np.abs(s.deflection / 1e3 - r.deflection)) <= 1e-15
+    assert s.lift_off_load / 1e6 == pytest.approx(r.lift_off_load, rel=1e-9, abs=1e-9 * np.max(forces))
+
+
+# -- stiffness -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("variant", VARIANTS, ids=NAMES)
+def test_rigidity_is_the_slope_of_load_over_deflection(variant):
+    """A central difference over ±1e-4 of the load: errors of 1e-8, where no ball touches or leaves in between."""
+    case = nut_case(size=60, seed=11, balls=12, **variant)
+    loads = np.maximum(case.load, 1e-3 * case.load.max())
+    r, less, more = (solved(case, load=(1 + step) * loads) for step in (0.0, -1e-4, 1e-4))
+    slope = 2e-4 * loads / (more.deflection - less.deflection)
+    touches = [
+        np.count_nonzero(state.forward_load, axis=-1) + np.count_nonzero(state.backward_load, axis=-1)
+        for state in (less, more)
+    ]
+    steady = touches[0] == touches[1]
+    assert np.mean(steady) > 0.8
+    # a hardly pressed ball bends the curve within the step, and a stiff nut moves by no more than rounding
+    error = np.abs(slope / r.rigidity - 1)[steady]
+    assert np.median(error) <= 1e-8
+    assert np.max(error) <= 1e-3
+
+
+@pytest.mark.parametrize("variant", VARIANTS, ids=NAMES)
+def test_more_load_presses_more(variant):
+    """Deflection, the sum of the forward loads, and what is left of the preload are monotone in the load."""
+    case = nut_case(size=20, seed=12, balls=9, **variant)
+    loads = case.load.max() * np.linspace(0, 1, 41)[:, None] + 0 * case.load
+    r = solved(case, load=loads)
+    forward, backward = axial(r, case.screw)
+    size = forward[-1]
+    assert np.all(np.diff(r.deflection, axis=0) > -1e-16)
+    assert np.all(np.diff(forward, axis=0) > 0)
+    assert np.all(np.diff(backward, axis=0) <= 1e-10 * size)
+    if case.bodies is None:
+        # rigid bodies leave no ball out
+        assert np.all(np.diff(r.forward_load, axis=0) >= -1e-10 * size[:, None])
+
+
+def test_bodies_only_give_way(drawn):
+    """Not so with two halves: where rigid bodies have lifted one of them off, elastic ones may not have yet."""
+    case, r = drawn
+    if case.bodies is None or not isinstance(case.nut, SingleNut):
+        return
+    rigid = solved(case, bodies=None)
+    assert np.all(r.rigidity[case.load > 0] < rigid.rigidity[case.load > 0] * (1 + 1e-12))
+    assert np.all(r.deflection >= rigid.deflection - 1e-16)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("scatter", [False, True])
+def test_stiff_bodies_are_rigid(kind, scatter):
+    """The difference goes with one over the stiffness of the bodies."""
+    case = nut_case(kind, 40, 13, elastic=True, scatter=scatter, balls=14)
+    rigid = solved(case, bodies=None, deviations=case.deviations or Deviations())
+    hold = np.maximum(case.load + case.preload, 1e-3 * np.max(case.load))[:, None]
+
+    def difference(stiffer):
+        # E A grows with the square of the diameters: what a bar is called is of no matter to its balls
+        wider = {name: stiffer * getattr(case.bodies, name) for name in vars(case.bodies) if name.endswith("diameter")}
+        r = solved(case, bodies=dataclasses.replace(case.bodies, **wider))
+        return np.max(np.abs(r.forward_load - rigid.forward_load) / hold)
+
+    some, few = difference(30), difference(300)
+    assert few <= 1e-4
+    assert few <= 0.015 * some
+
+
+# -- preload ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("constant", [False, True])
+@pytest.mark.parametrize("scatter", [False, True])
+@pytest.mark.parametrize("kind", ["oversize", "double", "offset"])
+def test_the_other_flanks_lift_off_at_the_lift_off_load(kind, scatter, constant):
+    """Rigid bodies: just pressed below, free from there on."""
+    case = nut_case(kind, 100, 14, elastic=False, scatter=scatter, balls=8)
+    if not isinstance(case.nut, OversizeBallNut) or not scatter:
+        case = dataclasses.replace(case, nut=dataclasses.replace(case.nut, preload=np.maximum(case.preload, 1.0)))
+    lift = solved(case, constant_contact_angle=constant).lift_off_load
+    at, below, above = (
+        solved(case, load=np.maximum(step * lift, 0), constant_contact_angle=constant)
+        for step in (1.0, 1 - 1e-5, 1 + 1e-5)
+    )
+    # flanks that a scatter has set free before any load, lift off at less than none
+    braced = lift > 0
+    assert np.mean(braced) > 0.5
+    assert np.all(below.remaining_preload[braced] > 0)
+    assert np.all(above.remaining_preload[braced] == 0)
+    assert np.all(np.abs(at.remaining_preload)[braced] <= 1e-9 * lift[braced])
+
+
+@pytest.mark.parametrize("constant", [False, True])
+@pytest.mark.parametrize("same_side", [None, True, False])
+@pytest.mark.parametrize("scatter", [False, True])
+def test_beyond_lift_off_an_oversize_nut_is_a_single_nut_with_interference(scatter, same_side, constant):
+    """Balls too big by e load the forward flanks alone; only the place from which one counts differs.
+
+    The single nut counts from its first touch, the other from where both flanks are alike.
+    """
+    elastic = same_side is not None
+    case = nut_case("oversize", 100, 15, elastic=elastic, same_side=bool(same_side), scatter=scatter, balls=10)
+    c_phi, alpha, z = np.cos(case.screw.lead_angle), case.screw.contact_angle, case.screw.loaded_balls
+    compared = 0
+    for i in range(0, 100, 5):
+        one = case.one(i)
+        preload = max(float(one.preload), 1.0)
+        nut = OversizeBallNut(preload)
+        load = max(one.load, 4 * preload)
+        r = solved(one, nut=nut, load=load, constant_contact_angle=constant)
+        if np.any(r.backward_load > 0):
+            continue
+        excess = (preload / (z * math.sin(alpha[i]) * c_phi[i])) ** (2 / 3) / pair_constant(one.screw) ** (2 / 3)
+        scattered = one.deviations or Deviations(np.zeros(10), 0.0)
+        # ball by ball, or all as one
+        bigger = Deviations(scattered.ball_diameter + excess, scattered.lead)
+        single = solved(one, nut=SingleNut(), load=load, deviations=bigger, constant_contact_angle=constant)
+        assert r.forward_load + 0 * single.forward_load == pytest.approx(single.forward_load, rel=1e-8)
+        assert r.forward_angle + 0 * single.forward_load == pytest.approx(single.forward_angle, rel=1e-9)
+        assert r.rigidity == pytest.approx(single.rigidity, rel=1e-8)
+        assert single.deflection > r.deflection
+        compared += 1
+    assert compared >= 5
+
+
+def pair_constant(screw):
+    """Load over approach to the power of one and a half, from what one newton lets a rigid single nut approach."""
+    one = dataclasses.replace(screw, loaded_balls=1)
+    r = ball_loads(one, SingleNut(), 1.0, constant_contact_angle=True)
+    approach = r.deflection * math.cos(screw.lead_angle) * math.sin(screw.contact_angle)
+    return float(r.forward_load[0]) / approach**1.5
+
+
+def test_halves_far_apart_and_near_carry_alike_on_rigid_bodies():
+    case = nut_case("double", 100, 16, elastic=False, balls=6)
+    near = solved(case, nut=DoubleNut(case.preload, 0.0))
+    far = solved(case)
+    assert np.array_equal(near.forward_load, far.forward_load)
+    assert np.array_equal(near.deflection, far.deflection)
+
