@@ -13,7 +13,6 @@ import time
 from collections.abc import Sequence
 
 import numpy as np
-from reference import DRY, Box, Numbers, box, dry, left_out
 
 import ballscrew as bs
 from ballscrew.components.conditions import Motion
@@ -23,6 +22,7 @@ from ballscrew.solvers.contact_integral import contact_integral
 from ballscrew.solvers.four_point_slip import FlankPair, FourPointBall, FourPointSlip, four_point_slip
 from ballscrew.solvers.tractions import Coulomb
 from ballscrew.validity import LARGEST_PRESSURE
+from reference import DRY, Box, Numbers, box, dry, left_out
 
 RATIOS = (1.0, 0.3, 0.1, 0.03, 0.01, 0.001)
 

@@ -35,6 +35,7 @@ def generate(_app):
     """What the pages include: claims and figures of the paper, effects, laws, fields, and the accuracy."""
     import accuracy_table
     import law_tables
+    import nut_tables
     from ballscrew.interfaces.reproduce import reproduce_olaru2005
     from field_table import field_table
 
@@ -49,6 +50,7 @@ def generate(_app):
     for name, text in pages.items():
         (generated / name).write_text(text, encoding="utf-8")
     effect_tables.write(generated / "effects")
+    nut_tables.write(generated / "nuts")
     validation_tables.write(generated / "validation")
     reproduce_olaru2005(generated / "olaru2005")
 

@@ -8,9 +8,14 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from ballscrew.analyses.nut_parts import Scatter
+from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.materials import Lubricant, Material, grades
+from ballscrew.components.nut import Bodies
 from ballscrew.components.screw import MATERIALS, BallScrew, Operation
 from ballscrew.interfaces import units
+from ballscrew.interfaces.fields import example_of
+from ballscrew.interfaces.nuts import ENDS, LISTED, LOSSES, NUTS
 from ballscrew.model import FrictionModel
 from ballscrew.quantities import Quantity, fields_of
 
@@ -23,9 +28,15 @@ PARTS = {
     "[lubricant]": Lubricant,
     "[operation]": Operation,
     "[model]": FrictionModel,
+    **{f'[nut] type = "{kind}"': cls for kind, cls in NUTS.items()},
+    "[bodies]": Bodies,
+    "[deviations]": Scatter,
+    **{f'[losses] {slot}.law = "{name}"': law for slot, known in LOSSES.items() for name, law in known.items()},
+    "[installation]": Installation,
+    "[limits]": Limits,
 }
-#: Examples of fields that are neither in the example file nor have a default.
-OTHERS: dict[str, Any] = {"viscosity": "0.1 Pa s", "ball_to_ball_force": "0.02 N", "pure_rolling_offset": 0.34}
+#: Examples of fields that are not in the example file.
+OTHERS: dict[str, Any] = {"viscosity": "0.1 Pa s", "ball_to_ball_force": "0.02 N"}
 
 
 def field_table() -> str:
@@ -47,9 +58,17 @@ def _lines(title: str, cls: type) -> Iterator[str]:
     for name, quantity in fields_of(cls).items():
         default = _default(cls, name)
         needed = "yes" if default is dataclasses.MISSING else f"no: {_shown(default, quantity)}"
+        needed = "no: of a usual size" if cls is Bodies else needed
         example = _written(_example(title, cls, quantity))
         bounds, meaning = _bounds(quantity), quantity.info.meaning
         yield f"| `{name}` | ${quantity.info.symbol}$ | `{example}` | {needed} | {bounds} | {meaning} |"
+    if cls is BallScrew:
+        listed = ", ".join(f"`{name}`" for name in LISTED)
+        yield f"\nAlso `catalogue`, `catalogue_file`, and what catalogues list: {listed}."
+    if cls is Bodies:
+        yield "\nAlso `same_side = false` where screw and nut are held on opposite sides of the balls."
+    if cls is Installation:
+        yield f"\nAnd `ends`, which is needed, too: {', '.join(f'`{name}`' for name in ENDS)}."
     if cls is Lubricant:
         yield (
             f"\nInstead of `viscosity`, `grade` ({', '.join(grades())}; `VG68` is `ISO VG 68`) and `temperature`"
@@ -67,8 +86,9 @@ def _example(title: str, cls: type, quantity: Quantity) -> Any:
     written = tomllib.loads(EXAMPLE.read_text(encoding="utf-8")).get(title.strip("[]"), {})
     if name in written:
         return written[name]
-    if name in OTHERS:
-        return OTHERS[name]
+    other = OTHERS.get(name, example_of(quantity))
+    if other is not None:
+        return other
     value = units.from_si(_default(cls, name), quantity)
     return value if quantity.unit == "1" else f"{value:.4g} {quantity.shown_in}"
 

@@ -19,6 +19,7 @@ sys.path.insert(0, str(HERE))
 
 from accuracy_table import short_table  # noqa: E402  (after the path of its folder)
 from effect_tables import doubts_table, light_load_words  # noqa: E402  (likewise)
+from validation_tables import vendors_table  # noqa: E402  (likewise)
 
 README = HERE.parent / "README.md"
 IMAGES = HERE / "images"
@@ -41,6 +42,11 @@ def with_claims(text: str) -> str:
 def with_accuracy(text: str) -> str:
     """The README with the table of the reference model against the integral as it is now; takes some seconds."""
     return with_block(text, "accuracy", short_table())
+
+
+def with_vendors(text: str) -> str:
+    """The README with the model against what vendors state as it is now; takes a few seconds."""
+    return with_block(text, "vendors", vendors_table())
 
 
 def with_doubts(text: str) -> str:
@@ -68,7 +74,7 @@ def with_example(text: str) -> str:
 
 def main() -> None:
     text = README.read_text(encoding="utf-8")
-    for part in (with_claims, with_accuracy, with_doubts, with_light_load, with_example):
+    for part in (with_claims, with_accuracy, with_vendors, with_doubts, with_light_load, with_example):
         text = part(text)
     README.write_text(text, encoding="utf-8")
     IMAGES.mkdir(exist_ok=True)

@@ -58,6 +58,40 @@ def summary() -> str:
     return _table(lines)
 
 
+#: What the sets are called in a short table.
+SHORT = {
+    "rexroth-double-nut": "Rexroth: no-load torque of double nuts",
+    "rexroth-single-nut": "Rexroth: no-load torque of single nuts, oversize balls",
+    "thk-jis": "THK: no-load torque of a double nut, not fitted",
+    "balan-2015": "rolling torque of balls between rings, measured",
+    "hiwin-ratings": "HIWIN: dynamic load rating by ISO 3408-5",
+    "hiwin-stiffness": "HIWIN: rigidity without preload",
+    "rexroth-rigidity": "Rexroth: rigidity of preloaded double nuts",
+}
+
+
+def vendors_table() -> str:
+    """What vendors and a laboratory state, one line for each set, for the README."""
+    lines = [
+        ["what is stated", "values", "as it is", "calibrated", "in the vendor's band, before and after"],
+        ["---"] * 5,
+    ]
+    for entries in found()[1]:
+        raw, after = entries[0], entries[-1]
+        calibrated = len(entries) > 1
+        shares = [_percent(entry.share_in_band) for entry in entries if entry.share_in_band is not None]
+        lines.append(
+            [
+                SHORT[raw.data.name],
+                str(len(raw.counted)),
+                _spread(raw),
+                _spread(after) if calibrated else "–",
+                " and ".join(shares) if shares else "no band",
+            ]
+        )
+    return _table(lines)
+
+
 def oil_table() -> str:
     """What another temperature of the oil, which the vendor does not state, makes of the no-load torques."""
     names = ("rexroth-double-nut", "rexroth-single-nut")
@@ -158,6 +192,10 @@ def _entries():
 
 def _mean(entry) -> str:
     return f"{entry.mean_ratio:.3f}"
+
+
+def _spread(entry) -> str:
+    return f"{entry.mean_ratio:.2f} ± {entry.std_ratio:.2f}" if len(entry.counted) > 1 else f"{entry.mean_ratio:.2f}"
 
 
 def _percent(share: float) -> str:

@@ -9,7 +9,7 @@ single or a double nut have two contacts, each ball its own load and contact ang
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -29,8 +29,10 @@ from ballscrew.result import MECHANISMS
 from ballscrew.solvers.ellipse_slip import ellipse_slip
 from ballscrew.solvers.four_point_slip import FlankPair, FourPointBall, four_point_slip
 from ballscrew.solvers.load_distribution import BallLoads, ball_loads
-from ballscrew.validity import REASONS, contact_masks
+from ballscrew.validity import REASONS, contact_masks, input_mask
 
+#: Share of the loads of all contacts below which it does not count that a condition fails.
+NEGLIGIBLE_SHARE = 0.01
 #: What can be wrong with a nut beyond what can be wrong with a ball.
 NUT_REASONS: Mapping[str, str] = {**REASONS, "load_distribution": "the loads of the balls did not converge"}
 
@@ -91,6 +93,18 @@ class NutFriction:
         eta = self.efficiency
         none = eta == 0
         return np.where(none, -np.inf, transmission.back_driving_efficiency(np.where(none, 1.0, eta)))[()]
+
+    @lazy
+    def holding_torque(
+        self,
+    ) -> Annotated[Torque, Info("M_h", "torque that holds the load when it drives; negative: that lowers it")]:
+        """Torque on the shaft when the load drives the screw: held where positive, self-locking where not."""
+        return transmission.holding_torque(self.ideal_torque, self.screw_torque)
+
+    @lazy
+    def self_locking(self) -> Annotated[Mask, Info("self-locking", "the load alone cannot turn the screw")]:
+        """Whether there is a load, and it alone cannot turn the screw at this speed, that is with this friction."""
+        return (self.ideal_torque > 0) & (self.holding_torque <= 0)
 
     @lazy
     def friction_power(self) -> Annotated[Power, Info("P", "power dissipated by friction")]:
@@ -157,7 +171,11 @@ def nut_friction(
         balls = _on_four_contacts(ball, loads) if four else _on_two_contacts(ball, loads)
         all_balls = dataclasses.replace(screw, loaded_balls=np.sum(loads.balls, axis=-1)[()])
         further = {name: law(all_balls, lubricant, operation.screw_speed) for name, law in (losses or {}).items()}
-    loaded = loads.forward_load + loads.backward_load > 0
+    contributions = {
+        **{name: np.sum(loads.balls * balls.contributions[name], axis=-1) for name in MECHANISMS},
+        **further,
+    }
+    parts = (screw, *screw.materials, lubricant, operation, nut, model, *model.laws_with_coefficients.values())
     return NutFriction(
         model=model,
         ball_screw=screw,
@@ -166,13 +184,11 @@ def nut_friction(
         screw_speed=operation.screw_speed,
         loads=loads,
         pairs=balls.pairs,
-        contributions={
-            **{name: np.sum(loads.balls * balls.contributions[name], axis=-1) for name in MECHANISMS},
-            **further,
-        },
+        contributions=contributions,
         nut_torque=np.sum(loads.balls * balls.nut_torque, axis=-1) + sum(further.values()),
         validity={
-            **{reason: np.all(mask | ~loaded, axis=-1) for reason, mask in balls.validity.items()},
+            **{reason: _holds_for_most(condition, loads.balls) for reason, condition in balls.validity.items()},
+            "inputs": input_mask(parts, sum(contributions.values())),
             "load_distribution": loads.converged,
         },
     )
@@ -187,13 +203,30 @@ class _Ball(NamedTuple):
     screw_speed: AngularSpeed
 
 
+class _Condition(NamedTuple):
+    """Where a condition holds for each ball, and the load of what it is asked of."""
+
+    holds: Mask
+    load: Force
+
+
 class _Balls(NamedTuple):
     """What each ball answers."""
 
     contributions: Mapping[str, Torque]
     nut_torque: Torque
     pairs: tuple[LoadedPair, ...]
-    validity: Mapping[str, Mask]
+    validity: Mapping[str, Sequence[_Condition]]
+
+
+def _holds_for_most(conditions: Sequence[_Condition], balls: Any) -> Mask:
+    """Whether the contacts for which a condition fails carry next to nothing of the load.
+
+    A half that is about to lift off, or balls that hardly touch, say nothing about the torque.
+    """
+    failing = sum(np.sum(np.where(each.holds, 0.0, balls * each.load), axis=-1) for each in conditions)
+    load = sum(np.sum(balls * each.load, axis=-1) for each in conditions)
+    return failing <= NEGLIGIBLE_SHARE * load
 
 
 def _given_load(axial_load: Force, *_: Any) -> Force:
@@ -210,7 +243,8 @@ def _on_two_contacts(ball: _Ball, loads: BallLoads) -> _Balls:
     one = dataclasses.replace(ball.model, contact_load=_given_load)
     result = one(screw, ball.lubricant, axial_load=load, screw_speed=ball.screw_speed)
     pair = LoadedPair(load, result.screw, result.nut)
-    return _Balls(result.contributions, result.nut_torque, (pair,), result.validity)
+    validity = {reason: [_Condition(mask, load)] for reason, mask in result.validity.items()}
+    return _Balls(result.contributions, result.nut_torque, (pair,), validity)
 
 
 def _on_four_contacts(ball: _Ball, loads: BallLoads) -> _Balls:
@@ -218,7 +252,7 @@ def _on_four_contacts(ball: _Ball, loads: BallLoads) -> _Balls:
     model, screw, omega = ball.model, ball.screw, ball.screw_speed
     sides = ((loads.forward_load, loads.forward_angle), (loads.backward_load, loads.backward_angle))
     pairs: list[LoadedPair] = []
-    masks: list[Mapping[str, Mask]] = []
+    validity: dict[str, list[_Condition]] = {}
     for load, angle in sides:
         at_angle = dataclasses.replace(screw, contact_angle=np.where(load > 0, angle, screw.contact_angle))
         frame = model.frame(at_angle)
@@ -231,9 +265,9 @@ def _on_four_contacts(ball: _Ball, loads: BallLoads) -> _Balls:
             at_angle, ball.lubricant, frame, load, (Motion(v, at_screw, lateral), Motion(v, at_nut, lateral))
         )
         pairs.append(LoadedPair(load, *contacts))
-        masks += [
-            {reason: mask | (load == 0) for reason, mask in contact_masks(contact).items()} for contact in contacts
-        ]
+        for contact in contacts:
+            for reason, mask in contact_masks(contact).items():
+                validity.setdefault(reason, []).append(_Condition(mask, load))
     frame = model.frame(screw)
     F_B = model.ball_force(model.imposed_ball_force(screw), loads.forward_load + loads.backward_load)
     moment = model.ball_chain(model.ball_friction_coefficient, F_B, screw.ball_diameter, frame).moment
@@ -244,11 +278,11 @@ def _on_four_contacts(ball: _Ball, loads: BallLoads) -> _Balls:
     slip = four_point_slip(
         FourPointBall(forward, backward, moment, F_B, screw.ball_diameter, frame.lead_angle, frame.path_radius)
     )
-    torque = sum(slip.contributions.values())
-    everywhere = {reason: np.isfinite(torque) for reason in REASONS}
-    validity = {**everywhere, **{r: np.logical_and.reduce([mask[r] for mask in masks]) for r in masks[0]}}
-    validity["skid"] = slip.rolling_share == 1
-    validity["equilibrium"] = slip.converged
+    both = loads.forward_load + loads.backward_load
+    validity["skid"] = [_Condition(slip.rolling_share == 1, both)]
+    validity["equilibrium"] = [_Condition(slip.converged, both)]
+    # (15) has no part in the slip of four contacts
+    validity["pure_rolling_offset"] = [_Condition(np.full(np.shape(both), True), both)]
     return _Balls(slip.contributions, slip.nut_torque, tuple(pairs), validity)
 
 

@@ -58,7 +58,19 @@ def validity_masks(
     """
     xp = namespace(drive_torque)
     everywhere = xp.isfinite(drive_torque) | True
-    inputs = xp.isfinite(drive_torque)
+    of_slip = {reason: holds(screw) & holds(nut) for reason, holds in _OF_THE_SLIP.items()}
+    on_screw, on_nut = contact_masks(screw), contact_masks(nut)
+    of_contacts = {reason: on_screw[reason] & on_nut[reason] for reason in on_screw}
+    masks = {"inputs": input_mask(parts, drive_torque), **of_slip, **of_contacts, "equilibrium": converged}
+    masks["skid"] = masks["skid"] & (rolling_share == 1)
+    if not slip_is_curvature_alone:
+        masks["pure_rolling_offset"] = everywhere
+    return {reason: masks[reason] & everywhere for reason in REASONS}
+
+
+def input_mask(parts: Sequence[Any], torque: Torque) -> Mask:
+    """Where all arrays of the parts are within their bounds, balls fit their screw, and a torque is finite."""
+    inputs = namespace(torque).isfinite(torque)
     for part in parts:
         for name, quantity in fields_of(part).items():
             value = getattr(part, name)
@@ -66,14 +78,7 @@ def validity_masks(
                 inputs = inputs & within_bounds(quantity.info, value)
         if isinstance(part, BallScrew):
             inputs = inputs & part.fits
-    of_slip = {reason: holds(screw) & holds(nut) for reason, holds in _OF_THE_SLIP.items()}
-    on_screw, on_nut = contact_masks(screw), contact_masks(nut)
-    of_contacts = {reason: on_screw[reason] & on_nut[reason] for reason in on_screw}
-    masks = {"inputs": inputs, **of_slip, **of_contacts, "equilibrium": converged}
-    masks["skid"] = masks["skid"] & (rolling_share == 1)
-    if not slip_is_curvature_alone:
-        masks["pure_rolling_offset"] = everywhere
-    return {reason: masks[reason] & everywhere for reason in REASONS}
+    return inputs
 
 
 def contact_masks(contact: Contact) -> dict[str, Mask]:

@@ -17,6 +17,7 @@ from ballscrew.components.nut_losses import LipSeals, Seals
 from ballscrew.faults import InputError
 from ballscrew.interfaces import config, nut_report
 from ballscrew.interfaces.nuts import NUTS, kind_of
+from ballscrew.interfaces.schema import NUT_TABLES, json_schema, validated
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "catalogue_screw.toml"
@@ -361,3 +362,19 @@ def test_the_schema_knows_the_tables(ballscrew):
     assert [ref["$ref"].rpartition("/")[2] for ref in schema["properties"]["screw"]["anyOf"]] == ["Screw", "ScrewOfRow"]
     assert {"nut", "bodies", "deviations", "losses", "installation", "limits"} <= set(schema["properties"])
     assert not {"nut", "bodies"} & set(schema["required"])
+
+
+def test_examples_of_the_schema_are_read():
+    """What the schema shows as an example is what a case file takes."""
+    definitions = json_schema()["$defs"]
+    seen = 0
+    for section in NUT_TABLES:
+        properties = definitions[section.capitalize()]["properties"]
+        shown = {name: field["examples"][0] for name, field in properties.items() if "examples" in field}
+        for name, example in shown.items():
+            faults = []
+            assert validated(section, {name: example}, faults), (section, name)
+            assert not faults
+            seen += 1
+    assert definitions["Deviations"]["properties"]["ball_diameter"]["examples"] == ["0.3 um"]
+    assert seen > 15

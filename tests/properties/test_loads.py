@@ -14,7 +14,7 @@ from ballscrew.solvers.load_distribution import TOLERANCE, ball_loads
 #: 4 kinds × elastic or not × scatter or not × side, and this many points of each: ten thousand and more.
 POINTS = 330
 VARIANTS = [
-    dict(kind=kind, elastic=elastic, scatter=scatter, same_side=same_side)
+    {"kind": kind, "elastic": elastic, "scatter": scatter, "same_side": same_side}
     for kind, elastic, scatter, same_side in itertools.product(KINDS, (False, True), (False, True), (True, False))
 ]
 NAMES = ["-".join(str(value) for value in variant.values()) for variant in VARIANTS]
@@ -124,12 +124,12 @@ def test_two_supports_on_opposite_sides_read_the_chain_from_either_end():
         for step in (1, -1)
     )
     largest = np.max(there.forward_load, axis=-1, keepdims=True)
-    assert np.max(np.abs(there.forward_load - back.forward_load[..., ::-1]) / np.where(largest > 0, largest, 1)) <= 1e-10
+    assert (
+        np.max(np.abs(there.forward_load - back.forward_load[..., ::-1]) / np.where(largest > 0, largest, 1)) <= 1e-10
+    )
     assert np.max(np.abs(there.deflection - back.deflection)) <= 1e-15
     # unequal, they are not
-    one, other = (
-        solved(case, deviations=Deviations(*(part[::step] for part in case.deviations))) for step in (1, -1)
-    )
+    one, other = (solved(case, deviations=Deviations(*(part[::step] for part in case.deviations))) for step in (1, -1))
     assert np.max(np.abs(one.deflection - other.deflection)) > 1e-9
 
 
@@ -157,9 +157,7 @@ def test_a_common_error_of_the_lead_is_a_shift():
 def test_units_do_not_matter(variant):
     """Lengths a thousandfold, forces a million: E in N/m² is in the same number."""
     case = nut_case(size=60, seed=9, balls=17, **variant)
-    larger = {
-        name: 1e3 * getattr(case.screw, name) for name in ("pitch_circle_diameter", "lead", "ball_diameter")
-    }
+    larger = {name: 1e3 * getattr(case.screw, name) for name in ("pitch_circle_diameter", "lead", "ball_diameter")}
     nut = case.nut
     if not isinstance(nut, SingleNut):
         nut = dataclasses.replace(nut, preload=1e6 * nut.preload)
@@ -318,4 +316,3 @@ def test_halves_far_apart_and_near_carry_alike_on_rigid_bodies():
     far = solved(case)
     assert np.array_equal(near.forward_load, far.forward_load)
     assert np.array_equal(near.deflection, far.deflection)
-

@@ -212,8 +212,9 @@ def test_four_contacts_cost_more_than_two(seed_screw, seed_oil):
     Both from a contact integral without a change of the contact angle, to three digits.
     """
     model = dataclasses.replace(without_losses_of_rolling(reference), friction=constant_friction(0.11))
-    two, four = (friction(nut(500.0), 0.0, model=model, part=seed_screw, oil=seed_oil) for nut in (DoubleNut, OversizeBallNut))
-    print(two.screw_torque, four.screw_torque)
+    two, four = (
+        friction(nut(500.0), 0.0, model=model, part=seed_screw, oil=seed_oil) for nut in (DoubleNut, OversizeBallNut)
+    )
     assert two.screw_torque == pytest.approx(0.016, rel=0.05)
     assert four.screw_torque == pytest.approx(0.186, rel=0.05)
 
@@ -316,7 +317,7 @@ def test_nothing_is_missing_in_the_range_of_machines(kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_any_screw_under_any_load(kind):
-    """Two thousand random nuts; beyond the static rating of none: finite, and where valid the screw has to be driven."""
+    """Two thousand random nuts up to the static rating: finite, and where valid the screw has to be driven."""
     case = nut_case(kind, 2000, 77, elastic=False)
     rng = np.random.default_rng(5)
     oil = bs.Lubricant(np.exp(rng.uniform(math.log(0.005), 0, 2000)), 2e-8)

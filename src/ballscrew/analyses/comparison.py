@@ -11,7 +11,6 @@ from ballscrew.analyses.nut_parts import NutParts
 from ballscrew.assembly import NutFriction
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew, Operation
-from ballscrew.equations import transmission
 from ballscrew.model import FrictionModel
 from ballscrew.result import FrictionResult
 
@@ -42,16 +41,6 @@ class Row:
     def torque(self) -> float:
         """Friction torque on the screw, N m."""
         return float(self.result.screw_torque)
-
-    @property
-    def holding_torque(self) -> float:
-        """Torque on the shaft when the load drives the screw; negative: that lowers it."""
-        return float(transmission.holding_torque(self.result.ideal_torque, self.result.screw_torque))
-
-    @property
-    def self_locking(self) -> bool:
-        """Whether there is a load, and it alone cannot turn the screw."""
-        return bool(self.result.ideal_torque > 0) and self.holding_torque <= 0
 
     @property
     def outside(self) -> tuple[str, ...]:

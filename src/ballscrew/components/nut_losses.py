@@ -49,7 +49,7 @@ class ParasiticLaw(Protocol):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class JISDrag:
-    """The rule of JISB1192 for all preloaded nuts, as THKCatalogue prints it."""
+    """The rule of JISB1192 for all preloaded nuts, as THK514E prints it."""
 
     drag_coefficient: Annotated[Ratio, Info("k_p", "factor of the rule", at_least=0, hint="the standard has 0.05")] = (
         0.05

@@ -11,7 +11,7 @@ def preload_torque(preload_torque_coefficient: Ratio, preload: Force, lead: Leng
 
     .. math:: T = \frac{K_p F_{pr} P_h}{2 \pi}
 
-    JISB1192, as THKCatalogue prints it. Seals come on top.
+    JISB1192, as THK514E prints it. Seals come on top.
     """
     K_p, F_pr, P_h = preload_torque_coefficient, preload, lead
     xp = namespace(K_p, F_pr, P_h)
@@ -23,7 +23,7 @@ def preload_torque_coefficient(lead_angle: Angle, drag_coefficient: Ratio, drag_
 
     .. math:: K_p = \frac{k_p}{\left(\tan\varphi\right)^{m}}
 
-    JISB1192, as THKCatalogue prints it, with 0.05 and 0.5: then the torque is
+    JISB1192, as THK514E prints it, with 0.05 and 0.5: then the torque is
     :math:`0.0141 F_{pr} \sqrt{d_m P_h}`. A rule for all nuts and oils; a catalogue's example allows 30 %
     on both sides. Without limit where the lead vanishes.
     """
@@ -85,7 +85,7 @@ def lift_off_load(preload: Force) -> Force:
 
     .. math:: F = 2^{3/2} F_{pr}
 
-    What catalogues call about three times the preload (THKCatalogue). Hertz contacts only.
+    What catalogues call about three times the preload (THK514E). Hertz contacts only.
     """
     F_pr = preload
     return 2**1.5 * F_pr

@@ -291,8 +291,8 @@ def _row(row: Row) -> dict[str, Any]:
         "contributions": dict(r.contributions),
         "efficiency": r.efficiency,
         "back_driving_efficiency": r.back_driving_efficiency,
-        "holding_torque": row.holding_torque,
-        "self_locking": row.self_locking,
+        "holding_torque": float(row.result.holding_torque),
+        "self_locking": bool(row.result.self_locking),
         "valid": not row.outside,
         "not_valid_because": list(row.outside),
     }

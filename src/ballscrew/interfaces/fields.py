@@ -43,6 +43,9 @@ EXAMPLES: Mapping[str, str | float] = {
     "balls": 165,
     "unsupported_length": "1 m",
     "running_time": "20000 h",
+    # two fields of [deviations] are called as those of [screw]: they go by their symbols
+    "s_w": "0.3 um",
+    "s_h": "1 um",
 }
 
 
@@ -65,10 +68,16 @@ def read_preload(raw: object) -> float:
     return _si(raw, NUT_FIELDS["preload"])
 
 
+def example_of(quantity: Quantity) -> str | float | None:
+    """What stands for a field as an example, by its symbol or its name."""
+    return EXAMPLES.get(quantity.info.symbol, EXAMPLES.get(quantity.name))
+
+
 def _example(quantity: Quantity, default: Any) -> str | float:
     """What a field may hold: that of the feed drive in the examples, or else the default."""
-    if quantity.name in EXAMPLES:
-        return EXAMPLES[quantity.name]
+    written = example_of(quantity)
+    if written is not None:
+        return written
     assert default is not None, quantity.name
     number = units.from_si(default, quantity)
     return default if quantity.unit == "1" else f"{number:.6g} {quantity.shown_in}"

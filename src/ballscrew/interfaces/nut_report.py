@@ -14,12 +14,10 @@ from ballscrew.analyses.nut_parts import NutParts
 from ballscrew.assembly import NutFriction
 from ballscrew.components.contact import RaceState
 from ballscrew.components.screw import Operation
-from ballscrew.equations import transmission
 from ballscrew.interfaces import config, report, units
 from ballscrew.interfaces.documents import as_json
 from ballscrew.interfaces.nuts import LOSSES, kind_of
 from ballscrew.quantities import Quantity, fields_of, quantities_of
-from ballscrew.result import FrictionResult
 from ballscrew.solvers.load_distribution import BallLoads
 
 #: What the terminal shows first, in this order.
@@ -40,7 +38,7 @@ OF_LOADS: Mapping[str, Quantity] = {
 }
 _RESULT = quantities_of(NutFriction)
 _TORQUE = _RESULT["screw_torque"]
-_HOLDING = quantities_of(FrictionResult)["holding_torque"]
+_HOLDING = _RESULT["holding_torque"]
 _LOADS = quantities_of(BallLoads)
 _OPERATION = fields_of(Operation)
 _WORDS = {"seals": "seals", "churning": "churning", "recirculation": "return path"}
@@ -62,11 +60,6 @@ class NutResult(NamedTuple):
     #: The flank that carries the load, and the one that it relieves; None where no ball touches.
     loaded: Flank | None
     relieved: Flank | None
-
-    @property
-    def holding_torque(self) -> float:
-        """Torque on the shaft that holds the load; negative: that lowers it."""
-        return float(transmission.holding_torque(self.found.ideal_torque, self.found.screw_torque))
 
     @property
     def preload(self) -> float:
@@ -169,8 +162,8 @@ def verdicts(result: NutResult) -> list[str]:
     lines: list[str] = []
     if float(found.axial_load) == 0:
         lines.append("no load: nothing to hold")
-    elif np.isfinite(result.holding_torque):
-        held, beware = result.holding_torque, "" if found.valid else " (outside the model's validity)"
+    elif np.isfinite(float(result.found.holding_torque)):
+        held, beware = float(result.found.holding_torque), "" if found.valid else " (outside the model's validity)"
         torque = units.shown(abs(held), _HOLDING)
         when = "at this speed" if float(found.screw_speed) else "at rest"
         lines.append(
@@ -242,7 +235,7 @@ def results(result: NutResult) -> dict[str, Any]:
     found = result.found
     return {
         **{name: getattr(found, name) for name in _RESULT if name not in _OPERATION},
-        "holding_torque": result.holding_torque,
+        "holding_torque": float(result.found.holding_torque),
         "preload_drag": result.preload_drag,
         "contributions": dict(found.contributions),
         "validity": {reason: bool(mask) for reason, mask in found.validity.items()},

@@ -68,7 +68,8 @@ class BallSprings(NamedTuple):
             sine = deflection.loaded_contact_sine(A, alpha, xi, s)
             approach = deflection.ball_approach(A, alpha, xi, s, flanks.excess)
             turning = (1 - sine**2) / s
-        delta = np.maximum(approach, 0.0)
+        # a flank ends in the radial plane: beyond it there is none to touch
+        delta = np.where(sine > 0, np.maximum(approach, 0.0), 0.0)
         load = deflection.hertz_load(self.load_deflection, delta)
         slope = (1.5 * self.load_deflection * np.sqrt(delta) * sine**2 + load * turning) * c_phi**2
         return FlankLoads(load, sine, flanks.facing * load * sine * c_phi, slope)
@@ -84,7 +85,7 @@ class BallSprings(NamedTuple):
         A, alpha = self.centre_distance, self.contact_angle
         if self.constant_angle:
             return -flanks.excess / np.sin(alpha)
-        return np.sqrt((A - flanks.excess) ** 2 - (A * np.cos(alpha)) ** 2) - A * np.sin(alpha)
+        return np.sqrt(np.maximum((A - flanks.excess) ** 2 - (A * np.cos(alpha)) ** 2, 0.0)) - A * np.sin(alpha)
 
     def of(self, rows: slice) -> BallSprings:
         """Some of the balls."""
@@ -140,27 +141,33 @@ def rigid_balance(springs: BallSprings, load: Field, scale: Field, guess: Field,
     forces against which an imbalance is judged, ``guess`` is a displacement of the right size.
     """
 
-    def imbalance(x: Field) -> tuple[Field, Field]:
-        force, slope = springs.forces(x[None])
+    def imbalance(here: BallSprings, load: Field, x: Field) -> tuple[Field, Field]:
+        force, slope = here.forces(x[None])
         return force.sum(axis=0) - load, slope.sum(axis=0)
 
     reach = np.maximum(guess, 1e-12)
     low, high = -reach, reach
     for _ in range(STEPS):
-        too_high, too_low = imbalance(low)[0] > 0, imbalance(high)[0] < 0
+        too_high, too_low = imbalance(springs, load, low)[0] > 0, imbalance(springs, load, high)[0] < 0
         if not (too_high.any() or too_low.any()):
             break
         low, high = np.where(too_high, 2 * low, low), np.where(too_low, 2 * high, high)
     x = np.clip(guess, low, high)
+    among, here = np.arange(load.size), springs
     for _ in range(STEPS):
-        left, slope = imbalance(x)
-        low, high = np.where(left < 0, x, low), np.where(left > 0, x, high)
-        done = (np.abs(left) <= tolerance * scale) | (high - low <= 1e-16 * reach)
-        if done.all():
+        at = x[among]
+        left, slope = imbalance(here, load[among], at)
+        low[among] = np.where(left < 0, at, low[among])
+        high[among] = np.where(left > 0, at, high[among])
+        still = (np.abs(left) > tolerance * scale[among]) & (high[among] - low[among] > 1e-16 * reach[among])
+        if not still.any():
             break
-        newton = x - left / np.where(slope > 0, slope, 1.0)
-        inside = (newton > low) & (newton < high) & (slope > 0)
-        x = np.where(done, x, np.where(inside, newton, (low + high) / 2))
+        if not still.all():
+            among, at, left, slope = among[still], at[still], left[still], slope[still]
+            here = springs.at(among)
+        newton = at - left / np.where(slope > 0, slope, 1.0)
+        inside = (newton > low[among]) & (newton < high[among]) & (slope > 0)
+        x[among] = np.where(inside, newton, (low[among] + high[among]) / 2)
     return x + 0 * springs.flanks[0].facing
 
 
@@ -198,6 +205,11 @@ def chain_balance(springs: BallSprings, bars: Bars, load: Field, scale: Field, s
     force, slope = springs.forces(x)
     stiffness = np.sum(slope, axis=0)
     return x + np.where(stiffness > 0, (load - np.sum(force, axis=0)) / np.where(stiffness > 0, stiffness, 1.0), 0.0)
+
+
+def chain_imbalance(springs: BallSprings, bars: Bars, load: Field, displacement: Field) -> Field:
+    """Root of the sum of the squares of what is left of the balance at the balls, N."""
+    return _size(_imbalances(springs, bars, load, displacement)[0])
 
 
 def _imbalances(springs: BallSprings, bars: Bars, load: Field, x: Field) -> tuple[Field, Field]:

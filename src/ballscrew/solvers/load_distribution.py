@@ -19,7 +19,7 @@ balls, and the change of K with the contact angle.
 from __future__ import annotations
 
 import dataclasses
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -30,21 +30,11 @@ from ballscrew.components.screw import BallScrew, Raceway
 from ballscrew.equations import deflection, geometry, hertz
 from ballscrew.faults import Fault, is_concrete, raise_if_any
 from ballscrew.quantities import Angle, Force, Info, Length, LoadDeflection, Mask, Ratio, Stiffness
-from ballscrew.solvers.ball_springs import (
-    BallSprings,
-    Bars,
-    Field,
-    Flanks,
-    chain_balance,
-    rigid_balance,
-    tridiagonal,
-)
+from ballscrew.solvers.ball_springs import Field
+from ballscrew.solvers.nut_balance import NutCase, solved
 
 #: Imbalance, in units of load and preload, that counts as balanced.
 TOLERANCE = 1e-10
-#: Imbalance of the rigid screw from which the elastic one starts.
-START = 0.1
-PICOMETRE = 1e-12
 #: Springs that are solved at once: what belongs to them stays in the cache.
 BLOCK = 65_536
 
@@ -65,7 +55,7 @@ class BallLoads:
     deflection: Annotated[Length, Info("x", "axial displacement of the screw against the nut by the load", "um")]
     rigidity: Annotated[Stiffness, Info("R_nu", "axial rigidity of the nut at this load", "N/um")]
     remaining_preload: Annotated[Force, Info("F_b", "axial force left on the flank that the load relieves")]
-    lift_off_load: Annotated[Force, Info("F_l", "axial load that lifts the other flank off, balls alike and bodies rigid")]
+    lift_off_load: Annotated[Force, Info("F_l", "axial load that lifts the other flank off, bodies rigid")]
     residual: Annotated[Ratio, Info(r"\epsilon", "imbalance / (load + preload)")]
 
     @property
@@ -110,7 +100,7 @@ def ball_loads(
     shape = np.broadcast_shapes(*(np.shape(number) for number in numbers))
     flat = [np.broadcast_to(np.asarray(number, dtype=float), shape).reshape(-1) for number in numbers]
     balls = int(screw.loaded_balls) if one_by_one else 1
-    case = _Case(
+    case = NutCase(
         balls=balls,
         one_by_one=one_by_one,
         halves=halves,
@@ -126,7 +116,7 @@ def ball_loads(
 
     def solve(block: slice) -> None:
         with np.errstate(all="ignore"):
-            parts[block.start // size] = _solved(case, *(number[block] for number in flat))
+            parts[block.start // size] = solved(case, *(number[block] for number in flat))
 
     map_blocks(solve, flat[0].size, block_size=size)
     joined = [np.concatenate(part, axis=-1) for part in zip(*parts, strict=True)]
@@ -193,202 +183,3 @@ def _faults(screw: BallScrew, halves: int, deviations: Deviations | None) -> lis
         for name, size in sizes.items()
         if size not in ((), (balls,))
     ]
-
-
-class _Case(NamedTuple):
-    """What all operating points have in common."""
-
-    balls: int
-    one_by_one: bool
-    halves: int
-    oversize: bool
-    elastic: bool
-    same_side: bool
-    constant_angle: bool
-    scatters: bool
-    excess: Field
-    lead_error: Field
-
-
-class _Point(NamedTuple):
-    """What differs between operating points."""
-
-    load: Field
-    preload: Field
-    spacing: Field
-    contact_angle: Field
-    lead_cosine: Field
-    centre_distance: Field
-    load_deflection: Field
-    loaded_balls: Field
-    screw_bar: Field
-    nut_bar: Field
-    step: Field
-
-    @property
-    def link(self) -> Field:
-        """Stiffness per length of both bodies in series."""
-        return 1 / (1 / self.screw_bar + 1 / self.nut_bar)
-
-    @property
-    def forces_at_work(self) -> Field:
-        """Load and preload, against which an imbalance is judged; without both, what a picometre gives."""
-        return np.maximum(self.load + self.preload, self.loaded_balls * self.load_deflection * PICOMETRE**1.5)
-
-    def approach(self, force: Field) -> Field:
-        """Approach of balls that share an axial force equally at their angle without load."""
-        normal = force / (self.loaded_balls * np.sin(self.contact_angle) * self.lead_cosine)
-        return (normal / self.load_deflection) ** (2 / 3)
-
-    def displacement(self, force: Field) -> Field:
-        """About how far such balls let the screw move."""
-        return self.approach(force) / (np.sin(self.contact_angle) * self.lead_cosine)
-
-
-def _solved(case: _Case, *numbers: Field) -> tuple[Field, ...]:
-    """A block of operating points, the ball axis first."""
-    point = _Point(*numbers)
-    springs, bars = _springs(case, point), _bars(case, point)
-    at_rest = _first_touch(point, springs)
-    if case.halves == 2:
-        springs, at_rest = _braced(case, point, springs, bars)
-    elif case.oversize:
-        at_rest = _balance(case, point, springs, bars, 0 * point.load) if case.scatters else 0 * at_rest
-    found = _balance(case, point, springs, bars, point.load)
-    if not (case.halves == 2 or case.oversize):
-        found = np.where(point.load > 0, found, at_rest)
-    forward, backward = _by_facing(springs, found)
-    on_forward, on_backward = (np.sum(springs.balls * force, axis=0) for _, _, force in (forward, backward))
-    imbalance = np.abs(on_forward - on_backward - point.load) / point.forces_at_work
-    return (
-        forward[0],
-        backward[0],
-        forward[1],
-        backward[1],
-        springs.balls + 0 * found,
-        _travel(case, point, bars, found, point.load) - _travel(case, point, bars, at_rest, 0 * point.load),
-        1 / _compliance(case, point, bars, springs.forces(found)[1]),
-        on_backward,
-        _lift_off_load(case, point),
-        imbalance,
-    )
-
-
-def _by_facing(springs: BallSprings, displacement: Field) -> list[tuple[Field, Field, Field]]:
-    """Load, contact angle and axial force of the flank pairs that face forwards, and of those that face backwards."""
-    loads = [(flanks.facing, springs.loads(flanks, displacement)) for flanks in springs.flanks]
-
-    def of(facing: int) -> tuple[Field, Field, Field]:
-        load = angle = force = np.zeros_like(displacement)
-        for pair, there in loads:
-            load = load + np.where(pair == facing, there.load, 0.0)
-            angle = angle + np.where(pair == facing, np.arcsin(there.sine), 0.0)
-            force = force + np.where(pair == facing, facing * there.axial_force, 0.0)
-        return load, angle, force
-
-    return [of(1), of(-1)]
-
-
-def _springs(case: _Case, point: _Point) -> BallSprings:
-    """The balls. Those of the second half of a double nut face backwards; they are not braced yet."""
-    row = np.arange(case.halves * case.balls)[:, None]
-    forward = np.where(row < case.balls, 1.0, -1.0)
-    excess = np.broadcast_to(case.excess, forward.shape)
-    if case.oversize:
-        excess = excess + point.approach(point.preload)
-    shift = -case.lead_error * point.lead_cosine
-    pairs = [Flanks(forward, forward * shift, excess)]
-    if case.oversize:
-        pairs.append(Flanks(-forward, -forward * shift, excess))
-    return BallSprings(
-        load_deflection=point.load_deflection,
-        centre_distance=point.centre_distance,
-        contact_angle=point.contact_angle,
-        lead_cosine=point.lead_cosine,
-        balls=np.ones_like(point.load) if case.one_by_one else point.loaded_balls,
-        constant_angle=case.constant_angle,
-        flanks=tuple(pairs),
-    )
-
-
-def _bars(case: _Case, point: _Point) -> Bars:
-    """The bodies between the balls; a double nut has its spacing in the middle."""
-    middle = np.arange(1, case.halves * case.balls)[:, None] == case.balls
-    lengths = np.where(middle, point.step + point.spacing, point.step)
-    share = np.ones_like(point.load) if case.same_side else point.link / point.screw_bar
-    return Bars(point.link / lengths, share)
-
-
-def _balance(case: _Case, point: _Point, springs: BallSprings, bars: Bars, load: Field) -> Field:
-    """Displacement of the screw at each ball."""
-    forces, guess = point.forces_at_work, point.displacement(point.forces_at_work)
-    if not case.elastic:
-        return rigid_balance(springs, load, forces, guess)
-    start = rigid_balance(springs.of_kinds(case.balls), load, forces, guess, START)
-    return chain_balance(
-        springs, bars, load, forces, np.broadcast_to(start[0], (len(springs.flanks[0].facing), load.size))
-    )
-
-
-def _braced(case: _Case, point: _Point, springs: BallSprings, bars: Bars) -> tuple[BallSprings, Field]:
-    """A double nut with its halves braced by the preload, and the displacements then.
-
-    Each half by itself carries the preload, which enters at its inner end.
-    """
-    n = case.balls
-    one, other = springs.of(slice(None, n)), springs.of(slice(n, None))
-    before = _balance(case, point, one, bars.of(slice(None, n - 1), 0.0), point.preload)
-    if case.scatters:
-        behind = _balance(case, point, other, bars.of(slice(n, None), 1.0), -point.preload)
-    else:
-        behind = -before[::-1]
-    stretch = point.preload / bars.stiffness[n - 1] if case.elastic else 0.0
-    gap = before[-1] - behind[0] + stretch
-    facing, offset, excess = springs.flanks[0]
-    braced = Flanks(facing, offset + np.where(facing < 0, gap * point.lead_cosine, 0.0), excess)
-    return springs._replace(flanks=(braced,)), np.concatenate([before, behind + gap])
-
-
-def _first_touch(point: _Point, springs: BallSprings) -> Field:
-    """The displacement at which the first ball of a nut without preload touches, at each ball."""
-    touch = np.min((springs.touch(springs.flanks[0]) - springs.flanks[0].offset) / point.lead_cosine, axis=0)
-    return touch + 0 * springs.flanks[0].offset
-
-
-def _travel(case: _Case, point: _Point, bars: Bars, x: Field, load: Field) -> Length:
-    """Displacement of the loaded end of the screw against the held end of the nut."""
-    beta = bars.first_share
-    return beta * x[0] + (1 - beta) * x[-1] + load * _parallel_compliance(case, point, bars)
-
-
-def _compliance(case: _Case, point: _Point, bars: Bars, slope: Field) -> Ratio:
-    """Slope of the travel by the load, from those of the balls' forces by their displacements."""
-    if not case.elastic:
-        return 1 / np.sum(slope, axis=0)
-    beta = bars.first_share
-    right = np.zeros_like(slope)
-    right[0] += beta
-    right[-1] += 1 - beta
-    moved = tridiagonal(bars.stiffness, slope, right)
-    return beta * moved[0] + (1 - beta) * moved[-1] + _parallel_compliance(case, point, bars)
-
-
-def _parallel_compliance(case: _Case, point: _Point, bars: Bars) -> Ratio:
-    """What the bodies give way by themselves between opposite ends, if the balls held them together there."""
-    if not case.elastic:
-        return 0 * point.load
-    return bars.first_share * (1 - bars.first_share) * np.sum(1 / bars.stiffness, axis=0)
-
-
-def _lift_off_load(case: _Case, point: _Point) -> Force:
-    """The load of a rigid screw with balls that are all alike when the other flanks just touch."""
-    if not (case.halves == 2 or case.oversize):
-        return 0 * point.load
-    none = np.zeros((case.halves, 1))
-    alike = case._replace(balls=1, one_by_one=False, elastic=False, scatters=False, excess=none, lead_error=none)
-    springs, bars = _springs(alike, point), _bars(alike, point)
-    if case.halves == 2:
-        springs, _ = _braced(alike, point, springs, bars)
-    own, other = springs.flanks[0], springs.flanks[-1]
-    lifted = (other.offset - springs.touch(other))[-1] / point.lead_cosine
-    return springs.balls * springs.loads(own, lifted).axial_force[0]
