@@ -184,9 +184,7 @@ def chain_balance(springs: BallSprings, bars: Bars, load: Field, scale: Field, s
     here, links = springs, bars
     for _ in range(STEPS):
         size[among] = _size(left)
-        # places are rounded, and stiff bars make forces of that
-        rounding = ROUNDING * np.sqrt(len(x)) * np.max(links.stiffness * np.abs(x[1:, among]), axis=0, initial=0.0)
-        still = size[among] > BALANCED * scale[among] + rounding
+        still = size[among] > BALANCED * scale[among] + _rounding(links, x[:, among])
         if not still.any():
             break
         if not still.all():
@@ -208,8 +206,15 @@ def chain_balance(springs: BallSprings, bars: Bars, load: Field, scale: Field, s
 
 
 def chain_imbalance(springs: BallSprings, bars: Bars, load: Field, displacement: Field) -> Field:
-    """Root of the sum of the squares of what is left of the balance at the balls, N."""
-    return _size(_imbalances(springs, bars, load, displacement)[0])
+    """Root of the sum of the squares of what is left of the balance at the balls beyond rounding, N."""
+    left, _ = _imbalances(springs, bars, load, displacement)
+    return np.maximum(_size(left) - _rounding(bars, displacement), 0.0)
+
+
+def _rounding(bars: Bars, displacement: Field) -> Field:
+    """The forces that stiff bars make of rounded places, N."""
+    most = np.max(bars.stiffness * np.abs(displacement[1:]), axis=0, initial=0.0)
+    return ROUNDING * np.sqrt(len(displacement)) * most
 
 
 def _imbalances(springs: BallSprings, bars: Bars, load: Field, x: Field) -> tuple[Field, Field]:
