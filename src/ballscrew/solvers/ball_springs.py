@@ -145,14 +145,16 @@ def rigid_balance(springs: BallSprings, load: Field, scale: Field, guess: Field,
         force, slope = here.forces(x[None])
         return force.sum(axis=0) - load, slope.sum(axis=0)
 
-    reach = np.maximum(guess, 1e-12)
+    # twice the guess beyond where the last ball touches, every ball carries more than its share
+    touches = [np.max(np.abs(springs.touch(each) - each.offset), axis=0) for each in springs.flanks]
+    reach = np.maximum.reduce(touches) / springs.lead_cosine + 2 * np.maximum(guess, 1e-12)
     low, high = -reach, reach
     for _ in range(STEPS):
         too_high, too_low = imbalance(springs, load, low)[0] > 0, imbalance(springs, load, high)[0] < 0
         if not (too_high.any() or too_low.any()):
             break
         low, high = np.where(too_high, 2 * low, low), np.where(too_low, 2 * high, high)
-    x = np.clip(guess, low, high)
+    x = high.copy()
     among, here = np.arange(load.size), springs
     for _ in range(STEPS):
         at = x[among]
