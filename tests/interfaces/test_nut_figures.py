@@ -1,0 +1,54 @@
+"""The figures of the page on nuts: all are shown, each has axes with units, and two runs give the same bytes."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ballscrew.analyses import nut_curves as curves
+from ballscrew.interfaces.figures import nut, style
+from ballscrew.model import FrictionModel
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_the_page_shows_all():
+    text = (ROOT / "docs" / "nuts.md").read_text(encoding="utf-8")
+    assert set(re.findall(r"generated/nuts/(\w+)\.svg", text)) == set(nut.DRAWN)
+
+
+@pytest.mark.parametrize("name", nut.DRAWN)
+def test_axes_have_words_and_units(name):
+    with style.house_style():
+        figure = nut.DRAWN[name]()
+    for panel in figure.axes:
+        assert panel.get_xlabel()
+        assert panel.get_ylabel()
+        assert panel.lines
+    assert "40 × 10" in " ".join(text.get_text() for text in figure.texts).replace("\n", " ")
+
+
+def test_two_runs_give_the_same_bytes(tmp_path):
+    for name in ("one", "two"):
+        with style.house_style():
+            style.save(nut.distribution(), tmp_path, name)
+    assert (tmp_path / "one.svg").read_bytes() == (tmp_path / "two.svg").read_bytes()
+
+
+def test_the_curves_say_what_the_page_says():
+    """Balls at the loaded end carry most; halves lift off near 2^1.5 preloads; four contacts cost more while they last."""
+    data = curves.distribution_curves()
+    same, opposite = data.elastic.values()
+    assert np.argmax(same) == 0
+    assert np.ptp(opposite) < np.ptp(same)
+    assert np.mean(same) == pytest.approx(data.rigid, rel=0.01)
+    found = curves.preload_curves()
+    lift = found.loads["double nut"].lift_off_load[0] / curves.preload()
+    assert 2**1.5 < lift < 1.03 * 2**1.5
+    single, double, oversize = (result.screw_torque for result in found.friction.values())
+    assert np.all(oversize[1:40] > double[1:40])
+    assert np.all(double[1:40] > single[1:40])
+    assert oversize[-1] == pytest.approx(single[-1], rel=0.02)
+    drag = curves.drag_curves(FrictionModel.reference())
+    assert all(np.all(np.diff(torque) > -1e-4) for torque in drag.model.values())
