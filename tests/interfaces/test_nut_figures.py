@@ -37,7 +37,7 @@ def test_two_runs_give_the_same_bytes(tmp_path):
 
 
 def test_the_curves_say_what_the_page_says():
-    """Balls at the loaded end carry most; halves lift off near 2^1.5 preloads; four contacts cost more while they last."""
+    """Balls at the loaded end carry most; halves lift off near 2^1.5 preloads; four contacts cost more."""
     data = curves.distribution_curves()
     same, opposite = data.elastic.values()
     assert np.argmax(same) == 0

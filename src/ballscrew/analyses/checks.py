@@ -227,4 +227,4 @@ def _critical_speed(
 def _diameter_speed_product(screw: BallScrew, speed: AngularSpeed, limits: Limits) -> Check:
     value = shaft.diameter_speed_product(screw.pitch_circle_diameter, speed)
     words = "DN value, pitch circle diameter times speed, which the return of the balls must stand"
-    return _at_most("diameter_speed_product", value, limits.diameter_speed_product, "m/s", words)
+    return _at_most("diameter_speed_product", value, limits.diameter_speed_product, "m rad/s", words)

@@ -8,7 +8,7 @@ import math
 from typing import Annotated, Any, cast
 
 from ballscrew.faults import Fault, faults_of, raise_if_any
-from ballscrew.quantities import Array, Density, Info, Length, Pressure, Ratio, Speed, Unit
+from ballscrew.quantities import Array, Density, DiameterSpeed, Info, Length, Pressure, Ratio, Unit
 
 
 class Ends(enum.Enum):
@@ -83,12 +83,13 @@ class Limits:
         Ratio, Info("s_k", "largest share of the critical speed", above=0, at_most=1, hint="catalogues have 0.8")
     ] = 0.8
     diameter_speed_product: Annotated[
-        Speed,
+        DiameterSpeed,
         Info(
             "V",
             "largest DN value, pitch circle diameter times speed",
+            "mm rpm",
             above=0,
-            hint="70000 mm rpm are 7.33 m/s, in Python 70000e-3 * math.tau / 60",
+            hint='standard nuts have "70000 mm rpm", in Python 70000e-3 * math.tau / 60',
         ),
     ] = 70000e-3 * math.tau / 60
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ballscrew._arrays import namespace
-from ballscrew.quantities import AngularSpeed, Density, Force, Length, Pressure, Ratio, Speed
+from ballscrew.quantities import AngularSpeed, Density, DiameterSpeed, Force, Length, Pressure, Ratio
 
 
 def shaft_stress(axial_load: Force, root_diameter: Length) -> Pressure:
@@ -52,12 +52,12 @@ def critical_speed(
     return lam**2 * d_r / (4 * l**2) * xp.sqrt(E / rho)
 
 
-def diameter_speed_product(pitch_circle_diameter: Length, screw_speed: AngularSpeed) -> Speed:
+def diameter_speed_product(pitch_circle_diameter: Length, screw_speed: AngularSpeed) -> DiameterSpeed:
     r"""The DN value: how fast the balls are carried round, which the return tubes must stand.
 
     .. math:: V = d_m \omega
 
-    THK514E, there in mm · rpm (70000 of them are 7.33 m/s). Twice the speed of the pitch circle.
+    THK514E, there in mm · rpm (70000 of them are 7.33 m rad/s). Twice the speed of the pitch circle.
     """
     d_m, omega = pitch_circle_diameter, screw_speed
     return d_m * omega

@@ -26,7 +26,7 @@ from ballscrew.solvers.load_distribution import BallLoads
 #: What is assumed where nothing is given.
 GRADE, TEMPERATURE, SPEED, SHARE_OF_RATING = "ISO VG 100", "40 degC", "600 rpm", 0.1
 #: The units people think in, by the units of the checks.
-_SHOWN_IN = {"N": "kN", "Pa": "MPa", "s": "h", "rad/s": "rpm"}
+_SHOWN_IN = {"N": "kN", "Pa": "MPa", "s": "h", "rad/s": "rpm", "m rad/s": "mm rpm"}
 #: What to give, as it is given here.
 _GIVE = {
     "give installation": "give --length and --ends, or [installation]",
