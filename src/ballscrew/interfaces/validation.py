@@ -87,7 +87,8 @@ def request(
     conditions = _conditions(grade, temperature, speed, faults)
     raise_if_any(faults)
     found, notes = _sets(names, MODELS[model])
-    if conditions != Conditions() and not any(data.conditioned for data in found):
+    asked_for = grade is not None or temperature is not None or speed is not None
+    if asked_for and not any(data.conditioned for data in found):
         raise InputError(Fault("validate", "oil and speed do not move these sets", ", ".join(names), "leave them out"))
     chosen = calibration(calibration_name or DEFAULT_CALIBRATION)
     return Request(
