@@ -116,6 +116,14 @@ def test_life_and_time_say_the_same():
     assert found["life"].utilisation == pytest.approx(found["running_time"].utilisation, rel=1e-12)
 
 
+def test_half_loads_that_are_known_count():
+    """The loads of the halves from the load distribution stand in for those of the closed formula."""
+    found = table(nut=DoubleNut(preload=2500.0), half_loads=(6000.0, 1000.0))
+    lives = [life.basic_life(RATINGS.dynamic, load) for load in (6000.0, 1000.0)]
+    assert found["life"].value == pytest.approx(life.combined_life(*lives), rel=1e-12)
+    assert found["static_safety"].value == pytest.approx(RATINGS.static / 6000.0, rel=1e-12)
+
+
 @pytest.mark.parametrize("kind", PRELOADED)
 def test_preload_costs_life_and_safety(kind):
     alone, braced = table(), table(nut=kind(preload=2500.0))

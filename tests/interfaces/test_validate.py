@@ -71,6 +71,13 @@ def test_a_list_uncalibrated_first_calibrated_last(every):
         assert one["n"] == len(one["rows"])
 
 
+@pytest.mark.parametrize("name", SETS)
+def test_each_set_by_itself(name, every, ballscrew):
+    """A set asked for alone, with no option, says what it says among all."""
+    alone = json.loads(ballscrew("validate", name, "--json").stdout)
+    assert alone == [entry for entry in every if entry["set"] == name]
+
+
 def test_means_are_those_of_the_rows(every):
     for one in every:
         ratios = [row["ratio"] for row in one["rows"]]

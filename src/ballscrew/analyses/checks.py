@@ -86,6 +86,7 @@ def checks(
     static_load_rating: Force | None = None,
     maximum_pressure: Pressure | None = None,
     largest_load: Force | None = None,
+    half_loads: tuple[Force, ...] | None = None,
     root_diameter: Length | None = None,
     installation: Installation | None = None,
     limits: Limits = _USUAL,
@@ -94,6 +95,8 @@ def checks(
 
     ``axial_load`` is the mean load, which tires the screw, always in one direction; ``largest_load`` (the mean where
     None) may break it. The ratings are those of one nut body or half, as are the loaded balls of the screw.
+    ``half_loads`` are the axial forces on the loaded and, where they carry any, on the relieved flanks at the mean load, where they are known;
+    else they are those of the closed formula of :func:`loads_of_halves`.
     ``maximum_pressure`` is that of the most loaded contact. Without a ``root_diameter`` that of the groove is taken.
     Raises :class:`~ballscrew.faults.InputError` for values that are not positive, loads and speed below zero, and a
     largest load below the mean.
@@ -101,11 +104,13 @@ def checks(
     Operation(axial_load=axial_load, screw_speed=screw_speed)
     _raise_for_nonsense(axial_load, largest_load, dynamic_load_rating, static_load_rating, root_diameter)
     largest = axial_load if largest_load is None else largest_load
+    at_mean = loads_of_halves(nut, axial_load) if half_loads is None else half_loads
+    at_largest = loads_of_halves(nut, largest)
     d_r = _groove_bottom(screw) if root_diameter is None else root_diameter
     with np.errstate(divide="ignore"):
         return (
-            _static_safety(static_load_rating, loads_of_halves(nut, largest)[0], limits),
-            *_life(dynamic_load_rating, loads_of_halves(nut, axial_load), screw_speed, limits),
+            _static_safety(static_load_rating, (at_mean if largest_load is None else at_largest)[0], limits),
+            *_life(dynamic_load_rating, at_mean, screw_speed, limits),
             _contact_pressure(maximum_pressure),
             _shaft_stress(largest, d_r, limits),
             _buckling(screw, largest, d_r, installation, limits),

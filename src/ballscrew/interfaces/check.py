@@ -178,12 +178,14 @@ def _checked(name: str, case: config.Case, words: Sequence[str]) -> Checked:
     stand_ins = [name for name, value in rated.items() if value is None and computed is not None]
     if computed is not None:
         rated |= {name: getattr(computed, _NAMES[name]) for name in stand_ins}
+    load, left = float(case.operation.axial_load), float(result.found.loads.remaining_preload)
     found = checks(
         case.screw,
-        axial_load=float(case.operation.axial_load),
+        axial_load=load,
         screw_speed=float(case.operation.screw_speed),
         nut=parts.nut,
         **rated,
+        half_loads=(load + left, left) if left > 0 else (load,),
         maximum_pressure=float(result.found.maximum_pressure),
         root_diameter=case.listed.get("root_diameter"),
         installation=case.installation,
