@@ -34,10 +34,11 @@ START = (0.12, 0.001)
 TOML = Path(__file__).parents[1] / "src" / "ballscrew" / "data" / "calibrations.toml"
 
 
-def entries(model: FrictionModel) -> list[Entry]:
-    """The two sets with one model, without the rows that are told apart."""
+def entries(model: FrictionModel, on_four_contacts: FrictionModel | None = None) -> list[Entry]:
+    """The two sets with one model, or one for each; without the rows that are told apart."""
     found: list[Entry] = []
-    for data in map(SETS.__getitem__, FITTED):
+    models = model, on_four_contacts or model
+    for data, model in zip(map(SETS.__getitem__, FITTED), models, strict=True):
         rows = [
             {name: value for name, value in row.items() if name != "no_load_torque_2pct_max"}
             for row in validation.shipped_rows(data)
@@ -47,9 +48,9 @@ def entries(model: FrictionModel) -> list[Entry]:
     return found
 
 
-def points(model: FrictionModel) -> list[Point]:
+def points(sets: Sequence[Entry]) -> list[Point]:
     """All rows of the two sets."""
-    return [point for entry in entries(model) for point in entry.points]
+    return [point for entry in sets for point in entry.points]
 
 
 def in_half_bands(point: Point) -> float:
@@ -71,11 +72,22 @@ class Rival(NamedTuple):
     start: tuple[float, ...]
     model: Callable[..., FrictionModel]
     residual: Callable[[Point], float] = in_half_bands
+    #: The model for balls on four contacts where it is another.
+    on_four_contacts: Callable[..., FrictionModel] | None = None
+
+    def entries(self, *numbers: float) -> list[Entry]:
+        """The two sets with these numbers."""
+        other = None if self.on_four_contacts is None else self.on_four_contacts(*numbers)
+        return entries(self.model(*numbers), other)
 
 
 def declared(boundary: float, share: float) -> FrictionModel:
     """The reference model with the two numbers."""
     return with_parameters(FrictionModel.reference(), boundary, share)
+
+
+def _of_one_pair(boundary: float, share: float) -> FrictionModel:
+    return declared(boundary, share / 2)
 
 
 def _frictions(boundary: float, full_film: float) -> FrictionModel:
@@ -109,6 +121,9 @@ RIVALS = (
     DECLARED,
     Rival("the same, least squares of model / middle − 1", BOTH, START, declared, relative),
     Rival("the same with a full-film friction of 0.05", BOTH, START, _thick),
+    Rival(
+        "the same, with the load of one flank pair on four contacts", BOTH, START, declared, in_half_bands, _of_one_pair
+    ),
     Rival("µ₀ and full-film friction µ_f", ("µ₀", "µ_f"), (0.12, 0.05), _frictions),
     Rival("µ₀ alone", ("µ₀",), (0.12,), _boundary_alone),
     Rival("F_B/Q alone", ("F_B/Q",), (0.001,), _share_alone),
@@ -128,7 +143,7 @@ def fit(rival: Rival) -> Fit:
     """Least squares; the covariance is that of the linear model at the end, with the variance of the residuals."""
 
     def residuals(x: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-        return np.array([rival.residual(point) for point in points(rival.model(*map(float, x)))])
+        return np.array([rival.residual(point) for point in points(rival.entries(*map(float, x)))])
 
     scale = np.array(rival.start)
     found = least_squares(
@@ -167,7 +182,7 @@ def rivals_table() -> str:
     lines = [heading, ["---"] * len(heading)]
     for rival in RIVALS:
         found = fit(rival)
-        sets = entries(rival.model(*map(float, found.values)))
+        sets = rival.entries(*map(float, found.values))
         errors = np.sqrt(np.diag(found.covariance))
         values = ", ".join(
             f"{name} = {value:.3g} ± {error:.1g}"

@@ -175,6 +175,8 @@ def nut_friction(
         **{name: np.sum(loads.balls * balls.contributions[name], axis=-1) for name in MECHANISMS},
         **further,
     }
+    # without any load nothing is rolled along, as with one ball
+    loaded = np.any(loads.forward_load + loads.backward_load > 0, axis=-1)
     parts = (screw, *screw.materials, lubricant, operation, nut, model, *model.laws_with_coefficients.values())
     return NutFriction(
         model=model,
@@ -188,6 +190,7 @@ def nut_friction(
         nut_torque=np.sum(loads.balls * balls.nut_torque, axis=-1) + sum(further.values()),
         validity={
             **{reason: _holds_for_most(condition, loads.balls) for reason, condition in balls.validity.items()},
+            "skid": _holds_for_most(balls.validity["skid"], loads.balls) & loaded,
             "inputs": input_mask(parts, sum(contributions.values())),
             "load_distribution": loads.converged,
         },
@@ -279,11 +282,24 @@ def _on_four_contacts(ball: _Ball, loads: BallLoads) -> _Balls:
         FourPointBall(forward, backward, moment, F_B, screw.ball_diameter, frame.lead_angle, frame.path_radius)
     )
     both = loads.forward_load + loads.backward_load
-    validity["skid"] = [_Condition(slip.rolling_share == 1, both)]
-    validity["equilibrium"] = [_Condition(slip.converged, both)]
+    contributions, nut_torque, skids, settled = (
+        slip.contributions,
+        slip.nut_torque,
+        slip.rolling_share != 1,
+        slip.converged,
+    )
+    lifted = (loads.forward_load == 0) | (loads.backward_load == 0)
+    if np.any(lifted):  # a ball that has left one flank pair has two contacts
+        two = _on_two_contacts(ball, loads)
+        contributions = {name: np.where(lifted, two.contributions[name], part) for name, part in contributions.items()}
+        nut_torque = np.where(lifted, two.nut_torque, nut_torque)
+        skids = np.where(lifted, ~two.validity["skid"][0].holds, skids)
+        settled = np.where(lifted, two.validity["equilibrium"][0].holds, settled)
+    validity["skid"] = [_Condition(~skids, both)]
+    validity["equilibrium"] = [_Condition(settled, both)]
     # (15) has no part in the slip of four contacts
     validity["pure_rolling_offset"] = [_Condition(np.full(np.shape(both), True), both)]
-    return _Balls(slip.contributions, slip.nut_torque, tuple(pairs), validity)
+    return _Balls(contributions, nut_torque, tuple(pairs), validity)
 
 
 def _per_ball(part: Any) -> Any:

@@ -91,11 +91,15 @@ def test_numbers_are_those_of_python(ballscrew):
 
 @pytest.mark.parametrize("row", bs.catalogue().values(), ids=bs.catalogue())
 def test_every_row_shipped(row):
-    """Without a preload, at a tenth of its rating: all is finite, and a longer life asks for a smaller load."""
+    """With its usual preload, at a tenth of its rating: all is finite, and a preload costs life."""
     found = checked(row.name)
-    assert found.result.found.valid, found.result.found.warnings
-    assert 0.8 < float(found.result.found.efficiency) < 1
-    assert found.check("life").value == pytest.approx(1e9)
+    # the relieved flank of small oversize balls carries so little that its film is an estimate, and says so
+    outside = {reason for reason, holds in found.result.found.validity.items() if not holds}
+    assert outside <= ({"elastic_regime"} if row.nut == "oversize-balls" else set())
+    assert 0.7 < float(found.result.found.efficiency) < 1
+    without = found.check("life").value if not found.result.preload else 1e9
+    assert without == pytest.approx(1e9)
+    assert (found.check("life").value < 0.9e9) == (found.result.preload > 0)
     assert found.check("contact_pressure").passes
     assert all(check.passes is not False or check.name == "diameter_speed_product" for check in found.checks)
 
@@ -114,7 +118,7 @@ def test_what_is_given_counts():
     assumed = " ".join(found.assumed)
     for words in ("axial load", "speed 600", "as listed", "none was given"):
         assert words not in assumed
-    assert "no preload: none was given" in checked().assumed
+    assert "preload 7 % of C_a, usual for such a nut: none was given" in checked().assumed
 
 
 def test_a_row_without_ratings_and_settings(ballscrew, tmp_path):

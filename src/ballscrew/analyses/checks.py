@@ -95,8 +95,8 @@ def checks(
 
     ``axial_load`` is the mean load, which tires the screw, always in one direction; ``largest_load`` (the mean where
     None) may break it. The ratings are those of one nut body or half, as are the loaded balls of the screw.
-    ``half_loads`` are the axial forces on the loaded and, where they carry any, on the relieved flanks at the mean load, where they are known;
-    else they are those of the closed formula of :func:`loads_of_halves`.
+    ``half_loads`` are the axial forces at the mean load on the loaded flanks and, if they carry any, on the relieved
+    ones; where they are not known, those of the closed formula of :func:`loads_of_halves` are taken.
     ``maximum_pressure`` is that of the most loaded contact. Without a ``root_diameter`` that of the groove is taken.
     Raises :class:`~ballscrew.faults.InputError` for values that are not positive, loads and speed below zero, and a
     largest load below the mean.

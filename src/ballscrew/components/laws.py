@@ -228,7 +228,8 @@ def imposed_ball_force(ball_to_ball_force: Force, contact_load: Force) -> Force:
 class ProportionalBallForce:
     """A force that grows with the load of the ball; an imposed one does not count.
 
-    The default is about the paper's 1 N / z at the paper's load; no measured value is known.
+    The load of a ball is that of its contacts with one race: one on two contacts, the sum of both flank
+    pairs on four. The default is about the paper's 1 N / z at the paper's load; no measured value is known.
     """
 
     share_of_load: Annotated[

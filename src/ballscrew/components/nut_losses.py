@@ -220,7 +220,7 @@ MovingBalls = Annotated[
 class Churning:
     """Oil in the way of the balls: the drag of single spheres, SchillerNaumann1933.
 
-    Without a number of balls the loaded balls of the screw count: those of one nut body.
+    Without a number of balls the loaded balls of the screw it is called with count; a nut calls it with all its balls.
     """
 
     oil_share: OilShare = 0.0
@@ -241,7 +241,7 @@ class Churning:
 class HarrisChurning:
     """Oil in the way of the balls as bearings have it at high speed, Harris2001; thin oil only.
 
-    Without a number of balls the loaded balls of the screw count: those of one nut body.
+    Without a number of balls the loaded balls of the screw it is called with count; a nut calls it with all its balls.
     """
 
     oil_share: OilShare = 0.0

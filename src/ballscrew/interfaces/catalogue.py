@@ -11,10 +11,10 @@ from ballscrew import __version__
 from ballscrew.components.catalogue import CONFORMITY_DOUBT, TURNS_WITHOUT_LOAD, CatalogueRow, catalogue
 from ballscrew.components.screw import BallScrew
 from ballscrew.faults import Fault, InputError, nearest, raise_if_any
-from ballscrew.interfaces import units
+from ballscrew.interfaces import column_names, units
 from ballscrew.interfaces.documents import as_json
 from ballscrew.interfaces.headings import Column
-from ballscrew.interfaces.nuts import LISTED, NUTS
+from ballscrew.interfaces.nuts import LISTED, NUTS, kind_in
 from ballscrew.interfaces.rows import Row, made, read
 from ballscrew.quantities import Quantity, fields_of, quantities_of
 
@@ -22,31 +22,18 @@ _FIELDS = fields_of(CatalogueRow)
 _DERIVED = {name: quantity for name, quantity in quantities_of(CatalogueRow).items() if name not in _FIELDS}
 _DEFAULTS = {field.name: field.default for field in dataclasses.fields(CatalogueRow)}
 _REQUIRED = ("nominal_diameter", "lead", "ball_diameter", "turns")
-_ALIASES: Mapping[str, tuple[str, ...]] = {
-    "nominal_diameter": ("d0", "d", "diameter", "screw diameter", "shaft diameter"),
-    "lead": ("Ph", "P"),
-    "ball_diameter": ("Dw", "Da", "Db", "ball", "ball size", "balls"),
-    "turns": ("i", "circuits", "number of turns", "number of circuits", "effective turns"),
-    "starts": ("number of starts", "thread starts"),
-    "pitch_circle_diameter": ("Dpw", "dm", "ball circle", "ball circle diameter", "pitch circle", "PCD", "BCD"),
-    "root_diameter": ("dr", "d2", "root", "core diameter", "minor diameter"),
-    "contact_angle": ("alpha", "α"),
-    "conformity": ("f", "groove conformity"),
-    "dynamic_load_rating": (
-        "Ca", "C", "Cdyn", "dynamic", "dynamic load", "dynamic rating", "dynamic axial load rating",
-        "basic dynamic load rating",
-    ),
-    "static_load_rating": (
-        "C0a", "C0", "Coa", "Co", "C0stat", "static", "static load", "static rating", "static axial load rating",
-        "basic static load rating",
-    ),
-    "rigidity": ("stiffness", "Rnu", "K", "nut rigidity", "nut stiffness", "axial stiffness", "rigidity_10pct"),
-}  # fmt: skip
+
+
+def _column(name: str, quantity: Quantity | None = None) -> Column:
+    names, hints = column_names.NAMES.get(name, ()), column_names.HINTS.get(name, ())
+    return Column(name, quantity, names, name in _REQUIRED, hints, name in column_names.PRODUCTS)
+
+
 COLUMNS = (
-    Column("name", aliases=("model", "model no", "part number", "part no", "designation", "type", "size")),
-    *(Column(name, quantity, _ALIASES[name], name in _REQUIRED) for name, quantity in _FIELDS.items()),
-    Column("nut", aliases=("nut type", "kind of nut")),
-    Column("source"),
+    _column("name"),
+    *(_column(name, quantity) for name, quantity in _FIELDS.items()),
+    _column("nut"),
+    _column("source"),
 )
 #: Preloads of the kinds of nut, as catalogues have them.
 EXAMPLE_PRELOADS: Mapping[str, str] = {"double": "7 %", "offset-lead": "7 %", "oversize-balls": "5 %"}
@@ -73,7 +60,7 @@ def _made(row: Row, file: str, taken: dict[str, int]) -> CatalogueRow:
     faults: list[Fault] = []
     if name in taken:
         faults.append(Fault("row.name", "is given twice", name, f"row {taken[name]} has it, too: name both apart"))
-    kind = values.get("nut", "").lower().replace(" ", "-")
+    kind = kind_in(values.get("nut", ""))
     if kind and kind not in NUTS:
         faults.append(Fault("row.nut", "unknown kind of nut", values["nut"], nearest(kind, NUTS)))
     try:
@@ -91,27 +78,31 @@ def _called_by_sizes(values: Mapping[str, Any]) -> str:
     return f"{'x'.join(f'{size:.6g}' for size in sizes)}-{values['turns']:g}"
 
 
-def chosen(rows: Mapping[str, CatalogueRow], words: str) -> list[CatalogueRow]:
-    """The rows that have all these words in name, source or kind of nut."""
+def chosen(rows: Mapping[str, CatalogueRow], words: str, file: Path | None = None) -> list[CatalogueRow]:
+    """The rows that have all these words in name, source or kind of nut; a fault names the file they are of."""
     found = [
         row
         for row in rows.values()
         if all(word in f"{row.name} {row.source} {row.nut}".casefold() for word in words.casefold().split())
     ]
     if not found:
-        raise InputError(Fault("catalogue", "no row has these words", words, "leave them out to see all rows"))
+        where = "catalogue" if file is None else file.name
+        raise InputError(Fault(where, "no row has these words", words, "leave them out to see all rows"))
     return found
 
 
-def named(rows: Mapping[str, CatalogueRow], name: str, where: str = "catalogue") -> CatalogueRow:
-    """The row of that name, whatever its capitals; a fault is one of ``where`` the name was given."""
+def named(
+    rows: Mapping[str, CatalogueRow], name: str, where: str = "", file: str | Path | None = None
+) -> CatalogueRow:
+    """The row of that name, whatever its capitals; a fault is one of ``where`` the name was given, or of the file."""
     found = {known.casefold(): row for known, row in rows.items()}.get(name.casefold())
     if found is not None:
         return rows.get(name, found)
     containing = [f'"{known}"' for known in rows if name and name.casefold() in known.casefold()][:3]
     remedy = f"did you mean {' or '.join(containing)}?" if containing else nearest(name, rows)
     if not remedy.startswith("did"):
-        remedy = 'see "ballscrew catalogue list"'
+        remedy = f'see "ballscrew catalogue list{"" if file is None else f" --rows {file}"}"'
+    where = where or ("catalogue" if file is None else Path(file).name)
     raise InputError(Fault(where, "unknown row", name, remedy))
 
 

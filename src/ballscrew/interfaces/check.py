@@ -19,8 +19,8 @@ from ballscrew.faults import Fault, InputError, raise_if_any
 from ballscrew.interfaces import catalogue, config, nut_report, nut_tables, report, units
 from ballscrew.interfaces.documents import as_json
 from ballscrew.interfaces.nut_report import NutResult
-from ballscrew.interfaces.nuts import LISTED, NUTS, kind_of
-from ballscrew.quantities import Info, Quantity, fields_of, quantities_of
+from ballscrew.interfaces.nuts import LISTED, kind_of
+from ballscrew.quantities import Info, Quantity, quantities_of
 from ballscrew.solvers.load_distribution import BallLoads
 
 #: What is assumed where nothing is given.
@@ -164,8 +164,9 @@ def _filled(tables: dict[str, Any], row: CatalogueRow) -> list[str]:
         fill("lubricant", "temperature", TEMPERATURE, f"oil at {TEMPERATURE}: no temperature was given")
     kind = row.nut or "single"
     fill("nut", "type", kind, f"{kind} nut, {'as listed' if row.nut else 'as the row lists none'}")
-    if "preload" in fields_of(NUTS.get(str(tables["nut"].get("type")), SingleNut)):
-        fill("nut", "preload", "0 N", "no preload: none was given")
+    usual = catalogue.EXAMPLE_PRELOADS.get(str(tables["nut"].get("type")))
+    if usual is not None:
+        fill("nut", "preload", usual, f"preload {usual} of C_a, usual for such a nut: none was given")
     return words
 
 

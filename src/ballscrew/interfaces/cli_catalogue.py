@@ -33,7 +33,7 @@ def list_rows(
     from ballscrew.interfaces import catalogue
 
     found, notes = catalogue.load(rows, keep_going)
-    chosen = catalogue.chosen(found, " ".join(words or []))
+    chosen = catalogue.chosen(found, " ".join(words or []), rows)
     _say(notes)
     typer.echo(catalogue.list_json(chosen) if as_json else catalogue.list_text(chosen))
 
@@ -53,7 +53,7 @@ def show(
     if as_case and as_json:
         raise InputError(Fault("--case", "does not go with --json", "", "give one of the two"))
     found, notes = catalogue.load(rows, keep_going)
-    row = catalogue.named(found, name)
+    row = catalogue.named(found, name, file=rows)
     _say(notes)
     if as_case:
         typer.echo(catalogue.case_text(row))

@@ -29,7 +29,10 @@ def check(
         str | None, typer.Option("--nut", metavar="TYPE", help="single, oversize-balls, double, offset-lead.")
     ] = None,
     preload: Annotated[
-        str | None, typer.Option("--preload", metavar="FORCE", help='"3 kN", or "7 %" of C_a; none if left out.')
+        str | None,
+        typer.Option(
+            "--preload", metavar="FORCE", help='"3 kN", or "7 %" of C_a; if left out, 7 % (oversize balls 5 %).'
+        ),
     ] = None,
     length: Annotated[
         str | None, typer.Option("--length", metavar="LENGTH", help='Longest stretch without support, "1.2 m".')

@@ -1,8 +1,8 @@
 """Headings as people write them: which column is meant, and in which unit its numbers are.
 
 A heading is the name of a column, or one of the other names it has in the field, with its unit:
-``lead_mm``, ``Ph [mm]``, ``Dynamic load rating Ca (kN)``, ``stiffness_kgf_per_um``. Capitals, blanks and hyphens
-do not count.
+``lead_mm``, ``Ph [mm]``, ``Dynamic load rating Ca (kN)``, ``Nenndurchmesser d0 [mm]``, ``stiffness_kgf_per_um``.
+Capitals, blanks and hyphens do not count. A heading that could mean two columns means none.
 """
 
 from __future__ import annotations
@@ -28,6 +28,9 @@ _BRACKETED = re.compile(r"(?P<name>.*?)[\s_]*[\[(](?P<unit>[^\[\]()]*)[\])]")
 _WORD = re.compile(r"[^\W_]+")
 #: Units as headings have them, and as they stand in case files.
 _UNITS = {"Nm": "N m", "Nmm": "N mm", "Ncm": "N cm"}
+#: Other spellings: of letters and signs, and of words.
+_LETTERS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "×": " x "})
+_WORDS = {"dia": "diameter", "ø": "diameter", "no": "number"}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -38,6 +41,10 @@ class Column:
     quantity: Quantity | None = None
     aliases: tuple[str, ...] = ()
     required: bool = False
+    #: Names that mean the column only beside one of its own: ``d``, ``load rating``.
+    hints: tuple[str, ...] = ()
+    #: Whether a cell may be a product: ``2x2.5``.
+    product: bool = False
 
     def answers_to(self, name: str) -> bool:
         """Whether the column has this name."""
@@ -46,6 +53,17 @@ class Column:
     @functools.cached_property
     def _names(self) -> frozenset[str]:
         return frozenset(map(_bare, (self.name, *self.aliases)))
+
+    def is_named(self, text: str) -> bool:
+        """Whether a text is a name of the column, or two of them, or one and a hint: "Dynamic load rating Ca"."""
+        if self.answers_to(text):
+            return True
+        hints = frozenset(map(_bare, self.hints))
+        for word in list(_WORD.finditer(text))[1:]:
+            halves = {_bare(text[: word.start()]), _bare(text[word.start() :])}
+            if halves & self._names and halves <= self._names | hints:
+                return True
+        return False
 
     @property
     def example(self) -> str:
@@ -70,15 +88,8 @@ class Heading:
 @functools.lru_cache(maxsize=4096)
 def _bare(name: str) -> str:
     """A name without what does not count: capitals, blanks, hyphens, subscripts."""
-    return "".join(_WORD.findall(unicodedata.normalize("NFKC", name).casefold()))
-
-
-def _is_named(text: str, column: Column) -> bool:
-    """Whether a text is a name of the column, or two of them: "Dynamic load rating Ca"."""
-    words = list(_WORD.finditer(text))
-    return column.answers_to(text) or any(
-        column.answers_to(text[: word.start()]) and column.answers_to(text[word.start() :]) for word in words[1:]
-    )
+    plain = unicodedata.normalize("NFKC", name).casefold().translate(_LETTERS)
+    return "".join(_WORDS.get(word, word) for word in _WORD.findall(plain))
 
 
 def heading_of(cell: Any, place: int, columns: Sequence[Column]) -> Heading | None:
@@ -88,15 +99,14 @@ def heading_of(cell: Any, place: int, columns: Sequence[Column]) -> Heading | No
     written = " ".join(cell.split())
     bracketed = _BRACKETED.fullmatch(written)
     name, unit = (bracketed["name"], bracketed["unit"].strip()) if bracketed else (written, "")
-    for column in columns:
-        if _is_named(name, column):
-            no_unit = unit in NOTHING or column.answers_to(unit)
-            return Heading(written, column, place, "" if no_unit else _spelt(unit))
-    for column in () if bracketed else columns:
-        unit = _unit_behind(name, column)
-        if unit:
-            return Heading(written, column, place, unit)
-    return None
+    meant = [column for column in columns if column.is_named(name)]
+    if len(meant) == 1:
+        no_unit = unit in NOTHING or meant[0].answers_to(unit)
+        return Heading(written, meant[0], place, "" if no_unit else _spelt(unit))
+    if meant or bracketed:
+        return None
+    found = [Heading(written, column, place, behind) for column in columns if (behind := _unit_behind(name, column))]
+    return found[0] if len(found) == 1 else None
 
 
 def _unit_behind(written: str, column: Column) -> str:
@@ -105,7 +115,7 @@ def _unit_behind(written: str, column: Column) -> str:
         return ""
     for word in reversed(list(_WORD.finditer(written))[1:]):
         unit = _spelt(written[word.start() :])
-        if _is_named(written[: word.start()], column) and not isinstance(_scale("", unit, column.quantity), Fault):
+        if column.is_named(written[: word.start()]) and not isinstance(_scale("", unit, column.quantity), Fault):
             return unit
     return ""
 
@@ -177,9 +187,8 @@ def checked(
                 known.append(heading)
             else:
                 faults.append(Fault(where, "needs a unit", "", f'write "{heading.written} [{quantity.shown_in}]"'))
-    raise_if_any(faults)
-    missing = [column for column in columns if column.required and all(h.column is not column for h in known)]
-    raise_if_any([_missing(path, column, headings, first) for column in missing])
+    missing = [column for column in columns if column.required and all(h.column is not column for h in headings)]
+    raise_if_any([*(_missing(path, column, headings, first) for column in missing), *faults])
     return known
 
 

@@ -34,7 +34,7 @@ def row_of(
         return None
     try:
         found = catalogue.load(None if file is None else folder / file)[0] if rows is None else rows
-        return catalogue.named(found, name, "screw.catalogue")
+        return catalogue.named(found, name, "screw.catalogue", file)
     except InputError as error:
         faults += error.faults
         return None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 
 from ballscrew.components import nut_losses
@@ -18,6 +19,18 @@ NUTS: Mapping[str, type[Nut]] = {
     "double": DoubleNut,
     "offset-lead": OffsetLeadNut,
 }
+#: What catalogues call them in words, besides "nut" and "flange". A single nut that is preloaded may be two of the
+#: kinds: nothing is guessed.
+_IN_WORDS: Mapping[str, str] = {
+    "single": "single", "einzel": "single", "not preloaded": "single", "without preload": "single",
+    "ohne vorspannung": "single",
+    "double": "double", "doppel": "double", "preloaded double": "double", "double preloaded": "double",
+    "vorgespannte doppel": "double",
+    "oversize balls": "oversize-balls", "oversize ball": "oversize-balls", "oversized balls": "oversize-balls",
+    "single oversize balls": "oversize-balls", "single oversized balls": "oversize-balls",
+    "offset lead": "offset-lead", "lead offset": "offset-lead", "offset pitch": "offset-lead",
+    "single offset lead": "offset-lead",
+}  # fmt: skip
 #: What a nut loses besides its balls, and the laws of each; the first is meant where none is named.
 LOSSES: Mapping[str, Mapping[str, type[ParasiticLaw]]] = {
     "seals": {"known": nut_losses.Seals, "lips": nut_losses.LipSeals},
@@ -37,6 +50,13 @@ PERCENT = Quantity("preload", "1", Info("p", "share of the dynamic load rating, 
 
 class Share(float):
     """A preload as a share of the dynamic load rating."""
+
+
+def kind_in(words: str) -> str:
+    """The kind of nut that these words are: ``Preloaded double nut``, ``Doppelmutter``; as written if it is none."""
+    plain = re.sub(r"[\s_-]+", " ", words.casefold())
+    plain = " ".join(re.sub(r"\bflanged?\b|\bflansch|nuts?\b|muttern?\b|\bwith\b|\bmit\b", " ", plain).split())
+    return _IN_WORDS.get(plain, words.lower().replace(" ", "-"))
 
 
 def kind_of(nut: Nut) -> str:

@@ -21,6 +21,7 @@ from ballscrew.interfaces.sheets import Record, records
 
 T = TypeVar("T")
 
+_PRODUCT = re.compile(r"([\d.,]+)\s*[x×*]\s*([\d.,]+)", re.IGNORECASE)
 _NUMBER = re.compile(r"[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|nan|inf(?:inity)?)", re.IGNORECASE)
 
 
@@ -176,6 +177,10 @@ def _parsed(where: str, text: str, heading: Heading, decimal: frozenset[str]) ->
     """The number of a text; a unit of its own comes before that of the heading."""
     quantity = heading.column.quantity
     assert quantity is not None
+    product = _PRODUCT.fullmatch(text) if heading.column.product else None
+    if product is not None:
+        one, other = (_parsed(where, factor, heading, decimal) for factor in product.groups())
+        return one if isinstance(one, Fault) else other if isinstance(other, Fault) else one * other
     plain = decimals.with_point(where, text, decimal)
     if isinstance(plain, Fault):
         return plain

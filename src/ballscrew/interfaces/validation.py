@@ -203,8 +203,8 @@ def fingerprint(file: str) -> str:
 
 
 def json_text(entries: Sequence[Entry]) -> str:
-    """A list with an object for each set and model, SI. Non-finite is null."""
-    return as_json([_document(entry) for entry in entries])
+    """A list with an object for each set and model, uncalibrated first, SI. Non-finite is null."""
+    return as_json([_document(entry) for entry in sorted(entries, key=lambda entry: entry.calibration is not None)])
 
 
 def _document(entry: Entry) -> dict[str, Any]:
@@ -216,12 +216,12 @@ def _document(entry: Entry) -> dict[str, Any]:
         "mean_ratio": entry.mean_ratio,
         "std_ratio": entry.std_ratio,
         "share_in_band": entry.share_in_band,
-        "unit": entry.data.quantity.unit,
-        "rows": [_row(point) for point in entry.points],
+        **({"static_mean_ratio": static} if (static := entry.mean_definitions.get("static")) is not None else {}),
+        "rows": [_row(point, entry.data.quantity.unit) for point in entry.points],
     }
 
 
-def _row(point: Point) -> dict[str, Any]:
+def _row(point: Point, unit: str) -> dict[str, Any]:
     ratios = {
         "definitions": dict(point.definitions),
         "laws": dict(point.laws),
@@ -229,6 +229,7 @@ def _row(point: Point) -> dict[str, Any]:
     }
     return {
         "name": point.name,
+        "unit": unit,
         "value": point.value,
         **point.band._asdict(),
         "ratio": point.ratio,

@@ -56,6 +56,8 @@ class BallLoads:
     rigidity: Annotated[Stiffness, Info("R_nu", "axial rigidity of the nut at this load", "N/um")]
     remaining_preload: Annotated[Force, Info("F_b", "axial force left on the flank that the load relieves")]
     lift_off_load: Annotated[Force, Info("F_l", "axial load that lifts the other flank off, bodies rigid")]
+    #: That of all balls together. What is left at one ball between elastic bodies, beyond rounding, is less than a
+    #: millionth of load and preload, or else it stands here.
     residual: Annotated[Ratio, Info(r"\epsilon", "imbalance / (load + preload)")]
 
     @property

@@ -1,0 +1,68 @@
+"""What vendors call the columns of their tables, in English and German.
+
+A name is enough by itself. A hint is a name of more than one thing ("load rating", "d"): it counts only beside a name.
+Capitals, blanks, hyphens and subscripts do not count; "dia." and "Ø" stand for "diameter", "No." for "number".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+NAMES: Mapping[str, tuple[str, ...]] = {
+    "name": (
+        "model", "model no", "part number", "part no", "designation", "type", "size",
+        "Bezeichnung", "Typ", "Materialnummer", "Teilenummer",
+    ),
+    "nominal_diameter": (
+        "d0", "screw diameter", "shaft diameter", "screw shaft diameter", "screw shaft outer diameter",
+        "shaft outer diameter", "Nenndurchmesser", "Nenn-Ø", "Spindeldurchmesser",
+    ),
+    "lead": ("Ph", "P", "Steigung", "Spindelsteigung"),
+    "ball_diameter": ("Dw", "Da", "Db", "ball", "ball size", "balls", "Kugeldurchmesser", "Kugel-Ø"),
+    "turns": (
+        "i", "circuits", "number of turns", "number of circuits", "effective turns", "effective turns of balls",
+        "loaded circuits", "number of loaded circuits", "loaded turns", "number of loaded turns",
+        "rows x turns", "turns x rows", "turns x circuits", "circuits x turns",
+        "Umläufe", "tragende Umläufe", "Anzahl Umläufe", "Anzahl tragender Umläufe", "Zahl der Umläufe",
+        "Zahl der tragenden Umläufe", "Kugelumläufe",
+    ),
+    "starts": ("number of starts", "thread starts", "Gangzahl", "Anzahl Gänge"),
+    "pitch_circle_diameter": (
+        "Dpw", "dm", "dp", "ball circle", "ball circle diameter", "pitch circle", "PCD", "BCD",
+        "ball centre-to-centre diameter", "ball center-to-center diameter",
+        "Teilkreisdurchmesser", "Teilkreis-Ø", "Teilkreis", "Kugelmittenkreisdurchmesser",
+    ),
+    "root_diameter": (
+        "dr", "d2", "dc", "root", "core diameter", "minor diameter", "thread minor diameter",
+        "Kerndurchmesser", "Kern-Ø",
+    ),
+    "contact_angle": ("alpha", "α", "Kontaktwinkel", "Druckwinkel"),
+    "conformity": ("f", "groove conformity", "Schmiegung"),
+    "dynamic_load_rating": (
+        "Ca", "C", "Cdyn", "dynamic", "dynamic load", "dynamic rating", "dynamic axial load rating",
+        "basic dynamic load rating", "dyn. load rating",
+        "dynamische Tragzahl", "dyn. Tragzahl", "Tragzahl dyn.", "Tragzahl dynamisch", "dynamische axiale Tragzahl",
+    ),
+    "static_load_rating": (
+        "C0a", "C0", "Coa", "Co", "C0stat", "static", "static load", "static rating", "static axial load rating",
+        "basic static load rating", "stat. load rating",
+        "statische Tragzahl", "stat. Tragzahl", "Tragzahl stat.", "Tragzahl statisch", "statische axiale Tragzahl",
+    ),
+    "rigidity": (
+        "stiffness", "Rnu", "K", "nut rigidity", "nut stiffness", "axial stiffness", "rigidity_10pct",
+        "Steifigkeit", "Mutternsteifigkeit", "axiale Steifigkeit",
+    ),
+    "nut": ("nut type", "kind of nut", "Mutterart", "Muttertyp", "Mutter"),
+    "source": ("Quelle",),
+}  # fmt: skip
+_RATING = ("load rating", "basic load rating", "axial load rating", "Tragzahl")
+HINTS: Mapping[str, tuple[str, ...]] = {
+    "nominal_diameter": ("d", "diameter", "Durchmesser"),
+    "pitch_circle_diameter": ("diameter", "Durchmesser"),
+    "root_diameter": ("diameter", "Durchmesser"),
+    "ball_diameter": ("diameter", "Durchmesser"),
+    "dynamic_load_rating": _RATING,
+    "static_load_rating": _RATING,
+}
+#: Columns whose cells may be products: "2x2.5".
+PRODUCTS = ("turns",)
