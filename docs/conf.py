@@ -37,11 +37,13 @@ def generate(_app):
     import law_tables
     import nut_tables
     from ballscrew.interfaces.reproduce import reproduce_olaru2005
+    from column_table import column_table
     from field_table import field_table
 
     generated = HERE / "generated"
     generated.mkdir(exist_ok=True)
     pages = {
+        "columns.md": column_table(),
         "fields.md": field_table(),
         "slots.md": law_tables.slots_table(),
         "laws.md": law_tables.laws_table(),

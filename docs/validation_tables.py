@@ -7,9 +7,13 @@ import subprocess
 import sys
 from pathlib import Path
 
-from ballscrew.analyses.validation import DESCRIPTORS, trends
-from ballscrew.calibrations import PARAMETERS, calibration
+from ballscrew.analyses.validation import DESCRIPTORS, Conditions, trends
+from ballscrew.assembly import nut_friction
+from ballscrew.calibrations import PARAMETERS, calibrated, calibration
+from ballscrew.components.catalogue import catalogue
+from ballscrew.components.nut import DoubleNut, OversizeBallNut
 from ballscrew.interfaces import validation
+from ballscrew.model import FrictionModel
 
 SCRIPT = Path(__file__).parents[1] / "benchmarks" / "fit_calibration.py"
 SYMBOLS = {"boundary_friction_coefficient": "µ₀", "share_of_load": "F_B/Q"}
@@ -150,9 +154,9 @@ def numbers() -> dict[str, str]:
     by_key = {(entry.data.name, entry.calibration is not None): entry for entry in _entries()}
     values: dict[str, str] = {}
     for key, name in (("double", "rexroth-double-nut"), ("single", "rexroth-single-nut"), ("thk", "thk-jis")):
-        for calibrated in (False, True):
-            entry = by_key[name, calibrated]
-            prefix = f"{key}_{'calibrated' if calibrated else 'raw'}"
+        for fitted in (False, True):
+            entry = by_key[name, fitted]
+            prefix = f"{key}_{'calibrated' if fitted else 'raw'}"
             values[f"{prefix}_mean"] = f"{entry.mean_ratio:.2f}"
             values[f"{prefix}_share"] = _percent(entry.share_in_band)
             values[f"{prefix}_outside"] = ", ".join(
@@ -170,6 +174,8 @@ def numbers() -> dict[str, str]:
     values |= {"double_jis": f"{double['jis']:.2f}", "double_efficiency": f"{double['efficiency']:.2f}"}
     ratings = by_key["hiwin-ratings", False].points
     off = [p for p in ratings if abs(p.ratio - 1) > C_A or abs(p.definitions["static"] - 1) > C_0A]
+    values["chain_share"] = _percent(_chain_share("double", DoubleNut, (7, 10)))
+    values["chain_share_single"] = _percent(_chain_share("oversize-balls", OversizeBallNut, (5,)))
     values["ratings_good"] = f"{len(ratings) - len(off)} of {len(ratings)}"
     values["ratings_off"] = "; ".join(
         f"{p.name}: C_a {p.ratio:.3f}, C_0a {p.definitions['static']:.3f}, with one ball less a turn"
@@ -184,6 +190,20 @@ def _steep_and_fine(entry) -> tuple[float, float]:
     steep = [p.ratio for p in entry.points if p.descriptors["steepness"] >= 1]
     fine = [p.ratio for p in entry.points if p.descriptors["steepness"] < 1]
     return sum(steep) / len(steep), sum(fine) / len(fine)
+
+
+def _chain_share(kind, nut, percents) -> float:
+    """Mean share of the force between balls in the calibrated no-load torque of the vendor's rows."""
+    model, at = calibrated(FrictionModel.reference(), calibration("rexroth-2006")), Conditions()
+    shares = []
+    for row in catalogue().values():
+        if row.nut != kind:
+            continue
+        for percent in percents:
+            braced = nut(preload=percent / 100 * row.dynamic_load_rating)
+            r = nut_friction(model, row.screw(), braced, at.lubricant, axial_load=0.0, screw_speed=at.screw_speed)
+            shares.append(float(r.contributions["ball_to_ball"] / r.screw_torque))
+    return sum(shares) / len(shares)
 
 
 def _entries():

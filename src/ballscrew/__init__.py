@@ -17,10 +17,13 @@ if TYPE_CHECKING:
     from ballscrew.components.materials import Lubricant as Lubricant
     from ballscrew.components.materials import Material as Material
     from ballscrew.components.mixed_friction import ZhouHoeprich as ZhouHoeprich
+    from ballscrew.components.nut import Bodies as Bodies
+    from ballscrew.components.nut import Deviations as Deviations
     from ballscrew.components.nut import DoubleNut as DoubleNut
     from ballscrew.components.nut import OffsetLeadNut as OffsetLeadNut
     from ballscrew.components.nut import OversizeBallNut as OversizeBallNut
     from ballscrew.components.nut import SingleNut as SingleNut
+    from ballscrew.components.nut_losses import Seals as Seals
     from ballscrew.components.screw import BallScrew as BallScrew
     from ballscrew.faults import InputError as InputError
     from ballscrew.model import FrictionModel as FrictionModel
@@ -30,6 +33,8 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "BallScrew": "ballscrew.components.screw",
+    "Bodies": "ballscrew.components.nut",
+    "Deviations": "ballscrew.components.nut",
     "DoubleNut": "ballscrew.components.nut",
     "FrictionModel": "ballscrew.model",
     "FrictionResult": "ballscrew.result",
@@ -39,6 +44,7 @@ _HOMES = {
     "Material": "ballscrew.components.materials",
     "OffsetLeadNut": "ballscrew.components.nut",
     "OversizeBallNut": "ballscrew.components.nut",
+    "Seals": "ballscrew.components.nut_losses",
     "SingleNut": "ballscrew.components.nut",
     "ZhouHoeprich": "ballscrew.components.mixed_friction",
     "catalogue": "ballscrew.components.catalogue",
@@ -48,6 +54,8 @@ _HOMES = {
 
 __all__ = [
     "BallScrew",
+    "Bodies",
+    "Deviations",
     "DoubleNut",
     "FrictionModel",
     "FrictionResult",
@@ -57,6 +65,7 @@ __all__ = [
     "Material",
     "OffsetLeadNut",
     "OversizeBallNut",
+    "Seals",
     "SingleNut",
     "ZhouHoeprich",
     "__version__",

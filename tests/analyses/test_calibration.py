@@ -36,7 +36,8 @@ def linear(script):
     best = np.array([STORED.boundary_friction_coefficient, STORED.share_of_load])
 
     def residuals(x):
-        return np.array([script.in_half_bands(point) for point in script.points(script.entries(script.declared(*map(float, x))))])
+        sets = script.entries(script.declared(*map(float, x)))
+        return np.array([script.in_half_bands(point) for point in script.points(sets)])
 
     at = residuals(best)
     slopes = []

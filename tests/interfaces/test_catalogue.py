@@ -14,7 +14,7 @@ from ballscrew.components.catalogue import SMALLEST_BALL, CatalogueRow, catalogu
 from ballscrew.faults import InputError
 from ballscrew.interfaces import catalogue as people
 from ballscrew.interfaces import config
-from ballscrew.interfaces.nuts import NUTS
+from ballscrew.interfaces.nuts import NUTS, kind_in
 
 DATA = Path(__file__).parents[1] / "data"
 ROWS = catalogue()
@@ -235,6 +235,33 @@ def test_own_rows_as_the_vendors_list_them(ballscrew):
         for field, value in first.items():
             expected = getattr(ROWS[like], field)
             assert value == (None if expected is None else pytest.approx(expected, rel=1e-12)), field
+
+
+@pytest.mark.parametrize(
+    ("words", "kind"),
+    [("Doppelmutter", "double"), ("Einzelmutter", "single"), ("double", "double"), ("Double Nut", "double"),
+     ("preloaded double nut", "double"), ("Flanged single nut", "single"), ("Flansch-Einzelmutter", "single"),
+     ("vorgespannte Doppelmutter", "double"), ("oversized balls", "oversize-balls"), ("Offset lead", "offset-lead"),
+     ("oversize-balls", "oversize-balls"), ("", "")],
+)  # fmt: skip
+def test_nuts_in_words(words, kind):
+    assert kind_in(words) == kind
+
+
+def test_kinds_of_nuts_are_not_guessed():
+    """A single nut with preload may have oversize balls or an offset lead."""
+    for words in ("preloaded single nut", "duble", "nut"):
+        assert kind_in(words) not in NUTS
+    assert all(kind_in(kind) == kind for kind in NUTS)
+
+
+def test_an_unknown_row_is_one_of_its_file(ballscrew, tmp_path):
+    (tmp_path / "own.csv").write_text(OWN, encoding="cp1252")
+    problem = 'own.csv: unknown row (zzz) · see "ballscrew catalogue list --rows own.csv"'
+    refused(ballscrew("catalogue", "show", "zzz", "--rows", "own.csv"), problem)
+    refused(ballscrew("check", "zzz", "--rows", "own.csv"), problem)
+    refused(ballscrew("catalogue", "list", "zzz", "--rows", "own.csv"), "own.csv: no row has these words (zzz)")
+    refused(ballscrew("catalogue", "show", "zzz"), 'catalogue: unknown row (zzz) · see "ballscrew catalogue list"')
 
 
 def test_a_spreadsheet_of_ones_own(ballscrew, tmp_path):

@@ -12,6 +12,7 @@ from ballscrew.analyses.checks import ratings_of
 from ballscrew.components.nut import Bodies
 from ballscrew.interfaces import check as work
 from ballscrew.interfaces import config
+from ballscrew.interfaces.wrapping import WIDTH
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "catalogue_screw.toml"
@@ -194,7 +195,8 @@ def test_all_rows_of_a_table(ballscrew):
     assert [document["name"] for document in documents] == [line.split()[0] for line in lines[1:]]
     assert "balls" not in documents[0]["loads"]
     listed = ballscrew("check", "double", "--all")
-    assert len(listed.stdout.splitlines()) == 1 + sum(row.nut == "double" for row in bs.catalogue().values())
+    names = [line for line in listed.stdout.splitlines() if not line.startswith(" ")]
+    assert len(names) == 1 + sum(row.nut == "double" for row in bs.catalogue().values())
 
 
 def test_bad_rows_are_named_and_good_ones_kept(ballscrew, tmp_path):
@@ -212,14 +214,14 @@ def test_bad_rows_are_named_and_good_ones_kept(ballscrew, tmp_path):
 
 
 def test_rows_that_do_not_go_with_what_was_asked(ballscrew):
-    problem = 'A-50x20-3.5 (screws.csv row 5), nut.preload: a nut of type "single" has none (5 %)'
+    problem = 'A-50x20-3.5 (screws.csv row 5), --preload: a nut of type "single" has none (5 %)'
     refused(ballscrew("check", "--rows", SCREWS, "--preload", "5 %"), problem)
     process = ballscrew("check", "--rows", SCREWS, "--preload", "5 %", "--keep-going")
     assert problem in process.stderr
     assert process.stderr.splitlines()[-1] == "1 of 4 rows left out"
     assert len(process.stdout.splitlines()) == 4
     # what is wrong with all rows alike is said once
-    refused(ballscrew("check", "--rows", SCREWS, "--speed", "5 mm"), "operation.screw_speed: wrong unit (5 mm)")
+    refused(ballscrew("check", "--rows", SCREWS, "--speed", "5 mm"), "--speed: wrong unit (5 mm)")
 
 
 def test_a_spreadsheet(ballscrew, tmp_path):
@@ -240,20 +242,52 @@ def test_bad_input(ballscrew, tmp_path):
     refused(ballscrew("check", "none.toml"), "none.toml: does not exist")
     refused(ballscrew("check", "some/where"), "does not exist")
     refused(ballscrew("check", SCREWS), f"is a table, not a case · write --rows {SCREWS}")
-    refused(ballscrew("check", NAME, "--axial-load", "5 mm"), "operation.axial_load: wrong unit (5 mm)")
-    refused(ballscrew("check", NAME, "--preload", "7"), "nut.preload: needs a unit (7)")
+    refused(ballscrew("check", NAME, "--axial-load", "5 mm"), "--axial-load: wrong unit (5 mm)")
+    refused(ballscrew("check", NAME, "--preload", "7"), '--preload: needs a unit (7) · write "7 %" of the dynamic')
+    refused(ballscrew("check", NAME, "--preload", "0.07"), '--preload: needs a unit (0.07) · write "7 %" of the')
+    refused(ballscrew("check", NAME, "--preload", "700"), '--preload: needs a unit (700) · write "700 N"')
+    refused(ballscrew("check", NAME, "--set", "nut.preload=7"), 'nut.preload: needs a unit (7) · write "7 %"')
+    refused(ballscrew("check", NAME, "--nut", "duble"), '--nut: unknown kind of nut (duble) · did you mean "double"?')
+    refused(ballscrew("check", NAME, "--length", "1 m"), '--ends: missing · add --ends "')
+    refused(ballscrew("check", NAME, "--ends", "fixed-free"), '--length: missing · add --length "1 m"')
+    bad = ("--nut", "single", "--preload", "5 %")
     refused(
-        ballscrew("check", NAME, "--nut", "duble"), 'nut.type: unknown kind of nut (duble) · did you mean "double"?'
+        ballscrew("check", NAME, *bad), '--preload: a nut of type "single" has none (5 %) · leave it out, or take --nut'
     )
-    refused(ballscrew("check", NAME, "--length", "1 m"), "installation.ends: missing · add ends")
-    refused(ballscrew("check", NAME, "--ends", "fixed", "--length", "1 m"), "installation.ends: unknown kind of ends")
-    refused(ballscrew("check", NAME, "--grade", "VG 99"), "lubricant.grade")
+    refused(ballscrew("check", NAME, "--ends", "fixed", "--length", "1 m"), "--ends: unknown kind of ends")
+    refused(ballscrew("check", NAME, "--grade", "VG 99"), "--grade: ")
+    refused(ballscrew("check", NAME, "--model", "x"), "--model: unknown model (x)")
+    refused(ballscrew("check", NAME, "--set", "model.name=x"), "model.name: unknown model (x)")
     refused(ballscrew("check", NAME, "--set", "nut=double"), "--set: is not section.field=value")
     refused(ballscrew("check", NAME, "--set", "screw.lead=1 mm"), "too big for the lead")
 
 
+def test_a_check_that_fails_is_no_error(ballscrew):
+    process = ballscrew("check", NAME, "--length", "9 m", "--ends", "fixed-free")
+    assert process.returncode == 0
+    assert "FAILS" in process.stdout
+
+
+@pytest.mark.parametrize("what", [(NAME, "--preload", "7 %", "--nut", "offset-lead"), (EXAMPLE,), ("--all",)])
+def test_no_line_is_wider_than_the_widest(ballscrew, what):
+    process = ballscrew("check", *what)
+    assert process.returncode == 0, process.stderr
+    assert max(map(len, process.stdout.splitlines())) <= WIDTH
+
+
+def test_long_verdicts_go_on_below_themselves(ballscrew):
+    lines = ballscrew("check", "125x10x6.5-6-double", "--all").stdout.splitlines()
+    place = lines[0].index("verdict")
+    assert lines[1][place:].startswith("fails: diameter speed")
+    assert len(lines) > 2
+    assert all(line[:place].isspace() for line in lines[2:])
+    words = " ".join(line[place:].strip() for line in lines[1:])
+    assert words == "fails: diameter speed product; 4 of 8 not judged"
+
+
 def test_help_is_there(ballscrew):
     text = ballscrew("check", "--help").stdout
+    assert "exit code is 0 where a check fails" in " ".join(text.split())
     for option in ("--rows", "--axial-load", "--preload", "--length", "--ends", "--calibration", "--keep-going"):
         assert option in text
     assert "{models}" not in text

@@ -8,19 +8,20 @@ import pytest
 from ballscrew.components.screw import MATERIALS
 from ballscrew.faults import Fault
 from ballscrew.interfaces import units
+from ballscrew.interfaces.catalogue import COLUMNS
 from ballscrew.quantities import within_bounds
 
 ROOT = Path(__file__).parents[2]
 
 
-def _field_table():
-    spec = importlib.util.spec_from_file_location("field_table", ROOT / "docs" / "field_table.py")
+def _of_docs(name):
+    spec = importlib.util.spec_from_file_location(name, ROOT / "docs" / f"{name}.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
 
 
-FIELD_TABLE = _field_table()
+FIELD_TABLE = _of_docs("field_table")
 EXAMPLES = list(FIELD_TABLE.examples())
 
 
@@ -41,3 +42,12 @@ def test_every_section_has_its_name():
     table = FIELD_TABLE.field_table()
     for name in ("screw", *(f"screw.{material}" for material in MATERIALS), "lubricant", "operation", "model"):
         assert f"`[{name}]`" in table
+
+
+def test_every_name_of_a_column_is_in_the_table_of_columns():
+    lines = {line.split("`")[1]: line for line in _of_docs("column_table").column_table().splitlines()[2:]}
+    assert list(lines) == [column.name for column in COLUMNS]
+    for column in COLUMNS:
+        assert all(f"`{name}`" in lines[column.name] for name in (*column.aliases, *column.hints))
+        assert ("| yes |" in lines[column.name]) == column.required
+    assert "| mm |" in lines["lead"]

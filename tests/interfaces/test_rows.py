@@ -10,12 +10,14 @@ import openpyxl
 import pytest
 import xlsxwriter
 
+from ballscrew.analyses.validation_sets import SETS
 from ballscrew.components.catalogue import CatalogueRow
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.faults import Fault, InputError
 from ballscrew.interfaces import decimals, rows, units
 from ballscrew.interfaces.catalogue import COLUMNS
 from ballscrew.interfaces.headings import Column, heading_of
+from ballscrew.interfaces.validation import columns_of
 from ballscrew.quantities import fields_of
 
 FIELDS = fields_of(CatalogueRow)
@@ -64,7 +66,37 @@ def lines_of(action, *arguments, **options):
         ("d₀ [mm]", "nominal_diameter", "mm"),
         ("Nominal-Diameter d0 (mm)", "nominal_diameter", "mm"),
         ("Dw [mm]", "ball_diameter", "mm"),
-        ("Ball Ø [mm]", None, ""),
+        ("Ball Ø [mm]", "ball_diameter", "mm"),
+        ("Ball ⌀ [mm]", "ball_diameter", "mm"),
+        ("Nenndurchmesser d0 [mm]", "nominal_diameter", "mm"),
+        ("Screw shaft outer dia. d (mm)", "nominal_diameter", "mm"),
+        ("Durchmesser d0 [mm]", "nominal_diameter", "mm"),
+        ("d [mm]", None, ""),
+        ("d_mm", None, ""),
+        ("Dia. d [mm]", None, ""),
+        ("Ø [mm]", None, ""),
+        ("Steigung P [mm]", "lead", "mm"),
+        ("Kugel-Ø Dw [mm]", "ball_diameter", "mm"),
+        ("Ball dia. (mm)", "ball_diameter", "mm"),
+        ("Teilkreisdurchmesser [mm]", "pitch_circle_diameter", "mm"),
+        ("Ball centre-to-centre dia dp mm", "pitch_circle_diameter", "mm"),
+        ("Thread minor dia dc mm", "root_diameter", "mm"),
+        ("Kerndurchmesser d2 [mm]", "root_diameter", "mm"),
+        ("Root dia", "root_diameter", ""),
+        ("tragende Umläufe i", "turns", ""),
+        ("Umlaeufe", "turns", ""),
+        ("No. of loaded circuits Rows × turns", "turns", ""),
+        ("Gangzahl", "starts", ""),
+        ("dynamische Tragzahl C [kN]", "dynamic_load_rating", "kN"),
+        ("Tragzahl C0a [kN]", "static_load_rating", "kN"),
+        ("Basic load rating Ca kN", "dynamic_load_rating", "kN"),
+        ("Basic load rating [kN]", None, ""),
+        ("Steifigkeit [N/µm]", "rigidity", "N/µm"),
+        ("Druckwinkel α [°]", "contact_angle", "°"),
+        ("Schmiegung", "conformity", ""),
+        ("Bezeichnung", "name", ""),
+        ("Mutterart", "nut", ""),
+        ("preload 10 % of Ca [kN]", None, ""),
         ("dm [mm]", "pitch_circle_diameter", "mm"),
         ("d_m_mm", "pitch_circle_diameter", "mm"),
         ("d_m", "pitch_circle_diameter", ""),
@@ -96,6 +128,42 @@ def lines_of(action, *arguments, **options):
 def test_headings(written, name, unit):
     heading = heading_of(written, 0, COLUMNS)
     assert (heading and heading.column.name, heading.unit if heading else "") == (name, unit)
+
+
+@pytest.mark.parametrize("columns", [COLUMNS, *map(columns_of, SETS.values())])
+def test_no_name_means_two_columns(columns):
+    """Each name means its own column, alone and beside its other names and hints; no hint means one alone."""
+    for column in columns:
+        names = (column.name, *column.aliases)
+        for text in (*names, *(f"{one} {other}" for one in names for other in (*names, *column.hints))):
+            found = heading_of(text, 0, columns)
+            assert found is not None, text
+            assert found.column is column, text
+        assert [heading_of(hint, 0, columns) for hint in column.hints] == [None] * len(column.hints)
+
+
+def test_what_means_two_columns_means_none():
+    twins = (Column("one", aliases=("both",)), Column("two", aliases=("both",)))
+    assert heading_of("both", 0, twins) is None
+
+
+def test_turns_may_be_products(table):
+    columns = [column for column in COLUMNS if column.name in ("turns", "rigidity")]
+    found = table("Rows x turns\n2x2.5\n2.5 × 2\n1X3\n5\n2x\n2x2x2\n-2x2\n", columns)
+    assert values(found, "turns") == [5, 5, 3, 5]
+    assert [line for line, _ in found.faults] == [6, 7, 8]
+    commas = table("Umläufe;Steifigkeit [N/um]\n2x2,5;1,5\n", columns)
+    assert values(commas, "turns") == [5]
+    assert "takes no unit (2x2)" in str(table("starts\n2x2\n", (STARTS,)).faults[0][1])
+
+
+def test_missing_columns_and_units_are_said_at_once(table):
+    lines = lines_of(table, "d0,Dw,i,name\n40,6,4,A\n", COLUMNS)
+    assert lines == [
+        'screws.csv: has no column "lead [mm]" · it may also be called Ph, P, Steigung',
+        'screws.csv column "d0": needs a unit · write "d0 [mm]"',
+        'screws.csv column "Dw": needs a unit · write "Dw [mm]"',
+    ]
 
 
 def test_units_are_those_of_case_files(table):

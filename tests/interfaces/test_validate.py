@@ -2,6 +2,7 @@
 
 import json
 import re
+from pathlib import Path
 
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -13,12 +14,15 @@ from ballscrew.faults import InputError
 from ballscrew.interfaces import config, validation
 from ballscrew.interfaces.figures import style
 from ballscrew.interfaces.figures import validation as figures
+from ballscrew.interfaces.wrapping import WIDTH
 from ballscrew.model import FrictionModel
 
 HEADINGS = (
     "nominal_diameter_mm,lead_mm,ball_diameter_mm,circuits,dynamic_load_rating_N,static_load_rating_N,"
     "no_load_torque_2pct_max_Nm,no_load_torque_5pct_min_Nm,no_load_torque_5pct_max_Nm"
 )
+#: What the calibration shipped was fitted to.
+FITTED = ("rexroth-double-nut", "rexroth-single-nut")
 GOOD = "40,12,6,4,49900,86200,.40,.75,1.25"
 OTHER = "20,5,3,5,17500,27300,.07,.09,.26"
 
@@ -236,7 +240,9 @@ def test_picture_shows_axes_case_and_all_ratios():
     asked = validation.request()
     found = [entries for entries, _ in validation.evaluate(asked)]
     with style.house_style():
-        figure = figures.ratios(found, validation.caption(found, asked))
+        figure = figures.ratios(
+            found, validation.caption(found, asked), [validation.in_brief(data, asked) for data in asked.sets]
+        )
         canvas = FigureCanvasAgg(figure)
         figure.draw_without_rendering()
         page = figure.bbox.padded(1.0)
@@ -245,15 +251,57 @@ def test_picture_shows_axes_case_and_all_ratios():
                 box = text.get_window_extent(canvas.get_renderer())
                 inside = page.x0 <= box.x0 and box.x1 <= page.x1 and page.y0 <= box.y0 and box.y1 <= page.y1
                 assert inside, text.get_text()
-    assert len(figure.axes) == 2 * len(SETS)
-    for panel, entries in zip(figure.axes[::2], found, strict=True):
-        assert panel.get_ylabel() == "model / stated (1)"
-        assert re.search(r"\((mm|rpm)\)$", panel.get_xlabel())
-        _, top = panel.get_ylim()
-        assert all(0 < point.ratio < top for entry in entries for point in entry.points)
+        # rings of two sizes of balls, and a single worked example, have no panel of their own for it
+        drawn = [entries for entries in found for axis in entries[0].data.axes if _values(entries, axis) > 2]
+        assert len(figure.axes) == len(drawn) == 2 * len(SETS) - 3
+        for panel, entries in zip(figure.axes, drawn, strict=True):
+            data, legend = entries[0].data, panel.get_legend()
+            assert panel.get_ylabel() == "model / stated"
+            assert panel.get_title(loc="left").replace("\n", " ") == data.words.partition(",")[0]
+            fitted = "fitted: rexroth-2006" if data.name in FITTED else "not fitted"
+            assert legend.get_title().get_text() == f"{data.source}; {fitted}"
+            assert not legend.get_window_extent().overlaps(panel.get_window_extent())
+            _, top = panel.get_ylim()
+            assert all(0 < point.ratio < top for entry in entries for point in entry.points)
+        places = {panel.get_xlabel() for panel in figure.axes}
+        assert places == {"nominal diameter (mm)", "lead / nominal diameter", "speed (rpm)"}
     words = " ".join(" ".join(text.get_text() for text in figure.texts).split())
-    for said in ("100 rpm, ISO VG 100 at 25 degC", "Model reference", "boundary friction 0.142", "0.002 of the load"):
+    for said in (
+        "100 rpm, ISO VG 100 at 25 degC",
+        "Model reference",
+        "boundary friction 0.142",
+        "0.002 of the load",
+        "Not drawn, too few sizes: thk-jis (as it is: 0.41",
+    ):
         assert said in words
+
+
+def _values(entries, axis):
+    return len({point.descriptors[axis] for point in entries[0].points})
+
+
+def test_own_rows_are_not_the_vendors(ballscrew, own):
+    process = ballscrew("validate", "rexroth-single-nut", "--rows", own(GOOD, OTHER))
+    assert process.returncode == 0, process.stderr
+    assert process.stdout.splitlines()[2].startswith("  rows of own.csv; 100 rpm")
+    assert "Rexroth R310" not in process.stdout
+    asked = validation.request(["rexroth-single-nut"], rows=Path("own.csv"))
+    assert validation.in_brief(asked.sets[0], asked) == "rows of own.csv; not fitted"
+
+
+def test_no_line_is_wider_than_the_widest(ballscrew):
+    process = ballscrew("validate", "--speed", "100000 rpm")
+    assert process.returncode == 0, process.stderr
+    assert max(map(len, process.stdout.splitlines())) <= WIDTH
+
+
+def test_rows_side_by_side_where_nothing_else_differs():
+    asked = validation.request(["thk-jis"])
+    found = [entries for entries, _ in validation.evaluate(asked)]
+    with style.house_style():
+        (panel,) = figures.ratios(found, "caption", ["a vendor"]).axes
+    assert panel.get_xlabel() == "row"
+    assert [label.get_text() for label in panel.get_xticklabels()] == ["BNFN4010-5"]
 
 
 def _tick_labels(figure):

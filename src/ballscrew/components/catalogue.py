@@ -20,6 +20,8 @@ TURNS_WITHOUT_LOAD = 0.24
 
 #: A ball this much smaller than its pitch circle is a slip of the unit; real ones have a ratio of 5 to 50.
 SMALLEST_BALL = 1e-3
+#: A lead this many times the pitch circle is one, too; the steepest real ones have two to three.
+LARGEST_LEAD = 10
 
 #: How good the default conformity is.
 CONFORMITY_DOUBT = 0.01
@@ -98,6 +100,10 @@ class CatalogueRow:
             raise InputError(
                 Fault(f"{where}.ball_diameter", problem, given, "check the unit; {bound} or more", bound, "m")
             )
+        if self.lead > LARGEST_LEAD * self.ball_circle:
+            given, bound = shown(self.lead, "m"), LARGEST_LEAD * self.ball_circle
+            problem = "too large for the pitch circle"
+            raise InputError(Fault(f"{where}.lead", problem, given, "check the unit; {bound} or less", bound, "m"))
 
     @property
     def ball_circle(self) -> Annotated[Length, Info("d_m", "pitch circle diameter that counts", "mm")]:

@@ -91,9 +91,7 @@ def chosen(rows: Mapping[str, CatalogueRow], words: str, file: Path | None = Non
     return found
 
 
-def named(
-    rows: Mapping[str, CatalogueRow], name: str, where: str = "", file: str | Path | None = None
-) -> CatalogueRow:
+def named(rows: Mapping[str, CatalogueRow], name: str, where: str = "", file: str | Path | None = None) -> CatalogueRow:
     """The row of that name, whatever its capitals; a fault is one of ``where`` the name was given, or of the file."""
     found = {known.casefold(): row for known, row in rows.items()}.get(name.casefold())
     if found is not None:

@@ -20,6 +20,8 @@ from ballscrew.interfaces import catalogue, config, nut_report, nut_tables, repo
 from ballscrew.interfaces.documents import as_json
 from ballscrew.interfaces.nut_report import NutResult
 from ballscrew.interfaces.nuts import LISTED, kind_of
+from ballscrew.interfaces.options import in_options
+from ballscrew.interfaces.wrapping import beside, wrapped
 from ballscrew.quantities import Info, Quantity, quantities_of
 from ballscrew.solvers.load_distribution import BallLoads
 
@@ -34,7 +36,7 @@ _GIVE = {
 }
 _RESULT, _LOADS = quantities_of(NutFriction), quantities_of(BallLoads)
 _NAMES = {"dynamic_load_rating": "dynamic", "static_load_rating": "static"}
-_HEADINGS = ("name", "load", "torque", "efficiency", "back-driving", "rigidity", "life [rev]", "life", "verdict")
+_HEADINGS = ("name", "load", "torque", "eff.", "eff. back", "rigidity", "life", "verdict")
 _WIDTH = 66
 
 
@@ -80,7 +82,7 @@ def one(name: str, path: Path | None, asked: Asked, keep_going: bool) -> tuple[C
     if path is None and (Path(name).suffix == ".toml" or "/" in name or Path(name).is_file()):
         return _of_case(Path(name), asked), ()
     rows, notes = catalogue.load(path, keep_going)
-    return _of_row(catalogue.named(rows, name), asked), notes
+    return _of_row(catalogue.named(rows, name, file=path), asked), notes
 
 
 def every_row(
@@ -91,7 +93,7 @@ def every_row(
     Raises :class:`~ballscrew.faults.InputError` if there is any fault; with ``keep_going`` only if no row is good.
     """
     rows, notes = catalogue.load(path, keep_going)
-    chosen = catalogue.chosen(rows, name or "")
+    chosen = catalogue.chosen(rows, name or "", path)
     found: list[Checked] = []
     faults: dict[str, Sequence[Fault]] = {}
     for row in chosen:
@@ -123,7 +125,7 @@ def _of_case(path: Path, asked: Asked) -> Checked:
     tables = _put(tables, asked)
     if words and isinstance(tables["nut"], dict) and tables["nut"].get("type") != "single":
         tables["nut"].setdefault("preload", "0 N")
-    return _checked(path.name, config.build(tables, asked.model, path.parent), words)
+    return _checked(path.name, _built(tables, asked, path.parent), words)
 
 
 def _of_row(row: CatalogueRow, asked: Asked) -> Checked:
@@ -132,7 +134,18 @@ def _of_row(row: CatalogueRow, asked: Asked) -> Checked:
     tables = _put({"screw": {"catalogue": row.name}, **tables}, asked)
     words = _filled(tables, row)
     words += [text for name, text in catalogue.assumed(row).items() if name != "loaded_turns"]
-    return _checked(row.name, config.build(tables, asked.model, rows={row.name: row}), words)
+    return _checked(row.name, _built(tables, asked, rows={row.name: row}), words)
+
+
+def _built(
+    tables: dict[str, Any], asked: Asked, folder: Path = Path(), rows: Mapping[str, CatalogueRow] | None = None
+) -> config.Case:
+    """The case of tables; faults of what options gave name the options."""
+    try:
+        return config.build(tables, asked.model, folder, rows)
+    except InputError as error:
+        model = () if asked.model is None else ("model.name",)
+        raise InputError(*in_options(error.faults, (*asked.given, *model))) from None
 
 
 def _put(tables: dict[str, Any], asked: Asked) -> dict[str, Any]:
@@ -255,7 +268,7 @@ def text(found: Checked) -> str:
         "assumed",
         *(f"  {words}" for words in found.assumed),
     ]
-    return "\n".join(lines)
+    return "\n".join(line if "\n" in line else wrapped(line) for line in lines)
 
 
 def _geometry(found: Checked) -> list[str]:
@@ -298,21 +311,24 @@ def _checks(found: Checked) -> list[str]:
         for given, here in _GIVE.items():
             words = words.replace(given, here)
         cells = f"{_shown(check, check.value):>12} {_shown(check, check.limit):>12} {used:>7}"
-        lines.append(f"  {check.name.replace('_', ' '):<24}{cells}  {': '.join(filter(None, [verdict, words]))}")
+        prefix = f"  {check.name.replace('_', ' '):<24}{cells}  "
+        lines.append(beside(prefix, ": ".join(filter(None, [verdict, words]))))
     return lines
 
 
 def list_text(found: Sequence[Checked]) -> str:
-    """One line a screw."""
+    """One line a screw; a long verdict goes on below itself."""
     lines = [list(_HEADINGS), *map(_cells, found)]
     widths = [max(len(line[place]) for line in lines) for place in range(len(_HEADINGS))]
-    outer = (0, len(_HEADINGS) - 1)
     return "\n".join(
-        "  ".join(
-            cell.ljust(width) if place in outer else cell.rjust(width)
-            for place, (cell, width) in enumerate(zip(line, widths, strict=True))
-        ).rstrip()
-        for line in lines
+        beside(
+            "".join(
+                (cell.rjust(width) if place else cell.ljust(width)) + "  "
+                for place, (cell, width) in enumerate(zip(numbers, widths, strict=False))
+            ),
+            verdict,
+        )
+        for *numbers, verdict in lines
     )
 
 
@@ -325,9 +341,10 @@ def _cells(found: Checked) -> list[str]:
             for name in ("screw_torque", "efficiency", "back_driving_efficiency")
         ),
     ]
-    lives = [_shown(found.check(name), found.check(name).value) for name in ("life", "running_time")]
+    # at the same speed as all others: the revolutions would say no more
+    life = _shown(found.check("running_time"), found.check("running_time").value)
     rigidity = report.shown_or_dash(float(result.loads.rigidity), _LOADS["rigidity"])
-    return [found.name, *numbers, rigidity, *lives, found.verdict]
+    return [found.name, *numbers, rigidity, life, found.verdict]
 
 
 # -- for programs ---------------------------------------------------------------------------------

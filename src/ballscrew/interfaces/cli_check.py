@@ -64,7 +64,8 @@ def check(
 ) -> None:
     """From a catalogue row or a case to torque, efficiency, stiffness, life, and whether it does.
 
-    What is not given is assumed, and the output says what was.
+    What is not given is assumed, and the output says what was. The exit code is 0 where a check fails, too: the
+    verdict says so; it is 2 only for bad input.
     """
     from ballscrew.interfaces import check as work
 

@@ -65,6 +65,12 @@ def read_preload(raw: object) -> float:
     """A preload in N, or as a share of the dynamic load rating."""
     if isinstance(raw, str) and raw.rstrip().endswith("%"):
         return Share(_si(raw.strip()[:-1].strip(), PERCENT) / 100)
+    bare = units.parse("", raw, PERCENT)
+    if not isinstance(bare, Fault) and 0 < bare <= 100:
+        remedy = f'write "{bare if bare >= 1 else 100 * bare:.12g} %" of the dynamic load rating, or "{bare:.12g} kN"'
+        raise PydanticCustomError(
+            "fault", "{problem}", {"problem": "needs a unit", "given": str(raw), "remedy": remedy}
+        )
     return _si(raw, NUT_FIELDS["preload"])
 
 

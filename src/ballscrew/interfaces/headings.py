@@ -12,7 +12,7 @@ import difflib
 import functools
 import re
 import unicodedata
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +30,7 @@ _WORD = re.compile(r"[^\W_]+")
 _UNITS = {"Nm": "N m", "Nmm": "N mm", "Ncm": "N cm"}
 #: Other spellings: of letters and signs, and of words.
 _LETTERS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "×": " x "})
-_WORDS = {"dia": "diameter", "ø": "diameter", "no": "number"}
+_WORDS: Mapping[str, str] = {"dia": "diameter", "ø": "diameter", "no": "number"}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -89,7 +89,7 @@ class Heading:
 def _bare(name: str) -> str:
     """A name without what does not count: capitals, blanks, hyphens, subscripts."""
     plain = unicodedata.normalize("NFKC", name).casefold().translate(_LETTERS)
-    return "".join(_WORDS.get(word, word) for word in _WORD.findall(plain))
+    return "".join(_WORDS.get(found[0], found[0]) for found in _WORD.finditer(plain))
 
 
 def heading_of(cell: Any, place: int, columns: Sequence[Column]) -> Heading | None:

@@ -23,6 +23,7 @@ from ballscrew.interfaces.files import check_writable, whole
 from ballscrew.interfaces.headings import Column
 from ballscrew.interfaces.rows import made, read
 from ballscrew.interfaces.schema import MODELS
+from ballscrew.interfaces.wrapping import aligned, wrapped
 from ballscrew.model import FrictionModel
 from ballscrew.quantities import Quantity
 from ballscrew.solvers.ellipse_slip import ellipse_slip
@@ -249,7 +250,7 @@ def _row(point: Point, unit: str) -> dict[str, Any]:
 def text_of(entries: Sequence[Entry], asked: Request) -> str:
     """The summary and the rows of one set."""
     data = entries[0].data
-    lines = [f"{data.name}: {data.words}", f"  {data.source}{conditions_in_words(data, asked)}"]
+    lines = [f"{data.name}: {data.words}", f"  {source_of(data, asked)}{conditions_in_words(data, asked)}"]
     lines += [f"  {_summary(entry)}" for entry in entries]
     lines += [f"  {line}" for line in _beside(entries[0])]
     lines += ["", *(f"  {line}" for line in _table(entries))]
@@ -258,7 +259,12 @@ def text_of(entries: Sequence[Entry], asked: Request) -> str:
         lines += ["", "  apart, with a maximum only, which is in no mean:", *(f"  {line}" for line in apart)]
     for entry in entries:
         lines += [f"  beware, {_who(entry)}, {n} rows: {warning}" for warning, n in entry.warnings.items()]
-    return "\n".join(lines)
+    return "\n".join(map(wrapped, lines))
+
+
+def source_of(data: ValidationSet, asked: Request) -> str:
+    """Who states the values."""
+    return data.source if asked.rows is None else f"rows of {asked.rows.name}"
 
 
 def conditions_in_words(data: ValidationSet, asked: Request) -> str:
@@ -299,7 +305,7 @@ def _table(entries: Sequence[Entry]) -> list[str]:
     heading = ["row", f"stated [{quantity.shown_in}]", *(["band"] if banded else [])]
     for entry in entries:
         heading += ["calibrated" if entry.calibration else "model", "ratio"]
-        heading += ["half bands off", ""] if banded else []
+        heading += [""] if banded else []
     others = entries[0].mean_definitions
     lines = [[*heading, *(name.replace("_", " ") for name in others)]]
     for same in zip(*(entry.points for entry in entries), strict=True):
@@ -309,9 +315,9 @@ def _table(entries: Sequence[Entry]) -> list[str]:
             line.append("–" if band.low is None else f"{_shown(band.low, quantity)} to {_shown(band.high, quantity)}")
         for point in same:
             line += [_shown(point.value, quantity), _number(point.ratio, ".3f")]
-            line += [_number(point.deviation, "+.2f"), _verdict(point)] if banded else []
+            line += [_verdict(point)] if banded else []
         lines.append([*line, *(_number(same[0].definitions[name], ".3f") for name in others)])
-    return _aligned(lines)
+    return aligned(lines)
 
 
 def _verdict(point: Point) -> str:
@@ -329,7 +335,7 @@ def _apart(entries: Sequence[Entry]) -> list[str]:
         for apart in same:
             line += [_shown(apart.value, quantity), _number(apart.ratio, ".3f")]
         lines.append(line)
-    return _aligned(lines) if len(lines) > 1 else []
+    return aligned(lines) if len(lines) > 1 else []
 
 
 def _shown(value: float | None, quantity: Quantity) -> str:
@@ -338,16 +344,6 @@ def _shown(value: float | None, quantity: Quantity) -> str:
 
 def _number(value: float | None, form: str) -> str:
     return "–" if value is None or not math.isfinite(value) else format(value, form)
-
-
-def _aligned(lines: Sequence[Sequence[str]]) -> list[str]:
-    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-
-    def aligned(line: Sequence[str]) -> str:
-        first, *others = zip(line, widths, strict=True)
-        return "  ".join([first[0].ljust(first[1]), *(cell.rjust(width) for cell, width in others)]).rstrip()
-
-    return [aligned(line) for line in lines]
 
 
 # -- the picture ----------------------------------------------------------------------------------
@@ -368,9 +364,19 @@ def draw(found: Sequence[Sequence[Entry]], asked: Request, to: Path) -> None:
 
     buffer = io.BytesIO()
     with style.house_style():
-        style.save_as(figures.ratios(found, caption(found, asked)), buffer, to.suffix.lower().removeprefix("."))
+        sources = [in_brief(entries[0].data, asked) for entries in found]
+        style.save_as(
+            figures.ratios(found, caption(found, asked), sources), buffer, to.suffix.lower().removeprefix(".")
+        )
     with whole("--to", to) as path:
         path.write_bytes(buffer.getvalue())
+
+
+def in_brief(data: ValidationSet, asked: Request) -> str:
+    """Who states the values of a set, and whether the calibration was fitted to them."""
+    fitted = asked.calibration if data.calibratable and asked.rows is None else None
+    words = f"fitted: {fitted.name}" if fitted is not None and data.file in fitted.data else "not fitted"
+    return f"{source_of(data, asked)}; {words}"
 
 
 def caption(found: Sequence[Sequence[Entry]], asked: Request) -> str:

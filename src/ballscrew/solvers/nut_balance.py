@@ -94,6 +94,11 @@ def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
     if not (case.halves == 2 or case.oversize):
         found = np.where(point.load > 0, found, at_rest)
     forward, backward = _by_facing(springs, found)
+    # without load and preload balls just touch; what rounding makes of that is no load
+    works = point.load + point.preload > 0
+    forward, backward = (
+        (np.where(works, load, 0.0), angle, np.where(works, force, 0.0)) for load, angle, force in (forward, backward)
+    )
     on_forward, on_backward = (np.sum(springs.balls * force, axis=0) for _, _, force in (forward, backward))
     imbalance = np.abs(on_forward - on_backward - point.load)
     if case.halves == 2:

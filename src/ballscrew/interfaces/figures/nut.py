@@ -24,14 +24,14 @@ NUT_STYLES: Mapping[str, tuple[str, Any]] = {
 LOAD = "axial load F (kN)"
 
 
-def _case(words: str) -> str:
+def _case(words: str, *, preloaded: bool = True) -> str:
     """What is to be said of a figure: its subject, the screw, and its preload."""
     row = curves.row()
     screw = row.screw()
     return mathtext(
         f"{words} Screw {row.nominal_diameter * KILO:g} × {row.lead * KILO:g} ({row.source}): balls of "
-        f"{row.ball_diameter * KILO:g} mm, {screw.loaded_balls} loaded in each nut body, f {row.conformity:g}, α 45°; "
-        f"preload {curves.preload() / KILO:.2f} kN, {curves.PRELOAD_SHARE:.0%} of C_a."
+        f"{row.ball_diameter * KILO:g} mm, {screw.loaded_balls} loaded in each nut body, f {row.conformity:g}, α 45°"
+        + (f"; preload {curves.preload() / KILO:.2f} kN, {curves.PRELOAD_SHARE:.0%} of C_a." if preloaded else ".")
     )
 
 
@@ -42,9 +42,9 @@ def distribution() -> Figure:
         _case(
             f"Load of each ball of a single nut under {data.axial_load / KILO:.1f} kN. Bodies: core of the screw, nut "
             f"1.5 d_m wide. Right: one set of balls whose diameters scatter by {curves.SCATTER / MICRO:g} µm, seed "
-            f"{curves.SEED}."
+            f"{curves.SEED}.",
+            preloaded=False,
         ),
-        sharey=True,
     )
     number = np.arange(1, len(data.scattered) + 1)
     for (words, loads), colour, line in zip(data.elastic.items(), (style.BLUE, style.ORANGE), ("-", "--"), strict=True):
@@ -56,7 +56,7 @@ def distribution() -> Figure:
         panel.axhline(data.rigid, color=style.GREY, linestyle=":", label="rigid, equal")
         panel.set_xlabel("ball, from the end where the load enters")
         panel.set_ylabel("load of the ball Q$_i$ (N)")
-        panel.set_ylim(bottom=0)
+        panel.set_ylim(0, 1.45 * data.rigid)
     style.shared_legend((bodies, scatter), loc="lower left")
     return figure
 
@@ -66,7 +66,7 @@ def preload() -> Figure:
     data = curves.preload_curves()
     figure, (flanks, moves) = style.new_figure(
         _case(
-            "Bodies rigid. The relieved half of a double nut loses its load at 2^1.5 times the preload, or a bit more."
+            "Bodies rigid. The relieved half of a double nut loses its load at 2.83 times the preload, or a bit more."
         )
     )
     double = data.loads["double nut"]
@@ -127,7 +127,6 @@ def drag() -> Figure:
             f"{curves.DRAG_TEMPERATURE - 273.15:g} °C, no seals. Rules: Rexroth (tables of 2006), JIS B 1192 (THK)."
         ),
         columns=len(models),
-        sharey=True,
     )
     for panel, (title, model) in zip(panels, models.items(), strict=True):
         data = curves.drag_curves(model)
@@ -139,7 +138,7 @@ def drag() -> Figure:
         panel.set_title(f"Reference model, {title}")
         panel.set_xlabel("lead over nominal diameter P$_h$/d$_0$")
         panel.set_ylabel("drag T/(F$_{pr}$ d$_0$)")
-        panel.set_ylim(bottom=0)
+        panel.set_ylim(0, 0.015)
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return figure
 

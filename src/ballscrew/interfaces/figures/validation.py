@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from typing import Any
 
@@ -13,21 +14,48 @@ from ballscrew.analyses.validation import DESCRIPTORS, Entry, Point
 from ballscrew.interfaces import units
 from ballscrew.interfaces.figures import style
 
-_HEIGHT = 2.6
+_HEIGHT = 3.2
+#: An axis with fewer values shows no trend.
+_FEWEST_VALUES = 3
+_TITLE_CHARACTERS, _TITLE_LINE = 44, 13
+#: Up to so many rows have their names below the axis.
+_NAMES_AT_MOST = 4
 #: Marker and colour of the model as it is, and calibrated.
 _MARKS = (("o", "white", style.BLUE), ("o", style.RED, style.RED))
 
 
-def ratios(found: Sequence[Sequence[Entry]], caption: str) -> Figure:
-    """A row of panels for each set: the ratio against two descriptors of its rows."""
-    figure, panels = style.new_figure(caption, rows=len(found), height=_HEIGHT)
-    for entries, pair in zip(found, zip(panels[::2], panels[1::2], strict=True), strict=True):
-        data = entries[0].data
-        for panel, axis in zip(pair, data.axes, strict=True):
-            _panel(panel, entries, axis)
-        pair[0].set_title(data.name)
-        pair[1].set_title("\n".join(_judged(entry) for entry in entries), fontsize=8.5, fontweight="normal")
+def ratios(found: Sequence[Sequence[Entry]], caption: str, sources: Sequence[str]) -> Figure:
+    """A row of panels for each set: the ratio against what its rows differ in, and no panel where they do not.
+
+    ``sources`` say of each set who states its values. A set without a panel is told in the caption; if no set has
+    one, each has a panel with its rows side by side.
+    """
+    rows = [(entries, source, _axes(entries)) for entries, source in zip(found, sources, strict=True)]
+    drawn = [row for row in rows if row[2]]
+    if drawn:
+        caption = " ".join([caption, *(_in_words(entries) for entries, _, axes in rows if not axes)])
+    else:
+        drawn = [(entries, source, [""]) for entries, source, _ in rows]
+    figure, panels = style.new_figure(caption, rows=len(drawn), height=_HEIGHT)
+    for (entries, source, axes), pair in zip(drawn, zip(panels[::2], panels[1::2], strict=True), strict=True):
+        for panel, axis in zip(pair, axes, strict=False):
+            _panel(panel, entries, source, axis)
+        for panel in pair[len(axes) :]:
+            panel.remove()
     return figure
+
+
+def _axes(entries: Sequence[Entry]) -> list[str]:
+    """The descriptors of a set that its rows differ in."""
+    points = [point for entry in entries for point in entry.counted]
+    return [
+        axis for axis in entries[0].data.axes if len({point.descriptors[axis] for point in points}) >= _FEWEST_VALUES
+    ]
+
+
+def _in_words(entries: Sequence[Entry]) -> str:
+    """``Not drawn, too few sizes: thk-jis (as it is: 0.41, n = 1).``"""
+    return f"Not drawn, too few sizes: {entries[0].data.name} ({'; '.join(map(_judged, entries))})."
 
 
 def _judged(entry: Entry) -> str:
@@ -37,24 +65,48 @@ def _judged(entry: Entry) -> str:
     return f"{who}: {entry.mean_ratio:.2f}{scatter}, n = {len(entry.counted)}{share}".replace("%", " %")
 
 
-def _panel(panel: Axes, entries: Sequence[Entry], axis: str) -> None:
-    words, quantity = DESCRIPTORS[axis]
+def _panel(panel: Axes, entries: Sequence[Entry], source: str, axis: str) -> None:
+    """The ratios against a descriptor; with none, row by row."""
     panel.axhline(1.0, color=style.INK, linewidth=0.9)
     for entry, (marker, face, edge) in zip(entries, _MARKS, strict=False):
-        points = entry.counted
-        x = units.from_si(np.array([point.descriptors[axis] for point in points]), quantity)
+        x = _places(entry, axis)
         if entry is entries[0]:
             _bands(panel, x, entry)
-        label = f"calibrated ({entry.calibration})" if entry.calibration else f"{entry.model.name}, as it is"
         panel.plot(
-            x, [point.ratio for point in points], marker, color=edge, markerfacecolor=face, markersize=4.5, label=label
+            x,
+            [point.ratio for point in entry.counted],
+            marker,
+            color=edge,
+            markerfacecolor=face,
+            markersize=4.5,
+            label=_judged(entry),
         )
-    unit = "" if quantity.unit == "1" else f" ({quantity.shown_in})"
-    panel.set_xlabel(f"{words}{unit}")
-    panel.set_ylabel("model / stated (1)")
+    _label(panel, entries[0], axis)
     tops = [end for entry in entries for point in entry.counted for end in (point.ratio, _top(point))]
     panel.set_ylim(0, 1.06 * max([*tops, 1.0]))
-    panel.legend(loc="lower right", fontsize=8)
+    above: Any = {"loc": "lower left", "bbox_to_anchor": (0, 1), "borderaxespad": 0.2, "borderpad": 0}
+    panel.legend(**above, title=source, alignment="left", fontsize=8, title_fontsize=8)
+    words = textwrap.wrap(entries[0].data.words.partition(",")[0], _TITLE_CHARACTERS)
+    # above the legend, which has a line for who states the values and one for each entry
+    panel.set_title("\n".join(words), pad=_TITLE_LINE * (len(entries) + 1) + 4)
+
+
+def _places(entry: Entry, axis: str) -> Any:
+    if not axis:
+        return np.arange(1.0, len(entry.counted) + 1)
+    return units.from_si(np.array([point.descriptors[axis] for point in entry.counted]), DESCRIPTORS[axis].quantity)
+
+
+def _label(panel: Axes, entry: Entry, axis: str) -> None:
+    panel.set_ylabel("model / stated")
+    if axis:
+        words, quantity = DESCRIPTORS[axis]
+        panel.set_xlabel(words if quantity.unit == "1" else f"{words} ({quantity.shown_in})")
+        return
+    panel.set_xlabel("row")
+    panel.set_xlim(0, len(entry.counted) + 1)
+    if len(entry.counted) <= _NAMES_AT_MOST:
+        panel.set_xticks(_places(entry, axis), [point.name for point in entry.counted])
 
 
 def _top(point: Point) -> float:

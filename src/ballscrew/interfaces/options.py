@@ -1,0 +1,42 @@
+"""Options of the command line that stand for fields of a case, and faults in the words of those who gave them."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Collection, Iterable, Mapping
+
+from ballscrew.faults import Fault
+
+#: The options by the field that they set.
+OPTIONS: Mapping[str, str] = {
+    "operation.axial_load": "--axial-load",
+    "operation.screw_speed": "--speed",
+    "nut.type": "--nut",
+    "nut.preload": "--preload",
+    "installation.unsupported_length": "--length",
+    "installation.ends": "--ends",
+    "lubricant.grade": "--grade",
+    "lubricant.temperature": "--temperature",
+    "model.calibration": "--calibration",
+    "model.name": "--model",
+}
+
+
+def in_options(faults: Iterable[Fault], given: Collection[str]) -> list[Fault]:
+    """Faults of fields that options gave, or that are missing beside such, with options in place of fields."""
+    sections = {place.partition(".")[0] for place in given}
+    return [_in_options(fault, given, sections) for fault in faults]
+
+
+def _in_options(fault: Fault, given: Collection[str], sections: Collection[str]) -> Fault:
+    option, section = OPTIONS.get(fault.where), fault.where.partition(".")[0]
+    if option is None or not (fault.where in given or (fault.problem == "missing" and section in sections)):
+        return fault
+
+    def as_option(match: re.Match[str]) -> str:
+        other = OPTIONS.get(f"{section}.{match['field']}")
+        return match[0] if other is None else f"{match['verb']} {other} "
+
+    remedy = re.sub(r"(?P<verb>\b(?:add|take|write)) (?P<field>\w+) = ", as_option, fault.remedy)
+    return dataclasses.replace(fault, where=option, remedy=remedy)
