@@ -108,7 +108,7 @@ def _with_full_film(model: FrictionModel, boundary: float, full_film: float) -> 
 
 def _boundary_alone(boundary: float) -> FrictionModel:
     reference = FrictionModel.reference()
-    return _with_full_film(reference, boundary, reference.friction.full_film_friction_coefficient)  # type: ignore[attr-defined]
+    return _with_full_film(reference, boundary, reference.friction.full_film_friction_coefficient)  # type: ignore[attr-defined]  (the slot is a protocol)
 
 
 def _share_alone(share: float) -> FrictionModel:

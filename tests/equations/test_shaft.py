@@ -89,14 +89,14 @@ def test_critical_speed_of_a_catalogue(ends, rounded):
 
 
 def test_buckling_is_eulers_with_the_moment_of_a_circle():
-    E, d, l = 206e9, 0.03, 0.9  # noqa: E741
+    E, d, l = 206e9, 0.03, 0.9  # noqa: E741  (l is the formula's letter)
     assert shaft.buckling_load(math.pi, E, d, l) == pytest.approx(
         math.pi**2 * E * (math.pi * d**4 / 64) / l**2, rel=RELATIVE
     )
 
 
 def test_critical_speed_is_that_of_a_bar():
-    E, rho, d, l, lam = 206e9, 7850.0, 0.03, 0.9, 4.73  # noqa: E741
+    E, rho, d, l, lam = 206e9, 7850.0, 0.03, 0.9, 4.73  # noqa: E741  (l is the formula's letter)
     moment, area = math.pi * d**4 / 64, math.pi * d**2 / 4
     assert shaft.critical_speed(lam, E, rho, d, l) == pytest.approx(
         (lam / l) ** 2 * math.sqrt(E * moment / (rho * area)), rel=RELATIVE

@@ -28,7 +28,7 @@ def buckling_load(
     Euler's, TimoshenkoGere1961: :math:`\beta` is the least root of its end conditions (π for two hinges). Slender
     shafts only: where :func:`shaft_stress` nears the yield point before this load is reached, the shaft yields first.
     """
-    beta, E, d_r, l = buckling_root, young_modulus, root_diameter, unsupported_length  # noqa: E741
+    beta, E, d_r, l = buckling_root, young_modulus, root_diameter, unsupported_length  # noqa: E741  (l is the formula's letter)
     xp = namespace(beta, E, d_r, l)
     return beta**2 * xp.pi * E * d_r**4 / (64 * l**2)
 
@@ -47,7 +47,7 @@ def critical_speed(
     Euler and Bernoulli's beam, Timoshenko1974: :math:`\lambda` is the least root of its end conditions (π for two
     hinges). Rigid bearings, a slender solid shaft, no axial load: one that pushes lowers it.
     """
-    lam, E, rho, d_r, l = whirling_root, young_modulus, density, root_diameter, unsupported_length  # noqa: E741
+    lam, E, rho, d_r, l = whirling_root, young_modulus, density, root_diameter, unsupported_length  # noqa: E741  (l is the formula's letter)
     xp = namespace(lam, E, rho, d_r, l)
     return lam**2 * d_r / (4 * l**2) * xp.sqrt(E / rho)
 

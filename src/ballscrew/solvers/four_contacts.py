@@ -17,8 +17,6 @@ from ballscrew.solvers.strips import Side, forces_of, shapes_of
 
 #: Share of its friction that a contact along the path may be asked for by what resists the ball.
 LARGEST_TRACTION_RATIO = 0.9
-#: Spin moment of a slender contact, in units of friction times load times its semi-major axis; others have more.
-SPIN_MOMENT = 3 / 8
 
 
 class Freedoms(NamedTuple):
@@ -198,7 +196,7 @@ def carried_share(contacts: Sequence[TouchingContact], ball: Ball) -> Ratio:
         lever = xp.abs(own[1].sine * other[1].cosine - own[1].cosine * other[1].sine)
         turning = sum(ball.radius * contact.touch.rolling_force + contact.touch.elastic_moment for contact in own)
         held = sum(ball.radius * contact.touch.traction_limit for contact in own) * lever + sum(
-            SPIN_MOMENT * contact.touch.traction_limit * contact.touch.semi_major_axis for contact in other
+            slip.pure_spin_moment(contact.touch.traction_limit, contact.touch.semi_major_axis) for contact in other
         )
         spun = xp.maximum(spun, _over(lever * turning, held))
     return LARGEST_TRACTION_RATIO / xp.maximum(xp.sqrt(asked**2 + spun**2), LARGEST_TRACTION_RATIO)
