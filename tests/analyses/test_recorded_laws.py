@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.analyses.sweep import known_outputs
+from ballscrew.analyses.outputs import known_outputs
 
 LAWS = {
     "the root of a square": lambda lam, conditions, full_film: 0.1 * np.sqrt((lam - 1) ** 2),

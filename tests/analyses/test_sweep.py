@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.analyses.sweep import DEFAULT_OUTPUTS, inputs_of, known_outputs
+from ballscrew.analyses.outputs import DEFAULT_OUTPUTS, inputs_of, known_outputs
 from ballscrew.result import MECHANISMS
 from ballscrew.solvers.pure_rolling import curvature_slip
 

@@ -12,7 +12,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.analyses.olaru2005 import OIL, SCREW
-from ballscrew.analyses.sweep import known_outputs
+from ballscrew.analyses.outputs import known_outputs
 
 STORED = Path(__file__).with_name("seed_screw.json")
 MODELS = {

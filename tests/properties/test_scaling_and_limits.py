@@ -26,7 +26,7 @@ from strategies import (
 
 import ballscrew as bs
 from ballscrew.analyses.olaru2005 import SCREW
-from ballscrew.analyses.sweep import known_outputs
+from ballscrew.analyses.outputs import known_outputs
 from ballscrew.components.frame import bearing_frame
 from ballscrew.equations.rolling import elastic_resistance_moment
 from ballscrew.result import MECHANISMS

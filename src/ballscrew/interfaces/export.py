@@ -15,7 +15,8 @@ from typing import IO, Any
 import numpy as np
 import xarray as xr
 
-from ballscrew.analyses.sweep import DEFAULT_OUTPUTS, NUT_OUTPUTS, OPERATION, inputs_of, known_outputs, sweep
+from ballscrew.analyses.outputs import DEFAULT_OUTPUTS, NUT_OUTPUTS, OPERATION, inputs_of, known_outputs
+from ballscrew.analyses.sweep import sweep
 from ballscrew.assembly import NUT_REASONS
 from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.components.materials import TEMPERATURE, Lubricant, Material

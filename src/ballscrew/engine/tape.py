@@ -1,4 +1,4 @@
-"""A model, recorded once and played many times.
+"""A model, recorded once to be evaluated many times.
 
 The model is called with :class:`Traced` values instead of arrays. What they go through is written
 down: constants fold as they go, equal steps are shared, steps no output needs are dropped, and
@@ -7,15 +7,13 @@ somebody needs a sum, so that one exponential of a weighted sum of logarithms do
 several powers, for both contacts at once. The equations do not know: they see an array. What is
 raised to a broken power is taken to be positive or zero, as everywhere in the model.
 
-The program that remains plays block by block into a few buffers that stay in the cache. Results
-agree with plain arrays to about 1e-14 relative, do not depend on the size of the blocks, and keep
-the limits at zero load and at rest (the logarithm of zero is minus infinity).
+Inputs may come in groups (the axes of a grid). A product of powers then becomes one factor for each
+group, so that a factor can be computed once for each value of its axis.
 """
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -36,7 +34,7 @@ class Step(NamedTuple):
     is_mask: bool
 
 
-def _choose(mask: Any, yes: Any, no: Any, out: NDArray[Any]) -> None:
+def choose(mask: Any, yes: Any, no: Any, out: NDArray[Any]) -> None:
     """``where`` into a buffer of its own."""
     np.copyto(out, no)
     np.copyto(out, yes, where=mask)
@@ -45,9 +43,11 @@ def _choose(mask: Any, yes: Any, no: Any, out: NDArray[Any]) -> None:
 class Tape:
     """The steps recorded so far; the first ones are the inputs."""
 
-    def __init__(self, inputs: int) -> None:
+    def __init__(self, inputs: int, groups: Sequence[int] | None = None) -> None:
         self.inputs = inputs
         self.steps: list[Step | None] = [None] * inputs
+        #: The groups of inputs that each step depends on, a bit for each.
+        self.groups = [1] * inputs if groups is None else list(groups)
         self._known: dict[Step, int] = {}
 
     def record(self, function: Any, *operands: Any, is_mask: bool = False) -> int:
@@ -56,6 +56,9 @@ class Tape:
         step = Step(function, coded, is_mask)
         if step not in self._known:
             self.steps.append(step)
+            self.groups.append(0)
+            for kind, operand in coded:
+                self.groups[-1] |= self.groups[int(operand)] if kind == "step" else 0
             self._known[step] = len(self.steps) - 1
         return self._known[step]
 
@@ -77,12 +80,16 @@ _TRUTH = {np.bitwise_and, np.bitwise_or, np.bitwise_xor, np.invert}
 
 
 class Traced(np.lib.mixins.NDArrayOperatorsMixin):
-    """``scale · ∏ step**exponent``: an array in the making."""
+    """``scale · ∏ step**exponent``: an array in the making.
 
-    def __init__(self, tape: Tape, powers: Mapping[int, float], scale: float) -> None:
+    Where the mask ``zero`` holds (the index of a step), the product is zero whatever its factors are.
+    """
+
+    def __init__(self, tape: Tape, powers: Mapping[int, float], scale: float, zero: int | None = None) -> None:
         self.tape = tape
         self.powers = dict(powers)
         self.scale = np.float64(scale)  # divides by zero as arrays do
+        self.zero = zero
         self._index: int | None = None
 
     @property
@@ -90,34 +97,18 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
         """The step that holds the values; recorded when first asked for."""
         if self._index is None:
             core = self._core()
+            if self.zero is not None:
+                core = self.tape.record(choose, self.tape.value(self.zero), 0.0, self.tape.value(core))
             self._index = core if self.scale == 1 else self.tape.record(np.multiply, self.tape.value(core), self.scale)
         return self._index
 
     def _core(self) -> int:
-        """The step that holds the product without its scale."""
+        """The step that holds the product without its scale: a factor for each group of inputs."""
         tape = self.tape
-        if len(self.powers) == 1 and next(iter(self.powers.values())) == 1:
-            return next(iter(self.powers))
-        # whole powers are multiplied out, as their base may be negative, and the latest first, as that
-        # is what other products share; alone, a root is cheaper than a logarithm
-        powers = sorted(self.powers.items(), reverse=True)
-        broken = [(i, p) for i, p in powers if p != int(p)]
-        roots = broken if all(abs(p) == 0.5 for _, p in broken) else []
         result: int | None = None
-        for i, power in broken if not roots else []:
-            logarithm = tape.value(tape.record(np.log, tape.value(i)))
-            term = tape.record(np.multiply, logarithm, power)
-            result = term if result is None else tape.record(np.add, tape.value(result), tape.value(term))
-        if result is not None:
-            result = tape.record(np.exp, tape.value(result))
-        factors = [(i, p) for i, p in powers if p == int(p) for _ in range(int(abs(p)))]
-        factors += [(tape.record(np.sqrt, tape.value(i)), p) for i, p in roots]
-        for i, power in factors:
-            if power < 0:
-                start = 1.0 if result is None else tape.value(result)
-                result = tape.record(np.divide, start, tape.value(i))
-            else:
-                result = i if result is None else tape.record(np.multiply, tape.value(result), tape.value(i))
+        for _, powers in _by_group(tape, self.powers):
+            factor = _product(tape, powers)
+            result = factor if result is None else tape.record(np.multiply, tape.value(result), tape.value(factor))
         return tape.record(np.multiply, 1.0, 1.0) if result is None else result
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **kwargs: Any) -> Any:
@@ -148,7 +139,7 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
             and inputs[1] == 0
             and self.scale != 0
         ):
-            inputs = (Traced(self.tape, self.powers, 1.0), inputs[1])  # the scale does not matter
+            inputs = (Traced(self.tape, self.powers, 1.0, self.zero), inputs[1])  # the scale does not matter
         is_mask = ufunc in _MASKS or (ufunc in _TRUTH and all(map(_is_mask, inputs)))
         return self.tape.value(self.tape.record(ufunc, *map(_constant, inputs), is_mask=is_mask))
 
@@ -162,9 +153,9 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
         if not isinstance(mask, Traced):
             return yes if mask else no
         if isinstance(no, Traced) and not _is_mask(no) and not isinstance(yes, Traced) and yes == 0:
-            kept = self.tape.record(_choose, mask, 0.0, Traced(self.tape, no.powers, 1.0))
-            return Traced(self.tape, {kept: 1.0}, no.scale)
-        choice = self.tape.record(_choose, mask, _constant(yes), _constant(no), is_mask=_is_mask(yes) and _is_mask(no))
+            no = no.settled
+            return Traced(self.tape, no.powers, no.scale, mask.index)
+        choice = self.tape.record(choose, mask, _constant(yes), _constant(no), is_mask=_is_mask(yes) and _is_mask(no))
         return self.tape.value(choice)
 
     def __getitem__(self, key: tuple[()]) -> Traced:
@@ -181,12 +172,54 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
         """A traced value has no truth: what depends on it must be said with ``where``."""
         raise TypeError("a traced value has no truth value; use where()")
 
+    @property
+    def settled(self) -> Traced:
+        """The same value, with nothing left to be said about where it is zero."""
+        return self if self.zero is None else self.tape.value(self.index)
+
     def _raised(self, exponent: float) -> Traced:
         """A power; what folding exponents would change (see :func:`_folds`) is a step of its own."""
+        if self.zero is not None and not (exponent > 0 and np.isfinite(self.scale) and self.scale > 0):
+            return self.settled._raised(exponent)
         folds = all(_folds(p, exponent) for p in self.powers.values())
         if not folds or (self.scale < 0 and exponent != int(exponent)):
             return self.tape.value(self.tape.record(np.power, self, exponent))
-        return Traced(self.tape, {i: p * exponent for i, p in self.powers.items()}, self.scale**exponent)
+        return Traced(self.tape, {i: p * exponent for i, p in self.powers.items()}, self.scale**exponent, self.zero)
+
+
+def _by_group(tape: Tape, powers: Mapping[int, float]) -> Iterator[tuple[int, list[tuple[int, float]]]]:
+    """Factors of a product by the groups of inputs they depend on; the latest first, as that is what is shared."""
+    ordered = sorted(powers.items(), reverse=True)
+    for group in dict.fromkeys(tape.groups[i] for i, _ in ordered):
+        yield group, [(i, p) for i, p in ordered if tape.groups[i] == group]
+
+
+def _product(tape: Tape, powers: Sequence[tuple[int, float]]) -> int:
+    """The step that holds a product of powers.
+
+    Whole powers are multiplied out, as their base may be negative; alone, a root is cheaper than a logarithm.
+    """
+    if len(powers) == 1 and powers[0][1] == 1:
+        return powers[0][0]
+    broken = [(i, p) for i, p in powers if p != int(p)]
+    roots = broken if all(abs(p) == 0.5 for _, p in broken) else []
+    result: int | None = None
+    for i, power in broken if not roots else []:
+        logarithm = tape.value(tape.record(np.log, tape.value(i)))
+        term = tape.record(np.multiply, logarithm, power)
+        result = term if result is None else tape.record(np.add, tape.value(result), tape.value(term))
+    if result is not None:
+        result = tape.record(np.exp, tape.value(result))
+    factors = [(i, p) for i, p in powers if p == int(p) for _ in range(int(abs(p)))]
+    factors += [(tape.record(np.sqrt, tape.value(i)), p) for i, p in roots]
+    for i, power in factors:
+        if power < 0:
+            start = 1.0 if result is None else tape.value(result)
+            result = tape.record(np.divide, start, tape.value(i))
+        else:
+            result = i if result is None else tape.record(np.multiply, tape.value(result), tape.value(i))
+    assert result is not None, "a product has factors"
+    return result
 
 
 def _folds(power: float, exponent: float) -> bool:
@@ -214,7 +247,8 @@ def _is_nothing(value: Any) -> bool:
 def _is_mask(value: Any) -> bool:
     if isinstance(value, Traced):
         (index, power), *more = value.powers.items()
-        return not more and power == 1 and value.scale == 1 and value.tape.is_mask(index)
+        alone = not more and power == 1 and value.scale == 1 and value.zero is None
+        return alone and value.tape.is_mask(index)
     return isinstance(value, bool | np.bool_)
 
 
@@ -229,10 +263,12 @@ def _constant(value: Any) -> Any:
 def _times(left: Any, right: Any, sign: float) -> Traced:
     """``left * right**sign``, where at least one side is traced."""
     if not isinstance(left, Traced):
-        constant = float(_constant(left))
-        return Traced(right.tape, {i: sign * p for i, p in right.powers.items()}, constant * right.scale**sign)
+        right = right if sign > 0 else right.settled
+        scale = float(_constant(left)) * right.scale**sign
+        return Traced(right.tape, {i: sign * p for i, p in right.powers.items()}, scale, right.zero)
     if not isinstance(right, Traced):
-        return Traced(left.tape, left.powers, left.scale * np.float64(_constant(right)) ** sign)
+        return Traced(left.tape, left.powers, left.scale * np.float64(_constant(right)) ** sign, left.zero)
+    left, right = left.settled, right.settled
     powers = dict(left.powers)
     for index, power in right.powers.items():
         powers[index] = powers.get(index, 0.0) + sign * power
@@ -242,91 +278,3 @@ def _times(left: Any, right: Any, sign: float) -> Traced:
         function = np.multiply if sign > 0 else np.divide
         return left.tape.value(left.tape.record(function, left, right))
     return Traced(left.tape, powers, left.scale * right.scale**sign)
-
-
-class Program:
-    """What a tape does for the outputs asked for, ready to be played on blocks.
-
-    Everything a step touches (inputs, constants, buffers, results) sits in one list of slots, and a
-    step is a function and the positions of its operands and its result: little is left for the
-    interpreter to do between two operations of NumPy, which is what threads have to queue for.
-    """
-
-    def __init__(self, tape: Tape, outputs: Mapping[str, Any]) -> None:
-        self.constants = {name: value for name, value in outputs.items() if not isinstance(value, Traced)}
-        self.outputs = {name: value.index for name, value in outputs.items() if isinstance(value, Traced)}
-        self.inputs = tape.inputs
-        self.steps = _needed(tape, self.outputs.values())
-        self._slots: list[Any] = [None] * tape.inputs
-        self.buffers: list[tuple[int, bool]] = []
-        self._results: dict[str, int] = {}
-        self._calls = self._arrange()
-        self._local = threading.local()
-
-    def _arrange(self) -> list[tuple[Any, list[int], int]]:
-        """Give every step a slot: its result's, or a buffer that is given up after its last use."""
-        last_use = {o: i for i, step in self.steps for kind, o in step.operands if kind == "step"}
-        position: dict[Operand, int] = {i: i for i in range(self.inputs)}
-        computed = {i for i, _ in self.steps}
-        for name, index in self.outputs.items():
-            if index in computed and index not in position:
-                position[index] = self._results[name] = self._new_slot()
-        calls: list[tuple[Any, list[int], int]] = []
-        free: dict[bool, list[int]] = {True: [], False: []}
-        for i, step in self.steps:
-            operands = [position[o] if kind == "step" else self._new_slot(np.array(o)) for kind, o in step.operands]
-            if i not in position:
-                position[i] = free[step.is_mask].pop() if free[step.is_mask] else self._new_buffer(step.is_mask)
-            calls.append((step.function, operands, position[i]))
-            buffers = dict(self.buffers)
-            for _, o in {(kind, o) for kind, o in step.operands if kind == "step" and last_use[o] == i}:
-                if position[o] in buffers:
-                    free[buffers[position[o]]].append(position[o])
-        self._copies = {name: position[i] for name, i in self.outputs.items() if name not in self._results}
-        return calls
-
-    def _new_slot(self, value: Any = None) -> int:
-        self._slots.append(value)
-        return len(self._slots) - 1
-
-    def _new_buffer(self, is_mask: bool) -> int:
-        slot = self._new_slot()
-        self.buffers.append((slot, is_mask))
-        return slot
-
-    def play(self, inputs: Sequence[NDArray[Any]], results: Mapping[str, NDArray[Any]]) -> None:
-        """Evaluate one block: arrays of inputs in, arrays of results filled."""
-        slots = self._workspace(len(next(iter(results.values()))))
-        slots[: self.inputs] = inputs
-        for name, slot in self._results.items():
-            slots[slot] = results[name]
-        for function, operands, result in self._calls:
-            function(*[slots[position] for position in operands], out=slots[result])
-        for name, slot in self._copies.items():
-            results[name][...] = slots[slot]
-        for name, value in self.constants.items():
-            results[name][...] = value
-
-    def _workspace(self, size: int) -> list[Any]:
-        """The slots of this thread with buffers of this size, kept from block to block."""
-        workspaces: dict[int, list[Any]] | None = getattr(self._local, "workspaces", None)
-        if workspaces is None:
-            workspaces = self._local.workspaces = {}
-        if size not in workspaces:
-            slots = workspaces[size] = list(self._slots)
-            for slot, is_mask in self.buffers:
-                slots[slot] = np.empty(size, dtype=bool if is_mask else float)
-        return workspaces[size]
-
-
-def _needed(tape: Tape, outputs: Iterable[int]) -> list[tuple[int, Step]]:
-    """The steps that outputs depend on, in order."""
-    needed: set[int] = set()
-    waiting = list(outputs)
-    while waiting:
-        index = waiting.pop()
-        step = tape.steps[index]
-        if step is not None and index not in needed:
-            needed.add(index)
-            waiting.extend(int(o) for kind, o in step.operands if kind == "step")
-    return [(i, step) for i in sorted(needed) if (step := tape.steps[i]) is not None]

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.analyses.tape import Program, Tape, Traced
+from ballscrew.engine.program import Program
+from ballscrew.engine.tape import Tape, Traced
 
 X = np.array([0.0, 0.25, 1.0, 2.0, 7.0])
 Y = np.array([3.0, 0.0, 1.0, 0.5, 2.0])

@@ -1,0 +1,136 @@
+"""What can be varied in a model, and what can be asked of it: names, units and meanings."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from ballscrew.analyses.nut_parts import NutParts
+from ballscrew.assembly import NUT_REASONS, NutFriction
+from ballscrew.components.contact import RaceState
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.model import FrictionModel
+from ballscrew.quantities import Info, Quantity, fields_of, quantities_of
+from ballscrew.result import MECHANISMS, FrictionResult
+from ballscrew.solvers.load_distribution import BallLoads
+from ballscrew.validity import REASONS
+
+#: The fields of the operating point, which every sweep needs.
+OPERATION = tuple(fields_of(Operation))
+#: What a sweep returns unless told otherwise.
+DEFAULT_OUTPUTS = (
+    "screw_torque",
+    "nut_torque",
+    "ideal_torque",
+    "efficiency",
+    "back_driving_efficiency",
+    "contact_load",
+    "screw_film_parameter",
+    "nut_film_parameter",
+    "screw_friction_coefficient",
+    "nut_friction_coefficient",
+    "valid",
+)
+
+
+#: What of the loads of the balls of a nut is one number.
+OF_LOADS = ("deflection", "rigidity", "remaining_preload", "lift_off_load", "residual")
+#: What a sweep over a whole nut returns unless told otherwise.
+NUT_OUTPUTS = (
+    "screw_torque",
+    "nut_torque",
+    "ideal_torque",
+    "efficiency",
+    "back_driving_efficiency",
+    "largest_contact_load",
+    "maximum_pressure",
+    "deflection",
+    "rigidity",
+    "remaining_preload",
+    "valid",
+)
+
+
+#: Outputs that are truth values, besides the validity.
+TRUTHS = frozenset({"self_locking"})
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Output:
+    """One thing a sweep can return: how to read it off a result, and what it is."""
+
+    name: str
+    quantity: Quantity
+    read: Callable[[Any], Any]
+
+    @property
+    def dtype(self) -> type:
+        """Truth values for what is true or not, numbers for all else."""
+        return bool if self.name.startswith("valid") or self.name in TRUTHS else float
+
+
+@functools.cache
+def known_outputs(nut: NutParts | None = None) -> Mapping[str, Output]:
+    """Everything a sweep can return, by name: ``screw_torque``, ``nut_film_parameter``, ``contribution_curvature``…
+
+    On a whole nut there are ``rigidity`` and other results of the loads of all balls, and no single contacts.
+    """
+    found: dict[str, Output] = {}
+    result = FrictionResult if nut is None else NutFriction
+    for name, quantity in quantities_of(result).items():
+        if name not in OPERATION:
+            found[name] = Output(name, quantity, lambda r, n=name: getattr(r, n))
+    torque = quantities_of(FrictionResult)["screw_torque"]
+    losses = {} if nut is None else {name: name for name in nut.losses}
+    for mechanism, words in {**MECHANISMS, **losses}.items():
+        info = dataclasses.replace(
+            torque.info, symbol=f"M_S ({words})", meaning=f"friction torque on the screw by {words}"
+        )
+        name = f"contribution_{mechanism}"
+        found[name] = Output(name, Quantity(name, torque.unit, info), lambda r, m=mechanism: r.contributions[m])
+    mask = quantities_of(FrictionResult)["valid"]
+    for reason, words in (REASONS if nut is None else NUT_REASONS).items():
+        name, info = f"validity_{reason}", Info(reason, f"holds where true; where false, {words}")
+        found[name] = Output(name, Quantity(name, mask.unit, info), lambda r, n=reason: r.validity[n])
+    if nut is not None:
+        of_loads = {name: quantities_of(BallLoads)[name] for name in OF_LOADS}
+        return found | {n: Output(n, q, lambda r, n=n: getattr(r.loads, n)) for n, q in of_loads.items()}
+    for side in ("screw", "nut"):
+        for name, quantity in quantities_of(RaceState).items():
+            info = dataclasses.replace(quantity.info, meaning=f"{quantity.info.meaning}, ball–{side} contact")
+            full = f"{side}_{name}"
+            found[full] = Output(
+                full, Quantity(full, quantity.unit, info), lambda r, s=side, n=name: getattr(getattr(r, s), n)
+            )
+    return found
+
+
+def inputs_of(
+    model: FrictionModel, screw: BallScrew, lubricant: Lubricant, nut: NutParts | None = None
+) -> Mapping[str, tuple[str, Quantity]]:
+    """Everything a sweep can vary: name to (part, quantity).
+
+    Names are those of the fields; a coefficient of a law is ``law.field``, for example
+    ``friction.boundary_friction_coefficient``.
+    """
+    parts = {"operation": Operation, "screw": screw, "lubricant": lubricant, "model": model}
+    parts |= {} if nut is None else {"nut": nut.nut}
+    found = {name: (part, quantity) for part, value in parts.items() for name, quantity in fields_of(value).items()}
+    for slot, law in model.laws_with_coefficients.items():
+        found |= {f"{slot}.{name}": ("model", quantity) for name, quantity in fields_of(law).items()}
+    return found
+
+
+def attributes_of(quantity: Quantity) -> dict[str, str]:
+    """CF attributes of a variable, from its annotation."""
+    attributes = {
+        "long_name": quantity.info.meaning,
+        "units": quantity.unit,
+        "symbol": quantity.info.symbol,
+    }
+    if quantity.info.address:
+        attributes["references"] = quantity.info.address
+    return attributes

@@ -1,0 +1,288 @@
+"""A plan: what is evaluated, over which points, and what is wanted of it."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+import ballscrew
+from ballscrew.analyses.nut_parts import NutParts
+from ballscrew.analyses.outputs import (
+    DEFAULT_OUTPUTS,
+    NUT_OUTPUTS,
+    OPERATION,
+    Output,
+    attributes_of,
+    inputs_of,
+    known_outputs,
+)
+from ballscrew.assembly import NutFriction
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.screw import MATERIALS, BallScrew
+from ballscrew.engine.program import Program
+from ballscrew.engine.tape import Tape
+from ballscrew.faults import Fault, fault_of, nearest, raise_if_any
+from ballscrew.model import FrictionModel
+from ballscrew.quantities import Quantity, fields_of
+from ballscrew.references import citations_of
+from ballscrew.result import FrictionResult
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Subject:
+    """What is evaluated: a model on a screw with its lubricant, and the nut where there is one."""
+
+    model: FrictionModel
+    screw: BallScrew
+    lubricant: Lubricant
+    nut: NutParts | None = None
+
+    @property
+    def by_section(self) -> dict[str, Any]:
+        """The parts with fields that can be varied."""
+        nut = {} if self.nut is None else {"nut": self.nut.nut}
+        return {"screw": self.screw, "lubricant": self.lubricant, "model": self.model, **nut}
+
+    @property
+    def inputs(self) -> Mapping[str, tuple[str, Quantity]]:
+        """Everything that can be varied."""
+        return inputs_of(self.model, self.screw, self.lubricant, self.nut)
+
+    @property
+    def balls(self) -> int:
+        """How many balls are solved for at each point."""
+        if self.nut is None or not self.nut.one_by_one:
+            return 1
+        return self.nut.halves * int(np.max(self.screw.loaded_balls))
+
+    def at(self, points: Mapping[str, Any]) -> FrictionResult | NutFriction:
+        """The friction with these values in place: numbers, arrays, or values that are being recorded."""
+        parts = self.by_section
+        where = {name: part for name, (part, _) in self.inputs.items()}
+        operation = {name: points[name] for name in OPERATION}
+        for name, values in points.items():
+            if name in operation:
+                continue
+            part = parts[where[name]]
+            law, _, field = name.rpartition(".")
+            change = {field: values} if not law else {law: dataclasses.replace(getattr(part, law), **{field: values})}
+            parts[where[name]] = dataclasses.replace(part, **change)
+        if self.nut is None:
+            return parts["model"](parts["screw"], parts["lubricant"], **operation)
+        nut = dataclasses.replace(self.nut, nut=parts["nut"])
+        return nut.friction(parts["model"], parts["screw"], parts["lubricant"], **operation)
+
+    def recorded(
+        self, wanted: Mapping[str, Output], varying: Sequence[str], fixed: Mapping[str, Any], groups: Sequence[int]
+    ) -> Program | None:
+        """The model as a program of the varying inputs.
+
+        None for a nut, or if a law of the user's wants plain arrays.
+        """
+        if self.nut is not None:
+            return None
+        tape = Tape(len(varying), groups)
+        points: dict[str, Any] = {**fixed, **{name: tape.value(i) for i, name in enumerate(varying)}}
+        try:
+            with np.errstate(all="ignore"):
+                result = self.at(points)
+                program = Program(tape, {name: output.read(result) for name, output in wanted.items()})
+                blank = {n: np.empty(1, output.dtype) for n, output in wanted.items()}
+                program.play([np.ones(1)] * len(varying), blank)
+        except Exception:  # whatever a law of the user's cannot do with a recording, it may do with arrays
+            return None
+        return program
+
+    def attributes(self, varied: Sequence[str] = ()) -> dict[str, Any]:
+        """What is the same at all points, the sources, and the version: attributes of a dataset."""
+        fixed: dict[str, Any] = {
+            f"{part}_{name.replace('.', '_')}": value
+            for name, (part, _) in self.inputs.items()
+            if part != "operation" and name not in varied
+            if (value := _read(self.by_section[part], name)) is not None
+        }
+        fixed |= {} if self.nut is None else self.nut.attributes(self.screw)
+        for name, material in zip(MATERIALS, self.screw.materials, strict=True):
+            fixed |= {f"screw_{name}_{field}": getattr(material, field) for field in fields_of(material)}
+        slots = {field.name: getattr(self.model, field.name) for field in dataclasses.fields(self.model)}
+        fixed |= {f"model_{slot}": law.__name__ for slot, law in slots.items() if hasattr(law, "__name__")}
+        return {
+            "title": f"Ball screw friction, model {self.model.label}",
+            "Conventions": "CF-1.11",
+            "source": f"ballscrew {ballscrew.__version__}, model {self.model.label}",
+            "references": "; ".join(citations_of(self.model)),
+            **{name: value for name, value in fixed.items() if np.ndim(value) == 0},
+        }
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Plan:
+    """A subject, the axes to vary as labelled arrays, and the names of the outputs; can be sent to other processes."""
+
+    subject: Subject
+    axes: Mapping[str, xr.DataArray]
+    sizes: Mapping[str, int]
+    outputs: tuple[str, ...]
+
+    @classmethod
+    def of(cls, subject: Subject, outputs: Sequence[str] | None, varied: Mapping[str, Any]) -> Plan:
+        """A plan from what a person gives. Raises :class:`~ballscrew.faults.InputError` with all faults in it."""
+        names = _wanted(outputs, subject.nut)
+        axes = _axes(subject, varied)
+        return cls(subject, axes, _sizes(axes, names), names)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """What other processes need to know."""
+        return Plan, (self.subject, dict(self.axes), dict(self.sizes), self.outputs)
+
+    @functools.cached_property
+    def wanted(self) -> dict[str, Output]:
+        """The outputs, and how to read them off a result."""
+        known = known_outputs(self.subject.nut)
+        return {name: known[name] for name in self.outputs}
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The lengths of the dimensions."""
+        return tuple(self.sizes.values())
+
+    @property
+    def total(self) -> int:
+        """The number of points."""
+        return math.prod(self.shape)
+
+    @property
+    def varying(self) -> list[str]:
+        """The inputs that are not the same at all points."""
+        return [name for name, axis in self.axes.items() if axis.dims]
+
+    @property
+    def fixed(self) -> dict[str, Any]:
+        """The inputs that are given as one number."""
+        return {name: axis.to_numpy()[()] for name, axis in self.axes.items() if not axis.dims}
+
+    def recorded(self, groups: Sequence[int] | None = None) -> Program | None:
+        """The model as a program of the varying inputs, in groups where asked for; None if it cannot be recorded."""
+        varying = self.varying
+        return self.subject.recorded(self.wanted, varying, self.fixed, groups or [1] * len(varying))
+
+    def points(self, block: slice) -> dict[str, Any]:
+        """The values of the varying axes at the points of one block of the flattened grid."""
+        if len(self.sizes) == 1:
+            return {name: self.axes[name].to_numpy()[block] for name in self.varying}
+        flat = np.arange(block.start, block.stop)
+        indices = dict(zip(self.sizes, np.unravel_index(flat, self.shape), strict=True)) if self.sizes else {}
+        axes = self.axes
+        return {n: axes[n].to_numpy()[tuple(indices[str(d)] for d in axes[n].dims)] for n in self.varying}
+
+    def empty(self, count: int) -> dict[str, np.ndarray]:
+        """Room for the results of so many points."""
+        return {name: np.empty(count, dtype=output.dtype) for name, output in self.wanted.items()}
+
+    def coordinates(self) -> dict[str, Any]:
+        """The axes as coordinates of a dataset, with the labels they came with."""
+        known = self.subject.inputs
+        found: dict[str, Any] = {
+            str(label): values
+            for axis in self.axes.values()
+            for label, values in axis.coords.items()
+            if label in axis.dims and label not in self.axes
+        }
+        return found | {n: (axis.dims, axis.to_numpy(), attributes_of(known[n][1])) for n, axis in self.axes.items()}
+
+    def dataset(self, results: Mapping[str, np.ndarray]) -> xr.Dataset:
+        """The results with names, units and sources."""
+        variables = {
+            name: (tuple(self.sizes), values.reshape(self.shape), attributes_of(self.wanted[name].quantity))
+            for name, values in results.items()
+            if name not in self.axes  # what is varied is there as a coordinate
+        }
+        return xr.Dataset(variables, self.coordinates(), self.subject.attributes(list(self.axes)))
+
+
+def _wanted(names: Sequence[str] | None, nut: NutParts | None) -> tuple[str, ...]:
+    known = known_outputs(nut)
+    usual = DEFAULT_OUTPUTS if nut is None else NUT_OUTPUTS
+    names = (names,) if isinstance(names, str) else usual if names is None or not len(names) else names
+    chosen = [str(name).replace(".", "_") for name in names]
+    raise_if_any([Fault("sweep.outputs", "unknown output", n, nearest(n, known)) for n in chosen if n not in known])
+    return tuple(dict.fromkeys(chosen))
+
+
+def _axes(subject: Subject, varied: Mapping[str, Any]) -> dict[str, xr.DataArray]:
+    """The values to vary as labelled arrays; all faults in them at once."""
+    known = subject.inputs
+    parts = subject.by_section
+    faults = [Fault(f"sweep.{name}", "unknown name", "", nearest(name, known)) for name in varied if name not in known]
+    faults += [Fault(f"sweep.{name}", "missing", "", f"give {name}=[…]") for name in OPERATION if name not in varied]
+    faults += [
+        Fault(f"{part}.{name}", "is an array", "", f"give it to the sweep: {name}=[…]")
+        for name, (part, _) in known.items()
+        if part != "operation" and name not in varied and np.ndim(_read(parts[part], name))
+    ]
+    axes: dict[str, xr.DataArray] = {}
+    for name, values in varied.items():
+        if name in known:
+            part, quantity = known[name]
+            axis = _axis(name, values)
+            if isinstance(axis, Fault):
+                faults.append(axis)
+            else:
+                axes[name] = axis
+                faults += _faults_of_axis(part, quantity, axis.to_numpy())
+    raise_if_any(faults)
+    return axes
+
+
+def _axis(name: str, values: Any) -> xr.DataArray | Fault:
+    """Values as a labelled array: a sequence gets a dimension of its own name."""
+    where = f"sweep.{name}"
+    try:
+        if isinstance(values, xr.DataArray):
+            axis = values.astype(float, copy=False)
+        else:
+            array = np.asarray(values, dtype=float)
+            if array.ndim > 1:
+                return Fault(where, "has several axes", f"shape {array.shape}", "name them: pass an xarray.DataArray")
+            axis = xr.DataArray(array, dims=(name,) if array.ndim else ())
+    except (TypeError, ValueError):
+        return Fault(where, "must be numbers in SI", str(values), "give a number or a plain list of numbers")
+    return axis if axis.size else Fault(where, "has no values", "", "give at least one")
+
+
+def _faults_of_axis(part: str, quantity: Quantity, values: np.ndarray) -> list[Fault]:
+    """Faults of an axis: its ends (NaN comes out as both) and, where whole numbers are needed, the first broken one."""
+    telling = [values.min()]
+    if not np.isnan(telling[0]):
+        telling.append(values.max())
+    if quantity.info.whole:
+        telling += values[values != np.floor(values)].ravel()[:1].tolist()
+    faults = [fault_of(part, quantity, float(value)) for value in dict.fromkeys(telling)]
+    return [fault for fault in faults if fault is not None]
+
+
+def _sizes(axes: Mapping[str, xr.DataArray], wanted: Sequence[str]) -> dict[str, int]:
+    """The dimensions of a sweep and their lengths, in the order given."""
+    sizes: dict[str, int] = {}
+    faults: list[Fault] = []
+    for axis in axes.values():
+        for dimension, size in zip(map(str, axis.dims), axis.shape, strict=True):
+            where = f"sweep.{dimension}"
+            if sizes.setdefault(dimension, size) != size:
+                faults.append(Fault(where, "different lengths", f"{sizes[dimension]} and {size}", "make them equal"))
+            if axes[dimension].dims != (dimension,) if dimension in axes else dimension in wanted:
+                faults.append(Fault(where, "is a dimension and something else", "", "name the dimension otherwise"))
+    raise_if_any(faults)
+    return sizes
+
+
+def _read(part: Any, name: str) -> Any:
+    """A field of a part, or ``law.field`` of one of its laws."""
+    law, _, field = name.rpartition(".")
+    return getattr(getattr(part, law) if law else part, field)
