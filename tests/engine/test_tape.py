@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.engine.program import Program
+from ballscrew.engine.program import Player, Program
 from ballscrew.engine.tape import Tape, Traced
 
 X = np.array([0.0, 0.25, 1.0, 2.0, 7.0])
@@ -16,14 +16,14 @@ Y = np.array([3.0, 0.0, 1.0, 0.5, 2.0])
 def record(function, inputs=2):
     """The program of a function of some inputs."""
     tape = Tape(inputs)
-    return Program(tape, {"out": function(*(tape.value(i) for i in range(inputs)))})
+    return Program.of(tape, {"out": function(*(tape.value(i) for i in range(inputs)))})
 
 
 def play(program, *values):
     values = values or (X, Y)
     out = np.full(len(values[0]), 99.0)
     with np.errstate(all="ignore"):
-        program.play(values, {"out": out})
+        Player(program).play(values, {"out": out})
     return out
 
 
@@ -118,7 +118,7 @@ def test_unneeded_steps_are_dropped():
     needless = np.exp(np.sin(x) + y)
     needed = np.cos(y)
     assert needless.index != needed.index
-    program = Program(tape, {"out": needed})
+    program = Program.of(tape, {"out": needed})
     assert functions_of(program) == [np.cos]
     assert np.allclose(play(program), np.cos(Y), rtol=0, atol=0)
 
@@ -131,7 +131,7 @@ def test_sweeps_drop_what_is_not_asked_for(seed_screw, seed_oil):
         tape = Tape(2)
         with np.errstate(all="ignore"):
             r = model(seed_screw, seed_oil, axial_load=tape.value(0), screw_speed=tape.value(1))
-            return len(Program(tape, {name: getattr(r, name) for name in names}).steps)
+            return len(Program.of(tape, {name: getattr(r, name) for name in names}).steps)
 
     assert steps("ideal_torque") <= 2
     assert steps("ideal_torque") < steps("screw_torque") < steps("screw_torque", "friction_power", "valid")
@@ -171,9 +171,9 @@ def test_programs_can_be_played_again_on_other_sizes():
 def test_constant_and_input_outputs():
     """An output may be a number, or an input as it came."""
     tape = Tape(1)
-    program = Program(tape, {"constant": 4.5, "input": tape.value(0), "mask": tape.value(0) > 1})
+    program = Program.of(tape, {"constant": 4.5, "input": tape.value(0), "mask": tape.value(0) > 1})
     results = {"constant": np.empty(5), "input": np.empty(5), "mask": np.empty(5, dtype=bool)}
-    program.play([X], results)
+    Player(program).play([X], results)
     assert np.array_equal(results["constant"], np.full(5, 4.5))
     assert np.array_equal(results["input"], X)
     assert np.array_equal(results["mask"], X > 1)
@@ -233,7 +233,7 @@ def test_models_can_be_recorded(seed_screw, seed_oil, model):
     with np.errstate(all="ignore"):
         r = traced(screw, oil, axial_load=load, screw_speed=speed)
         assert isinstance(r.screw_torque, Traced)
-        program = Program(tape, {"out": r.screw_torque})
+        program = Program.of(tape, {"out": r.screw_torque})
     values = (4000.0, 60.0, 0.1, 3.175e-3, 0.515, model.friction.boundary_friction_coefficient)
     found = play(program, *(np.full(2, v) for v in values))
     plain = model(seed_screw, seed_oil, axial_load=4000.0, screw_speed=60.0).screw_torque

@@ -3,46 +3,89 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Mapping
-from typing import Literal
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 import ballscrew
-from ballscrew._arrays import BLOCK_SIZE, map_blocks
+from ballscrew._arrays import BLOCK_SIZE, map_blocks, processors
 from ballscrew.analyses.plan import Plan
-from ballscrew.engine.program import Program
+from ballscrew.engine import kernel as kernels
+from ballscrew.engine.emission import Source, UnknownOperationError, kernel_text
+from ballscrew.engine.grid import COLUMNS, ROWS, Split, inner_axes, split
+from ballscrew.engine.kernel import Kernel
+from ballscrew.engine.program import Player, Program
+from ballscrew.faults import Fault, InputError
 
 #: What can evaluate a plan.
 Engine = Literal["numpy", "compiled"]
+ENGINES: tuple[Engine, ...] = ("numpy", "compiled")
+
+#: What NumPy needs for one step at one point, on two threads; and what a kernel costs before its first
+#: point if it has to be compiled. Only the choice of an engine depends on these seconds, so that
+#: they need not be exact.
+NUMPY_STEP_SECONDS = 1.5e-10
+COMPILING_SECONDS, COMPILING_STEP_SECONDS = 0.05, 7e-5
+#: What NumPy does in less than this is left to it: as long takes it to load the compiler.
+SHORT_SECONDS = 0.1
+
+#: Fewest columns of a grid, and how many are worked on at a time, so that tables stay in the first cache.
+FEWEST_COLUMNS, COLUMN_TILE = 256, 512
+#: A grid is worth cutting where it has this many times as many points as rows and columns.
+WORTH_CUTTING = 8
+#: Blocks of a kernel: a few for each thread, not too small and not too large.
+BLOCKS_PER_THREAD = 4
+SMALLEST_BLOCK, LARGEST_BLOCK = 2**14, 2**19
+
+#: Evaluates the points of a slice of the flattened grid into arrays that begin at the place given.
+_Work = Callable[[slice, Mapping[str, NDArray[Any]], int], None]
 
 
 class Evaluation:
-    """A plan made ready; the same numbers whatever the blocks and the threads."""
+    """A plan made ready by one of the engines; the same bits whatever the blocks and the threads."""
 
-    def __init__(self, plan: Plan, program: Program | None) -> None:
+    def __init__(self, plan: Plan, engine: Engine, said: str, work: _Work, block_size: int, row_length: int) -> None:
         self.plan = plan
-        self.program = program
+        self.engine: Engine = engine
+        #: A digest of the formulas as they are evaluated: on like processors, those that share it give the same bits.
+        self.fingerprint = hashlib.sha256(f"{engine}\n{said}".encode()).hexdigest()
+        self._work = work
+        self._block_size = block_size
+        self._row_length = row_length
 
     @classmethod
     def of(cls, plan: Plan, engine: Engine | None = None) -> Evaluation:
-        """Choose how to evaluate a plan, unless told."""
-        return cls(plan, plan.recorded())
+        """Make a plan ready; the engine is chosen by the size of the work and by what is compiled already.
 
-    @property
-    def fingerprint(self) -> str:
-        """A digest of the formulas as they are evaluated: two evaluations that share it give the same bits."""
-        said = ballscrew.__version__ if self.program is None else self.program.text
-        return hashlib.sha256(said.encode()).hexdigest()
+        Raises :class:`~ballscrew.faults.InputError` for an engine that cannot be had.
+        """
+        _check(engine)
+        program = plan.recorded()
+        if engine == "numpy" or not kernels.available():
+            return _by_numpy(plan, program)
+        if program is None:
+            return _refused(engine, plan, None, "a whole nut, or a law of your own, is evaluated by NumPy only")
+        seconds = NUMPY_STEP_SECONDS * len(program.steps) * plan.total
+        if engine is None and seconds < SHORT_SECONDS:
+            return _by_numpy(plan, program)
+        try:
+            made = _Grid.of(plan) or _Points.of(plan, program)
+        except UnknownOperationError as unknown:
+            return _refused(engine, plan, program, f"{unknown} is not known to kernels")
+        if engine is None and seconds < made.seconds_to_first_point:
+            return _by_numpy(plan, program)
+        return cls(plan, "compiled", made.text, made.compiled(), LARGEST_BLOCK, made.row_length)
 
-    def empty(self, count: int) -> dict[str, NDArray[np.generic]]:
+    def empty(self, count: int) -> dict[str, NDArray[Any]]:
         """Room for the results of so many points."""
-        return self.plan.empty(count)
+        return {name: kernels.room(count, output.dtype) for name, output in self.plan.wanted.items()}
 
     def fill(
         self,
-        results: Mapping[str, NDArray[np.generic]],
+        results: Mapping[str, NDArray[Any]],
         block: slice,
         *,
         block_size: int | None = None,
@@ -53,20 +96,175 @@ class Evaluation:
         total = block.stop - block.start
 
         def evaluate(part: slice) -> None:
-            points = self.plan.points(slice(block.start + part.start, block.start + part.stop))
-            with np.errstate(all="ignore"):
-                if self.program is not None:
-                    inputs = [points[name] for name in self.plan.varying]
-                    self.program.play(inputs, {name: values[part] for name, values in results.items()})
-                else:
-                    result = self.plan.subject.at(self.plan.fixed | points)
-                    for name, output in self.plan.wanted.items():
-                        results[name][part] = output.read(result)
+            self._work(slice(block.start + part.start, block.start + part.stop), results, block.start)
 
         map_blocks(
             evaluate,
             total,
-            block_size=block_size or max(1, BLOCK_SIZE // self.plan.subject.balls),
+            block_size=block_size or self._usual_block(total, threads),
             threads=threads,
             done=None if done is None else lambda n: done(n, total),
         )
+
+    def _usual_block(self, total: int, threads: int | None) -> int:
+        if self.engine == "numpy":
+            return self._block_size
+        fair = math.ceil(total / (BLOCKS_PER_THREAD * (threads or processors())))
+        size = min(max(fair, SMALLEST_BLOCK), self._block_size)
+        step = self._row_length if 1 < self._row_length <= size else kernels.ALIGNMENT
+        return math.ceil(size / step) * step
+
+
+def _check(engine: str | None) -> None:
+    if engine is not None and engine not in ENGINES:
+        raise InputError(Fault("sweep.engine", "unknown engine", str(engine), f"one of {', '.join(ENGINES)}"))
+    if engine == "compiled" and not kernels.available():
+        remedy = 'pip install "ballscrew[fast]", or leave the engine out'
+        raise InputError(Fault("sweep.engine", "needs a compiler that is not installed", engine, remedy))
+
+
+def _refused(engine: Engine | None, plan: Plan, program: Program | None, why: str) -> Evaluation:
+    """NumPy, unless a kernel was asked for that cannot be had."""
+    if engine == "compiled":
+        raise InputError(Fault("sweep.engine", why, engine, 'take engine="numpy"'))
+    return _by_numpy(plan, program)
+
+
+def _by_numpy(plan: Plan, program: Program | None) -> Evaluation:
+    player = None if program is None else Player(program)
+
+    def work(part: slice, results: Mapping[str, NDArray[Any]], first: int) -> None:
+        points = plan.points(part)
+        here = {name: values[part.start - first : part.stop - first] for name, values in results.items()}
+        with np.errstate(all="ignore"):
+            if player is not None:
+                player.play([points[name] for name in plan.varying], here)
+                return
+            result = plan.subject.at(plan.fixed | points)
+            for name, output in plan.wanted.items():
+                here[name][...] = output.read(result)
+
+    said = ballscrew.__version__ if program is None else program.text
+    return Evaluation(plan, "numpy", said, work, max(1, BLOCK_SIZE // plan.subject.balls), 1)
+
+
+class _Kernels:
+    """A program as assembly, compiled when it is decided to be worth it."""
+
+    row_length = 1
+
+    def __init__(self, plan: Plan, program: Program, sources: Sequence[Source]) -> None:
+        self.plan = plan
+        self.program = program
+        self.sources = sources
+        masks = {name: output.dtype is bool for name, output in plan.wanted.items()}
+        self.text = kernel_text(program, sources, masks)
+
+    @property
+    def seconds_to_first_point(self) -> float:
+        """What is to be paid before anything is computed."""
+        if kernels.is_kept(self.text):
+            return 0.0
+        return COMPILING_SECONDS + COMPILING_STEP_SECONDS * len(self.program.steps)
+
+    def compiled(self) -> _Work:
+        """What evaluates a part of the grid."""
+        kernel = Kernel.of(self.text, self.sources)
+        names, constants = list(self.program.outputs), self.program.constants
+
+        def work(part: slice, results: Mapping[str, NDArray[Any]], first: int) -> None:
+            for name, value in constants.items():
+                results[name][part.start - first : part.stop - first] = value
+            if names:
+                self.evaluate(kernel, part, [results[name] for name in names], first)
+
+        return work
+
+    def evaluate(self, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int) -> None:
+        """Run the kernel over a part of the flattened grid."""
+        raise NotImplementedError
+
+
+class _Points(_Kernels):
+    """Every point by itself."""
+
+    @classmethod
+    def of(cls, plan: Plan, program: Program) -> _Points:
+        """A kernel that reads the inputs of each point."""
+        every: list[Source] = ["points"] * program.inputs
+        return cls(plan, program, every)
+
+    def evaluate(self, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int) -> None:
+        """Run the kernel over a part of the flattened grid."""
+        points = self.plan.points(part)
+        inputs = [np.ascontiguousarray(points[name], dtype=float) for name in self.plan.varying]
+        here = [values[part.start - first : part.stop - first] for values in results]
+        count = part.stop - part.start
+        kernel(slice(0, 1), slice(0, count), count, inputs, here)
+
+
+class _Grid(_Kernels):
+    """Rows and columns of a grid, with tables of what needs only one of them."""
+
+    def __init__(self, plan: Plan, cut: Split, columns: int) -> None:
+        super().__init__(plan, cut.points, [source for source, _ in cut.tables])
+        self.row_length = columns
+        self.cut = cut
+        self.tables = self._tables()
+
+    @classmethod
+    def of(cls, plan: Plan) -> _Grid | None:
+        """None where the axes do not make a grid that is worth cutting."""
+        if len(plan.sizes) < 2:
+            return None
+        inner = list(plan.sizes)[-inner_axes(plan.shape, FEWEST_COLUMNS) :]
+        columns = math.prod(plan.sizes[d] for d in inner)
+        groups: list[int] = []
+        for name in plan.varying:
+            dims = {str(d) in inner for d in plan.axes[name].dims}
+            groups.append(sum(COLUMNS if is_inner else ROWS for is_inner in dims))
+        if ROWS | COLUMNS in groups or WORTH_CUTTING * (columns + plan.total // columns) > plan.total:
+            return None
+        program = plan.recorded(groups)
+        return None if program is None else cls(plan, split(program, groups), columns)
+
+    def _tables(self) -> list[NDArray[np.float64]]:
+        found: dict[tuple[Source, str], NDArray[np.float64]] = {}
+        programs: dict[Source, Program] = {"rows": self.cut.rows, "columns": self.cut.columns}
+        for source, program in programs.items():
+            names = list(program.outputs)
+            row = self.row_length
+            places = range(0, self.plan.total, row) if source == "rows" else range(row)
+            masks = {i for i, step in program.steps if step.is_mask}
+            values = {name: np.empty(len(places), dtype=bool if i in masks else float) for name, i in program.outputs.items()}
+            if names:
+                inputs = self.plan.points_at(np.asarray(places))
+                with np.errstate(all="ignore"):
+                    Player(program).play([inputs[name] for name in self.plan.varying], values)
+            for name in names:
+                found[source, name] = values[name].astype(float, copy=False)
+        return [found[key] for key in self.cut.tables]
+
+    def evaluate(self, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int) -> None:
+        """Run the kernel over a part of the flattened grid."""
+        for rows, columns in rectangles(part, self.row_length):
+            for start in range(columns.start, columns.stop, COLUMN_TILE):
+                tile = slice(start, min(start + COLUMN_TILE, columns.stop))
+                kernel(rows, tile, self.row_length, self.tables, results, first=first)
+
+
+def rectangles(part: slice, row_length: int) -> Iterator[tuple[slice, slice]]:
+    """A part of a flattened grid as rectangles of rows and columns: an end, whole rows, a beginning."""
+    start, stop = part.start, part.stop
+    if start % row_length or stop - start < row_length:
+        row = start // row_length
+        end = min(stop, (row + 1) * row_length)
+        yield slice(row, row + 1), slice(start - row * row_length, end - row * row_length)
+        start = end
+    if whole := (stop - start) // row_length:
+        row = start // row_length
+        yield slice(row, row + whole), slice(0, row_length)
+        start += whole * row_length
+    if start < stop:
+        row = start // row_length
+        yield slice(row, row + 1), slice(0, stop - start)

@@ -25,7 +25,7 @@ from ballscrew.analyses.outputs import (
 from ballscrew.assembly import NutFriction
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import MATERIALS, BallScrew
-from ballscrew.engine.program import Program
+from ballscrew.engine.program import Player, Program
 from ballscrew.engine.tape import Tape
 from ballscrew.faults import Fault, fault_of, nearest, raise_if_any
 from ballscrew.model import FrictionModel
@@ -92,9 +92,9 @@ class Subject:
         try:
             with np.errstate(all="ignore"):
                 result = self.at(points)
-                program = Program(tape, {name: output.read(result) for name, output in wanted.items()})
+                program = Program.of(tape, {name: output.read(result) for name, output in wanted.items()})
                 blank = {n: np.empty(1, output.dtype) for n, output in wanted.items()}
-                program.play([np.ones(1)] * len(varying), blank)
+                Player(program).play([np.ones(1)] * len(varying), blank)
         except Exception:  # whatever a law of the user's cannot do with a recording, it may do with arrays
             return None
         return program
@@ -176,14 +176,13 @@ class Plan:
         """The values of the varying axes at the points of one block of the flattened grid."""
         if len(self.sizes) == 1:
             return {name: self.axes[name].to_numpy()[block] for name in self.varying}
-        flat = np.arange(block.start, block.stop)
-        indices = dict(zip(self.sizes, np.unravel_index(flat, self.shape), strict=True)) if self.sizes else {}
+        return self.points_at(np.arange(block.start, block.stop))
+
+    def points_at(self, places: np.ndarray) -> dict[str, Any]:
+        """The values of the varying axes at some places of the flattened grid."""
+        indices = dict(zip(self.sizes, np.unravel_index(places, self.shape), strict=True)) if self.sizes else {}
         axes = self.axes
         return {n: axes[n].to_numpy()[tuple(indices[str(d)] for d in axes[n].dims)] for n in self.varying}
-
-    def empty(self, count: int) -> dict[str, np.ndarray]:
-        """Room for the results of so many points."""
-        return {name: np.empty(count, dtype=output.dtype) for name, output in self.wanted.items()}
 
     def coordinates(self) -> dict[str, Any]:
         """The axes as coordinates of a dataset, with the labels they came with."""

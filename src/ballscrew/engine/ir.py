@@ -91,6 +91,12 @@ class Writer:
         """Doubles from their bits."""
         return self.line(f"bitcast {self.wholes} {value} to {self.doubles}")
 
+    def spread(self, kind: str, scalar: str) -> Value:
+        """One number in every lane."""
+        vector = f"<{self.lanes} x {kind}>"
+        first = self.line(f"insertelement {vector} poison, {kind} {scalar}, i64 0")
+        return self.line(f"shufflevector {vector} {first}, {vector} poison, <{self.lanes} x i32> zeroinitializer")
+
     def polynomial(self, variable: Value, coefficients: Sequence[float]) -> Value:
         """Horner's scheme; the coefficients rise with the power."""
         result = constant(coefficients[-1])

@@ -1,12 +1,13 @@
-"""A program: what of a recording the outputs asked for need, and how NumPy plays it.
+"""A program: the steps of a recording that the outputs asked for need, and how NumPy plays them.
 
-It is played block by block into a few buffers that stay in the cache. Results agree with plain
+NumPy plays a program block by block into a few buffers that stay in the cache. Results agree with plain
 arrays to about 1e-14 relative, do not depend on the size of the blocks, and keep the limits at zero
 load and at rest (the logarithm of zero is minus infinity).
 """
 
 from __future__ import annotations
 
+import dataclasses
 import threading
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
@@ -17,20 +18,55 @@ from numpy.typing import NDArray
 from ballscrew.engine.tape import Operand, Step, Tape, Traced
 
 
+@dataclasses.dataclass(frozen=True)
 class Program:
-    """What a tape does for the outputs asked for, ready to be played on blocks.
+    """Steps in order, each with its number; the inputs have the first numbers."""
+
+    inputs: int
+    steps: tuple[tuple[int, Step], ...]
+    #: Which step an output is, and the outputs that are the same everywhere.
+    outputs: Mapping[str, int]
+    constants: Mapping[str, Any]
+
+    @classmethod
+    def of(cls, tape: Tape, outputs: Mapping[str, Any]) -> Program:
+        """What of a tape the outputs need."""
+        traced = {name: value.index for name, value in outputs.items() if isinstance(value, Traced)}
+        constants = {name: value for name, value in outputs.items() if not isinstance(value, Traced)}
+        steps = {i: step for i, step in enumerate(tape.steps) if step is not None}
+        return cls(tape.inputs, needed(steps, traced.values()), traced, constants)
+
+    @property
+    def text(self) -> str:
+        """The program as text: a line for each step, and where the outputs are."""
+        lines = [f"inputs {self.inputs}"]
+        lines += [f"{i} {step.function.__name__} {step.operands}" for i, step in self.steps]
+        return "\n".join([*lines, f"{dict(self.outputs)} {dict(self.constants)}"])
+
+
+def needed(steps: Mapping[int, Step], wanted: Iterable[int]) -> tuple[tuple[int, Step], ...]:
+    """The steps that some of them depend on, in order."""
+    found: set[int] = set()
+    waiting = list(wanted)
+    while waiting:
+        index = waiting.pop()
+        if index in steps and index not in found:
+            found.add(index)
+            waiting.extend(int(o) for kind, o in steps[index].operands if kind == "step")
+    return tuple((i, steps[i]) for i in sorted(found))
+
+
+class Player:
+    """NumPy, ready to play a program on blocks.
 
     Everything a step touches (inputs, constants, buffers, results) sits in one list of slots, and a
     step is a function and the positions of its operands and its result: little is left for the
     interpreter to do between two operations of NumPy, which is what threads have to queue for.
     """
 
-    def __init__(self, tape: Tape, outputs: Mapping[str, Any]) -> None:
-        self.constants = {name: value for name, value in outputs.items() if not isinstance(value, Traced)}
-        self.outputs = {name: value.index for name, value in outputs.items() if isinstance(value, Traced)}
-        self.inputs = tape.inputs
-        self.steps = _needed(tape, self.outputs.values())
-        self._slots: list[Any] = [None] * tape.inputs
+    def __init__(self, program: Program) -> None:
+        self.program = program
+        self._slots: list[Any] = [None] * program.inputs
         self.buffers: list[tuple[int, bool]] = []
         self._results: dict[str, int] = {}
         self._calls = self._arrange()
@@ -38,15 +74,16 @@ class Program:
 
     def _arrange(self) -> list[tuple[Any, list[int], int]]:
         """Give every step a slot: its result's, or a buffer that is given up after its last use."""
-        last_use = {o: i for i, step in self.steps for kind, o in step.operands if kind == "step"}
-        position: dict[Operand, int] = {i: i for i in range(self.inputs)}
-        computed = {i for i, _ in self.steps}
-        for name, index in self.outputs.items():
+        steps, outputs = self.program.steps, self.program.outputs
+        last_use = {o: i for i, step in steps for kind, o in step.operands if kind == "step"}
+        position: dict[Operand, int] = {i: i for i in range(self.program.inputs)}
+        computed = {i for i, _ in steps}
+        for name, index in outputs.items():
             if index in computed and index not in position:
                 position[index] = self._results[name] = self._new_slot()
         calls: list[tuple[Any, list[int], int]] = []
         free: dict[bool, list[int]] = {True: [], False: []}
-        for i, step in self.steps:
+        for i, step in steps:
             operands = [position[o] if kind == "step" else self._new_slot(np.array(o)) for kind, o in step.operands]
             if i not in position:
                 position[i] = free[step.is_mask].pop() if free[step.is_mask] else self._new_buffer(step.is_mask)
@@ -55,7 +92,7 @@ class Program:
             for _, o in {(kind, o) for kind, o in step.operands if kind == "step" and last_use[o] == i}:
                 if position[o] in buffers:
                     free[buffers[position[o]]].append(position[o])
-        self._copies = {name: position[i] for name, i in self.outputs.items() if name not in self._results}
+        self._copies = {name: position[i] for name, i in outputs.items() if name not in self._results}
         return calls
 
     def _new_slot(self, value: Any = None) -> int:
@@ -67,24 +104,17 @@ class Program:
         self.buffers.append((slot, is_mask))
         return slot
 
-    @property
-    def text(self) -> str:
-        """The program as text: a line for each step, and where the outputs are."""
-        lines = [f"inputs {self.inputs}"]
-        lines += [f"{i} {step.function.__name__} {step.operands}" for i, step in self.steps]
-        return "\n".join([*lines, f"{self.outputs} {self.constants}"])
-
-    def play(self, inputs: Sequence[NDArray[Any]], results: Mapping[str, NDArray[Any]]) -> None:
+    def play(self, inputs: Sequence[Any], results: Mapping[str, NDArray[Any]]) -> None:
         """Evaluate one block: arrays of inputs in, arrays of results filled."""
         slots = self._workspace(len(next(iter(results.values()))))
-        slots[: self.inputs] = inputs
+        slots[: self.program.inputs] = inputs
         for name, slot in self._results.items():
             slots[slot] = results[name]
         for function, operands, result in self._calls:
             function(*[slots[position] for position in operands], out=slots[result])
         for name, slot in self._copies.items():
             results[name][...] = slots[slot]
-        for name, value in self.constants.items():
+        for name, value in self.program.constants.items():
             results[name][...] = value
 
     def _workspace(self, size: int) -> list[Any]:
@@ -97,16 +127,3 @@ class Program:
             for slot, is_mask in self.buffers:
                 slots[slot] = np.empty(size, dtype=bool if is_mask else float)
         return workspaces[size]
-
-
-def _needed(tape: Tape, outputs: Iterable[int]) -> list[tuple[int, Step]]:
-    """The steps that outputs depend on, in order."""
-    needed: set[int] = set()
-    waiting = list(outputs)
-    while waiting:
-        index = waiting.pop()
-        step = tape.steps[index]
-        if step is not None and index not in needed:
-            needed.add(index)
-            waiting.extend(int(o) for kind, o in step.operands if kind == "step")
-    return [(i, step) for i in sorted(needed) if (step := tape.steps[i]) is not None]

@@ -1,0 +1,252 @@
+"""A program as a kernel in LLVM's assembly: one fused loop over the points of a rectangle of a grid.
+
+A result goes to place ``row · columns + column`` of its array; points without a grid are one row. An
+input is an array over the points or over the columns, one number for each row, or a random number
+made on the spot. The last points of a row run through the same instructions as all others, with
+room to spare, so that a point's result does not depend on where blocks begin and end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Literal
+
+import numpy as np
+
+from ballscrew.engine import elementary, random
+from ballscrew.engine.ir import Value, Writer, constant
+from ballscrew.engine.program import Program
+from ballscrew.engine.tape import Operand, Step, choose
+
+#: Where the values of an input come from.
+Source = Literal["points", "columns", "rows", "random"]
+
+#: Lanes of a vector by the number of steps: a short program waits for its longest chain of
+#: operations, and many lanes keep the machine busy meanwhile; a long one runs out of registers.
+LANES = ((150, 32), (1000, 16))
+FEWEST_LANES = 8
+
+_ARITHMETIC = {np.add: "fadd", np.subtract: "fsub", np.multiply: "fmul", np.divide: "fdiv"}
+_RELATIONS = {
+    np.equal: "oeq", np.not_equal: "une", np.less: "olt", np.less_equal: "ole", np.greater: "ogt",
+    np.greater_equal: "oge",
+}  # fmt: skip
+_ON_MASKS = {
+    np.bitwise_and: "and", np.bitwise_or: "or", np.bitwise_xor: "xor",
+    np.logical_and: "and", np.logical_or: "or", np.logical_xor: "xor",
+}  # fmt: skip
+_INTRINSICS = {np.sqrt: "sqrt", np.absolute: "fabs", np.floor: "floor", np.ceil: "ceil"}
+_TRUE, _NOTHING, _ONE = Value("splat (i1 true)"), constant(0.0), constant(1.0)
+
+SIGNATURE = (
+    "i64 %row_start, i64 %row_stop, i64 %column_start, i64 %column_stop, i64 %columns, "
+    "i64 %seed, i1 %stream, ptr noalias %inputs, ptr noalias %outputs"
+)
+
+
+class UnknownOperationError(Exception):
+    """A program has an operation that kernels do not know; NumPy evaluates it."""
+
+
+def lanes_for(program: Program) -> int:
+    """How many points a vector holds."""
+    return next((lanes for steps, lanes in LANES if len(program.steps) <= steps), FEWEST_LANES)
+
+
+def kernel_text(
+    program: Program, sources: Sequence[Source], masks: Mapping[str, bool], *, lanes: int | None = None
+) -> str:
+    """The module with the kernel of a program.
+
+    ``sources`` tells for each input where its values come from, ``masks`` for each output whether
+    its array holds truth values. Raises :class:`UnknownOperationError`.
+    """
+    w = Writer(lanes or lanes_for(program))
+    outputs = list(program.outputs)
+    values = dict(enumerate(_read(w, sources)))
+    body = _Body(w, program, values)
+    results = [body.as_mask(program.outputs[n]) if masks[n] else body.as_number(program.outputs[n]) for n in outputs]
+    types = [f"<{w.lanes} x i8>" if masks[name] else w.doubles for name in outputs]
+    stored = [
+        w.line(f"zext {w.masks} {result} to {kind}") if masks[name] else result
+        for name, result, kind in zip(outputs, results, types, strict=True)
+    ]
+    _write(w, types, stored)
+    return "\n".join(
+        [
+            elementary.definitions(w.lanes),
+            f"define void @kernel({SIGNATURE}) {{",
+            "entry:",
+            f"  %spare = alloca {w.doubles}, align 64",
+            f"  store {w.doubles} zeroinitializer, ptr %spare",
+            *_pointers("input", len(sources)),
+            *_pointers("output", len(outputs)),
+            *(random.key_lines() if "random" in sources else []),
+            *w.lines,
+            "}",
+            "declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)",
+            "!0 = !{i32 1}",
+            "",
+        ]
+    )
+
+
+def _pointers(name: str, count: int) -> list[str]:
+    """The arrays behind the table of their addresses: ``%input0``, ``%input1``, …"""
+    lines: list[str] = []
+    for i in range(count):
+        lines.append(f"  %{name}_entry{i} = getelementptr ptr, ptr %{name}s, i64 {i}")
+        lines.append(f"  %{name}{i} = load ptr, ptr %{name}_entry{i}")
+    return lines
+
+
+def _read(w: Writer, sources: Sequence[Source]) -> list[Value]:
+    """The heads of the loops over rows and over points, and the values of the inputs at the points in hand."""
+    values: dict[int, Value] = {}
+    w.lines += ["  br label %row_loop", "row_loop:"]
+    w.lines.append("  %row = phi i64 [ %row_start, %entry ], [ %next_row, %row_done ]")
+    w.lines.append("  %first_place = mul i64 %row, %columns")
+    for i, source in enumerate(sources):
+        if source == "rows":
+            address = w.line(f"getelementptr double, ptr %input{i}, i64 %row")
+            values[i] = w.spread("double", w.line(f"load double, ptr {address}"))
+    w.lines += ["  br label %point_loop", "point_loop:"]
+    w.lines.append("  %column = phi i64 [ %column_start, %row_loop ], [ %next_column, %points_done ]")
+    w.lines.append("  %place = add i64 %first_place, %column")
+    w.lines.append("  %points_left = sub i64 %column_stop, %column")
+    w.lines.append(f"  %is_full = icmp sge i64 %points_left, {w.lanes}")
+    w.lines.append("  %bytes_left = shl i64 %points_left, 3")
+    from_arrays = {i: "%column" if s == "columns" else "%place" for i, s in enumerate(sources) if s in _ARRAYS}
+    addresses = {i: w.line(f"getelementptr double, ptr %input{i}, i64 {at}") for i, at in from_arrays.items()}
+    w.lines += ["  br i1 %is_full, label %load_all, label %load_some", "load_all:"]
+    whole = {i: w.line(f"load {w.doubles}, ptr {address}, align 8") for i, address in addresses.items()}
+    w.lines += ["  br label %evaluate", "load_some:"]
+    some: dict[int, Value] = {}
+    for i, address in addresses.items():
+        w.lines.append(f"  call void @llvm.memcpy.p0.p0.i64(ptr %spare, ptr {address}, i64 %bytes_left, i1 false)")
+        some[i] = w.line(f"load {w.doubles}, ptr %spare")
+    w.lines += ["  br label %evaluate", "evaluate:"]
+    for i in addresses:
+        values[i] = w.line(f"phi {w.doubles} [ {whole[i]}, %load_all ], [ {some[i]}, %load_some ]")
+    drawn = [i for i, source in enumerate(sources) if source == "random"]
+    if drawn:
+        lanes = ", ".join(f"i64 {lane}" for lane in range(w.lanes))
+        number = w.on_wholes("add", w.spread("i64", "%place"), Value(f"<{lanes}>"))
+        values |= dict(zip(drawn, random.emit_uniform(w, number, len(drawn)), strict=True))
+    return [values[i] for i in range(len(sources))]
+
+
+#: Sources that are arrays, read a vector at a time.
+_ARRAYS = ("points", "columns")
+
+
+def _write(w: Writer, types: Sequence[str], values: Sequence[Value]) -> None:
+    """The results into their arrays, past the cache where asked for, and the ends of the loops."""
+    elements = ["i8" if kind.endswith("i8>") else "double" for kind in types]
+    addresses = [w.line(f"getelementptr {kind}, ptr %output{j}, i64 %place") for j, kind in enumerate(elements)]
+    stores = list(zip(types, values, addresses, elements, strict=True))
+    w.lines += ["  br i1 %is_full, label %store_all, label %store_some", "store_all:"]
+    w.lines += ["  br i1 %stream, label %store_past_cache, label %store_to_cache", "store_past_cache:"]
+    for kind, value, address, element in stores:
+        past = "align 1" if element == "i8" else "align 64, !nontemporal !0"
+        w.lines.append(f"  store {kind} {value}, ptr {address}, {past}")
+    w.lines += ["  br label %points_done", "store_to_cache:"]
+    for kind, value, address, element in stores:
+        w.lines.append(f"  store {kind} {value}, ptr {address}, align {1 if element == 'i8' else 8}")
+    w.lines += ["  br label %points_done", "store_some:"]
+    for kind, value, address, element in stores:
+        size = "%points_left" if element == "i8" else "%bytes_left"
+        w.lines.append(f"  store {kind} {value}, ptr %spare")
+        w.lines.append(f"  call void @llvm.memcpy.p0.p0.i64(ptr {address}, ptr %spare, i64 {size}, i1 false)")
+    w.lines += ["  br label %points_done", "points_done:"]
+    w.lines.append(f"  %next_column = add i64 %column, {w.lanes}")
+    w.lines.append("  %more_points = icmp slt i64 %next_column, %column_stop")
+    w.lines += ["  br i1 %more_points, label %point_loop, label %row_done", "row_done:"]
+    w.lines.append("  %next_row = add i64 %row, 1")
+    w.lines.append("  %more_rows = icmp slt i64 %next_row, %row_stop")
+    w.lines += ["  br i1 %more_rows, label %row_loop, label %done", "done:", "  ret void"]
+
+
+class _Body:
+    """The steps of a program as instructions."""
+
+    def __init__(self, w: Writer, program: Program, values: dict[int, Value]) -> None:
+        self.w = w
+        self.values = values
+        self.is_mask = {i: step.is_mask for i, step in program.steps}
+        for i, step in program.steps:
+            self.values[i] = self._emitted(step)
+
+    def as_number(self, index: int) -> Value:
+        """The value of a step as doubles; truth counts as one."""
+        value = self.values[index]
+        if not self.is_mask.get(index, False):
+            return value
+        return self.w.line(f"uitofp {self.w.masks} {value} to {self.w.doubles}")
+
+    def as_mask(self, index: int) -> Value:
+        """The value of a step as truth values; what is not zero is true."""
+        value = self.values[index]
+        return value if self.is_mask.get(index, False) else self.w.compare("une", value, _NOTHING)
+
+    def _number(self, operand: tuple[str, Operand]) -> Value:
+        kind, what = operand
+        return self.as_number(int(what)) if kind == "step" else constant(float(what))
+
+    def _mask(self, operand: tuple[str, Operand]) -> Value:
+        kind, what = operand
+        return self.as_mask(int(what)) if kind == "step" else Value(f"splat (i1 {'true' if what else 'false'})")
+
+    def _emitted(self, step: Step) -> Value:
+        w, function, operands = self.w, step.function, step.operands
+        if function is choose:
+            if step.is_mask:
+                mask, yes, no = map(self._mask, operands)
+                return w.line(f"select {w.masks} {mask}, {w.masks} {yes}, {w.masks} {no}")
+            return w.choose(self._mask(operands[0]), *map(self._number, operands[1:]))
+        if step.is_mask and function in _ON_MASKS:
+            return w.on_masks(_ON_MASKS[function], *map(self._mask, operands))
+        if step.is_mask and function in (np.invert, np.logical_not):
+            return w.on_masks("xor", self._mask(operands[0]), _TRUE)
+        if function is np.power and operands[1][0] == "constant":
+            return self._power(self._number(operands[0]), float(operands[1][1]))
+        numbers = [self._number(operand) for operand in operands]
+        if function in _ARITHMETIC:
+            return w.arithmetic(_ARITHMETIC[function], numbers[0], numbers[1])
+        if function in _RELATIONS:
+            return w.compare(_RELATIONS[function], numbers[0], numbers[1])
+        if function in (np.maximum, np.minimum):
+            return self._extreme("ogt" if function is np.maximum else "olt", operands, numbers)
+        if function in _INTRINSICS:
+            return w.intrinsic(_INTRINSICS[function], *numbers)
+        if function in (np.isnan, np.isfinite, np.isinf):
+            relation = {np.isnan: "uno", np.isfinite: "olt", np.isinf: "oeq"}[function]
+            size = w.intrinsic("fabs", numbers[0])
+            return w.compare(relation, size, size if function is np.isnan else elementary.INFINITY)
+        if function.__name__ in elementary.NAMES:
+            return w.call(function.__name__, *numbers)
+        raise UnknownOperationError(function.__name__)
+
+    def _extreme(self, relation: str, operands: Sequence[tuple[str, Operand]], numbers: list[Value]) -> Value:
+        """The larger or smaller of two; NaN if either is."""
+        w = self.w
+        kept, other = numbers if operands[0][0] == "step" else numbers[::-1]
+        result = w.choose(w.compare(relation, other, kept), other, kept)  # keeps a NaN of the first
+        if all(kind == "step" for kind, _ in operands):
+            result = w.choose(w.compare("uno", other, other), other, result)
+        return result
+
+    def _power(self, base: Value, exponent: float) -> Value:
+        """A constant power: whole ones are multiplied out."""
+        w = self.w
+        if exponent == 0.5:
+            return w.intrinsic("sqrt", base)
+        if exponent != int(exponent):
+            return w.call("exp", w.exact("fmul", w.call("log", base), constant(exponent)))
+        result, square, left = _ONE, base, int(abs(exponent))
+        while left:
+            if left % 2:
+                result = square if result == _ONE else w.exact("fmul", result, square)
+            left //= 2
+            square = w.exact("fmul", square, square) if left else square
+        return result if exponent >= 0 else w.exact("fdiv", _ONE, result)

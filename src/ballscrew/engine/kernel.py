@@ -1,0 +1,226 @@
+"""Kernels: assembly compiled to machine code, kept in memory and on disk, and called without Python's lock.
+
+The machine code is kept by the content of the assembly, the processor and the compiler's version, so
+that it is found again by the next process and never mistaken. The place is ``BALLSCREW_CACHE``, or
+the user's cache folder; without a place to write, kernels are compiled anew by each process.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import functools
+import hashlib
+import importlib
+import importlib.util
+import os
+import sys
+import tempfile
+import threading
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.engine.emission import Source
+
+#: Bytes at which a vector may be stored past the cache.
+ALIGNMENT = 64
+#: Results larger than this do not stay in the cache anyway, and are written past it.
+LARGEST_CACHED = 4 * 2**20
+#: At most this many kernels are kept on disk; the ones not used for longest go.
+KEPT_ON_DISK = 256
+#: How hard the compiler tries: beyond this, compiling takes longer and the code runs no faster.
+OPTIMISATION = 2
+
+#: Changes when what a kernel is called with changes.
+FORMAT = 1
+
+_whole = ctypes.c_int64
+_SIGNATURE = ctypes.CFUNCTYPE(
+    None, _whole, _whole, _whole, _whole, _whole, _whole, ctypes.c_bool, ctypes.c_void_p, ctypes.c_void_p
+)  # fmt: skip
+_lock = threading.RLock()
+_kernels: dict[str, Kernel] = {}
+
+
+def available() -> bool:
+    """Whether the compiler is installed (the extra ``fast``)."""
+    return importlib.util.find_spec("llvmlite") is not None
+
+
+class Kernel:
+    """A compiled kernel; see :mod:`ballscrew.engine.emission` for what it does."""
+
+    def __init__(self, machine_code: bytes, sources: Sequence[Source]) -> None:
+        llvm = _llvm()
+        self.sources = tuple(sources)
+        # the function lives as long as the engine that holds its code
+        self._engine: Any = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _machine())
+        self._engine.add_object_file(llvm.ObjectFileRef.from_data(machine_code))
+        self._engine.finalize_object()
+        self._function = _SIGNATURE(self._engine.get_function_address("kernel"))
+
+    @classmethod
+    def of(cls, text: str, sources: Sequence[Source]) -> Kernel:
+        """The kernel of an assembly: from memory, from the disk, or compiled."""
+        with _lock:
+            name = _content(text)
+            if name not in _kernels:
+                machine_code = _load(name)
+                if machine_code is None:
+                    machine_code = _compiled(text)
+                    _save(name, machine_code)
+                _kernels[name] = cls(machine_code, sources)
+            return _kernels[name]
+
+    def __call__(
+        self,
+        rows: slice,
+        columns: slice,
+        row_length: int,
+        inputs: Sequence[NDArray[np.float64] | None],
+        results: Sequence[NDArray[Any]],
+        *,
+        first: int = 0,
+        seed: int = 0,
+    ) -> None:
+        """Evaluate a rectangle of the grid; both slices hold at least one number.
+
+        Results and inputs over points are contiguous arrays that begin at place ``first`` of the
+        flattened grid; inputs over rows and columns are whole; random ones are None.
+        """
+        start = rows.start * row_length + columns.start
+        ends = [_address(array, first) for array in results]
+        aligned = all(
+            (end + start * array.itemsize) % ALIGNMENT == 0
+            for end, array in zip(ends, results, strict=True)
+            if array.dtype == np.float64
+        )
+        aligned &= rows.stop - rows.start == 1 or row_length % (ALIGNMENT // 8) == 0
+        leaves_cache = sum(array.nbytes for array in results) > LARGEST_CACHED
+        places = [
+            None if array is None else _address(array, first if source == "points" else 0)
+            for source, array in zip(self.sources, inputs, strict=True)
+        ]
+        self._function(
+            rows.start,
+            rows.stop,
+            columns.start,
+            columns.stop,
+            row_length,
+            seed,
+            aligned and leaves_cache,
+            (ctypes.c_void_p * len(places))(*places),
+            (ctypes.c_void_p * len(ends))(*ends),
+        )
+
+
+def is_kept(text: str) -> bool:
+    """Whether the kernel of an assembly is in memory or on disk, and need not be compiled."""
+    name = _content(text)
+    with contextlib.suppress(OSError, RuntimeError):
+        return name in _kernels or (folder() / name).exists()
+    return False
+
+
+def room(count: int, dtype: type) -> NDArray[Any]:
+    """An array that begins where vectors can be stored past the cache."""
+    item = np.dtype(dtype).itemsize
+    raw = np.empty(count * item + ALIGNMENT, dtype=np.uint8)
+    start = -raw.ctypes.data % ALIGNMENT
+    return raw[start : start + count * item].view(dtype)
+
+
+def _address(array: NDArray[Any], first: int) -> int:
+    """Where the place 0 of the grid would be, for an array that begins at place ``first``."""
+    if not array.flags.c_contiguous:
+        raise ValueError("a kernel needs contiguous arrays")
+    return array.ctypes.data - first * array.itemsize
+
+
+@functools.cache
+def _llvm() -> Any:
+    """The compiler, ready for this processor."""
+    llvm = importlib.import_module("llvmlite.binding")
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    return llvm
+
+
+def _machine() -> Any:
+    """This processor, as the compiler sees it; each user of one takes it over."""
+    llvm = _llvm()
+    return llvm.Target.from_default_triple().create_target_machine(
+        cpu=llvm.get_host_cpu_name(), features=llvm.get_host_cpu_features().flatten(), opt=OPTIMISATION, jit=True
+    )
+
+
+@functools.cache
+def _processor() -> str:
+    llvm = _llvm()
+    features = llvm.get_host_cpu_features().flatten()
+    return f"{llvm.get_default_triple()} {llvm.get_host_cpu_name()} {features} {llvm.llvm_version_info} {FORMAT}"
+
+
+def _content(text: str) -> str:
+    """The name of a kernel: a digest of the assembly, the processor and the compiler."""
+    return hashlib.sha256(f"{_processor()}\n{text}".encode()).hexdigest()
+
+
+def _compiled(text: str) -> bytes:
+    llvm = _llvm()
+    module = llvm.parse_assembly(text)
+    module.verify()
+    machine = _machine()
+    tuning = llvm.create_pipeline_tuning_options(speed_level=OPTIMISATION)
+    tuning.loop_vectorization = tuning.slp_vectorization = tuning.loop_unrolling = False  # vectors are explicit
+    passes = llvm.create_pass_builder(machine, tuning)
+    passes.getModulePassManager().run(module, passes)
+    return machine.emit_object(module)
+
+
+def folder() -> Path:
+    """Where kernels are kept on disk."""
+    if place := os.environ.get("BALLSCREW_CACHE"):
+        return Path(place) / "kernels"
+    if sys.platform == "win32":
+        base = os.environ.get("LOCALAPPDATA") or "~/AppData/Local"
+    elif sys.platform == "darwin":
+        base = "~/Library/Caches"
+    else:
+        base = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
+    return Path(base).expanduser() / "ballscrew" / "kernels"
+
+
+def _load(name: str) -> bytes | None:
+    """Machine code from the disk, unless it is not there or not whole."""
+    try:
+        path = folder() / name
+        digest, machine_code = path.read_bytes().split(b"\n", 1)
+        if hashlib.sha256(machine_code).hexdigest().encode() != digest:
+            return None
+        os.utime(path)
+    except (OSError, RuntimeError, ValueError):  # no home, no such file, no line in it
+        return None
+    return machine_code
+
+
+def _save(name: str, machine_code: bytes) -> None:
+    """Keep machine code on disk, whole or not at all; a disk that does not want it is no fault."""
+    with contextlib.suppress(OSError, RuntimeError):
+        place = folder()
+        place.mkdir(parents=True, exist_ok=True, mode=0o700)
+        handle, temporary = tempfile.mkstemp(dir=place)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(hashlib.sha256(machine_code).hexdigest().encode() + b"\n" + machine_code)
+            Path(temporary).replace(place / name)
+        except BaseException:
+            Path(temporary).unlink(missing_ok=True)
+            raise
+        by_age = sorted(place.iterdir(), key=lambda path: path.stat().st_mtime)
+        for old in by_age[:-KEPT_ON_DISK]:
+            old.unlink(missing_ok=True)
