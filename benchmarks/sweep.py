@@ -1,4 +1,4 @@
-"""How fast sweeps are, against the same formulas on whole NumPy arrays in the same run.
+"""How fast sweeps are by NumPy alone, against the same formulas on whole NumPy arrays in the same run.
 
 ``python benchmarks/sweep.py`` prints a table, ``--json`` one object. Times are medians of
 interleaved rounds, so that what else the machine does falls on both sides alike.
@@ -18,10 +18,10 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 import ballscrew as bs
 from ballscrew.analyses.olaru2005 import OIL, SCREW
+from script import formulas_on_arrays
 
 ROOT = Path(__file__).parents[1]
 OUTPUTS = (
@@ -46,48 +46,6 @@ LIMITS: dict[str, tuple[float, bool]] = {
 }
 
 
-def formulas_on_arrays(F: NDArray[Any], n: NDArray[Any], eta_0: NDArray[Any]) -> tuple[NDArray[Any], ...]:
-    """Olaru 2005 as a script would have it: equation after equation, on whole arrays, n in rpm."""
-    d_m, d_w, p, z, alpha, f = 0.040, 3.175e-3, 0.005, 56, np.pi / 4, 0.515
-    E, alpha_p, Y, mu_b = 2 / (2 * (1 - 0.3**2) / 2.06e11), 2.2e-8, 0.34, 0.1
-    sigma_b, sigma_r = 0.08e-6, 0.3e-6
-    gamma = d_w * np.cos(alpha) / d_m
-    Q = F / (z * np.sin(alpha))
-    omega = np.pi * n / 30
-    v = omega * d_m / 4 * (1 - gamma**2)
-
-    def contact(sign: float) -> tuple[NDArray[Any], ...]:
-        R_x = d_w / 2 * (1 + sign * gamma)
-        R_y = f * d_w / (2 * f - 1)
-        k = R_y / R_x
-        G = alpha_p * E
-        U = eta_0 * v / (E * R_x)
-        W = Q / (E * R_x**2)
-        F_R = 2.86 * E * R_x**2 * k**0.348 * G**0.022 * U**0.66 * W**0.47
-        a = 1.1552 * R_x * k**0.4676 * (Q / (E * R_x**2)) ** (1 / 3)
-        b = 1.1502 * R_x * k**-0.1876 * (Q / (E * R_x**2)) ** (1 / 3)
-        h = 3.63 * R_x * U**0.66 * G**0.49 * W**-0.073 * (1 - np.exp(-0.68 * a / b))
-        lam = h / np.sqrt(sigma_b**2 + sigma_r**2)
-        mu_a = 0.2 * np.exp(-1.42 * lam**0.8)
-        mu = np.where(mu_a >= 0.2, 0.2, np.where(mu_a >= 0.02, mu_a, 0.02))
-        R_d = 2 * d_w * f / (2 * f + 1)
-        M_C = 0.1 * mu * Q * a**2 / R_d * (1 - 5 * Y**3 + 3 * Y**5)
-        M_ER = 7.48e-7 * (d_w / 2) ** 0.33 * Q**1.33 * (1 - 3.519e-3 * (k - 1) ** 0.806)
-        return F_R, lam, mu, M_C + M_ER
-
-    F_Rs, lam_s, mu_s, M_s = contact(-1)
-    F_Rn, lam_n, mu_n, M_n = contact(+1)
-    F_B = 1 / z
-    M_B = mu_b * F_B * d_w / 2
-    F_Ss = (M_s + M_n + M_B) / d_w + F_Rn + (F_Rs + F_Rn) * gamma + F_B / 2
-    F_Sn = (M_s + M_n + M_B) / d_w + F_Rs - (F_Rs + F_Rn) * gamma - F_B / 2
-    R_s, R_n = d_m / 2 * (1 - gamma), d_m / 2 * (1 + gamma)
-    M_S = z * (F_Rs + F_Ss) * R_s
-    M_N = z * (F_Rn + F_Sn) * R_n
-    M_Sa = F * R_s * p / (np.pi * d_m)
-    return M_S, M_N, M_Sa / (M_Sa + M_S), lam_s, lam_n, mu_s, mu_n
-
-
 def seconds(work: Callable[[], Any]) -> float:
     """How long one call takes."""
     start = time.perf_counter()
@@ -99,19 +57,19 @@ def sweeps(points: int) -> dict[str, float]:
     """Random points in load, speed and viscosity: the package against the script."""
     rng = np.random.default_rng(2005)
     F = rng.uniform(100, 4000, points)
-    n = rng.uniform(10, 1000, points)
+    omega = rng.uniform(10, 1000, points) * (np.pi / 30)
     eta_0 = rng.uniform(0.05, 0.5, points)
     operation = {
         "axial_load": xr.DataArray(F, dims="point"),
-        "screw_speed": xr.DataArray(n * (np.pi / 30), dims="point"),
+        "screw_speed": xr.DataArray(omega, dims="point"),
         "viscosity": xr.DataArray(eta_0, dims="point"),
     }
     printed, corrected = bs.FrictionModel.olaru2005(), bs.FrictionModel.corrected()
 
     def swept(model: bs.FrictionModel) -> xr.Dataset:
-        return bs.sweep(model, SCREW, OIL, outputs=OUTPUTS, **operation)
+        return bs.sweep(model, SCREW, OIL, outputs=OUTPUTS, engine="numpy", **operation)
 
-    expected, found = formulas_on_arrays(F, n, eta_0), swept(printed)
+    expected, found = formulas_on_arrays(F, omega, eta_0), swept(printed)
     scale = np.abs(expected[0])  # of a torque; the nut's passes through zero
     agreement = max(
         float(np.max(np.abs(found[name].to_numpy() - value) / (scale if name == "nut_torque" else np.abs(value))))
@@ -119,7 +77,7 @@ def sweeps(points: int) -> dict[str, float]:
     )
     del expected, found
     work: dict[str, Callable[[], Any]] = {
-        "script": lambda: formulas_on_arrays(F, n, eta_0),
+        "script": lambda: formulas_on_arrays(F, omega, eta_0),
         "sweep": lambda: swept(printed),
         "corrected": lambda: swept(corrected),
     }

@@ -32,8 +32,8 @@ COMPILING_SECONDS, COMPILING_STEP_SECONDS = 0.05, 7e-5
 #: What NumPy does in less than this is left to it: as long takes it to load the compiler.
 SHORT_SECONDS = 0.1
 
-#: Fewest columns of a grid, and how many are worked on at a time, so that tables stay in the first cache.
-FEWEST_COLUMNS, COLUMN_TILE = 256, 512
+#: Fewest columns of a grid: a short row is mostly its beginning and its end.
+FEWEST_COLUMNS = 256
 #: A grid is worth cutting where it has this many times as many points as rows and columns.
 WORTH_CUTTING = 8
 #: Blocks of a kernel: a few for each thread, not too small and not too large.
@@ -191,8 +191,8 @@ class _Points(_Kernels):
     @classmethod
     def of(cls, plan: Plan, program: Program) -> _Points:
         """A kernel that reads the inputs of each point."""
-        every: list[Source] = ["points"] * program.inputs
-        return cls(plan, program, every)
+        sources: list[Source] = ["points" if plan.axes[name].dims else "rows" for name in plan.varying]
+        return cls(plan, program, sources)
 
     def evaluate(self, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int) -> None:
         """Run the kernel over a part of the flattened grid."""
@@ -222,7 +222,7 @@ class _Grid(_Kernels):
         groups: list[int] = []
         for name in plan.varying:
             dims = {str(d) in inner for d in plan.axes[name].dims}
-            groups.append(sum(COLUMNS if is_inner else ROWS for is_inner in dims))
+            groups.append(sum(COLUMNS if is_inner else ROWS for is_inner in dims) or ROWS)
         if ROWS | COLUMNS in groups or WORTH_CUTTING * (columns + plan.total // columns) > plan.total:
             return None
         program = plan.recorded(groups)
@@ -236,7 +236,9 @@ class _Grid(_Kernels):
             row = self.row_length
             places = range(0, self.plan.total, row) if source == "rows" else range(row)
             masks = {i for i, step in program.steps if step.is_mask}
-            values = {name: np.empty(len(places), dtype=bool if i in masks else float) for name, i in program.outputs.items()}
+            values = {
+                name: np.empty(len(places), dtype=bool if i in masks else float) for name, i in program.outputs.items()
+            }
             if names:
                 inputs = self.plan.points_at(np.asarray(places))
                 with np.errstate(all="ignore"):
@@ -248,9 +250,7 @@ class _Grid(_Kernels):
     def evaluate(self, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int) -> None:
         """Run the kernel over a part of the flattened grid."""
         for rows, columns in rectangles(part, self.row_length):
-            for start in range(columns.start, columns.stop, COLUMN_TILE):
-                tile = slice(start, min(start + COLUMN_TILE, columns.stop))
-                kernel(rows, tile, self.row_length, self.tables, results, first=first)
+            kernel(rows, columns, self.row_length, self.tables, results, first=first)
 
 
 def rectangles(part: slice, row_length: int) -> Iterator[tuple[slice, slice]]:

@@ -78,6 +78,16 @@ class Subject:
         nut = dataclasses.replace(self.nut, nut=parts["nut"])
         return nut.friction(parts["model"], parts["screw"], parts["lubricant"], **operation)
 
+    def value_of(self, name: str) -> Any:
+        """The value an input has where it is not varied."""
+        return _read(self.by_section[self.inputs[name][0]], name)
+
+    def is_nonnegative(self, name: str) -> bool:
+        """Whether an input is refused where it is below zero."""
+        info = self.inputs[name][1].info
+        lowest = info.at_least if info.above is None else info.above
+        return lowest is not None and lowest >= 0
+
     def recorded(
         self, wanted: Mapping[str, Output], varying: Sequence[str], fixed: Mapping[str, Any], groups: Sequence[int]
     ) -> Program | None:
@@ -87,7 +97,7 @@ class Subject:
         """
         if self.nut is not None:
             return None
-        tape = Tape(len(varying), groups)
+        tape = Tape(len(varying), groups, [self.is_nonnegative(name) for name in varying])
         points: dict[str, Any] = {**fixed, **{name: tape.value(i) for i, name in enumerate(varying)}}
         try:
             with np.errstate(all="ignore"):
@@ -105,7 +115,7 @@ class Subject:
             f"{part}_{name.replace('.', '_')}": value
             for name, (part, _) in self.inputs.items()
             if part != "operation" and name not in varied
-            if (value := _read(self.by_section[part], name)) is not None
+            if (value := self.value_of(name)) is not None
         }
         fixed |= {} if self.nut is None else self.nut.attributes(self.screw)
         for name, material in zip(MATERIALS, self.screw.materials, strict=True):
@@ -164,8 +174,9 @@ class Plan:
 
     @property
     def fixed(self) -> dict[str, Any]:
-        """The inputs that are given as one number."""
-        return {name: axis.to_numpy()[()] for name, axis in self.axes.items() if not axis.dims}
+        """The inputs that are the same at all points, as numbers."""
+        varying = self.varying
+        return {name: axis.to_numpy()[()] for name, axis in self.axes.items() if name not in varying}
 
     def recorded(self, groups: Sequence[int] | None = None) -> Program | None:
         """The model as a program of the varying inputs, in groups where asked for; None if it cannot be recorded."""
@@ -173,13 +184,14 @@ class Plan:
         return self.subject.recorded(self.wanted, varying, self.fixed, groups or [1] * len(varying))
 
     def points(self, block: slice) -> dict[str, Any]:
-        """The values of the varying axes at the points of one block of the flattened grid."""
+        """The values of the varying inputs at the points of one block of the flattened grid."""
         if len(self.sizes) == 1:
-            return {name: self.axes[name].to_numpy()[block] for name in self.varying}
+            values = {name: self.axes[name].to_numpy() for name in self.varying}
+            return {name: value[block] if value.ndim else value[()] for name, value in values.items()}
         return self.points_at(np.arange(block.start, block.stop))
 
     def points_at(self, places: np.ndarray) -> dict[str, Any]:
-        """The values of the varying axes at some places of the flattened grid."""
+        """The values of the varying inputs at some places of the flattened grid."""
         indices = dict(zip(self.sizes, np.unravel_index(places, self.shape), strict=True)) if self.sizes else {}
         axes = self.axes
         return {n: axes[n].to_numpy()[tuple(indices[str(d)] for d in axes[n].dims)] for n in self.varying}

@@ -20,8 +20,9 @@ EXP = (
     0.00019841269863053618, 2.4801521295954376e-05, 2.7557268459997064e-06, 2.7620088445409746e-07,
     2.510038549551032e-08,
 )  # fmt: skip
-#: (2 artanh(s) − 2s)/s³ in s², where s = (m − 1)/(m + 1) and m lies between √½ and √2.
+#: 2 artanh(s)/s in s², where s = (m − 1)/(m + 1) and m lies between √½ and √2.
 LOG = (
+    2.0,
     0.666666666666667, 0.39999999999899444, 0.2857142862600327, 0.22222211130259878, 0.18182889455674947,
     0.15331710618210773, 0.14616585424888623,
 )  # fmt: skip
@@ -65,6 +66,8 @@ NOTHING, ONE, TWO, HALF = map(constant, (0.0, 1.0, 2.0, 0.5))
 NOT_A_NUMBER, INFINITY, MINUS_INFINITY = map(constant, (math.nan, math.inf, -math.inf))
 
 ARGUMENT = Value("%x")
+#: The logarithm of what is known not to be negative, which then need not be asked.
+LOG_OF_NONNEGATIVE = "log_of_nonnegative"
 
 
 def _exp(w: Writer, x: Value) -> Value:
@@ -80,22 +83,26 @@ def _exp(w: Writer, x: Value) -> Value:
     return w.exact("fmul", twice, half_power)
 
 
-def _log(w: Writer, x: Value) -> Value:
+def _log(*, nonnegative: bool) -> Callable[[Writer, Value], Value]:
     """The exponent times ln 2, and 2 artanh(s) of the mantissa between √½ and √2."""
-    shifted = w.on_wholes("sub", w.bits(x), whole(ROOT_HALF_BITS - (EXPONENT_BIAS << FRACTION_BITS)))
-    fraction = w.on_wholes("and", shifted, whole((1 << FRACTION_BITS) - 1))
-    mantissa = w.from_bits(w.on_wholes("add", fraction, whole(ROOT_HALF_BITS)))
-    exponent = w.on_wholes("lshr", shifted, whole(FRACTION_BITS))
-    as_double = w.from_bits(w.on_wholes("or", exponent, whole(WHOLE_BITS)))
-    e = w.exact("fsub", as_double, constant(2.0**FRACTION_BITS + EXPONENT_BIAS))
-    s = w.exact("fdiv", w.exact("fsub", mantissa, ONE), w.exact("fadd", mantissa, ONE))
-    z = w.exact("fmul", s, s)
-    tail = w.exact("fmul", w.exact("fmul", s, z), w.polynomial(z, LOG))
-    tail = w.multiply_add(e, constant(LN2[1]), tail)
-    result = w.multiply_add(e, constant(LN2[0]), w.multiply_add(s, TWO, tail))
-    result = w.choose(w.compare("ugt", x, constant(sys.float_info.max)), x, result)
-    below = w.choose(w.compare("olt", x, NOTHING), NOT_A_NUMBER, MINUS_INFINITY)
-    return w.choose(w.compare("olt", x, constant(sys.float_info.min)), below, result)
+
+    def log(w: Writer, x: Value) -> Value:
+        shifted = w.on_wholes("sub", w.bits(x), whole(ROOT_HALF_BITS - (EXPONENT_BIAS << FRACTION_BITS)))
+        fraction = w.on_wholes("and", shifted, whole((1 << FRACTION_BITS) - 1))
+        mantissa = w.from_bits(w.on_wholes("add", fraction, whole(ROOT_HALF_BITS)))
+        exponent = w.on_wholes("lshr", shifted, whole(FRACTION_BITS))
+        as_double = w.from_bits(w.on_wholes("or", exponent, whole(WHOLE_BITS)))
+        e = w.exact("fsub", as_double, constant(2.0**FRACTION_BITS + EXPONENT_BIAS))
+        s = w.exact("fdiv", w.exact("fsub", mantissa, ONE), w.exact("fadd", mantissa, ONE))
+        of_mantissa = w.exact("fmul", s, w.polynomial(w.exact("fmul", s, s), LOG))
+        result = w.multiply_add(e, constant(math.log(2)), of_mantissa)
+        result = w.choose(w.compare("ugt", x, constant(sys.float_info.max)), x, result)
+        below = MINUS_INFINITY
+        if not nonnegative:
+            below = w.choose(w.compare("olt", x, NOTHING), NOT_A_NUMBER, MINUS_INFINITY)
+        return w.choose(w.compare("olt", x, constant(sys.float_info.min)), below, result)
+
+    return log
 
 
 def _less(w: Writer, x: Value, n: Value, parts: tuple[float, ...]) -> Value:
@@ -211,7 +218,8 @@ def _power(w: Writer, x: Value, y: Value) -> Value:
 #: Each function after those it calls.
 _ONE_ARGUMENT: dict[str, Callable[[Writer, Value], Value]] = {
     "exp": _exp,
-    "log": _log,
+    "log": _log(nonnegative=False),
+    LOG_OF_NONNEGATIVE: _log(nonnegative=True),
     "sin": _wave(0),
     "cos": _wave(1),
     "tan": _tan,

@@ -2,7 +2,8 @@
 
 A result goes to place ``row · columns + column`` of its array; points without a grid are one row. An
 input is an array over the points or over the columns, one number for each row, or a random number
-made on the spot. The last points of a row run through the same instructions as all others, with
+made on the spot. Rows are walked through a tile of columns at a time, so that what is read of the
+columns stays in the cache. The last points of a row run through the same instructions as all others, with
 room to spare, so that a point's result does not depend on where blocks begin and end.
 """
 
@@ -21,10 +22,10 @@ from ballscrew.engine.tape import Operand, Step, choose
 #: Where the values of an input come from.
 Source = Literal["points", "columns", "rows", "random"]
 
-#: Lanes of a vector by the number of steps: a short program waits for its longest chain of
-#: operations, and many lanes keep the machine busy meanwhile; a long one runs out of registers.
-LANES = ((150, 32), (1000, 16))
-FEWEST_LANES = 8
+#: Lanes of a vector: a short program waits for its longest chain of operations, and many lanes keep the
+#: machine busy meanwhile; a long one runs out of registers, and one with many inputs out of cache lines.
+LANES, FEW_LANES = 32, 16
+SHORT_PROGRAM, FEW_INPUTS = 1000, 12
 
 _ARITHMETIC = {np.add: "fadd", np.subtract: "fsub", np.multiply: "fmul", np.divide: "fdiv"}
 _RELATIONS = {
@@ -39,7 +40,7 @@ _INTRINSICS = {np.sqrt: "sqrt", np.absolute: "fabs", np.floor: "floor", np.ceil:
 _TRUE, _NOTHING, _ONE = Value("splat (i1 true)"), constant(0.0), constant(1.0)
 
 SIGNATURE = (
-    "i64 %row_start, i64 %row_stop, i64 %column_start, i64 %column_stop, i64 %columns, "
+    "i64 %row_start, i64 %row_stop, i64 %column_start, i64 %column_stop, i64 %columns, i64 %tile, "
     "i64 %seed, i1 %stream, ptr noalias %inputs, ptr noalias %outputs"
 )
 
@@ -50,7 +51,7 @@ class UnknownOperationError(Exception):
 
 def lanes_for(program: Program) -> int:
     """How many points a vector holds."""
-    return next((lanes for steps, lanes in LANES if len(program.steps) <= steps), FEWEST_LANES)
+    return LANES if len(program.steps) <= SHORT_PROGRAM and program.inputs <= FEW_INPUTS else FEW_LANES
 
 
 def kernel_text(
@@ -101,19 +102,24 @@ def _pointers(name: str, count: int) -> list[str]:
 
 
 def _read(w: Writer, sources: Sequence[Source]) -> list[Value]:
-    """The heads of the loops over rows and over points, and the values of the inputs at the points in hand."""
+    """The heads of the loops over tiles, rows and points, and the values of the inputs at the points in hand."""
     values: dict[int, Value] = {}
+    w.lines += ["  br label %tile_loop", "tile_loop:"]
+    w.lines.append("  %tile_start = phi i64 [ %column_start, %entry ], [ %next_tile, %tile_done ]")
+    w.lines.append("  %next_tile = add i64 %tile_start, %tile")
+    w.lines.append("  %is_last_tile = icmp sge i64 %next_tile, %column_stop")
+    w.lines.append("  %tile_stop = select i1 %is_last_tile, i64 %column_stop, i64 %next_tile")
     w.lines += ["  br label %row_loop", "row_loop:"]
-    w.lines.append("  %row = phi i64 [ %row_start, %entry ], [ %next_row, %row_done ]")
+    w.lines.append("  %row = phi i64 [ %row_start, %tile_loop ], [ %next_row, %row_done ]")
     w.lines.append("  %first_place = mul i64 %row, %columns")
     for i, source in enumerate(sources):
         if source == "rows":
             address = w.line(f"getelementptr double, ptr %input{i}, i64 %row")
             values[i] = w.spread("double", w.line(f"load double, ptr {address}"))
     w.lines += ["  br label %point_loop", "point_loop:"]
-    w.lines.append("  %column = phi i64 [ %column_start, %row_loop ], [ %next_column, %points_done ]")
+    w.lines.append("  %column = phi i64 [ %tile_start, %row_loop ], [ %next_column, %points_done ]")
     w.lines.append("  %place = add i64 %first_place, %column")
-    w.lines.append("  %points_left = sub i64 %column_stop, %column")
+    w.lines.append("  %points_left = sub i64 %tile_stop, %column")
     w.lines.append(f"  %is_full = icmp sge i64 %points_left, {w.lanes}")
     w.lines.append("  %bytes_left = shl i64 %points_left, 3")
     from_arrays = {i: "%column" if s == "columns" else "%place" for i, s in enumerate(sources) if s in _ARRAYS}
@@ -160,11 +166,12 @@ def _write(w: Writer, types: Sequence[str], values: Sequence[Value]) -> None:
         w.lines.append(f"  call void @llvm.memcpy.p0.p0.i64(ptr {address}, ptr %spare, i64 {size}, i1 false)")
     w.lines += ["  br label %points_done", "points_done:"]
     w.lines.append(f"  %next_column = add i64 %column, {w.lanes}")
-    w.lines.append("  %more_points = icmp slt i64 %next_column, %column_stop")
+    w.lines.append("  %more_points = icmp slt i64 %next_column, %tile_stop")
     w.lines += ["  br i1 %more_points, label %point_loop, label %row_done", "row_done:"]
     w.lines.append("  %next_row = add i64 %row, 1")
     w.lines.append("  %more_rows = icmp slt i64 %next_row, %row_stop")
-    w.lines += ["  br i1 %more_rows, label %row_loop, label %done", "done:", "  ret void"]
+    w.lines += ["  br i1 %more_rows, label %row_loop, label %tile_done", "tile_done:"]
+    w.lines += ["  br i1 %is_last_tile, label %done, label %tile_loop", "done:", "  ret void"]
 
 
 class _Body:
@@ -173,6 +180,7 @@ class _Body:
     def __init__(self, w: Writer, program: Program, values: dict[int, Value]) -> None:
         self.w = w
         self.values = values
+        self.nonnegative = program.nonnegative
         self.is_mask = {i: step.is_mask for i, step in program.steps}
         for i, step in program.steps:
             self.values[i] = self._emitted(step)
@@ -211,6 +219,8 @@ class _Body:
         if function is np.power and operands[1][0] == "constant":
             return self._power(self._number(operands[0]), float(operands[1][1]))
         numbers = [self._number(operand) for operand in operands]
+        if function is np.log and operands[0][1] in self.nonnegative:
+            return w.call(elementary.LOG_OF_NONNEGATIVE, *numbers)
         if function in _ARITHMETIC:
             return w.arithmetic(_ARITHMETIC[function], numbers[0], numbers[1])
         if function in _RELATIONS:

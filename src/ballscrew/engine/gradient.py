@@ -32,7 +32,7 @@ class _Worth(NamedTuple):
 
 
 #: What a step's operands get, from the step's own worth, its operands and its value.
-_Rule = Callable[["_Pen", Traced, Sequence[Any], Traced], Sequence[Any]]
+_Rule = Callable[["_Pen", Any, Sequence[Any], Traced], Sequence[Any]]
 
 
 def partials(tape: Tape, output: Traced | float, by: Sequence[int]) -> list[Traced | float]:

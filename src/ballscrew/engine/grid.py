@@ -46,7 +46,7 @@ def split(program: Program, groups: Sequence[int]) -> Split:
 
     def tables(of: int) -> Program:
         chosen = {str(i): i for i in tabled if group[i] == of}
-        return Program(program.inputs, needed(steps, chosen.values()), chosen, {})
+        return Program(program.inputs, needed(steps, chosen.values()), chosen, {}, program.nonnegative)
 
     number = {i: k for k, i in enumerate(tabled)}
     renumbered: list[tuple[int, Step]] = []
@@ -61,7 +61,8 @@ def split(program: Program, groups: Sequence[int]) -> Split:
         operands = tuple((kind, number[int(o)] if kind == "step" else o) for kind, o in step.operands)
         number[i] = write(step._replace(operands=operands))
     outputs = {name: number[i] for name, i in program.outputs.items()}
-    points = Program(len(tabled), tuple(renumbered), outputs, program.constants)
+    nonnegative = frozenset(number[i] for i in program.nonnegative if i in number)
+    points = Program(len(tabled), tuple(renumbered), outputs, program.constants, nonnegative)
     sources: list[tuple[Source, str]] = [("rows" if group[i] == ROWS else "columns", str(i)) for i in tabled]
     return Split(tables(ROWS), tables(COLUMNS), points, tuple(sources))
 

@@ -28,6 +28,8 @@ from ballscrew.engine.emission import Source
 
 #: Bytes at which a vector may be stored past the cache.
 ALIGNMENT = 64
+#: Columns that are worked on at a time, row after row: tables of a dozen inputs then stay in the first cache.
+COLUMN_TILE = 512
 #: Results larger than this do not stay in the cache anyway, and are written past it.
 LARGEST_CACHED = 4 * 2**20
 #: At most this many kernels are kept on disk; the ones not used for longest go.
@@ -40,7 +42,7 @@ FORMAT = 1
 
 _whole = ctypes.c_int64
 _SIGNATURE = ctypes.CFUNCTYPE(
-    None, _whole, _whole, _whole, _whole, _whole, _whole, ctypes.c_bool, ctypes.c_void_p, ctypes.c_void_p
+    None, *[_whole] * 7, ctypes.c_bool, ctypes.c_void_p, ctypes.c_void_p
 )  # fmt: skip
 _lock = threading.RLock()
 _kernels: dict[str, Kernel] = {}
@@ -111,6 +113,7 @@ class Kernel:
             columns.start,
             columns.stop,
             row_length,
+            COLUMN_TILE if "columns" in self.sources else columns.stop - columns.start,
             seed,
             aligned and leaves_cache,
             (ctypes.c_void_p * len(places))(*places),
@@ -138,7 +141,7 @@ def _address(array: NDArray[Any], first: int) -> int:
     """Where the place 0 of the grid would be, for an array that begins at place ``first``."""
     if not array.flags.c_contiguous:
         raise ValueError("a kernel needs contiguous arrays")
-    return array.ctypes.data - first * array.itemsize
+    return array.__array_interface__["data"][0] - first * array.itemsize
 
 
 @functools.cache
@@ -151,7 +154,7 @@ def _llvm() -> Any:
 
 
 def _machine() -> Any:
-    """This processor, as the compiler sees it; each user of one takes it over."""
+    """The processor as the compiler sees it; whoever asks for one takes it over."""
     llvm = _llvm()
     return llvm.Target.from_default_triple().create_target_machine(
         cpu=llvm.get_host_cpu_name(), features=llvm.get_host_cpu_features().flatten(), opt=OPTIMISATION, jit=True

@@ -27,6 +27,8 @@ class Program:
     #: Which step an output is, and the outputs that are the same everywhere.
     outputs: Mapping[str, int]
     constants: Mapping[str, Any]
+    #: The steps that are known to be positive, zero or NaN.
+    nonnegative: frozenset[int] = frozenset()
 
     @classmethod
     def of(cls, tape: Tape, outputs: Mapping[str, Any]) -> Program:
@@ -34,7 +36,9 @@ class Program:
         traced = {name: value.index for name, value in outputs.items() if isinstance(value, Traced)}
         constants = {name: value for name, value in outputs.items() if not isinstance(value, Traced)}
         steps = {i: step for i, step in enumerate(tape.steps) if step is not None}
-        return cls(tape.inputs, needed(steps, traced.values()), traced, constants)
+        chosen = needed(steps, traced.values())
+        known = frozenset(i for i in (*range(tape.inputs), *(i for i, _ in chosen)) if tape.nonnegative[i])
+        return cls(tape.inputs, chosen, traced, constants, known)
 
     @property
     def text(self) -> str:
@@ -45,15 +49,24 @@ class Program:
 
 
 def needed(steps: Mapping[int, Step], wanted: Iterable[int]) -> tuple[tuple[int, Step], ...]:
-    """The steps that some of them depend on, in order."""
-    found: set[int] = set()
-    waiting = list(wanted)
-    while waiting:
-        index = waiting.pop()
-        if index in steps and index not in found:
-            found.add(index)
-            waiting.extend(int(o) for kind, o in steps[index].operands if kind == "step")
-    return tuple((i, steps[i]) for i in sorted(found))
+    """The steps that some of them depend on, each just before it is first used: few values are then held at a time."""
+    found: dict[int, None] = {}
+    for last in wanted:
+        waiting = [last]
+        while waiting:
+            index = waiting[-1]
+            missing = [
+                int(o)
+                for kind, o in (steps[index].operands if index in steps else ())
+                if kind == "step" and int(o) in steps and int(o) not in found
+            ]
+            if missing and index not in found:
+                waiting += reversed(missing)
+            else:
+                waiting.pop()
+                if index in steps:
+                    found[index] = None
+    return tuple((i, steps[i]) for i in found)
 
 
 class Player:

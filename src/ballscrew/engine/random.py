@@ -19,9 +19,10 @@ MULTIPLIERS = (0xD2511F53, 0xCD9E8D57)
 KEY_STEPS = (0x9E3779B9, 0xBB67AE85)
 WORD = 0xFFFFFFFF
 WORD_BITS = 32
-#: A uniform number has 53 bits: the top 53 of two words.
-DROPPED_BITS = 11
-SPACING = 2.0**-53
+#: A uniform number is made of the top 52 bits of two words and a half: with one bit more the half would be
+#: rounded, and the largest number would be 1.
+DROPPED_BITS = 12
+SPACING = 2.0**-52
 
 Words = tuple[NDArray[np.uint64], NDArray[np.uint64], NDArray[np.uint64], NDArray[np.uint64]]
 

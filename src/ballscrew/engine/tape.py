@@ -43,11 +43,15 @@ def choose(mask: Any, yes: Any, no: Any, out: NDArray[Any]) -> None:
 class Tape:
     """The steps recorded so far; the first ones are the inputs."""
 
-    def __init__(self, inputs: int, groups: Sequence[int] | None = None) -> None:
+    def __init__(
+        self, inputs: int, groups: Sequence[int] | None = None, nonnegative: Sequence[bool] | None = None
+    ) -> None:
         self.inputs = inputs
         self.steps: list[Step | None] = [None] * inputs
         #: The groups of inputs that each step depends on, a bit for each.
         self.groups = [1] * inputs if groups is None else list(groups)
+        #: Whether each step is known to be positive, zero or NaN.
+        self.nonnegative = [False] * inputs if nonnegative is None else list(nonnegative)
         self._known: dict[Step, int] = {}
 
     def record(self, function: Any, *operands: Any, is_mask: bool = False) -> int:
@@ -59,8 +63,22 @@ class Tape:
             self.groups.append(0)
             for kind, operand in coded:
                 self.groups[-1] |= self.groups[int(operand)] if kind == "step" else 0
+            self.nonnegative.append(self._is_nonnegative(step))
             self._known[step] = len(self.steps) - 1
         return self._known[step]
+
+    def _is_nonnegative(self, step: Step) -> bool:
+        if step.function in (np.exp, np.sqrt, np.absolute):
+            return True
+        if step.function not in _KEEP_SIGN:
+            return False
+        operands = step.operands[1:] if step.function is choose else step.operands
+        return all(self.nonnegative[int(o)] if kind == "step" else o >= 0 for kind, o in operands)
+
+    def is_known(self, function: Any, *operands: Any) -> bool:
+        """Whether a step is written down already."""
+        coded = tuple(("step", o.index) if isinstance(o, Traced) else ("constant", o) for o in operands)
+        return Step(function, coded, False) in self._known
 
     def value(self, index: int) -> Traced:
         """The value of a step."""
@@ -76,6 +94,8 @@ _MASKS = {
     np.equal, np.not_equal, np.less, np.less_equal, np.greater, np.greater_equal,
     np.isfinite, np.isnan, np.isinf, np.logical_and, np.logical_or, np.logical_xor, np.logical_not,
 }  # fmt: skip
+#: What makes positive numbers of positive numbers.
+_KEEP_SIGN = {np.add, np.multiply, np.divide, np.maximum, np.minimum, np.power, choose}
 _TRUTH = {np.bitwise_and, np.bitwise_or, np.bitwise_xor, np.invert}
 
 
@@ -131,8 +151,8 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
             return inputs[0]
         if ufunc is np.add and _is_nothing(inputs[0]) and not _is_mask(inputs[1]):
             return inputs[1]
-        if ufunc is np.power and not isinstance(inputs[1], Traced):
-            return self._raised(float(inputs[1]))
+        if ufunc is np.power:
+            return _power(*inputs)
         if (
             ufunc in (np.equal, np.not_equal)
             and not isinstance(inputs[1], Traced)
@@ -201,15 +221,16 @@ def _product(tape: Tape, powers: Sequence[tuple[int, float]]) -> int:
     """
     if len(powers) == 1 and powers[0][1] == 1:
         return powers[0][0]
+    if all(p % 2 == 0 for _, p in powers):  # the square of what is likely to be there already
+        root = tape.value(_product(tape, [(i, p / 2) for i, p in powers]))
+        return tape.record(np.multiply, root, root)
     broken = [(i, p) for i, p in powers if p != int(p)]
     roots = broken if all(abs(p) == 0.5 for _, p in broken) else []
     result: int | None = None
-    for i, power in broken if not roots else []:
-        logarithm = tape.value(tape.record(np.log, tape.value(i)))
-        term = tape.record(np.multiply, logarithm, power)
-        result = term if result is None else tape.record(np.add, tape.value(result), tape.value(term))
-    if result is not None:
-        result = tape.record(np.exp, tape.value(result))
+    if broken and not roots:
+        broken = [(i, p) for i, p in powers if p != int(p) or _goes_along(tape, i, p)]
+        powers = [(i, p) for i, p in powers if (i, p) not in broken]
+        result = tape.record(np.exp, _sum_of_logarithms(tape, broken))
     factors = [(i, p) for i, p in powers if p == int(p) for _ in range(int(abs(p)))]
     factors += [(tape.record(np.sqrt, tape.value(i)), p) for i, p in roots]
     for i, power in factors:
@@ -222,11 +243,97 @@ def _product(tape: Tape, powers: Sequence[tuple[int, float]]) -> int:
     return result
 
 
+def _goes_along(tape: Tape, index: int, power: float) -> bool:
+    """Whether a whole power is cheaper in an exponent that is there anyway: an exponential, or a divisor."""
+    step = tape.steps[index]
+    if step is not None and step.function is np.exp:
+        return True
+    return power < 0 and tape.nonnegative[index] and tape.is_known(np.log, tape.value(index))
+
+
+def _sum_of_logarithms(tape: Tape, powers: Sequence[tuple[int, float]], scale: float = 1.0) -> Any:
+    """The logarithm of a product of powers."""
+    result: Any = float(np.log(scale)) if scale != 1 else None
+    for i, power in powers:
+        logarithm = _logarithm(tape, i)
+        term = logarithm if power == 1 else _step(tape, np.multiply, logarithm, power)
+        result = term if result is None else _step(tape, np.add, result, term)
+    return result
+
+
+def _logarithm(tape: Tape, index: int) -> Any:
+    """The logarithm of a step, from logarithms that are there already where that spares one."""
+    step = tape.steps[index]
+    if step is None or tape.is_known(np.log, tape.value(index)):
+        return tape.value(tape.record(np.log, tape.value(index)))
+    if step.function is np.exp:
+        return tape.value(int(step.operands[0][1]))
+    if step.function is choose and step.operands[1] == ("constant", 0.0) and step.operands[2][0] == "step":
+        mask, kept = (tape.value(int(o)) for _, o in (step.operands[0], step.operands[2]))
+        return _step(tape, choose, mask, -np.inf, _logarithm(tape, kept.index))
+    if step.function in (np.multiply, np.divide) and _is_spared(tape, index):
+        terms = [_logarithm(tape, int(o)) if kind == "step" else float(np.log(o)) for kind, o in step.operands]
+        return _step(tape, np.add if step.function is np.multiply else np.subtract, *terms)
+    return tape.value(tape.record(np.log, tape.value(index)))
+
+
+def _is_spared(tape: Tape, index: int) -> bool:
+    """Whether the logarithm of a product is to be had from those of its factors, with one new logarithm at most.
+
+    At most one factor may be negative: a product of two is positive, but has no sum of logarithms.
+    """
+    factors, waiting = set[int](), [index]
+    while waiting:
+        step = tape.steps[i := waiting.pop()]
+        if step is not None and step.function in (np.multiply, np.divide) and not tape.is_known(np.log, tape.value(i)):
+            if any(kind == "constant" and not o > 0 for kind, o in step.operands):
+                return False
+            waiting += [int(o) for kind, o in step.operands if kind == "step"]
+        else:
+            factors.add(i)
+    if sum(not tape.nonnegative[i] for i in factors) > 1:
+        return False
+    return sum(not _has_logarithm(tape, i) for i in factors) <= 1
+
+
+def _has_logarithm(tape: Tape, index: int) -> bool:
+    step = tape.steps[index]
+    return (step is not None and step.function is np.exp) or tape.is_known(np.log, tape.value(index))
+
+
+def _step(tape: Tape, function: Any, *operands: Any) -> Any:
+    """A step as it is, or a constant."""
+    if not any(isinstance(o, Traced) for o in operands):
+        return float(function(*operands))
+    return tape.value(tape.record(function, *operands))
+
+
+def _power(base: Any, exponent: Any) -> Traced:
+    """A power; one with an exponent that is recorded too is ``exp(exponent · log(base))``, and 1 for the exponent 0.
+
+    Its base is taken to be positive or zero, like that of any broken power.
+    """
+    if not isinstance(exponent, Traced):
+        return base._raised(float(exponent))
+    tape = exponent.tape
+    if not isinstance(base, Traced):
+        logarithm: Any = float(np.log(_constant(base)))
+    elif base.scale > 0:
+        logarithm = _sum_of_logarithms(tape, sorted(base.powers.items(), reverse=True), base.scale)
+        if base.zero is not None:
+            logarithm = _step(tape, choose, tape.value(base.zero), -np.inf, logarithm)
+    else:
+        logarithm = _logarithm(tape, base.index)
+    is_nothing = tape.value(tape.record(np.equal, exponent, 0.0, is_mask=True))
+    product = _step(tape, choose, is_nothing, 0.0, _step(tape, np.multiply, exponent, logarithm))
+    return _step(tape, np.exp, product)
+
+
 def _folds(power: float, exponent: float) -> bool:
-    """Whether ``(x**power)**exponent`` is ``x**(power*exponent)`` for negative x too, where both may be NaN.
+    """Whether ``(x**power)**exponent`` is ``x**(power*exponent)``, where x is not negative if the result is broken.
 
     Not for the root of a square, not for the square of a root, not for the power 0; and high whole
-    powers are better left to NumPy.
+    powers are better left as they are.
     """
     if exponent == 0 or not np.isfinite(exponent):
         return False
@@ -235,7 +342,7 @@ def _folds(power: float, exponent: float) -> bool:
     if all(whole) and abs(total) > HIGHEST_WHOLE_POWER:
         return False
     if not whole[1]:
-        return total != int(total) and (not whole[0] or power % 2 == 1)
+        return total != int(total)
     return whole[0] or total != int(total)
 
 

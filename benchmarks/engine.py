@@ -1,0 +1,323 @@
+"""How fast the engine is: against formulas on whole NumPy arrays, and against the machine's memory, in one run.
+
+``python benchmarks/engine.py`` prints a table, ``--json`` one object. All that is compared is measured in turn,
+round after round, so that what else the machine does falls on all sides alike; ratios are medians over the rounds.
+The figure of a case is the worse of those at a million and at ten million points.
+
+- ``A``: `olaru2005()`, load, speed and viscosity vary; seven outputs.
+- ``B``: `olaru2005()`, all 22 numbers it depends on vary; seven outputs.
+- ``cartesian``: A on a grid of loads, speeds and viscosities.
+- ``reference``: `reference()` with the inputs and outputs of A, against the model itself on whole arrays.
+- ``gradient``: the torque of `olaru2005()` and its derivatives by twelve inputs, all of which vary; against one-sided
+  differences of the formulas, thirteen evaluations. ``over_value`` is its time in units of that of the torque alone.
+
+The memory's limit is what a kernel of the same engine reaches that reads and writes as many arrays and does next to
+nothing with them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import statistics
+import time
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+import ballscrew as bs
+from ballscrew._arrays import map_blocks, processors
+from ballscrew.analyses.derivatives import slopes_of
+from ballscrew.analyses.evaluation import Evaluation
+from ballscrew.analyses.olaru2005 import OIL, SCREW
+from ballscrew.analyses.plan import Plan, Subject
+from ballscrew.engine.emission import Source, kernel_text
+from ballscrew.engine.kernel import Kernel, room
+from ballscrew.engine.program import Program
+from ballscrew.engine.tape import Tape
+from script import formulas_on_arrays
+
+OUTPUTS = (
+    "screw_torque",
+    "nut_torque",
+    "efficiency",
+    "screw_film_parameter",
+    "nut_film_parameter",
+    "screw_friction_coefficient",
+    "nut_friction_coefficient",
+)
+SIZES = (1_000_000, 10_000_000)
+#: Rounds at each size, and the largest size of the cases that NumPy is slow at.
+ROUNDS = {1_000_000: 7, 10_000_000: 3}
+LARGEST = {"reference": 1_000_000, "gradient": 1_000_000}
+BLOCKS_PER_THREAD = 4
+
+#: Each input that olaru2005() depends on: its letter in the script, and the range it is drawn from, in SI.
+RANGES: dict[str, tuple[str, float, float]] = {
+    "axial_load": ("F", 100, 4000),
+    "screw_speed": ("omega", 1, 105),
+    "viscosity": ("eta_0", 0.05, 0.5),
+    "pitch_circle_diameter": ("d_m", 0.035, 0.045),
+    "lead": ("p", 0.004, 0.006),
+    "ball_diameter": ("d_w", 0.003, 0.0035),
+    "loaded_balls": ("z", 50, 60),
+    "contact_angle": ("alpha", 0.7, 0.85),
+    "screw_conformity": ("f_s", 0.512, 0.54),
+    "nut_conformity": ("f_n", 0.512, 0.54),
+    "ball_roughness": ("sigma_b", 0.5e-7, 1e-7),
+    "screw_roughness": ("sigma_s", 1e-7, 4e-7),
+    "nut_roughness": ("sigma_n", 1e-7, 4e-7),
+    "pressure_viscosity_coefficient": ("alpha_p", 1.8e-8, 2.4e-8),
+    "ball_to_ball_force": ("F_B", 0.01, 0.03),
+    "ball_friction_coefficient": ("mu_b", 0.05, 0.15),
+    "pure_rolling_offset": ("Y", 0.3, 0.38),
+    "film.speed_exponent": ("speed_exponent", 0.64, 0.7),
+    "friction.boundary_friction_coefficient": ("mu_0", 0.1, 0.2),
+    "friction.decay": ("B", 1.2, 1.6),
+    "friction.exponent": ("C", 0.7, 0.9),
+    "friction.full_film_friction_coefficient": ("mu_f", 0.01, 0.03),
+}
+OPERATION = ("axial_load", "screw_speed", "viscosity")
+WHOLE = ("loaded_balls",)
+#: The twelve inputs that the gradient is taken by.
+BY = tuple(name for name in RANGES if name not in WHOLE)[:12]
+
+#: What is asked for, at least; ``over_value`` at most.
+LIMITS: dict[str, dict[str, float]] = {
+    "A": {"vs_numpy": 20, "of_memory_limit": 0.40},
+    "B": {"vs_numpy": 12, "of_memory_limit": 0.30},
+    "cartesian": {"vs_numpy": 30},
+    "reference": {"vs_numpy": 10},
+    "gradient": {"over_value": 2},
+}
+
+
+class Case(NamedTuple):
+    """What is run in turn, by name: ``engine``, ``numpy`` (on fewer points where it is slow), ``memory`` and others."""
+
+    points: int
+    numpy_points: int
+    work: Mapping[str, Callable[[], Any]]
+    agreement: float
+
+
+def drawn(names: tuple[str, ...], points: int) -> dict[str, NDArray[np.float64]]:
+    """Random values of some inputs."""
+    rng = np.random.default_rng(2005)
+    values = {name: rng.uniform(*RANGES[name][1:], points) for name in names}
+    return {name: np.round(v) if name in WHOLE else v for name, v in values.items()}
+
+
+def in_letters(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Inputs under the names they have in the script."""
+    return {RANGES[name][0]: value for name, value in values.items()}
+
+
+def ready(plan: Plan) -> tuple[Evaluation, dict[str, NDArray[Any]]]:
+    """A plan compiled, and arrays for its results that have been written to once."""
+    evaluation = Evaluation.of(plan, "compiled")
+    results = evaluation.empty(plan.total)
+    evaluation.fill(results, slice(0, plan.total))
+    return evaluation, results
+
+
+def moving(inputs: int, outputs: int, points: int) -> Callable[[], None]:
+    """Reading and writing so many arrays, and next to no arithmetic: the limit of the memory."""
+    tape = Tape(inputs)
+    total: Any = sum((tape.value(i) for i in range(1, inputs)), tape.value(0)) if inputs else 1.0
+    names = [str(i) for i in range(outputs)]
+    step = total.index if inputs else tape.record(np.multiply, 1.0, 1.0)
+    program = Program.of(tape, {name: tape.value(step) for name in names})
+    sources: list[Source] = ["points"] * inputs
+    kernel = Kernel.of(kernel_text(program, sources, dict.fromkeys(names, False)), sources)
+    arrays = [np.ones(points) for _ in range(inputs)]
+    results = [room(points, float) for _ in range(outputs)]
+    block = math.ceil(points / (BLOCKS_PER_THREAD * processors()) / 64) * 64
+    return lambda: map_blocks(lambda part: kernel(slice(0, 1), part, points, arrays, results), points, block_size=block)
+
+
+def difference(found: Mapping[str, NDArray[Any]], expected: Mapping[str, NDArray[Any]]) -> float:
+    """The largest relative difference; of the nut's torque, which passes through zero, in units of the screw's."""
+    worst = 0.0
+    for name, value in expected.items():
+        scale = np.abs(expected["screw_torque"] if name == "nut_torque" else value)
+        worst = max(worst, float(np.max(np.abs(found[name].reshape(value.shape) - value) / scale)))
+    return worst
+
+
+def points_case(names: tuple[str, ...], points: int) -> Case:
+    """Cases A and B."""
+    values = drawn(names, points)
+    subject = Subject(bs.FrictionModel.olaru2005(), SCREW, OIL)
+    plan = Plan.of(subject, OUTPUTS, {name: xr.DataArray(v, dims="point") for name, v in values.items()})
+    evaluation, results = ready(plan)
+    letters = in_letters(values)
+    expected = dict(zip(OUTPUTS, formulas_on_arrays(**{k: v[:100_000] for k, v in letters.items()}), strict=True))
+    work: dict[str, Callable[[], Any]] = {
+        "memory": moving(len(names), len(OUTPUTS), points),
+        "numpy": lambda: formulas_on_arrays(**letters),
+        "engine": lambda: evaluation.fill(results, slice(0, points)),
+    }
+    return Case(points, points, work, difference({n: v[:100_000] for n, v in results.items()}, expected))
+
+
+def grid_case(points: int) -> Case:
+    """Case A on a grid of about so many points."""
+    side = round(points ** (1 / 3))
+    axes = {name: np.linspace(*RANGES[name][1:], side) for name in OPERATION}
+    evaluation, results = ready(Plan.of(Subject(bs.FrictionModel.olaru2005(), SCREW, OIL), OUTPUTS, axes))
+    grid = in_letters(dict(zip(OPERATION, np.meshgrid(*axes.values(), indexing="ij"), strict=True)))
+    broad = in_letters(dict(zip(OPERATION, np.meshgrid(*axes.values(), indexing="ij", sparse=True), strict=True)))
+    shape = (side,) * 3
+    expected = {
+        n: np.broadcast_to(v, shape) for n, v in zip(OUTPUTS, formulas_on_arrays(**broad), strict=True)
+    }  # fmt: skip
+    total = side**3
+    work: dict[str, Callable[[], Any]] = {
+        "memory": moving(0, len(OUTPUTS), total),
+        "numpy": lambda: formulas_on_arrays(**grid),
+        "numpy_broadcast": lambda: formulas_on_arrays(**broad),
+        "engine": lambda: evaluation.fill(results, slice(0, total)),
+    }
+    return Case(total, total, work, difference(results, expected))
+
+
+def reference_case(points: int) -> Case:
+    """The reference model against its own form on whole arrays."""
+    values = drawn(OPERATION, points)
+    subject = Subject(bs.FrictionModel.reference(), SCREW, OIL)
+    plan = Plan.of(subject, OUTPUTS, {name: xr.DataArray(v, dims="point") for name, v in values.items()})
+    evaluation, results = ready(plan)
+    fewer = points // 5
+    some = {name: v[:fewer] for name, v in values.items()}
+
+    def whole_arrays() -> dict[str, NDArray[Any]]:
+        result = subject.at(some)
+        return {name: output.read(result) for name, output in plan.wanted.items()}
+
+    numpy = Evaluation.of(plan, "numpy")
+    played = numpy.empty(fewer)
+    work: dict[str, Callable[[], Any]] = {
+        "memory": moving(3, len(OUTPUTS), points),
+        "numpy": whole_arrays,
+        "numpy_engine": lambda: numpy.fill(played, slice(0, fewer)),
+        "engine": lambda: evaluation.fill(results, slice(0, points)),
+    }
+    return Case(points, fewer, work, difference({n: v[:fewer] for n, v in results.items()}, whole_arrays()))
+
+
+def gradient_case(points: int) -> Case:
+    """The torque and its twelve derivatives."""
+    values = drawn(BY, points)
+    subject = Subject(bs.FrictionModel.olaru2005(), SCREW, OIL)
+    varied = {name: xr.DataArray(v, dims="point") for name, v in values.items()}
+    alone, value = ready(Plan.of(subject, ["screw_torque"], varied))
+    both, results = ready(slopes_of(subject, ["screw_torque"], BY, varied))
+    letters = in_letters(values)
+    fewer = points // 5
+    few = {name: v[:fewer] for name, v in letters.items()}
+
+    def differences() -> list[NDArray[Any]]:
+        start = formulas_on_arrays(**few)[0]
+        return [(formulas_on_arrays(**few | {n: v * (1 + 1e-7)})[0] - start) / (v * 1e-7) for n, v in few.items()]
+
+    worst = 0.0
+    for name, slope in zip(BY, differences(), strict=True):
+        exact = results[f"d_screw_torque_d_{name.replace('.', '_')}"][:fewer]
+        scale = np.abs(results["screw_torque"][:fewer] / values[name][:fewer])
+        worst = max(worst, float(np.max(np.abs(slope - exact) / scale)))
+    work: dict[str, Callable[[], Any]] = {
+        "memory": moving(len(BY), 1 + len(BY), points),
+        "numpy": differences,
+        "value": lambda: alone.fill(value, slice(0, points)),
+        "engine": lambda: both.fill(results, slice(0, points)),
+    }
+    return Case(points, fewer, work, worst)
+
+
+CASES: dict[str, Callable[[int], Case]] = {
+    "A": lambda points: points_case(OPERATION, points),
+    "B": lambda points: points_case(tuple(RANGES), points),
+    "cartesian": grid_case,
+    "reference": reference_case,
+    "gradient": gradient_case,
+}
+
+
+def seconds(work: Callable[[], Any]) -> float:
+    """How long one call takes."""
+    start = time.perf_counter()
+    work()
+    return time.perf_counter() - start
+
+
+def measured(case: Case, rounds: int) -> dict[str, float]:
+    """Ratios and rates of a case: medians over rounds in which everything is run in turn."""
+    times: dict[str, list[float]] = {name: [] for name in case.work}
+    for _ in range(rounds):
+        for name, work in case.work.items():
+            scale = case.points / case.numpy_points if name.startswith("numpy") else 1.0
+            times[name].append(scale * seconds(work))
+
+    def ratio(name: str) -> float:
+        return statistics.median(other / engine for other, engine in zip(times[name], times["engine"], strict=True))
+
+    figures = {
+        "points": case.points,
+        "vs_numpy": ratio("numpy"),
+        "of_memory_limit": ratio("memory"),
+        "mpoints_per_s": case.points / statistics.median(times["engine"]) / 1e6,
+        "memory_mpoints_per_s": case.points / statistics.median(times["memory"]) / 1e6,
+        "agreement": case.agreement,
+    }
+    for name in set(times) - {"numpy", "memory", "engine", "value"}:
+        figures[f"vs_{name}"] = ratio(name)
+    if "value" in times:
+        figures["over_value"] = 1 / ratio("value")
+    return figures
+
+
+def main() -> None:
+    """Measure, and print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    parser.add_argument("--points", type=int, action="append", help="points; may be repeated (default: 10^6 and 10^7)")
+    parser.add_argument("--case", choices=list(CASES), action="append", help="only this case; may be repeated")
+    options = parser.parse_args()
+    found: dict[str, dict[str, Any]] = {}
+    for name in options.case or CASES:
+        by_points: dict[str, dict[str, float]] = {}
+        for points in options.points or SIZES:
+            if points <= LARGEST.get(name, points):
+                by_points[str(points)] = measured(CASES[name](points), ROUNDS.get(points, 5))
+        worst = {
+            key: min(f[key] for f in by_points.values()) for key in ("vs_numpy", "of_memory_limit", "mpoints_per_s")
+        }
+        if name == "gradient":
+            worst["over_value"] = max(f["over_value"] for f in by_points.values())
+        found[name] = {**worst, "by_points": by_points}
+        if not options.json:
+            report(name, found[name])
+    if options.json:
+        print(json.dumps({**found, "limits": LIMITS, "threads": processors()}, indent=1))
+
+
+def report(name: str, figures: Mapping[str, Any]) -> None:
+    """A line for each size, and what is asked for."""
+    for points, row in figures["by_points"].items():
+        others = "  ".join(f"{key} {value:.3g}" for key, value in row.items() if key != "points")
+        print(f"{name:10s} {int(points):>10,d}  {others}")
+    for key, limit in LIMITS[name].items():
+        met = figures[key] <= limit if key == "over_value" else figures[key] >= limit
+        word = "at most" if key == "over_value" else "at least"
+        print(
+            f"{'':10s} {key} {figures[key]:.3g}, required: {word} {limit:g}  {'met' if met else 'MISSED'}", flush=True
+        )
+
+
+if __name__ == "__main__":
+    main()

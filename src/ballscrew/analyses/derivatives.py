@@ -1,0 +1,169 @@
+"""Exact derivatives: how an output answers to each input and coefficient, at every point of a sweep."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal
+
+import numpy as np
+import xarray as xr
+
+from ballscrew.analyses.evaluation import Engine, Evaluation
+from ballscrew.analyses.outputs import OPERATION, Output, known_outputs
+from ballscrew.analyses.plan import Plan, Subject
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.screw import BallScrew
+from ballscrew.engine.gradient import UnknownSlopeError, partials
+from ballscrew.engine.program import Program
+from ballscrew.engine.tape import Tape
+from ballscrew.faults import Fault, InputError, nearest, raise_if_any
+from ballscrew.model import FrictionModel
+from ballscrew.quantities import Info, Quantity
+
+#: How derivatives can be had.
+Method = Literal["tape", "jax"]
+METHODS: tuple[Method, ...] = ("tape", "jax")
+JAX_INSTEAD = 'try method="jax"'
+
+
+def derivatives(
+    model: FrictionModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    *,
+    by: Sequence[str],
+    outputs: Sequence[str] = ("screw_torque",),
+    method: Method = "tape",
+    engine: Engine | None = None,
+    threads: int | None = None,
+    done: Callable[[int, int], None] | None = None,
+    **varied: Any,
+) -> xr.Dataset:
+    r"""Outputs and their partial derivatives by inputs and coefficients, as labelled arrays in SI.
+
+    ``by`` names the inputs as :func:`~ballscrew.analyses.sweep.sweep` does (``"axial_load"``, ``"ball_diameter"``,
+    ``"friction.boundary_friction_coefficient"``), varied or not; ``varied`` gives the points as there.
+    For each output ``y`` and input ``x`` the dataset has ``y`` and ``d_y_d_x``
+    (:math:`\partial y/\partial x`, all other inputs held).
+
+    The derivatives are those of the formulas as they are evaluated, without differencing:
+    ``method="tape"`` differentiates what is recorded in reverse (:mod:`ballscrew.engine.gradient`) and evaluates
+    it with either ``engine``; ``"jax"`` leaves it to JAX (the extra ``jax``), an independent way to
+    the same numbers. At a bend, such as the clamp of the friction coefficient, it is the slope of the branch
+    taken; where a power has no slope (no load, at rest) it is infinite or NaN. A number of balls
+    counts as continuous.
+
+    Raises :class:`~ballscrew.faults.InputError` for unknown names, outputs that are truth values,
+    inputs without a value, and laws that cannot be recorded.
+    """
+    if method not in METHODS:
+        raise InputError(Fault("derivatives.method", "unknown method", str(method), f"one of {', '.join(METHODS)}"))
+    slopes = slopes_of(Subject(model, screw, lubricant), outputs, by, varied)
+    if method == "jax":
+        return _by_jax(slopes)
+    evaluation = Evaluation.of(slopes, engine)
+    results = evaluation.empty(slopes.total)
+    evaluation.fill(results, slice(0, slopes.total), threads=threads, done=done)
+    return slopes.dataset(results)
+
+
+def slopes_of(subject: Subject, outputs: Sequence[str], by: Sequence[str], varied: Mapping[str, Any]) -> Slopes:
+    """A plan for outputs and their derivatives. Raises :class:`~ballscrew.faults.InputError` with all faults in it."""
+    by = (by,) if isinstance(by, str) else tuple(dict.fromkeys(by))
+    known = subject.inputs
+    faults = [Fault("derivatives.by", "unknown input", name, nearest(name, known)) for name in by if name not in known]
+    faults += [] if by else [Fault("derivatives.by", "missing", "", 'name the inputs: by=["axial_load"]')]
+    raise_if_any(faults)
+    held = {n: subject.value_of(n) for n in by if n not in varied and n not in OPERATION}
+    raise_if_any(
+        [
+            Fault(f"derivatives.{name}", "has no value to differentiate by", "", f"give it one: {name}=…")
+            for name, value in held.items()
+            if value is None
+        ]
+    )
+    plan = Plan.of(subject, outputs, {**varied, **held})
+    raise_if_any(
+        [
+            Fault("derivatives.outputs", "is true or false, and has no derivative", name, "choose a number")
+            for name, output in plan.wanted.items()
+            if output.dtype is bool
+        ]
+    )
+    return Slopes(subject, plan.axes, plan.sizes, plan.outputs, by)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Slopes(Plan):
+    """A plan whose results are the outputs and their derivatives."""
+
+    by: tuple[str, ...] = ()
+
+    @property
+    def varying(self) -> list[str]:
+        """The inputs that are not the same at all points, or that are differentiated by."""
+        return [name for name, axis in self.axes.items() if axis.dims or name in self.by]
+
+    @functools.cached_property
+    def wanted(self) -> dict[str, Output]:
+        """The outputs, each followed by its derivatives."""
+        found: dict[str, Output] = {}
+        for name in self.outputs:
+            found[name] = known_outputs()[name]
+            found |= {_name(name, x): self._slope(found[name], x) for x in self.by}
+        return found
+
+    def _slope(self, output: Output, name: str) -> Output:
+        above, below = output.quantity, self.subject.inputs[name][1]
+        divisor = f"({below.unit})" if {" ", "/"} & set(below.unit) else below.unit
+        unit = above.unit if divisor == "1" else f"{above.unit}/{divisor}"
+        info = Info(
+            rf"\partial {above.info.symbol}/\partial {below.info.symbol}",
+            f"{above.info.meaning}, by {below.info.meaning}",
+        )
+        return Output(_name(output.name, name), Quantity(_name(output.name, name), unit, info), _unreadable)
+
+    def recorded(self, groups: Sequence[int] | None = None) -> Program:
+        """The outputs and their derivatives as a program of the varying inputs."""
+        varying = self.varying
+        tape = Tape(len(varying), groups, [self.subject.is_nonnegative(name) for name in varying])
+        found: dict[str, Any] = {}
+        try:
+            with np.errstate(all="ignore"):
+                result = self.subject.at({**self.fixed, **{name: tape.value(i) for i, name in enumerate(varying)}})
+                for name in self.outputs:
+                    found[name] = known_outputs()[name].read(result)
+                    slopes = partials(tape, found[name], [varying.index(x) for x in self.by])
+                    found |= {_name(name, x): slope for x, slope in zip(self.by, slopes, strict=True)}
+        except UnknownSlopeError as unknown:
+            raise InputError(Fault("derivatives", f"{unknown} has no derivative here", "", JAX_INSTEAD)) from None
+        except TypeError as why:  # a law of the user's that wants plain arrays
+            raise InputError(Fault("derivatives", f"a law cannot be recorded: {why}", "", JAX_INSTEAD)) from None
+        return Program.of(tape, found)
+
+
+def _name(output: str, name: str) -> str:
+    return f"d_{output}_d_{name.replace('.', '_')}"
+
+
+def _unreadable(_: Any) -> Any:
+    """A result does not hold its derivatives."""
+    raise TypeError("derivatives are recorded, not read")
+
+
+def _by_jax(slopes: Slopes) -> xr.Dataset:
+    from ballscrew.analyses.jax_derivatives import jax_value_and_partials
+
+    everywhere = np.arange(slopes.total)
+    shape = everywhere.shape
+    points = {n: np.broadcast_to(v, shape) for n, v in slopes.points_at(everywhere).items()}
+
+    def outputs_of(values: Mapping[str, Any]) -> dict[str, Any]:
+        result = slopes.subject.at({**slopes.fixed, **values})
+        return {name: known_outputs()[name].read(result) for name in slopes.outputs}
+
+    values, found = jax_value_and_partials(outputs_of, points, slopes.outputs, slopes.by)
+    named = {_name(output, x): slope for (output, x), slope in found.items()}
+    return slopes.dataset({name: (values | named)[name] for name in slopes.wanted})
