@@ -28,7 +28,7 @@ ENGINES: tuple[Engine, ...] = ("numpy", "compiled")
 #: point if it has to be compiled. Only the choice of an engine depends on these seconds, so that
 #: they need not be exact.
 NUMPY_STEP_SECONDS = 1.5e-10
-COMPILING_SECONDS, COMPILING_STEP_SECONDS = 0.05, 7e-5
+COMPILING_SECONDS, COMPILING_STEP_SECONDS = 0.05, 1.2e-4
 #: What NumPy does in less than this is left to it: as long takes it to load the compiler.
 SHORT_SECONDS = 0.1
 

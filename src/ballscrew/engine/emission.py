@@ -22,10 +22,13 @@ from ballscrew.engine.tape import Operand, Step, choose
 #: Where the values of an input come from.
 Source = Literal["points", "columns", "rows", "random"]
 
-#: Lanes of a vector: a short program waits for its longest chain of operations, and many lanes keep the
-#: machine busy meanwhile; a long one runs out of registers, and one with many inputs out of cache lines.
-LANES, FEW_LANES = 32, 16
-SHORT_PROGRAM, FEW_INPUTS = 1000, 12
+#: Lanes of a vector, for programs of at most so many steps: a short program waits for its longest chain of
+#: operations, and many lanes keep the machine busy meanwhile; a long one runs out of registers and takes long to
+#: compile.
+LANES = ((1000, 32), (10_000, 16))
+FEWEST_LANES = 8
+#: A program with more inputs than this runs out of cache lines, and has the next fewer lanes.
+FEW_INPUTS = 12
 
 _ARITHMETIC = {np.add: "fadd", np.subtract: "fsub", np.multiply: "fmul", np.divide: "fdiv"}
 _RELATIONS = {
@@ -51,7 +54,8 @@ class UnknownOperationError(Exception):
 
 def lanes_for(program: Program) -> int:
     """How many points a vector holds."""
-    return LANES if len(program.steps) <= SHORT_PROGRAM and program.inputs <= FEW_INPUTS else FEW_LANES
+    lanes = next((lanes for steps, lanes in LANES if len(program.steps) <= steps), FEWEST_LANES)
+    return lanes if program.inputs <= FEW_INPUTS else max(lanes // 2, FEWEST_LANES)
 
 
 def kernel_text(

@@ -174,6 +174,12 @@ def _content(text: str) -> str:
 
 
 def _compiled(text: str) -> bytes:
+    machine, module = _optimised(text)
+    return machine.emit_object(module)
+
+
+def _optimised(text: str) -> tuple[Any, Any]:
+    """The processor, and the module ready to be made into its code."""
     llvm = _llvm()
     module = llvm.parse_assembly(text)
     module.verify()
@@ -182,7 +188,7 @@ def _compiled(text: str) -> bytes:
     tuning.loop_vectorization = tuning.slp_vectorization = tuning.loop_unrolling = False  # vectors are explicit
     passes = llvm.create_pass_builder(machine, tuning)
     passes.getModulePassManager().run(module, passes)
-    return machine.emit_object(module)
+    return machine, module
 
 
 def folder() -> Path:

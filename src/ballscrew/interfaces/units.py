@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import functools
+import importlib
 import re
 import reprlib
+import sys
 from collections.abc import Mapping, Sequence
 from importlib import resources
 from typing import TYPE_CHECKING, Any
@@ -52,11 +54,27 @@ _SPELLINGS = {
 }
 
 
+#: Libraries that pint loads where they are installed, though units do not need them: half a second for nothing.
+_NOT_FOR_UNITS = ("dask", "scipy")
+
+
+@functools.cache
+def _pint() -> Any:
+    """The library of units, without the libraries it looks for in vain."""
+    hidden = [name for name in _NOT_FOR_UNITS if name not in sys.modules]
+    absent: Any = None  # importing it fails, as if it were not installed
+    sys.modules.update(dict.fromkeys(hidden, absent))
+    try:
+        return importlib.import_module("pint")
+    finally:
+        for name in hidden:
+            del sys.modules[name]
+
+
 @functools.cache
 def registry() -> pint.UnitRegistry[Any]:
     """The units of ``data/units.txt``; a fraction of pint's own list, and quick to load."""
-    import pint
-
+    pint = _pint()
     no_file: Any = None  # an empty registry, which pint's own types do not know of
     units: pint.UnitRegistry[Any] = pint.UnitRegistry(no_file, autoconvert_offset_to_baseunit=True)
     text = resources.files("ballscrew").joinpath("data/units.txt").read_text(encoding="utf-8")
@@ -180,7 +198,7 @@ def _meant(unit: str, quantity: Quantity) -> str:
 
 
 def _converted(where: str, number: float, unit: str, quantity: Quantity, given: str) -> float | Fault:
-    import pint
+    pint = _pint()
 
     try:
         if len(unit) > _LONGEST_UNIT or not _UNIT.fullmatch(unit):

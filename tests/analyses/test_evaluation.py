@@ -1,0 +1,231 @@
+"""Kernels against the model on plain arrays: the same numbers, NaN in the same places, whatever the blocks."""
+
+import dataclasses
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from hypothesis import given
+from hypothesis import strategies as st
+
+import ballscrew as bs
+from ballscrew.analyses.evaluation import Evaluation, rectangles
+from ballscrew.analyses.olaru2005 import OIL, SCREW
+from ballscrew.analyses.outputs import known_outputs
+from ballscrew.analyses.plan import Plan, Subject
+from ballscrew.engine import kernel as kernels
+
+MODELS = {
+    "olaru2005": bs.FrictionModel.olaru2005(),
+    "olaru2005-literal": bs.FrictionModel.olaru2005(literal_film_parameter=True),
+    "corrected": bs.FrictionModel.corrected(),
+    "reference": bs.FrictionModel.reference(),
+}
+EXAMPLE = Path(__file__).parents[2] / "examples" / "olaru2005.toml"
+needs_compiler = pytest.mark.skipif(not kernels.available(), reason="llvmlite is not installed (the extra fast)")
+
+#: Every kind of input, over ranges that reach beyond what is usual.
+RANGES = {
+    "axial_load": (1, 20_000),
+    "screw_speed": (0.1, 300),
+    "viscosity": (0.001, 1),
+    "pitch_circle_diameter": (0.02, 0.06),
+    "lead": (0.003, 0.02),
+    "ball_diameter": (0.002, 0.004),
+    "contact_angle": (0.5, 1.1),
+    "screw_conformity": (0.505, 0.6),
+    "nut_conformity": (0.505, 0.6),
+    "ball_roughness": (1e-8, 3e-7),
+    "pressure_viscosity_coefficient": (1e-8, 3e-8),
+    "friction.boundary_friction_coefficient": (0.05, 0.25),
+}
+#: Outputs that are differences and pass through zero, and what they are small against.
+DIFFERENCES = {
+    "nut_torque": lambda r: r.screw_torque,
+    "nut_friction_torque": lambda r: r.screw.friction_torque,
+    "nut_tangential_force": lambda r: r.screw.tangential_force,
+    "nut_sliding_force": lambda r: r.screw.tangential_force,
+    "screw_sliding_force": lambda r: r.screw.tangential_force,
+    "back_driving_efficiency": lambda r: 1.0,
+    "holding_torque": lambda r: r.drive_torque,
+}
+#: What settles in the balance of the slip is as accurate as the balance: in units of its largest value.
+SETTLED = ("creep_speed", "pure_rolling_offset", "lateral_slip_speed")
+
+
+@pytest.fixture(autouse=True, scope="module")
+def own_cache(tmp_path_factory):
+    """Kernels of these tests are kept where only they see them."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("BALLSCREW_CACHE", str(tmp_path_factory.mktemp("kernels")))
+        yield
+
+
+def random_points(count, seed=0):
+    rng = np.random.default_rng(seed)
+    values = {name: rng.uniform(low, high, count) for name, (low, high) in RANGES.items()}
+    values["axial_load"][:5] = 0.0
+    values["screw_speed"][3:9] = 0.0
+    return {name: xr.DataArray(v, dims="point") for name, v in values.items()}
+
+
+def filled(plan, engine, **how):
+    evaluation = Evaluation.of(plan, engine)
+    results = evaluation.empty(plan.total)
+    evaluation.fill(results, slice(0, plan.total), **how)
+    return results
+
+
+@needs_compiler
+@pytest.mark.parametrize("name", MODELS)
+def test_kernels_are_the_model_on_plain_arrays(name):
+    """A hundred thousand random points, no load and rest among them, all outputs."""
+    subject = Subject(MODELS[name], SCREW, OIL)
+    plan = Plan.of(subject, list(known_outputs()), random_points(100_000))
+    found = filled(plan, "compiled")
+    result = subject.at(plan.points(slice(0, plan.total)))
+    for output in plan.wanted.values():
+        expected = np.broadcast_to(output.read(result), plan.total)
+        value = found[output.name]
+        if output.dtype is bool:
+            assert np.mean(value != expected) < 1e-4, output.name  # a bound met to the last place
+            continue
+        assert np.array_equal(np.isnan(value), np.isnan(expected)), output.name
+        assert np.array_equal(np.isinf(value), np.isinf(expected)), output.name
+        finite = np.isfinite(expected)
+        value, expected = value[finite], expected[finite]
+        scale = np.abs(expected)
+        if output.name in DIFFERENCES:
+            scale = np.abs(np.broadcast_to(DIFFERENCES[output.name](result), plan.total))[finite]
+        if "pure_rolling_offset" in output.name:  # a root: of nothing, the root of what rounding leaves
+            value, expected = value**2, expected**2
+        if "spin" in output.name or output.name.endswith(SETTLED):
+            scale = np.max(np.abs(expected), initial=0)
+        assert np.all(np.abs(value - expected) <= 1e-12 * scale), output.name
+
+
+@needs_compiler
+@pytest.mark.parametrize("name", ["olaru2005", "reference"])
+@pytest.mark.parametrize("how", [{"block_size": 1}, {"block_size": 37}, {"block_size": 1000, "threads": 3}])
+def test_any_blocks_and_threads_give_the_same_bits(name, how):
+    plan = Plan.of(Subject(MODELS[name], SCREW, OIL), None, random_points(1003))
+    whole = filled(plan, "compiled", threads=1)
+    for output, values in filled(plan, "compiled", **how).items():
+        assert np.array_equal(values, whole[output], equal_nan=True), output
+
+
+def grid(*sizes):
+    names = ("axial_load", "screw_speed", "viscosity")
+    ends = ((0.0, 4000.0), (0.0, 100.0), (0.01, 0.5))
+    return {n: np.linspace(*e, s) for n, e, s in zip(names, ends, sizes, strict=True)}
+
+
+@needs_compiler
+@pytest.mark.parametrize("name", MODELS)
+def test_grids_are_the_points_they_are_made_of(name):
+    """No load and rest are among the values of the axes."""
+    plan = Plan.of(Subject(MODELS[name], SCREW, OIL), None, grid(11, 13, 19))
+    cut = Evaluation.of(plan, "compiled")
+    assert cut._row_length == 13 * 19
+    found, expected = filled(plan, "compiled"), filled(plan, "numpy")
+    for output in found:
+        if found[output].dtype == bool:
+            assert np.array_equal(found[output], expected[output]), output
+        else:
+            size = np.abs(expected["screw_torque"] if output == "nut_torque" else expected[output])
+            size = np.maximum(size, 1.0) if output == "back_driving_efficiency" else size
+            finite = np.isfinite(expected[output])
+            assert np.array_equal(found[output][~finite], expected[output][~finite], equal_nan=True), output
+            off = np.abs(found[output][finite] - expected[output][finite])
+            assert np.all(off <= 1e-12 * size[finite]), output
+
+
+@needs_compiler
+@pytest.mark.parametrize("how", [{"block_size": 1}, {"block_size": 100}, {"block_size": 5000, "threads": 2}])
+def test_any_blocks_of_a_grid_give_the_same_bits(how):
+    plan = Plan.of(Subject(MODELS["olaru2005"], SCREW, OIL), None, grid(7, 11, 30))
+    whole = filled(plan, "compiled", threads=1)
+    for output, values in filled(plan, "compiled", **how).items():
+        assert np.array_equal(values, whole[output], equal_nan=True), output
+
+
+@needs_compiler
+def test_parts_are_what_the_whole_has_there():
+    plan = Plan.of(Subject(MODELS["corrected"], SCREW, OIL), None, grid(7, 11, 30))
+    evaluation, whole = Evaluation.of(plan, "compiled"), filled(plan, "compiled")
+    for start, stop in ((0, 1), (5, 340), (329, 331), (660, 2310), (2309, 2310)):
+        results = evaluation.empty(stop - start)
+        evaluation.fill(results, slice(start, stop))
+        for output, values in results.items():
+            assert np.array_equal(values, whole[output][start:stop], equal_nan=True)
+
+
+@given(st.integers(0, 60), st.integers(0, 60), st.integers(1, 13))
+def test_rectangles_cover_a_part_once(start, size, row_length):
+    part = slice(start, start + size)
+    places = [
+        row * row_length + column
+        for rows, columns in rectangles(part, row_length)
+        for row in range(rows.start, rows.stop)
+        for column in range(columns.start, columns.stop)
+    ]
+    assert places == list(range(part.start, part.stop))
+
+
+def test_small_work_is_left_to_numpy():
+    plan = Plan.of(Subject(MODELS["reference"], SCREW, OIL), None, grid(5, 5, 5))
+    assert Evaluation.of(plan).engine == "numpy"
+
+
+@needs_compiler
+def test_large_work_is_compiled_and_what_is_compiled_is_used():
+    subject = Subject(dataclasses.replace(MODELS["reference"], ball_friction_coefficient=0.0987), SCREW, OIL)
+    assert Evaluation.of(Plan.of(subject, None, random_points(3_000_000))).engine == "compiled"
+    middling = Plan.of(subject, None, random_points(100_000))
+    assert Evaluation.of(middling).engine == "compiled"  # as it is compiled by now, for other points
+    kernels._kernels.clear()
+    assert Evaluation.of(middling).engine == "compiled"  # from disk
+
+
+def test_without_a_compiler(monkeypatch):
+    monkeypatch.setattr(kernels, "available", lambda: False)
+    plan = Plan.of(Subject(MODELS["olaru2005"], SCREW, OIL), None, grid(3, 3, 3))
+    assert Evaluation.of(plan).engine == "numpy"
+    with pytest.raises(bs.InputError, match=r'sweep.engine: .* · pip install "ballscrew\[fast\]"'):
+        Evaluation.of(plan, "compiled")
+
+
+def test_unknown_engine():
+    with pytest.raises(bs.InputError, match=r"sweep.engine: unknown engine \(turbo\) · one of numpy, compiled"):
+        bs.sweep(MODELS["olaru2005"], SCREW, OIL, axial_load=[1.0], screw_speed=[1.0], engine="turbo")
+
+
+@needs_compiler
+def test_a_law_that_kernels_do_not_know():
+    """It is evaluated by NumPy, unless a kernel is asked for."""
+
+    def odd_film(*args):
+        return 1e-7 * np.cosh(1e-9 * sum(args))
+
+    model = dataclasses.replace(MODELS["corrected"], film=odd_film)
+    axes = grid(3, 3, 3)
+    assert Evaluation.of(Plan.of(Subject(model, SCREW, OIL), None, axes)).engine == "numpy"
+    with pytest.raises(bs.InputError, match=r"sweep\.engine: "):
+        bs.sweep(model, SCREW, OIL, engine="compiled", **axes)
+
+
+def test_a_single_run_loads_no_compiler():
+    """Nor anything else that takes long to load."""
+    program = (
+        "import sys\n"
+        "from ballscrew.interfaces.cli import main\n"
+        f"sys.argv = ['ballscrew', 'run', {str(EXAMPLE)!r}]\n"
+        "try:\n    main()\nexcept SystemExit as end:\n    assert not end.code\n"
+        "heavy = {'llvmlite', 'numba', 'jax', 'dask', 'distributed', 'pandas', 'matplotlib', 'zarr', 'scipy'}\n"
+        "print('loaded:', sorted(heavy & set(sys.modules)))"
+    )
+    outcome = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert "loaded: []" in outcome.stdout
