@@ -10,14 +10,14 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
-from ballscrew.analyses.evaluation import Engine, Evaluation
+from ballscrew.analyses.engines import Engine, engine_faults
+from ballscrew.analyses.evaluation import Evaluation
 from ballscrew.analyses.outputs import OPERATION, Output, known_outputs
 from ballscrew.analyses.plan import Plan, Subject
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.engine.gradient import UnknownSlopeError, partials
 from ballscrew.engine.program import Program
-from ballscrew.engine.tape import Tape
 from ballscrew.faults import Fault, InputError, nearest, raise_if_any
 from ballscrew.model import FrictionModel
 from ballscrew.quantities import Info, Quantity
@@ -58,8 +58,10 @@ def derivatives(
     Raises :class:`~ballscrew.faults.InputError` for unknown names, outputs that are truth values,
     inputs without a value, and laws that cannot be recorded.
     """
+    faults = engine_faults("derivatives", engine)
     if method not in METHODS:
-        raise InputError(Fault("derivatives.method", "unknown method", str(method), f"one of {', '.join(METHODS)}"))
+        faults.append(Fault("derivatives.method", "unknown method", str(method), f"one of {', '.join(METHODS)}"))
+    raise_if_any(faults)
     slopes = slopes_of(Subject(model, screw, lubricant), outputs, by, varied)
     if method == "jax":
         return _by_jax(slopes)
@@ -84,7 +86,7 @@ def slopes_of(subject: Subject, outputs: Sequence[str], by: Sequence[str], varie
             if value is None
         ]
     )
-    plan = Plan.of(subject, outputs, {**varied, **held})
+    plan = Plan.of(subject, outputs, {**varied, **held}, "derivatives")
     raise_if_any(
         [
             Fault("derivatives.outputs", "is true or false, and has no derivative", name, "choose a number")
@@ -127,12 +129,11 @@ class Slopes(Plan):
 
     def recorded(self, groups: Sequence[int] | None = None) -> Program:
         """The outputs and their derivatives as a program of the varying inputs."""
-        varying = self.varying
-        tape = Tape(len(varying), groups, [self.subject.is_nonnegative(name) for name in varying])
+        varying, tape = self.varying, self.tape(groups)
         found: dict[str, Any] = {}
         try:
             with np.errstate(all="ignore"):
-                result = self.subject.at({**self.fixed, **{name: tape.value(i) for i, name in enumerate(varying)}})
+                result = self.subject.at(self.fixed | self.traced(tape))
                 for name in self.outputs:
                     found[name] = known_outputs()[name].read(result)
                     slopes = partials(tape, found[name], [varying.index(x) for x in self.by])

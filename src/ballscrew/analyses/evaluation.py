@@ -5,32 +5,21 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 import ballscrew
 from ballscrew._arrays import BLOCK_SIZE, map_blocks, processors
+from ballscrew.analyses.engines import Engine, engine_faults, may_be_compiled, worth_compiling
 from ballscrew.analyses.plan import Plan
 from ballscrew.engine import kernel as kernels
 from ballscrew.engine.emission import Source, UnknownOperationError, kernel_text
 from ballscrew.engine.grid import COLUMNS, ROWS, Split, inner_axes, split
 from ballscrew.engine.kernel import Kernel
 from ballscrew.engine.program import Player, Program
-from ballscrew.faults import Fault, InputError
-
-#: What can evaluate a plan.
-Engine = Literal["numpy", "compiled"]
-ENGINES: tuple[Engine, ...] = ("numpy", "compiled")
-
-#: What NumPy needs for one step at one point, on two threads; and what a kernel costs before its first
-#: point if it has to be compiled. Only the choice of an engine depends on these seconds, so that
-#: they need not be exact.
-NUMPY_STEP_SECONDS = 1.5e-10
-COMPILING_SECONDS, COMPILING_STEP_SECONDS = 0.05, 1.2e-4
-#: What NumPy does in less than this is left to it: as long takes it to load the compiler.
-SHORT_SECONDS = 0.1
+from ballscrew.faults import Fault, InputError, raise_if_any
 
 #: Fewest columns of a grid: a short row is mostly its beginning and its end.
 FEWEST_COLUMNS = 256
@@ -62,22 +51,21 @@ class Evaluation:
 
         Raises :class:`~ballscrew.faults.InputError` for an engine that cannot be had.
         """
-        _check(engine)
+        raise_if_any(engine_faults("sweep", engine))
         program = plan.recorded()
-        if engine == "numpy" or not kernels.available():
-            return _by_numpy(plan, program)
-        if program is None:
-            return _refused(engine, plan, None, "a whole nut, or a law of your own, is evaluated by NumPy only")
-        seconds = NUMPY_STEP_SECONDS * len(program.steps) * plan.total
-        if engine is None and seconds < SHORT_SECONDS:
-            return _by_numpy(plan, program)
-        try:
-            made = _Grid.of(plan) or _Points.of(plan, program)
-        except UnknownOperationError as unknown:
-            return _refused(engine, plan, program, f"{unknown} is not known to kernels")
-        if engine is None and seconds < made.seconds_to_first_point:
-            return _by_numpy(plan, program)
-        return cls(plan, "compiled", made.text, made.compiled(), LARGEST_BLOCK, made.row_length)
+        why = "a whole nut, or a law of your own, is evaluated by NumPy only"
+        if program is not None:
+            if not may_be_compiled(program, plan.total, engine):
+                return _by_numpy(plan, program)
+            try:
+                made = _Grid.of(plan) or _Points.of(plan, program)
+                if engine or worth_compiling(made.program, plan.total, made.text):
+                    return cls(plan, "compiled", made.text, made.compiled(), LARGEST_BLOCK, made.row_length)
+            except UnknownOperationError as unknown:
+                why = f"{unknown} is not known to kernels"
+        if engine == "compiled":
+            raise InputError(Fault("sweep.engine", why, engine, 'take engine="numpy"'))
+        return _by_numpy(plan, program)
 
     def empty(self, count: int) -> dict[str, NDArray[Any]]:
         """Room for the results of so many points."""
@@ -115,21 +103,6 @@ class Evaluation:
         return math.ceil(size / step) * step
 
 
-def _check(engine: str | None) -> None:
-    if engine is not None and engine not in ENGINES:
-        raise InputError(Fault("sweep.engine", "unknown engine", str(engine), f"one of {', '.join(ENGINES)}"))
-    if engine == "compiled" and not kernels.available():
-        remedy = 'pip install "ballscrew[fast]", or leave the engine out'
-        raise InputError(Fault("sweep.engine", "needs a compiler that is not installed", engine, remedy))
-
-
-def _refused(engine: Engine | None, plan: Plan, program: Program | None, why: str) -> Evaluation:
-    """NumPy, unless a kernel was asked for that cannot be had."""
-    if engine == "compiled":
-        raise InputError(Fault("sweep.engine", why, engine, 'take engine="numpy"'))
-    return _by_numpy(plan, program)
-
-
 def _by_numpy(plan: Plan, program: Program | None) -> Evaluation:
     player = None if program is None else Player(program)
 
@@ -159,13 +132,6 @@ class _Kernels:
         self.sources = sources
         masks = {name: output.dtype is bool for name, output in plan.wanted.items()}
         self.text = kernel_text(program, sources, masks)
-
-    @property
-    def seconds_to_first_point(self) -> float:
-        """What is to be paid before anything is computed."""
-        if kernels.is_kept(self.text):
-            return 0.0
-        return COMPILING_SECONDS + COMPILING_STEP_SECONDS * len(self.program.steps)
 
     def compiled(self) -> _Work:
         """What evaluates a part of the grid."""

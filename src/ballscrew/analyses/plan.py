@@ -88,23 +88,19 @@ class Subject:
         lowest = info.at_least if info.above is None else info.above
         return lowest is not None and lowest >= 0
 
-    def recorded(
-        self, wanted: Mapping[str, Output], varying: Sequence[str], fixed: Mapping[str, Any], groups: Sequence[int]
-    ) -> Program | None:
-        """The model as a program of the varying inputs.
+    def recorded(self, tape: Tape, points: Mapping[str, Any], wanted: Mapping[str, Output]) -> Program | None:
+        """The outputs wanted as a program of the inputs of a tape, at points that are made of them.
 
         None for a nut, or if a law of the user's wants plain arrays.
         """
         if self.nut is not None:
             return None
-        tape = Tape(len(varying), groups, [self.is_nonnegative(name) for name in varying])
-        points: dict[str, Any] = {**fixed, **{name: tape.value(i) for i, name in enumerate(varying)}}
         try:
             with np.errstate(all="ignore"):
                 result = self.at(points)
                 program = Program.of(tape, {name: output.read(result) for name, output in wanted.items()})
                 blank = {n: np.empty(1, output.dtype) for n, output in wanted.items()}
-                Player(program).play([np.ones(1)] * len(varying), blank)
+                Player(program).play([np.full(1, 0.5)] * tape.inputs, blank)
         except Exception:  # whatever a law of the user's cannot do with a recording, it may do with arrays
             return None
         return program
@@ -141,11 +137,16 @@ class Plan:
     outputs: tuple[str, ...]
 
     @classmethod
-    def of(cls, subject: Subject, outputs: Sequence[str] | None, varied: Mapping[str, Any]) -> Plan:
-        """A plan from what a person gives. Raises :class:`~ballscrew.faults.InputError` with all faults in it."""
-        names = _wanted(outputs, subject.nut)
-        axes = _axes(subject, varied)
-        return cls(subject, axes, _sizes(axes, names), names)
+    def of(
+        cls, subject: Subject, outputs: Sequence[str] | None, varied: Mapping[str, Any], section: str = "sweep"
+    ) -> Plan:
+        """A plan from what a person gives.
+
+        Raises :class:`~ballscrew.faults.InputError` with all faults in it, which stand under ``section``.
+        """
+        names = _wanted(section, outputs, subject.nut)
+        axes = _axes(section, subject, varied)
+        return cls(subject, axes, _sizes(section, axes, names), names)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """What other processes need to know."""
@@ -180,8 +181,17 @@ class Plan:
 
     def recorded(self, groups: Sequence[int] | None = None) -> Program | None:
         """The model as a program of the varying inputs, in groups where asked for; None if it cannot be recorded."""
+        tape = self.tape(groups)
+        return self.subject.recorded(tape, self.fixed | self.traced(tape), self.wanted)
+
+    def tape(self, groups: Sequence[int] | None = None) -> Tape:
+        """A tape with the varying inputs."""
         varying = self.varying
-        return self.subject.recorded(self.wanted, varying, self.fixed, groups or [1] * len(varying))
+        return Tape(len(varying), groups, [self.subject.is_nonnegative(name) for name in varying])
+
+    def traced(self, tape: Tape) -> dict[str, Any]:
+        """The varying inputs as values on a tape."""
+        return {name: tape.value(i) for i, name in enumerate(self.varying)}
 
     def points(self, block: slice) -> dict[str, Any]:
         """The values of the varying inputs at the points of one block of the flattened grid."""
@@ -217,21 +227,27 @@ class Plan:
         return xr.Dataset(variables, self.coordinates(), self.subject.attributes(list(self.axes)))
 
 
-def _wanted(names: Sequence[str] | None, nut: NutParts | None) -> tuple[str, ...]:
+def _wanted(section: str, names: Sequence[str] | None, nut: NutParts | None) -> tuple[str, ...]:
     known = known_outputs(nut)
     usual = DEFAULT_OUTPUTS if nut is None else NUT_OUTPUTS
     names = (names,) if isinstance(names, str) else usual if names is None or not len(names) else names
     chosen = [str(name).replace(".", "_") for name in names]
-    raise_if_any([Fault("sweep.outputs", "unknown output", n, nearest(n, known)) for n in chosen if n not in known])
+    raise_if_any(
+        [Fault(f"{section}.outputs", "unknown output", n, nearest(n, known)) for n in chosen if n not in known]
+    )
     return tuple(dict.fromkeys(chosen))
 
 
-def _axes(subject: Subject, varied: Mapping[str, Any]) -> dict[str, xr.DataArray]:
+def _axes(section: str, subject: Subject, varied: Mapping[str, Any]) -> dict[str, xr.DataArray]:
     """The values to vary as labelled arrays; all faults in them at once."""
     known = subject.inputs
     parts = subject.by_section
-    faults = [Fault(f"sweep.{name}", "unknown name", "", nearest(name, known)) for name in varied if name not in known]
-    faults += [Fault(f"sweep.{name}", "missing", "", f"give {name}=[…]") for name in OPERATION if name not in varied]
+    faults = [
+        Fault(f"{section}.{name}", "unknown name", "", nearest(name, known)) for name in varied if name not in known
+    ]
+    faults += [
+        Fault(f"{section}.{name}", "missing", "", f"give {name}=[…]") for name in OPERATION if name not in varied
+    ]
     faults += [
         Fault(f"{part}.{name}", "is an array", "", f"give it to the sweep: {name}=[…]")
         for name, (part, _) in known.items()
@@ -241,7 +257,7 @@ def _axes(subject: Subject, varied: Mapping[str, Any]) -> dict[str, xr.DataArray
     for name, values in varied.items():
         if name in known:
             part, quantity = known[name]
-            axis = _axis(name, values)
+            axis = _axis(section, name, values)
             if isinstance(axis, Fault):
                 faults.append(axis)
             else:
@@ -251,9 +267,9 @@ def _axes(subject: Subject, varied: Mapping[str, Any]) -> dict[str, xr.DataArray
     return axes
 
 
-def _axis(name: str, values: Any) -> xr.DataArray | Fault:
+def _axis(section: str, name: str, values: Any) -> xr.DataArray | Fault:
     """Values as a labelled array: a sequence gets a dimension of its own name."""
-    where = f"sweep.{name}"
+    where = f"{section}.{name}"
     try:
         if isinstance(values, xr.DataArray):
             axis = values.astype(float, copy=False)
@@ -278,13 +294,13 @@ def _faults_of_axis(part: str, quantity: Quantity, values: np.ndarray) -> list[F
     return [fault for fault in faults if fault is not None]
 
 
-def _sizes(axes: Mapping[str, xr.DataArray], wanted: Sequence[str]) -> dict[str, int]:
+def _sizes(section: str, axes: Mapping[str, xr.DataArray], wanted: Sequence[str]) -> dict[str, int]:
     """The dimensions of a sweep and their lengths, in the order given."""
     sizes: dict[str, int] = {}
     faults: list[Fault] = []
     for axis in axes.values():
         for dimension, size in zip(map(str, axis.dims), axis.shape, strict=True):
-            where = f"sweep.{dimension}"
+            where = f"{section}.{dimension}"
             if sizes.setdefault(dimension, size) != size:
                 faults.append(Fault(where, "different lengths", f"{sizes[dimension]} and {size}", "make them equal"))
             if axes[dimension].dims != (dimension,) if dimension in axes else dimension in wanted:

@@ -63,7 +63,8 @@ def _pint() -> Any:
     """The library of units, without the libraries it looks for in vain."""
     hidden = [name for name in _NOT_FOR_UNITS if name not in sys.modules]
     absent: Any = None  # importing it fails, as if it were not installed
-    sys.modules.update(dict.fromkeys(hidden, absent))
+    for name in hidden:
+        sys.modules[name] = absent
     try:
         return importlib.import_module("pint")
     finally:

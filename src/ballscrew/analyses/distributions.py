@@ -1,0 +1,246 @@
+"""Distributions of uncertain inputs, each by its quantile function.
+
+The quantile of a uniform random number between 0 and 1 is a random number of the distribution. The
+functions are made of operators and of what ``namespace`` gives, so that they take numbers, arrays
+and values that are being recorded.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+from typing import TypeAlias
+
+from ballscrew._arrays import namespace
+from ballscrew.faults import Fault, as_float, is_concrete, raise_if_any
+from ballscrew.quantities import Array
+
+#: Wichura 1988, algorithm AS 241, PPND16: numerator and denominator by rising powers.
+#: In 0.425² − q², q = u − ½, where |q| ≤ 0.425.
+CENTRE = (
+    (
+        3.3871328727963666080, 133.14166789178437745, 1971.5909503065514427, 13731.693765509461125,
+        45921.953931549871457, 67265.770927008700853, 33430.575583588128105, 2509.0809287301226727,
+    ),
+    (
+        1.0, 42.313330701600911252, 687.18700749205790830, 5394.1960214247511077, 21213.794301586595867,
+        39307.895800092710610, 28729.085735721942674, 5226.4952788528545610,
+    ),
+)  # fmt: skip
+#: In r − 1.6, r = √(−ln min(u, 1 − u)), where r ≤ 5.
+TAIL = (
+    (
+        1.42343711074968357734, 4.63033784615654529590, 5.76949722146069140550, 3.64784832476320460504,
+        1.27045825245236838258, 0.241780725177450611770, 0.0227238449892691845833, 7.74545014278341407640e-4,
+    ),
+    (
+        1.0, 2.05319162663775882187, 1.67638483018380384940, 0.689767334985100004550, 0.148103976427480074590,
+        0.0151986665636164571966, 5.47593808499534494600e-4, 1.05075007164441684324e-9,
+    ),
+)  # fmt: skip
+#: In r − 5, beyond.
+FAR_TAIL = (
+    (
+        6.65790464350110377720, 5.46378491116411436990, 1.78482653991729133580, 0.296560571828504891230,
+        0.0265321895265761230930, 0.00124266094738807843860, 2.71155556874348757815e-5, 2.01033439929228813265e-7,
+    ),
+    (
+        1.0, 0.599832206555887937690, 0.136929880922735805310, 0.0148753612908506148525, 7.86869131145613259100e-4,
+        1.84631831751005468180e-5, 1.42151175831644588870e-7, 2.04426310338993978564e-15,
+    ),
+)  # fmt: skip
+HALF_WIDTH, TAIL_START, FAR_TAIL_START = 0.425, 1.6, 5.0
+
+
+@dataclasses.dataclass(frozen=True)
+class Uniform:
+    """Every value between two ends is as likely as any other.
+
+    Raises :class:`~ballscrew.faults.InputError` unless low < high.
+    """
+
+    low: float
+    high: float
+
+    def __post_init__(self) -> None:
+        raise_if_any(_faults_of_numbers("uniform", self) or _faults_of_order("uniform", self.low, self.high))
+
+    def quantile(self, u: Array) -> Array:
+        """``low + (high − low) u`` for u in (0, 1), in the shape of u."""
+        return self.low + (self.high - self.low) * u
+
+    @property
+    def telling(self) -> tuple[float, ...]:
+        """The ends: what any bound must leave room for."""
+        return self.low, self.high
+
+    def words(self, unit: str) -> str:
+        """The distribution as a phrase."""
+        return f"uniform from {_shown(self.low, unit)} to {_shown(self.high, unit)}"
+
+
+@dataclasses.dataclass(frozen=True)
+class Normal:
+    """The normal distribution by its mean and standard deviation.
+
+    Its tails have no ends: values beyond the bounds of an input are invalid. Raises
+    :class:`~ballscrew.faults.InputError` unless the deviation is positive.
+    """
+
+    mean: float
+    deviation: float
+
+    def __post_init__(self) -> None:
+        faults = _faults_of_numbers("normal", self)
+        if not faults and self.deviation <= 0:
+            faults = [
+                Fault(
+                    "normal.deviation",
+                    "must be positive",
+                    f"{self.deviation:g}",
+                    "a value without spread needs no distribution",
+                )
+            ]
+        raise_if_any(faults)
+
+    def quantile(self, u: Array) -> Array:
+        """``mean + deviation Φ⁻¹(u)`` for u in (0, 1), in the shape of u; see :func:`standard_normal_quantile`."""
+        return self.mean + self.deviation * standard_normal_quantile(u)
+
+    @property
+    def telling(self) -> tuple[float, ...]:
+        """The mean: what any bound must leave room for."""
+        return (self.mean,)
+
+    def words(self, unit: str) -> str:
+        """The distribution as a phrase."""
+        return f"normal, mean {_shown(self.mean, unit)}, standard deviation {_shown(self.deviation, unit)}"
+
+
+@dataclasses.dataclass(frozen=True)
+class LogNormal:
+    """The logarithm is normal: about two thirds of the values lie between median/factor and median·factor.
+
+    The factor is exp of the standard deviation of the logarithm. Raises
+    :class:`~ballscrew.faults.InputError` unless the median is positive and the factor above 1.
+    """
+
+    median: float
+    factor: float
+
+    def __post_init__(self) -> None:
+        faults = _faults_of_numbers("log_normal", self)
+        if not faults and self.median <= 0:
+            faults.append(Fault("log_normal.median", "must be positive", f"{self.median:g}"))
+        if not faults and self.factor <= 1:
+            remedy = "1.1 is about ten per cent up or down"
+            faults.append(Fault("log_normal.factor", "must be above 1", f"{self.factor:g}", remedy))
+        raise_if_any(faults)
+
+    def quantile(self, u: Array) -> Array:
+        """``median factor^Φ⁻¹(u)`` for u in (0, 1), in the shape of u; see :func:`standard_normal_quantile`."""
+        return self.median * namespace(u).exp(math.log(self.factor) * standard_normal_quantile(u))
+
+    @property
+    def telling(self) -> tuple[float, ...]:
+        """The median: what any bound must leave room for."""
+        return (self.median,)
+
+    def words(self, unit: str) -> str:
+        """The distribution as a phrase."""
+        return f"log-normal, median {_shown(self.median, unit)}, factor {_shown(self.factor, '1')}"
+
+
+@dataclasses.dataclass(frozen=True)
+class Triangular:
+    """The density rises in a straight line from the low end to the mode, and falls to the high end.
+
+    Raises :class:`~ballscrew.faults.InputError` unless low ≤ mode ≤ high and low < high.
+    """
+
+    low: float
+    mode: float
+    high: float
+
+    def __post_init__(self) -> None:
+        faults = _faults_of_numbers("triangular", self) or _faults_of_order("triangular", self.low, self.high)
+        if not faults and not self.low <= self.mode <= self.high:
+            given = f"{self.mode:g}"
+            faults = [Fault("triangular.mode", "must lie between the ends", given, f"{self.low:g} to {self.high:g}")]
+        raise_if_any(faults)
+
+    def quantile(self, u: Array) -> Array:
+        """The value for u in (0, 1), in the shape of u.
+
+        ``low + √(u (high − low)(mode − low))`` up to the mode,
+        ``high − √((1 − u)(high − low)(high − mode))`` beyond.
+        """
+        xp = namespace(u)
+        width, below, above = self.high - self.low, self.mode - self.low, self.high - self.mode
+        rising = self.low + xp.sqrt(width * below * u)
+        falling = self.high - xp.sqrt(width * above * (1 - u))
+        return xp.where(u < below / width, rising, falling)[()]
+
+    @property
+    def telling(self) -> tuple[float, ...]:
+        """The ends: what any bound must leave room for."""
+        return self.low, self.high
+
+    def words(self, unit: str) -> str:
+        """The distribution as a phrase."""
+        low, mode, high = (_shown(value, unit) for value in (self.low, self.mode, self.high))
+        return f"triangular from {low} to {high}, mode {mode}"
+
+
+#: What an uncertain input may be.
+Distribution: TypeAlias = Uniform | Normal | LogNormal | Triangular
+
+
+def standard_normal_quantile(u: Array) -> Array:
+    """Φ⁻¹(u): below which a standard normal number lies with probability u in (0, 1); in the shape of u.
+
+    Wichura, M. J. (1988), "Algorithm AS 241: The percentage points of the normal distribution",
+    Applied Statistics 37(3), 477–484, PPND16: about 1 part in 1e16.
+    """
+    xp = namespace(u)
+    q = u - 0.5
+    centre = q * _ratio(CENTRE, HALF_WIDTH**2 - q * q)
+    r = xp.sqrt(-xp.log(xp.minimum(u, 1 - u)))
+    tail = xp.where(r <= FAR_TAIL_START, _ratio(TAIL, r - TAIL_START), _ratio(FAR_TAIL, r - FAR_TAIL_START))
+    return xp.where(xp.abs(q) <= HALF_WIDTH, centre, xp.where(q < 0, -1.0, 1.0) * tail)[()]
+
+
+def _ratio(coefficients: tuple[Sequence[float], Sequence[float]], variable: Array) -> Array:
+    """One polynomial over another, each by Horner's scheme."""
+    numerator, denominator = (_polynomial(rising, variable) for rising in coefficients)
+    return numerator / denominator
+
+
+def _polynomial(rising: Sequence[float], variable: Array) -> Array:
+    result: Array = rising[-1]
+    for coefficient in rising[-2::-1]:
+        result = result * variable + coefficient
+    return result
+
+
+def _shown(value: float, unit: str) -> str:
+    """A number to its last digit: who reads it can draw the same samples."""
+    return f"{float(value)!r}" if unit == "1" else f"{float(value)!r} {unit}"
+
+
+def _faults_of_numbers(section: str, distribution: Distribution) -> list[Fault]:
+    """Fields that are no finite numbers."""
+    return [
+        Fault(f"{section}.{field.name}", "must be a finite number", str(value), "give one number in SI")
+        for field in dataclasses.fields(distribution)
+        if not is_concrete(value := getattr(distribution, field.name)) or not math.isfinite(as_float(value))
+    ]
+
+
+def _faults_of_order(section: str, low: float, high: float) -> list[Fault]:
+    if low < high:
+        return []
+    return [
+        Fault(f"{section}.high", "must be above low", f"{high:g} against {low:g}", "one value needs no distribution")
+    ]

@@ -1,0 +1,49 @@
+"""Which engine evaluates: NumPy for little work, a compiled kernel for much."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from ballscrew.engine import kernel as kernels
+from ballscrew.engine.program import Program
+from ballscrew.faults import Fault
+
+#: What can evaluate a plan.
+Engine = Literal["numpy", "compiled"]
+ENGINES: tuple[Engine, ...] = ("numpy", "compiled")
+
+#: What NumPy needs for one step at one point, on two threads; and what a kernel costs before its first
+#: point if it has to be compiled. Only the choice of an engine depends on these seconds, so that
+#: they need not be exact.
+NUMPY_STEP_SECONDS = 1.5e-10
+COMPILING_SECONDS, COMPILING_STEP_SECONDS = 0.05, 1.2e-4
+#: What NumPy does in less than this is left to it: as long takes it to load the compiler.
+SHORT_SECONDS = 0.1
+
+
+def engine_faults(section: str, engine: str | None) -> list[Fault]:
+    """What is wrong with an engine that is asked for."""
+    if engine is not None and engine not in ENGINES:
+        return [Fault(f"{section}.engine", "unknown engine", str(engine), f"one of {', '.join(ENGINES)}")]
+    if engine == "compiled" and not kernels.available():
+        remedy = 'pip install "ballscrew[fast]", or leave the engine out'
+        return [Fault(f"{section}.engine", "needs a compiler that is not installed", engine, remedy)]
+    return []
+
+
+def may_be_compiled(program: Program, points: int, engine: Engine | None) -> bool:
+    """Whether to look for a kernel at all: asked for, or the work is not short."""
+    if engine == "numpy" or not kernels.available():
+        return False
+    return engine == "compiled" or _numpy_seconds(program, points) > SHORT_SECONDS
+
+
+def worth_compiling(program: Program, points: int, text: str) -> bool:
+    """Whether a kernel is sooner done than NumPy: it is compiled already, or that is paid back."""
+    if kernels.is_kept(text):
+        return True
+    return _numpy_seconds(program, points) > COMPILING_SECONDS + COMPILING_STEP_SECONDS * len(program.steps)
+
+
+def _numpy_seconds(program: Program, points: int) -> float:
+    return NUMPY_STEP_SECONDS * len(program.steps) * points

@@ -1,0 +1,320 @@
+"""Monte Carlo: what the uncertainty of the inputs makes of the results, without keeping a sample.
+
+The number of a sample is enough to know its random numbers (:mod:`ballscrew.engine.random`), and a
+sketch is enough to know how results are distributed (:mod:`ballscrew.engine.sketch`). So samples
+are made, evaluated and counted a few thousand at a time, and nothing grows with their number.
+"""
+
+from __future__ import annotations
+
+import operator
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, get_args
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ballscrew._arrays import map_blocks
+from ballscrew.analyses.distributions import Distribution
+from ballscrew.analyses.engines import Engine, engine_faults, may_be_compiled, worth_compiling
+from ballscrew.analyses.outputs import OPERATION, attributes_of
+from ballscrew.analyses.plan import Plan, Subject
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.screw import BallScrew
+from ballscrew.engine import random
+from ballscrew.engine.emission import Source, UnknownOperationError, kernel_text
+from ballscrew.engine.kernel import Kernel
+from ballscrew.engine.program import Player, Program
+from ballscrew.engine.sketch import UNIT, Moments, Sketch
+from ballscrew.engine.tape import Tape
+from ballscrew.faults import Fault, InputError, nearest, raise_if_any
+from ballscrew.model import FrictionModel
+
+#: Samples of a block, which is evaluated on one thread and whose sums are merged in the order of the
+#: blocks; and how many of them NumPy evaluates at a time. Whole units, for the sake of the sums.
+BLOCK = 8 * UNIT
+NUMPY_STEP = 4 * UNIT
+#: Seeds are less than this.
+SEEDS = 2**63
+
+#: Evaluates the samples of a slice into arrays of its length.
+_Work = Callable[[slice, Mapping[str, NDArray[Any]]], None]
+
+
+def monte_carlo(
+    model: FrictionModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    *,
+    distributions: Mapping[str, Distribution],
+    samples: int,
+    seed: int = 0,
+    outputs: Sequence[str] | None = None,
+    quantiles: Sequence[float] = (0.025, 0.5, 0.975),
+    engine: Engine | None = None,
+    threads: int | None = None,
+    done: Callable[[int, int], None] | None = None,
+    **fixed: Any,
+) -> xr.Dataset:
+    """Evaluate a model over random samples of its inputs, and return how its results are distributed.
+
+    ``distributions`` names uncertain inputs as :func:`~ballscrew.analyses.sweep.sweep` names what it
+    varies, ``fixed`` gives single numbers to others; between them they have ``axial_load`` and
+    ``screw_speed``. Inputs are independent of each other. Sample i of input j, in the order of the
+    mapping, is the quantile of a uniform number that depends on i, j and the ``seed`` alone: the
+    dataset is the same to the last bit for any number of threads, and engines agree to rounding.
+
+    Of each output ``x`` that is a number the dataset has ``x_mean``, ``x_standard_deviation``,
+    ``x_minimum``, ``x_maximum``, ``x_quantiles`` along ``quantile`` (to 0.05 %, see
+    :meth:`~ballscrew.engine.sketch.Sketch.quantile`) and ``x_missing_share``, that of samples which
+    are NaN and left out of the others; of each that is true or not, ``x_share``, where it is true.
+    ``invalid_share`` is that of samples that are not valid; an input beyond its bounds is a reason
+    too. They are counted in all the same, as a sweep returns them.
+
+    The ``engine`` is chosen by the size of the work; ``done(finished, total)`` is told the progress.
+
+    Raises :class:`~ballscrew.faults.InputError` for unknown names, missing or bad values, and an
+    engine that cannot be had.
+    """
+    subject = Subject(model, screw, lubricant)
+    faults = _faults_of_options(samples, seed, quantiles, engine, threads)
+    raise_if_any(faults + _faults_of_inputs(subject, distributions, fixed))
+    plan = _planned(subject, outputs, distributions, fixed)
+    work, step, compiled = _by_engine(plan, distributions, samples, seed, engine)
+    tally = _Tally(plan, work, step, compiled=compiled)
+    map_blocks(
+        tally.take,
+        samples,
+        block_size=BLOCK,
+        threads=threads,
+        done=None if done is None else lambda finished: done(finished, samples),
+    )
+    known = subject.inputs
+    words = {
+        f"distribution_{known[name][0]}_{name.replace('.', '_')}": distribution.words(known[name][1].unit)
+        for name, distribution in distributions.items()
+    }
+    of_quantile = {"long_name": "share of the samples that lies below", "units": "1"}
+    coordinates = {name: ((), value, attributes_of(known[name][1])) for name, value in plan.fixed.items()}
+    return xr.Dataset(
+        tally.variables(quantiles, samples),
+        {"quantile": ("quantile", np.asarray(quantiles, dtype=float), of_quantile), **coordinates},
+        subject.attributes(list(plan.axes)) | {"samples": samples, "seed": seed, **words},
+    )
+
+
+def _faults_of_options(samples: Any, seed: Any, quantiles: Any, engine: Any, threads: Any) -> list[Fault]:
+    faults = [
+        Fault(f"monte_carlo.{name}", "must be a whole number, 1 or more", str(value))
+        for name, value in {"samples": samples, "threads": 1 if threads is None else threads}.items()
+        if not isinstance(value, int | np.integer) or value < 1
+    ]
+    if not isinstance(seed, int | np.integer) or not 0 <= seed < SEEDS:
+        faults.append(Fault("monte_carlo.seed", "must be a whole number from 0 to 2^63 − 1", str(seed)))
+    faults += [
+        Fault("monte_carlo.quantiles", "must lie between 0 and 1", str(share), "0.5 is the median")
+        for share in quantiles
+        if not 0 <= share <= 1
+    ]
+    return faults + engine_faults("monte_carlo", engine)
+
+
+def _faults_of_inputs(subject: Subject, distributions: Mapping[str, Any], fixed: Mapping[str, Any]) -> list[Fault]:
+    """Faults that a sweep would not find, or would not put in these words."""
+    known, parts = subject.inputs, subject.by_section
+    given = {*distributions, *fixed}
+    faults: list[Fault] = []
+    if not distributions:
+        faults.append(Fault("monte_carlo.distributions", "is empty", "", "name at least one uncertain input"))
+    for name in OPERATION:
+        if name not in given:
+            remedy = f"give {name}=… or a distribution of it"
+            faults.append(Fault(f"monte_carlo.{name}", "missing", "", remedy))
+    for name, distribution in distributions.items():
+        where = f"monte_carlo.distributions.{name}"
+        if name not in known:
+            faults.append(Fault(where, "unknown name", "", nearest(name, known)))
+        elif not isinstance(distribution, Distribution):
+            kinds = ", ".join(kind.__name__ for kind in get_args(Distribution))
+            faults.append(Fault(where, "is no distribution", str(distribution), f"one of {kinds}"))
+        elif known[name][1].info.whole:
+            faults.append(Fault(where, "is a whole number, which has no distribution", "", f"give {name}=…"))
+        if name in fixed:
+            faults.append(Fault(where, "is given as one number too", str(fixed[name]), "leave one of them out"))
+    for name, value in fixed.items():
+        if isinstance(value, Distribution):
+            remedy = f'distributions={{"{name}": …}}'
+            faults.append(Fault(f"monte_carlo.{name}", "is a distribution", str(value), remedy))
+        elif np.ndim(value):
+            faults.append(Fault(f"monte_carlo.{name}", "must be one number", "", "for several, call again for each"))
+    for name, (part, _) in known.items():
+        if part != "operation" and name not in given and np.ndim(operator.attrgetter(name)(parts[part])):
+            faults.append(Fault(f"{part}.{name}", "is an array", "", "give one number, or a distribution of it"))
+    return faults
+
+
+def _planned(
+    subject: Subject,
+    outputs: Sequence[str] | None,
+    distributions: Mapping[str, Distribution],
+    fixed: Mapping[str, Any],
+) -> Plan:
+    """What is evaluated, as a plan of a sweep over the ends or the middles of the distributions.
+
+    So names, bounds and outputs are checked as they are there; whether samples are valid is always asked for.
+    """
+    named = (outputs,) if isinstance(outputs, str) else outputs or ()
+    samples = {
+        name: xr.DataArray([distribution.telling[0], distribution.telling[-1]], dims="sample")
+        for name, distribution in distributions.items()
+    }
+    return Plan.of(subject, [*named, "valid"] if named else None, {**samples, **fixed}, "monte_carlo")
+
+
+def _by_engine(
+    plan: Plan, distributions: Mapping[str, Distribution], samples: int, seed: int, engine: Engine | None
+) -> tuple[_Work, int, bool]:
+    """What evaluates samples, how many at a time, and whether it is compiled."""
+    program = _recorded(plan, distributions)
+    by_numpy = _by_numpy(plan, distributions, program, seed), NUMPY_STEP, False
+    why = "a law of your own is evaluated by NumPy only"
+    if program is not None:
+        if not may_be_compiled(program, samples, engine):
+            return by_numpy
+        try:
+            sources: list[Source] = ["random"] * program.inputs
+            text = kernel_text(program, sources, {name: output.dtype is bool for name, output in plan.wanted.items()})
+            if engine or worth_compiling(program, samples, text):
+                return _by_kernel(Kernel.of(text, sources), program, seed), UNIT, True
+        except UnknownOperationError as unknown:
+            why = f"{unknown} is not known to kernels"
+    if engine == "compiled":
+        raise InputError(Fault("monte_carlo.engine", why, engine, 'take engine="numpy"'))
+    return by_numpy
+
+
+def _recorded(plan: Plan, distributions: Mapping[str, Distribution]) -> Program | None:
+    """The model as a program of uniform numbers; None if a law of the user's wants plain arrays."""
+    tape = Tape(len(distributions))
+    drawn = {name: distribution.quantile(tape.value(i)) for i, (name, distribution) in enumerate(distributions.items())}
+    return plan.subject.recorded(tape, plan.fixed | drawn, plan.wanted)
+
+
+def _by_numpy(plan: Plan, distributions: Mapping[str, Distribution], program: Program | None, seed: int) -> _Work:
+    player = None if program is None else Player(program)
+
+    def work(part: slice, results: Mapping[str, NDArray[Any]]) -> None:
+        numbers = random.uniform(part, len(distributions), seed)
+        with np.errstate(all="ignore"):
+            if player is not None:
+                player.play(numbers, results)
+                return
+            drawn = zip(distributions.items(), numbers, strict=True)
+            points = {name: distribution.quantile(u) for (name, distribution), u in drawn}
+            result = plan.subject.at(plan.fixed | points)
+            for name, output in plan.wanted.items():
+                results[name][...] = output.read(result)
+
+    return work
+
+
+def _by_kernel(kernel: Kernel, program: Program, seed: int) -> _Work:
+    names = list(program.outputs)
+
+    def work(part: slice, results: Mapping[str, NDArray[Any]]) -> None:
+        for name, value in program.constants.items():
+            results[name][...] = value
+        if names:
+            blank = [None] * program.inputs
+            here = [results[name] for name in names]
+            kernel(slice(0, 1), part, part.stop, blank, here, first=part.start, seed=seed)
+
+    return work
+
+
+class _Tally:
+    """All that is kept of the samples evaluated so far.
+
+    Counts come in whatever order the threads are done: a few sketches go from hand to hand. Sums wait
+    for those of the blocks before.
+    """
+
+    def __init__(self, plan: Plan, work: _Work, step: int, *, compiled: bool) -> None:
+        self.plan = plan
+        self.numbers = [name for name, output in plan.wanted.items() if output.dtype is not bool]
+        self.truths = [name for name, output in plan.wanted.items() if output.dtype is bool]
+        self.true = np.zeros(len(self.truths), dtype=np.int64)
+        self._work, self._step, self._compiled = work, step, compiled
+        self._lock = threading.Lock()
+        self._idle: list[Sketch] = []
+        self._moments = Moments.of_nothing(len(self.numbers))
+        self._waiting: dict[int, Moments] = {}
+        self._next_start = 0
+
+    def take(self, block: slice) -> None:
+        """Evaluate and count the samples of a block."""
+        with self._lock:
+            sketch = self._idle.pop() if self._idle else Sketch(len(self.numbers), compiled=self._compiled)
+        values = np.empty((len(self.numbers), self._step))
+        masks = np.empty((len(self.truths), self._step), dtype=bool)
+        true = np.zeros_like(self.true)
+        for start in range(block.start, block.stop, self._step):
+            part = slice(start, min(start + self._step, block.stop))
+            count = part.stop - part.start
+            rows = [*values[:, :count], *masks[:, :count]]
+            self._work(part, dict(zip([*self.numbers, *self.truths], rows, strict=True)))
+            if self.numbers:
+                sketch.add(values[:, :count])
+            true += np.count_nonzero(masks[:, :count], axis=1)
+        with self._lock:
+            self._idle.append(sketch)
+            self.true += true
+            self._waiting[block.start] = sketch.handed_over()
+            while self._next_start in self._waiting:
+                self._moments = self._moments.merged(self._waiting.pop(self._next_start))
+                self._next_start += BLOCK
+
+    def variables(self, quantiles: Sequence[float], samples: int) -> dict[str, Any]:
+        """What the dataset says of each output, in the order asked for."""
+        sketch = Sketch(len(self.numbers))
+        for part in self._idle:
+            sketch.merge(part)
+        sketch.moments = self._moments
+        by_share = np.array([sketch.quantile(float(share)) for share in quantiles]).reshape(len(quantiles), -1)
+        parts: list[tuple[str, str, NDArray[np.float64], dict[str, str]]] = [
+            ("mean", "mean of", sketch.mean, {"cell_methods": "realization: mean"}),
+            (
+                "standard_deviation",
+                "standard deviation of",
+                sketch.deviation,
+                {"cell_methods": "realization: standard_deviation"},
+            ),
+            ("minimum", "least", sketch.minimum, {"cell_methods": "realization: minimum"}),
+            ("maximum", "largest", sketch.maximum, {"cell_methods": "realization: maximum"}),
+        ]
+        found: dict[str, Any] = {}
+        for name, output in self.plan.wanted.items():
+            attributes = attributes_of(output.quantity)
+            meaning = attributes["long_name"]
+            if name in self.numbers:
+                i = self.numbers.index(name)
+                for suffix, words, values, more in parts:
+                    found[f"{name}_{suffix}"] = (
+                        (),
+                        values[i],
+                        {**attributes, "long_name": f"{words} {meaning}", **more},
+                    )
+                of_quantiles = {**attributes, "long_name": f"quantiles of {meaning}"}
+                found[f"{name}_quantiles"] = ("quantile", by_share[:, i], of_quantiles)
+                of_missing = {"long_name": f"share of samples without a value of {meaning}", "units": "1"}
+                found[f"{name}_missing_share"] = ((), sketch.missing[i] / samples, of_missing)
+            else:
+                true = int(self.true[self.truths.index(name)])
+                of_share = {"long_name": f"share of samples with {meaning}", "units": "1"}
+                if name == "valid":
+                    name, true = "invalid", samples - true
+                    of_share["long_name"] = "share of samples where the model is not to be trusted"
+                found[f"{name}_share"] = ((), true / samples, of_share)
+        return found

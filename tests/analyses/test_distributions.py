@@ -1,0 +1,115 @@
+"""Distributions: quantile functions against closed forms and SciPy, on all kinds of value."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from ballscrew.analyses.distributions import LogNormal, Normal, Triangular, Uniform, standard_normal_quantile
+from ballscrew.engine.program import Player, Program
+from ballscrew.engine.tape import Tape, Traced
+from ballscrew.faults import InputError
+
+#: From the smallest to the largest random number there is, close to where the approximations change.
+LEVELS = np.unique(
+    np.concatenate(
+        [
+            2.0 ** -np.arange(1, 54),
+            1 - 2.0 ** -np.arange(2, 54),
+            np.linspace(0.001, 0.999, 999),
+            0.5 + 0.425 * np.array([-1 - 1e-12, -1, -1 + 1e-12, 1 - 1e-12, 1, 1 + 1e-12]),
+            math.exp(-25) * np.array([1 - 1e-12, 1, 1 + 1e-12]),
+        ]
+    )
+)
+#: With what SciPy makes of them.
+DISTRIBUTIONS = {
+    "uniform": (Uniform(-1.0, 3.0), stats.uniform(-1.0, 4.0)),
+    "normal": (Normal(2.0, 0.3), stats.norm(2.0, 0.3)),
+    "log-normal": (LogNormal(0.1, 1.4), stats.lognorm(math.log(1.4), scale=0.1)),
+    "triangular": (Triangular(1.0, 2.0, 4.0), stats.triang(1 / 3, 1.0, 3.0)),
+    "triangular, falling": (Triangular(1.0, 1.0, 4.0), stats.triang(0.0, 1.0, 3.0)),
+    "triangular, rising": (Triangular(1.0, 4.0, 4.0), stats.triang(1.0, 1.0, 3.0)),
+}
+
+
+def test_normal_quantile():
+    """Wichura 1988 claims about 1 part in 1e16; some roundings come on top."""
+    assert standard_normal_quantile(LEVELS) == pytest.approx(stats.norm.ppf(LEVELS), rel=4e-15, abs=1e-300)
+
+
+def test_normal_quantile_published():
+    """The check values of Wichura 1988."""
+    levels = np.array([0.25, 0.001, 1e-20])
+    expected = [-0.6744897501960817, -3.090232306167814, -9.262340089798408]
+    assert standard_normal_quantile(levels) == pytest.approx(expected, rel=4e-16)
+
+
+def test_normal_quantile_is_odd():
+    """Where 1 − u is exact."""
+    levels = np.arange(1, 1024) / 1024
+    assert np.array_equal(standard_normal_quantile(levels), -standard_normal_quantile(1 - levels))
+    assert standard_normal_quantile(0.5) == 0
+
+
+@pytest.mark.parametrize("name", DISTRIBUTIONS)
+def test_quantiles(name):
+    distribution, expected = DISTRIBUTIONS[name]
+    size = abs(expected.mean()) + expected.std()
+    found = distribution.quantile(LEVELS)
+    assert found == pytest.approx(expected.ppf(LEVELS), rel=2e-14, abs=2e-14 * size)
+    # SciPy makes small differences of large numbers near the ends of a triangle, and so do we
+    middle = (LEVELS > 1e-6) & (LEVELS < 1 - 1e-6)
+    assert expected.cdf(found[middle]) == pytest.approx(LEVELS[middle], rel=1e-8)
+
+
+@pytest.mark.parametrize("name", DISTRIBUTIONS)
+def test_quantiles_rise(name):
+    found = DISTRIBUTIONS[name][0].quantile(np.linspace(0.0005, 0.9995, 4000))
+    assert np.all(np.diff(found) > 0)
+
+
+@pytest.mark.parametrize("name", DISTRIBUTIONS)
+def test_on_all_kinds_of_value(name):
+    """Floats, arrays of any shape, and values that are being recorded."""
+    distribution = DISTRIBUTIONS[name][0]
+    expected = distribution.quantile(LEVELS)
+    for place in (0, 60, 500, -1):
+        assert distribution.quantile(float(LEVELS[place])) == pytest.approx(float(expected[place]), rel=1e-15)
+    assert np.array_equal(distribution.quantile(LEVELS[:1000].reshape(10, 100)), expected[:1000].reshape(10, 100))
+    tape = Tape(1)
+    recorded = distribution.quantile(tape.value(0))
+    assert isinstance(recorded, Traced)
+    played = {"out": np.empty_like(LEVELS)}
+    with np.errstate(all="ignore"):
+        Player(Program.of(tape, {"out": recorded})).play([LEVELS], played)
+    assert played["out"] == pytest.approx(expected, rel=1e-14, abs=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Uniform(2.0, 1.0), r"uniform.high: must be above low \(1 against 2\)"),
+        (lambda: Uniform(1.0, 1.0), "one value needs no distribution"),
+        (lambda: Uniform(math.nan, 1.0), r"uniform.low: must be a finite number \(nan\)"),
+        (lambda: Uniform(0.0, math.inf), "uniform.high: must be a finite number"),
+        (lambda: Normal("1", 1.0), "normal.mean: must be a finite number"),
+        (lambda: Normal(0.0, np.ones(2)), "normal.deviation: must be a finite number"),
+        (lambda: Normal(0.0, 0.0), r"normal.deviation: must be positive \(0\)"),
+        (lambda: LogNormal(0.0, 2.0), "log_normal.median: must be positive"),
+        (lambda: LogNormal(1.0, 1.0), r"log_normal.factor: must be above 1 \(1\) · 1.1 is"),
+        (lambda: Triangular(1.0, 0.5, 2.0), r"triangular.mode: must lie between the ends \(0.5\) · 1 to 2"),
+        (lambda: Triangular(1.0, 1.0, 1.0), "triangular.high: must be above low"),
+    ],
+)
+def test_bad_numbers(make, message):
+    with pytest.raises(InputError, match=message):
+        make()
+
+
+def test_words():
+    assert Uniform(1000, 4000).words("N") == "uniform from 1000.0 N to 4000.0 N"
+    assert Normal(np.float64(0.1), 0.02).words("1") == "normal, mean 0.1, standard deviation 0.02"
+    assert LogNormal(0.1, 1.3).words("Pa s") == "log-normal, median 0.1 Pa s, factor 1.3"
+    assert Triangular(0, 1, 3).words("m") == "triangular from 0.0 m to 3.0 m, mode 1.0 m"
