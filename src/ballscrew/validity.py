@@ -87,7 +87,7 @@ def contact_masks(contact: Contact) -> dict[str, Mask]:
 
 
 def _no_skid(side: RaceState) -> Mask:
-    xp = namespace(side.contact_load)
+    xp = namespace(side.sliding_force)
     return (side.contact_load > 0) & (xp.abs(side.sliding_force) <= side.traction_limit)
 
 

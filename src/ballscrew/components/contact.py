@@ -40,7 +40,7 @@ class Contact(ContactConditions):
     @lazy
     def elastic_regime_parameter(self) -> Annotated[Ratio, Info("M", "elastic against rigid lubrication regime")]:
         """Elastic against rigid lubrication regime; infinite at rest."""
-        xp = namespace(self.load_parameter, self.speed_parameter)
+        xp = namespace(self.radii_ratio, self.load_parameter, self.speed_parameter)
         at_rest = self.speed_parameter == 0
         speed = xp.where(at_rest, 1.0, self.speed_parameter)
         return xp.where(at_rest, xp.inf, rolling.elastic_regime_parameter(self.radii_ratio, self.load_parameter, speed))
@@ -168,8 +168,8 @@ def rolling_contact(
         lubricant=lubricant,
     )
     inlet = laws.inlet(conditions)
-    xp = namespace(U, W)
-    h = xp.where(v == 0, 0.0, inlet.film * laws.film(R_x, U, G, W, shape.ellipticity))
+    thickness = inlet.film * laws.film(R_x, U, G, W, shape.ellipticity)
+    h = namespace(v, thickness).where(v == 0, 0.0, thickness)
     lam = laws.film_parameter(h, screw.ball_roughness, raceway.roughness)
     full_film = None if laws.full_film is None else laws.full_film(conditions)
     return Contact(

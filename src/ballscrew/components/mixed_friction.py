@@ -193,9 +193,9 @@ class EyringTraction:
     def __call__(self, conditions: ContactConditions) -> Ratio:
         """Friction coefficient of the film."""
         p_m, moving = conditions.mean_pressure, conditions.nominal_sliding_speed > 0
-        xp = namespace(p_m, moving)
         stress = traction.eyring_shear_stress(_film_viscosity(conditions), _shear_rate(conditions), self.eyring_stress)
         limit = traction.limiting_shear_stress(p_m, self.limiting_shear_coefficient)
+        xp = namespace(p_m, moving, stress, limit)
         loaded = p_m > 0
         mu = traction.film_friction_coefficient(xp.minimum(stress, limit), xp.where(loaded, p_m, 1.0))
         return xp.where(loaded & moving, mu, 0.0)
@@ -220,7 +220,8 @@ class LimitingShearTraction:
         pressure = xp.where(loaded, p_m, 1.0)
         limit = traction.limiting_shear_stress(pressure, self.limiting_shear_coefficient)
         stress = traction.bair_winer_shear_stress(_film_viscosity(conditions), _shear_rate(conditions), limit)
-        return xp.where(loaded, traction.film_friction_coefficient(stress, pressure), 0.0)
+        mu = traction.film_friction_coefficient(stress, pressure)
+        return namespace(loaded, mu).where(loaded, mu, 0.0)
 
 
 def _film_viscosity(conditions: ContactConditions) -> Viscosity:

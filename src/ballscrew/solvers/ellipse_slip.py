@@ -112,7 +112,10 @@ def _contact_slip(
     """The slip at the speed of the screw; the creep of a ball that skids is cut, so that it still rolls forward."""
     xp = namespace(side.curvature, creep)
     omega, most = ball.screw_speed, LARGEST_CREEP * ball.frame.entrainment_speed(1.0)
-    offset = xp.sqrt(xp.maximum(-creep / xp.where(side.curvature > 0, side.curvature, 1.0), 0.0))
+    squared = -creep / xp.where(side.curvature > 0, side.curvature, 1.0)
+    # the root of what is not chosen must have a slope, or its derivative spoils that of what is
+    none = squared <= 0
+    offset = xp.where(none, 0.0, xp.sqrt(xp.where(none, 1.0, squared)))
     cut = xp.minimum(xp.maximum(creep, -most), most)
     return ContactSlip(offset, moment, omega * cut, omega * spin, omega * lateral)
 

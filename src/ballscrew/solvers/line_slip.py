@@ -71,7 +71,7 @@ def line_slip(ball: BallProblem) -> Slip:
     at_rest = sliding_forces(ball, share)
     total_spin = kinematics.relative_spin(1.0, ball.frame.rolling_plane_sine)
     sides = [_side(ball, contact, force) for contact, force in zip((screw, nut), at_rest, strict=True)]
-    xp = namespace(total_spin, sides[0].curvature, sides[0].traction)
+    xp = namespace(total_spin, *(number for _, *numbers in sides for number in numbers))
     low, high = 0.0 * sides[0].curvature, total_spin + 0.0 * sides[0].curvature
     on_nut = (low + high) / 2
     for _ in range(STEPS):
@@ -116,7 +116,7 @@ class _Spin(NamedTuple):
 
 def _spin(side: _Side, spin: AngularSpeed) -> _Spin:
     """Spin moment of a contact and its derivative by the spin, at a given force along the path."""
-    xp = namespace(side.curvature, spin)
+    xp = namespace(side.curvature, side.traction, spin)
     a = side.contact.semi_major_axis
     curvature = xp.where(side.curvature > 0, side.curvature, 1.0)
     E_s = spin * a / curvature
@@ -137,10 +137,13 @@ def _spin(side: _Side, spin: AngularSpeed) -> _Spin:
 
 def _contact_slip(side: _Side, spun: _Spin, ball: BallProblem, spin: AngularSpeed) -> ContactSlip:
     contact, omega = side.contact, ball.screw_speed
-    xp = namespace(side.curvature)
+    xp = namespace(side.curvature, side.traction, spin)
     coefficient = slip.line_curvature_coefficient(spun.lines.lower, spun.lines.upper)
     creep = creep_of_lines(spun.lines, side.curvature, spin * contact.semi_major_axis)
-    offset = xp.sqrt(xp.maximum(-creep / xp.where(side.curvature > 0, side.curvature, 1.0), 0.0))
+    squared = -creep / xp.where(side.curvature > 0, side.curvature, 1.0)
+    # the root of what is not chosen must have a slope, or its derivative spoils that of what is
+    none = squared <= 0
+    offset = xp.where(none, 0.0, xp.sqrt(xp.where(none, 1.0, squared)))
     return ContactSlip(
         pure_rolling_offset=offset,
         curvature_moment=coefficient * side.traction_limit * contact.semi_major_axis**2 / contact.deformed_radius,

@@ -51,7 +51,7 @@ def solve(
     load the traction ratio is undefined; it is taken as saturated, and the moments vanish. Returns
     the offsets at screw and nut, and the relative imbalance that is left.
     """
-    xp = namespace(screw.contact_load, screw.friction_coefficient, screw_force_at_rest)
+    xp = namespace(screw.friction_coefficient, nut.friction_coefficient, screw_force_at_rest, nut_force_at_rest)
     zero = 0 * screw.contact_load
     sides = ((screw, screw_force_at_rest), (nut, nut_force_at_rest))
 

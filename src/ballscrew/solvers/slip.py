@@ -89,14 +89,15 @@ def carried_share(ball: BallProblem) -> Ratio:
     What friction can carry is its coefficient times the load, less what the curvature moments may
     ask of it at most, 0.1 µQa²/R_d at each contact.
     """
-    xp = namespace(ball.screw.contact_load, ball.screw.friction_coefficient, ball.screw.speed_parameter)
     limits = [contact.friction_coefficient * contact.contact_load for contact in (ball.screw, ball.nut)]
     curvature = sum(
         0.1 * limit * contact.semi_major_axis**2 / (contact.deformed_radius * ball.ball_diameter)
         for limit, contact in zip(limits, (ball.screw, ball.nut), strict=True)
     )
+    forces = sliding_forces(ball, 1.0)
+    xp = namespace(curvature, *limits, *forces)
     share = 1.0
-    for limit, force in zip(limits, sliding_forces(ball, 1.0), strict=True):
+    for limit, force in zip(limits, forces, strict=True):
         needed = xp.abs(force)
         left = xp.maximum(limit - curvature, 0.0)
         share = xp.minimum(share, xp.where(needed > left, left / xp.where(needed > left, needed, 1.0), 1.0))
