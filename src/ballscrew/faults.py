@@ -101,21 +101,22 @@ def shown(value: Any, unit: str) -> str:
 def fault_of(section: str, quantity: Quantity, value: Any, given: str = "") -> Fault | None:
     """The fault of one concrete value, or None. ``given`` is what the person wrote, if known."""
     where = f"{section}.{quantity.name}"
-    given = given or shown(value, quantity.unit)
     if isinstance(value, str | bytes | bool) or value is None:
         expected = "a number" if quantity.unit == "1" else f"a number in {quantity.unit}"
-        return Fault(where, f"must be {expected}", given, "give a number without quotes")
+        remedy = "give a number without quotes"
+        return Fault(where, f"must be {expected}", given or shown(value, quantity.unit), remedy)
     complex_number = isinstance(value, numbers.Number) and not isinstance(value, numbers.Real)
     of_others = isinstance(value, np.ndarray) and value.dtype.kind not in "fiu"
     if isinstance(value, list | tuple) or complex_number or of_others:
-        return Fault(where, "must be a number or an array of numbers", given, "give a float or a numpy.array of floats")
+        remedy = "give a float or a numpy.array of floats"
+        return Fault(where, "must be a number or an array of numbers", given or shown(value, quantity.unit), remedy)
     if not is_concrete(value):
         return None
     found = out_of_bounds(quantity.info, as_float(value))
     if found is None:
         return None
     problem, bound = found
-    return Fault(where, problem, given, quantity.info.hint, bound, quantity.unit)
+    return Fault(where, problem, given or shown(value, quantity.unit), quantity.info.hint, bound, quantity.unit)
 
 
 def faults_of(section: str, part: Any, optional: Sequence[str] = ()) -> list[Fault]:
