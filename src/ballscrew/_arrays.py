@@ -20,6 +20,10 @@ T = TypeVar("T")
 BLOCK_SIZE = 64_000
 
 
+#: Kinds of number that NumPy understands; most are one of these.
+_OWN = frozenset({np.float64, np.ndarray, float, int, np.bool_})
+
+
 def namespace(*values: Any) -> Any:
     """The module whose ``exp``, ``where``, … understand these values.
 
@@ -28,7 +32,10 @@ def namespace(*values: Any) -> Any:
     are loaded already. pint quantities answer to NumPy's functions.
     """
     for value in values:
-        package = type(value).__module__.partition(".")[0]
+        kind = type(value)
+        if kind in _OWN:  # asked some twenty times in a single call of a model
+            continue
+        package = kind.__module__.partition(".")[0]
         if package in {"jax", "jaxlib"}:
             return sys.modules["jax"].numpy
         if package == "sympy":

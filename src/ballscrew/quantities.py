@@ -126,7 +126,11 @@ def quantities_of(cls: type) -> Mapping[str, Quantity]:
 
 def fields_of(part: type | object) -> dict[str, Quantity]:
     """The quantities of a dataclass (or of the class of one) that are fields, by name."""
-    cls: Any = part if isinstance(part, type) else type(part)
+    return _fields_of(part if isinstance(part, type) else type(part))
+
+
+@functools.cache
+def _fields_of(cls: Any) -> dict[str, Quantity]:
     names = {field.name for field in dataclasses.fields(cls)}
     return {name: quantity for name, quantity in quantities_of(cls).items() if name in names}
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from typing import Annotated, Any
 
 from ballscrew._arrays import lazy, namespace
@@ -126,7 +127,12 @@ class ContactLaws:
 
 def fields_as_dict(part: ContactConditions) -> dict[str, Any]:
     """The fields of a state by name, to build the next, fuller one from."""
-    return {field.name: getattr(part, field.name) for field in dataclasses.fields(part)}
+    return {name: getattr(part, name) for name in _names(type(part))}
+
+
+@functools.cache
+def _names(kind: type[ContactConditions]) -> tuple[str, ...]:
+    return tuple(field.name for field in dataclasses.fields(kind))
 
 
 def rolling_contact(
