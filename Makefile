@@ -40,6 +40,7 @@ readme: $(READY)
 	$(BIN)/python docs/make_equation_table.py
 
 bench: $(READY)
+	$(BIN)/python benchmarks/engine.py
 	$(BIN)/python benchmarks/sweep.py
 	$(BIN)/python benchmarks/reference.py
 	$(BIN)/python benchmarks/four_point.py

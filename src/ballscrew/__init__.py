@@ -10,6 +10,12 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from ballscrew.analyses.derivatives import derivatives as derivatives
+    from ballscrew.analyses.distributions import LogNormal as LogNormal
+    from ballscrew.analyses.distributions import Normal as Normal
+    from ballscrew.analyses.distributions import Triangular as Triangular
+    from ballscrew.analyses.distributions import Uniform as Uniform
+    from ballscrew.analyses.monte_carlo import monte_carlo as monte_carlo
     from ballscrew.analyses.sweep import sweep as sweep
     from ballscrew.assembly import nut_friction as nut_friction
     from ballscrew.components.catalogue import catalogue as catalogue
@@ -40,14 +46,20 @@ _HOMES = {
     "FrictionResult": "ballscrew.result",
     "HamrockDowson": "ballscrew.components.lubrication",
     "InputError": "ballscrew.faults",
+    "LogNormal": "ballscrew.analyses.distributions",
     "Lubricant": "ballscrew.components.materials",
     "Material": "ballscrew.components.materials",
+    "Normal": "ballscrew.analyses.distributions",
     "OffsetLeadNut": "ballscrew.components.nut",
     "OversizeBallNut": "ballscrew.components.nut",
     "Seals": "ballscrew.components.nut_losses",
     "SingleNut": "ballscrew.components.nut",
+    "Triangular": "ballscrew.analyses.distributions",
+    "Uniform": "ballscrew.analyses.distributions",
     "ZhouHoeprich": "ballscrew.components.mixed_friction",
     "catalogue": "ballscrew.components.catalogue",
+    "derivatives": "ballscrew.analyses.derivatives",
+    "monte_carlo": "ballscrew.analyses.monte_carlo",
     "nut_friction": "ballscrew.assembly",
     "sweep": "ballscrew.analyses.sweep",
 }
@@ -61,15 +73,21 @@ __all__ = [
     "FrictionResult",
     "HamrockDowson",
     "InputError",
+    "LogNormal",
     "Lubricant",
     "Material",
+    "Normal",
     "OffsetLeadNut",
     "OversizeBallNut",
     "Seals",
     "SingleNut",
+    "Triangular",
+    "Uniform",
     "ZhouHoeprich",
     "__version__",
     "catalogue",
+    "derivatives",
+    "monte_carlo",
     "nut_friction",
     "sweep",
 ]
