@@ -54,6 +54,8 @@ SIZES = (1_000_000, 10_000_000)
 #: Rounds at each size, and the largest size of the cases that NumPy is slow at.
 ROUNDS = {1_000_000: 7, 10_000_000: 3}
 LARGEST = {"reference": 1_000_000, "gradient": 1_000_000}
+#: Seconds that something is timed for, at least.
+MOMENT = 0.05
 BLOCKS_PER_THREAD = 4
 
 #: Each input that olaru2005() depends on: its letter in the script, and the range it is drawn from, in SI.
@@ -249,10 +251,14 @@ CASES: dict[str, Callable[[int], Case]] = {
 
 
 def seconds(work: Callable[[], Any]) -> float:
-    """How long one call takes."""
+    """How long one call takes: one to warm up, and then as many as fill a moment."""
     start = time.perf_counter()
     work()
-    return time.perf_counter() - start
+    calls = math.ceil(MOMENT / (time.perf_counter() - start))
+    start = time.perf_counter()
+    for _ in range(calls):
+        work()
+    return (time.perf_counter() - start) / calls
 
 
 def measured(case: Case, rounds: int) -> dict[str, float]:

@@ -1,4 +1,4 @@
-"""Olaru 2005 as a script would have it, equation after equation, on whole arrays; benchmarks are measured against it."""
+"""Olaru 2005 as a script would have it, on whole arrays, equation after equation: what benchmarks compare with."""
 
 from __future__ import annotations
 

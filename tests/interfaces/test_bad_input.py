@@ -110,7 +110,7 @@ def test_files_that_are_no_case(tmp_path, ballscrew):
 
 def test_unwritable_output(tmp_path, example, ballscrew):
     single_line_fault(ballscrew("sweep", example, "--to", tmp_path), "--to: unknown kind of file")
-    single_line_fault(ballscrew("sweep", example, "--to", tmp_path / "map.doc"), "end it in .csv, .xlsx or .nc")
+    single_line_fault(ballscrew("sweep", example, "--to", tmp_path / "map.doc"), "end it in .csv, .xlsx, .nc or .zarr")
     file = tmp_path / "file"
     file.write_text("kept", encoding="utf-8")
     single_line_fault(ballscrew("reproduce", "olaru2005", "--out", file / "out"), "cannot")

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
 from ballscrew.analyses.evaluation import Engine, Evaluation
 from ballscrew.analyses.nut_parts import NutParts
 from ballscrew.analyses.plan import Plan, Subject
+from ballscrew.analyses.stream import stream
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
-from ballscrew.faults import Fault, raise_if_any
+from ballscrew.faults import Fault, InputError, raise_if_any
 from ballscrew.model import FrictionModel
+
+if TYPE_CHECKING:
+    import distributed
 
 
 def sweep(
@@ -27,6 +32,8 @@ def sweep(
     block_size: int | None = None,
     threads: int | None = None,
     done: Callable[[int, int], None] | None = None,
+    to: str | os.PathLike[str] | None = None,
+    cluster: distributed.Client | None = None,
     **varied: Any,
 ) -> xr.Dataset:
     """Evaluate a model over the values given, and return them with names, units and sources.
@@ -37,17 +44,35 @@ def sweep(
     own name; ``xarray.DataArray`` values that share a dimension vary together along it, so random
     points are ``xr.DataArray(values, dims="point")``. The dataset has the dimensions in the order
     given. Only the ``outputs`` asked for are kept (see
-    :func:`~ballscrew.analyses.outputs.known_outputs`; a default handful otherwise). With a ``nut`` it is a whole nut whose friction is computed, and the fields of the nut can be varied.
+    :func:`~ballscrew.analyses.outputs.known_outputs`; a default handful otherwise). With a ``nut`` it
+    is a whole nut whose friction is computed, and the fields of the nut can be varied.
 
-    Work goes block by block on a few threads, and ``done(finished, total)`` is told the progress.
+    Work goes block by block on a few threads, of ``block_size`` points at most, and
+    ``done(finished, total)`` is told the points.
     The ``engine`` is chosen by the size of the work: ``"numpy"``, or ``"compiled"``, which needs the extra ``fast``.
-    Raises :class:`~ballscrew.faults.InputError` for unknown names and missing or bad values.
+
+    ``to`` names a folder for sweeps larger than the memory: a Zarr store that is filled block by
+    block, two of which are in memory at a time. It needs the extra ``data``. The same call goes on
+    where a run was stopped, by whatever; a store that is complete is opened at once. The values of
+    the dataset are read from it when they are asked for.
+    With a ``cluster``, the client of a Dask scheduler, its workers evaluate the blocks and write
+    them; they must see the folder ``to`` under the same path. A worker that is lost costs the blocks
+    it was at. Each block takes one thread unless ``threads`` says otherwise. It needs the extra ``cluster``.
+
+    Raises :class:`~ballscrew.faults.InputError` for unknown names and missing or bad values, and for
+    a folder that holds something else or that somebody else writes into; and
+    :class:`~ballscrew.analyses.store.Unfinished` when the disk or the cluster gives out.
     """
     counts = {"block_size": block_size, "threads": threads}
     raise_if_any(
         [Fault(f"sweep.{n}", "must be 1 or more", str(v), "") for n, v in counts.items() if v is not None and v < 1]
     )
+    if cluster is not None and to is None:
+        remedy = 'add to="map.zarr", in a folder that all workers share'
+        raise InputError(Fault("sweep.cluster", "needs a store", "", remedy))
     plan = Plan.of(Subject(model, screw, lubricant, nut), outputs, varied)
+    if to is not None:
+        return stream(plan, to, engine=engine, block_size=block_size, threads=threads, done=done, cluster=cluster)
     evaluation = Evaluation.of(plan, engine)
     results = evaluation.empty(plan.total)
     evaluation.fill(results, slice(0, plan.total), block_size=block_size, threads=threads, done=done)

@@ -130,7 +130,16 @@ def sweep(
     ] = None,
     to: Annotated[
         Path | None,
-        typer.Option("--to", "-o", metavar="FILE", help="Write .csv, .xlsx or .nc; without it, CSV on the terminal."),
+        typer.Option(
+            "--to",
+            "-o",
+            metavar="FILE",
+            help="Write .csv, .xlsx or .nc, or a folder .zarr of any size; without it, CSV on the terminal.",
+        ),
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option("--scheduler", metavar="ADDRESS", help="Fill a .zarr by the workers of a Dask scheduler."),
     ] = None,
     model: ModelName = None,
     settings: Settings = None,
@@ -139,20 +148,22 @@ def sweep(
 
     Without --vary, the axes come from the [sweep] table of the case file, or else are ten loads and
     ten speeds up to those of the case. One output over two axes comes as a table, load down and
-    speed across, ready to paste; otherwise one row a point.
+    speed across, ready to paste; otherwise one row a point. A .zarr is filled block by block: stopped
+    by whatever, the same command goes on where it was.
     """
-    from ballscrew.interfaces import config, export
+    from ballscrew.interfaces import config, export, outside
 
     loaded = config.load(case, settings or [], model)
     plan = export.plan(loaded, vary or [], output or [], to)
-    with _progress("sweep") as progress:
-        dataset = export.evaluate(loaded, plan, progress)
+    with _stopped_in_words(), export.workers(scheduler, to) as cluster, _progress("sweep") as progress:
+        dataset = export.evaluate(loaded, plan, progress, to, cluster)
     if to is None:
         export.write_csv(sys.stdout, dataset, plan)
     else:
-        export.write(dataset, plan, to)
+        if not export.is_store(to):
+            export.write(dataset, plan, to)
         typer.echo(f"{to}: {export.size_in_words(dataset, plan)}, model {loaded.model.label}")
-    if beware := export.warning(loaded, plan, dataset):
+    if beware := outside.warning(loaded, plan, dataset, to):
         typer.echo(beware, err=True)
 
 
@@ -220,13 +231,37 @@ def options(
 
 @contextlib.contextmanager
 def _progress(what: str) -> Generator[Callable[[int, int], None]]:
-    """A progress bar on the error stream, for ``done(finished, total)``; silent where nobody looks."""
+    """A progress bar on the error stream, for ``done(finished, total)`` points; silent where nobody looks."""
     from rich.console import Console
-    from rich.progress import Progress
+    from rich.progress import Progress, Task, TextColumn
 
-    with Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as bar:
+    class Rate(TextColumn):
+        def render(self, task: Task) -> Any:
+            self.text_format = "" if not task.speed else f"{task.speed:,.0f} points/s"
+            return super().render(task)
+
+    columns = (*Progress.get_default_columns(), Rate(""))
+    with Progress(*columns, console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as bar:
         task = bar.add_task(what, total=None)
         yield lambda finished, total: bar.update(task, completed=finished, total=total)
+
+
+@contextlib.contextmanager
+def _stopped_in_words() -> Generator[None]:
+    """A sweep into a store that is stopped says in a line how far it came, and that it goes on from there."""
+    try:
+        yield
+    except KeyboardInterrupt as error:
+        for line in getattr(error, "__notes__", ()):
+            typer.echo(line, err=True)
+        raise  # the exit code is that of an interrupt
+    except OSError as error:
+        from ballscrew.analyses.store import Unfinished
+
+        if not isinstance(error, Unfinished):
+            raise
+        typer.echo(str(error), err=True)
+        raise typer.Exit(1) from None
 
 
 def _step(what: str, done: int, total: int) -> None:

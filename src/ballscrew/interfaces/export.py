@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import dataclasses
 import importlib.util
 import io
+import logging
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import IO, Any
 
 import numpy as np
 import xarray as xr
 
+from ballscrew.analyses.cluster import connected
 from ballscrew.analyses.outputs import DEFAULT_OUTPUTS, NUT_OUTPUTS, OPERATION, inputs_of, known_outputs
+from ballscrew.analyses.plan import Plan as Swept
+from ballscrew.analyses.plan import Subject
+from ballscrew.analyses.stream import stream
 from ballscrew.analyses.sweep import sweep
 from ballscrew.assembly import NUT_REASONS
 from ballscrew.components.laws import ProportionalBallForce
@@ -30,8 +36,10 @@ from ballscrew.validity import REASONS
 
 _RANGE = re.compile(r"(?P<start>[^:]+):(?P<stop>[^:]+):\s*(?P<count>\d{1,9})\s*(?P<unit>1\s*/.*|[^\d\s.].*)?")
 _SECTIONS = ("operation", "screw", "lubricant", "model", "nut")
+#: A folder that is filled block by block, so that a sweep need not fit into memory.
+STORE = ".zarr"
 #: What each kind of file needs beyond the core, and what to install for it.
-_NEEDS = {".csv": (), ".xlsx": ("xlsxwriter",), ".nc": ("h5netcdf", "h5py")}
+_NEEDS = {".csv": (), ".xlsx": ("xlsxwriter",), ".nc": ("h5netcdf", "h5py"), STORE: ("zarr",)}
 #: A worksheet ends here; larger sweeps belong into NetCDF.
 _XLSX_ROWS = 1_048_576
 _XLSX_COLUMNS = 16_384
@@ -102,13 +110,13 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
         remedy = "leave out [bodies] and [deviations]"
         faults.append(Fault("sweep.loaded_balls", "cannot be varied where balls differ", "", remedy))
     size = math.prod(len(values) for values in axes.values())
-    if size * len(chosen) > _MOST_VALUES:
-        remedy = "take fewer values an axis, or fewer outputs"
+    if size * len(chosen) > _MOST_VALUES and not is_store(to):
+        remedy = "take fewer values an axis, or fewer outputs, or write to a folder: --to map.zarr"
         faults.append(Fault("sweep", "too many values", f"{size:,} points", remedy))
     faults += _file_faults(to, [len(values) for values in axes.values()])
     if faults:
         raise InputError(*faults)
-    if to is not None:
+    if to is not None and not is_store(to):
         check_writable("--to", to)
     quantities = {name: quantity for name, (_, quantity) in known.items()}
     si = {f"{part}_{name.replace('.', '_')}": quantity.unit for name, (part, quantity) in known.items()}
@@ -138,13 +146,18 @@ def _texts(vary: Sequence[str], faults: list[Fault]) -> dict[str, str]:
     return texts
 
 
+def is_store(to: Path | None) -> bool:
+    """Whether a sweep goes to a store on disk block by block."""
+    return to is not None and to.suffix.lower() == STORE
+
+
 def _file_faults(to: Path | None, lengths: Sequence[int]) -> list[Fault]:
     """What is wrong with a file before a byte of it is written."""
     if to is None:
         return []
     kind = to.suffix.lower()
     if kind not in _NEEDS:
-        return [Fault("--to", "unknown kind of file", str(to), "end it in .csv, .xlsx or .nc")]
+        return [Fault("--to", "unknown kind of file", str(to), "end it in .csv, .xlsx, .nc or .zarr")]
     missing = [name for name in _NEEDS[kind] if importlib.util.find_spec(name) is None]
     if missing:
         return [Fault("--to", f"needs {' and '.join(missing)}", str(to), 'pip install "ballscrew[data]"')]
@@ -192,28 +205,51 @@ def _blank_unit(quantity: Quantity) -> str:
     return "" if quantity.unit == "1" else f" {quantity.shown_in}"
 
 
-def evaluate(case: Case, plan: Plan, done: Callable[[int, int], None] | None = None) -> xr.Dataset:
+def evaluate(
+    case: Case,
+    plan: Plan,
+    done: Callable[[int, int], None] | None = None,
+    to: Path | None = None,
+    cluster: Any = None,
+) -> xr.Dataset:
     """The dataset of a plan; load and speed are those of the case where they are not varied.
 
-    It also says which points are valid, and why not, whether that was asked for or not.
+    It also says which points are valid, and why not, whether that was asked for or not. With a
+    store ``to`` it is filled first, by the workers of a ``cluster`` if there is one.
     """
     fixed = {name: getattr(case.operation, name) for name in OPERATION if name not in plan.axes}
-    names = dict.fromkeys((*plan.outputs, "valid", *(f"validity_{reason}" for reason in _reasons(case))))
-    axes = dict(plan.axes)
+    names = dict.fromkeys((*plan.outputs, "valid", *(f"validity_{reason}" for reason in reasons_of(case))))
     varied: dict[str, Any] = {}
-    for name, values in axes.items():
+    for name, values in plan.axes.items():
         varied |= _oils(case, values) if name == "temperature" else {name: values}
+    oil = {f"lubricant_{name}": value for name, value in case.oil.items() if name not in plan.axes}
+    if to is not None and is_store(to):
+        subject = Subject(case.model, case.screw, case.lubricant, case.parts)
+        swept = Swept.of(subject, tuple(names), varied | fixed)
+        return stream(swept, to, done=done, cluster=cluster, attributes=oil)
     dataset = sweep(
         case.model, case.screw, case.lubricant, nut=case.parts, outputs=tuple(names), done=done, **varied, **fixed
     )
-    if "temperature" in axes:
-        dataset["temperature"].attrs = {"units": TEMPERATURE.unit, "long_name": TEMPERATURE.info.meaning}
-    oil = {name: value for name, value in case.oil.items() if name not in axes}
-    dataset.attrs |= {f"lubricant_{name}": value for name, value in oil.items()}
+    dataset.attrs |= oil
     return dataset
 
 
-def _reasons(case: Case) -> Mapping[str, str]:
+@contextlib.contextmanager
+def workers(scheduler: str | None, to: Path | None) -> Generator[Any]:
+    """A client of the cluster with a scheduler at this address; None without an address."""
+    if scheduler is None:
+        yield None
+        return
+    if not is_store(to):
+        remedy = "add --to map.zarr, in a folder that all workers share"
+        raise InputError(Fault("--scheduler", "needs a store", scheduler, remedy))
+    with connected(scheduler, "--scheduler") as client:
+        # what it logs of a scheduler that is gone, the command says in a line
+        logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
+        yield client
+
+
+def reasons_of(case: Case) -> Mapping[str, str]:
     """What can be wrong with a point, in words."""
     return REASONS if case.parts is None else NUT_REASONS
 
@@ -223,51 +259,9 @@ def _oils(case: Case, temperatures: np.ndarray) -> dict[str, xr.DataArray]:
     oils = Lubricant.from_grade(case.oil["grade"], temperatures)
     made = Lubricant.from_grade(**case.oil)
     own = [name for name in OF_TEMPERATURE if getattr(made, name) == getattr(case.lubricant, name)]
-    dim, coords = "temperature", {"temperature": temperatures}
+    dim, attributes = "temperature", {"units": TEMPERATURE.unit, "long_name": TEMPERATURE.info.meaning}
+    coords = {dim: xr.DataArray(temperatures, dims=dim, attrs=attributes)}
     return {name: xr.DataArray(np.broadcast_to(getattr(oils, name), temperatures.shape), coords, dim) for name in own}
-
-
-def warning(case: Case, plan: Plan, dataset: xr.Dataset) -> str:
-    """How many points lie outside the model's validity and why, in words; nothing if none does.
-
-    Of the points that cannot be computed at all, the first is named, with what ``run`` says of it.
-    """
-    outside = int((~dataset["valid"]).sum())
-    if not outside:
-        return ""
-    reasons = _reasons(case)
-    masks = {reason: dataset[f"validity_{reason}"] for reason in reasons}
-    counts = ", ".join(f"{reason} {int((~mask).sum())}" for reason, mask in masks.items() if not mask.all())
-    lines = [f"beware: {outside} of {dataset['valid'].size} points lie outside the model's validity ({counts})"]
-    lines += [f"beware  {reason}: {reasons[reason]}" for reason, mask in masks.items() if not mask.all()]
-    lines += _first_impossible(case, plan, masks["inputs"])
-    return "\n".join(lines)
-
-
-def _first_impossible(case: Case, plan: Plan, possible: xr.DataArray) -> list[str]:
-    """The first point that is empty, and why."""
-    if possible.all():
-        return []
-    position = np.unravel_index(int(np.argmin(possible.to_numpy())), possible.shape)
-    at = dict(zip(map(str, possible.dims), position, strict=True))
-    point = {name: float(values[at[name]]) for name, values in plan.axes.items()}
-    words = ", ".join(f"{n.replace('_', ' ')} {units.shown(v, plan.quantities[n])}" for n, v in point.items())
-    known = inputs_of(case.model, case.screw, case.lubricant)
-    changes = {name: value for name, value in point.items() if name in known and known[name][0] == "screw"}
-    reason = REASONS["inputs"]
-    try:
-        dataclasses.replace(case.screw, **changes)
-    except InputError as error:
-        sizes = fields_of(case.screw)
-        found = []
-        for fault in error.faults:
-            quantity = sizes[fault.where.rpartition(".")[2]]
-            given = units.shown(getattr(case.screw, quantity.name), quantity)
-            given = units.shown(point[quantity.name], quantity) if quantity.name in point else given
-            found.append(str(units.in_people_units(fault, quantity, given)))
-        reason = "; ".join(found)
-    count = int((~possible).sum())
-    return [f"empty cells: {count} points, the first at {words}: {reason}"]
 
 
 def size_in_words(dataset: xr.Dataset, plan: Plan) -> str:

@@ -1,0 +1,138 @@
+"""What a sweep costs on a cluster: tasks a scheduler sustains, and the seconds and the memory of a block.
+
+``python benchmarks/cluster.py`` starts a scheduler and two workers on this machine, sends empty tasks
+through the loop that sweeps go through, then fills a store. Seconds of a block are those of a worker
+alone and of two that share the disk.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import json
+import resource
+import statistics
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import Any
+
+import distributed
+
+import ballscrew as bs
+from ballscrew.analyses import cluster
+from ballscrew.analyses.olaru2005 import OIL, SCREW
+from ballscrew.analyses.plan import Plan, Subject
+from ballscrew.analyses.store import Store
+from ballscrew.analyses.store_plan import Blocks
+
+sys.path.insert(0, str(Path(__file__).parent))
+from out_of_core import OUTPUTS, axes
+
+#: Empty tasks under way.
+WINDOW = 512
+
+
+def nothing(number: int, store: Store, threads: int) -> int:  # noqa: ARG001  (the signature of a task)
+    """A task without work."""
+    return number
+
+
+def tasks_per_second(client: Any, store: Store, tasks: int) -> float:
+    """How many tasks go through the loop of a sweep, one scheduler, this client."""
+    many = dataclasses.replace(store, blocks=Blocks.of(store.plan, store.plan.total // tasks))
+    real, cluster._write_block = cluster._write_block, nothing
+    few, cluster.IN_FLIGHT_AT_LEAST = cluster.IN_FLIGHT_AT_LEAST, WINDOW  # as many as a large cluster has
+    try:
+        start = time.perf_counter()
+        cluster.fill_on_cluster(many, client, range(many.blocks.count), lambda _: None)
+        return many.blocks.count / (time.perf_counter() - start)
+    finally:
+        cluster._write_block, cluster.IN_FLIGHT_AT_LEAST = real, few
+
+
+def timed_block(store: Store, number: int) -> tuple[float, float]:
+    """Seconds to evaluate and to write a block."""
+    evaluation = cluster._ready(store)
+    start = time.perf_counter()
+    results = evaluation.empty(store.blocks.points(number))
+    evaluation.fill(results, store.blocks.span(number), threads=1)
+    evaluated = time.perf_counter()
+    store.commit(number, results, [store.write(number, name, results[name]) for name in store.variables])
+    written = time.perf_counter()
+    return evaluated - start, written - evaluated
+
+
+def memory() -> float:
+    """Peak memory of this process in MB."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1e6 if sys.platform == "darwin" else 1e3)
+
+
+def blocks(client: Any, store: Store, workers: list[str], numbers: range) -> list[tuple[float, float]]:
+    """Blocks done by these workers, one at a time each."""
+    sent = client.scatter(store, broadcast=True, hash=False)
+    futures = [
+        client.submit(timed_block, sent, number, workers=[workers[number % len(workers)]], pure=False)
+        for number in numbers
+    ]
+    return client.gather(futures)
+
+
+def main() -> None:
+    """Measure, and print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--points", type=float, default=2e7, help="points of the store (default: 2e7)")
+    parser.add_argument("--tasks", type=int, default=20_000, help="empty tasks (default: 20 000)")
+    parser.add_argument("--folder", type=Path, help="where the stores go (default: a temporary folder)")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    options = parser.parse_args()
+    points = int(options.points)
+    model = bs.FrictionModel.olaru2005()
+    plan = Plan.of(Subject(model, SCREW, OIL), OUTPUTS, axes(points))
+    given = {"processes": True, "n_workers": 2, "threads_per_worker": 1, "dashboard_address": None}
+    with (
+        tempfile.TemporaryDirectory(prefix="ballscrew-", dir=options.folder) as name,
+        distributed.LocalCluster(host="127.0.0.1", local_directory=name, **given) as local,
+        distributed.Client(local) as client,
+    ):
+        store, evaluation = Store.of(Path(name) / "blocks.zarr", plan)
+        store.own.mkdir(parents=True)
+        store.begin()
+        workers = list(client.nthreads())
+        before = list(client.run(memory).values())
+        tasks = tasks_per_second(client, store, options.tasks)
+        count = store.blocks.count // 2
+        blocks(client, store, workers, range(2))  # compiled
+        alone = blocks(client, store, workers[:1], range(count))
+        both = blocks(client, store, workers, range(count, 2 * count))
+        start = time.perf_counter()
+        bs.sweep(model, SCREW, OIL, outputs=OUTPUTS, to=Path(name) / "map.zarr", cluster=client, **axes(points))
+        seconds = time.perf_counter() - start
+        kept = sum(path.stat().st_size for path in (Path(name) / "map.zarr").rglob("*") if path.is_file())
+        figures = {
+            "tasks_per_s": tasks,
+            "task_overhead_ms": 1e3 / tasks,
+            "blocks": store.blocks.count,
+            "points_per_block": store.blocks.largest,
+            "evaluate_s": statistics.median(block[0] for block in alone),
+            "write_s": statistics.median(block[1] for block in alone),
+            "evaluate_both_s": statistics.median(block[0] for block in both),
+            "write_both_s": statistics.median(block[1] for block in both),
+            "sweep_s": seconds,
+            "blocks_per_s": store.blocks.count / seconds,
+            "Mpoint_per_s": plan.total / seconds / 1e6,
+            "disk_MB_per_s": kept / seconds / 1e6,
+            "worker_idle_memory_MB": max(before),
+            "worker_memory_MB": max(client.run(memory).values()),
+            "engine": evaluation.engine,
+        }
+    if options.json:
+        print(json.dumps(figures, indent=1))
+        return
+    for title, value in figures.items():
+        print(f"{title:28s} {value:12.4g}" if isinstance(value, float) else f"{title:28s} {value!s:>12s}")
+
+
+if __name__ == "__main__":
+    main()

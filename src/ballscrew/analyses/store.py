@@ -1,0 +1,387 @@
+"""A sweep on disk: a Zarr store that is filled block by block, and goes on where it was stopped.
+
+Files are what a store is made of, so this room writes them, and nowhere but inside the store::
+
+    map.zarr/zarr.json              last of all, by a rename: a store without it is not finished
+    map.zarr/screw_torque/c/0/1     a chunk: the results of one block, one output
+    map.zarr/.ballscrew/plan.json   what the store holds, with its digest
+    map.zarr/.ballscrew/blocks.csv  checksums (CRC-32 of the numbers) of all blocks
+    map.zarr/.ballscrew/blocks/12   the row of one block; there once its chunks are, until all are
+    map.zarr/.ballscrew/lock        while somebody writes
+
+Every file is written under another name, brought to the disk, and renamed.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import dataclasses
+import errno
+import functools
+import importlib.util
+import io
+import itertools
+import json
+import os
+import shutil
+import socket
+import uuid
+import warnings
+import zlib
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ballscrew.analyses.evaluation import Engine, Evaluation
+from ballscrew.analyses.outputs import attributes_of
+from ballscrew.analyses.plan import Plan
+from ballscrew.analyses.store_plan import Blocks, canonical, checksum, description, differences
+from ballscrew.faults import Fault, InputError, raise_if_any
+
+#: How a person is told where a fault lies.
+WHERE = "sweep.to"
+#: LZ4 with the bytes of equal weight side by side: a map of seven outputs takes 0.72 of its bytes, and
+#: a disk slower than a processor compresses has the less to do. Zstandard saves 0.02 more at most and
+#: takes up to twice as long; on numbers as they are it saves half as much
+#: (``benchmarks/out_of_core.py --codecs``).
+COMPRESSION: Mapping[str, Any] = {"cname": "lz4", "clevel": 1, "shuffle": "shuffle"}
+#: The folder of our own in a store.
+_OWN = ".ballscrew"
+_ROOT = "zarr.json"
+#: Ends the heading of a column that counts how often a truth value is false.
+_FALSE = " false"
+_OTHER = "choose another name, or remove it"
+_FOREIGN = "is there and is not the store of a sweep"
+#: A disk that is full, for all or for this user.
+FULL = {errno.ENOSPC, errno.EDQUOT}
+
+
+class Unfinished(OSError):
+    """The disk or the cluster gave out; what is finished stays, and the same sweep goes on from there."""
+
+    def __str__(self) -> str:
+        return str(self.args[-1])
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Store:
+    """The folder of a sweep. It can be sent to other processes that see the same files."""
+
+    path: Path
+    plan: Plan
+    blocks: Blocks
+    #: What the store is known by.
+    told: Mapping[str, Any]
+
+    @classmethod
+    def of(
+        cls,
+        path: str | os.PathLike[str],
+        plan: Plan,
+        *,
+        engine: Engine | None = None,
+        block_size: int | None = None,
+        attributes: Mapping[str, Any] | None = None,
+    ) -> tuple[Store, Evaluation]:
+        """The store of a plan, new or begun, and its evaluation; nothing is written yet.
+
+        A store that was begun keeps its engine. ``attributes`` go to the dataset with those of the plan.
+        Raises :class:`~ballscrew.faults.InputError` if something else lies there, and says what.
+        """
+        folder = _checked(path, plan)
+        stored = _stored(folder)
+        chosen = engine or (None if stored is None else stored["engine"])
+        try:
+            evaluation = Evaluation.of(plan, chosen)
+        except InputError as error:
+            if engine is None and chosen is not None:
+                begun = Fault(WHERE, f"was begun with the engine {chosen}", str(folder), _OTHER)
+                raise InputError(begun, *error.faults) from None
+            raise
+        blocks = Blocks.of(plan, block_size)
+        all_attributes = {**plan.subject.attributes(list(plan.axes)), **(attributes or {})}
+        told = description(plan, blocks, all_attributes, engine=evaluation.engine, fingerprint=evaluation.fingerprint)
+        store = cls(folder, plan, blocks, told)
+        store.check(stored)
+        return store, evaluation
+
+    def check_from_worker(self) -> None:
+        """Raise :class:`~ballscrew.faults.InputError` where this process does not see the store that was begun."""
+        _checked(self.path, self.plan)
+        try:
+            seen = _stored(self.path) == self.told
+        except InputError:
+            seen = False
+        if not seen:
+            host = f"{self.path} on {socket.gethostname()}"
+            raise InputError(Fault(WHERE, "is not seen by a worker", host, "give a folder that all nodes share"))
+
+    def check(self, stored: Mapping[str, Any] | None) -> None:
+        """Raise :class:`~ballscrew.faults.InputError` if another sweep is there, and say how it differs."""
+        remedy = f"choose another name, or remove {self.path}"
+        differing = [] if stored is None else differences(stored, self.told)
+        raise_if_any([Fault(WHERE, "holds another sweep", words, remedy) for words in differing])
+
+    @property
+    def own(self) -> Path:
+        """The folder with the plan and the checksums."""
+        return self.path / _OWN
+
+    @property
+    def variables(self) -> list[str]:
+        """The outputs in the store; what is varied is there as a coordinate."""
+        return [name for name in self.plan.wanted if name not in self.plan.axes]
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether all blocks are finished and the store can be opened."""
+        return (self.path / _ROOT).exists()
+
+    def finished(self) -> set[int]:
+        """The numbers of the finished blocks of a store that is not complete."""
+        with contextlib.suppress(FileNotFoundError):
+            return {int(path.name) for path in (self.own / "blocks").iterdir() if path.name.isdecimal()}
+        return set()
+
+    # -- from begin to end ------------------------------------------------------------------------
+
+    def begin(self) -> None:
+        """Make the folder what blocks can be written into; what a killed process left over is removed."""
+        self.check(_stored(self.path))
+        shutil.rmtree(self.own / "temporary", ignore_errors=True)
+        (self.own / "temporary").mkdir(exist_ok=True)
+        if _stored(self.path) is None:
+            self._put(self.own / "plan.json", [canonical({"plan": self.told, "sha256": self.digest}).encode()])
+        if not (self.own / _ROOT).exists() and not self.is_complete:
+            self._lay_out()
+        (self.own / "blocks").mkdir(exist_ok=True)
+
+    def _lay_out(self) -> None:
+        """All metadata and coordinates, in place; the root's aside, until the store is complete."""
+        import zarr
+        from zarr.codecs import BloscCodec
+
+        new = self.own / "temporary" / "new"
+        with warnings.catch_warnings():
+            # labels that are text have no settled type in Zarr 3 yet; they are read back by the same library
+            warnings.filterwarnings("ignore", message=".*does not have a Zarr V3 specification")
+            coordinates = xr.Dataset(coords=self.plan.coordinates(), attrs=dict(self.told["attributes"]))
+            coordinates.to_zarr(new, zarr_format=3, consolidated=False)
+        aside = [str(name) for name in coordinates.coords if name not in coordinates.dims]
+        for name in self.variables:
+            output = self.plan.wanted[name]
+            attributes: dict[str, Any] = {**attributes_of(output.quantity)}
+            if aside:
+                attributes["coordinates"] = " ".join(aside)
+            zarr.create_array(
+                new,
+                name=name,
+                shape=self.blocks.shape,
+                chunks=self.blocks.chunk,
+                dtype=np.dtype(output.dtype),
+                compressors=BloscCodec(**COMPRESSION) if self.blocks.shape else None,
+                fill_value=np.dtype(output.dtype).type(np.nan if output.dtype is float else False),
+                dimension_names=list(self.plan.sizes),
+                attributes=attributes,
+            )
+        root = json.loads((new / _ROOT).read_text(encoding="utf-8"))
+        root["attributes"].pop("coordinates", None)  # each variable names its own
+        members = sorted(path.name for path in new.iterdir() if path.is_dir())
+        # with the metadata of all members in one place nobody need list the folder
+        metadata = {name: json.loads((new / name / _ROOT).read_text(encoding="utf-8")) for name in members}
+        root["consolidated_metadata"] = {"kind": "inline", "must_understand": False, "metadata": metadata}
+        for name in members:
+            shutil.rmtree(self.path / name, ignore_errors=True)  # of a process killed at this very place
+            (new / name).replace(self.path / name)
+        self._put(self.own / _ROOT, [json.dumps(root, indent=2, ensure_ascii=False, sort_keys=True).encode()])
+
+    def finish(self) -> None:
+        """One file of checksums, then the root's metadata: now the store can be opened."""
+        if not self.is_complete:
+            rows = (self.own / "blocks" / str(number) for number in range(self.blocks.count))
+            self._put(self.own / "blocks.csv", itertools.chain([self._heading], (row.read_bytes() for row in rows)))
+            (self.own / _ROOT).replace(self.path / _ROOT)
+        self.clear()
+        shutil.rmtree(self.own / "blocks", ignore_errors=True)
+
+    def clear(self) -> None:
+        """Remove what is only there while blocks are written."""
+        shutil.rmtree(self.own / "temporary", ignore_errors=True)
+
+    @property
+    def is_tidy(self) -> bool:
+        """Whether nothing is left of the time when the store was filled."""
+        return {path.name for path in self.own.iterdir()} == {"plan.json", "blocks.csv"}
+
+    @functools.cached_property
+    def digest(self) -> str:
+        """The digest of what the store is known by."""
+        return checksum(self.told)
+
+    # -- blocks -----------------------------------------------------------------------------------
+
+    def write(self, number: int, name: str, values: np.ndarray) -> str:
+        """Write the results of a block, one output; their checksum. Values are those of the flattened block."""
+        import zarr
+        from zarr.storage import MemoryStore
+
+        held = {_ROOT: self._metadata[name]}  # Zarr makes the chunk in memory; how it gets to the disk is ours
+        region = self.blocks.region(number)
+        array: Any = zarr.open_array(MemoryStore(held), mode="r+")
+        array[region if region else ...] = values.reshape([part.stop - part.start for part in region])
+        for key, chunk in held.items():
+            if key != _ROOT:  # a chunk of nothing but the fill value has no file
+                self._put(self.path / name / key, [chunk.as_numpy_array()])
+        return _crc(values)
+
+    def commit(self, number: int, results: Mapping[str, np.ndarray], checksums: Sequence[str]) -> None:
+        """Say that a block is finished, after all its outputs are written."""
+        false = [results[name].size - np.count_nonzero(results[name]) for name in self._truths]
+        self._put(self.own / "blocks" / str(number), [_row([number, *checksums, *false])])
+
+    @property
+    def _heading(self) -> bytes:
+        return _row(["block", *self.variables, *(f"{name}{_FALSE}" for name in self._truths)])
+
+    @property
+    def _truths(self) -> list[str]:
+        return [name for name in self.variables if self.plan.wanted[name].dtype is bool]
+
+    @functools.cached_property
+    def _metadata(self) -> dict[str, Any]:
+        """What Zarr needs to know of each output to make a chunk of it."""
+        from zarr.core.buffer import default_buffer_prototype
+
+        buffer = default_buffer_prototype().buffer
+        return {name: buffer.from_bytes((self.path / name / _ROOT).read_bytes()) for name in self.variables}
+
+    def _put(self, path: Path, content: Iterable[Any]) -> None:
+        """A file that is whole and on the disk before it has its name."""
+        temporary = self.own / "temporary" / uuid.uuid4().hex
+        try:
+            with temporary.open("xb") as file:
+                file.writelines(content)
+                file.flush()
+                os.fsync(file.fileno())
+            try:
+                temporary.replace(path)
+            except FileNotFoundError:
+                path.parent.mkdir(parents=True, exist_ok=True)
+                temporary.replace(path)
+        except BaseException:
+            temporary.unlink(missing_ok=True)
+            raise
+
+    # -- reading ----------------------------------------------------------------------------------
+
+    def opened(self) -> xr.Dataset:
+        """The dataset of a complete store; values are read when they are asked for."""
+        return xr.open_zarr(self.path, chunks=None, consolidated=True)[self.variables]
+
+    def damaged(self) -> list[int]:
+        """The blocks of a complete store whose numbers are not those that were written."""
+        dataset, found = self.opened(), list[int]()
+        for row in _rows(self.path):
+            number = int(row["block"])
+            region = dict(zip(self.plan.sizes, self.blocks.region(number), strict=True))
+            for name in self.variables:
+                if _crc(dataset[name].isel(region).to_numpy()) != row[name]:
+                    found.append(number)
+                    break
+        return found
+
+
+def _checked(path: str | os.PathLike[str], plan: Plan) -> Path:
+    """The folder of a store; faults in what was given for it."""
+    if importlib.util.find_spec("zarr") is None:
+        raise InputError(Fault(WHERE, "needs zarr", str(path), 'pip install "ballscrew[data]"'))
+    if "://" in str(path):
+        raise InputError(Fault(WHERE, "is not in a file system", str(path), "give the path of a folder"))
+    if all(name in plan.axes for name in plan.wanted):
+        raise InputError(Fault("sweep.outputs", "are what is varied", ", ".join(plan.wanted), "ask for another one"))
+    return Path(path).absolute()
+
+
+def _stored(folder: Path) -> dict[str, Any] | None:
+    """What the store in a folder is known by; None where there is no store yet.
+
+    Raises :class:`~ballscrew.faults.InputError` where something else is: it is not touched.
+    """
+    path = folder / _OWN / "plan.json"
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        # without a plan there may be what a process left that was killed as it began
+        if not folder.exists() or not {path.name for path in folder.iterdir()} - {_OWN}:
+            return None
+        raise InputError(Fault(WHERE, _FOREIGN, str(folder), "choose another name")) from None
+    except NotADirectoryError:
+        if not folder.exists():
+            return None  # it is above that there is none, as making the folder will say
+        raise InputError(Fault(WHERE, _FOREIGN, str(folder), "choose another name")) from None
+    except (OSError, ValueError) as error:
+        raise InputError(Fault(WHERE, "cannot be read", f"{path}: {error}", _OTHER)) from None
+    with contextlib.suppress(ValueError, KeyError, TypeError):
+        kept = json.loads(text)
+        if checksum(kept["plan"]) == kept["sha256"]:
+            return kept["plan"]
+    raise InputError(Fault(WHERE, "has a damaged plan", str(path), _OTHER))
+
+
+def false_in(path: Path) -> dict[str, tuple[int, int]]:
+    """For each truth value of a complete store that is false somewhere: how often, and the first block with it."""
+    found: dict[str, tuple[int, int]] = {}
+    for row in _rows(path):
+        for heading, cell in row.items():
+            name, truth, _ = heading.partition(_FALSE)
+            if truth and (count := int(cell)):
+                before, first = found.get(name, (0, int(row["block"])))
+                found[name] = before + count, first
+    return found
+
+
+def _rows(path: Path) -> Iterator[dict[str, str]]:
+    """For every block of a complete store its checksums, and how often each truth value is false."""
+    with (path / _OWN / "blocks.csv").open(encoding="utf-8", newline="") as file:
+        yield from csv.DictReader(file)
+
+
+def _crc(values: np.ndarray) -> str:
+    """The checksum of numbers, in the order of the grid."""
+    buffer: Any = np.ascontiguousarray(values).reshape(-1).view(np.uint8)
+    return f"{zlib.crc32(buffer):08x}"
+
+
+def _row(cells: list[Any]) -> bytes:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerow(cells)
+    return text.getvalue().encode()
+
+
+@contextlib.contextmanager
+def stopping_cleanly(store: Store) -> Generator[None]:
+    """Whatever stops the work, temporary files go, and it is said how much is finished.
+
+    A disk or a cluster that gives out raises :class:`Unfinished`; an interrupt carries the words as a note.
+    """
+    try:
+        yield
+    except OSError as error:
+        remedy = "make room and run the same again" if error.errno in FULL else "run the same again"
+        why = error.strerror or str(error) or type(error).__name__
+        raise Unfinished(error.errno, _stopped(store, f" ({why})", remedy)) from error
+    except KeyboardInterrupt as error:
+        error.add_note(_stopped(store, "", "run the same again"))
+        raise
+    finally:
+        store.clear()
+
+
+def _stopped(store: Store, why: str, remedy: str) -> str:
+    count = store.blocks.count
+    finished = f"{count if store.is_complete else len(store.finished())} of {count} blocks are finished"
+    return f"{store.path}: stopped{why}, {finished} · {remedy} to go on"

@@ -1,0 +1,173 @@
+"""What a store on disk holds: its blocks, and a plan by which it is known again."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import itertools
+import json
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+import ballscrew
+from ballscrew.analyses.plan import Plan, Subject
+
+#: Changes when what lies in a store changes.
+FORMAT = 1
+#: The results of one block take at most so many bytes: a few blocks at a time fit any memory, and a
+#: file of each output still has some megabytes.
+BLOCK_BYTES = 32_000_000
+#: What differs because something else does, and is said only where nothing else does.
+_CONSEQUENCES = ("chunks", "formulas")
+#: Digits of a digest that a message shows.
+_DIGITS_SHOWN = 12
+
+
+@dataclasses.dataclass(frozen=True)
+class Blocks:
+    """A grid cut into blocks: each is one chunk of every output and one range of the flattened grid."""
+
+    shape: tuple[int, ...]
+    #: ``(1, …, 1, c, full, …)``.
+    chunk: tuple[int, ...]
+
+    @classmethod
+    def of(cls, plan: Plan, block_size: int | None = None) -> Blocks:
+        """The blocks of a plan, of ``block_size`` points at most; else as many as take ``BLOCK_BYTES``.
+
+        A nut whose balls are solved for one by one gets smaller blocks: each is work that a kill loses.
+        """
+        point = sum(np.dtype(output.dtype).itemsize for output in plan.wanted.values())
+        most = block_size or max(1, BLOCK_BYTES // (point * plan.subject.balls))
+        chunk = list(plan.shape)
+        for axis, length in enumerate(plan.shape):
+            beyond = math.prod(chunk[axis + 1 :])
+            if length * beyond <= most:
+                break
+            pieces = math.ceil(length / max(1, most // beyond))
+            chunk[axis] = math.ceil(length / pieces)
+        return cls(plan.shape, tuple(chunk))
+
+    @property
+    def along(self) -> tuple[int, ...]:
+        """The number of blocks along each axis."""
+        return tuple(-(-length // part) for length, part in zip(self.shape, self.chunk, strict=True))
+
+    @property
+    def count(self) -> int:
+        """The number of blocks."""
+        return math.prod(self.along)
+
+    @property
+    def largest(self) -> int:
+        """The points of a block, of the last ones along an axis perhaps fewer."""
+        return math.prod(self.chunk)
+
+    def region(self, number: int) -> tuple[slice, ...]:
+        """Where a block lies in the grid."""
+        places = np.unravel_index(number, self.along) if self.shape else ()
+        corners = [int(place) * part for place, part in zip(places, self.chunk, strict=True)]
+        return tuple(
+            slice(corner, min(corner + part, length))
+            for corner, part, length in zip(corners, self.chunk, self.shape, strict=True)
+        )
+
+    def span(self, number: int) -> slice:
+        """Where a block lies in the flattened grid."""
+        start, points = 0, 1
+        for where, length in zip(self.region(number), self.shape, strict=True):
+            start = start * length + where.start
+            points *= where.stop - where.start
+        return slice(start, start + points)
+
+    def points(self, number: int) -> int:
+        """The number of points of a block."""
+        span = self.span(number)
+        return span.stop - span.start
+
+
+def description(
+    plan: Plan, blocks: Blocks, attributes: Mapping[str, Any], *, engine: str, fingerprint: str
+) -> dict[str, Any]:
+    """All that decides the bytes of a store, as JSON knows it: equal if and only if the stores are."""
+    coordinates = {
+        name: _digest(axis.dims, axis.to_numpy()) if axis.dims else axis.to_numpy().item()
+        for name, axis in plan.axes.items()
+    }
+    labels = {
+        str(name): _digest(values.dims, values.to_numpy())
+        for axis in plan.axes.values()
+        for name, values in axis.coords.items()
+        if name in axis.dims and name not in plan.axes
+    }
+    told = {
+        "format": FORMAT,
+        "version": ballscrew.__version__,
+        "engine": engine,
+        "formulas": fingerprint,
+        "grid": " x ".join(f"{name} {size}" for name, size in plan.sizes.items()),  # their order counts
+        "chunks": blocks.chunk,
+        "axes": coordinates | labels,
+        "outputs": {name: np.dtype(output.dtype).name for name, output in plan.wanted.items()},
+        "laws": _laws(plan.subject),
+        "attributes": dict(attributes),
+    }
+    return json.loads(_json(told))
+
+
+def _laws(subject: Subject) -> dict[str, str]:
+    """The laws of a model and a nut by name; their coefficients are among the attributes."""
+    model = {field.name: getattr(subject.model, field.name) for field in dataclasses.fields(subject.model)}
+    losses = {} if subject.nut is None else {f"losses {name}": law for name, law in subject.nut.losses.items()}
+    return {
+        slot: getattr(law, "__name__", type(law).__name__) for slot, law in (model | losses).items() if callable(law)
+    }
+
+
+def canonical(told: Mapping[str, Any]) -> str:
+    """JSON of one spelling."""
+    return _json(dict(told), sort_keys=True)
+
+
+def _json(told: Mapping[str, Any], *, sort_keys: bool = False) -> str:
+    return json.dumps(told, sort_keys=sort_keys, ensure_ascii=False, separators=(",", ":"), default=_plain)
+
+
+def checksum(told: Mapping[str, Any]) -> str:
+    """The digest of a description."""
+    return hashlib.sha256(canonical(told).encode()).hexdigest()
+
+
+def differences(stored: Mapping[str, Any], wanted: Mapping[str, Any]) -> list[str]:
+    """What is not the same in two descriptions, in words: ``screw_lead 0.005, not 0.01``."""
+    found: dict[str, list[str]] = {}
+    for name in (*wanted, *(name for name in stored if name not in wanted)):
+        theirs, ours = stored.get(name), wanted.get(name)
+        if ours == theirs:
+            continue
+        if isinstance(ours, dict) and isinstance(theirs, dict):
+            found[name] = differences(theirs, ours)
+        else:
+            found[name] = [f"{name.replace('_', ' ')} {_shown(theirs)}, not {_shown(ours)}"]
+    causes = [words for name, words in found.items() if name not in _CONSEQUENCES]
+    return list(itertools.chain(*(causes or found.values())))
+
+
+def _shown(value: Any) -> str:
+    text = "missing" if value is None else value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
+    digest = len(text) == hashlib.sha256().digest_size * 2 and set(text) <= set("0123456789abcdef")
+    return f"{text[:_DIGITS_SHOWN]}…" if digest else text
+
+
+def _digest(dimensions: Sequence[Any], values: np.ndarray) -> str:
+    """A digest of values along dimensions; what is no number counts by its text."""
+    body = values.tobytes() if values.dtype.kind in "fiub" else json.dumps(values.tolist(), default=str).encode()
+    return hashlib.sha256(f"{[*map(str, dimensions)]} {values.shape}\n".encode() + body).hexdigest()
+
+
+def _plain(value: Any) -> Any:
+    """A NumPy number as JSON knows it."""
+    return value.item() if isinstance(value, np.generic) else str(value)

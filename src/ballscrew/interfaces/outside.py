@@ -1,0 +1,92 @@
+"""Points of a sweep outside the model's validity, in words."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from ballscrew.analyses.outputs import inputs_of
+from ballscrew.analyses.store import false_in
+from ballscrew.analyses.store_plan import Blocks
+from ballscrew.faults import InputError
+from ballscrew.interfaces import units
+from ballscrew.interfaces.config import Case
+from ballscrew.interfaces.export import Plan, is_store, reasons_of
+from ballscrew.quantities import fields_of
+from ballscrew.validity import REASONS
+
+
+@dataclasses.dataclass(frozen=True)
+class _False:
+    """How often a mask is false, and the part of the grid with the first time."""
+
+    count: int
+    region: Mapping[str, slice]
+
+
+def warning(case: Case, plan: Plan, dataset: xr.Dataset, to: Path | None = None) -> str:
+    """How many points lie outside the model's validity and why, in words; nothing if none does.
+
+    Of the points that cannot be computed at all, the first is named, with what ``run`` says of it.
+    A store ``to`` knows the numbers block by block, so that it need not be read.
+    """
+    false = _false_in_store(dataset, to) if to is not None and is_store(to) else _false_in(dataset)
+    if "valid" not in false:
+        return ""
+    reasons = reasons_of(case)
+    counts = {reason: found.count for reason in reasons if (found := false.get(f"validity_{reason}"))}
+    told = ", ".join(f"{reason} {count}" for reason, count in counts.items())
+    size = dataset["valid"].size
+    lines = [f"beware: {false['valid'].count} of {size} points lie outside the model's validity ({told})"]
+    lines += [f"beware  {reason}: {reasons[reason]}" for reason in counts]
+    if impossible := false.get("validity_inputs"):
+        lines.append(_first_impossible(case, plan, dataset["validity_inputs"], impossible))
+    return "\n".join(lines)
+
+
+def _false_in(dataset: xr.Dataset) -> dict[str, _False]:
+    """The masks that are false somewhere."""
+    masks = {str(name): mask for name, mask in dataset.data_vars.items() if mask.dtype == bool}
+    return {name: _False(int((~mask).sum()), {}) for name, mask in masks.items() if not mask.all()}
+
+
+def _false_in_store(dataset: xr.Dataset, to: Path) -> dict[str, _False]:
+    sizes = dataset["valid"].sizes
+    blocks = Blocks(tuple(sizes.values()), tuple(dataset["valid"].encoding["chunks"]))
+    return {
+        name: _False(count, dict(zip(map(str, sizes), blocks.region(first), strict=True)))
+        for name, (count, first) in false_in(to).items()
+    }
+
+
+def _first_impossible(case: Case, plan: Plan, possible: xr.DataArray, impossible: _False) -> str:
+    """The first point that is empty, and why."""
+    part = possible.isel(impossible.region).to_numpy()
+    position = np.unravel_index(int(np.argmin(part)), part.shape)
+    begin = {name: where.start for name, where in impossible.region.items()}
+    at = {str(name): begin.get(str(name), 0) + place for name, place in zip(possible.dims, position, strict=True)}
+    point = {name: float(values[at[name]]) for name, values in plan.axes.items()}
+    words = ", ".join(f"{n.replace('_', ' ')} {units.shown(v, plan.quantities[n])}" for n, v in point.items())
+    return f"empty cells: {impossible.count} points, the first at {words}: {_reason(case, point)}"
+
+
+def _reason(case: Case, point: Mapping[str, float]) -> str:
+    """What a screw of these numbers is refused for."""
+    known = inputs_of(case.model, case.screw, case.lubricant)
+    changes = {name: value for name, value in point.items() if name in known and known[name][0] == "screw"}
+    try:
+        dataclasses.replace(case.screw, **changes)
+    except InputError as error:
+        sizes = fields_of(case.screw)
+        found: list[str] = []
+        for fault in error.faults:
+            quantity = sizes[fault.where.rpartition(".")[2]]
+            given = units.shown(getattr(case.screw, quantity.name), quantity)
+            given = units.shown(point[quantity.name], quantity) if quantity.name in point else given
+            found.append(str(units.in_people_units(fault, quantity, given)))
+        return "; ".join(found)
+    return REASONS["inputs"]

@@ -1,0 +1,180 @@
+"""Sweeps into a Zarr store from the command line: what is said, what is left, and the exit code."""
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from ballscrew.faults import InputError
+from ballscrew.interfaces import config, export
+
+pytest.importorskip("zarr")
+
+ROOT = Path(__file__).parents[2]
+AXES = ("--vary", "axial_load=10:4000:30 N", "--vary", "screw_speed=1:1000:40 rpm")
+#: A sweep that nobody waits for.
+ENDLESS = (
+    "--vary", "axial_load=10:4000:1000 N", "--vary", "screw_speed=1:1000:1000 rpm",
+    "--vary", "viscosity=0.05:0.5:1000 Pa s", "--output", "efficiency",
+)  # fmt: skip
+
+
+def fault(process, *words):
+    assert process.returncode == 2, process.stderr
+    assert len(process.stderr.splitlines()) == 1
+    for word in words:
+        assert word in process.stderr
+
+
+def files(folder):
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def test_a_store_holds_what_netcdf_does(example, ballscrew, tmp_path):
+    told = {}
+    for kind in ("zarr", "nc"):
+        process = ballscrew("sweep", example, *AXES, "--to", f"map.{kind}")
+        assert process.returncode == 0, process.stderr
+        told[kind] = process.stdout.replace(f".{kind}", ""), process.stderr
+    assert told["zarr"] == told["nc"]
+    assert told["zarr"][0] == "map: 30 x 40 points, 11 outputs, model olaru2005\n"
+    store = xr.open_zarr(tmp_path / "map.zarr", chunks=None).load()
+    with xr.open_dataset(tmp_path / "map.nc", engine="h5netcdf") as netcdf:
+        assert set(store.variables) == set(netcdf.variables)
+        for name, variable in netcdf.variables.items():
+            assert np.array_equal(store[name], variable.astype(store[name].dtype), equal_nan=True), name
+            assert store[name].attrs["units"] == variable.attrs["units"]
+        assert set(netcdf.attrs) == set(store.attrs)
+
+
+def test_what_cannot_be_built_is_said_from_the_store(ballscrew, tmp_path):
+    drive = ROOT / "examples" / "feed_drive.toml"
+    axes = ("--vary", "temperature=20:60:5 degC", "--vary", "lead=10, 5 mm")
+    said = [ballscrew("sweep", drive, *axes, "--to", name).stderr for name in ("map.zarr", "map.nc")]
+    assert "empty cells: 5 points, the first at temperature 20 degC, lead 5 mm: screw.ball_diameter" in said[0]
+    assert said[0] == said[1]
+    store = xr.open_zarr(tmp_path / "map.zarr", chunks=None)
+    assert store["temperature"].attrs["units"] == "K"
+    assert store["viscosity"].dims == ("temperature",)
+    assert store.attrs["lubricant_grade"] == "ISO VG 100"
+
+
+def test_a_complete_store_is_left_as_it_is(example, ballscrew, tmp_path):
+    first = ballscrew("sweep", example, *AXES, "--to", "map.zarr")
+    before = {name: (tmp_path / "map.zarr" / name).stat().st_mtime_ns for name in files(tmp_path / "map.zarr")}
+    again = ballscrew("sweep", example, *AXES, "--to", "map.zarr")
+    assert (again.returncode, again.stdout, again.stderr) == (0, first.stdout, first.stderr)
+    assert {name: (tmp_path / "map.zarr" / name).stat().st_mtime_ns for name in before} == before
+    other = ballscrew("sweep", example, *AXES, "--to", "map.zarr", "--set", "lubricant.viscosity=0.2 Pa s")
+    fault(other, "sweep.to: holds another sweep (lubricant viscosity 0.1, not 0.2) · choose another name, or remove")
+
+
+def test_a_folder_of_others_is_left_as_it_is(example, ballscrew, tmp_path):
+    (tmp_path / "map.zarr").mkdir()
+    (tmp_path / "map.zarr" / "thesis.tex").touch()
+    fault(ballscrew("sweep", example, *AXES, "--to", "map.zarr"), "sweep.to: is there and is not the store of a sweep")
+    assert list(files(tmp_path / "map.zarr")) == ["thesis.tex"]
+
+
+def test_the_memory_is_no_limit_of_a_store(example, tmp_path):
+    case = config.load(example)
+    vary = ["axial_load=10:4000:10000 N", "screw_speed=1:1000:10000 rpm"]
+    plan = export.plan(case, vary, [], tmp_path / "map.zarr")
+    assert [len(values) for values in plan.axes.values()] == [10_000, 10_000]
+    with pytest.raises(InputError, match=r"too many values .* or write to a folder: --to map\.zarr"):
+        export.plan(case, vary, [], tmp_path / "map.nc")
+    with pytest.raises(InputError, match="count from 1 to 10,000,000"):
+        export.plan(case, ["axial_load=10:4000:10000001 N"], [], tmp_path / "map.zarr")
+    assert not list(tmp_path.iterdir())
+
+
+def test_without_zarr_the_extra_is_named(example, tmp_path, monkeypatch):
+    monkeypatch.setattr(export.importlib.util, "find_spec", lambda name: None)
+    with pytest.raises(InputError, match=r'--to: needs zarr .* pip install "ballscrew\[data\]"'):
+        export.plan(config.load(example), [], [], tmp_path / "map.zarr")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="an interrupt is sent otherwise there")
+def test_an_interrupt_ends_with_words_and_130(example, tmp_path):
+    # where tests run in the background, interrupts are ignored unless asked for
+    listening = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
+    program = f"{listening}; from ballscrew.interfaces.cli import main; main()"
+    command = [sys.executable, "-c", program, "sweep", str(example), *ENDLESS, "--to", "map.zarr"]
+    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    blocks = tmp_path / "map.zarr" / ".ballscrew" / "blocks"
+    end = time.monotonic() + 60
+    while len(list(blocks.glob("*"))) < 2 and time.monotonic() < end:
+        time.sleep(0.02)
+    process.send_signal(signal.SIGINT)
+    stdout, stderr = process.communicate(timeout=60)
+    finished = len(list(blocks.glob("*")))
+    assert process.returncode == 130, stderr
+    assert stdout == ""
+    assert stderr.startswith(f"{tmp_path / 'map.zarr'}: stopped, {finished} of ")
+    assert stderr.endswith(" blocks are finished · run the same again to go on\n")
+    assert len(stderr.splitlines()) == 1
+    assert sorted(path.name for path in (tmp_path / "map.zarr" / ".ballscrew").iterdir()) == [
+        "blocks", "plan.json", "zarr.json",
+    ]  # fmt: skip
+
+
+def test_a_full_disk_ends_with_words_and_1(example, ballscrew, tmp_path):
+    mount = shutil.which("mount")
+    if mount is None or os.name != "posix" or os.geteuid() != 0:
+        pytest.skip("only root can mount a small file system")
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    made = subprocess.run([mount, "-t", "tmpfs", "-o", "size=32m", "tmpfs", disk], capture_output=True, check=False)
+    if made.returncode:
+        pytest.skip("no file system can be mounted here")
+    try:
+        process = ballscrew("sweep", example, *ENDLESS, "--to", disk / "map.zarr")
+        finished = len(list((disk / "map.zarr" / ".ballscrew" / "blocks").iterdir()))
+        assert not (disk / "map.zarr" / ".ballscrew" / "temporary").exists()
+    finally:
+        subprocess.run(["umount", disk], check=True)
+    assert process.returncode == 1, process.stderr
+    assert process.stdout == ""
+    assert len(process.stderr.splitlines()) == 1
+    assert f"stopped (No space left on device), {finished} of " in process.stderr
+    assert process.stderr.endswith(" blocks are finished · make room and run the same again to go on\n")
+
+
+# -- a cluster ------------------------------------------------------------------------------------
+
+
+def test_a_scheduler_needs_a_store(example, ballscrew):
+    for to in ((), ("--to", "map.nc")):
+        process = ballscrew("sweep", example, *to, "--scheduler", "tcp://127.0.0.1:8786")
+        fault(process, "--scheduler: needs a store (tcp://127.0.0.1:8786) · add --to map.zarr")
+
+
+def test_a_scheduler_that_does_not_answer(example, ballscrew, tmp_path):
+    pytest.importorskip("distributed")
+    for address in ("tcp://127.0.0.1:1", "nonsense"):
+        begin = time.monotonic()
+        process = ballscrew("sweep", example, "--to", "map.zarr", "--scheduler", address)
+        assert time.monotonic() - begin < 20
+        fault(process, f"--scheduler: no scheduler answers ({address}", "such as tcp://host:8786")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_sweep_on_a_cluster(example, ballscrew, tmp_path):
+    distributed = pytest.importorskip("distributed")
+    there = {"host": "127.0.0.1", "protocol": "tcp://", "scheduler_port": 0, "dashboard_address": None}
+    there |= {"n_workers": 1, "threads_per_worker": 2, "processes": False, "local_directory": tmp_path / "scratch"}
+    with distributed.LocalCluster(**there) as cluster:
+        address = cluster.scheduler_address
+        process = ballscrew("sweep", example, *AXES, "--to", "there.zarr", "--scheduler", address)
+    assert process.returncode == 0, process.stderr
+    here = ballscrew("sweep", example, *AXES, "--to", "here.zarr")
+    assert process.stderr == here.stderr
+    assert process.stdout == here.stdout.replace("here", "there")
+    assert files(tmp_path / "here.zarr") == files(tmp_path / "there.zarr")
