@@ -17,6 +17,7 @@ from ballscrew.analyses.plan import Plan, Subject
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.engine.gradient import UnknownSlopeError, partials
+from ballscrew.engine.merging import merged_program
 from ballscrew.engine.program import Program
 from ballscrew.faults import Fault, InputError, nearest, raise_if_any
 from ballscrew.model import FrictionModel
@@ -142,7 +143,7 @@ class Slopes(Plan):
             raise InputError(Fault("derivatives", f"{unknown} has no derivative here", "", JAX_INSTEAD)) from None
         except TypeError as why:  # a law of the user's that wants plain arrays
             raise InputError(Fault("derivatives", f"a law cannot be recorded: {why}", "", JAX_INSTEAD)) from None
-        return Program.of(tape, found)
+        return merged_program(tape, found)
 
 
 def _name(output: str, name: str) -> str:

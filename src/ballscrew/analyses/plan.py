@@ -25,6 +25,7 @@ from ballscrew.analyses.outputs import (
 from ballscrew.assembly import NutFriction
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import MATERIALS, BallScrew
+from ballscrew.engine.merging import merged_program
 from ballscrew.engine.program import Player, Program
 from ballscrew.engine.tape import Tape
 from ballscrew.faults import Fault, fault_of, nearest, raise_if_any
@@ -98,7 +99,7 @@ class Subject:
         try:
             with np.errstate(all="ignore"):
                 result = self.at(points)
-                program = Program.of(tape, {name: output.read(result) for name, output in wanted.items()})
+                program = merged_program(tape, {name: output.read(result) for name, output in wanted.items()})
                 blank = {n: np.empty(1, output.dtype) for n, output in wanted.items()}
                 Player(program).play([np.full(1, 0.5)] * tape.inputs, blank)
         except Exception:  # whatever a law of the user's cannot do with a recording, it may do with arrays
