@@ -291,6 +291,7 @@ def main() -> None:
     """Measure, and print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--json", action="store_true", help="print one JSON object")
+    parser.add_argument("--markdown", action="store_true", help="print the table of docs/speed.md")
     parser.add_argument("--points", type=int, action="append", help="points; may be repeated (default: 10^6 and 10^7)")
     parser.add_argument("--case", choices=list(CASES), action="append", help="only this case; may be repeated")
     options = parser.parse_args()
@@ -306,10 +307,36 @@ def main() -> None:
         if name == "gradient":
             worst["over_value"] = max(f["over_value"] for f in by_points.values())
         found[name] = {**worst, "by_points": by_points}
-        if not options.json:
+        if not options.json and not options.markdown:
             report(name, found[name])
+    if options.markdown:
+        print(table(found))
     if options.json:
         print(json.dumps({**found, "limits": LIMITS, "threads": processors()}, indent=1))
+
+
+#: What the documentation calls the cases.
+TITLES = {
+    "A": "`olaru2005()`; load, speed and viscosity vary",
+    "B": "`olaru2005()`; all 22 numbers it depends on vary",
+    "cartesian": "`olaru2005()` on a grid of loads, speeds and viscosities",
+    "reference": "`reference()`; load, speed and viscosity vary",
+    "gradient": "torque of `olaru2005()` and its 12 derivatives",
+}
+
+
+def table(found: Mapping[str, Any]) -> str:
+    """The figures as a table: the worse of all sizes."""
+    lines = ["| case | Mpoint/s | against NumPy | of the memory's limit |", "| --- | --- | --- | --- |"]
+    for name, figures in found.items():
+        cells = f"{figures['mpoints_per_s']:.0f} | {figures['vs_numpy']:.0f} × | {figures['of_memory_limit']:.2f}"
+        lines.append(f"| {TITLES[name]} | {cells} |")
+    if "gradient" in found:
+        lines += [
+            "",
+            f"Value and 12 derivatives take {found['gradient']['over_value']:.2f} times as long as the value alone.",
+        ]
+    return "\n".join(lines)
 
 
 def report(name: str, figures: Mapping[str, Any]) -> None:
