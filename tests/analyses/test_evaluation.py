@@ -16,6 +16,7 @@ from ballscrew.analyses.evaluation import Evaluation, rectangles
 from ballscrew.analyses.olaru2005 import OIL, SCREW
 from ballscrew.analyses.outputs import known_outputs
 from ballscrew.analyses.plan import Plan, Subject
+from ballscrew.components import laws
 from ballscrew.engine import kernel as kernels
 
 MODELS = {
@@ -108,12 +109,13 @@ def test_kernels_are_the_model_on_plain_arrays(name):
 
 
 @needs_compiler
+@pytest.mark.parametrize("engine", ["numpy", "compiled"])
 @pytest.mark.parametrize("name", ["olaru2005", "reference"])
-@pytest.mark.parametrize("how", [{"block_size": 1}, {"block_size": 37}, {"block_size": 1000, "threads": 3}])
-def test_any_blocks_and_threads_give_the_same_bits(name, how):
+@pytest.mark.parametrize("how", [{"block_size": 7}, {"block_size": 37}, {"block_size": 1000, "threads": 3}])
+def test_any_blocks_and_threads_give_the_same_bits(name, how, engine):
     plan = Plan.of(Subject(MODELS[name], SCREW, OIL), None, random_points(1003))
-    whole = filled(plan, "compiled", threads=1)
-    for output, values in filled(plan, "compiled", **how).items():
+    whole = filled(plan, engine, threads=1)
+    for output, values in filled(plan, engine, **how).items():
         assert np.array_equal(values, whole[output], equal_nan=True), output
 
 
@@ -173,6 +175,76 @@ def test_rectangles_cover_a_part_once(start, size, row_length):
         for column in range(columns.start, columns.stop)
     ]
     assert places == list(range(part.start, part.stop))
+
+
+@needs_compiler
+@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize("engine", ["numpy", "compiled"])
+def test_no_load_and_rest_as_numbers(name, engine):
+    """A load of zero that is the same at all points folds into the constants."""
+    subject = Subject(MODELS[name], SCREW, OIL)
+    for axes in (
+        {"axial_load": 0.0, "screw_speed": [0.0, 0.1, 60.0]},
+        {"axial_load": [0.0, 100.0], "screw_speed": 0.0},
+    ):
+        found = filled(Plan.of(subject, None, axes), engine)
+        result = subject.at({n: np.asarray(v) for n, v in axes.items()})
+        for output, values in found.items():
+            expected = np.broadcast_to(known_outputs()[output].read(result), values.shape)
+            assert np.array_equal(np.isnan(values), np.isnan(expected)), output
+            assert np.allclose(values, expected, rtol=1e-12, atol=1e-18, equal_nan=True), output
+
+
+@needs_compiler
+def test_a_tall_grid_has_no_tables():
+    """Tables of many rows would need more memory than the blocks they serve."""
+    axes = {"axial_load": np.linspace(1, 4000, 1_000_000), "screw_speed": np.linspace(1, 100, 20)}
+    assert Evaluation.of(Plan.of(Subject(MODELS["reference"], SCREW, OIL), None, axes), "compiled")._row_length == 1
+
+
+@needs_compiler
+def test_a_law_of_the_same_name_has_another_fingerprint():
+    """On a grid, what is different may be in a table only; and a law may not be recorded at all."""
+
+    def resistance(share):
+        def snare_resistance(*args):
+            return share * laws.snare_resistance(*args)
+
+        return snare_resistance
+
+    def blind(share):
+        def printed(*args):
+            return np.vectorize(lambda load: share * load)(args[0])
+
+        return printed
+
+    def fingerprint(**changed):
+        model = dataclasses.replace(MODELS["olaru2005"], **changed)
+        return Evaluation.of(Plan.of(Subject(model, SCREW, OIL), None, grid(20, 20, 30))).fingerprint
+
+    assert fingerprint(elastic_resistance=resistance(1)) != fingerprint(elastic_resistance=resistance(3))
+    assert fingerprint(friction=blind(0.1)) != fingerprint(friction=blind(0.2))
+
+
+@needs_compiler
+def test_the_number_of_balls_can_be_varied():
+    plan = Plan.of(Subject(MODELS["reference"], SCREW, OIL), None, {**grid(5, 7, 9), "loaded_balls": [50, 56]})
+    found, expected = filled(plan, "compiled"), filled(plan, "numpy")
+    assert np.array_equal(found["valid"], expected["valid"])
+    assert np.allclose(found["screw_torque"], expected["screw_torque"], rtol=1e-12, equal_nan=True)
+
+
+@pytest.mark.parametrize("values", ["100", [True, False], np.ma.masked_array([1.0, 2.0], [0, 1]), [1 + 2j]])
+def test_what_is_no_number_is_refused(values):
+    with pytest.raises(bs.InputError, match="must be numbers in SI"):
+        bs.sweep(MODELS["olaru2005"], SCREW, OIL, axial_load=values, screw_speed=1.0)
+
+
+def test_labels_that_disagree_are_refused():
+    loads = xr.DataArray([1.0, 2.0], dims="point", coords={"point": [0, 1]})
+    speeds = xr.DataArray([1.0, 2.0], dims="point", coords={"point": [1, 0]})
+    with pytest.raises(bs.InputError, match="has other labels in another input"):
+        bs.sweep(MODELS["olaru2005"], SCREW, OIL, axial_load=loads, screw_speed=speeds)
 
 
 def test_small_work_is_left_to_numpy():

@@ -193,6 +193,21 @@ def test_others_cannot_write_to_the_folder():
     assert stat.S_IMODE(kernels.folder().stat().st_mode) & 0o077 == 0
 
 
+def test_a_folder_that_others_can_write_to_is_not_trusted():
+    """Machine code that somebody else may have put there is not run."""
+    forget()
+    program = recorded(busy, 2)
+    run(program, X, Y)
+    (file,) = kept()
+    kernels.folder().chmod(0o777)
+    assert kernels._load(file.name) is None
+    kernels.folder().chmod(0o700)
+    file.chmod(0o666)
+    assert kernels._load(file.name) is None
+    file.chmod(0o600)
+    assert kernels._load(file.name) is not None
+
+
 # vectorised
 
 

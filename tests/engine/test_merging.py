@@ -14,7 +14,7 @@ X, Y, Z = (RNG.uniform(0.1, 5, 50) for _ in range(3))
 
 def both(function, groups=None):
     """The programs of a function of three inputs, merged and as recorded."""
-    tape = Tape(3, groups)
+    tape = Tape(3, groups, [True] * 3)
     outputs = {"out": function(*(tape.value(i) for i in range(3)))}
     return merged_program(tape, outputs), Program.of(tape, outputs)
 

@@ -238,3 +238,33 @@ def test_models_can_be_recorded(seed_screw, seed_oil, model):
     found = play(program, *(np.full(2, v) for v in values))
     plain = model(seed_screw, seed_oil, axial_load=4000.0, screw_speed=60.0).screw_torque
     assert np.allclose(found, plain, rtol=1e-13, atol=0)
+
+
+NEGATIVE = np.array([-2.0, 2.0, -2.0, 0.0, -1.0])
+MIXED = np.array([-3.0, 3.0, 3.0, 1.0, 1.0])
+
+
+@pytest.mark.parametrize(
+    "function",
+    [
+        lambda x, y: (x**2) ** 0.3 + 0 * y,
+        lambda x, y: np.sqrt(x * y),
+        lambda x, y: (x / y) ** 0.3,
+        lambda x, y: ((x * y) ** 2) ** 0.25,
+        lambda x, y: ((x - 1) ** 2 * y**2) ** 0.3,
+        lambda x, y: (-2.0) ** y + x,
+        lambda x, y: (x**3 * y) ** 0.7,
+    ],
+)
+def test_factors_may_be_negative_where_the_product_is_not(function):
+    """A broken power is taken of each factor only where that is the same."""
+    with np.errstate(all="ignore"):
+        expected = function(NEGATIVE, MIXED)
+    assert np.allclose(play(record(function), NEGATIVE, MIXED), expected, rtol=1e-14, equal_nan=True)
+
+
+def test_nothing_times_infinity_behind_a_mask():
+    function = lambda x, y: np.where(x > 1, 0.0, x * np.inf) + y  # noqa: E731  (as short as those above)
+    with np.errstate(all="ignore"):
+        expected = function(X, Y)
+    assert np.array_equal(play(record(function)), expected, equal_nan=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import hashlib
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -25,6 +26,8 @@ from ballscrew.faults import Fault, InputError, raise_if_any
 FEWEST_COLUMNS = 256
 #: A grid is worth cutting where it has this many times as many points as rows and columns.
 WORTH_CUTTING = 8
+#: Tables with more numbers than this are not worth their memory.
+MOST_ENTRIES = 4_000_000
 #: Blocks of a kernel: a few for each thread, not too small and not too large.
 BLOCKS_PER_THREAD = 4
 SMALLEST_BLOCK, LARGEST_BLOCK = 2**14, 2**19
@@ -60,7 +63,7 @@ class Evaluation:
             try:
                 made = _Grid.of(plan) or _Points.of(plan, program)
                 if engine or worth_compiling(made.program, plan.total, made.text):
-                    return cls(plan, "compiled", made.text, made.compiled(), LARGEST_BLOCK, made.row_length)
+                    return cls(plan, "compiled", made.said, made.compiled(), LARGEST_BLOCK, made.row_length)
             except UnknownOperationError as unknown:
                 why = f"{unknown} is not known to kernels"
         if engine == "compiled":
@@ -117,8 +120,22 @@ def _by_numpy(plan: Plan, program: Program | None) -> Evaluation:
             for name, output in plan.wanted.items():
                 here[name][...] = output.read(result)
 
-    said = ballscrew.__version__ if program is None else program.text
+    said = _code_of(plan) if program is None else program.text
     return Evaluation(plan, "numpy", said, work, max(1, BLOCK_SIZE // plan.subject.balls), 1)
+
+
+def _code_of(plan: Plan) -> str:
+    """What stands for the formulas where they cannot be recorded: the version, and the code of the laws."""
+    subject = plan.subject
+    losses = {} if subject.nut is None else subject.nut.losses
+    parts = {field.name: getattr(subject.model, field.name) for field in dataclasses.fields(subject.model)}
+    said = [ballscrew.__version__]
+    for name, law in (parts | dict(losses)).items():
+        code = getattr(law if hasattr(law, "__code__") else type(law).__call__, "__code__", None)
+        if code is not None:
+            cells = [cell.cell_contents for cell in getattr(law, "__closure__", None) or ()]
+            said.append(f"{name} {code.co_code.hex()} {code.co_consts} {code.co_names} {cells}")
+    return "\n".join(said)
 
 
 class _Kernels:
@@ -132,6 +149,11 @@ class _Kernels:
         self.sources = sources
         masks = {name: output.dtype is bool for name, output in plan.wanted.items()}
         self.text = kernel_text(program, sources, masks)
+
+    @property
+    def said(self) -> str:
+        """All formulas as they are evaluated, as text."""
+        return f"{self.text}\n{self.program.text}"
 
     def compiled(self) -> _Work:
         """What evaluates a part of the grid."""
@@ -192,7 +214,16 @@ class _Grid(_Kernels):
         if ROWS | COLUMNS in groups or WORTH_CUTTING * (columns + plan.total // columns) > plan.total:
             return None
         program = plan.recorded(groups)
-        return None if program is None else cls(plan, split(program, groups), columns)
+        if program is None:
+            return None
+        cut = split(program, groups)
+        entries = len(cut.rows.outputs) * (plan.total // columns) + len(cut.columns.outputs) * columns
+        return None if entries > MOST_ENTRIES else cls(plan, cut, columns)
+
+    @property
+    def said(self) -> str:
+        """All formulas as they are evaluated, as text."""
+        return "\n".join([super().said, self.cut.rows.text, self.cut.columns.text])
 
     def _tables(self) -> list[NDArray[np.float64]]:
         found: dict[tuple[Source, str], NDArray[np.float64]] = {}

@@ -272,6 +272,8 @@ def _axis(section: str, name: str, values: Any) -> xr.DataArray | Fault:
     """Values as a labelled array: a sequence gets a dimension of its own name."""
     where = f"{section}.{name}"
     try:
+        if np.ma.isMaskedArray(values) or np.asarray(values).dtype.kind not in "fiu":
+            raise TypeError("a mask would be lost, and what is no number would become one")
         if isinstance(values, xr.DataArray):
             axis = values.astype(float, copy=False)
         else:
@@ -298,12 +300,16 @@ def _faults_of_axis(part: str, quantity: Quantity, values: np.ndarray) -> list[F
 def _sizes(section: str, axes: Mapping[str, xr.DataArray], wanted: Sequence[str]) -> dict[str, int]:
     """The dimensions of a sweep and their lengths, in the order given."""
     sizes: dict[str, int] = {}
+    known: dict[str, np.ndarray] = {}
     faults: list[Fault] = []
     for axis in axes.values():
         for dimension, size in zip(map(str, axis.dims), axis.shape, strict=True):
             where = f"{section}.{dimension}"
             if sizes.setdefault(dimension, size) != size:
                 faults.append(Fault(where, "different lengths", f"{sizes[dimension]} and {size}", "make them equal"))
+            labels = axis.coords[dimension].to_numpy() if dimension in axis.coords else None
+            if labels is not None and not np.array_equal(known.setdefault(dimension, labels), labels):
+                faults.append(Fault(where, "has other labels in another input", "", "align them: xarray.align"))
             if axes[dimension].dims != (dimension,) if dimension in axes else dimension in wanted:
                 faults.append(Fault(where, "is a dimension and something else", "", "name the dimension otherwise"))
     raise_if_any(faults)

@@ -142,10 +142,18 @@ class Store:
         return (self.path / _ROOT).exists()
 
     def finished(self) -> set[int]:
-        """The numbers of the finished blocks of a store that is not complete."""
+        """The numbers of the finished blocks of a store that is not complete; a marker that is not whole is none."""
+        found: set[int] = set()
         with contextlib.suppress(FileNotFoundError):
-            return {int(path.name) for path in (self.own / "blocks").iterdir() if path.name.isdecimal()}
-        return set()
+            for path in (self.own / "blocks").iterdir():
+                number = int(path.name) if path.name.isdecimal() else -1
+                if 0 <= number < self.blocks.count and self._marks(path, number):
+                    found.add(number)
+        return found
+
+    def _marks(self, path: Path, number: int) -> bool:
+        cells = path.read_text(encoding="utf-8", errors="replace").strip().split(",")
+        return cells[0] == str(number) and len(cells) == 1 + len(self.variables) + len(self._truths)
 
     # -- from begin to end ------------------------------------------------------------------------
 
@@ -335,12 +343,16 @@ def _stored(folder: Path) -> dict[str, Any] | None:
 def false_in(path: Path) -> dict[str, tuple[int, int]]:
     """For each truth value of a complete store that is false somewhere: how often, and the first block with it."""
     found: dict[str, tuple[int, int]] = {}
-    for row in _rows(path):
-        for heading, cell in row.items():
-            name, truth, _ = heading.partition(_FALSE)
-            if truth and (count := int(cell)):
-                before, first = found.get(name, (0, int(row["block"])))
-                found[name] = before + count, first
+    try:
+        for row in _rows(path):
+            for heading, cell in row.items():
+                name, truth, _ = heading.partition(_FALSE)
+                if truth and (count := int(cell)):
+                    before, first = found.get(name, (0, int(row["block"])))
+                    found[name] = before + count, first
+    except (OSError, ValueError, TypeError, AttributeError) as error:
+        where = str(path / _OWN / "blocks.csv")
+        raise InputError(Fault(WHERE, "has checksums that cannot be read", f"{where}: {error}", _OTHER)) from None
     return found
 
 

@@ -1,9 +1,10 @@
 """Elementary functions on vectors, as polynomials in LLVM's assembly.
 
-To one or two units in the last place, for compiled kernels: calls to a mathematical library would go
-lane by lane. The polynomials are near-minimax; the tests recompute what they stand for with high
-precision. Zero, infinity and NaN follow IEEE 754. To a logarithm what is smaller than the smallest
-normal number is zero; sines are good to a million radians.
+To a few units in the last place (a power: times the size of its exponent), for compiled kernels: calls
+to a mathematical library would go lane by lane. The polynomials are near-minimax; the tests recompute
+what they stand for with high precision. Zero, infinity and NaN follow IEEE 754. To a logarithm what is
+smaller than the smallest normal number is zero, and so is an exponential below 3e-308; sines are good
+to a million radians.
 """
 
 from __future__ import annotations
@@ -167,7 +168,8 @@ def _tan(w: Writer, x: Value) -> Value:
 
 
 def _arccos(w: Writer, x: Value) -> Value:
-    return w.exact("fsub", constant(math.pi / 2), w.call("arcsin", x))
+    half = w.call("arcsin", w.intrinsic("sqrt", w.exact("fmul", w.exact("fsub", ONE, x), HALF)))
+    return w.exact("fadd", half, half)
 
 
 def _log1p(w: Writer, x: Value) -> Value:

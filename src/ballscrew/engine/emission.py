@@ -17,7 +17,7 @@ import numpy as np
 from ballscrew.engine import elementary, random
 from ballscrew.engine.ir import Value, Writer, constant
 from ballscrew.engine.program import Program
-from ballscrew.engine.tape import Operand, Step, choose
+from ballscrew.engine.steps import Operand, Step, choose
 
 #: Where the values of an input come from.
 Source = Literal["points", "columns", "rows", "random"]
@@ -233,6 +233,9 @@ class _Body:
             return self._extreme("ogt" if function is np.maximum else "olt", operands, numbers)
         if function in _INTRINSICS:
             return w.intrinsic(_INTRINSICS[function], *numbers)
+        if function is np.remainder:
+            turns = w.intrinsic("floor", w.exact("fdiv", numbers[0], numbers[1]))
+            return w.exact("fsub", numbers[0], w.exact("fmul", turns, numbers[1]))
         if function in (np.isnan, np.isfinite, np.isinf):
             relation = {np.isnan: "uno", np.isfinite: "olt", np.isinf: "oeq"}[function]
             size = w.intrinsic("fabs", numbers[0])

@@ -17,7 +17,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ballscrew.engine.program import needed
-from ballscrew.engine.tape import Step, Tape, Traced, choose
+from ballscrew.engine.steps import Step, choose
+from ballscrew.engine.tape import Tape, Traced
 
 
 class UnknownSlopeError(Exception):

@@ -15,7 +15,7 @@ import numpy as np
 
 from ballscrew.engine.emission import Source
 from ballscrew.engine.program import Program, needed
-from ballscrew.engine.tape import Step
+from ballscrew.engine.steps import Step
 
 #: The groups of inputs.
 ROWS, COLUMNS = 1, 2

@@ -32,8 +32,8 @@ ALIGNMENT = 64
 COLUMN_TILE = 512
 #: Results larger than this do not stay in the cache anyway, and are written past it.
 LARGEST_CACHED = 4 * 2**20
-#: At most this many kernels are kept on disk; the ones not used for longest go.
-KEPT_ON_DISK = 256
+#: At most this many kernels are kept in memory, and on disk; the oldest go.
+KEPT = KEPT_ON_DISK = 256
 #: How hard the compiler tries: beyond this, compiling takes longer and the code runs no faster.
 OPTIMISATION = 2
 
@@ -76,6 +76,8 @@ class Kernel:
                     machine_code = _compiled(text)
                     _save(name, machine_code)
                 _kernels[name] = cls(machine_code, sources)
+                if len(_kernels) > KEPT:
+                    del _kernels[next(iter(_kernels))]
             return _kernels[name]
 
     def __call__(
@@ -204,14 +206,25 @@ def folder() -> Path:
     return Path(base).expanduser() / "ballscrew" / "kernels"
 
 
+def _is_ours(path: Path) -> bool:
+    """Whether nobody else can write there: code from there is run."""
+    if os.name != "posix":
+        return True
+    state = path.stat()
+    return state.st_uid == os.geteuid() and not state.st_mode & 0o022
+
+
 def _load(name: str) -> bytes | None:
     """Machine code from the disk, unless it is not there or not whole."""
     try:
         path = folder() / name
+        if not (_is_ours(path.parent) and _is_ours(path)):
+            return None
         digest, machine_code = path.read_bytes().split(b"\n", 1)
         if hashlib.sha256(machine_code).hexdigest().encode() != digest:
             return None
-        os.utime(path)
+        with contextlib.suppress(OSError):  # a cache that is read only serves as well
+            os.utime(path)
     except (OSError, RuntimeError, ValueError):  # no home, no such file, no line in it
         return None
     return machine_code
@@ -222,6 +235,8 @@ def _save(name: str, machine_code: bytes) -> None:
     with contextlib.suppress(OSError, RuntimeError):
         place = folder()
         place.mkdir(parents=True, exist_ok=True, mode=0o700)
+        if not _is_ours(place):
+            return
         handle, temporary = tempfile.mkstemp(dir=place)
         try:
             with os.fdopen(handle, "wb") as file:

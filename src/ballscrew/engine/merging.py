@@ -14,7 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ballscrew.engine.program import Program, needed
-from ballscrew.engine.tape import Step, Tape, Traced
+from ballscrew.engine.steps import Step
+from ballscrew.engine.tape import Tape, Traced
 
 
 class _Sum(NamedTuple):

@@ -15,7 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.engine.tape import Operand, Step, Tape, Traced
+from ballscrew.engine.steps import Operand, Step
+from ballscrew.engine.tape import Tape, Traced
 
 
 @dataclasses.dataclass(frozen=True)

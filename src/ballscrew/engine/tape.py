@@ -4,8 +4,8 @@ The model is called with :class:`Traced` values instead of arrays. What they go 
 down: constants fold as they go, equal steps are shared, steps no output needs are dropped, and
 products of powers (film, rolling force, contact size, elastic moment) are kept as exponents until
 somebody needs a sum, so that one exponential of a weighted sum of logarithms does the work of
-several powers, for both contacts at once. The equations do not know: they see an array. What is
-raised to a broken power is taken to be positive or zero, as everywhere in the model.
+several powers, for both contacts at once. The equations do not know: they see an array. Powers of one
+base are added up, so that x²/x is x, also where x is zero.
 
 Inputs may come in groups (the axes of a grid). A product of powers then becomes one factor for each
 group, so that a factor can be computed once for each value of its axis.
@@ -14,30 +14,15 @@ group, so that a factor can be computed once for each value of its axis.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+
+from ballscrew.engine.logarithms import goes_along, logarithm, sum_of_logarithms
+from ballscrew.engine.steps import Step, choose
 
 #: Whole powers up to this one are multiplied out.
 HIGHEST_WHOLE_POWER = 8
-
-#: A step's operand: the index of an earlier step, or a constant.
-Operand = int | float | bool
-
-
-class Step(NamedTuple):
-    """One elementwise operation on earlier steps and constants."""
-
-    function: Any
-    operands: tuple[tuple[str, Operand], ...]
-    is_mask: bool
-
-
-def choose(mask: Any, yes: Any, no: Any, out: NDArray[Any]) -> None:
-    """``where`` into a buffer of its own."""
-    np.copyto(out, no)
-    np.copyto(out, yes, where=mask)
 
 
 class Tape:
@@ -74,6 +59,12 @@ class Tape:
             return False
         operands = step.operands[1:] if step.function is choose else step.operands
         return all(self.nonnegative[int(o)] if kind == "step" else o >= 0 for kind, o in operands)
+
+    def step(self, function: Any, *operands: Any) -> Any:
+        """The value of a step as it is, without collecting powers; or a constant."""
+        if not any(isinstance(o, Traced) for o in operands):
+            return float(function(*operands))
+        return self.value(self.record(function, *operands))
 
     def is_known(self, function: Any, *operands: Any) -> bool:
         """Whether a step is written down already."""
@@ -172,7 +163,8 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
         mask, yes, no = args
         if not isinstance(mask, Traced):
             return yes if mask else no
-        if isinstance(no, Traced) and not _is_mask(no) and not isinstance(yes, Traced) and yes == 0:
+        is_nothing = not isinstance(yes, Traced) and yes == 0
+        if is_nothing and isinstance(no, Traced) and not _is_mask(no) and np.isfinite(no.scale):
             no = no.settled
             return Traced(self.tape, no.powers, no.scale, mask.index)
         choice = self.tape.record(choose, mask, _constant(yes), _constant(no), is_mask=_is_mask(yes) and _is_mask(no))
@@ -197,10 +189,34 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
         """The same value, with nothing left to be said about where it is zero."""
         return self if self.zero is None else self.tape.value(self.index)
 
+    def tells_its_sign(self) -> bool:
+        """Whether the product is negative wherever a factor is, so that a broken power can be taken of each factor.
+
+        Not for two factors of unknown sign, whose product may be positive all the same, nor for an even power.
+        """
+        unknown = [p for i, p in self.powers.items() if not self.tape.nonnegative[i] and p == int(p)]
+        return len(unknown) < 2 and all(p % 2 == 1 for p in unknown)
+
+    def _with_sizes(self) -> Traced:
+        """The same value, with even powers as those of sizes, and several factors of unknown sign as one."""
+        tape, nonnegative = self.tape, self.tape.nonnegative
+        powers: dict[int, float] = {}
+        for i, p in self.powers.items():
+            size = tape.record(np.absolute, tape.value(i)) if p % 2 == 0 and not nonnegative[i] else i
+            powers[size] = powers.get(size, 0.0) + p
+        unknown = {i: p for i, p in powers.items() if not nonnegative[i] and p == int(p)}
+        if len(unknown) > 1:
+            powers = {i: p for i, p in powers.items() if i not in unknown}
+            together = Traced(tape, unknown, 1.0).index
+            powers[together] = powers.get(together, 0.0) + 1.0
+        return Traced(tape, powers, self.scale, self.zero)
+
     def _raised(self, exponent: float) -> Traced:
         """A power; what folding exponents would change (see :func:`_folds`) is a step of its own."""
         if self.zero is not None and not (exponent > 0 and np.isfinite(self.scale) and self.scale > 0):
             return self.settled._raised(exponent)
+        if np.isfinite(exponent) and exponent != int(exponent) and not self.tells_its_sign():
+            return self._with_sizes()._raised(exponent)
         folds = all(_folds(p, exponent) for p in self.powers.values())
         if not folds or (self.scale < 0 and exponent != int(exponent)):
             return self.tape.value(self.tape.record(np.power, self, exponent))
@@ -228,9 +244,9 @@ def _product(tape: Tape, powers: Sequence[tuple[int, float]]) -> int:
     roots = broken if all(abs(p) == 0.5 for _, p in broken) else []
     result: int | None = None
     if broken and not roots:
-        broken = [(i, p) for i, p in powers if p != int(p) or _goes_along(tape, i, p)]
+        broken = [(i, p) for i, p in powers if p != int(p) or goes_along(tape, i, p)]
         powers = [(i, p) for i, p in powers if (i, p) not in broken]
-        result = tape.record(np.exp, _sum_of_logarithms(tape, broken))
+        result = tape.record(np.exp, sum_of_logarithms(tape, broken))
     factors = [(i, p) for i, p in powers if p == int(p) for _ in range(int(abs(p)))]
     factors += [(tape.record(np.sqrt, tape.value(i)), p) for i, p in roots]
     for i, power in factors:
@@ -243,90 +259,27 @@ def _product(tape: Tape, powers: Sequence[tuple[int, float]]) -> int:
     return result
 
 
-def _goes_along(tape: Tape, index: int, power: float) -> bool:
-    """Whether a whole power is cheaper in an exponent that is there anyway: an exponential, or a divisor."""
-    step = tape.steps[index]
-    if step is not None and step.function is np.exp:
-        return True
-    return power < 0 and tape.nonnegative[index] and tape.is_known(np.log, tape.value(index))
-
-
-def _sum_of_logarithms(tape: Tape, powers: Sequence[tuple[int, float]], scale: float = 1.0) -> Any:
-    """The logarithm of a product of powers."""
-    result: Any = float(np.log(scale)) if scale != 1 else None
-    for i, power in powers:
-        logarithm = _logarithm(tape, i)
-        term = logarithm if power == 1 else _step(tape, np.multiply, logarithm, power)
-        result = term if result is None else _step(tape, np.add, result, term)
-    return result
-
-
-def _logarithm(tape: Tape, index: int) -> Any:
-    """The logarithm of a step, from logarithms that are there already where that spares one."""
-    step = tape.steps[index]
-    if step is None or tape.is_known(np.log, tape.value(index)):
-        return tape.value(tape.record(np.log, tape.value(index)))
-    if step.function is np.exp:
-        return tape.value(int(step.operands[0][1]))
-    if step.function is choose and step.operands[1] == ("constant", 0.0) and step.operands[2][0] == "step":
-        mask, kept = (tape.value(int(o)) for _, o in (step.operands[0], step.operands[2]))
-        return _step(tape, choose, mask, -np.inf, _logarithm(tape, kept.index))
-    if step.function in (np.multiply, np.divide) and _is_spared(tape, index):
-        terms = [_logarithm(tape, int(o)) if kind == "step" else float(np.log(o)) for kind, o in step.operands]
-        return _step(tape, np.add if step.function is np.multiply else np.subtract, *terms)
-    return tape.value(tape.record(np.log, tape.value(index)))
-
-
-def _is_spared(tape: Tape, index: int) -> bool:
-    """Whether the logarithm of a product is to be had from those of its factors, with one new logarithm at most.
-
-    At most one factor may be negative: a product of two is positive, but has no sum of logarithms.
-    """
-    factors, waiting = set[int](), [index]
-    while waiting:
-        step = tape.steps[i := waiting.pop()]
-        if step is not None and step.function in (np.multiply, np.divide) and not tape.is_known(np.log, tape.value(i)):
-            if any(kind == "constant" and not o > 0 for kind, o in step.operands):
-                return False
-            waiting += [int(o) for kind, o in step.operands if kind == "step"]
-        else:
-            factors.add(i)
-    if sum(not tape.nonnegative[i] for i in factors) > 1:
-        return False
-    return sum(not _has_logarithm(tape, i) for i in factors) <= 1
-
-
-def _has_logarithm(tape: Tape, index: int) -> bool:
-    step = tape.steps[index]
-    return (step is not None and step.function is np.exp) or tape.is_known(np.log, tape.value(index))
-
-
-def _step(tape: Tape, function: Any, *operands: Any) -> Any:
-    """A step as it is, or a constant."""
-    if not any(isinstance(o, Traced) for o in operands):
-        return float(function(*operands))
-    return tape.value(tape.record(function, *operands))
-
-
 def _power(base: Any, exponent: Any) -> Traced:
     """A power; one with an exponent that is recorded too is ``exp(exponent · log(base))``, and 1 for the exponent 0.
 
-    Its base is taken to be positive or zero, like that of any broken power.
+    A base that varies too is taken to be positive or zero, as if no exponent were whole.
     """
     if not isinstance(exponent, Traced):
         return base._raised(float(exponent))
     tape = exponent.tape
     if not isinstance(base, Traced):
-        logarithm: Any = float(np.log(_constant(base)))
-    elif base.scale > 0:
-        logarithm = _sum_of_logarithms(tape, sorted(base.powers.items(), reverse=True), base.scale)
+        if not _constant(base) > 0:
+            return tape.value(tape.record(np.power, _constant(base), exponent))
+        of_base: Any = float(np.log(_constant(base)))
+    elif base.scale > 0 and base.tells_its_sign():
+        of_base = sum_of_logarithms(tape, sorted(base.powers.items(), reverse=True), base.scale)
         if base.zero is not None:
-            logarithm = _step(tape, choose, tape.value(base.zero), -np.inf, logarithm)
+            of_base = tape.step(choose, tape.value(base.zero), -np.inf, of_base)
     else:
-        logarithm = _logarithm(tape, base.index)
+        of_base = logarithm(tape, base.index)
     is_nothing = tape.value(tape.record(np.equal, exponent, 0.0, is_mask=True))
-    product = _step(tape, choose, is_nothing, 0.0, _step(tape, np.multiply, exponent, logarithm))
-    return _step(tape, np.exp, product)
+    product = tape.step(choose, is_nothing, 0.0, tape.step(np.multiply, exponent, of_base))
+    return tape.step(np.exp, product)
 
 
 def _folds(power: float, exponent: float) -> bool:

@@ -1,1 +1,5 @@
 """Interfaces: where the package talks to people and files. Units other than SI live here only."""
+
+#: Libraries that pint would load where they are installed, though units do not need them. The command line
+#: names some, and is half a second sooner there; a program of somebody else's may want pint to know them.
+hidden_from_pint: list[str] = []

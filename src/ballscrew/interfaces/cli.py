@@ -17,6 +17,7 @@ from typing import Annotated, Any, NoReturn
 import typer
 from typer.core import TyperCommand
 
+from ballscrew import interfaces
 from ballscrew.interfaces import cli_catalogue, cli_check, cli_validate
 
 app = typer.Typer(
@@ -274,6 +275,7 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # a terminal that has no "·" still gets an answer
             stream.reconfigure(errors="backslashreplace")
+    interfaces.hidden_from_pint += ["dask", "scipy"]
     try:
         try:
             app()

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
+from ballscrew import interfaces
 from ballscrew.faults import Fault, as_float
 from ballscrew.quantities import Quantity
 
@@ -54,14 +55,10 @@ _SPELLINGS = {
 }
 
 
-#: Libraries that pint loads where they are installed, though units do not need them: half a second for nothing.
-_NOT_FOR_UNITS = ("dask", "scipy")
-
-
 @functools.cache
 def _pint() -> Any:
-    """The library of units, without the libraries it looks for in vain."""
-    hidden = [name for name in _NOT_FOR_UNITS if name not in sys.modules]
+    """The library of units; on the command line without the libraries it looks for in vain."""
+    hidden = [name for name in interfaces.hidden_from_pint if name not in sys.modules]
     absent: Any = None  # importing it fails, as if it were not installed
     for name in hidden:
         sys.modules[name] = absent
