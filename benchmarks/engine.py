@@ -292,7 +292,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument("--markdown", action="store_true", help="print the table of docs/speed.md")
-    parser.add_argument("--points", type=int, action="append", help="points; may be repeated (default: 10^6 and 10^7)")
+    parser.add_argument(
+        "--points",
+        type=lambda text: int(float(text)),
+        action="append",
+        help="points; may be repeated (default: 10^6 and 10^7)",
+    )
     parser.add_argument("--case", choices=list(CASES), action="append", help="only this case; may be repeated")
     options = parser.parse_args()
     found: dict[str, dict[str, Any]] = {}

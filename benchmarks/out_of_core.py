@@ -3,7 +3,7 @@
 ``python benchmarks/out_of_core.py --points 1e8`` fills a store in a process of its own. ``--kill``
 fills a second one whose process is killed three times on the way, and checks that finished blocks
 stayed as they were and that the two stores are the same, file by file. ``--codecs`` measures what
-compressions do to one block. The stores need 4 bytes of disk a value, two at a time with ``--kill``,
+compressions do to one block. The stores need 6 bytes of disk a value, two at a time with ``--kill``,
 and go when all is done.
 """
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 import sys
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
@@ -135,27 +136,42 @@ def map_blocks(
     threads: int | None = None,
     done: Callable[[int], None] | None = None,
 ) -> None:
-    """Call ``evaluate(block)`` for every block of ``range(size)`` on a few threads.
+    """Call ``evaluate(block)`` for every block of ``range(size)`` on a few threads, the calling one among them.
 
     NumPy releases the interpreter lock inside its loops, so threads share the work; a block is
     evaluated whole on one thread, so results do not depend on the number of threads. ``done`` is
     told the number of points finished so far, from the calling thread.
     """
-    pending = list(blocks(size, block_size))
-    workers = min(threads or processors(), len(pending))
-    if workers <= 1:
-        for block in pending:
-            evaluate(block)
-            if done is not None:
-                done(block.stop)
-        return
-    with ThreadPoolExecutor(workers) as pool:
-        futures = [pool.submit(evaluate, block) for block in pending]
+    pending = iter(list(blocks(size, block_size)))
+    workers = min(threads or processors(), math.ceil(size / block_size))
+    lock, stopped = threading.Lock(), threading.Event()
+    finished = 0
+
+    def work(tell: Callable[[int], None] | None = None) -> None:
+        nonlocal finished
         try:
-            for block, future in zip(pending, futures, strict=True):
-                future.result()
-                if done is not None:
-                    done(block.stop)
+            while not stopped.is_set():
+                with lock:
+                    block = next(pending, None)
+                if block is None:
+                    return
+                evaluate(block)
+                with lock:
+                    finished += block.stop - block.start
+                if tell is not None:
+                    tell(finished)
         except BaseException:
-            pool.shutdown(wait=True, cancel_futures=True)
+            stopped.set()
             raise
+
+    if workers <= 1:
+        work(done)
+        return
+    with ThreadPoolExecutor(workers - 1) as pool:
+        others = [pool.submit(work) for _ in range(workers - 1)]
+        work(done)  # it need not be woken
+        told = finished
+        for other in others:
+            other.result()
+    if done is not None and told != finished:
+        done(finished)

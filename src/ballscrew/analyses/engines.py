@@ -12,10 +12,10 @@ from ballscrew.faults import Fault
 Engine = Literal["numpy", "compiled"]
 ENGINES: tuple[Engine, ...] = ("numpy", "compiled")
 
-#: What NumPy needs for one step at one point, on two threads; and what a kernel costs before its first
-#: point if it has to be compiled. Only the choice of an engine depends on these seconds, so that
-#: they need not be exact.
-NUMPY_STEP_SECONDS = 1.5e-10
+#: What NumPy needs for one step at one point, on two threads, and the steps of a program whose buffers
+#: begin to outgrow the cache; and what a kernel costs before its first point if it has to be compiled.
+#: Only the choice of an engine depends on these numbers, so that they need not be exact.
+NUMPY_STEP_SECONDS, STEPS_IN_CACHE = 2.5e-10, 5000
 COMPILING_SECONDS, COMPILING_STEP_SECONDS = 0.05, 1.2e-4
 #: What NumPy does in less than this is left to it: as long takes it to load the compiler.
 SHORT_SECONDS = 0.1
@@ -46,4 +46,5 @@ def worth_compiling(program: Program, points: int, text: str) -> bool:
 
 
 def _numpy_seconds(program: Program, points: int) -> float:
-    return NUMPY_STEP_SECONDS * len(program.steps) * points
+    steps = len(program.steps)
+    return NUMPY_STEP_SECONDS * steps * (1 + steps / STEPS_IN_CACHE) * points

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import math
+import types
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
@@ -131,11 +132,17 @@ def _code_of(plan: Plan) -> str:
     parts = {field.name: getattr(subject.model, field.name) for field in dataclasses.fields(subject.model)}
     said = [ballscrew.__version__]
     for name, law in (parts | dict(losses)).items():
-        code = getattr(law if hasattr(law, "__code__") else type(law).__call__, "__code__", None)
-        if code is not None:
-            cells = [cell.cell_contents for cell in getattr(law, "__closure__", None) or ()]
-            said.append(f"{name} {code.co_code.hex()} {code.co_consts} {code.co_names} {cells}")
+        said.append(f"{name} {_said(law)} {_said(getattr(type(law), '__call__', None))}")
     return "\n".join(said)
+
+
+def _said(value: Any) -> str:
+    """Code, numbers and words as text that is the same in every process; of other things, what they are."""
+    if isinstance(value, types.FunctionType):
+        return f"{_said(value.__code__)} {[_said(cell.cell_contents) for cell in value.__closure__ or ()]}"
+    if isinstance(value, types.CodeType):
+        return f"{value.co_code.hex()} {value.co_names} {[_said(constant) for constant in value.co_consts]}"
+    return repr(value) if isinstance(value, str | int | float | bytes | None) else type(value).__name__
 
 
 class _Kernels:

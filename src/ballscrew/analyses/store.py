@@ -49,6 +49,8 @@ WHERE = "sweep.to"
 #: takes up to twice as long; on numbers as they are it saves half as much
 #: (``benchmarks/out_of_core.py --codecs``).
 COMPRESSION: Mapping[str, Any] = {"cname": "lz4", "clevel": 1, "shuffle": "shuffle"}
+#: Endings of files that somebody meant who gave one.
+_FILES = (".csv", ".xlsx", ".nc", ".json", ".toml")
 #: The folder of our own in a store.
 _OWN = ".ballscrew"
 _ROOT = "zarr.json"
@@ -307,6 +309,8 @@ def _checked(path: str | os.PathLike[str], plan: Plan) -> Path:
     """The folder of a store; faults in what was given for it."""
     if importlib.util.find_spec("zarr") is None:
         raise InputError(Fault(WHERE, "needs zarr", str(path), 'pip install "ballscrew[data]"'))
+    if Path(path).suffix.lower() in _FILES:
+        raise InputError(Fault(WHERE, "is a folder, not a file", str(path), "end it with .zarr"))
     if "://" in str(path):
         raise InputError(Fault(WHERE, "is not in a file system", str(path), "give the path of a folder"))
     if all(name in plan.axes for name in plan.wanted):
