@@ -132,7 +132,7 @@ def _code_of(plan: Plan) -> str:
     parts = {field.name: getattr(subject.model, field.name) for field in dataclasses.fields(subject.model)}
     said = [ballscrew.__version__]
     for name, law in (parts | dict(losses)).items():
-        said.append(f"{name} {_said(law)} {_said(getattr(type(law), '__call__', None))}")
+        said.append(f"{name} {_said(law)} {_said(type(law).__call__)}")
     return "\n".join(said)
 
 
