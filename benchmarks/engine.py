@@ -39,17 +39,8 @@ from ballscrew.engine.emission import Source, kernel_text
 from ballscrew.engine.kernel import Kernel, room
 from ballscrew.engine.program import Program
 from ballscrew.engine.tape import Tape
-from script import formulas_on_arrays
+from script import OUTPUTS, formulas_on_arrays
 
-OUTPUTS = (
-    "screw_torque",
-    "nut_torque",
-    "efficiency",
-    "screw_film_parameter",
-    "nut_film_parameter",
-    "screw_friction_coefficient",
-    "nut_friction_coefficient",
-)
 SIZES = (1_000_000, 10_000_000)
 #: Rounds at each size, and the largest size of the cases that NumPy is slow at.
 ROUNDS = {1_000_000: 7, 10_000_000: 3}

@@ -30,16 +30,8 @@ from ballscrew.analyses.evaluation import Evaluation
 from ballscrew.analyses.olaru2005 import OIL, SCREW
 from ballscrew.analyses.plan import Plan, Subject
 from ballscrew.analyses.store_plan import Blocks
+from script import OUTPUTS
 
-OUTPUTS = (
-    "screw_torque",
-    "nut_torque",
-    "efficiency",
-    "screw_film_parameter",
-    "nut_film_parameter",
-    "screw_friction_coefficient",
-    "nut_friction_coefficient",
-)
 #: At which parts of the way the process is killed.
 KILLED_AT = (0.25, 0.5, 0.8)
 #: Largest memory that is asked for.

@@ -7,6 +7,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+#: What the script returns, in order, by the names of the package.
+OUTPUTS = (
+    "screw_torque",
+    "nut_torque",
+    "efficiency",
+    "screw_film_parameter",
+    "nut_film_parameter",
+    "screw_friction_coefficient",
+    "nut_friction_coefficient",
+)
+
 #: The paper's screw, oil and coefficients, in SI; any of them may be an array.
 PARAMETERS: dict[str, Any] = {
     "d_m": 0.040, "p": 0.005, "d_w": 3.175e-3, "z": 56.0, "alpha": np.pi / 4, "f_s": 0.515, "f_n": 0.515,

@@ -21,18 +21,9 @@ import xarray as xr
 
 import ballscrew as bs
 from ballscrew.analyses.olaru2005 import OIL, SCREW
-from script import formulas_on_arrays
+from script import OUTPUTS, formulas_on_arrays
 
 ROOT = Path(__file__).parents[1]
-OUTPUTS = (
-    "screw_torque",
-    "nut_torque",
-    "efficiency",
-    "screw_film_parameter",
-    "nut_film_parameter",
-    "screw_friction_coefficient",
-    "nut_friction_coefficient",
-)
 ROUNDS = 7
 COLD_STARTS = 5
 AGREEMENT = 1e-10
