@@ -90,7 +90,7 @@ def main() -> None:
     points = int(options.points)
     model = bs.FrictionModel.olaru2005()
     plan = Plan.of(Subject(model, SCREW, OIL), OUTPUTS, axes(points))
-    given = {"processes": True, "n_workers": 2, "threads_per_worker": 1, "dashboard_address": None}
+    given = {"processes": True, "n_workers": 2, "threads_per_worker": 1, "dashboard_address": ":0"}
     with (
         tempfile.TemporaryDirectory(prefix="ballscrew-", dir=options.folder) as name,
         distributed.LocalCluster(host="127.0.0.1", local_directory=name, **given) as local,

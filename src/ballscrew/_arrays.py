@@ -145,10 +145,10 @@ def map_blocks(
     pending = iter(list(blocks(size, block_size)))
     workers = min(threads or processors(), math.ceil(size / block_size))
     lock, stopped = threading.Lock(), threading.Event()
-    finished = 0
+    finished = told = 0
 
     def work(tell: Callable[[int], None] | None = None) -> None:
-        nonlocal finished
+        nonlocal finished, told
         try:
             while not stopped.is_set():
                 with lock:
@@ -159,7 +159,8 @@ def map_blocks(
                 with lock:
                     finished += block.stop - block.start
                 if tell is not None:
-                    tell(finished)
+                    told = finished
+                    tell(told)
         except BaseException:
             stopped.set()
             raise
@@ -170,7 +171,6 @@ def map_blocks(
     with ThreadPoolExecutor(workers - 1) as pool:
         others = [pool.submit(work) for _ in range(workers - 1)]
         work(done)  # it need not be woken
-        told = finished
         for other in others:
             other.result()
     if done is not None and told != finished:

@@ -58,7 +58,17 @@ class Cluster:
         self.file = folder / "scheduler.json"
         self.processes = []
         self.workers = []
-        self._start("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--no-show")
+        self._start(
+            "scheduler",
+            "--host",
+            "127.0.0.1",
+            "--port",
+            "0",
+            "--no-dashboard",
+            "--dashboard-address",
+            ":0",
+            "--no-show",
+        )
         until(self.file.exists, "no scheduler")
         self.address = json.loads(self.file.read_text(encoding="utf-8"))["address"]
 

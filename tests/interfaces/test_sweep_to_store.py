@@ -168,7 +168,7 @@ def test_a_scheduler_that_does_not_answer(example, ballscrew, tmp_path):
 
 def test_a_sweep_on_a_cluster(example, ballscrew, tmp_path):
     distributed = pytest.importorskip("distributed")
-    there = {"host": "127.0.0.1", "protocol": "tcp://", "scheduler_port": 0, "dashboard_address": None}
+    there = {"host": "127.0.0.1", "protocol": "tcp://", "scheduler_port": 0, "dashboard_address": ":0"}
     there |= {"n_workers": 1, "threads_per_worker": 2, "processes": False, "local_directory": tmp_path / "scratch"}
     with distributed.LocalCluster(**there) as cluster:
         address = cluster.scheduler_address
