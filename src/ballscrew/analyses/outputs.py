@@ -10,7 +10,7 @@ from typing import Any
 from ballscrew.analyses.nut_parts import NutParts
 from ballscrew.assembly import NUT_REASONS, NutFriction
 from ballscrew.components.contact import RaceState
-from ballscrew.components.materials import Lubricant
+from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew, Operation
 from ballscrew.model import FrictionModel
 from ballscrew.quantities import Info, Quantity, fields_of, quantities_of
@@ -114,11 +114,13 @@ def inputs_of(
     """Everything a sweep can vary: name to (part, quantity).
 
     Names are those of the fields; a coefficient of a law is ``law.field``, for example
-    ``friction.boundary_friction_coefficient``.
+    ``friction.boundary_friction_coefficient``. ``temperature`` is that of an oil made from a grade.
     """
     parts = {"operation": Operation, "screw": screw, "lubricant": lubricant, "model": model}
     parts |= {} if nut is None else {"nut": nut.nut}
     found = {name: (part, quantity) for part, value in parts.items() for name, quantity in fields_of(value).items()}
+    if lubricant.grade is not None:
+        found[TEMPERATURE.name] = ("lubricant", TEMPERATURE)
     for slot, law in model.laws_with_coefficients.items():
         found |= {f"{slot}.{name}": ("model", quantity) for name, quantity in fields_of(law).items()}
     return found

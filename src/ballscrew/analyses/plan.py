@@ -23,7 +23,7 @@ from ballscrew.analyses.outputs import (
     known_outputs,
 )
 from ballscrew.assembly import NutFriction
-from ballscrew.components.materials import Lubricant
+from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.engine.merging import merged_program
 from ballscrew.engine.program import Player, Program
@@ -67,8 +67,11 @@ class Subject:
         parts = self.by_section
         where = {name: part for name, (part, _) in self.inputs.items()}
         operation = {name: points[name] for name in OPERATION}
+        if TEMPERATURE.name in points:
+            # first: a property of the oil that is given, too, counts as it is given
+            parts["lubricant"] = self.lubricant.at(points[TEMPERATURE.name])
         for name, values in points.items():
-            if name in operation:
+            if name in operation or name == TEMPERATURE.name:
                 continue
             part = parts[where[name]]
             law, _, field = name.rpartition(".")

@@ -94,8 +94,29 @@ class Lubricant:
         HeatCapacity, Info("c_p", "specific heat capacity", above=0, hint="mineral oils have 2000 J/(kg K)")
     ] = 2000.0
 
+    #: The grade and the temperature (K) that the oil was made from, where it was: :meth:`at` needs them.
+    grade: str | None = None
+    temperature: Temperature | None = None
+
     def __post_init__(self) -> None:
         raise_if_any(faults_of("lubricant", self))
+
+    def at(self, temperature: Temperature) -> Lubricant:
+        """The oil at another temperature in kelvin: what depends on it changes as it does for the grade.
+
+        What was changed against the grade, such as a measured viscosity, keeps its ratio to that of the grade.
+        Raises :class:`~ballscrew.faults.InputError` for an oil that was not made from a grade, or a number
+        out of the bounds of :meth:`from_grade`; of an array, elements out of them become NaN.
+        """
+        if self.grade is None:
+            remedy = 'make it with Lubricant.from_grade("ISO VG 100", temperature)'
+            raise InputError(Fault("lubricant.temperature", "needs an oil made from a grade", "", remedy))
+        here, there = (Lubricant.from_grade(self.grade, T) for T in (self.temperature, temperature))
+        moved = {
+            name: getattr(self, name) * (getattr(there, name) / getattr(here, name))
+            for name in ("viscosity", "pressure_viscosity_coefficient", "temperature_coefficient")
+        }
+        return dataclasses.replace(self, **moved, temperature=temperature)
 
     @classmethod
     def from_grade(cls, grade: str, temperature: Temperature = 313.15) -> Lubricant:
@@ -140,6 +161,8 @@ class Lubricant:
                 rheology.vogel_temperature_coefficient(temperature, oil["vogel_constant"], oil["vogel_temperature"])
             ),
             density=oil["density"],
+            grade=known[key],
+            temperature=temperature,
         )
 
 

@@ -1,0 +1,106 @@
+"""Samples of uncertain inputs, evenly spread, and what a model makes of them.
+
+A sample is one number between 0 and 1 for each input: the share of its distribution that lies below.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ballscrew.analyses.distributions import Distribution, standard_normal_quantile
+from ballscrew.analyses.engines import Engine
+from ballscrew.analyses.evaluation import Evaluation
+from ballscrew.analyses.plan import Plan, Subject
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class JointNormal:
+    """Inputs that are normal and correlated, as a fit leaves them: their means and their covariance."""
+
+    names: tuple[str, ...]
+    mean: NDArray[np.float64]
+    covariance: NDArray[np.float64]
+
+    def quantiles(self, shares: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+        """The values for independent shares of shape (inputs, samples): mean + L Φ⁻¹(share), L Lᵀ the covariance.
+
+        A covariance of less than full rank is as good as any.
+        """
+        variances, directions = np.linalg.eigh(self.covariance)
+        root = directions * np.sqrt(np.maximum(variances, 0.0))
+        drawn = self.mean[:, np.newaxis] + root @ standard_normal_quantile(shares)
+        return dict(zip(self.names, drawn, strict=True))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Sampler:
+    """A model on a screw, its uncertain inputs, the numbers given to others, and what is wanted of it.
+
+    Inputs are named as in :func:`~ballscrew.analyses.sweep.sweep`. Those of ``joint`` depend on each other.
+    """
+
+    subject: Subject
+    inputs: Mapping[str, Distribution]
+    fixed: Mapping[str, Any]
+    outputs: Sequence[str]
+    joint: JointNormal | None = None
+    engine: Engine | None = None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The uncertain inputs, in the order of the shares; those that depend on each other come last."""
+        return (*self.inputs, *(() if self.joint is None else self.joint.names))
+
+    def drawn(self, shares: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+        """The values of the inputs for shares of shape (inputs, samples), within the bounds of each."""
+        alone = len(self.inputs)
+        values = {
+            name: np.asarray(distribution.quantile(row))
+            for (name, distribution), row in zip(self.inputs.items(), shares[:alone], strict=True)
+        }
+        values |= {} if self.joint is None else self.joint.quantiles(shares[alone:])
+        known = self.subject.inputs
+        return {name: _within(known[name][1].info, drawn) for name, drawn in values.items()}
+
+    def evaluated(
+        self, shares: NDArray[np.float64], done: Callable[[int, int], None] | None = None
+    ) -> dict[str, NDArray[Any]]:
+        """The outputs for shares of shape (inputs, samples), by name.
+
+        Raises :class:`~ballscrew.faults.InputError` for unknown names and values that are refused.
+        """
+        axes = {name: xr.DataArray(drawn, dims="sample") for name, drawn in self.drawn(shares).items()}
+        plan = Plan.of(self.subject, self.outputs, {**self.fixed, **axes}, "samples")
+        evaluation = Evaluation.of(plan, self.engine)
+        results = evaluation.empty(plan.total)
+        evaluation.fill(results, slice(0, plan.total), done=done)
+        return {name: np.asarray(values) for name, values in results.items()}
+
+
+def evenly_spread(inputs: int, samples: int, seed: int = 0) -> NDArray[np.float64]:
+    """Shares of shape (inputs, samples) from a scrambled Sobol' sequence, strictly between 0 and 1.
+
+    A power of two of samples is spread the most evenly. The same seed gives the same shares.
+    """
+    from scipy.stats import qmc  # half a second: for those only who sample
+
+    sequence = qmc.Sobol(inputs, rng=np.random.default_rng(seed))
+    exponent = max(0, int(np.ceil(np.log2(samples))))
+    shares = sequence.random_base2(exponent)[:samples].T
+    least = 0.5**32  # beyond it there are no points, and at 0 and 1 no quantiles
+    return np.clip(np.ascontiguousarray(shares), least, 1 - least)
+
+
+def _within(info: Any, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Values moved to the nearest that the bounds of a quantity allow."""
+    low = -np.inf if info.at_least is None else info.at_least
+    low = low if info.above is None else max(low, np.nextafter(info.above, np.inf))
+    high = np.inf if info.at_most is None else info.at_most
+    high = high if info.below is None else min(high, np.nextafter(info.below, -np.inf))
+    return np.clip(values, low, high)
