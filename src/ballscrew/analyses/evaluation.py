@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 import ballscrew
@@ -35,23 +36,29 @@ SMALLEST_BLOCK, LARGEST_BLOCK = 2**14, 2**19
 
 #: Evaluates the points of a slice of the flattened grid into arrays that begin at the place given.
 _Work = Callable[[slice, Mapping[str, NDArray[Any]], int], None]
+#: Makes that of a plan; plans that differ by nothing but numbers share the formulas behind it.
+_Works = Callable[[Plan], _Work]
 
 
 class Evaluation:
     """A plan made ready by one of the engines; the same bits whatever the blocks and the threads."""
 
-    def __init__(self, plan: Plan, engine: Engine, said: str, work: _Work, block_size: int, row_length: int) -> None:
+    def __init__(self, plan: Plan, engine: Engine, said: str, works: _Works, block_size: int, row_length: int) -> None:
         self.plan = plan
         self.engine: Engine = engine
         #: A digest of the formulas as they are evaluated: on like processors, those that share it give the same bits.
         self.fingerprint = hashlib.sha256(f"{engine}\n{said}".encode()).hexdigest()
-        self._work = work
+        self._said = said
+        self._works = works
+        self._work = works(plan)
         self._block_size = block_size
         self._row_length = row_length
 
     @classmethod
-    def of(cls, plan: Plan, engine: Engine | None = None) -> Evaluation:
+    def of(cls, plan: Plan, engine: Engine | None = None, times: int = 1) -> Evaluation:
         """Make a plan ready; the engine is chosen by the size of the work and by what is compiled already.
+
+        ``times`` says how often all of it will be evaluated (see :meth:`at`).
 
         Raises :class:`~ballscrew.faults.InputError` for an engine that cannot be had.
         """
@@ -59,17 +66,29 @@ class Evaluation:
         program = plan.recorded()
         why = "a whole nut, or a law of your own, is evaluated by NumPy only"
         if program is not None:
-            if not may_be_compiled(program, plan.total, engine):
+            points = plan.total * times
+            if not may_be_compiled(program, points, engine):
                 return _by_numpy(plan, program)
             try:
-                made = _Grid.of(plan) or _Points.of(plan, program)
-                if engine or worth_compiling(made.program, plan.total, made.text):
+                made = (_Grid.of(plan) if times == 1 else None) or _Points.of(plan, program)
+                if engine or worth_compiling(made.program, points, made.text):
                     return cls(plan, "compiled", made.said, made.compiled(), LARGEST_BLOCK, made.row_length)
             except UnknownOperationError as unknown:
                 why = f"{unknown} is not known to kernels"
         if engine == "compiled":
             raise InputError(Fault("sweep.engine", why, engine, 'take engine="numpy"'))
         return _by_numpy(plan, program)
+
+    def at(self, values: Mapping[str, Any]) -> Evaluation:
+        """The same formulas with other values on the axes; nothing is recorded or compiled again.
+
+        For plans that were made ready for several ``times`` and whose formulas have these axes as inputs: those of one
+        dimension, and the numbers that :class:`~ballscrew.analyses.derivatives.Slopes` differentiates by.
+        """
+        axes = {**self.plan.axes, **{name: xr.DataArray(value) for name, value in values.items()}}
+        sizes = {str(d): size for axis in axes.values() for d, size in zip(axis.dims, axis.shape, strict=True)}
+        plan = dataclasses.replace(self.plan, axes=axes, sizes=sizes)
+        return Evaluation(plan, self.engine, self._said, self._works, self._block_size, self._row_length)
 
     def empty(self, count: int) -> dict[str, NDArray[Any]]:
         """Room for the results of so many points."""
@@ -110,19 +129,22 @@ class Evaluation:
 def _by_numpy(plan: Plan, program: Program | None) -> Evaluation:
     player = None if program is None else Player(program)
 
-    def work(part: slice, results: Mapping[str, NDArray[Any]], first: int) -> None:
-        points = plan.points(part)
-        here = {name: values[part.start - first : part.stop - first] for name, values in results.items()}
-        with np.errstate(all="ignore"):
-            if player is not None:
-                player.play([points[name] for name in plan.varying], here)
-                return
-            result = plan.subject.at(plan.fixed | points)
-            for name, output in plan.wanted.items():
-                here[name][...] = output.read(result)
+    def works(plan: Plan) -> _Work:
+        def work(part: slice, results: Mapping[str, NDArray[Any]], first: int) -> None:
+            points = plan.points(part)
+            here = {name: values[part.start - first : part.stop - first] for name, values in results.items()}
+            with np.errstate(all="ignore"):
+                if player is not None:
+                    player.play([points[name] for name in plan.varying], here)
+                    return
+                result = plan.subject.at(plan.fixed | points)
+                for name, output in plan.wanted.items():
+                    here[name][...] = output.read(result)
+
+        return work
 
     said = _code_of(plan) if program is None else program.text
-    return Evaluation(plan, "numpy", said, work, max(1, BLOCK_SIZE // plan.subject.balls), 1)
+    return Evaluation(plan, "numpy", said, works, max(1, BLOCK_SIZE // plan.subject.balls), 1)
 
 
 def _code_of(plan: Plan) -> str:
@@ -151,7 +173,6 @@ class _Kernels:
     row_length = 1
 
     def __init__(self, plan: Plan, program: Program, sources: Sequence[Source]) -> None:
-        self.plan = plan
         self.program = program
         self.sources = sources
         masks = {name: output.dtype is bool for name, output in plan.wanted.items()}
@@ -162,20 +183,23 @@ class _Kernels:
         """All formulas as they are evaluated, as text."""
         return f"{self.text}\n{self.program.text}"
 
-    def compiled(self) -> _Work:
+    def compiled(self) -> _Works:
         """What evaluates a part of the grid."""
         kernel = Kernel.of(self.text, self.sources)
         names, constants = list(self.program.outputs), self.program.constants
 
-        def work(part: slice, results: Mapping[str, NDArray[Any]], first: int) -> None:
-            for name, value in constants.items():
-                results[name][part.start - first : part.stop - first] = value
-            if names:
-                self.evaluate(kernel, part, [results[name] for name in names], first)
+        def works(plan: Plan) -> _Work:
+            def work(part: slice, results: Mapping[str, NDArray[Any]], first: int) -> None:
+                for name, value in constants.items():
+                    results[name][part.start - first : part.stop - first] = value
+                if names:
+                    self.evaluate(plan, kernel, part, [results[name] for name in names], first)
 
-        return work
+            return work
 
-    def evaluate(self, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int) -> None:
+        return works
+
+    def evaluate(self, plan: Plan, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int) -> None:
         """Run the kernel over a part of the flattened grid."""
         raise NotImplementedError
 
@@ -189,10 +213,10 @@ class _Points(_Kernels):
         sources: list[Source] = ["points" if plan.axes[name].dims else "rows" for name in plan.varying]
         return cls(plan, program, sources)
 
-    def evaluate(self, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int) -> None:
+    def evaluate(self, plan: Plan, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int) -> None:
         """Run the kernel over a part of the flattened grid."""
-        points = self.plan.points(part)
-        inputs = [np.ascontiguousarray(points[name], dtype=float) for name in self.plan.varying]
+        points = plan.points(part)
+        inputs = [np.ascontiguousarray(points[name], dtype=float) for name in plan.varying]
         here = [values[part.start - first : part.stop - first] for values in results]
         count = part.stop - part.start
         kernel(slice(0, 1), slice(0, count), count, inputs, here)
@@ -203,6 +227,7 @@ class _Grid(_Kernels):
 
     def __init__(self, plan: Plan, cut: Split, columns: int) -> None:
         super().__init__(plan, cut.points, [source for source, _ in cut.tables])
+        self.plan = plan
         self.row_length = columns
         self.cut = cut
         self.tables = self._tables()
@@ -251,7 +276,14 @@ class _Grid(_Kernels):
                 found[source, name] = values[name].astype(float, copy=False)
         return [found[key] for key in self.cut.tables]
 
-    def evaluate(self, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int) -> None:
+    def evaluate(
+        self,
+        plan: Plan,  # noqa: ARG002  (tables are made of one plan)
+        kernel: Kernel,
+        part: slice,
+        results: Sequence[NDArray[Any]],
+        first: int,
+    ) -> None:
         """Run the kernel over a part of the flattened grid."""
         for rows, columns in rectangles(part, self.row_length):
             kernel(rows, columns, self.row_length, self.tables, results, first=first)

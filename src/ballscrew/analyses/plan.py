@@ -64,23 +64,28 @@ class Subject:
 
     def at(self, points: Mapping[str, Any]) -> FrictionResult | NutFriction:
         """The friction with these values in place: numbers, arrays, or values that are being recorded."""
+        changed = self.changed({name: values for name, values in points.items() if name not in OPERATION})
+        operation = {name: points[name] for name in OPERATION}
+        if changed.nut is None:
+            return changed.model(changed.screw, changed.lubricant, **operation)
+        return changed.nut.friction(changed.model, changed.screw, changed.lubricant, **operation)
+
+    def changed(self, values: Mapping[str, Any]) -> Subject:
+        """The subject with other values of some inputs, those of the operating point left aside."""
         parts = self.by_section
         where = {name: part for name, (part, _) in self.inputs.items()}
-        operation = {name: points[name] for name in OPERATION}
-        if TEMPERATURE.name in points:
+        if TEMPERATURE.name in values:
             # first: a property of the oil that is given, too, counts as it is given
-            parts["lubricant"] = self.lubricant.at(points[TEMPERATURE.name])
-        for name, values in points.items():
-            if name in operation or name == TEMPERATURE.name:
+            parts["lubricant"] = self.lubricant.at(values[TEMPERATURE.name])
+        for name, value in values.items():
+            if name == TEMPERATURE.name:
                 continue
             part = parts[where[name]]
             law, _, field = name.rpartition(".")
-            change = {field: values} if not law else {law: dataclasses.replace(getattr(part, law), **{field: values})}
+            change = {field: value} if not law else {law: dataclasses.replace(getattr(part, law), **{field: value})}
             parts[where[name]] = dataclasses.replace(part, **change)
-        if self.nut is None:
-            return parts["model"](parts["screw"], parts["lubricant"], **operation)
-        nut = dataclasses.replace(self.nut, nut=parts["nut"])
-        return nut.friction(parts["model"], parts["screw"], parts["lubricant"], **operation)
+        nut = None if self.nut is None else dataclasses.replace(self.nut, nut=parts["nut"])
+        return Subject(parts["model"], parts["screw"], parts["lubricant"], nut)
 
     def value_of(self, name: str) -> Any:
         """The value an input has where it is not varied."""

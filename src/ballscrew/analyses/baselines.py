@@ -1,0 +1,116 @@
+"""What a log says without physics: the two descriptions of friction that drives and simulators use.
+
+They are fitted with the same loss as the model, so that the rows held out show what physics buys.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.analyses.robust import BEND, Vector, pull, scatter_of
+
+#: Speeds of Stribeck that are tried, as shares of the largest speed of the log.
+STRIBECK_SHARES = np.geomspace(0.002, 1.0, 25)
+_ROUNDS = 50
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Conditions:
+    """Magnitudes of load and speed at the rows of a log, the ideal torque, and whether the load helps the motion.
+
+    ``weights`` are the factors of ideal torque and friction torque in what was measured, of shape (2, rows).
+    """
+
+    axial_load: Vector
+    screw_speed: Vector
+    ideal_torque: Vector
+    helping: NDArray[np.bool_]
+    weights: Vector
+
+    def rows(self, chosen: NDArray[np.bool_]) -> Conditions:
+        """Some of the rows."""
+        return Conditions(
+            self.axial_load[chosen], self.screw_speed[chosen], self.ideal_torque[chosen], self.helping[chosen],
+            self.weights[:, chosen],
+        )  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Baseline:
+    """An empirical description of a friction torque: its coefficients in SI, and the torque measured."""
+
+    words: str
+    coefficients: dict[str, float]
+    torque: Callable[[Conditions], Vector]
+
+
+def stribeck(conditions: Conditions, torque: Vector) -> Baseline:
+    """``M = T_c + c F + (T_s − T_c) exp(−ω/ω_s) + k ω``: Coulomb and load, Stribeck's fall, a viscous rise.
+
+    As drives compensate friction; the term in the load makes it fair. Fitted by robust least squares, ω_s by search.
+    """
+    fastest = float(np.max(conditions.screw_speed))
+
+    def columns(rows: Conditions, speed: float) -> Vector:
+        n = rows.screw_speed
+        friction = np.stack([np.ones_like(n), rows.axial_load, np.exp(-n / speed), n], axis=1)
+        return rows.weights[1][:, np.newaxis] * friction
+
+    def torque_of(rows: Conditions, speed: float, found: Vector) -> Vector:
+        return rows.weights[0] * rows.ideal_torque + columns(rows, speed) @ found
+
+    rest = torque - conditions.weights[0] * conditions.ideal_torque
+    tried = [(speed, *robust_linear(columns(conditions, speed), rest)) for speed in STRIBECK_SHARES * fastest]
+    speed, found, _ = min(tried, key=lambda trial: trial[2])
+    names = ("coulomb_torque", "torque_per_load", "stribeck_torque", "viscous_torque_coefficient")
+    coefficients = {**dict(zip(names, found.tolist(), strict=True)), "stribeck_speed": float(speed)}
+    return Baseline("Stribeck, viscous and load", coefficients, lambda rows: torque_of(rows, speed, found))
+
+
+def efficiency_pair(conditions: Conditions, torque: Vector) -> Baseline:
+    """Friction as a share of the ideal torque, one for each way of the power: ``1/η_d − 1`` and ``1 − η_b``.
+
+    What selectors and simulators do with a pair of efficiencies.
+    """
+
+    def columns(rows: Conditions) -> Vector:
+        friction = rows.weights[1] * rows.ideal_torque
+        return np.stack([np.where(rows.helping, 0.0, friction), np.where(rows.helping, friction, 0.0)], axis=1)
+
+    rest = torque - conditions.weights[0] * conditions.ideal_torque
+    found, _ = robust_linear(columns(conditions), rest)
+    coefficients = {"efficiency": 1 / (1 + found[0]), "back_driving_efficiency": 1 - found[1]}
+    return Baseline(
+        "efficiency pair",
+        {name: float(value) for name, value in coefficients.items()},
+        lambda rows: rows.weights[0] * rows.ideal_torque + columns(rows) @ found,
+    )
+
+
+def robust_linear(columns: Vector, values: Vector) -> tuple[Vector, float]:
+    """Coefficients of a linear model by the loss of :mod:`ballscrew.analyses.robust`, and that loss in SI.
+
+    Iteratively reweighted least squares.
+    """
+    scale = np.linalg.norm(columns, axis=0)
+    scale[scale == 0] = 1.0
+    scaled, weights = columns / scale, np.ones_like(values)
+    found, residuals, scatter = np.zeros(columns.shape[1]), -values, 1.0
+    for _ in range(_ROUNDS):
+        root = np.sqrt(weights)
+        before, found = found, np.linalg.lstsq(root[:, np.newaxis] * scaled, root * values, rcond=None)[0]
+        residuals = scaled @ found - values
+        scatter = scatter_of(residuals, values)
+        psi, _ = pull(residuals, scatter)
+        weights = psi / np.where(residuals == 0, 1.0, residuals / scatter)
+        weights[residuals == 0] = 1.0
+        if np.max(np.abs(found - before)) <= 1e-9 * np.max(np.abs(found), initial=1e-300):
+            break
+    return found / scale, scatter**2 * float(np.sum(2 * BEND**2 * (np.sqrt(1 + (residuals / scatter / BEND) ** 2) - 1)))
+
+
+ALL: Sequence[Callable[[Conditions, Vector], Baseline]] = (stribeck, efficiency_pair)

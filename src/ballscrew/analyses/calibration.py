@@ -1,0 +1,208 @@
+"""Calibration: the numbers of a model that a log of torques tells, and which of them it cannot tell."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.analyses import baselines
+from ballscrew.analyses.calibrated import CalibratedModel, Estimate, Rows, Score
+from ballscrew.analyses.calibration_words import warnings_of
+from ballscrew.analyses.distributions import Distribution
+from ballscrew.analyses.engines import Engine, engine_faults
+from ballscrew.analyses.fit_problem import CONSTANT_TORQUE, Problem
+from ballscrew.analyses.identifiability import Identifiability, Uncertainty
+from ballscrew.analyses.plan import Subject
+from ballscrew.analyses.priors import Priors
+from ballscrew.analyses.readings import read_as
+from ballscrew.analyses.response import Response, resolved
+from ballscrew.analyses.robust import OUTLYING, Solution, Vector, solve
+from ballscrew.analyses.torque_log import Kind, TorqueLog
+from ballscrew.components.materials import TEMPERATURE, Lubricant
+from ballscrew.components.screw import BallScrew
+from ballscrew.faults import Fault, nearest, raise_if_any
+from ballscrew.model import FrictionModel
+
+#: How often a fit evaluates the whole log, roughly: only the choice of the engine depends on it.
+EVALUATIONS = 60
+#: Operating points are told apart by this share of the largest load and speed.
+CELL = 0.02
+#: With fewer operating points than this, single rows are held out; with fewer rows than this, none are.
+FEWEST_CELLS, FEWEST_ROWS = 10, 10
+#: An estimate so near a bound, in units of its scale, is at it.
+AT_BOUND = 1e-3
+
+
+def fit(
+    model: FrictionModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    data: Any,
+    free: Sequence[str] = ("boundary_friction_coefficient",),
+    *,
+    priors: Mapping[str, Distribution] | None = None,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    kind: Kind = "unknown",
+    inertia: float | None = None,
+    holdout: float = 0.2,
+    seed: int = 0,
+    engine: Engine | None = None,
+    done: Callable[[int, int], None] | None = None,
+) -> CalibratedModel:
+    """Fit numbers of a model, its screw or its lubricant to a log of torques.
+
+    ``data`` is a :class:`~ballscrew.analyses.torque_log.TorqueLog`, or a mapping or dataset of arrays in SI:
+    ``axial_load``, ``screw_speed`` and ``torque``, and where they were logged ``temperature`` (for an oil made from a
+    grade) and ``time``. ``free`` names what is fitted, as :func:`~ballscrew.analyses.sweep.sweep` does or by the last
+    part of the name alone; ``"constant_torque"`` stands for friction of seals and bearings, which no model of the
+    balls has.
+
+    ``priors`` are distributions of free numbers, ``bounds`` pairs in SI beside those that the numbers have anyway.
+    ``kind`` says whether ``torque`` is ``"friction"`` or ``"drive"`` torque; otherwise the model tells (see
+    :mod:`~ballscrew.analyses.readings`). ``inertia`` (kg m²) takes the acceleration out of a drive torque. The share
+    ``holdout`` of the operating points is not fitted but predicted. Where both directions were run, zero error and
+    drift of the sensor are fitted beside the rest.
+
+    The loss is robust (:mod:`~ballscrew.analyses.robust`), the derivatives are exact, the standard errors hold for
+    residuals that are not normal and that follow each other (:class:`~ballscrew.analyses.identifiability.Uncertainty`).
+    A number that the data do not tell gets none.
+
+    Raises :class:`~ballscrew.faults.InputError` for unknown names, data that cannot be used, and laws that cannot be
+    recorded.
+    """
+    subject = Subject(model, screw, lubricant)
+    raise_if_any(_faults_of_options(free, priors or {}, bounds or {}, holdout, kind, engine))
+    asked = {name: CONSTANT_TORQUE.name if name == CONSTANT_TORQUE.name else resolved(subject, name) for name in free}
+    log = TorqueLog.of(data).cleaned(inertia=inertia)
+    numbers = [name for name in dict.fromkeys(asked.values()) if name != CONSTANT_TORQUE.name]
+    response = Response.of(subject, numbers, points_of(log, lubricant), engine=engine, times=EVALUATIONS)
+    torques, _ = response(response.start)
+    finite = np.asarray(np.isfinite(torques).all(axis=0))
+    if not finite.all():
+        log, torques = log.taken(finite, "the model has no torque there"), torques[:, finite]
+        response = response.at(points_of(log, lubricant))
+    reading = read_as(log.torque, torques, log.axial_load, log.screw_speed, log.kind if kind == "unknown" else kind)
+    problem = Problem.of(subject, response, asked, log, reading, torques[1], bounds or {})
+    held_out = _held_out(log, holdout, seed)
+    known = Priors({problem.names.index(n): prior for n, prior in (priors or {}).items()}, problem.start, problem.scale)
+    solution = solve(
+        problem.on(~held_out), log.torque[~held_out], problem.start, problem.scale, problem.bounds, known.all,
+        done,
+    )  # fmt: skip
+    predicted, _ = problem.torque(solution.values)
+    friction = response(solution.values[: len(numbers)])[0][1]
+    far = np.abs(predicted - log.torque) > OUTLYING * solution.scatter
+    rows = Rows(log, reading, predicted, friction, held_out, far)
+    told = Identifiability.of(solution, problem.names, problem.scale)
+    uncertainty = Uncertainty.of(solution, problem.scale, known.slopes(solution.values))
+    estimates = _estimates(problem, solution, told, uncertainty, known)
+    found = CalibratedModel(
+        subject=_with(subject, response, solution),
+        estimates={name: estimates[name] for name in problem.names},
+        sensor={name: estimate for name, estimate in estimates.items() if name not in problem.names},
+        identifiability=told,
+        uncertainty=uncertainty,
+        problem=problem,
+        priors=known,
+        solution=solution,
+        rows=rows,
+        scores=_scores(rows, torques, len(problem.parameters)),
+        settings={"free": list(free), "holdout": holdout, "seed": seed, "inertia": inertia, "reading": reading.words},
+    )
+    return dataclasses.replace(found, warnings=warnings_of(found))
+
+
+def points_of(log: TorqueLog, lubricant: Lubricant) -> dict[str, NDArray[np.float64]]:
+    """Magnitudes of load and speed of a log, and the temperature where the oil has a grade."""
+    found = {"axial_load": np.abs(log.axial_load), "screw_speed": np.abs(log.screw_speed)}
+    if lubricant.grade is not None:
+        held = np.full(len(log), lubricant.temperature) if log.temperature is None else log.temperature
+        found[TEMPERATURE.name] = held
+    return found
+
+
+def _faults_of_options(
+    free: Sequence[str], priors: Mapping[str, Any], bounds: Mapping[str, Any], holdout: Any, kind: Any, engine: Any
+) -> list[Fault]:
+    faults = engine_faults("fit", engine)
+    if isinstance(free, str) or not len(free):
+        faults.append(Fault("fit.free", "must be a list of names", str(free), 'free=["boundary_friction_coefficient"]'))
+        return faults
+    for where, named in {"priors": priors, "bounds": bounds}.items():
+        faults += [Fault(f"fit.{where}.{n}", "is not free", "", nearest(n, free)) for n in named if n not in free]
+    if not isinstance(holdout, int | float) or not 0 <= holdout <= 0.5:
+        faults.append(Fault("fit.holdout", "must be a share from 0 to 0.5", str(holdout), "0.2 is usual"))
+    if kind not in get_args(Kind):
+        faults.append(Fault("fit.kind", "unknown kind of torque", str(kind), f"one of {', '.join(get_args(Kind))}"))
+    return faults
+
+
+def _held_out(log: TorqueLog, share: float, seed: int) -> NDArray[np.bool_]:
+    """Which rows are not fitted: whole operating points where there are enough of them, or else single rows."""
+    rows = len(log)
+    if share == 0 or rows < FEWEST_ROWS:
+        return np.zeros(rows, dtype=bool)
+    places = [np.sign(log.screw_speed)]
+    for values in (log.axial_load, log.screw_speed):
+        largest = float(np.max(np.abs(values))) or 1.0
+        places.append(np.round(values / (CELL * largest)))
+    _, cell = np.unique(np.stack(places), axis=1, return_inverse=True)
+    cells = int(cell.max()) + 1
+    if cells < FEWEST_CELLS:
+        cell, cells = np.arange(rows), rows
+    chosen = np.random.default_rng(seed).permutation(cells)[: max(1, round(share * cells))]
+    return np.isin(cell, chosen)
+
+
+def _estimates(
+    problem: Problem, solution: Solution, told: Identifiability, uncertainty: Uncertainty, known: Priors
+) -> dict[str, Estimate]:
+    low, high = problem.bounds
+    near = AT_BOUND * problem.scale
+    at_bound = (solution.values - low <= near) | (high - solution.values <= near)
+    found: dict[str, Estimate] = {}
+    for i, parameter in enumerate(problem.parameters):
+        value, variance = float(solution.values[i]), float(uncertainty.covariance[i, i])
+        identified = told.identified.get(parameter.name, True) and not at_bound[i]
+        prior = known.deviation(i, value)
+        found[parameter.name] = Estimate(
+            name=parameter.name,
+            quantity=parameter.quantity,
+            value=value,
+            std=math.sqrt(variance) if identified else None,
+            identified=bool(identified),
+            start=parameter.start,
+            at_bound=bool(at_bound[i]),
+            prior_share=0.0 if prior is None else min(1.0, variance / prior**2),
+        )
+    return found
+
+
+def _with(subject: Subject, response: Response, solution: Solution) -> Subject:
+    """The subject with the fitted numbers in place."""
+    values = solution.values[: len(response.names)].tolist()
+    return subject.changed(dict(zip(response.names, values, strict=True)))
+
+
+def _scores(rows: Rows, torques: Vector, numbers: int) -> list[Score]:
+    """How far the model is off before and after, and the descriptions without physics, on the same rows."""
+    log, fitted = rows.log, ~rows.held_out
+    weights = rows.reading.weights(log.axial_load, log.screw_speed)
+    helping = weights[0] * weights[1] < 0
+    conditions = baselines.Conditions(np.abs(log.axial_load), np.abs(log.screw_speed), torques[0], helping, weights)
+    described = {
+        "the model as given": (0, np.sum(weights * torques, axis=0)),
+        "the model calibrated": (numbers, rows.predicted),
+    }
+    for baseline in baselines.ALL:
+        found = baseline(conditions.rows(fitted), log.torque[fitted])
+        described[found.words] = (len(found.coefficients), found.torque(conditions))
+    return [
+        Score(words, count, rows.rms(predicted - log.torque, fitted), rows.rms(predicted - log.torque, rows.held_out))
+        for words, (count, predicted) in described.items()
+    ]

@@ -1,0 +1,120 @@
+"""What is to be said of a calibration beside its numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.analyses.robust import Vector, memory, pull
+
+if TYPE_CHECKING:
+    from ballscrew.analyses.calibrated import CalibratedModel
+
+#: A share of outliers beyond which they are no longer a few.
+MANY_OUTLIERS = 0.1
+#: Residuals depend on something if their means over its parts differ by this much of what was measured.
+TREND_SHARE, TREND_ERRORS = 0.02, 4.0
+PARTS = 5
+#: A prior that leaves more than this share of its variance told more than the data.
+MOSTLY_PRIOR = 0.5
+
+
+def warnings_of(found: CalibratedModel) -> list[str]:
+    """What a person should know before using the numbers, the gravest first."""
+    return [*_not_told(found), *_of_bounds(found), *_of_priors(found), *_of_rows(found), *_trends(found)]
+
+
+def product(powers: Mapping[str, float]) -> str:
+    """A product of powers, the largest first: ``boundary_friction_coefficient^0.98 · decay^-0.20``."""
+    largest = sorted(powers.items(), key=lambda item: -abs(item[1]))
+    return " · ".join(name if power == 1 else f"{name}^{power:.2f}" for name, power in largest if abs(power) >= 0.005)
+
+
+def _not_told(found: CalibratedModel) -> list[str]:
+    said: list[str] = []
+    for combination in found.identifiability.combinations:
+        if combination.identified:
+            continue
+        names = [name for name, power in combination.powers.items() if abs(power) >= 0.05]
+        if len(names) == 1:
+            said.append(f"{names[0]} is not identified: the torques of this log hardly depend on it")
+        else:
+            said.append(
+                f"{' and '.join(names)} cannot be told apart by this log: it says nothing of "
+                f"{product(combination.powers)}; fix one of them, give one a prior, or measure elsewhere"
+            )
+    return said
+
+
+def _of_bounds(found: CalibratedModel) -> list[str]:
+    return [
+        f"{estimate.name} came to rest at its bound ({estimate.value:.4g}): the model cannot follow the log any further"
+        for estimate in found.estimates.values()
+        if estimate.at_bound
+    ]
+
+
+def _of_priors(found: CalibratedModel) -> list[str]:
+    return [
+        f"{estimate.name} is known by its prior more than by the log, which leaves "
+        f"{estimate.prior_share:.0%} of its variance"
+        for estimate in found.estimates.values()
+        if estimate.prior_share > MOSTLY_PRIOR
+    ]
+
+
+def _of_rows(found: CalibratedModel) -> list[str]:
+    said: list[str] = []
+    if not found.solution.converged:
+        said.append("the fit did not come to rest: its numbers are not to be used")
+    outlying = float(np.mean(found.rows.outlying))
+    if outlying > MANY_OUTLIERS:
+        said.append(f"{outlying:.0%} of the rows lie far from any fit: look at their signs, units and conditions")
+    psi, _ = pull(found.solution.residuals, found.solution.scatter)
+    if memory(psi):
+        said.append("residuals that follow each other are alike: the errors are larger for it")
+    if not found.rows.held_out.any():
+        said.append("too few rows to hold any out: how well the model predicts is not known")
+    if found.rows.log.temperature is not None and found.lubricant.grade is None:
+        said.append(
+            "the temperatures of the log are not used: the oil has a viscosity, and no grade that changes with it"
+        )
+    return said
+
+
+def _trends(found: CalibratedModel) -> list[str]:
+    """Where residuals depend on the operating point: what the model is missing."""
+    log, rows = found.rows.log, found.rows
+    kept = ~rows.outlying
+    against: dict[str, NDArray[np.float64] | None] = {
+        "speed": np.abs(log.screw_speed),
+        "load": np.abs(log.axial_load),
+        "temperature": log.temperature,
+        "time": log.time,
+    }
+    friction = float(np.median(np.abs(rows.friction)))
+    said: list[str] = []
+    for name, values in against.items():
+        if values is None or np.ptp(values) == 0:
+            continue
+        means, errors = means_of_parts(values[kept], (rows.residuals * rows.direction)[kept])
+        worst = int(np.argmax(np.abs(means)))
+        if abs(means[worst]) > max(TREND_ERRORS * errors[worst], TREND_SHARE * friction):
+            which = ("at the lowest", "at low", "at medium", "at high", "at the highest")[worst]
+            said.append(
+                f"friction is {'over' if means[worst] > 0 else 'under'}estimated by {abs(means[worst]) / friction:.0%} "
+                f"{which} {name}: the model misses something that depends on it"
+            )
+    return said
+
+
+def means_of_parts(values: NDArray[np.float64], residuals: NDArray[np.float64]) -> tuple[Vector, Vector]:
+    """Means of residuals over fifths of the rows in the order of some values, and the standard errors of the means."""
+    order = np.argsort(values, kind="stable")
+    parts = np.array_split(residuals[order], PARTS)
+    means = np.array([part.mean() if part.size else 0.0 for part in parts])
+    errors = np.array([part.std() / np.sqrt(max(part.size, 1)) if part.size else np.inf for part in parts])
+    return means, errors

@@ -1,0 +1,157 @@
+"""A fit as a problem of least squares: its parameters, and the torque of every row with its derivatives by them."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.analyses.plan import Subject
+from ballscrew.analyses.readings import Reading
+from ballscrew.analyses.response import Response
+from ballscrew.analyses.robust import Vector
+from ballscrew.analyses.torque_log import TorqueLog
+from ballscrew.faults import Fault, raise_if_any
+from ballscrew.quantities import Info, Quantity
+
+#: Friction that depends on nothing but the direction, and that no model of the balls has.
+CONSTANT_TORQUE = Quantity(
+    "constant_torque",
+    "N m",
+    Info("M_0", "friction torque of seals, bearings and wipers, the same at all loads and speeds"),
+)
+#: Errors of the torque sensor, which are fitted beside the friction where both directions were run.
+TORQUE_OFFSET = Quantity(
+    "torque_offset", "N m", Info("T_0", "zero error of the torque sensor in the middle of the log")
+)
+TORQUE_DRIFT = Quantity("torque_drift", "N m", Info("T_1", "drift of the torque sensor over the log"))
+
+
+@dataclasses.dataclass(frozen=True)
+class Parameter:
+    """One number to fit, in SI: what it is, where it starts, its bounds, and what a change of it is measured by."""
+
+    name: str
+    quantity: Quantity
+    start: float
+    scale: float
+    low: float = -np.inf
+    high: float = np.inf
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Problem:
+    """The parameters of a fit: numbers of the model first, then those that the torque is linear in."""
+
+    response: Response
+    #: Of the numbers asked for; those of the sensor come behind.
+    free: int
+    parameters: Sequence[Parameter]
+    #: Factors of ideal torque and friction torque in what was measured, of shape (2, rows).
+    weights: Vector
+    #: Derivatives by the linear parameters, of shape (rows, linear parameters).
+    columns: Vector
+
+    @classmethod
+    def of(
+        cls,
+        subject: Subject,
+        response: Response,
+        asked: Mapping[str, str],
+        log: TorqueLog,
+        reading: Reading,
+        friction: Vector,
+        bounds: Mapping[str, tuple[float, float]],
+    ) -> Problem:
+        """``asked`` says which input a person means by each name; ``friction`` is what the model says at the start.
+
+        Raises :class:`~ballscrew.faults.InputError` for bounds that leave no room.
+        """
+        names = {full: name for name, full in asked.items()}
+        parameters = [
+            _parameter(names[full], subject.inputs[full][1], float(start))
+            for full, start in zip(response.names, response.start, strict=True)
+        ]
+        weights = reading.weights(log.axial_load, log.screw_speed)
+        usual = float(np.median(np.abs(friction))) or 1.0
+        columns: list[Vector] = []
+        if CONSTANT_TORQUE.name in asked:
+            parameters.append(Parameter(CONSTANT_TORQUE.name, CONSTANT_TORQUE, 0.0, usual))
+            columns.append(weights[1])
+        free = len(parameters)
+        if np.any(weights[1] > 0) and np.any(weights[1] < 0):
+            # a zero error has the same sign in both directions, and friction has not
+            parameters.append(Parameter(TORQUE_OFFSET.name, TORQUE_OFFSET, 0.0, usual))
+            columns.append(np.ones(len(log)))
+            if log.time is not None and np.ptp(log.time) > 0:
+                parameters.append(Parameter(TORQUE_DRIFT.name, TORQUE_DRIFT, 0.0, usual))
+                columns.append((log.time - log.time.min()) / np.ptp(log.time) - 0.5)
+        parameters = [_bounded(parameter, bounds) for parameter in parameters]
+        linear = np.stack(columns, axis=1) if columns else np.empty((len(log), 0))
+        return cls(response, free, parameters, weights, linear)
+
+    @property
+    def names(self) -> list[str]:
+        """The names of the numbers asked for, as they were asked for."""
+        return [parameter.name for parameter in self.parameters[: self.free]]
+
+    @property
+    def start(self) -> Vector:
+        """Where the fit starts."""
+        return np.array([parameter.start for parameter in self.parameters])
+
+    @property
+    def scale(self) -> Vector:
+        """What changes are measured by."""
+        return np.array([parameter.scale for parameter in self.parameters])
+
+    @property
+    def bounds(self) -> tuple[Vector, Vector]:
+        """Lower and upper bounds."""
+        low, high = ([getattr(p, side) for p in self.parameters] for side in ("low", "high"))
+        return np.array(low), np.array(high)
+
+    def torque(self, values: Vector) -> tuple[Vector, Vector]:
+        """The torque of every row as it would be measured, and its derivatives, of shape (rows, parameters).
+
+        Where the model has no torque it is taken as zero that nothing changes: the fit sees it miss, and turns back.
+        """
+        numbers = len(self.response.names)
+        torques, slopes = self.response(values[:numbers])
+        told = np.asarray(np.isfinite(torques).all(axis=0) & np.isfinite(slopes).all(axis=(0, 2)))
+        torque = np.where(told, np.sum(self.weights * torques, axis=0), 0.0)
+        by_numbers = np.where(told[:, np.newaxis], np.einsum("tr,trn->rn", self.weights, slopes), 0.0)
+        return torque + self.columns @ values[numbers:], np.hstack([by_numbers, self.columns])
+
+    def on(self, chosen: NDArray[np.bool_]) -> Callable[[Vector], tuple[Vector, Vector]]:
+        """:meth:`torque` of some of the rows."""
+
+        def torque(values: Vector) -> tuple[Vector, Vector]:
+            found, slopes = self.torque(values)
+            return found[chosen], slopes[chosen]
+
+        return torque
+
+
+def _parameter(name: str, quantity: Quantity, start: float) -> Parameter:
+    """A number of the model with the bounds it has anyway; its scale is its own size, or its range where it is zero."""
+    info = quantity.info
+    low = max((bound for bound in (info.at_least, info.above) if bound is not None), default=-np.inf)
+    high = min((bound for bound in (info.at_most, info.below) if bound is not None), default=np.inf)
+    scale = abs(start) or (high - low if np.isfinite(high - low) else 1.0)
+    # open bounds are kept clear of
+    low += 1e-6 * scale * (info.above is not None)
+    high -= 1e-6 * scale * (info.below is not None)
+    return Parameter(name, quantity, start, scale, low, high)
+
+
+def _bounded(parameter: Parameter, bounds: Mapping[str, tuple[float, float]]) -> Parameter:
+    """A parameter with the bounds asked for, within its own."""
+    if parameter.name not in bounds:
+        return parameter
+    low, high = max(bounds[parameter.name][0], parameter.low), min(bounds[parameter.name][1], parameter.high)
+    where, given = f"fit.bounds.{parameter.name}", f"{low:g} to {high:g}"
+    raise_if_any([Fault(where, "leave no room", given, "put the lower one first")] if not low < high else [])
+    return dataclasses.replace(parameter, low=low, high=high, start=float(np.clip(parameter.start, low, high)))

@@ -1,0 +1,167 @@
+"""The test that teaches most: the operating point whose readings shrink what is left open the most (D-optimal)."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.analyses.identifiability import weighted
+from ballscrew.analyses.robust import Vector
+from ballscrew.components.materials import TEMPERATURE
+from ballscrew.faults import Fault, nearest, raise_if_any
+
+if TYPE_CHECKING:
+    from ballscrew.analyses.calibrated import CalibratedModel
+
+#: Without limits, loads and speeds from half the least to twice the largest of the log are thought possible, and
+#: temperatures this many kelvin beyond those of the log.
+BEYOND, BEYOND_KELVIN = 2.0, 10.0
+#: How many speeds, loads and temperatures are tried.
+SPEEDS, LOADS, TEMPERATURES = 25, 15, 5
+#: A test has this share of the readings of the log, unless told otherwise.
+SHARE_OF_LOG = 0.05
+#: How many random tests the best one is compared with.
+RANDOM_TESTS = 50
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class NextTest:
+    """Tests that were thought of, in SI, and what each would leave of the volume of what is open."""
+
+    #: The values of the inputs at all tests, each an array of one length.
+    tests: Mapping[str, NDArray[np.float64]]
+    #: By test, the volume of the joint confidence region of the numbers asked for, over that without the test.
+    remaining_volume: NDArray[np.float64]
+    #: By name, the standard error after the best test over that before.
+    remaining_error: Mapping[str, float]
+    #: Readings of a test; in both directions where the log has both.
+    readings: int
+    #: The median of what random tests would leave.
+    random_volume: float
+
+    @property
+    def best(self) -> dict[str, float]:
+        """The operating point of the best test, in SI."""
+        place = int(np.argmin(self.remaining_volume))
+        return {name: float(values[place]) for name, values in self.tests.items()}
+
+    @property
+    def best_volume(self) -> float:
+        """What the best test leaves of the volume."""
+        return float(np.min(self.remaining_volume))
+
+
+def next_test(
+    found: CalibratedModel,
+    limits: Mapping[str, tuple[float, float]] | None = None,
+    readings: int | None = None,
+    seed: int = 0,
+) -> NextTest:
+    """What one more test would teach, for tests on a grid within limits in SI.
+
+    By derivatives at the estimate: with the covariance Σ and the derivatives G of the readings of a test in units of
+    the scatter, what remains is ``Σ − Σ Gᵀ (1/m + G Σ Gᵀ)⁻¹ G Σ`` for m readings. Numbers that are open altogether
+    count as known to their own size. Points that are not valid are left out.
+
+    Raises :class:`~ballscrew.faults.InputError` for limits of what is no condition of a test.
+    """
+    given = dict(limits or {})
+    log = found.rows.log
+    rows = len(log)
+    count = readings or math.ceil(SHARE_OF_LOG * rows)
+    ranges = _ranges(found, given)
+    tests = _grid(ranges)
+    tests = {name: values[_valid(found, tests)] for name, values in tests.items()}
+    problem = [Fault("fit.next_test", "has no valid point within the limits", "", "widen the limits")]
+    raise_if_any(problem if not tests["axial_load"].size else [])
+    before = _open(found)
+    remaining = _after(before, _derivatives(found, tests), count)
+    asked = len(found.estimates)
+    volume = _volume(remaining, asked) / _volume(before[np.newaxis], asked)
+    best = int(np.argmin(volume))
+    errors = np.sqrt(np.diagonal(remaining[best])[:asked] / np.diagonal(before)[:asked])
+    random = np.random.default_rng(seed).choice(volume, RANDOM_TESTS)
+    told = dict(zip(found.estimates, errors.tolist(), strict=True))
+    return NextTest(tests, volume, told, count, float(np.median(random)))
+
+
+def _ranges(found: CalibratedModel, limits: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
+    log = found.rows.log
+    ranges = {
+        name: (float(np.abs(values).min()) / BEYOND, float(np.abs(values).max()) * BEYOND)
+        for name, values in {"axial_load": log.axial_load, "screw_speed": log.screw_speed}.items()
+    }
+    if found.lubricant.grade is not None and log.temperature is not None:
+        info = TEMPERATURE.info
+        low, high = float(log.temperature.min()) - BEYOND_KELVIN, float(log.temperature.max()) + BEYOND_KELVIN
+        ranges[TEMPERATURE.name] = max(low, info.at_least or low), min(high, info.at_most or high)
+    unknown = [name for name in limits if name not in ranges]
+    raise_if_any([Fault(f"fit.limits.{n}", "is no condition of a test", "", nearest(n, ranges)) for n in unknown])
+    return {**ranges, **limits}
+
+
+def _grid(ranges: Mapping[str, tuple[float, float]]) -> dict[str, Vector]:
+    """Tests all over the ranges: speeds and loads by ratios, temperatures by differences."""
+    axes: list[Vector] = []
+    for name, number in {"axial_load": LOADS, "screw_speed": SPEEDS, TEMPERATURE.name: TEMPERATURES}.items():
+        if name in ranges:
+            low, high = ranges[name]
+            by_ratios = name != TEMPERATURE.name
+            axes.append(
+                np.geomspace(max(low, 1e-3 * high), high, number) if by_ratios else np.linspace(low, high, number)
+            )
+    meshes = np.meshgrid(*axes, indexing="ij")
+    return dict(zip(("axial_load", "screw_speed", TEMPERATURE.name), (m.ravel() for m in meshes), strict=False))
+
+
+def _valid(found: CalibratedModel, tests: Mapping[str, Vector]) -> NDArray[np.bool_]:
+    oil = found.lubricant.at(tests[TEMPERATURE.name]) if TEMPERATURE.name in tests else found.lubricant
+    result = found.model(found.screw, oil, axial_load=tests["axial_load"], screw_speed=tests["screw_speed"])
+    return np.asarray(result.valid & np.isfinite(result.screw_torque))
+
+
+def _open(found: CalibratedModel) -> Vector:
+    """Covariance of all parameters of the fit, those that are open known to their own size."""
+    root = weighted(found.solution)
+    own = np.diag(1 / found.uncertainty.scale**2)
+    return np.asarray(np.linalg.inv(root.T @ root + own), dtype=np.float64)
+
+
+def _derivatives(found: CalibratedModel, tests: Mapping[str, Vector]) -> NDArray[np.float64]:
+    """Derivatives of the readings of each test in units of the scatter, of shape (tests, directions, parameters)."""
+    log, response = found.rows.log, found.response
+    points = dict(tests)
+    if found.lubricant.grade is not None and TEMPERATURE.name not in points:
+        points[TEMPERATURE.name] = np.full(points["axial_load"].size, found.lubricant.temperature)
+    _, slopes = response.at(points)(found.solution.values[: len(response.names)])
+    directions = [sign for sign in (1.0, -1.0) if np.any(sign * log.screw_speed > 0)]
+    ones = np.ones(points["axial_load"].size)
+    made: list[Vector] = []
+    for sign in directions:
+        weights = found.rows.reading.weights(ones, sign * ones)
+        columns = [np.einsum("tr,trn->rn", weights, slopes)]
+        columns += [weights[1][:, np.newaxis]] * (len(found.estimates) - len(response.names))
+        # a later test has the zero error of the sensor, and nobody knows its drift by then
+        columns += [(ones if name == "torque_offset" else 0 * ones)[:, np.newaxis] for name in found.sensor]
+        made.append(np.hstack(columns))
+    return np.stack(made, axis=1) / found.solution.scatter
+
+
+def _after(before: Vector, derivatives: Vector, readings: int) -> Vector:
+    """The covariances that tests leave, of shape (tests, parameters, parameters)."""
+    directions = derivatives.shape[1]
+    each = readings / directions
+    crossed = derivatives @ before
+    inner = crossed @ derivatives.transpose(0, 2, 1) + np.eye(directions) / each
+    return before - crossed.transpose(0, 2, 1) @ np.linalg.solve(inner, crossed)
+
+
+def _volume(covariances: Vector, asked: int) -> Vector:
+    """Volume of the joint confidence region of the first parameters, but for a factor."""
+    _, logarithm = np.linalg.slogdet(covariances[:, :asked, :asked])
+    return np.exp(0.5 * logarithm)

@@ -1,0 +1,78 @@
+"""The posterior of a calibration, sampled by walkers: where intervals from derivatives are not to be trusted.
+
+Needs the extra ``calibrate``.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.analyses.robust import BEND, Vector
+from ballscrew.faults import Fault, InputError
+
+if TYPE_CHECKING:
+    from ballscrew.analyses.calibrated import CalibratedModel
+
+#: Walkers for each parameter, and the share of the steps that is thrown away as the way in.
+WALKERS, WAY_IN = 4, 0.3
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Posterior:
+    """Samples of the numbers asked for, by name, and how far they can be trusted."""
+
+    samples: dict[str, NDArray[np.float64]]
+    #: Steps over which walkers forget where they were; of NaN or much of the run, the run is too short.
+    forgetting: float
+    acceptance: float
+
+    def interval(self, name: str, level: float = 0.95) -> tuple[float, float]:
+        """The interval with equal shares of the samples on either side."""
+        low, high = np.quantile(self.samples[name], [0.5 - level / 2, 0.5 + level / 2])
+        return float(low), float(high)
+
+
+def posterior(
+    found: CalibratedModel, steps: int = 2000, seed: int = 0, done: Callable[[int, int], None] | None = None
+) -> Posterior:
+    """Samples of ``exp(−½ Σ ρ(r))`` times the priors within the bounds, by emcee's affine-invariant walkers.
+
+    ρ is the loss of the fit and r the residual in units of its scatter, which stays as it was found; residuals that
+    follow each other count as independent here. Raises :class:`~ballscrew.faults.InputError` without emcee.
+    """
+    try:
+        import emcee
+    except ImportError:
+        raise InputError(Fault("posterior", "needs emcee", "", 'pip install "ballscrew[calibrate]"')) from None
+    problem, solution = found.problem, found.solution
+    low, high = problem.bounds
+    torque = problem.on(~found.rows.held_out)
+    measured = found.rows.log.torque[~found.rows.held_out]
+
+    def logarithm(values: Vector) -> float:
+        if np.any(values < low) or np.any(values > high):
+            return -np.inf
+        predicted, _ = torque(values)
+        r = (predicted - measured) / solution.scatter
+        loss = float(np.sum(2 * BEND**2 * (np.sqrt(1 + (r / BEND) ** 2) - 1)))
+        return -0.5 * (loss + float(np.sum(found.priors.residuals(values) ** 2)))
+
+    random = np.random.default_rng(seed)
+    count = problem.start.size
+    walkers = max(WALKERS * count, 2 * count + 2)
+    spread = np.sqrt(np.diagonal(found.uncertainty.covariance)) + 1e-3 * problem.scale
+    start = np.clip(solution.values + spread * random.standard_normal((walkers, count)), low, high)
+    sampler: Any = emcee.EnsembleSampler(walkers, count, logarithm)
+    state: Any = emcee.State(start, random_state=np.random.RandomState(seed).get_state())
+    for step, _ in enumerate(sampler.sample(state, iterations=steps), start=1):
+        if done is not None:
+            done(step, steps)
+    kept = sampler.get_chain(discard=int(WAY_IN * steps), flat=True)
+    forgetting = float(np.max(sampler.get_autocorr_time(quiet=True, tol=0)))
+    samples = {name: kept[:, i] for i, name in enumerate(problem.names)}
+    return Posterior(samples, forgetting, float(np.mean(sampler.acceptance_fraction)))

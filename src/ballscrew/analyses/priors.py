@@ -1,0 +1,74 @@
+"""What is known of numbers before a log is read, as residuals beside those of the log."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from ballscrew.analyses.distributions import Distribution, LogNormal, Normal, Triangular, Uniform
+from ballscrew.analyses.robust import Prior, Vector
+
+#: A number that nothing tells stays near its start: as if it were known to this many times its scale.
+LEASH = 10.0
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Priors:
+    """Distributions of some of the parameters of a fit, by place.
+
+    A normal prior is the residual ``(x − mean)/deviation``, a log-normal one ``ln(x/median)/ln(factor)``; a triangular
+    one counts as the normal of its mean and deviation, and a uniform one as bounds alone.
+    """
+
+    given: Mapping[int, Distribution]
+    start: Vector
+    scale: Vector
+
+    @property
+    def all(self) -> Prior:
+        """The priors, and the leash on everything."""
+
+        def residuals(x: Vector) -> Vector:
+            return np.concatenate([self.residuals(x), (x - self.start) / (LEASH * self.scale)])
+
+        def slopes(x: Vector) -> Vector:
+            return np.vstack([self.slopes(x), np.diag(1 / (LEASH * self.scale))])
+
+        return Prior(residuals, slopes)
+
+    def residuals(self, x: Vector) -> Vector:
+        """How far the parameters are from what was known, in standard deviations."""
+        return np.array([_residual(prior, x[i])[0] for i, prior in self._told])
+
+    def slopes(self, x: Vector) -> Vector:
+        """Derivatives of the residuals by the parameters."""
+        found = np.zeros((len(self._told), x.size))
+        for row, (i, prior) in enumerate(self._told):
+            found[row, i] = _residual(prior, x[i])[1]
+        return found
+
+    def deviation(self, place: int, value: float) -> float | None:
+        """The standard deviation that the prior of a parameter leaves; None without one."""
+        told = dict(self._told)
+        return None if place not in told else abs(1 / _residual(told[place], value)[1])
+
+    @property
+    def _told(self) -> Sequence[tuple[int, Normal | LogNormal | Triangular]]:
+        return [(i, prior) for i, prior in self.given.items() if not isinstance(prior, Uniform)]
+
+
+def _residual(prior: Normal | LogNormal | Triangular, x: float) -> tuple[float, float]:
+    """The residual of a prior and its derivative."""
+    match prior:
+        case LogNormal(median, factor):
+            x = max(x, 1e-12 * median)
+            return math.log(x / median) / math.log(factor), 1 / (x * math.log(factor))
+        case Normal(mean, deviation):
+            return (x - mean) / deviation, 1 / deviation
+        case Triangular(low, mode, high):
+            mean = (low + mode + high) / 3
+            deviation = math.sqrt((low**2 + mode**2 + high**2 - low * mode - low * high - mode * high) / 18)
+            return (x - mean) / deviation, 1 / deviation
