@@ -1,5 +1,6 @@
 """What all tests share: the paper's screw, its oil, the models, and how hypothesis runs."""
 
+import importlib.util
 import math
 
 import pytest
@@ -52,3 +53,11 @@ def seed_oil() -> bs.Lubricant:
 def model(request: pytest.FixtureRequest) -> bs.FrictionModel:
     """Each of the three models in turn."""
     return MODELS[request.param]()
+
+
+def pytest_collection_modifyitems(items):
+    """Without the compiler, the tests that need it say so."""
+    if importlib.util.find_spec("llvmlite") is None:
+        for item in items:
+            if "compiles" in item.keywords:
+                item.add_marker(pytest.mark.skip(reason="llvmlite is not installed (the extra fast)"))

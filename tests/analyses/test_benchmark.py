@@ -7,8 +7,6 @@ from pathlib import Path
 
 import pytest
 
-from ballscrew.engine import kernel as kernels
-
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
 
@@ -30,7 +28,7 @@ def test_benchmark():
     assert figures["points"] == 1_000_000
 
 
-@pytest.mark.skipif(not kernels.available(), reason="llvmlite is not installed (the extra fast)")
+@pytest.mark.compiles
 def test_engine():
     """What is asked for on a quiet machine is 20, 12, 30 and 10; other tests are running, and ratios are what is left.
 

@@ -10,7 +10,6 @@ import ballscrew as bs
 from ballscrew.analyses.derivatives import derivatives
 from ballscrew.analyses.olaru2005 import OIL, SCREW
 from ballscrew.analyses.plan import Subject
-from ballscrew.engine import kernel as kernels
 
 MODELS = {
     "olaru2005": bs.FrictionModel.olaru2005(),
@@ -33,7 +32,6 @@ RANGES = {
     "friction.boundary_friction_coefficient": (0.1, 0.2),
 }
 OUTPUTS = ("screw_torque", "efficiency")
-needs_compiler = pytest.mark.skipif(not kernels.available(), reason="llvmlite is not installed (the extra fast)")
 
 
 def random_points(count):
@@ -73,7 +71,7 @@ def test_against_differences(name):
             assert np.max(np.abs(scaled(found, values, output, changed) - expected)) < 5e-9, (output, changed)
 
 
-@needs_compiler
+@pytest.mark.compiles
 @pytest.mark.parametrize("name", MODELS)
 def test_kernels_and_numpy_agree(name):
     values = random_points(500)

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from ballscrew.analyses.distributions import LogNormal, Normal, Triangular, Uniform, standard_normal_quantile
+from ballscrew.analyses.distributions import LogNormal, Normal, Triangular, Uniform, standard_normal_quantile, within
 from ballscrew.engine.program import Player, Program
 from ballscrew.engine.tape import Tape, Traced
 from ballscrew.faults import InputError
+from ballscrew.quantities import Info
 
 #: From the smallest to the largest random number there is, close to where the approximations change.
 LEVELS = np.unique(
@@ -113,3 +114,75 @@ def test_words():
     assert Normal(np.float64(0.1), 0.02).words("1") == "normal, mean 0.1, standard deviation 0.02"
     assert LogNormal(0.1, 1.3).words("Pa s") == "log-normal, median 0.1 Pa s, factor 1.3"
     assert Triangular(0, 1, 3).words("m") == "triangular from 0.0 m to 3.0 m, mode 1.0 m"
+
+
+# -- cut at ends ----------------------------------------------------------------------------------
+
+CUT = {
+    "normal": (Normal(2.0, 0.3, 1.8, 2.9), stats.truncnorm(-0.2 / 0.3, 3.0, 2.0, 0.3)),
+    "normal, one end": (Normal(0.1, 0.05, low=0.0), stats.truncnorm(-2.0, math.inf, 0.1, 0.05)),
+    "normal, half": (Normal(0.0, 1.0, low=0.0), stats.halfnorm()),
+}
+
+
+@pytest.mark.parametrize("name", CUT)
+def test_cut_quantiles(name):
+    """SciPy's truncated distributions; near an end both lose digits to the difference of two shares."""
+    distribution, expected = CUT[name]
+    levels = LEVELS[(LEVELS > 1e-9) & (LEVELS < 1 - 1e-9)]
+    assert distribution.quantile(levels) == pytest.approx(expected.ppf(levels), rel=1e-6, abs=1e-9)
+    assert expected.cdf(distribution.quantile(levels)) == pytest.approx(levels, rel=1e-7, abs=1e-12)
+
+
+def test_cut_log_normal():
+    """Its share below x is (F(x) − F(low)) / (F(high) − F(low)), F that of SciPy's log-normal."""
+    whole = stats.lognorm(math.log(1.4), scale=0.1)
+    low, high = 0.08, 0.2
+    found = LogNormal(0.1, 1.4, low, high).quantile(np.linspace(0.01, 0.99, 99))
+    share = (whole.cdf(found) - whole.cdf(low)) / (whole.cdf(high) - whole.cdf(low))
+    assert share == pytest.approx(np.linspace(0.01, 0.99, 99), rel=1e-12)
+
+
+@pytest.mark.parametrize("distribution", [Normal(0.5, 2.0, 0.0, 1.0), LogNormal(0.5, 5.0, 0.1, 1.0)])
+def test_no_sample_lies_beyond_an_end(distribution):
+    found = distribution.quantile(LEVELS)
+    assert found.min() >= distribution.low
+    assert found.max() <= distribution.high
+    assert np.all(np.diff(found) >= 0)
+
+
+def test_ends_that_no_sample_reaches_change_no_bit():
+    for cut, whole in (
+        (Normal(40.0, 0.1, 0.0, 80.0), Normal(40.0, 0.1)),
+        (LogNormal(0.1, 1.3, 1e-9, 1e9), LogNormal(0.1, 1.3)),
+    ):
+        assert np.array_equal(cut.quantile(LEVELS), whole.quantile(LEVELS))
+
+
+def test_within_cuts_where_a_bound_can_be_reached():
+    info = Info("x", "a ratio", above=0.5, at_most=1)
+    assert within(Normal(0.54, 0.001), info) == Normal(0.54, 0.001)
+    cut = within(Normal(0.54, 0.02), info)
+    assert cut.low > 0.5
+    assert cut.low == pytest.approx(0.5, abs=1e-15)
+    assert cut.high == math.inf
+    assert within(Normal(0.9, 0.05), info).high == 1.0
+    assert within(Uniform(0.52, 0.56), info) == Uniform(0.52, 0.56)
+    assert within(LogNormal(0.1, 2.0), Info("x", "a positive number", above=0)) == LogNormal(0.1, 2.0)
+    with pytest.raises(InputError, match="must leave the middle between its ends"):
+        within(Normal(0.4, 0.1), info)
+
+
+def test_cut_on_values_that_are_recorded():
+    for distribution in (Normal(2.0, 0.3, 1.8, 2.9), LogNormal(0.1, 1.4, 0.08, 0.2)):
+        tape = Tape(1)
+        recorded = distribution.quantile(tape.value(0))
+        played = {"out": np.empty_like(LEVELS)}
+        with np.errstate(all="ignore"):
+            Player(Program.of(tape, {"out": recorded})).play([LEVELS], played)
+        assert played["out"] == pytest.approx(distribution.quantile(LEVELS), rel=1e-14)
+
+
+def test_words_of_ends():
+    assert Normal(0.1, 0.02, low=0.0).words("m") == "normal, mean 0.1 m, standard deviation 0.02 m, cut below 0.0 m"
+    assert LogNormal(0.1, 1.3, 0.05, 0.5).words("1").endswith("factor 1.3, cut below 0.05 and above 0.5")

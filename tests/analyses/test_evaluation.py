@@ -26,7 +26,6 @@ MODELS = {
     "reference": bs.FrictionModel.reference(),
 }
 EXAMPLE = Path(__file__).parents[2] / "examples" / "olaru2005.toml"
-needs_compiler = pytest.mark.skipif(not kernels.available(), reason="llvmlite is not installed (the extra fast)")
 
 #: Every kind of input, over ranges that reach beyond what is usual.
 RANGES = {
@@ -80,7 +79,7 @@ def filled(plan, engine, **how):
     return results
 
 
-@needs_compiler
+@pytest.mark.compiles
 @pytest.mark.parametrize("name", MODELS)
 def test_kernels_are_the_model_on_plain_arrays(name):
     """A hundred thousand random points, no load and rest among them, all outputs."""
@@ -108,7 +107,7 @@ def test_kernels_are_the_model_on_plain_arrays(name):
         assert np.all(np.abs(value - expected) <= 1e-12 * scale), output.name
 
 
-@needs_compiler
+@pytest.mark.compiles
 @pytest.mark.parametrize("engine", ["numpy", "compiled"])
 @pytest.mark.parametrize("name", ["olaru2005", "reference"])
 @pytest.mark.parametrize("how", [{"block_size": 7}, {"block_size": 37}, {"block_size": 1000, "threads": 3}])
@@ -125,7 +124,7 @@ def grid(*sizes):
     return {n: np.linspace(*e, s) for n, e, s in zip(names, ends, sizes, strict=True)}
 
 
-@needs_compiler
+@pytest.mark.compiles
 @pytest.mark.parametrize("name", MODELS)
 def test_grids_are_the_points_they_are_made_of(name):
     """No load and rest are among the values of the axes."""
@@ -145,7 +144,7 @@ def test_grids_are_the_points_they_are_made_of(name):
             assert np.all(off <= 1e-12 * size[finite]), output
 
 
-@needs_compiler
+@pytest.mark.compiles
 @pytest.mark.parametrize("how", [{"block_size": 1}, {"block_size": 100}, {"block_size": 5000, "threads": 2}])
 def test_any_blocks_of_a_grid_give_the_same_bits(how):
     plan = Plan.of(Subject(MODELS["olaru2005"], SCREW, OIL), None, grid(7, 11, 30))
@@ -154,7 +153,7 @@ def test_any_blocks_of_a_grid_give_the_same_bits(how):
         assert np.array_equal(values, whole[output], equal_nan=True), output
 
 
-@needs_compiler
+@pytest.mark.compiles
 def test_parts_are_what_the_whole_has_there():
     plan = Plan.of(Subject(MODELS["corrected"], SCREW, OIL), None, grid(7, 11, 30))
     evaluation, whole = Evaluation.of(plan, "compiled"), filled(plan, "compiled")
@@ -177,7 +176,7 @@ def test_rectangles_cover_a_part_once(start, size, row_length):
     assert places == list(range(part.start, part.stop))
 
 
-@needs_compiler
+@pytest.mark.compiles
 @pytest.mark.parametrize("name", MODELS)
 @pytest.mark.parametrize("engine", ["numpy", "compiled"])
 def test_no_load_and_rest_as_numbers(name, engine):
@@ -195,14 +194,14 @@ def test_no_load_and_rest_as_numbers(name, engine):
             assert np.allclose(values, expected, rtol=1e-12, atol=1e-18, equal_nan=True), output
 
 
-@needs_compiler
+@pytest.mark.compiles
 def test_a_tall_grid_has_no_tables():
     """Tables of many rows would need more memory than the blocks they serve."""
     axes = {"axial_load": np.linspace(1, 4000, 1_000_000), "screw_speed": np.linspace(1, 100, 20)}
     assert Evaluation.of(Plan.of(Subject(MODELS["reference"], SCREW, OIL), None, axes), "compiled")._row_length == 1
 
 
-@needs_compiler
+@pytest.mark.compiles
 def test_a_law_of_the_same_name_has_another_fingerprint():
     """On a grid, what is different may be in a table only; and a law may not be recorded at all."""
 
@@ -226,7 +225,7 @@ def test_a_law_of_the_same_name_has_another_fingerprint():
     assert fingerprint(friction=blind(0.1)) != fingerprint(friction=blind(0.2))
 
 
-@needs_compiler
+@pytest.mark.compiles
 def test_the_number_of_balls_can_be_varied():
     plan = Plan.of(Subject(MODELS["reference"], SCREW, OIL), None, {**grid(5, 7, 9), "loaded_balls": [50, 56]})
     found, expected = filled(plan, "compiled"), filled(plan, "numpy")
@@ -252,7 +251,7 @@ def test_small_work_is_left_to_numpy():
     assert Evaluation.of(plan).engine == "numpy"
 
 
-@needs_compiler
+@pytest.mark.compiles
 def test_large_work_is_compiled_and_what_is_compiled_is_used():
     subject = Subject(dataclasses.replace(MODELS["reference"], ball_friction_coefficient=0.0987), SCREW, OIL)
     assert Evaluation.of(Plan.of(subject, None, random_points(3_000_000))).engine == "compiled"
@@ -275,7 +274,7 @@ def test_unknown_engine():
         bs.sweep(MODELS["olaru2005"], SCREW, OIL, axial_load=[1.0], screw_speed=[1.0], engine="turbo")
 
 
-@needs_compiler
+@pytest.mark.compiles
 def test_a_law_that_kernels_do_not_know():
     """It is evaluated by NumPy, unless a kernel is asked for."""
 

@@ -4,7 +4,6 @@ Bounds on what is random are five standard errors, from theory.
 """
 
 import dataclasses
-import importlib.util
 import itertools
 import math
 import tracemalloc
@@ -20,9 +19,6 @@ from ballscrew.analyses.monte_carlo import BLOCK, monte_carlo
 from ballscrew.engine import random
 from ballscrew.engine.sketch import RELATIVE_ERROR
 
-NEEDS_COMPILER = pytest.mark.skipif(
-    importlib.util.find_spec("llvmlite") is None, reason='kernels need llvmlite: pip install "ballscrew[fast]"'
-)
 ERRORS = 5
 INPUTS = {
     "axial_load": Uniform(1000.0, 4000.0),
@@ -31,7 +27,7 @@ INPUTS = {
     "screw_conformity": Uniform(0.51, 0.53),
     "ball_roughness": Normal(0.08e-6, 0.01e-6),
 }
-BY_ENGINE = [pytest.param("numpy"), pytest.param("compiled", marks=NEEDS_COMPILER)]
+BY_ENGINE = [pytest.param("numpy"), pytest.param("compiled", marks=pytest.mark.compiles)]
 
 
 @pytest.fixture(params=BY_ENGINE)
@@ -129,7 +125,7 @@ def test_any_number_of_threads(sampled, engine):
     assert not one.equals(sampled(**options | {"seed": 4}))
 
 
-@NEEDS_COMPILER
+@pytest.mark.compiles
 @pytest.mark.parametrize("name", ["olaru2005", "corrected"])
 def test_engines_agree(sampled, name):
     model = getattr(bs.FrictionModel, name)()
@@ -143,7 +139,7 @@ def test_engines_agree(sampled, name):
 
 
 @pytest.mark.parametrize(
-    ("engine", "samples"), [("numpy", 10**6), pytest.param("compiled", 2 * 10**7, marks=NEEDS_COMPILER)]
+    ("engine", "samples"), [("numpy", 10**6), pytest.param("compiled", 2 * 10**7, marks=pytest.mark.compiles)]
 )
 def test_memory_is_bounded(sampled, engine, samples):
     """One output of twenty million samples takes 160 MB; a run takes some buffers and bins for each thread."""
@@ -176,7 +172,7 @@ def test_a_law_that_cannot_be_recorded(sampled):
         assert by_table[variable].to_numpy() == pytest.approx(by_line[variable].to_numpy(), rel=1e-9)
 
 
-@NEEDS_COMPILER
+@pytest.mark.compiles
 def test_a_law_that_cannot_be_recorded_has_no_kernel(sampled):
     def table(film_parameter, conditions, full_film):
         return np.interp(film_parameter, [0.0, 3.0], [0.2, 0.02])

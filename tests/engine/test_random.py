@@ -1,7 +1,5 @@
 """Random numbers by counting: the published answers, in NumPy and in compiled kernels."""
 
-import importlib.util
-
 import numpy as np
 import pytest
 
@@ -10,10 +8,6 @@ from ballscrew.engine.emission import kernel_text
 from ballscrew.engine.kernel import Kernel
 from ballscrew.engine.program import Program
 from ballscrew.engine.tape import Tape
-
-needs_compiler = pytest.mark.skipif(
-    importlib.util.find_spec("llvmlite") is None, reason='kernels need llvmlite: pip install "ballscrew[fast]"'
-)
 
 #: Known answers of Philox4x32-10, published with Salmon, Moraes, Dror & Shaw 2011: counter, key, words.
 ANSWERS = {
@@ -81,7 +75,7 @@ def test_numbers_do_not_depend_on_the_others(start, seed):
             assert np.array_equal(one, all_of_it[first:last])
 
 
-@needs_compiler
+@pytest.mark.compiles
 @pytest.mark.parametrize("lanes", [8, 32])
 @pytest.mark.parametrize("inputs", [1, 2, 5])
 def test_kernels_make_the_same_numbers(inputs, lanes):

@@ -1,6 +1,5 @@
 """Sketches: laws that hold whatever the numbers, the pieces they come in and who counts."""
 
-import importlib.util
 import math
 from fractions import Fraction
 
@@ -11,9 +10,6 @@ from hypothesis import strategies as st
 
 from ballscrew.engine.sketch import RELATIVE_ERROR, UNIT, Sketch
 
-NEEDS_COMPILER = pytest.mark.skipif(
-    importlib.util.find_spec("llvmlite") is None, reason='kernels need llvmlite: pip install "ballscrew[fast]"'
-)
 TINY = 2.2250738585072014e-308
 SHARES = (0.0, 0.025, 0.3, 0.5, 0.975, 1.0)
 
@@ -23,7 +19,9 @@ finite = st.lists(of_any_size | st.sampled_from([0.0, -0.0, 1.0, 5e-324, TINY]),
 anything = st.lists(of_any_size | st.sampled_from([math.nan, math.inf, -math.inf, 0.0]), max_size=40)
 
 
-@pytest.fixture(params=[False, pytest.param(True, marks=NEEDS_COMPILER)], ids=["numpy", "compiled"], scope="module")
+@pytest.fixture(
+    params=[False, pytest.param(True, marks=pytest.mark.compiles)], ids=["numpy", "compiled"], scope="module"
+)
 def compiled(request):
     return request.param
 
@@ -194,7 +192,7 @@ def test_memory_does_not_grow_with_the_numbers(compiled):
     assert sum(a.nbytes for a in vars(sketch).values() if isinstance(a, np.ndarray)) < 250_000
 
 
-@NEEDS_COMPILER
+@pytest.mark.compiles
 def test_kernels_count_as_numpy_does():
     """The same bins; sums to rounding."""
     values = some_numbers(3 * UNIT + 11)

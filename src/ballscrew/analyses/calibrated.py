@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -26,6 +27,9 @@ from ballscrew.components.screw import BallScrew
 from ballscrew.faults import Fault, InputError
 from ballscrew.model import FrictionModel
 from ballscrew.quantities import AngularSpeed, Force, Quantity, Temperature, Torque
+
+#: Residuals are looked at over so many parts of the rows.
+PARTS = 5
 
 
 @dataclasses.dataclass(frozen=True)
@@ -67,6 +71,14 @@ class Band(NamedTuple):
     high: Torque
 
 
+class Trend(NamedTuple):
+    """Residuals of friction over fifths of the rows in the order of something: its means, theirs, and the errors."""
+
+    values: NDArray[np.float64]
+    means: NDArray[np.float64]
+    errors: NDArray[np.float64]
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class Rows:
     """The rows of the log that were used, with what the calibrated model says of them."""
@@ -88,6 +100,23 @@ class Rows:
     def residuals(self) -> NDArray[np.float64]:
         """Predicted less measured torque, N m."""
         return self.predicted - self.log.torque
+
+    @functools.cached_property
+    def trends(self) -> Mapping[str, Trend]:
+        """How the residuals of friction depend on what was logged, outliers left out; positive: predicted too large."""
+        log, kept = self.log, ~self.outlying
+        against = {
+            "screw_speed": np.abs(log.screw_speed),
+            "axial_load": np.abs(log.axial_load),
+            "temperature": log.temperature,
+            "time": log.time,
+        }
+        off = self.residuals * self.direction
+        return {
+            name: _trend(values[kept], off[kept])
+            for name, values in against.items()
+            if values is not None and np.count_nonzero(kept) >= PARTS and np.ptp(values[kept]) > 0
+        }
 
     def rms(self, residuals: NDArray[np.float64], chosen: NDArray[np.bool_]) -> float:
         """Root mean square of residuals of some rows, those left out that are outliers of the calibrated model."""
@@ -228,6 +257,13 @@ class CalibratedModel:
         lines += [f"not known: {product(c.powers)}" for c in self.identifiability.combinations if not c.identified]
         lines += [f"{s.words}: rms {s.fitted:.4g} N m, held out {s.held_out:.4g} N m" for s in self.scores]
         return "\n".join([*lines, *(f"beware: {warning}" for warning in self.warnings)])
+
+
+def _trend(values: NDArray[np.float64], residuals: NDArray[np.float64]) -> Trend:
+    parts = np.array_split(np.argsort(values, kind="stable"), PARTS)
+    means = np.array([[values[part].mean(), residuals[part].mean()] for part in parts])
+    errors = np.array([residuals[part].std() / np.sqrt(part.size) for part in parts])
+    return Trend(means[:, 0], means[:, 1], errors)
 
 
 def normal_half_width(level: float) -> float:

@@ -6,9 +6,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ballscrew.analyses.robust import Vector, memory, pull
+from ballscrew.analyses.robust import memory, pull
 
 if TYPE_CHECKING:
     from ballscrew.analyses.calibrated import CalibratedModel
@@ -17,7 +16,6 @@ if TYPE_CHECKING:
 MANY_OUTLIERS = 0.1
 #: Residuals depend on something if their means over its parts differ by this much of what was measured.
 TREND_SHARE, TREND_ERRORS = 0.02, 4.0
-PARTS = 5
 #: A prior that leaves more than this share of its variance told more than the data.
 MOSTLY_PRIOR = 0.5
 
@@ -87,34 +85,15 @@ def _of_rows(found: CalibratedModel) -> list[str]:
 
 def _trends(found: CalibratedModel) -> list[str]:
     """Where residuals depend on the operating point: what the model is missing."""
-    log, rows = found.rows.log, found.rows
-    kept = ~rows.outlying
-    against: dict[str, NDArray[np.float64] | None] = {
-        "speed": np.abs(log.screw_speed),
-        "load": np.abs(log.axial_load),
-        "temperature": log.temperature,
-        "time": log.time,
-    }
-    friction = float(np.median(np.abs(rows.friction)))
+    friction = float(np.median(np.abs(found.rows.friction)))
     said: list[str] = []
-    for name, values in against.items():
-        if values is None or np.ptp(values) == 0:
-            continue
-        means, errors = means_of_parts(values[kept], (rows.residuals * rows.direction)[kept])
-        worst = int(np.argmax(np.abs(means)))
-        if abs(means[worst]) > max(TREND_ERRORS * errors[worst], TREND_SHARE * friction):
-            which = ("at the lowest", "at low", "at medium", "at high", "at the highest")[worst]
+    for name, trend in found.rows.trends.items():
+        worst = int(np.argmax(np.abs(trend.means)))
+        off = float(trend.means[worst])
+        if abs(off) > max(TREND_ERRORS * trend.errors[worst], TREND_SHARE * friction):
+            which = ("lowest", "lower", "middle", "higher", "highest")[worst]
             said.append(
-                f"friction is {'over' if means[worst] > 0 else 'under'}estimated by {abs(means[worst]) / friction:.0%} "
-                f"{which} {name}: the model misses something that depends on it"
+                f"friction is {'over' if off > 0 else 'under'}estimated by {abs(off) / friction:.0%} at the {which} "
+                f"fifth of the {name.replace('_', ' ')}: the model misses something that depends on it"
             )
     return said
-
-
-def means_of_parts(values: NDArray[np.float64], residuals: NDArray[np.float64]) -> tuple[Vector, Vector]:
-    """Means of residuals over fifths of the rows in the order of some values, and the standard errors of the means."""
-    order = np.argsort(values, kind="stable")
-    parts = np.array_split(residuals[order], PARTS)
-    means = np.array([part.mean() if part.size else 0.0 for part in parts])
-    errors = np.array([part.std() / np.sqrt(max(part.size, 1)) if part.size else np.inf for part in parts])
-    return means, errors

@@ -48,11 +48,9 @@ class Told:
     @property
     def numbers_told(self) -> NDArray[np.bool_]:
         """The numbers that have no part in a direction that is not told, and are known well enough themselves."""
-        with np.errstate(divide="ignore"):
-            error = 1 / self.singular_values
         parts = np.abs(self.directions)
-        undecided = (parts > PRESENT) & (parts * error > PART)
-        own = np.sqrt(np.sum((parts[:, self.told] * error[self.told]) ** 2, axis=1))
+        undecided = (parts > PRESENT) & (parts > PART * self.singular_values)
+        own = np.sqrt(np.sum((parts[:, self.told] / self.singular_values[self.told]) ** 2, axis=1))
         return ~undecided[:, ~self.told].any(axis=1) & (own <= LIMIT)
 
 

@@ -15,12 +15,10 @@ Every file is written under another name, brought to the disk, and renamed.
 from __future__ import annotations
 
 import contextlib
-import csv
 import dataclasses
 import errno
 import functools
 import importlib.util
-import io
 import itertools
 import json
 import os
@@ -28,8 +26,7 @@ import shutil
 import socket
 import uuid
 import warnings
-import zlib
-from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -40,10 +37,9 @@ from ballscrew.analyses.evaluation import Engine, Evaluation
 from ballscrew.analyses.outputs import attributes_of
 from ballscrew.analyses.plan import Plan
 from ballscrew.analyses.store_plan import Blocks, canonical, checksum, description, differences
+from ballscrew.analyses.store_rows import FALSE, OTHER, OWN, WHERE, crc, row
 from ballscrew.faults import Fault, InputError, raise_if_any
 
-#: How a person is told where a fault lies.
-WHERE = "sweep.to"
 #: LZ4 with the bytes of equal weight side by side: a map of seven outputs takes 0.72 of its bytes, and
 #: a disk slower than a processor compresses has the less to do. Zstandard saves 0.02 more at most and
 #: takes up to twice as long; on numbers as they are it saves half as much
@@ -51,12 +47,7 @@ WHERE = "sweep.to"
 COMPRESSION: Mapping[str, Any] = {"cname": "lz4", "clevel": 1, "shuffle": "shuffle"}
 #: Endings of files that somebody meant who gave one.
 _FILES = (".csv", ".xlsx", ".nc", ".json", ".toml")
-#: The folder of our own in a store.
-_OWN = ".ballscrew"
 _ROOT = "zarr.json"
-#: Ends the heading of a column that counts how often a truth value is false.
-_FALSE = " false"
-_OTHER = "choose another name, or remove it"
 _FOREIGN = "is there and is not the store of a sweep"
 #: A disk that is full, for all or for this user.
 FULL = {errno.ENOSPC, errno.EDQUOT}
@@ -101,7 +92,7 @@ class Store:
             evaluation = Evaluation.of(plan, chosen)
         except InputError as error:
             if engine is None and chosen is not None:
-                begun = Fault(WHERE, f"was begun with the engine {chosen}", str(folder), _OTHER)
+                begun = Fault(WHERE, f"was begun with the engine {chosen}", str(folder), OTHER)
                 raise InputError(begun, *error.faults) from None
             raise
         blocks = Blocks.of(plan, block_size)
@@ -131,7 +122,7 @@ class Store:
     @property
     def own(self) -> Path:
         """The folder with the plan and the checksums."""
-        return self.path / _OWN
+        return self.path / OWN
 
     @property
     def variables(self) -> list[str]:
@@ -246,16 +237,16 @@ class Store:
         for key, chunk in held.items():
             if key != _ROOT:  # a chunk of nothing but the fill value has no file
                 self._put(self.path / name / key, [chunk.as_numpy_array()])
-        return _crc(values)
+        return crc(values)
 
     def commit(self, number: int, results: Mapping[str, np.ndarray], checksums: Sequence[str]) -> None:
         """Say that a block is finished, after all its outputs are written."""
         false = [results[name].size - np.count_nonzero(results[name]) for name in self._truths]
-        self._put(self.own / "blocks" / str(number), [_row([number, *checksums, *false])])
+        self._put(self.own / "blocks" / str(number), [row([number, *checksums, *false])])
 
     @property
     def _heading(self) -> bytes:
-        return _row(["block", *self.variables, *(f"{name}{_FALSE}" for name in self._truths)])
+        return row(["block", *self.variables, *(f"{name}{FALSE}" for name in self._truths)])
 
     @property
     def _truths(self) -> list[str]:
@@ -292,18 +283,6 @@ class Store:
         """The dataset of a complete store; values are read when they are asked for."""
         return xr.open_zarr(self.path, chunks=None, consolidated=True)[self.variables]
 
-    def damaged(self) -> list[int]:
-        """The blocks of a complete store whose numbers are not those that were written."""
-        dataset, found = self.opened(), list[int]()
-        for row in _rows(self.path):
-            number = int(row["block"])
-            region = dict(zip(self.plan.sizes, self.blocks.region(number), strict=True))
-            for name in self.variables:
-                if _crc(dataset[name].isel(region).to_numpy()) != row[name]:
-                    found.append(number)
-                    break
-        return found
-
 
 def _checked(path: str | os.PathLike[str], plan: Plan) -> Path:
     """The folder of a store; faults in what was given for it."""
@@ -323,12 +302,12 @@ def _stored(folder: Path) -> dict[str, Any] | None:
 
     Raises :class:`~ballscrew.faults.InputError` where something else is: it is not touched.
     """
-    path = folder / _OWN / "plan.json"
+    path = folder / OWN / "plan.json"
     try:
         text = path.read_text(encoding="utf-8")
     except FileNotFoundError:
         # without a plan there may be what a process left that was killed as it began
-        if not folder.exists() or not {path.name for path in folder.iterdir()} - {_OWN}:
+        if not folder.exists() or not {path.name for path in folder.iterdir()} - {OWN}:
             return None
         raise InputError(Fault(WHERE, _FOREIGN, str(folder), "choose another name")) from None
     except NotADirectoryError:
@@ -336,46 +315,12 @@ def _stored(folder: Path) -> dict[str, Any] | None:
             return None  # it is above that there is none, as making the folder will say
         raise InputError(Fault(WHERE, _FOREIGN, str(folder), "choose another name")) from None
     except (OSError, ValueError) as error:
-        raise InputError(Fault(WHERE, "cannot be read", f"{path}: {error}", _OTHER)) from None
+        raise InputError(Fault(WHERE, "cannot be read", f"{path}: {error}", OTHER)) from None
     with contextlib.suppress(ValueError, KeyError, TypeError):
         kept = json.loads(text)
         if checksum(kept["plan"]) == kept["sha256"]:
             return kept["plan"]
-    raise InputError(Fault(WHERE, "has a damaged plan", str(path), _OTHER))
-
-
-def false_in(path: Path) -> dict[str, tuple[int, int]]:
-    """For each truth value of a complete store that is false somewhere: how often, and the first block with it."""
-    found: dict[str, tuple[int, int]] = {}
-    try:
-        for row in _rows(path):
-            for heading, cell in row.items():
-                name, truth, _ = heading.partition(_FALSE)
-                if truth and (count := int(cell)):
-                    before, first = found.get(name, (0, int(row["block"])))
-                    found[name] = before + count, first
-    except (OSError, ValueError, TypeError, AttributeError) as error:
-        where = str(path / _OWN / "blocks.csv")
-        raise InputError(Fault(WHERE, "has checksums that cannot be read", f"{where}: {error}", _OTHER)) from None
-    return found
-
-
-def _rows(path: Path) -> Iterator[dict[str, str]]:
-    """For every block of a complete store its checksums, and how often each truth value is false."""
-    with (path / _OWN / "blocks.csv").open(encoding="utf-8", newline="") as file:
-        yield from csv.DictReader(file)
-
-
-def _crc(values: np.ndarray) -> str:
-    """The checksum of numbers, in the order of the grid."""
-    buffer: Any = np.ascontiguousarray(values).reshape(-1).view(np.uint8)
-    return f"{zlib.crc32(buffer):08x}"
-
-
-def _row(cells: list[Any]) -> bytes:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerow(cells)
-    return text.getvalue().encode()
+    raise InputError(Fault(WHERE, "has a damaged plan", str(path), OTHER))
 
 
 @contextlib.contextmanager

@@ -15,7 +15,8 @@ from ballscrew.analyses.cluster import check, fill_on_cluster
 from ballscrew.analyses.evaluation import Engine, Evaluation
 from ballscrew.analyses.lock import Lock
 from ballscrew.analyses.plan import Plan
-from ballscrew.analyses.store import WHERE, Store, stopping_cleanly
+from ballscrew.analyses.store import Store, stopping_cleanly
+from ballscrew.analyses.store_rows import WHERE
 from ballscrew.faults import Fault, InputError
 
 #: Outputs of a block that are compressed and written at a time.

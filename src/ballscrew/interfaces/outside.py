@@ -10,8 +10,8 @@ import numpy as np
 import xarray as xr
 
 from ballscrew.analyses.outputs import inputs_of
-from ballscrew.analyses.store import false_in
 from ballscrew.analyses.store_plan import Blocks
+from ballscrew.analyses.store_rows import false_in
 from ballscrew.faults import InputError
 from ballscrew.interfaces import units
 from ballscrew.interfaces.config import Case

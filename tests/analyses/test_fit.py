@@ -1,0 +1,268 @@
+"""Fits of logs with a known truth: the intervals hold what they say, and what cannot be told is not told."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from synthetic import OIL, TRUE_FRICTION, log, truth
+
+import ballscrew as bs
+from ballscrew.analyses.calibration import fit
+from ballscrew.analyses.olaru2005.case import SCREW
+from ballscrew.faults import InputError
+
+PAPER = bs.FrictionModel.olaru2005()
+FRICTION, OFFSET = "boundary_friction_coefficient", "pure_rolling_offset"
+SEEDS = 200
+
+
+def share_covered(hits):
+    """The share of the intervals that hold the truth; each interval is of 95 %."""
+    return float(np.mean(hits))
+
+
+SCENARIOS = {
+    "the friction coefficient": ([FRICTION], [TRUE_FRICTION], {}),
+    "two of one law": ([FRICTION, "decay"], [TRUE_FRICTION, 1.42], {}),
+    "with strong drift and outliers": ([FRICTION], [TRUE_FRICTION], {"drift": 0.1, "outliers": 0.1}),
+    "friction torque, with seals": ([FRICTION, "constant_torque"], [TRUE_FRICTION, 0.0], {"kind": "friction"}),
+    "the offset as well, with the clamp": (
+        [FRICTION, OFFSET], [TRUE_FRICTION, 0.34], {"speeds": (10, 10_000), "noise": 0.003},
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("scenario", SCENARIOS)
+def test_intervals_of_95_percent_hold_the_truth_in_90_to_99_percent_of_logs(scenario):
+    free, true, options = SCENARIOS[scenario]
+    hits = []
+    for seed in range(SEEDS):
+        found = fit(PAPER, SCREW, OIL, log(truth(), seed=seed, **options), free)
+        intervals = [estimate.interval() for estimate in found.estimates.values()]
+        assert all(interval is not None for interval in intervals)
+        hits.append([low <= value <= high for (low, high), value in zip(intervals, true, strict=True)])
+    for number in np.transpose(hits):
+        assert 0.90 <= share_covered(number) <= 0.99
+
+
+def curvature(numbers):
+    """What the torque depends on where no point reaches the clamp: M_C ∝ µ₀ (1 − 5 Y³ + 3 Y⁵)."""
+    mu, Y = numbers
+    return mu * (1 - 5 * Y**3 + 3 * Y**5)
+
+
+def test_the_combination_that_is_identified_has_an_interval_and_its_parts_have_none():
+    hits = []
+    for seed in range(SEEDS):
+        found = fit(PAPER, SCREW, OIL, log(truth(), seed=seed, speeds=(10, 600)), [FRICTION, OFFSET])
+        assert all(estimate.std is None for estimate in found.estimates.values())
+        mu, Y = (estimate.value for estimate in found.estimates.values())
+        gradient = np.zeros(found.solution.values.size)
+        gradient[:2] = [1 - 5 * Y**3 + 3 * Y**5, mu * (-15 * Y**2 + 15 * Y**4)]
+        half = 1.959964 * np.sqrt(found.uncertainty.variance_of(gradient))
+        hits.append(abs(curvature((mu, Y)) - curvature((TRUE_FRICTION, 0.34))) <= half)
+    assert 0.90 <= share_covered(hits) <= 0.99
+
+
+def test_friction_and_offset_cannot_be_told_apart_while_no_point_reaches_the_clamp():
+    columns = log(truth(), speeds=(10, 600), noise=0.003)
+    result = truth()(SCREW, OIL, axial_load=columns["axial_load"], screw_speed=np.abs(columns["screw_speed"]))
+    assert np.all(result.screw.friction_coefficient > 0.02)
+    assert np.all(result.nut.friction_coefficient > 0.02)
+    found = fit(PAPER, SCREW, OIL, columns, [FRICTION, OFFSET])
+    known, unknown = found.identifiability.combinations
+    assert known.identified
+    assert not unknown.identified
+    assert set(unknown.powers) == {FRICTION, OFFSET}
+    for estimate in found.estimates.values():
+        assert not estimate.identified
+        assert estimate.std is None
+        assert estimate.interval() is None
+    assert any("cannot be told apart" in warning for warning in found.warnings)
+    assert "not identified" in found.report()
+
+
+def test_they_can_when_enough_points_reach_it():
+    columns = log(truth(), speeds=(10, 10_000), noise=0.003)
+    result = truth()(SCREW, OIL, axial_load=columns["axial_load"], screw_speed=np.abs(columns["screw_speed"]))
+    assert np.mean(result.screw.friction_coefficient <= 0.02) > 0.2
+    found = fit(PAPER, SCREW, OIL, columns, [FRICTION, OFFSET])
+    assert all(estimate.identified for estimate in found.estimates.values())
+    assert all(combination.identified for combination in found.identifiability.combinations)
+    assert not any("told apart" in warning for warning in found.warnings)
+
+
+def test_a_number_that_the_torque_does_not_depend_on_is_not_identified():
+    found = fit(PAPER, SCREW, OIL, log(truth()), [FRICTION, "lubricant.heat_capacity"])
+    assert found.estimates[FRICTION].identified
+    assert found.estimates["lubricant.heat_capacity"].std is None
+    assert any("hardly depend" in warning for warning in found.warnings)
+
+
+def test_a_prior_counts_and_says_how_much():
+    columns = log(truth(), speeds=(10, 600))
+    priors = {OFFSET: bs.Normal(0.34, 0.01)}
+    found = fit(PAPER, SCREW, OIL, columns, [FRICTION, OFFSET], priors=priors)
+    assert found.estimates[OFFSET].value == pytest.approx(0.34, abs=0.003)
+    assert found.estimates[FRICTION].value == pytest.approx(TRUE_FRICTION, rel=0.05)
+    # the log says nothing of it: all that is known is the prior
+    assert found.estimates[OFFSET].prior_share == pytest.approx(1.0, abs=0.02)
+    assert not found.estimates[OFFSET].identified
+    told = fit(PAPER, SCREW, OIL, columns, [FRICTION], priors={FRICTION: bs.LogNormal(0.11, 3.0)})
+    assert told.estimates[FRICTION].prior_share < 0.01
+
+
+def test_a_number_at_its_bound_has_no_error_bar():
+    found = fit(PAPER, SCREW, OIL, log(truth()), [FRICTION], bounds={FRICTION: (0.15, 0.3)})
+    estimate = found.estimates[FRICTION]
+    assert estimate.value == pytest.approx(0.15, abs=1e-3)
+    assert estimate.at_bound
+    assert estimate.std is None
+    assert any("bound" in warning for warning in found.warnings)
+
+
+@pytest.mark.parametrize("kind", ["drive", "friction"])
+@pytest.mark.parametrize("turn", ["as it is", "reversed", "magnitude"])
+def test_the_model_tells_what_the_torque_is_and_which_signs_it_has(kind, turn):
+    columns = log(truth(), kind=kind, drift=0, outliers=0)
+    if turn == "reversed":
+        columns["torque"] = -columns["torque"]
+    if turn == "magnitude":
+        columns["torque"] = np.abs(columns["torque"])
+    found = fit(PAPER, SCREW, OIL, columns, [FRICTION])
+    assert found.rows.reading.kind == kind
+    assert found.rows.reading.reversed == (turn == "reversed")
+    assert found.estimates[FRICTION].value == pytest.approx(TRUE_FRICTION, abs=0.006)
+
+
+def test_temperatures_change_the_oil():
+    oil = bs.Lubricant.from_grade("ISO VG 100")
+    columns = log(truth(), oil=oil, temperatures=(290, 335))
+    found = fit(PAPER, SCREW, oil, columns, [FRICTION])
+    assert found.estimates[FRICTION].value == pytest.approx(TRUE_FRICTION, abs=3 * found.estimates[FRICTION].std)
+    del columns["temperature"]
+    assert fit(PAPER, SCREW, oil, columns, [FRICTION]).residual_rms > 1.05 * found.residual_rms
+
+
+def test_derivatives_of_the_fit_are_those_of_its_torque():
+    found = fit(bs.FrictionModel.reference(), SCREW, OIL, log(truth(), rows=50), [FRICTION, "screw_conformity"])
+    at, problem = found.solution.values, found.problem
+    _, slopes = problem.torque(at)
+    for i, step in enumerate(1e-6 * problem.scale):
+        beside = np.eye(at.size)[i] * step
+        difference = (problem.torque(at + beside)[0] - problem.torque(at - beside)[0]) / (2 * step)
+        np.testing.assert_allclose(slopes[:, i], difference, rtol=2e-5, atol=1e-7 * np.abs(difference).max())
+
+
+def test_what_is_held_out_is_not_fitted():
+    columns = log(truth())
+    found = fit(PAPER, SCREW, OIL, columns, [FRICTION], seed=3)
+    held_out = found.rows.held_out
+    assert 0.15 < held_out.mean() < 0.25
+    spoilt = dict(columns, torque=np.where(held_out, columns["torque"] + 5.0, columns["torque"]))
+    again = fit(PAPER, SCREW, OIL, spoilt, [FRICTION], seed=3, kind="drive")
+    assert again.estimates[FRICTION].value == found.estimates[FRICTION].value
+
+
+def test_prediction_and_band_are_those_of_the_fitted_model():
+    found = fit(PAPER, SCREW, OIL, log(truth()), [FRICTION, "constant_torque"])
+    load, speed = np.array([500.0, 2000.0, 4000.0]), np.array([5.0, 20.0, 80.0])
+    own = found.model(SCREW, OIL, axial_load=load, screw_speed=speed).screw_torque + found.constant_torque
+    np.testing.assert_allclose(found.predict(load, speed), own, rtol=1e-13)
+    band, wide = found.band(load, speed), found.band(load, speed, scatter=True)
+    np.testing.assert_allclose(band.value, own, rtol=1e-9)
+    true = truth()(SCREW, OIL, axial_load=load, screw_speed=speed).screw_torque
+    assert np.all((band.low < true) & (true < band.high))
+    scatter = np.sqrt((wide.high - wide.low) ** 2 - (band.high - band.low) ** 2) / (2 * 1.959964)
+    np.testing.assert_allclose(scatter, found.solution.scatter, rtol=1e-6)
+    assert np.ndim(found.band(500.0, 5.0).low) == 0
+
+
+def test_there_is_no_band_where_the_log_does_not_tell_the_torque():
+    found = fit(PAPER, SCREW, OIL, log(truth(), speeds=(10, 300)), [FRICTION, OFFSET])
+    inside, clamped = found.band(3000.0, 10.0), found.band(300.0, 2000.0)
+    assert inside.low < inside.value < inside.high
+    assert np.isfinite(clamped.value)
+    assert np.isnan(clamped.low)
+    assert np.isnan(clamped.high)
+
+
+@pytest.mark.parametrize("changed", [{"wrong": 1}, {"axial_load": None}])
+def test_logs_without_what_is_needed_are_refused(changed):
+    columns = {name: values for name, values in (log(truth()) | changed).items() if values is not None}
+    if "wrong" in changed:
+        assert fit(PAPER, SCREW, OIL, columns, [FRICTION]).estimates[FRICTION].identified
+    else:
+        with pytest.raises(InputError, match="axial_load"):
+            fit(PAPER, SCREW, OIL, columns, [FRICTION])
+
+
+@pytest.mark.parametrize(
+    ("free", "options", "words"),
+    [
+        (["friktion"], {}, "unknown name"),
+        (["axial_load"], {}, "given by the log"),
+        (["loaded_balls"], {}, "whole number"),
+        (FRICTION, {}, "must be a list"),
+        ([], {}, "must be a list"),
+        (["young_modulus"], {}, "unknown name"),
+        ([FRICTION], {"holdout": 0.9}, "share"),
+        ([FRICTION], {"kind": "torque"}, "unknown kind"),
+        ([FRICTION], {"priors": {OFFSET: bs.Normal(0.3, 0.1)}}, "is not free"),
+        ([FRICTION], {"bounds": {FRICTION: (0.3, 0.1)}}, "leave no room"),
+    ],
+)
+def test_what_cannot_be_fitted_is_refused(free, options, words):
+    with pytest.raises(InputError, match=words):
+        fit(PAPER, SCREW, OIL, log(truth(), rows=30), free, **options)
+
+
+def test_a_number_without_a_value_has_nothing_to_start_from():
+    with pytest.raises(InputError, match="no value to start from"):
+        fit(bs.FrictionModel.corrected(), SCREW, OIL, log(truth(), rows=30), [OFFSET])
+
+
+def test_the_force_between_balls_starts_from_what_stands_for_none():
+    found = fit(PAPER, SCREW, OIL, log(truth(), noise=1e-4, outliers=0), ["ball_to_ball_force"])
+    assert found.estimates["ball_to_ball_force"].start == pytest.approx(1 / 56)
+
+
+def test_ten_rows_are_few_but_enough():
+    found = fit(PAPER, SCREW, OIL, log(truth(), rows=10, noise=0.002, outliers=0, drift=0, both=False), [FRICTION])
+    assert found.estimates[FRICTION].value == pytest.approx(TRUE_FRICTION, abs=0.02)
+    assert found.holdout_rms is not None
+
+
+@pytest.mark.compiles
+def test_the_fit_is_the_same_by_either_engine():
+    columns = log(truth())
+    one, other = (fit(PAPER, SCREW, OIL, columns, [FRICTION], engine=engine) for engine in ("numpy", "compiled"))
+    assert one.estimates[FRICTION].value == pytest.approx(other.estimates[FRICTION].value, rel=1e-9)
+    assert one.estimates[FRICTION].std == pytest.approx(other.estimates[FRICTION].std, rel=1e-7)
+
+
+def test_progress_is_told():
+    told = []
+    fit(
+        PAPER,
+        SCREW,
+        OIL,
+        log(truth(), rows=50),
+        [FRICTION],
+        done=lambda finished, total: told.append((finished, total)),
+    )
+    assert told
+    assert all(finished <= total for finished, total in told)
+
+
+def test_physics_misses_by_less_than_descriptions_without_it():
+    scores = {score.words: score for score in fit(PAPER, SCREW, OIL, log(truth(), noise=0.003), [FRICTION]).scores}
+    calibrated = scores.pop("the model calibrated")
+    assert all(calibrated.held_out < score.held_out for score in scores.values())
+    assert calibrated.held_out == pytest.approx(0.003, rel=0.3)
+
+
+def test_residuals_that_depend_on_the_speed_are_told():
+    model = dataclasses.replace(truth(), film=bs.HamrockDowson())
+    found = fit(PAPER, SCREW, OIL, log(model, noise=0.002), [FRICTION])
+    assert any("screw speed" in warning and "misses something" in warning for warning in found.warnings)

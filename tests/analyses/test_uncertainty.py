@@ -1,0 +1,351 @@
+"""Bands: against linear propagation, against another sampler, and against all combinations of laws.
+
+Bounds on what is random are errors of random sampling, from theory; evenly spread samples do no worse.
+"""
+
+import dataclasses
+import itertools
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import ballscrew as bs
+from ballscrew.analyses.comparison import Candidate
+from ballscrew.analyses.distributions import LogNormal, Normal, Uniform
+from ballscrew.analyses.known_uncertainties import JUDGEMENT, known_uncertainties, usual_uncertainties
+from ballscrew.analyses.nut_parts import NutParts
+from ballscrew.analyses.sampling import JointNormal
+from ballscrew.analyses.uncertainty import band, band_along
+from ballscrew.components.laws import ProportionalBallForce
+from ballscrew.components.lubrication import houpert_rolling
+from ballscrew.components.mixed_friction import BalanSharing
+from ballscrew.faults import InputError
+from ballscrew.interfaces import band as interface
+from ballscrew.interfaces import config, uncertain
+from ballscrew.references import bibliography
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+POINT = {"axial_load": 4000.0, "screw_speed": 60.0}
+Z = 1.959963984540054
+ERRORS = 5
+
+
+@pytest.fixture(scope="module")
+def drive():
+    return config.load(EXAMPLES / "feed_drive.toml")
+
+
+@pytest.fixture
+def of_seed(seed_screw, seed_oil):
+    def made(model=None, **options):
+        return band(model or bs.FrictionModel.reference(), seed_screw, seed_oil, **{**POINT, **options})
+
+    return made
+
+
+# -- uncertain inputs -----------------------------------------------------------------------------
+
+
+def test_small_deviations_propagate_as_derivatives_say(of_seed, seed_screw, seed_oil):
+    """σ² = Σ (∂M/∂x σ_x)², and the interval is normal: exact as the deviations vanish."""
+    share = 1e-4
+    centres = {
+        "viscosity": 0.1,
+        "axial_load": 4000.0,
+        "screw_conformity": 0.515,
+        "friction.boundary_friction_coefficient": 0.12,
+    }
+    samples = 2**14
+    found = of_seed(uncertain={name: Normal(value, share * value) for name, value in centres.items()}, samples=samples)[
+        "screw_torque"
+    ]
+    slopes = bs.derivatives(bs.FrictionModel.reference(), seed_screw, seed_oil, by=list(centres), **POINT)
+    parts = [float(slopes[f"d_screw_torque_d_{n.replace('.', '_')}"]) * share * v for n, v in centres.items()]
+    deviation = math.sqrt(sum(part**2 for part in parts))
+    tail = 0.025
+    error = math.sqrt(tail * (1 - tail) / samples) * math.sqrt(2 * math.pi) * math.exp(Z**2 / 2) * deviation
+    assert abs(found.both.low - (found.value - Z * deviation)) < ERRORS * error
+    assert abs(found.both.high - (found.value + Z * deviation)) < ERRORS * error
+    assert abs(found.median - found.value) < ERRORS * error
+    assert found.both == found.parameters
+    assert found.share_of_parameters == 1
+    assert found.model_form == (found.value, found.value)
+
+
+@pytest.mark.parametrize("output", ["screw_torque", "efficiency", "holding_torque", "friction_power"])
+def test_wide_distributions_against_random_samples(output, drive):
+    """The ends of the band lie where the random sampler has the shares that they should have."""
+    inputs = {name: one.distribution for name, one in uncertain.all_of(drive).items()}
+    point = {name: getattr(drive.operation, name) for name in ("axial_load", "screw_speed")}
+    subject = (drive.model, drive.screw, drive.lubricant)
+    count, random = 2**13, 2**16
+    found = band(*subject, uncertain=inputs, **point, outputs=[output], samples=count)[output].parameters
+    for end, share in zip(found, (0.025, 0.975), strict=True):
+        error = ERRORS * math.sqrt(share * (1 - share) * (1 / count + 1 / random))
+        around = [share - error, share + error]
+        others = bs.monte_carlo(
+            *subject, distributions=inputs, samples=random, seed=3, outputs=[output], quantiles=around, **point
+        )[f"{output}_quantiles"].to_numpy()
+        assert others[0] < end < others[1]
+
+
+def test_correlated_inputs(of_seed, seed_screw, seed_oil):
+    """σ² = gᵀ C g, far from the sum of squares where the errors are nearly opposite."""
+    names = ("friction.boundary_friction_coefficient", "viscosity")
+    centre = np.array([0.12, 0.1])
+    sizes = 1e-4 * centre
+    slopes = bs.derivatives(bs.FrictionModel.reference(), seed_screw, seed_oil, by=list(names), **POINT)
+    g = np.array([float(slopes[f"d_screw_torque_d_{name.replace('.', '_')}"]) for name in names])
+    sign = -np.sign(g[0] * g[1])
+    covariance = np.diag(sizes) @ np.array([[1, 0.9 * sign], [0.9 * sign, 1]]) @ np.diag(sizes)
+    found = of_seed(uncertain={}, joint=JointNormal(names, centre, covariance), samples=2**14)["screw_torque"]
+    deviation = math.sqrt(g @ covariance @ g)
+    assert deviation < 0.9 * math.sqrt(np.sum((g * sizes) ** 2))
+    # five errors of a quantile at 2.5 % of 2^14 random samples are 0.11 deviations
+    assert found.both.high - found.both.low == pytest.approx(2 * Z * deviation, abs=0.22 * deviation)
+
+
+def test_a_load_that_is_uncertain_is_drawn(of_seed):
+    found = of_seed(uncertain={"axial_load": Uniform(3000.0, 5000.0)}, keep_samples=True, samples=256)
+    loads, torques = found.samples["axial_load"], found.samples["screw_torque"]
+    assert 3000 < loads.min() < 3050
+    assert 4950 < loads.max() < 5000
+    assert np.all(np.diff(torques[np.argsort(loads)]) > 0)
+
+
+def test_kept_samples_are_those_of_the_model(of_seed, seed_screw, seed_oil):
+    found = of_seed(
+        uncertain={"viscosity": LogNormal(0.1, 1.3), "screw_speed": Uniform(40.0, 80.0)},
+        outputs=["screw_torque", "friction_power", "back_driving_efficiency"], samples=16, keep_samples=True,
+    )  # fmt: skip
+    drawn = found.samples
+    assert len(drawn["viscosity"]) == found.count == 16
+    oil = dataclasses.replace(seed_oil, viscosity=drawn["viscosity"])
+    r = bs.FrictionModel.reference()(seed_screw, oil, axial_load=4000.0, screw_speed=drawn["screw_speed"])
+    for name in ("screw_torque", "friction_power", "back_driving_efficiency"):
+        assert drawn[name] == pytest.approx(getattr(r, name), rel=1e-9)
+
+
+def test_self_locking_share():
+    """The holding torque is M_Sa − M_S: it locks where the friction drawn exceeds the torque of the load."""
+    screw = bs.BallScrew(
+        pitch_circle_diameter=0.04, lead=0.0035, ball_diameter=3.175e-3, loaded_balls=56, contact_angle=math.pi / 4,
+        screw_conformity=0.515, nut_conformity=0.515,
+    )  # fmt: skip
+    model = dataclasses.replace(bs.FrictionModel.reference(), ball_force=ProportionalBallForce(0.02))
+    found = band(
+        model, screw, bs.Lubricant(viscosity=0.1), uncertain={"ball_force.share_of_load": Uniform(0.0, 0.1)},
+        outputs=["holding_torque", "screw_torque"], samples=512, keep_samples=True, **POINT,
+    )  # fmt: skip
+    assert 0.1 < found.self_locking_share < 0.9
+    assert found.self_locking_share == np.mean(found.samples["holding_torque"] <= 0)
+    ideal = found.samples["holding_torque"] + found.samples["screw_torque"]
+    assert ideal == pytest.approx(4000 * 0.0035 / (2 * math.pi), rel=1e-12)
+
+
+# -- other laws -----------------------------------------------------------------------------------
+
+
+def candidate(model, slot, law, counts=True):
+    return Candidate(f"other {slot}", dataclasses.replace(model, **{slot: law}), slot, counts)
+
+
+def test_laws_are_drawn_evenly_and_multiply(of_seed, seed_screw, seed_oil):
+    model = bs.FrictionModel.reference()
+    others = [candidate(model, "rolling", houpert_rolling), candidate(model, "friction", BalanSharing())]
+    found = of_seed(uncertain={}, alternatives=others, samples=2**10, keep_samples=True)
+    torques = [float(m(seed_screw, seed_oil, **POINT).screw_torque) for m in (model, *(c.model for c in others))]
+    own, *with_other = torques
+    one, other = (torque / own for torque in with_other)
+    values, counts = np.unique(np.round(found.samples["screw_torque"] / own, 9), return_counts=True)
+    assert values == pytest.approx(sorted([1, one, other, one * other]), rel=1e-8)
+    # a Sobol' sequence of 2^10 points has exactly a quarter in each quarter of a square
+    assert np.array_equal(counts, [256] * 4)
+    assert {slot: [law.shift for law in laws] for slot, laws in found.alternatives.items()} == {
+        "rolling": [pytest.approx(math.log(one))], "friction": [pytest.approx(math.log(other))],
+    }  # fmt: skip
+    assert found["screw_torque"].share_of_parameters == 0
+
+
+def test_laws_that_do_not_count_or_are_not_valid_are_not_drawn(of_seed):
+    model = bs.FrictionModel.reference()
+    never = dataclasses.replace(bs.FrictionModel.reference(), rolling=lambda c: math.nan * c.contact_load)
+    others = [
+        candidate(model, "friction", BalanSharing(), counts=False),
+        Candidate("nonsense", never, "rolling"),
+        Candidate("a whole model", bs.FrictionModel.corrected()),
+    ]
+    found = of_seed(uncertain={}, alternatives=others)
+    assert found.alternatives == {}
+    assert found["screw_torque"].both == (found["screw_torque"].value,) * 2
+
+
+@pytest.mark.parametrize("example", ["feed_drive", "olaru2005"])
+def test_independent_slots_against_all_combinations(example):
+    """docs/uncertainty.md: factors multiply within 10 %, and the ends of the interval are within 5 %."""
+    case = config.load(EXAMPLES / f"{example}.toml", model="reference")
+    point = {name: getattr(case.operation, name) for name in ("axial_load", "screw_speed")}
+
+    def torque(model):
+        return float(model(case.screw, case.lubricant, **point).screw_torque)
+
+    own = torque(case.model)
+    by_slot = {slot: [({}, 1.0)] for slot in ("friction", "rolling", "film", "full_film")}
+    for other in interface.alternatives(case):
+        if other.slot in by_slot:
+            law = {other.slot: getattr(other.model, other.slot)}
+            by_slot[other.slot].append((law, torque(other.model) / own))
+    together, product = [], []
+    for combination in itertools.product(*by_slot.values()):
+        laws = {slot: law for change, _ in combination for slot, law in change.items()}
+        together.append(torque(dataclasses.replace(case.model, **laws)) / own)
+        product.append(math.prod(ratio for _, ratio in combination))
+    assert len(together) == 4 * 4 * 2 * 3
+    assert np.max(np.abs(np.log(np.divide(together, product)))) < 0.10
+    for share in (0.025, 0.5, 0.975):
+        ends = [np.quantile(values, share, method="inverted_cdf") for values in (together, product)]
+        assert ends[1] == pytest.approx(ends[0], rel=0.05)
+
+
+# -- curves, nuts, limits -------------------------------------------------------------------------
+
+
+def test_a_curve_goes_through_the_band(drive):
+    inputs = {name: one.distribution for name, one in uncertain.all_of(drive).items()}
+    options = {
+        "uncertain": inputs, "alternatives": interface.alternatives(drive), "samples": 256, "axial_load": 5000.0,
+        "screw_speed": 60.0,
+    }  # fmt: skip
+    subject = (drive.model, drive.screw, drive.lubricant)
+    curve = band_along(*subject, along="screw_speed", points=[0.0, 60.0, 90.0], **options)
+    for i, speed in enumerate((0.0, 60.0, 90.0)):
+        found = band(*subject, **{**options, "screw_speed": speed})["screw_torque"]
+        assert curve.value[i] == pytest.approx(found.value, rel=1e-12)
+        assert curve.median[i] == pytest.approx(found.median, rel=1e-9)
+        assert [end[i] for end in curve.both] == pytest.approx(list(found.both), rel=1e-9)
+        assert [end[i] for end in curve.parameters] == pytest.approx(list(found.parameters), rel=1e-9)
+
+
+def test_a_whole_nut(seed_screw, seed_oil):
+    """A double nut with a load: its samples are those of the nut, evaluated one by one."""
+    parts = NutParts(nut=bs.DoubleNut(preload=1000.0))
+    model = bs.FrictionModel.reference()
+    found = band(
+        model, seed_screw, seed_oil, nut=parts, uncertain={"viscosity": LogNormal(0.1, 1.3)}, samples=8,
+        keep_samples=True, alternatives=[candidate(model, "rolling", houpert_rolling)], **POINT,
+    )  # fmt: skip
+    ratio = math.exp(found.alternatives["rolling"][0].shift)
+    for viscosity, torque in zip(found.samples["viscosity"], found.samples["screw_torque"], strict=True):
+        oil = dataclasses.replace(seed_oil, viscosity=viscosity)
+        own = float(parts.friction(model, seed_screw, oil, **POINT).screw_torque)
+        assert min(abs(torque / own - 1), abs(torque / own / ratio - 1)) < 1e-9
+
+
+def test_no_load_and_rest(of_seed):
+    outputs = ["screw_torque", "efficiency", "back_driving_efficiency", "holding_torque", "friction_power"]
+    inputs = {"viscosity": LogNormal(0.1, 1.3)}
+    nothing = of_seed(uncertain=inputs, axial_load=0.0, outputs=outputs, samples=64)
+    assert nothing["screw_torque"].both == (0, 0)
+    assert nothing["efficiency"].both == (0, 0)
+    assert nothing["back_driving_efficiency"].median == -math.inf
+    assert nothing.self_locking_share == 0
+    still = of_seed(uncertain=inputs, screw_speed=0.0, outputs=outputs, samples=64)
+    assert still["friction_power"].both == (0, 0)
+    assert still["screw_torque"].both.low > 0
+
+
+# -- what is usually uncertain --------------------------------------------------------------------
+
+
+def test_every_source_is_known_and_every_reason_said():
+    for name, one in known_uncertainties().items():
+        assert one.source == JUDGEMENT or one.source in bibliography(), name
+        assert len(one.reason.split()) >= 4
+        assert sum(x is not None for x in (one.half_width, one.share, one.limits, one.factor)) == 1
+
+
+def test_every_input_in_the_file_exists(seed_screw):
+    """Each is an input of some model, so that no name is misspelt."""
+    from ballscrew.analyses.outputs import inputs_of
+    from ballscrew.interfaces.schema import LAWS
+
+    model = bs.FrictionModel.reference()
+    oil = bs.Lubricant.from_grade("ISO VG 100")
+    names = {
+        name
+        for slot, laws in LAWS.items()
+        for law in laws.values()
+        for name in inputs_of(
+            dataclasses.replace(model, **{slot: law() if isinstance(law, type) else law}), seed_screw, oil
+        )
+    }
+    assert set(known_uncertainties()) - names == {"viscosity_of_grade"}
+
+
+def test_usual_distributions_are_about_the_values_of_the_case(seed_screw, seed_oil):
+    model = dataclasses.replace(bs.FrictionModel.reference(), friction=bs.ZhouHoeprich())
+    usual = usual_uncertainties(model, seed_screw, seed_oil)
+    centres = {name: float(distribution.quantile(0.5)) for name, (distribution, _) in usual.items()}
+    assert centres["friction.boundary_friction_coefficient"] == pytest.approx(0.2, rel=1e-6)
+    assert centres["ball_to_ball_force"] == pytest.approx(1 / 56)
+    assert centres["screw_conformity"] == pytest.approx(0.515, rel=1e-6)
+    assert centres["viscosity"] == pytest.approx(0.1)
+    assert "temperature" not in usual
+    without = dataclasses.replace(model, ball_to_ball_force=0.0)
+    assert "ball_to_ball_force" not in usual_uncertainties(without, seed_screw, seed_oil)
+    proportional = dataclasses.replace(model, ball_force=ProportionalBallForce())
+    names = usual_uncertainties(proportional, seed_screw, seed_oil)
+    assert "ball_force.share_of_load" in names
+    assert "ball_to_ball_force" not in names
+
+
+def test_an_oil_of_a_grade(seed_screw):
+    oil = bs.Lubricant.from_grade("ISO VG 100", 313.15)
+    model = bs.FrictionModel.reference()
+    usual = usual_uncertainties(model, seed_screw, oil)
+    assert "temperature" in usual
+    assert "viscosity" not in usual
+    given = usual_uncertainties(model, seed_screw, oil, given={"temperature"})
+    assert not {"temperature", "viscosity"} & set(given)
+    distribution, why = usual_uncertainties(model, seed_screw, oil, exact={"temperature"})["viscosity"]
+    assert why.source == "ISO3448"
+    assert distribution == Uniform(0.9 * oil.viscosity, 1.1 * oil.viscosity)
+
+
+# -- bad input ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"uncertain": {"viscosty": Normal(0.1, 0.01)}}, r'band.uncertain.viscosty: unknown name · did you mean "visc'),
+        ({"uncertain": {"viscosity": 0.1}}, "band.uncertain.viscosity: is no distribution"),
+        ({"uncertain": {"loaded_balls": Normal(56, 1)}}, "is a whole number, which has no distribution"),
+        ({"uncertain": {"viscosity": Uniform(-1, 1)}}, "lubricant.viscosity: must be positive"),
+        ({"uncertain": {}, "outputs": ["contact_load"]}, "band.outputs: has no band"),
+        ({"uncertain": {}, "samples": 1}, "band.samples: must be a whole number from 2"),
+        ({"uncertain": {}, "samples": 2.5}, "band.samples: must be a whole number from 2"),
+        ({"uncertain": {}, "level": 1.0}, "band.level: must lie between 0 and 1"),
+        ({"uncertain": {}, "seed": -1}, "band.seed: must be a whole number"),
+        ({"uncertain": {}, "axial_load": [1.0, 2.0]}, "band.axial_load: must be one number"),
+        ({"uncertain": {}, "engine": "abacus"}, "band.engine: unknown engine"),
+    ],
+)
+def test_bad_input(options, message, of_seed):
+    with pytest.raises(InputError, match=message):
+        of_seed(**options)
+
+
+def test_joint_inputs_are_checked(of_seed):
+    joint = JointNormal(("viscosity",), np.array([0.1]), np.array([[1e-6]]))
+    with pytest.raises(InputError, match="is among the joint ones, too"):
+        of_seed(uncertain={"viscosity": Normal(0.1, 0.01)}, joint=joint)
+    with pytest.raises(InputError, match="band.joint.viscosty: unknown name"):
+        of_seed(uncertain={}, joint=dataclasses.replace(joint, names=("viscosty",)))
+
+
+def test_a_curve_along_something_else(drive):
+    with pytest.raises(InputError, match="band.along: unknown"):
+        band_along(drive.model, drive.screw, drive.lubricant, along="lead", points=[1.0], uncertain={}, **POINT)
