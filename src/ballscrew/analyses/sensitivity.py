@@ -1,0 +1,316 @@
+"""Which uncertain input a result owes its band to: by variance, by screening, and by derivatives."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal, NamedTuple, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.analyses.derivatives import JAX_INSTEAD, derivatives
+from ballscrew.analyses.distributions import Distribution
+from ballscrew.analyses.nut_parts import NutParts
+from ballscrew.analyses.outputs import known_outputs
+from ballscrew.analyses.plan import Subject
+from ballscrew.analyses.sampling import Sampler
+from ballscrew.analyses.screening import elementary_effects
+from ballscrew.analyses.variance import EXPLAINED, Estimate, sobol_indices
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.screw import BallScrew
+from ballscrew.faults import Fault, InputError, nearest, raise_if_any
+from ballscrew.model import FrictionModel
+from ballscrew.quantities import Quantity
+
+#: How sensitivities can be had.
+Method = Literal["sobol", "morris", "local"]
+METHODS: tuple[Method, ...] = get_args(Method)
+#: Samples unless told otherwise: of each of the inputs + 2 sets, and trajectories. Whole nuts take their time.
+SAMPLES: Mapping[Method, int] = {"sobol": 2**12, "morris": 2**6}
+NUT_SAMPLES: Mapping[Method, int] = {"sobol": 2**9, "morris": 2**5}
+FEWEST: Mapping[Method, int] = {"sobol": 2**4, "morris": 2**2}
+#: All samples of all sets are in memory.
+MOST = 2**18
+#: What each method says of an input; the first ranks the inputs.
+MEASURES: Mapping[Method, tuple[str, ...]] = {
+    "sobol": ("total", "first_order"),
+    "morris": ("effect", "effect_deviation"),
+    "local": ("effect", "share"),
+}
+#: A band is halved where this much of the standard deviation is left.
+HALF = 0.5
+#: Standard normal numbers over which means and deviations of inputs are found: the rule of equal steps, which
+#: converges faster than any power of the step where the quantile is smooth.
+_REACH, _STEP = 7.5, 0.01
+#: What to do where there are no derivatives.
+ANOTHER_METHOD = 'take method="sobol" or "morris"'
+
+
+class Knowing(NamedTuple):
+    """Some inputs, and the share of the standard deviation of the output that is left if they are known."""
+
+    inputs: tuple[str, ...]
+    left: float
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Sensitivity:
+    """What :func:`sensitivity` finds of one output. All numbers in SI."""
+
+    method: Method
+    output: str
+    quantity: Quantity
+    #: The uncertain inputs, the one that matters most first.
+    inputs: tuple[str, ...]
+    #: What the method says of each input, by measure and input: see :data:`MEASURES`.
+    measures: Mapping[str, Mapping[str, Estimate]]
+    #: Mean of the output over all samples; with ``"local"`` its value at the medians of the inputs.
+    mean: float
+    #: Standard deviation of the output; with ``"local"`` that of the tangent; NaN with ``"morris"``.
+    deviation: float
+    #: The largest inputs by first-order index (share), one more each time. Nothing with ``"morris"``.
+    knowing: tuple[Knowing, ...]
+    level: float
+    samples: int
+    seed: int
+    evaluations: int
+    #: Samples (trajectories) that were left out, as they have no finite number somewhere.
+    left_out: int = 0
+
+    @property
+    def first_order(self) -> Mapping[str, Estimate]:
+        """The share of the variance that each input has by itself. Nothing with ``"morris"``."""
+        return self.measures.get("first_order", self.measures.get("share", {}))
+
+    @property
+    def total(self) -> Mapping[str, Estimate]:
+        """The share of the variance in which each input has a part. Only with ``"sobol"``."""
+        return self.measures.get("total", {})
+
+    @property
+    def effect(self) -> Mapping[str, Estimate]:
+        """The change of the output for a change of each input by its standard deviation. Not with ``"sobol"``."""
+        return self.measures.get("effect", {})
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether no input has any effect."""
+        return all(estimate.value == 0 for estimate in self.measures[MEASURES[self.method][0]].values())
+
+    def left_if_known(self, name: str) -> float:
+        """The share √(1 − S) of the standard deviation that is left, on average, where one input is known exactly.
+
+        NaN with ``"morris"``, which says nothing of variances, and where the output is constant.
+        """
+        if not self.first_order or self.is_constant:
+            return math.nan
+        return math.sqrt(min(max(1 - self.first_order[name].value, 0.0), 1.0))
+
+    @property
+    def to_halve(self) -> Knowing | None:
+        """The inputs to find out, from the largest, so that half of the standard deviation is left, or less.
+
+        None with ``"morris"``, and where the output is constant.
+        """
+        return next((known for known in self.knowing if known.left <= HALF), None)
+
+
+def sensitivity(
+    model: FrictionModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    *,
+    uncertain: Mapping[str, Distribution],
+    nut: NutParts | None = None,
+    output: str = "screw_torque",
+    method: Method = "sobol",
+    samples: int | None = None,
+    seed: int = 0,
+    level: float = 0.95,
+    done: Callable[[int, int], None] | None = None,
+    **fixed: Any,
+) -> Sensitivity:
+    r"""Which of the ``uncertain`` inputs an ``output`` owes its uncertainty to.
+
+    ``uncertain`` names inputs as :func:`~ballscrew.analyses.sweep.sweep` does, ``fixed`` gives numbers
+    to others; between them they have ``axial_load`` and ``screw_speed``. Inputs are independent of each
+    other and stay within their bounds. With a ``nut`` it is a whole nut whose friction is computed.
+
+    * ``"sobol"``: shares of the variance of the output, first-order and total
+      (:func:`~ballscrew.analyses.variance.sobol_indices`), from ``samples`` (inputs + 2) evaluations and at
+      most as many again for ``knowing``; ``samples`` is a power of two.
+    * ``"morris"``: the mean absolute effect of an input along ``samples`` trajectories, and the
+      deviation of its effects (:func:`~ballscrew.analyses.screening.elementary_effects`), from ``samples``
+      (inputs + 1) evaluations.
+    * ``"local"``: exact derivatives (:func:`~ballscrew.analyses.derivatives.derivatives`) at the medians
+      of the inputs times their standard deviations, :math:`e_i = \sigma_i\,\partial y/\partial x_i`, and
+      the shares :math:`e_i^2/\sum_j e_j^2` they would have if the output were its tangent.
+
+    Effects are in the unit of the output for one standard deviation of the input, so that of a linear model
+    all methods say the same. The same ``seed`` gives the same numbers. Intervals hold with
+    probability ``level``. ``done(finished, total)`` is told the evaluations.
+
+    Raises :class:`~ballscrew.faults.InputError` for unknown names, bad values, an output that is true or
+    false or that has no finite value in more than a tenth of the samples, and where there are no derivatives.
+    """
+    subject = Subject(model, screw, lubricant, nut)
+    usual = SAMPLES if nut is None else NUT_SAMPLES
+    count = usual.get(method, 1) if samples is None else samples
+    raise_if_any(_faults(subject, uncertain, output, method, samples, seed, level))
+    sampler = Sampler(subject, uncertain, {n: v for n, v in fixed.items() if n not in uncertain}, (output,))
+    if method == "local":
+        return _local(sampler, output, level, seed)
+
+    def function(shares: NDArray[np.float64]) -> NDArray[np.float64]:
+        return sampler.evaluated(shares, done)[output]
+
+    names = sampler.names
+    estimates: Sequence[Sequence[Estimate]]
+    if method == "sobol":
+        of_variance = sobol_indices(function, len(names), count, seed, level)
+        estimates, found = (of_variance.total, of_variance.first_order), of_variance
+        deviation = of_variance.deviation
+        knowing = tuple(Knowing(tuple(names[i] for i in known), left) for known, left in of_variance.known)
+    else:
+        in_deviations = functools.partial(_in_deviations, sampler, _deviations(sampler))
+        screened = elementary_effects(function, in_deviations, len(names), count, seed, level)
+        estimates, found = (screened.mean_absolute, screened.deviation), screened
+        deviation, knowing = math.nan, ()
+    by_name = [dict(zip(names, of_measure, strict=True)) for of_measure in estimates]
+    return Sensitivity(
+        method=method,
+        output=output,
+        quantity=known_outputs(nut)[output].quantity,
+        inputs=_ranked(by_name[0]),
+        measures=dict(zip(MEASURES[method], by_name, strict=True)),
+        mean=found.mean,
+        deviation=deviation,
+        knowing=knowing,
+        level=level,
+        samples=count,
+        seed=seed,
+        evaluations=found.evaluations,
+        left_out=found.left_out,
+    )
+
+
+def _faults(
+    subject: Subject,
+    uncertain: Mapping[str, Distribution],
+    output: str,
+    method: Any,
+    samples: Any,
+    seed: Any,
+    level: Any,
+) -> list[Fault]:
+    """What is wrong with what a person gives, but for the values of inputs."""
+    known, wanted = subject.inputs, known_outputs(subject.nut)
+    faults = [
+        Fault(f"sensitivity.uncertain.{name}", "unknown name", "", nearest(name, known))
+        for name in uncertain
+        if name not in known
+    ]
+    if not uncertain:
+        remedy = 'give a distribution to an input: {"viscosity": LogNormal(0.1, 1.3)}'
+        faults.append(Fault("sensitivity.uncertain", "no input is uncertain", "", remedy))
+    if output not in wanted:
+        faults.append(Fault("sensitivity.output", "unknown output", output, nearest(output, wanted)))
+    elif wanted[output].dtype is bool:
+        faults.append(Fault("sensitivity.output", "is true or false, and has no variance", output, "choose a number"))
+    if method not in METHODS:
+        faults.append(Fault("sensitivity.method", "unknown method", str(method), f"one of {', '.join(METHODS)}"))
+    elif method == "local" and subject.nut is not None:
+        faults.append(Fault("sensitivity.method", "has no derivatives of a whole nut", method, ANOTHER_METHOD))
+    if not isinstance(seed, int | np.integer) or seed < 0:
+        faults.append(Fault("sensitivity.seed", "must be a whole number, 0 or more", str(seed)))
+    if not 0 < level < 1:
+        faults.append(Fault("sensitivity.level", "must lie between 0 and 1", str(level), "0.95 is usual"))
+    if samples is not None and method in METHODS:
+        faults += _faults_of_samples(samples, method)
+    return faults
+
+
+def _faults_of_samples(samples: Any, method: Method) -> list[Fault]:
+    where = "sensitivity.samples"
+    if method == "local":
+        return [Fault(where, "does not count with local, which takes no samples", str(samples), "leave it out")]
+    if not isinstance(samples, int | np.integer) or samples < FEWEST[method]:
+        return [Fault(where, f"must be a whole number, {FEWEST[method]} or more", str(samples))]
+    if samples > MOST:
+        return [Fault(where, f"must be at most {MOST}", str(samples), "all are in memory")]
+    if method == "sobol" and samples & (samples - 1):
+        below = 2 ** (int(samples).bit_length() - 1)
+        return [Fault(where, "must be a power of two", str(samples), f"take {below} or {2 * below}")]
+    return []
+
+
+def _local(sampler: Sampler, output: str, level: float, seed: int) -> Sensitivity:
+    names, subject = sampler.names, sampler.subject
+    medians = {name: float(v[0]) for name, v in sampler.drawn(np.full((len(names), 1), 0.5)).items()}
+    points: dict[str, Any] = {**sampler.fixed, **medians}
+    try:
+        slopes = derivatives(subject.model, subject.screw, subject.lubricant, by=names, outputs=(output,), **points)
+    except InputError as error:  # there, JAX is another way to derivatives; here, there are ways without
+        changed = (
+            dataclasses.replace(f, remedy=ANOTHER_METHOD) if f.remedy == JAX_INSTEAD else f for f in error.faults
+        )
+        raise InputError(*changed) from None
+    deviations = _deviations(sampler)
+    effects = {n: float(slopes[f"d_{output}_d_{n.replace('.', '_')}"]) * deviations[n] for n in names}
+    raise_if_any(
+        [
+            Fault(f"sensitivity.uncertain.{name}", "has no slope here", output, ANOTHER_METHOD)
+            for name, effect in effects.items()
+            if not math.isfinite(effect)
+        ]
+    )
+    deviation = math.hypot(*effects.values())
+    shares = {name: (effect / deviation) ** 2 if deviation else 0.0 for name, effect in effects.items()}
+    by_name = [{name: Estimate(v, v, v) for name, v in of_measure.items()} for of_measure in (effects, shares)]
+    ranked = _ranked(by_name[0])
+    effective = sum(share > 0 for share in shares.values())
+    explained = np.cumsum([shares[name] for name in ranked])
+    explained[effective - 1 :] = 1.0  # but for rounding it is
+    enough = min(int(np.searchsorted(explained, EXPLAINED)) + 1, effective)
+    knowing = [Knowing(ranked[: k + 1], math.sqrt(max(1 - explained[k], 0.0))) for k in range(enough)]
+    return Sensitivity(
+        method="local",
+        output=output,
+        quantity=known_outputs()[output].quantity,
+        inputs=ranked,
+        measures=dict(zip(MEASURES["local"], by_name, strict=True)),
+        mean=float(slopes[output]),
+        deviation=deviation,
+        knowing=tuple(knowing),
+        level=level,
+        samples=1,
+        seed=seed,
+        evaluations=1,
+    )
+
+
+def _ranked(estimates: Mapping[str, Estimate]) -> tuple[str, ...]:
+    return tuple(sorted(estimates, key=lambda name: -abs(estimates[name].value)))
+
+
+def _deviations(sampler: Sampler) -> dict[str, float]:
+    """The standard deviations of the inputs within their bounds, whatever their distributions."""
+    from scipy.special import ndtr
+
+    normal = np.arange(-_REACH, _REACH + _STEP, _STEP)
+    weights = np.exp(-(normal**2) / 2)
+    weights /= np.sum(weights)
+    shares = np.tile(ndtr(normal), (len(sampler.names), 1))
+    drawn = sampler.drawn(shares)
+    return {n: math.sqrt(float(weights @ (v - weights @ v) ** 2)) for n, v in drawn.items()}
+
+
+def _in_deviations(
+    sampler: Sampler, deviations: Mapping[str, float], shares: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """The values of the inputs for shares, in standard deviations of each."""
+    drawn = sampler.drawn(shares)
+    return np.array([drawn[name] / deviations[name] for name in sampler.names])

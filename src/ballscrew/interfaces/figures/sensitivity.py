@@ -1,0 +1,85 @@
+"""What a result owes its band to: bars of all inputs, and what is left of the band the more of them are known."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ballscrew.analyses.sensitivity import HALF
+from ballscrew.analyses.variance import Estimate
+from ballscrew.interfaces.figures import style
+
+#: Inches of a row, and of what stands above and below all rows.
+_ROW, _FRAME = 0.36, 1.5
+_TITLE_CHARACTERS = 100
+_BARS = 0.76
+_LABEL_SIZE = 8.0
+_COLOURS = (style.BLUE, style.SKY)
+
+
+def bars(
+    title: Sequence[str],
+    caption: str,
+    axis: str,
+    inputs: Sequence[str],
+    measures: Mapping[str, Sequence[Estimate]],
+    knowing: Sequence[tuple[str, float]],
+) -> Figure:
+    """The measures of each input with their intervals; beside them what is left, if any ``knowing`` says so.
+
+    ``knowing`` has the inputs from the largest, and the share of the standard deviation that is left if each and all
+    before it are known.
+    """
+    rows = max(len(inputs), len(knowing) + 1)
+    columns, widths = (2, (3, 2)) if knowing else (1, (1,))
+    figure, panels = style.new_figure(caption, columns=columns, height=_FRAME + _ROW * rows, width_ratios=widths)
+    lines = [line for text in title for line in textwrap.wrap(text, _TITLE_CHARACTERS)]
+    figure.suptitle("\n".join(lines), x=0.012, ha="left", fontsize=11, fontweight="bold")
+    _bars(panels[0], axis, inputs, measures)
+    if knowing:
+        _left(panels[1], knowing)
+    for panel in panels:
+        panel.set_ylim(rows - 0.4, -0.6)
+    return figure
+
+
+def _bars(panel: Axes, axis: str, inputs: Sequence[str], measures: Mapping[str, Sequence[Estimate]]) -> None:
+    places = np.arange(len(inputs))
+    thickness = _BARS / len(measures)
+    for k, ((label, estimates), colour) in enumerate(zip(measures.items(), _COLOURS, strict=False)):
+        values, low, high = np.transpose(estimates)
+        y = places + thickness * (k - (len(measures) - 1) / 2)
+        panel.barh(y, values, thickness, color=colour, label=label)
+        if np.any(high > low):
+            # an interval of percentiles may leave its estimate out
+            ends = [np.maximum(values - low, 0), np.maximum(high - values, 0)]
+            panel.errorbar(values, y, xerr=ends, fmt="none", ecolor=style.INK, elinewidth=1.0, capsize=2)
+    panel.axvline(0, color=style.GREY, linewidth=0.8)
+    panel.set_xlabel(axis)
+    if len(measures) > 1:
+        panel.legend(loc="lower right", fontsize=_LABEL_SIZE)
+    _rows(panel, inputs)
+
+
+def _left(panel: Axes, knowing: Sequence[tuple[str, float]]) -> None:
+    left = 100 * np.array([1.0, *(share for _, share in knowing)])
+    panel.barh(np.arange(len(left)), left, _BARS / 2, color=style.ORANGE)
+    panel.axvline(100 * HALF, color=style.INK, linewidth=0.9, linestyle="--")
+    panel.annotate(
+        "half", (100 * HALF, 1), xycoords=("data", "axes fraction"), xytext=(3, -1), textcoords="offset points",
+        va="bottom", fontsize=_LABEL_SIZE, color=style.INK,
+    )  # fmt: skip
+    panel.set_xlim(0, 100)
+    panel.set_xlabel("deviation left (%)")
+    _rows(panel, ["nothing known", *(f"+ {name}" for name, _ in knowing)])
+
+
+def _rows(panel: Axes, labels: Sequence[str]) -> None:
+    """Rows from top to bottom."""
+    panel.set_yticks(range(len(labels)), labels)
+    panel.tick_params(axis="y", length=0, labelsize=_LABEL_SIZE)
+    panel.grid(visible=False, axis="y")

@@ -1,0 +1,291 @@
+"""``ballscrew sensitivity``: what to find out next, as table, JSON and picture."""
+
+import json
+import math
+import re
+from pathlib import Path
+
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+from ballscrew.faults import InputError
+from ballscrew.interfaces import config, uncertain
+from ballscrew.interfaces import sensitivity as work
+from ballscrew.interfaces.figures import style
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+#: Two inputs that the case gives a distribution, one of them without any effect on the torque of this model.
+GIVEN = [
+    "screw.screw_conformity=0.515 ± 0.005",
+    "operation.axial_load=4 kN ± 0.4 kN",
+    "lubricant.density=800 kg/m^3 ± 5 %",
+]
+SETTINGS = [part for setting in GIVEN for part in ("--set", setting)]
+FEW = ("--model", "corrected", "--samples", "64")
+
+
+@pytest.fixture(scope="module")
+def case():
+    return config.load(EXAMPLES / "olaru2005.toml", GIVEN, "corrected")
+
+
+@pytest.fixture(scope="module", params=["sobol", "morris", "local"])
+def found(request, case):
+    return work.found(case, work.Asked(method=request.param))
+
+
+def of_method(case, method, **asked):
+    return work.found(case, work.Asked(method=method, **asked))
+
+
+# -- what is varied -------------------------------------------------------------------------------
+
+
+def test_what_is_given_and_what_is_usual(case):
+    every = of_method(case, "local")
+    assert set(every.result.inputs) == set(uncertain.all_of(case))
+    given = of_method(case, "local", only_given=True)
+    assert set(given.result.inputs) == {"screw_conformity", "axial_load", "density"}
+    assert given.result.inputs[-1] == "density"
+    assert every.result.effect["axial_load"] == pytest.approx(given.result.effect["axial_load"])
+
+
+def test_inputs_have_words_of_their_own(case):
+    reference = config.load(EXAMPLES / "feed_drive.toml")
+    for one in (case, reference, config.load(EXAMPLES / "catalogue_screw.toml")):
+        names = work.Subject(one.model, one.screw, one.lubricant, one.parts).inputs
+        words = [work.Found(None, {}, names).words(name) for name in names]
+        assert len(set(words)) == len(words)
+    assert "oil temperature" in words
+    assert "decay of the asperities' share" in words
+    assert "boundary friction coefficient" in words
+
+
+# -- the terminal ---------------------------------------------------------------------------------
+
+
+def test_the_table(ballscrew, example, case):
+    process = ballscrew("sensitivity", example, *FEW, "--only-given", *SETTINGS)
+    assert process.returncode == 0, process.stderr
+    assert process.stderr == ""
+    text = process.stdout
+    found = of_method(case, "sobol", samples=64, only_given=True)
+    assert text.startswith("4000 N, 600 rpm, model corrected\n")
+    assert "friction torque on the screw: mean " in text
+    rows = [line for line in text.splitlines() if re.search(r"\(-?\d\.\d\d to \d\.\d\d\)", line)]
+    assert [row.split("  ")[0] for row in rows] == [found.words(name) for name in found.result.inputs]
+    first = found.result.inputs[0]
+    assert f"{found.result.first_order[first].value:.2f} (" in rows[0]
+    assert f"{found.result.left_if_known(first):.0%}" in rows[0]
+    assert rows[0].endswith(found.uncertain[first].words)
+    assert "* not in the case" not in text
+    assert "192 evaluations" not in text
+    assert f"{found.result.evaluations} evaluations, seed 0, intervals of 95%" in text
+    assert "laws do not" in text
+    assert not re.search("nan|inf ", text)
+    assert max(map(len, text.splitlines())) <= 120
+
+
+def test_what_to_find_out_in_words(case):
+    sobol = of_method(case, "sobol")
+    halved = sobol.result.to_halve
+    first, second = work.measure_next(sobol)
+    names = ", ".join(sobol.words(name) for name in halved.inputs)
+    assert first == (
+        f"to halve the band of the friction torque on the screw, find out: {names} (leaves {halved.left:.0%})"
+    )
+    assert second == f"{sobol.words(halved.inputs[0])} alone leaves {sobol.result.knowing[0].left:.0%}"
+    only = config.load(EXAMPLES / "olaru2005.toml", GIVEN[:1], "corrected")
+    assert work.measure_next(of_method(only, "sobol", only_given=True))[0].endswith("screw conformity (leaves 0%)")
+    assert work.measure_next(of_method(case, "morris")) == [
+        "screening ranks the inputs; what to find out next: --method sobol"
+    ]
+    constant = of_method(only, "local", only_given=True, output="ideal_torque")
+    assert work.measure_next(constant)[0].endswith("does not depend on any of these inputs")
+
+
+def test_what_was_assumed_is_said(found, case):
+    told = "\n".join(work.remarks(case, found))
+    assert work.LAWS_STAY in told
+    assert "* not in the case, taken as usual: " in told
+    assert "by judgement" in told
+    for name, one in found.uncertain.items():
+        if not one.given and one.source != "judgement":
+            assert f"{found.words(name)} ({one.source})" in told
+    rows = work._table(found)
+    assert sum(row.endswith(" *") for row in rows) == sum(not one.given for one in found.uncertain.values())
+
+
+def test_a_calibration_is_said_to_be_correlated(case):
+    import dataclasses
+
+    calibrated = config.load(EXAMPLES / "olaru2005.toml", ["model.calibration=rexroth-2006"], "reference")
+    found = of_method(calibrated, "morris", samples=4)
+    assert work.CORRELATED in work.remarks(calibrated, found)
+    assert work.CORRELATED not in work.remarks(dataclasses.replace(calibrated, calibration=None), found)
+
+
+# -- programs -------------------------------------------------------------------------------------
+
+
+def test_json(ballscrew, example, case):
+    process = ballscrew("sensitivity", example, *FEW, "--json", "--output", "efficiency", *SETTINGS)
+    assert process.returncode == 0, process.stderr
+    document = json.loads(process.stdout)
+    assert list(document) == ["inputs", "sensitivity", "units", "provenance"]
+    shown, found = document["sensitivity"], of_method(case, "sobol", samples=64, output="efficiency")
+    assert [row["name"] for row in shown["inputs"]] == list(found.result.inputs)
+    for row in shown["inputs"]:
+        estimate = found.result.first_order[row["name"]]
+        assert row["first_order"] == pytest.approx(estimate._asdict())
+        assert row["total"] == pytest.approx(found.result.total[row["name"]]._asdict())
+        assert row["left_if_known"] == pytest.approx(found.result.left_if_known(row["name"]))
+        assert row["given"] == (row["name"] in ("screw_conformity", "axial_load", "density"))
+    by_name = {row["name"]: row["distribution"] for row in shown["inputs"]}
+    assert by_name["axial_load"]["kind"] == "normal"
+    assert by_name["axial_load"]["mean"] == 4000
+    assert by_name["axial_load"]["high"] is None
+    assert shown["to_halve"] == {"inputs": list(found.result.to_halve.inputs), "left": found.result.to_halve.left}
+    assert shown["method"] == "sobol"
+    assert document["units"]["axial_load"] == "N"
+    assert document["units"]["efficiency"] == "1"
+
+
+def test_json_of_what_has_no_number(case):
+    document = json.loads(work.json_text(case, of_method(case, "morris", samples=4)))["sensitivity"]
+    assert document["standard_deviation"] is None
+    assert document["to_halve"] is None
+    assert document["knowing"] == []
+    assert all(row["left_if_known"] is None for row in document["inputs"])
+
+
+# -- the picture ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("suffix", ["png", "svg", "pdf"])
+def test_picture_file(suffix, tmp_path, case):
+    found = of_method(case, "local")
+    path = tmp_path / f"bars.{suffix}"
+    work.draw(case, found, path)
+    first = path.read_bytes()
+    assert first.startswith({"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}[suffix])
+    work.draw(case, found, path)
+    assert path.read_bytes() == first
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_picture_by_the_command(ballscrew, example, tmp_path):
+    path = tmp_path / "bars.png"
+    process = ballscrew("sensitivity", example, "--method", "morris", *FEW, "--json", "--to", path)
+    assert process.returncode == 0, process.stderr
+    assert re.fullmatch(rf"{re.escape(str(path))}: \d+ inputs\n", process.stderr)
+    assert json.loads(process.stdout)["sensitivity"]["method"] == "morris"
+    assert path.read_bytes().endswith(b"IEND\xaeB`\x82")
+
+
+@pytest.fixture
+def figure(found, case):
+    with style.house_style():
+        drawn = work.picture(case, found)
+        FigureCanvasAgg(drawn)
+        drawn.draw_without_rendering()
+    return drawn
+
+
+def test_picture_has_axes_units_and_case(figure, found):
+    result = found.result
+    assert figure.get_suptitle() == "What moves the friction torque on the screw\n4000 N, 600 rpm, model corrected"
+    panel = figure.axes[0]
+    expected = "share of the variance" if result.method == "sobol" else "change by one deviation of the input (N m)"
+    assert panel.get_xlabel() == expected
+    labels = [tick.get_text().split("\n") for tick in panel.get_yticklabels()]
+    assert [words for words, _ in labels] == [found.words(name) for name in result.inputs]
+    assert [words.removesuffix(" *") for _, words in labels] == [found.uncertain[n].words for n in result.inputs]
+    assert len(figure.axes) == (1 if result.method == "morris" else 2)
+    caption = " ".join(figure.texts[0].get_text().split())
+    assert "56 balls" in caption
+    assert "laws do not" in caption
+
+
+def test_bars_are_the_numbers(figure, found):
+    result = found.result
+    widths = [bar.get_width() for bar in figure.axes[0].patches]
+    measures = {"sobol": ("first_order", "total"), "morris": ("effect", "effect_deviation"), "local": ("effect",)}
+    expected = [result.measures[m][name].value for m in measures[result.method] for name in result.inputs]
+    assert widths == pytest.approx(expected)
+    if result.knowing:
+        left = [bar.get_width() for bar in figure.axes[1].patches]
+        assert left == pytest.approx([100, *(100 * known.left for known in result.knowing)])
+
+
+def test_nothing_is_clipped(figure):
+    renderer = figure.canvas.get_renderer()
+    page = figure.bbox.padded(1.0)
+    texts = [*figure.texts]
+    for panel in figure.axes:
+        texts += [*panel.get_yticklabels(), panel.xaxis.label, *panel.texts]
+    for text in texts:
+        box = text.get_window_extent(renderer)
+        inside = page.x0 <= box.x0 and box.x1 <= page.x1 and page.y0 <= box.y0 and box.y1 <= page.y1
+        assert inside, text.get_text()
+    if len(figure.axes) == 2:
+        left, right = figure.axes
+        assert left.xaxis.label.get_window_extent(renderer).x1 < right.xaxis.label.get_window_extent(renderer).x0
+
+
+# -- bad input ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("options", "line"),
+    [
+        (["--output", "torque"], "--output: unknown output (torque) · did you mean "),
+        (["--only-given"], "--only-given: the case gives no input a distribution · write one, such as "),
+        (["--to", "bars.doc"], "--to: unknown kind of file (bars.doc) · end it in .png, .svg or .pdf"),
+        (
+            ["--method", "local", "--set", "operation.axial_load=0 N", "--model", "reference"],
+            "",
+        ),
+    ],
+)
+def test_bad_input(options, line, ballscrew, example, tmp_path):
+    process = ballscrew("sensitivity", example, *options)
+    assert process.returncode == 2
+    assert process.stdout == ""
+    assert process.stderr.startswith(line)
+    assert len(process.stderr.splitlines()) <= 10
+    assert "Traceback" not in process.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("asked", "line"),
+    [
+        ({"output": "valid"}, "--output: is true or false, and has no variance (valid) · choose a number"),
+        ({"method": "best"}, "--method: unknown method (best) · one of sobol, morris, local"),
+        ({"samples": 100}, "--samples: must be a power of two (100) · take 64 or 128"),
+        ({"seed": -1}, "--seed: must be a whole number, 0 or more (-1)"),
+    ],
+)
+def test_faults_name_the_option(asked, line, case):
+    with pytest.raises(InputError) as caught:
+        work.found(case, work.Asked(**asked))
+    assert caught.value.lines() == [line]
+
+
+def test_a_nut_has_no_derivatives_but_samples(ballscrew):
+    nut = EXAMPLES / "catalogue_screw.toml"
+    refused = ballscrew("sensitivity", nut, "--method", "local")
+    assert refused.returncode == 2
+    assert refused.stderr == (
+        "--method: has no derivatives of a whole nut (local) · add --method sobol or --method morris\n"
+    )
+    process = ballscrew("sensitivity", nut, "--method", "morris", "--samples", "4", "--output", "rigidity")
+    assert process.returncode == 0, process.stderr
+    assert "double nut" in process.stdout.splitlines()[0]
+    assert "effect, N/µm" in process.stdout
+
+
+def test_no_number_says_so(case):
+    assert math.isnan(of_method(case, "morris", samples=4).result.deviation)
+    assert "standard deviation 0" not in work.band(of_method(case, "morris", samples=4).result)
