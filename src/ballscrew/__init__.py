@@ -10,13 +10,18 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from ballscrew.analyses.calibrated import CalibratedModel as CalibratedModel
+    from ballscrew.analyses.calibration import fit as fit
     from ballscrew.analyses.derivatives import derivatives as derivatives
     from ballscrew.analyses.distributions import LogNormal as LogNormal
     from ballscrew.analyses.distributions import Normal as Normal
     from ballscrew.analyses.distributions import Triangular as Triangular
     from ballscrew.analyses.distributions import Uniform as Uniform
     from ballscrew.analyses.monte_carlo import monte_carlo as monte_carlo
+    from ballscrew.analyses.sensitivity import sensitivity as sensitivity
     from ballscrew.analyses.sweep import sweep as sweep
+    from ballscrew.analyses.torque_log import TorqueLog as TorqueLog
+    from ballscrew.analyses.uncertainty import band as band
     from ballscrew.assembly import nut_friction as nut_friction
     from ballscrew.components.catalogue import catalogue as catalogue
     from ballscrew.components.lubrication import HamrockDowson as HamrockDowson
@@ -40,6 +45,7 @@ __version__ = "0.1.0"
 _HOMES = {
     "BallScrew": "ballscrew.components.screw",
     "Bodies": "ballscrew.components.nut",
+    "CalibratedModel": "ballscrew.analyses.calibrated",
     "Deviations": "ballscrew.components.nut",
     "DoubleNut": "ballscrew.components.nut",
     "FrictionModel": "ballscrew.model",
@@ -54,19 +60,24 @@ _HOMES = {
     "OversizeBallNut": "ballscrew.components.nut",
     "Seals": "ballscrew.components.nut_losses",
     "SingleNut": "ballscrew.components.nut",
+    "TorqueLog": "ballscrew.analyses.torque_log",
     "Triangular": "ballscrew.analyses.distributions",
     "Uniform": "ballscrew.analyses.distributions",
     "ZhouHoeprich": "ballscrew.components.mixed_friction",
+    "band": "ballscrew.analyses.uncertainty",
     "catalogue": "ballscrew.components.catalogue",
     "derivatives": "ballscrew.analyses.derivatives",
+    "fit": "ballscrew.analyses.calibration",
     "monte_carlo": "ballscrew.analyses.monte_carlo",
     "nut_friction": "ballscrew.assembly",
+    "sensitivity": "ballscrew.analyses.sensitivity",
     "sweep": "ballscrew.analyses.sweep",
 }
 
 __all__ = [
     "BallScrew",
     "Bodies",
+    "CalibratedModel",
     "Deviations",
     "DoubleNut",
     "FrictionModel",
@@ -81,14 +92,18 @@ __all__ = [
     "OversizeBallNut",
     "Seals",
     "SingleNut",
+    "TorqueLog",
     "Triangular",
     "Uniform",
     "ZhouHoeprich",
     "__version__",
+    "band",
     "catalogue",
     "derivatives",
+    "fit",
     "monte_carlo",
     "nut_friction",
+    "sensitivity",
     "sweep",
 ]
 
