@@ -205,8 +205,18 @@ def test_ramps_go_and_steady_rows_stay(step, noise):
     log = TorqueLog.of(data).cleaned()
     assert not acceleration[log.line - 1].any()
     steady = np.flatnonzero((acceleration == 0) & (np.abs(data["screw_speed"]) > 50)) + 1
-    assert np.isin(steady, log.line).mean() > 0.95
+    assert np.isin(steady, log.line).mean() > 0.94  # at the slowest, 2 of 36 rows see a ramp beside them
     assert log.torque == pytest.approx(steady_torque(log), abs=1e-12)
+
+
+@pytest.mark.parametrize("inertia", [None, INERTIA])
+def test_rows_that_may_hide_a_ramp_go_too(inertia):
+    """The ends of a fast and noisy log that begins in a ramp: windows that fit there can tell nothing."""
+    data, acceleration = cycle(20_000, 0.001, 0.5)
+    log = TorqueLog.of(data).cleaned(inertia=inertia)
+    assert acceleration[0] != 0
+    assert not acceleration[log.line - 1].any()
+    assert len(log) > 10_000
 
 
 def test_the_inertia_is_taken_off_exactly():
@@ -224,6 +234,16 @@ def test_the_inertia_is_taken_off_exactly():
     assert clean.torque == pytest.approx(steady_torque(clean), abs=INERTIA * 3)
     assert "the torque that accelerates the inertia is taken off" in clean.notes
     assert 990 < log.cleaned().left_out["speed changes"] < 1015
+
+
+def test_an_acceleration_lost_in_noise_is_not_taken_off():
+    """Speeds so noisy that no window tells what the inertia takes: their noise is kept out of the torque."""
+    data, _ = cycle(20_000, 0.0005, 5.0)
+    log = TorqueLog.of(data).cleaned(inertia=INERTIA)
+    steady = np.abs(log.screw_speed) > 80
+    assert log.torque[steady] == pytest.approx(data["drive_torque"][log.line - 1][steady], abs=0)
+    # the widest window is the one that sees most ramps
+    assert log.left_out["speed changes"] > 2500
 
 
 def test_a_torque_of_friction_has_no_share_of_the_inertia():
@@ -394,6 +414,9 @@ def test_signs_of_a_drive_that_agree():
     loads["axial_load"] = loads["axial_load"] * np.sign(loads["screw_speed"])
     assert len(TorqueLog.of(loads).cleaned()) == 400
     assert len(TorqueLog.of(drive(two_ways=False)).cleaned()) == 400
+    poor = drive()  # half of what lifts the load is lost
+    poor["drive_torque"] += np.sign(poor["screw_speed"]) * poor["axial_load"] * LEAD / (2 * np.pi)
+    assert len(TorqueLog.of(poor).cleaned()) == 400
 
 
 @pytest.mark.parametrize(
@@ -434,7 +457,7 @@ def test_a_torque_of_unknown_kind_is_left_alone():
 
 def test_what_a_log_cannot_tell():
     def notes(**changes):
-        return TorqueLog.of(simple(**changes)).cleaned().notes
+        return TorqueLog.of(simple(time=60 * np.arange(12.0), **changes)).cleaned().notes
 
     assert notes(temperature=np.linspace(290, 320, 12)) == ("12 rows are few: expect wide intervals",)
     assert "no temperature: the oil is taken to be as warm as in the case" in notes()
@@ -477,7 +500,7 @@ def test_a_log_read_in_pieces_is_the_log_read_whole(monkeypatch, pieces, clock):
     monkeypatch.setattr(log_cleaning, "HELD", 1500)
     whole = TorqueLog.of(data).cleaned(inertia=INERTIA, most=600)
     same(gathered(data, pieces, 1500).cleaned(inertia=INERTIA, most=600), whole)
-    assert whole.left_out["thinned"] > 4500
+    assert whole.left_out["thinned"] > 4000
     assert len(whole) <= 600
 
 
@@ -515,8 +538,16 @@ def test_long_logs_with_an_empty_time_or_none():
     assert stuck.line.tolist() == empty.line.tolist()
 
 
+def test_a_time_that_stands_still_does_not_pile_up():
+    gathering = Gathering(500)
+    for piece in range(30):
+        columns = {name: np.ones(200) for name in ("axial_load", "screw_speed", "torque", "time")}
+        gathering.add(columns, np.arange(200 * piece, 200 * (piece + 1)))
+        assert gathering.waiting <= 700
+
+
 def test_a_straight_ramp_has_its_slope_at_every_row_and_scale():
-    time = np.sort(np.random.default_rng(2).uniform(0, 10, 400))
+    time = np.arange(400) + np.random.default_rng(2).uniform(-0.4, 0.4, 400)
     motion = motion_of(time, 3.0 + 2.0 * time)
     for row, scale in zip(motion.slope, SCALES, strict=True):
         known = np.isfinite(row)

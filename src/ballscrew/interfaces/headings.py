@@ -27,7 +27,12 @@ NOTHING = ("", "-", "–", "—")
 _BRACKETED = re.compile(r"(?P<name>.*?)[\s_]*[\[(](?P<unit>[^\[\]()]*)[\])]")
 _WORD = re.compile(r"[^\W_]+")
 #: Units as headings have them, and as they stand in case files.
-_UNITS = {"Nm": "N m", "Nmm": "N mm", "Ncm": "N cm"}
+_UNITS = {
+    "Nm": "N m", "Nmm": "N mm", "Ncm": "N cm", "mNm": "mN m", "kNm": "kN m", "N.m": "N m", "N-m": "N m",
+    "in-lb": "in lbf", "lb-in": "in lbf", "ft-lb": "ft lbf", "lb-ft": "ft lbf",
+    "RPM": "rpm", "1/min": "rpm", "min-1": "rpm", "min^-1": "rpm", "min⁻¹": "rpm", "U/min": "rpm", "r/min": "rpm",
+    "C": "degC", "F": "degF", "sec": "s",
+}  # fmt: skip
 #: Other spellings: of letters and signs, and of words.
 _LETTERS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "×": " x "})
 _WORDS: Mapping[str, str] = {"dia": "diameter", "ø": "diameter", "no": "number"}
@@ -48,19 +53,19 @@ class Column:
 
     def answers_to(self, name: str) -> bool:
         """Whether the column has this name."""
-        return _bare(name) in self._names
+        return bare(name) in self._names
 
     @functools.cached_property
     def _names(self) -> frozenset[str]:
-        return frozenset(map(_bare, (self.name, *self.aliases)))
+        return frozenset(map(bare, (self.name, *self.aliases)))
 
     def is_named(self, text: str) -> bool:
         """Whether a text is a name of the column, or two of them, or one and a hint: "Dynamic load rating Ca"."""
         if self.answers_to(text):
             return True
-        hints = frozenset(map(_bare, self.hints))
+        hints = frozenset(map(bare, self.hints))
         for word in list(_WORD.finditer(text))[1:]:
-            halves = {_bare(text[: word.start()]), _bare(text[word.start() :])}
+            halves = {bare(text[: word.start()]), bare(text[word.start() :])}
             if halves & self._names and halves <= self._names | hints:
                 return True
         return False
@@ -86,7 +91,7 @@ class Heading:
 
 
 @functools.lru_cache(maxsize=4096)
-def _bare(name: str) -> str:
+def bare(name: str) -> str:
     """A name without what does not count: capitals, blanks, hyphens, subscripts."""
     plain = unicodedata.normalize("NFKC", name).casefold().translate(_LETTERS)
     return "".join(_WORDS.get(found[0], found[0]) for found in _WORD.finditer(plain))
@@ -100,9 +105,16 @@ def heading_of(cell: Any, place: int, columns: Sequence[Column]) -> Heading | No
     bracketed = _BRACKETED.fullmatch(written)
     name, unit = (bracketed["name"], bracketed["unit"].strip()) if bracketed else (written, "")
     meant = [column for column in columns if column.is_named(name)]
+    if len(meant) > 1 and unit:  # "T [N m]" is no time
+        meant = [column for column in meant if fits(unit, column)]
     if len(meant) == 1:
-        no_unit = unit in NOTHING or meant[0].answers_to(unit)
-        return Heading(written, meant[0], place, "" if no_unit else _spelt(unit))
+        (column,) = meant
+        if not bracketed:  # "rpm" is both name and unit
+            return Heading(
+                written, column, place, _unit_behind(name, column) or (spelt(name) if fits(name, column) else "")
+            )
+        no_unit = unit in NOTHING or (column.answers_to(unit) and not fits(unit, column))
+        return Heading(written, column, place, "" if no_unit else spelt(unit))
     if meant or bracketed:
         return None
     found = [Heading(written, column, place, behind) for column in columns if (behind := _unit_behind(name, column))]
@@ -114,13 +126,19 @@ def _unit_behind(written: str, column: Column) -> str:
     if column.quantity is None or column.quantity.unit == "1":
         return ""
     for word in reversed(list(_WORD.finditer(written))[1:]):
-        unit = _spelt(written[word.start() :])
-        if column.is_named(written[: word.start()]) and not isinstance(_scale("", unit, column.quantity), Fault):
+        unit = spelt(written[word.start() :])
+        if column.is_named(written[: word.start()]) and fits(unit, column):
             return unit
     return ""
 
 
-def _spelt(unit: str) -> str:
+def fits(unit: str, column: Column) -> bool:
+    """Whether the numbers of a column may be in this unit."""
+    quantity = column.quantity
+    return quantity is not None and quantity.unit != "1" and not isinstance(_scale("", spelt(unit), quantity), Fault)
+
+
+def spelt(unit: str) -> str:
     """A unit of a heading in the spelling of case files: ``kgf_per_um`` is ``kgf/um``."""
     unit = re.sub(r"[\s_]+per[\s_]+", "/", unit.strip()).replace("_", " ")
     return _UNITS.get(unit, unit)
@@ -136,10 +154,12 @@ def _scale(where: str, unit: str, quantity: Quantity) -> tuple[float, float] | F
     return zero, one - zero
 
 
-def headings_in(path: Path, found: Sequence[Record], columns: Sequence[Column]) -> tuple[int, list[Heading]]:
+def headings_in(
+    path: Path, found: Sequence[Record], columns: Sequence[Column], within: int = HEADINGS_WITHIN
+) -> tuple[int, list[Heading]]:
     """Which row has the headings, and those of columns that are known."""
     best: tuple[int, list[Heading]] = (0, [])
-    for number, record in enumerate(found[:HEADINGS_WITHIN]):
+    for number, record in enumerate(found[:within]):
         headings = [heading_of(cell, place, columns) for place, cell in enumerate(record.cells)]
         known = [heading for heading in headings if heading is not None]
         if len(known) > len(best[1]):
@@ -196,14 +216,14 @@ def _missing(path: Path, column: Column, headings: Sequence[Heading], first: Rec
     """The fault of a column that is not there, perhaps under a name that is not known."""
     known = {heading.place for heading in headings}
     others = {
-        _bare(" ".join(words)): cell
+        bare(" ".join(words)): cell
         for place, cell in enumerate(first.cells)
         if place not in known and isinstance(cell, str)
         for words in [_WORD.findall(cell)]
         for words in (words, words[:-1])  # with and without a unit behind the name
         if words
     }
-    names = [_bare(name) for name in (column.name, *column.aliases)]
+    names = [bare(name) for name in (column.name, *column.aliases)]
     alike = [other for name in names for other in difflib.get_close_matches(name, others, n=1, cutoff=0.7)]
     guess = f'write it for "{others[alike[0]]}"' if alike else f"it may also be called {', '.join(column.aliases[:3])}"
     return Fault(path.name, f'has no column "{column.example}"', "", guess)

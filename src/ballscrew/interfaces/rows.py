@@ -133,12 +133,12 @@ def _row(table: Table, record: Record, first: Sequence[Any], decimal: frozenset[
     faults: list[Fault] = []
     for name, heading in table.headings.items():
         where, cell = table.where(record.line, name), record.cells[heading.place]
-        text = _shown(cell)
+        text = shown(cell)
         if text in NOTHING:
             if heading.column.required:
                 faults.append(Fault(where, "is empty", "", "give a value; of merged cells only the first has one"))
             continue
-        value = text if heading.column.quantity is None else _value(where, cell, text, heading, decimal)
+        value = text if heading.column.quantity is None else value_of(where, cell, text, heading, decimal)
         if isinstance(value, Fault):
             faults.append(value)
         else:
@@ -146,14 +146,14 @@ def _row(table: Table, record: Record, first: Sequence[Any], decimal: frozenset[
     return faults or Row(record.line, values, written)
 
 
-def _shown(cell: Any) -> str:
+def shown(cell: Any) -> str:
     """A cell as text, on one line and without what no terminal shows."""
     if isinstance(cell, float):
         return f"{cell:.12g}"
     return " ".join("".join(c if c.isprintable() else " " for c in str(cell)).split())
 
 
-def _value(where: str, cell: Any, text: str, heading: Heading, decimal: frozenset[str]) -> float | int | Fault:
+def value_of(where: str, cell: Any, text: str, heading: Heading, decimal: frozenset[str]) -> float | int | Fault:
     """A number in SI and within the bounds of its quantity, or the fault in it."""
     quantity = heading.column.quantity
     assert quantity is not None

@@ -42,40 +42,57 @@ def records(path: Path, is_heading: Callable[[str], bool]) -> list[Record]:
     :class:`~ballscrew.faults.InputError` for what is no table.
     """
     data = _bytes(path)
-    spreadsheet = path.suffix.lower() in SPREADSHEETS or data.startswith(_MAGIC)
-    found = _of_spreadsheet(path, data) if spreadsheet else _of_text(path, _text(path, data), is_heading)
+    found = (
+        _of_spreadsheet(path, data)
+        if is_spreadsheet(path, data)
+        else in_text(path, data.decode(encoding_of(path, data)), is_heading)
+    )
     if not found:
         raise InputError(Fault(str(path), "is empty", "", "give a table with headings and rows"))
     return found
+
+
+def is_spreadsheet(path: Path, begin: bytes) -> bool:
+    """Whether a file is a spreadsheet, by its name or by how it begins."""
+    return path.suffix.lower() in SPREADSHEETS or begin.startswith(_MAGIC)
+
+
+def unreadable(path: Path, error: OSError | ValueError) -> InputError:
+    """What is said of a file that cannot be opened."""
+    missing = isinstance(error, FileNotFoundError)
+    reason = "" if missing else getattr(error, "strerror", None) or str(error)
+    problem = "does not exist" if missing else "cannot be read"
+    return InputError(Fault(str(path), problem, reason, "give the path of a CSV or XLSX file"))
 
 
 def _bytes(path: Path) -> bytes:
     try:
         return path.read_bytes()
     except (OSError, ValueError) as error:
-        missing = isinstance(error, FileNotFoundError)
-        reason = "" if missing else getattr(error, "strerror", None) or str(error)
-        problem = "does not exist" if missing else "cannot be read"
-        raise InputError(Fault(str(path), problem, reason, "give the path of a CSV or XLSX file")) from None
+        raise unreadable(path, error) from None
 
 
-def _text(path: Path, data: bytes) -> str:
-    """What the bytes say: UTF-8, UTF-16 if they begin so, or else the old encoding of Western spreadsheets."""
+def encoding_of(path: Path, data: bytes, whole: bool = True) -> str:
+    """How bytes are text: UTF-8, UTF-16 if they begin so, or else the old encoding of Western spreadsheets.
+
+    Bytes that are not the ``whole`` of a file may end within a letter.
+    """
     wide = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
     for encoding in ("utf-16",) if wide else ("utf-8-sig", "cp1252"):
         try:
-            text = data.decode(encoding)
+            text = codecs.getincrementaldecoder(encoding)().decode(data, whole)
         except UnicodeDecodeError:
             continue
         if "\0" not in text:
-            return text
+            return encoding
     raise InputError(Fault(str(path), "is neither text nor a spreadsheet", "", "save it as CSV in UTF-8, or as XLSX"))
 
 
-def _of_text(path: Path, text: str, is_heading: Callable[[str], bool]) -> list[Record]:
+def in_text(path: Path, text: str, is_heading: Callable[[str], bool], within: int = HEADINGS_WITHIN) -> list[Record]:
+    """The rows of a text, whose headings stand within so many of them."""
     line = 0
     try:
-        delimiter = _delimiter(text, is_heading)
+        delimiter = delimiter_of(text, is_heading, within)
         found: list[Record] = []
         lines = iter(io.StringIO(text, newline=""))
         for first in lines:
@@ -97,13 +114,18 @@ def _of_text(path: Path, text: str, is_heading: Callable[[str], bool]) -> list[R
 def _counts(line: str) -> bool:
     """Whether a line of text is one of the table."""
     start = line.strip()
-    comment = start.startswith("#") and not _ERROR.match(start)
+    comment = start.startswith("#") and not is_error(start)
     return bool(start) and not comment and not start.lower().startswith(_DECLARATION)
 
 
-def _delimiter(text: str, is_heading: Callable[[str], bool]) -> str:
+def is_error(cell: str) -> bool:
+    """Whether a cell begins with what spreadsheets write for one that went wrong."""
+    return _ERROR.match(cell) is not None
+
+
+def delimiter_of(text: str, is_heading: Callable[[str], bool], within: int = HEADINGS_WITHIN) -> str:
     """The delimiter that makes most headings of a line near the top, or else most cells."""
-    lines = list(itertools.islice(filter(_counts, io.StringIO(text, newline="")), HEADINGS_WITHIN))
+    lines = list(itertools.islice(filter(_counts, io.StringIO(text, newline="")), within))
 
     def score(delimiter: str) -> tuple[int, int]:
         split = list(csv.reader(lines, delimiter=delimiter))

@@ -1,0 +1,190 @@
+"""What of a log is fit to calibrate a model of steady motion. Each step is a function from a log to a log."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Collection, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.analyses.log_motion import CLEAR, Floats, motion_of, runs_in
+from ballscrew.analyses.log_signs import with_signs
+from ballscrew.analyses.torque_log import INERTIA, REQUIRED, TorqueLog, quantities, random_keys
+from ballscrew.faults import Fault, InputError, fault_of
+from ballscrew.quantities import within_bounds
+
+#: Reasons for leaving rows out.
+GAPS, REST, RAMPS, THINNED = "a value is missing", "at rest", "speed changes", "thinned"
+#: Fewer rows than these tell nothing; fewer than those tell little.
+LEAST_ROWS, FEW_ROWS = 3, 30
+#: A log that is longer is thinned to so many rows before anything but its acceleration is looked at.
+HELD = 1_000_000
+#: Speeds below this share of the largest are rest; the largest is that of all rows but one in a thousand.
+_REST, _LARGEST = 1e-3, 0.999
+#: Speeds that are not clear of their noise are rest too, up to this share of the largest.
+_NOISY_REST = 0.02
+#: A row beside a gap may have narrow windows only: one so much noisier than the others may hide an acceleration.
+_HIDING = 3.0
+#: The speed hardly rests if changes that are usual are so many times what noise explains.
+_RESTLESS = 3.0
+#: Rows whose inertia takes more than this share of a typical torque are left out.
+_INERTIA_SHARE = 0.1
+#: A speed that would take longer than this to grow from rest to the largest, s, is as good as steady; a faster one is
+#: looked for with windows wide enough to tell one that takes so long, whatever the noise.
+_STEADY, _QUICK = 60.0, 5.0
+#: A quarter of the absolute values of a normal distribution lie below this many standard deviations.
+_QUARTER = 0.3186
+#: Numbers closer than this share of the largest are the same setting.
+_SAME = 0.02
+
+
+def cleaned(log: TorqueLog, inertia: float | None, most: int) -> TorqueLog:
+    """All steps in their order; see :meth:`~ballscrew.analyses.torque_log.TorqueLog.cleaned`."""
+    if inertia is not None and (fault := fault_of("log", INERTIA, inertia)) is not None:
+        raise InputError(fault)
+    log = log if log.keys is not None else dataclasses.replace(log, keys=random_keys(len(log)))
+    log = thinned(in_order(without_gaps(log, (*REQUIRED, "time"))), HELD)
+    log = without_gaps(log, ("temperature",))
+    log = without_rest(without_ramps(log, inertia))
+    log = thinned(with_signs(log), most)
+    if len(log) < LEAST_ROWS:
+        told = "; ".join(f"{reason}: {count}" for reason, count in log.left_out.items())
+        remedy = f"a fit needs {LEAST_ROWS} rows or more at steady speed"
+        raise InputError(Fault("log", f"has {len(log)} rows that can be used", told, remedy))
+    return dataclasses.replace(log.noted(*untold(log)), is_clean=True, keys=None, motion=None)
+
+
+def without_gaps(log: TorqueLog, names: Collection[str]) -> TorqueLog:
+    """Without rows that lack a value of these columns; without those of them that lack every value."""
+    columns = {name: values for name, values in log.columns.items() if name in names}
+    empty = [name for name, values in columns.items() if not np.isfinite(values).any()]
+    for name in empty:
+        if name in REQUIRED:
+            remedy = "give a column with numbers in it"
+            raise InputError(Fault("log", f"has no {name.replace('_', ' ')} in any row", "", remedy))
+    log = dataclasses.replace(log, **dict.fromkeys(empty))
+    log = log.noted(*(f"no row has a {name}: the column is not used" for name in empty))
+    return log.taken(whole(columns, len(log)), GAPS)
+
+
+def whole(columns: Mapping[str, Floats], rows: int) -> NDArray[np.bool_]:
+    """Where no value is missing or impossible; columns without any value do not count."""
+    found = np.ones(rows, dtype=bool)
+    for name, values in columns.items():
+        if np.isfinite(values).any():
+            found &= within_bounds(quantities()[name].info, values)
+    return found
+
+
+def in_order(log: TorqueLog) -> TorqueLog:
+    """In the order of time, with its motion; a log without time is left as it is."""
+    if log.time is None:
+        return log.noted("no time: rows under acceleration cannot be told from the others, and all stay")
+    if log.motion is not None or not len(log):
+        return log
+    runs = runs_in(log.time)
+    if runs is None:
+        log = log.taken(np.argsort(log.time, kind="stable")).noted("rows were not in the order of time: sorted")
+    elif runs > 1:
+        log = log.noted(runs_told(runs))
+    time = np.asarray(log.time)
+    return dataclasses.replace(log, motion=motion_of(time - time[0], log.screw_speed))
+
+
+def runs_told(runs: int) -> str:
+    """What is said of a log whose time begins anew."""
+    return f"time begins anew {runs - 1} times: read as {runs} logs, one after the other"
+
+
+def moving(log: TorqueLog) -> NDArray[np.bool_]:
+    """Where the screw turns."""
+    if not len(log):
+        return np.zeros(0, dtype=bool)
+    noise = 0.0 if log.motion is None else CLEAR * log.motion.noise()
+    largest = _largest_speed(log)
+    return np.abs(log.screw_speed) > max(_REST * largest, min(noise, _NOISY_REST * largest))
+
+
+def _largest_speed(log: TorqueLog) -> float:
+    """The largest speed, were it not for outliers."""
+    return float(np.quantile(np.abs(log.screw_speed), _LARGEST))
+
+
+def without_rest(log: TorqueLog) -> TorqueLog:
+    """Without rows at rest."""
+    return log.taken(moving(log), REST)
+
+
+def without_ramps(log: TorqueLog, inertia: float | None) -> TorqueLog:
+    """Without rows under acceleration, and of the others' torque without the share of the inertia.
+
+    With an inertia J (kg m²), rows with J·|dω/dt| above a tenth of the typical torque are left out, and the torque of
+    the others is M − J·dω/dt, unless it is one of friction. Without one, rows are left out whose speed would grow from
+    rest to the largest within a minute, if that is clear of the noise and of what is usual in the log.
+    """
+    turns = moving(log)
+    if log.motion is None or not turns.any():
+        told = inertia is not None and log.motion is None
+        return log.noted("the inertia is not used, for it takes a time with each row" if told else "")
+    used = inertia if inertia and log.kind != "friction" else None
+    if used is not None:
+        limit = least = _INERTIA_SHARE * float(np.median(np.abs(log.torque[turns]))) / used
+    else:
+        limit, least = _largest_speed(log) / _STEADY, _largest_speed(log) / _QUICK
+    slope, deviation = log.motion.acceleration(least)
+    known = np.isfinite(slope)
+    change, noise = np.where(known, slope, 0.0), np.where(known, deviation, 0.0)
+    bound = np.maximum(limit, CLEAR * noise)
+    notes = ["the inertia is not used: a torque of friction has no share of it"] if inertia and used is None else []
+    if used is None:
+        usual = CLEAR * _quarter(np.abs(change[turns])) / _QUARTER
+        if usual > _RESTLESS * np.median(bound):
+            notes.append("the speed hardly rests: rows at steady speed cannot be told from others; give the inertia")
+        bound = np.maximum(bound, usual)
+    else:
+        # what is lost in the noise of the speed would only add to that of the torque
+        taken_off = np.where(CLEAR * noise > limit, 0.0, used * change)
+        log = dataclasses.replace(log, torque=log.torque - taken_off)
+        notes.append("the torque that accelerates the inertia is taken off")
+    hides = (noise > _HIDING * np.median(noise[turns])) & (CLEAR * noise > least)
+    return log.taken(~(turns & (hides | (np.abs(change) > bound))), RAMPS).noted(*notes)
+
+
+def _quarter(values: Floats) -> float:
+    return float(np.quantile(values, 0.25))
+
+
+def thinned(log: TorqueLog, most: int) -> TorqueLog:
+    """At most so many rows, evenly at random and always the same ones."""
+    if len(log) <= most or log.keys is None:
+        return log
+    keep = np.sort(np.argpartition(log.keys, most)[:most])
+    return log.taken(keep, THINNED).noted(thinned_told(most))
+
+
+def thinned_told(most: int) -> str:
+    """What is said of a log that is too long."""
+    return f"longer than {most} rows: thinned evenly at random"
+
+
+def untold(log: TorqueLog) -> list[str]:
+    """What a log cannot tell, in words."""
+    found: list[str] = []
+    if len(log) < FEW_ROWS:
+        found.append(f"{len(log)} rows are few: expect wide intervals")
+    if _one_setting(np.abs(log.axial_load)):
+        found.append("one axial load only: what depends on the load cannot be told")
+    if _one_setting(np.abs(log.screw_speed)):
+        found.append("one speed only: what depends on the speed cannot be told")
+    if not (log.forward.any() and log.backward.any()):
+        found.append("one direction only: friction cannot be told from an offset of the torque")
+    if log.temperature is None:
+        found.append("no temperature: the oil is taken to be as warm as in the case")
+    elif float(np.ptp(log.temperature)) < 1.0:
+        found.append("one temperature only: what depends on the temperature cannot be told")
+    return found
+
+
+def _one_setting(values: Floats) -> bool:
+    return bool(np.ptp(values) <= _SAME * np.max(values))

@@ -1,0 +1,127 @@
+"""A calibrated model as a case file: the case it was made from, the fitted numbers in it, and ``[calibration]``.
+
+Every command takes it. Bands use the covariance of the numbers, as far as they are identified.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ballscrew.analyses.calibrated import CalibratedModel, Estimate, normal_half_width
+from ballscrew.analyses.sampling import JointNormal
+from ballscrew.components.materials import Lubricant
+from ballscrew.faults import Fault, InputError
+from ballscrew.interfaces import config, units
+from ballscrew.interfaces.config import Case
+from ballscrew.interfaces.files import whole
+from ballscrew.interfaces.fitting import provenance
+from ballscrew.quantities import Quantity, fields_of
+
+_HEAD = "A calibrated model, written by ballscrew fit. Numbers that are not identified have no error behind them."
+#: Digits of a fitted number: enough to give the same torques.
+_DIGITS = 12
+
+
+def check(to: Path) -> None:
+    """Raise :class:`~ballscrew.faults.InputError` if the name is not that of a case file."""
+    if to.suffix.lower() != ".toml":
+        raise InputError(Fault("--to", "is no case file", str(to), "end it in .toml; a picture is --picture"))
+
+
+def save(to: Path, tables: Mapping[str, Any], folder: Path, case: Case, found: CalibratedModel) -> None:
+    """Write the case that ``tables`` from a file in ``folder`` describe, with the fitted numbers in place."""
+    import tomlkit
+
+    text = tomlkit.dumps(_plain({**_with_numbers(tables, case, found), "calibration": calibration_of(case, found)}))
+    for key in ("catalogue_file",):
+        file = tables.get("screw", {}).get(key)
+        if file is not None:
+            moved = os.path.relpath(folder / file, to.parent)
+            text = text.replace(f'{key} = "{file}"', f'{key} = "{Path(moved).as_posix()}"')
+    with whole("--to", to) as path:
+        path.write_text(f"# {_HEAD}\n\n{text}", encoding="utf-8")
+
+
+def _with_numbers(tables: Mapping[str, Any], case: Case, found: CalibratedModel) -> dict[str, Any]:
+    made = _copied(tables)
+    made.setdefault("model", {})["name"] = case.model.name
+    known = found.subject.inputs
+    settings: list[str] = []
+    for full, estimate in zip(found.response.names, found.estimates.values(), strict=False):
+        settings.append(f'{known[full][0]}.{full}="{_written(estimate)}"')
+        if full == "viscosity" and "grade" in made["lubricant"]:
+            # one of the two: what the grade gave is written out
+            made["lubricant"] = {k: v for k, v in made["lubricant"].items() if k not in ("grade", "temperature")}
+            for name, quantity in fields_of(Lubricant).items():
+                made["lubricant"].setdefault(name, _number(getattr(case.lubricant, name), quantity))
+    return config.override(made, settings)
+
+
+def _written(estimate: Estimate) -> str:
+    """``0.1095 ± 0.0043``: behind the sign stands half the interval that holds 95 %."""
+    value = _number(estimate.value, estimate.quantity)
+    if estimate.std is None:
+        return str(value)
+    return f"{value} ± {_number(normal_half_width(0.95) * estimate.std, estimate.quantity)}"
+
+
+def _number(value: float, quantity: Quantity) -> str:
+    number = f"{units.from_si(value, quantity):.{_DIGITS}g}"
+    return number if quantity.unit == "1" else f"{number} {quantity.shown_in}"
+
+
+def calibration_of(case: Case, found: CalibratedModel) -> dict[str, Any]:
+    """What ``[calibration]`` says, in SI."""
+    estimates = list(found.estimates.values())[: len(found.response.names)]
+    told = [estimate.identified for estimate in estimates]
+    names = [name for name, known in zip(found.response.names, told, strict=True) if known]
+    covariance = found.uncertainty.covariance[: len(told), : len(told)][np.ix_(told, told)]
+    constant = found.estimates.get("constant_torque")
+    return {
+        **provenance(case, found),
+        "numbers": names,
+        "values": [estimate.value for estimate in estimates if estimate.identified],
+        "covariance": covariance.tolist(),
+        "not_identified": [n for n, known in zip(found.response.names, told, strict=True) if not known],
+        **({} if constant is None else {"constant_torque": _number(constant.value, constant.quantity)}),
+        "residual_rms": f"{found.residual_rms:.6g} N m",
+        **({} if found.holdout_rms is None else {"holdout_rms": f"{found.holdout_rms:.6g} N m"}),
+        "warnings": list(found.warnings),
+    }
+
+
+def joint_of(table: Any, known: Mapping[str, Any], faults: list[Fault]) -> JointNormal | None:
+    """The correlated numbers of ``[calibration]``; what is wrong with it goes to the list of faults."""
+    try:
+        names = tuple(table["numbers"])
+        values, covariance = np.array(table["values"], dtype=float), np.array(table["covariance"], dtype=float)
+        covariance = covariance.reshape(len(names), len(names))
+        sound = values.shape == (len(names),) and np.isfinite(covariance).all() and np.isfinite(values).all()
+        if not sound or np.any(np.linalg.eigvalsh(covariance) < -1e-9 * np.abs(covariance).max(initial=0.0)):
+            raise ValueError
+    except (TypeError, KeyError, ValueError):
+        remedy = "leave the section as ballscrew fit wrote it, or leave it out"
+        faults.append(Fault("calibration", "is not as a fit writes it", "", remedy))
+        return None
+    unknown = [name for name in names if name not in known]
+    if unknown:
+        remedy = "fit again, or leave the section out"
+        faults.append(Fault("calibration.numbers", "the case has no such number", ", ".join(unknown), remedy))
+        return None
+    return JointNormal(names, values, covariance) if names else None
+
+
+def _plain(value: Any) -> Any:
+    """Tables that TOML can hold: no nulls."""
+    if isinstance(value, Mapping):
+        return {key: _plain(item) for key, item in value.items() if item is not None}
+    return [_plain(item) for item in value] if isinstance(value, list | tuple) else value
+
+
+def _copied(value: Any) -> Any:
+    return {key: _copied(item) for key, item in value.items()} if isinstance(value, Mapping) else value

@@ -1,0 +1,343 @@
+"""What loggers call the columns of a log of torque, in English and German, and where they stand in a file.
+
+A column of the user's own name is given as ``--column torque="M_ist [N m]"``; what is the same in every row is given as
+``--column axial_load="0 N"``.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import datetime
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ballscrew.analyses.torque_log import Kind, quantities
+from ballscrew.faults import Fault, InputError, nearest, raise_if_any
+from ballscrew.interfaces import decimals, units
+from ballscrew.interfaces.headings import Column, Heading, bare, checked, fits, heading_of, headings_in, spelt, unused
+from ballscrew.interfaces.sheets import Record
+from ballscrew.quantities import Info, Quantity
+
+#: The headings stand within this many rows: loggers write about themselves first.
+WITHIN = 60
+
+_NAMES: Mapping[str, tuple[str, ...]] = {
+    "axial_load": (
+        "F", "Fa", "F_ax", "load", "force", "axial force", "thrust", "thrust force",
+        "Axialkraft", "Axiallast", "Kraft", "Last", "Vorschubkraft",
+    ),
+    "screw_speed": (
+        "n", "speed", "rpm", "rotational speed", "rotation speed", "motor speed", "spindle speed", "shaft speed",
+        "angular speed", "angular velocity", "omega", "ω", "Drehzahl", "Motordrehzahl", "Spindeldrehzahl",
+        "Winkelgeschwindigkeit", "n_ist",
+    ),
+    "feed_rate": (
+        "feed", "feed speed", "linear speed", "linear velocity", "axial speed", "nut speed", "v", "velocity",
+        "Vorschub", "Vorschubgeschwindigkeit", "Geschwindigkeit",
+    ),
+    "torque": ("T", "M", "Md", "Drehmoment", "Moment", "screw torque", "shaft torque", "spindle torque", "M_ist"),
+    "friction_torque": (
+        "no-load torque", "drag torque", "idling torque", "running torque", "preload torque", "preload drag torque",
+        "M_R", "T_f", "M_f", "Reibmoment", "Reibungsmoment", "Leerlaufmoment", "Leerlaufdrehmoment",
+    ),
+    "drive_torque": ("motor torque", "T_motor", "M_motor", "Antriebsmoment", "Motormoment", "Antriebsdrehmoment"),
+    "current": (
+        "I", "Iq", "i_q", "motor current", "q current", "torque current", "Strom", "Motorstrom", "I_ist",
+        "drehmomentbildender Strom",
+    ),
+    "temperature": (
+        "T", "temp", "theta", "ϑ", "oil temperature", "oil temp", "T_oil", "nut temperature", "nut temp", "T_nut",
+        "screw temperature", "Temperatur", "Öltemperatur", "T_Öl", "Muttertemperatur", "T_Mutter",
+    ),
+    "time": (
+        "t", "timestamp", "time stamp", "date time", "datetime", "elapsed time", "elapsed", "Zeit", "Zeitstempel",
+        "Uhrzeit", "Messzeit",
+    ),
+}  # fmt: skip
+#: Words that stand beside a name and change nothing. Set points have others.
+_HINTS = ("actual", "actual value", "act", "measured", "filtered", "ist", "Istwert", "mean", "value")
+#: The columns that a torque may be in, the one that says most first, and what the torque then is.
+TORQUES: Mapping[str, Kind] = {
+    "friction_torque": "friction", "drive_torque": "drive", "torque": "unknown", "current": "drive",
+}  # fmt: skip
+_SPEEDS = ("screw_speed", "feed_rate")
+_QUANTITIES: Mapping[str, Quantity] = {
+    **quantities(),
+    **{name: dataclasses.replace(quantities()["torque"], name=name) for name in ("friction_torque", "drive_torque")},
+    "current": Quantity("current", "A", Info("I", "current of the motor that makes torque")),
+    "feed_rate": Quantity("feed_rate", "m/s", Info("v", "speed of the nut along the screw", "m/min")),
+}
+COLUMNS = tuple(
+    Column(name, _QUANTITIES[name], names, name in {"axial_load", "screw_speed", "torque"}, _HINTS)
+    for name, names in _NAMES.items()
+)
+_BY_NAME: Mapping[str, Column] = {column.name: column for column in COLUMNS}
+
+#: Dates and times that are known, as pandas has them.
+CLOCK = "clock"
+_DATES: Mapping[str, re.Pattern[str]] = {
+    "ISO8601": re.compile(r"\d{4}-?\d\d-?\d\d[T ]\d\d:?\d\d.*"),
+    "%d.%m.%Y %H:%M:%S.%f": re.compile(r"\d\d?\.\d\d?\.\d{4} \d\d?:\d\d:\d\d[.,]\d+"),
+    "%d.%m.%Y %H:%M:%S": re.compile(r"\d\d?\.\d\d?\.\d{4} \d\d?:\d\d:\d\d"),
+    CLOCK: re.compile(r"\d\d?:\d\d:\d\d(?:[.,]\d+)?"),
+}
+_BRACKETS = re.compile(r"(?P<name>.*?)[\s_]*[\[(](?P<unit>[^\[\]()]*)[\])]")
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Layout:
+    """Where the columns of a log are: headings by name, what is the same in every row (in SI), and how to read it."""
+
+    file: str
+    headings: Mapping[str, Heading]
+    constants: Mapping[str, float]
+    #: The number of the last row of headings.
+    line: int
+    #: How many columns there are.
+    width: int
+    decimal: frozenset[str]
+    #: The format of times that are dates.
+    dates: str
+    unused: Sequence[str]
+    #: The names and units in the headings, for files that have them more than once.
+    words: frozenset[str]
+
+    def where(self, line: int, name: str) -> str:
+        """``log.csv row 7, column "speed [rpm]"``."""
+        return f'{self.file} row {line}, column "{self.headings[name].written}"'
+
+    @property
+    def torque(self) -> str:
+        """The column that has the torque, or the current."""
+        return next(name for name in TORQUES if name in self.headings)
+
+
+def is_heading(cell: str) -> bool:
+    """Whether a cell is a heading that is known."""
+    return heading_of(cell, 0, COLUMNS) is not None
+
+
+def layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Layout:
+    """Where the columns are, from the first rows of a file and what the user says of columns, by name.
+
+    Raises :class:`~ballscrew.faults.InputError` for columns that are missing, double or without a unit that fits.
+    """
+    asked = _asked(flags)
+    rows, constants, named = _renamed(found, asked)
+    columns = _wanted(asked)
+    start, headings = headings_in(path, rows, columns, WITHIN)
+    columns, headings = _chosen(columns, headings, constants)
+    body = rows[start + 1 :]
+    units_below = bool(body) and _are_units(headings, body[0])
+    if units_below:
+        headings = [_with_unit(heading, body[0]) for heading in headings]
+    body = body[units_below:]
+    dates = _dates(headings, body)
+    headings = [_of_text(heading) if dates and heading.column.name == "time" else heading for heading in headings]
+    try:
+        good = checked(path, headings, rows[start], body, columns)
+    except InputError as error:
+        raise InputError(*(_advised(fault, headings) for fault in error.faults)) from None
+    rest = unused(found[start], good, body[:WITHIN])
+    good = [
+        dataclasses.replace(heading, written=named.get((start, heading.place), heading.written)) for heading in good
+    ]
+    above = [found[start], found[start + 1]] if units_below else [found[start]]
+    return Layout(
+        path.name,
+        {heading.column.name: heading for heading in good},
+        constants,
+        above[-1].line,
+        len(found[start].cells),
+        decimals.evidence(_texts(good, body)),
+        dates,
+        rest,
+        frozenset(cell for record in above for cell in record.cells if isinstance(cell, str) and cell),
+    )
+
+
+# -- what the user says of columns ----------------------------------------------------------------
+
+
+@dataclasses.dataclass(frozen=True)
+class _Asked:
+    """A column as the user has it: its name and unit, and both as written."""
+
+    column: Column
+    written: str
+    name: str
+    unit: str
+
+
+def _asked(flags: Mapping[str, str]) -> list[_Asked]:
+    faults: list[Fault] = []
+    found: list[_Asked] = []
+    for name, text in flags.items():
+        column = _BY_NAME.get(name) or next((column for column in COLUMNS if column.answers_to(name)), None)
+        if column is None:
+            faults.append(Fault("--column", "is no column of a log", name, nearest(name, _BY_NAME)))
+            continue
+        written = " ".join(text.split())
+        parts = _BRACKETS.fullmatch(written)
+        unit = spelt(parts["unit"]) if parts else ""
+        if unit and not fits(unit, column):
+            assert column.quantity is not None
+            fault = units.parse(f"--column {name}", f"1 {unit}", column.quantity)
+            if isinstance(fault, Fault):
+                faults.append(dataclasses.replace(fault, given=written))
+        found.append(_Asked(column, written, parts["name"] if parts else written, unit))
+    raise_if_any(faults)
+    return found
+
+
+def _renamed(
+    found: Sequence[Record], asked: Sequence[_Asked]
+) -> tuple[list[Record], dict[str, float], dict[tuple[int, int], str]]:
+    """Rows in which the columns asked for have the names we give them, what is constant, and how cells were written."""
+    rows = list(found)
+    constants: dict[str, float] = {}
+    written: dict[tuple[int, int], str] = {}
+    for one in asked:
+        ours = dataclasses.replace(one.column, name=one.name, aliases=(), hints=())
+        places = [
+            (number, place, heading)
+            for number, record in enumerate(found[:WITHIN])
+            for place, cell in enumerate(record.cells)
+            if isinstance(cell, str) and cell
+            for heading in [heading_of(cell, place, (ours,))]
+            if heading is not None or bare(cell) in {bare(one.written), bare(one.name)}
+        ]
+        if not places:
+            constants[one.column.name] = _constant(one, found)
+            continue
+        # "T" is rather "T" than "t"
+        number, place, heading = min(places, key=lambda found: _unlike(one, str(rows[found[0]].cells[found[1]])))
+        unit = one.unit or (heading.unit if heading else "")
+        written[number, place] = str(found[number].cells[place])
+        name = one.column.name.replace("_", " ")
+        cells = [_unless(one.column, cell) for cell in rows[number].cells]
+        cells[place] = f"{name} [{unit}]" if unit else name
+        rows[number] = Record(rows[number].line, cells)
+    return rows, constants, written
+
+
+def _unlike(one: _Asked, cell: str) -> int:
+    """How little a heading is what the user wrote: to the letter, but for the unit, but for capitals and blanks."""
+    parts = _BRACKETS.fullmatch(cell)
+    return 0 if cell == one.written else 1 if one.name in {cell, parts["name"] if parts else cell} else 2
+
+
+def _unless(column: Column, cell: Any) -> Any:
+    """A cell, but for one that would be taken for this column."""
+    heading = heading_of(cell, 0, COLUMNS)
+    return "" if heading is not None and heading.column is column else cell
+
+
+def _constant(one: _Asked, found: Sequence[Record]) -> float:
+    quantity = one.column.quantity
+    assert quantity is not None
+    where = f"--column {one.column.name}"
+    if re.match(r"[-+]?\.?\d", one.written):
+        value = units.parse(where, one.written, quantity)
+        if isinstance(value, Fault):
+            raise InputError(value)
+        return value
+    texts = (cell for record in found[:WITHIN] for cell in record.cells if isinstance(cell, str) and cell)
+    headings = [text for text in texts if not re.match(r"[-+]?[.,]?\d", text)]
+    raise InputError(Fault(where, "is not a column of the file", one.written, nearest(one.name, headings[:20])))
+
+
+def _wanted(asked: Sequence[_Asked]) -> tuple[Column, ...]:
+    """The columns to look for: of those that stand for each other, only the one that was asked for."""
+    names = {one.column.name for one in asked}
+    others = {other for family in (tuple(TORQUES), _SPEEDS) if names & {*family} for other in family} - names
+    kept = (
+        dataclasses.replace(column, aliases=(), hints=()) if column.name in names else column
+        for column in COLUMNS
+        if column.name not in others
+    )
+    return tuple(kept)
+
+
+def _chosen(
+    columns: Sequence[Column], headings: Sequence[Heading], constants: Mapping[str, float]
+) -> tuple[list[Column], list[Heading]]:
+    """Of the columns that stand for each other the one that says most; columns needed no more are not required."""
+    names = {heading.column.name for heading in headings}
+    dropped: set[str] = {*constants}
+    for family in (tuple(TORQUES), _SPEEDS):
+        there = [name for name in family if name in names or name in constants]
+        dropped |= {name for name in family if name not in there[:1]} if there else set[str]()
+    return (
+        [column for column in columns if column.name not in dropped],
+        [heading for heading in headings if heading.column.name not in dropped],
+    )
+
+
+# -- units and dates ------------------------------------------------------------------------------
+
+
+def _bracketed(cell: Any) -> str:
+    return str(cell).strip().strip("[]()").strip()
+
+
+def _are_units(headings: Sequence[Heading], record: Record) -> bool:
+    """Whether a row has units and no numbers."""
+    cells = [(heading.column, record.cells[heading.place]) for heading in headings if heading.place < len(record.cells)]
+    texts = all(isinstance(cell, str) and not re.match(r"\s*[-+]?[.,]?\d", _numberless(cell)) for _, cell in cells)
+    return texts and any(cell and fits(_bracketed(cell), column) for column, cell in cells)
+
+
+def _numberless(cell: str) -> str:
+    """A unit that begins with a number: "1/min"."""
+    return cell.removeprefix("[").removeprefix("1/")
+
+
+def _with_unit(heading: Heading, record: Record) -> Heading:
+    cell = _bracketed(record.cells[heading.place]) if heading.place < len(record.cells) else ""
+    return heading if heading.unit or not cell else dataclasses.replace(heading, unit=spelt(cell))
+
+
+def _dates(headings: Sequence[Heading], body: Sequence[Record]) -> str:
+    """The format of the times if they are dates; nothing if they are numbers."""
+    place = next((heading.place for heading in headings if heading.column.name == "time"), None)
+    if place is None:
+        return ""
+    cells = [record.cells[place] for record in body if place < len(record.cells) and record.cells[place] != ""]
+    if not cells:
+        return ""
+    if not isinstance(cells[0], str | int | float):  # a spreadsheet's own dates and times
+        return "ISO8601" if isinstance(cells[0], datetime.date) else CLOCK
+    return next((form for form, pattern in _DATES.items() if pattern.fullmatch(str(cells[0]))), "")
+
+
+def _of_text(heading: Heading) -> Heading:
+    return dataclasses.replace(heading, unit="", column=dataclasses.replace(heading.column, quantity=None))
+
+
+def _texts(headings: Sequence[Heading], body: Sequence[Record]) -> list[str]:
+    places = [heading.place for heading in headings if heading.column.quantity is not None]
+    cells = (record.cells[place] for record in body for place in places if place < len(record.cells))
+    return [cell for cell in cells if isinstance(cell, str)]
+
+
+def _advised(fault: Fault, headings: Sequence[Heading]) -> Fault:
+    """A fault of a heading, with what may be said on the command line instead."""
+    heading = next((one for one in headings if fault.where.endswith(f'column "{one.written}"')), None)
+    remedy = fault.remedy
+    if heading is not None and heading.column.quantity is not None:
+        name, quantity = heading.column.name, heading.column.quantity
+        bare_name = _BRACKETS.fullmatch(heading.written)
+        own = bare_name["name"] if bare_name else heading.written
+        if fault.problem == "needs a unit":
+            remedy += f', or give --column {name}="{own} [{quantity.shown_in}]"'
+        elif fault.problem.startswith("means the same"):
+            remedy = f'give --column {name}="{heading.written}" for the one that is meant'
+    missing = next((column for column in COLUMNS if fault.problem == f'has no column "{column.example}"'), None)
+    if missing is not None and missing.quantity is not None:
+        unit = missing.quantity.shown_in
+        remedy += f', or name it: --column {missing.name}="your heading [{unit}]"'
+        remedy += f'; if it is the same in every row, --column {missing.name}="0 {unit}"' * (missing.name != "torque")
+    return dataclasses.replace(fault, remedy=remedy)
