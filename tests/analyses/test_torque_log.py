@@ -267,7 +267,7 @@ def test_without_time_nothing_goes_and_it_is_said():
     log = TorqueLog.of(data).cleaned(inertia=INERTIA)
     assert set(log.left_out) <= {"at rest"}
     assert "no time: rows under acceleration cannot be told from the others, and all stay" in log.notes
-    assert "the inertia is not used, for it takes a time with each row" in log.notes
+    assert "the inertia is not used, for it takes a trace of the speed over time" in log.notes
 
 
 def test_a_speed_that_never_rests_is_said():
@@ -457,7 +457,8 @@ def test_a_torque_of_unknown_kind_is_left_alone():
 
 def test_what_a_log_cannot_tell():
     def notes(**changes):
-        return TorqueLog.of(simple(time=60 * np.arange(12.0), **changes)).cleaned().notes
+        found = TorqueLog.of(simple(time=60 * np.arange(12.0), **changes)).cleaned().notes
+        return tuple(note for note in found if "jump from row to row" not in note)
 
     assert notes(temperature=np.linspace(290, 320, 12)) == ("12 rows are few: expect wide intervals",)
     assert "no temperature: the oil is taken to be as warm as in the case" in notes()
@@ -567,3 +568,29 @@ def test_a_log_is_one_of_equal_columns():
         dataclasses.replace(log, torque=np.ones(3))
     with pytest.raises(InputError, match="has columns of different lengths"):
         dataclasses.replace(log, line=np.ones(3))
+
+
+@pytest.mark.parametrize("repeats", [1, 2, 5])
+def test_readings_of_single_settings_all_stay(repeats):
+    random = np.random.default_rng(1)
+    settings = np.exp(random.uniform(np.log(1.0), np.log(100.0), 200)) * random.choice([-1.0, 1.0], 200)
+    speed = np.repeat(settings, repeats)
+    log = TorqueLog.of(
+        {
+            "axial_load": 1000.0,
+            "screw_speed": speed,
+            "friction_torque": 0.1 * np.sign(speed),
+            "time": np.arange(speed.size),
+        }
+    ).cleaned()
+    assert len(log) == speed.size
+    assert any("jump from row to row" in note for note in log.notes)
+
+
+def test_a_swinging_motion_is_no_row_of_settings():
+    time = np.arange(0.0, 100.0, 0.1)
+    speed = 50.0 * np.sin(2 * np.pi * time / 2.0)  # twenty rows a period
+    log = TorqueLog.of(
+        {"axial_load": 1000.0, "screw_speed": speed, "friction_torque": 0.1 * np.sign(speed), "time": time}
+    )
+    assert not any("jump" in note for note in log.cleaned().notes)

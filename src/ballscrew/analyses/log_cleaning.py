@@ -35,6 +35,9 @@ _INERTIA_SHARE = 0.1
 _STEADY, _QUICK = 60.0, 5.0
 #: A quarter of the absolute values of a normal distribution lie below this many standard deviations.
 _QUARTER = 0.3186
+#: A speed this far, as a share of the largest, from the line between its neighbours is a jump; with more jumps among
+#: the rows than that, rows are settings and no trace of a motion.
+_JUMP, _JUMPING = 0.1, 0.15
 #: Numbers closer than this share of the largest are the same setting.
 _SAME = 0.02
 
@@ -44,7 +47,7 @@ def cleaned(log: TorqueLog, inertia: float | None, most: int) -> TorqueLog:
     if inertia is not None and (fault := fault_of("log", INERTIA, inertia)) is not None:
         raise InputError(fault)
     log = log if log.keys is not None else dataclasses.replace(log, keys=random_keys(len(log)))
-    log = thinned(in_order(without_gaps(log, (*REQUIRED, "time"))), HELD)
+    log = of_settings(thinned(in_order(without_gaps(log, (*REQUIRED, "time"))), HELD))
     log = without_gaps(log, ("temperature",))
     log = without_rest(without_ramps(log, inertia))
     log = thinned(with_signs(log), most)
@@ -92,6 +95,17 @@ def in_order(log: TorqueLog) -> TorqueLog:
     return dataclasses.replace(log, motion=motion_of(time - time[0], log.screw_speed))
 
 
+def of_settings(log: TorqueLog) -> TorqueLog:
+    """A log whose speed jumps from row to row has no motion: every row is a reading at rest or at a steady speed."""
+    if log.motion is None or not len(log):
+        return log
+    jumps = np.abs(log.motion.bend) > _JUMP * _largest_speed(log)
+    if np.mean(jumps) <= _JUMPING:
+        return log
+    told = "speeds jump from row to row: every row is taken as a reading at a steady speed"
+    return dataclasses.replace(log, motion=None).noted(told)
+
+
 def runs_told(runs: int) -> str:
     """What is said of a log whose time begins anew."""
     return f"time begins anew {runs - 1} times: read as {runs} logs, one after the other"
@@ -126,7 +140,7 @@ def without_ramps(log: TorqueLog, inertia: float | None) -> TorqueLog:
     turns = moving(log)
     if log.motion is None or not turns.any():
         told = inertia is not None and log.motion is None
-        return log.noted("the inertia is not used, for it takes a time with each row" if told else "")
+        return log.noted("the inertia is not used, for it takes a trace of the speed over time" if told else "")
     used = inertia if inertia and log.kind != "friction" else None
     if used is not None:
         limit = least = _INERTIA_SHARE * float(np.median(np.abs(log.torque[turns]))) / used
