@@ -45,12 +45,16 @@ class Estimate:
     at_bound: bool = False
     #: How much of the variance that a prior left is still there: 1 where the data add nothing; 0 without a prior.
     prior_share: float = 0.0
+    #: Degrees of freedom of the standard error: rows fitted less numbers.
+    freedom: float = np.inf
 
     def interval(self, level: float = 0.95) -> tuple[float, float] | None:
-        """The symmetric interval of a normal estimate; None where there is no standard error."""
+        """The symmetric interval by Student's distribution; None where there is no standard error."""
         if self.std is None:
             return None
-        half = normal_half_width(level) * self.std
+        from scipy.special import stdtrit
+
+        half = float(stdtrit(self.freedom, 0.5 + level / 2)) * self.std
         return self.value - half, self.value + half
 
 

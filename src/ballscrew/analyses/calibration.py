@@ -65,8 +65,8 @@ def fit(
     ``priors`` are distributions of free numbers, ``bounds`` pairs in SI beside those that the numbers have anyway.
     ``kind`` says whether ``torque`` is ``"friction"`` or ``"drive"`` torque; otherwise the model tells (see
     :mod:`~ballscrew.analyses.readings`). ``inertia`` (kg m²) takes the acceleration out of a drive torque. The share
-    ``holdout`` of the operating points is not fitted but predicted. Where both directions were run, zero error and
-    drift of the sensor are fitted beside the rest.
+    ``holdout`` of the operating points is not fitted but predicted. Zero error and drift of the sensor are fitted
+    beside the rest where the log can tell them from friction (:mod:`~ballscrew.analyses.fit_problem`).
 
     The loss is robust (:mod:`~ballscrew.analyses.robust`), the derivatives are exact, the standard errors hold for
     residuals that are not normal and that follow each other (:class:`~ballscrew.analyses.identifiability.Uncertainty`).
@@ -81,13 +81,13 @@ def fit(
     log = TorqueLog.of(data).cleaned(inertia=inertia)
     numbers = [name for name in dict.fromkeys(asked.values()) if name != CONSTANT_TORQUE.name]
     response = Response.of(subject, numbers, points_of(log, lubricant), engine=engine, times=EVALUATIONS)
-    torques, _ = response(response.start)
+    torques, slopes = response(response.start)
     finite = np.asarray(np.isfinite(torques).all(axis=0))
     if not finite.all():
-        log, torques = log.taken(finite, "the model has no torque there"), torques[:, finite]
+        log, torques, slopes = log.taken(finite, "no torque in the model"), torques[:, finite], slopes[:, finite]
         response = response.at(points_of(log, lubricant))
     reading = read_as(log.torque, torques, log.axial_load, log.screw_speed, log.kind if kind == "unknown" else kind)
-    problem = Problem.of(subject, response, asked, log, reading, torques[1], bounds or {})
+    problem = Problem.of(subject, response, asked, log, reading, torques, slopes, bounds or {})
     held_out = _held_out(log, holdout, seed)
     known = Priors({problem.names.index(n): prior for n, prior in (priors or {}).items()}, problem.start, problem.scale)
     solution = solve(
@@ -178,6 +178,7 @@ def _estimates(
             identified=bool(identified),
             start=parameter.start,
             at_bound=bool(at_bound[i]),
+            freedom=max(1, solution.residuals.size - solution.values.size),
             prior_share=0.0 if prior is None else min(1.0, variance / prior**2),
         )
     return found

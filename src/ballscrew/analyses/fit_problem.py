@@ -22,11 +22,14 @@ CONSTANT_TORQUE = Quantity(
     "N m",
     Info("M_0", "friction torque of seals, bearings and wipers, the same at all loads and speeds"),
 )
-#: Errors of the torque sensor, which are fitted beside the friction where both directions were run.
+#: Errors of the torque sensor, which are fitted beside the friction: the zero where both directions were run, the drift
+#: also where the operating points did not change along with it (and the sensor is then right at the beginning).
 TORQUE_OFFSET = Quantity(
     "torque_offset", "N m", Info("T_0", "zero error of the torque sensor in the middle of the log")
 )
 TORQUE_DRIFT = Quantity("torque_drift", "N m", Info("T_1", "drift of the torque sensor over the log"))
+#: A drift of one direction is fitted if the numbers leave this share of it unexplained, and any in so many rows.
+NEWS, FEWEST_TO_DRIFT = 0.8, 20
 
 
 @dataclasses.dataclass(frozen=True)
@@ -62,10 +65,12 @@ class Problem:
         asked: Mapping[str, str],
         log: TorqueLog,
         reading: Reading,
-        friction: Vector,
+        torques: Vector,
+        slopes: Vector,
         bounds: Mapping[str, tuple[float, float]],
     ) -> Problem:
-        """``asked`` says which input a person means by each name; ``friction`` is what the model says at the start.
+        """``asked`` says which input a person means by each name; ``torques`` and ``slopes`` are what the
+        response says at the start.
 
         Raises :class:`~ballscrew.faults.InputError` for bounds that leave no room.
         """
@@ -75,19 +80,22 @@ class Problem:
             for full, start in zip(response.names, response.start, strict=True)
         ]
         weights = reading.weights(log.axial_load, log.screw_speed)
-        usual = float(np.median(np.abs(friction))) or 1.0
+        usual = float(np.median(np.abs(torques[1]))) or 1.0
         columns: list[Vector] = []
         if CONSTANT_TORQUE.name in asked:
             parameters.append(Parameter(CONSTANT_TORQUE.name, CONSTANT_TORQUE, 0.0, usual))
             columns.append(weights[1])
         free = len(parameters)
-        if np.any(weights[1] > 0) and np.any(weights[1] < 0):
+        both = bool(np.any(weights[1] > 0) and np.any(weights[1] < 0))
+        if both:
             # a zero error has the same sign in both directions, and friction has not
             parameters.append(Parameter(TORQUE_OFFSET.name, TORQUE_OFFSET, 0.0, usual))
             columns.append(np.ones(len(log)))
-            if log.time is not None and np.ptp(log.time) > 0:
-                parameters.append(Parameter(TORQUE_DRIFT.name, TORQUE_DRIFT, 0.0, usual))
-                columns.append((log.time - log.time.min()) / np.ptp(log.time) - 0.5)
+        drift = _drift(log)
+        if drift is not None and (both or _is_news(drift, np.einsum("tr,trn->rn", weights, slopes))):
+            parameters.append(Parameter(TORQUE_DRIFT.name, TORQUE_DRIFT, 0.0, usual))
+            # without a zero error the sensor was right at the beginning
+            columns.append(drift if both else drift + 0.5)
         parameters = [_bounded(parameter, bounds) for parameter in parameters]
         linear = np.stack(columns, axis=1) if columns else np.empty((len(log), 0))
         return cls(response, free, parameters, weights, linear)
@@ -133,6 +141,20 @@ class Problem:
             return found[chosen], slopes[chosen]
 
         return torque
+
+
+def _drift(log: TorqueLog) -> Vector | None:
+    """A line over the time of a log, or else over its rows, which come one after the other anyway."""
+    time = np.asarray(log.line if log.time is None else log.time, dtype=float)
+    return None if len(log) < FEWEST_TO_DRIFT or np.ptp(time) == 0 else (time - time.min()) / np.ptp(time) - 0.5
+
+
+def _is_news(drift: Vector, slopes: Vector) -> bool:
+    """Whether a drift is something else than what the numbers do: a log from slow to fast cannot tell the two."""
+    columns = np.hstack([np.ones((drift.size, 1)), slopes])
+    columns = columns / np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
+    rest = drift - columns @ np.linalg.lstsq(columns, drift, rcond=None)[0]
+    return float(rest @ rest) > NEWS * float(drift @ drift)
 
 
 def _parameter(name: str, quantity: Quantity, start: float) -> Parameter:
