@@ -32,10 +32,13 @@ suppress_warnings = ["myst.header"]  # the included claims start with a heading 
 
 
 def generate(_app):
-    """What the pages include: claims and figures of the paper, effects, laws, fields, and the accuracy."""
+    """What the pages include: claims and figures of the paper, effects, laws, fields, accuracy, bands, fits."""
     import accuracy_table
+    import calibration_pages
     import law_tables
     import nut_tables
+    import sensitivity_figures
+    import uncertainty_tables
     from ballscrew.interfaces.reproduce import reproduce_olaru2005
     from column_table import column_table
     from field_table import field_table
@@ -54,6 +57,9 @@ def generate(_app):
     effect_tables.write(generated / "effects")
     nut_tables.write(generated / "nuts")
     validation_tables.write(generated / "validation")
+    uncertainty_tables.write(generated / "uncertainty")
+    sensitivity_figures.write(generated / "sensitivity")
+    calibration_pages.write(generated / "calibration")
     reproduce_olaru2005(generated / "olaru2005")
 
 

@@ -342,10 +342,10 @@ def test_joint_inputs_are_checked(of_seed):
     joint = JointNormal(("viscosity",), np.array([0.1]), np.array([[1e-6]]))
     with pytest.raises(InputError, match="is among the joint ones, too"):
         of_seed(uncertain={"viscosity": Normal(0.1, 0.01)}, joint=joint)
-    with pytest.raises(InputError, match="band.joint.viscosty: unknown name"):
+    with pytest.raises(InputError, match=r"band.joint.viscosty: unknown name"):
         of_seed(uncertain={}, joint=dataclasses.replace(joint, names=("viscosty",)))
 
 
 def test_a_curve_along_something_else(drive):
-    with pytest.raises(InputError, match="band.along: unknown"):
+    with pytest.raises(InputError, match=r"band.along: unknown"):
         band_along(drive.model, drive.screw, drive.lubricant, along="lead", points=[1.0], uncertain={}, **POINT)

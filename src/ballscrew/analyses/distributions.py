@@ -14,7 +14,7 @@ from typing import TypeAlias
 
 from ballscrew._arrays import namespace
 from ballscrew.faults import Fault, as_float, is_concrete, raise_if_any
-from ballscrew.quantities import Array
+from ballscrew.quantities import Array, Info
 
 #: Wichura 1988, algorithm AS 241, PPND16: numerator and denominator by rising powers.
 #: In 0.425² − q², q = u − ½, where |q| ≤ 0.425.
@@ -51,6 +51,8 @@ FAR_TAIL = (
     ),
 )  # fmt: skip
 HALF_WIDTH, TAIL_START, FAR_TAIL_START = 0.425, 1.6, 5.0
+#: Less than the least share that is ever drawn, 2^-53.
+UNREACHED = 2.0**-64
 
 
 @dataclasses.dataclass(frozen=True)
@@ -82,14 +84,16 @@ class Uniform:
 
 @dataclasses.dataclass(frozen=True)
 class Normal:
-    """The normal distribution by its mean and standard deviation.
+    """The normal distribution by its mean and standard deviation, which may be cut off at ends.
 
-    Its tails have no ends: values beyond the bounds of an input are invalid. Raises
-    :class:`~ballscrew.faults.InputError` unless the deviation is positive.
+    Without ends its tails go beyond the bounds of an input, where values are invalid; see :func:`within`.
+    Raises :class:`~ballscrew.faults.InputError` unless the deviation is positive and the mean between the ends.
     """
 
     mean: float
     deviation: float
+    low: float = -math.inf
+    high: float = math.inf
 
     def __post_init__(self) -> None:
         faults = _faults_of_numbers("normal", self)
@@ -102,11 +106,19 @@ class Normal:
                     "a value without spread needs no distribution",
                 )
             ]
-        raise_if_any(faults)
+        raise_if_any(faults or _faults_of_ends("normal", self.mean, self.low, self.high))
 
     def quantile(self, u: Array) -> Array:
-        """``mean + deviation Φ⁻¹(u)`` for u in (0, 1), in the shape of u; see :func:`standard_normal_quantile`."""
-        return self.mean + self.deviation * standard_normal_quantile(u)
+        """``mean + deviation Φ⁻¹(s)`` for u in (0, 1), in the shape of u; see :func:`standard_normal_quantile`.
+
+        s = u without ends; with ends ``s = Φ(a) + (Φ(b) − Φ(a)) u``, a and b the ends as multiples of the deviation.
+        """
+        share = _share_within(u, *self.in_deviations(self.low, self.high))
+        return _not_beyond(self.mean + self.deviation * standard_normal_quantile(share), self.low, self.high)
+
+    def in_deviations(self, *values: float) -> tuple[float, ...]:
+        """How many standard deviations values lie above the mean."""
+        return tuple((value - self.mean) / self.deviation for value in values)
 
     @property
     def telling(self) -> tuple[float, ...]:
@@ -115,19 +127,23 @@ class Normal:
 
     def words(self, unit: str) -> str:
         """The distribution as a phrase."""
-        return f"normal, mean {_shown(self.mean, unit)}, standard deviation {_shown(self.deviation, unit)}"
+        cut = _ends_in_words(self.low, self.high, unit)
+        return f"normal, mean {_shown(self.mean, unit)}, standard deviation {_shown(self.deviation, unit)}{cut}"
 
 
 @dataclasses.dataclass(frozen=True)
 class LogNormal:
     """The logarithm is normal: about two thirds of the values lie between median/factor and median·factor.
 
-    The factor is exp of the standard deviation of the logarithm. Raises
-    :class:`~ballscrew.faults.InputError` unless the median is positive and the factor above 1.
+    The factor is exp of the standard deviation of the logarithm. It may be cut off at ends; the median is that
+    without them. Raises :class:`~ballscrew.faults.InputError` unless the median is positive and between the ends,
+    and the factor above 1.
     """
 
     median: float
     factor: float
+    low: float = -math.inf
+    high: float = math.inf
 
     def __post_init__(self) -> None:
         faults = _faults_of_numbers("log_normal", self)
@@ -136,11 +152,21 @@ class LogNormal:
         if not faults and self.factor <= 1:
             remedy = "1.1 is about ten per cent up or down"
             faults.append(Fault("log_normal.factor", "must be above 1", f"{self.factor:g}", remedy))
-        raise_if_any(faults)
+        raise_if_any(faults or _faults_of_ends("log_normal", self.median, self.low, self.high))
 
     def quantile(self, u: Array) -> Array:
-        """``median factor^Φ⁻¹(u)`` for u in (0, 1), in the shape of u; see :func:`standard_normal_quantile`."""
-        return self.median * namespace(u).exp(math.log(self.factor) * standard_normal_quantile(u))
+        """``median factor^Φ⁻¹(s)`` for u in (0, 1), in the shape of u; see :func:`standard_normal_quantile`.
+
+        s is that of :meth:`Normal.quantile`, with the ends of the logarithm.
+        """
+        share = _share_within(u, *self.in_deviations(self.low, self.high))
+        values = self.median * namespace(share).exp(math.log(self.factor) * standard_normal_quantile(share))
+        return _not_beyond(values, self.low, self.high)
+
+    def in_deviations(self, *values: float) -> tuple[float, ...]:
+        """How many standard deviations the logarithms of values lie above that of the median."""
+        width = math.log(self.factor)
+        return tuple(-math.inf if value <= 0 else math.log(value / self.median) / width for value in values)
 
     @property
     def telling(self) -> tuple[float, ...]:
@@ -149,7 +175,8 @@ class LogNormal:
 
     def words(self, unit: str) -> str:
         """The distribution as a phrase."""
-        return f"log-normal, median {_shown(self.median, unit)}, factor {_shown(self.factor, '1')}"
+        cut = _ends_in_words(self.low, self.high, unit)
+        return f"log-normal, median {_shown(self.median, unit)}, factor {_shown(self.factor, '1')}{cut}"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -197,6 +224,38 @@ class Triangular:
 Distribution: TypeAlias = Uniform | Normal | LogNormal | Triangular
 
 
+def within(distribution: Distribution, info: Info) -> Distribution:
+    """The distribution, its tails cut off at the bounds of a quantity; those of others are left as they are.
+
+    Where no sample could be beyond a bound, there is no end. Raises :class:`~ballscrew.faults.InputError` where the
+    mean or the median is out of bounds.
+    """
+    if not isinstance(distribution, Normal | LogNormal):
+        return distribution
+    low, high = allowed(info)
+    first, last = distribution.in_deviations(low, high)
+    below, beyond = standard_normal_share(first), standard_normal_share(-last)
+    return dataclasses.replace(
+        distribution,
+        low=max(distribution.low, low if below > UNREACHED else -math.inf),
+        high=min(distribution.high, high if beyond > UNREACHED else math.inf),
+    )
+
+
+def allowed(info: Info) -> tuple[float, float]:
+    """The least and the greatest number within the bounds of a quantity; infinite where there is no bound."""
+    low = -math.inf if info.at_least is None else float(info.at_least)
+    low = low if info.above is None else max(low, math.nextafter(info.above, math.inf))
+    high = math.inf if info.at_most is None else float(info.at_most)
+    high = high if info.below is None else min(high, math.nextafter(info.below, -math.inf))
+    return low, high
+
+
+def standard_normal_share(x: float) -> float:
+    """Φ(x): the share of a standard normal distribution below a number."""
+    return math.erfc(-x / math.sqrt(2)) / 2
+
+
 def standard_normal_quantile(u: Array) -> Array:
     """Φ⁻¹(u): below which a standard normal number lies with probability u in (0, 1); in the shape of u.
 
@@ -209,6 +268,22 @@ def standard_normal_quantile(u: Array) -> Array:
     r = xp.sqrt(-xp.log(xp.minimum(u, 1 - u)))
     tail = xp.where(r <= FAR_TAIL_START, _ratio(TAIL, r - TAIL_START), _ratio(FAR_TAIL, r - FAR_TAIL_START))
     return xp.where(xp.abs(q) <= HALF_WIDTH, centre, xp.where(q < 0, -1.0, 1.0) * tail)[()]
+
+
+def _share_within(u: Array, low: float, high: float) -> Array:
+    """The share of a standard normal distribution at which a share u of what lies between two ends is reached."""
+    below, above = standard_normal_share(low), standard_normal_share(high)
+    if (below, above) == (0.0, 1.0):  # no end that a number of ours could reach: the same bits as without
+        return u
+    share = below + (above - below) * u
+    return namespace(share).minimum(share, 1 - 2.0**-53)  # rounding may make it 1, which has no quantile
+
+
+def _not_beyond(values: Array, low: float, high: float) -> Array:
+    """Values moved to the ends where rounding has carried them beyond."""
+    xp = namespace(values)
+    values = values if low == -math.inf else xp.maximum(values, low)
+    return values if high == math.inf else xp.minimum(values, high)
 
 
 def _ratio(coefficients: tuple[Sequence[float], Sequence[float]], variable: Array) -> Array:
@@ -230,12 +305,28 @@ def _shown(value: float, unit: str) -> str:
 
 
 def _faults_of_numbers(section: str, distribution: Distribution) -> list[Fault]:
-    """Fields that are no finite numbers."""
+    """Fields that are no finite numbers; ends that may be left out may be infinite."""
     return [
         Fault(f"{section}.{field.name}", "must be a finite number", str(value), "give one number in SI")
         for field in dataclasses.fields(distribution)
+        if field.default is dataclasses.MISSING
         if not is_concrete(value := getattr(distribution, field.name)) or not math.isfinite(as_float(value))
     ]
+
+
+def _faults_of_ends(section: str, middle: float, low: float, high: float) -> list[Fault]:
+    """Ends that leave the middle out, or that are one."""
+    if low <= middle <= high and low < high:
+        return []
+    problem = "must leave the middle between its ends"
+    return [Fault(f"{section}.low", problem, f"{low:g} to {high:g}, middle {middle:g}", "leave the ends out")]
+
+
+def _ends_in_words(low: float, high: float, unit: str) -> str:
+    """Where it is cut; nothing where it is not."""
+    ends = {"below": low, "above": high}
+    said = [f"{side} {_shown(end, unit)}" for side, end in ends.items() if math.isfinite(end)]
+    return f", cut {' and '.join(said)}" if said else ""
 
 
 def _faults_of_order(section: str, low: float, high: float) -> list[Fault]:

@@ -18,7 +18,7 @@ import typer
 from typer.core import TyperCommand
 
 from ballscrew import interfaces
-from ballscrew.interfaces import cli_catalogue, cli_check, cli_validate
+from ballscrew.interfaces import cli_catalogue, cli_check, cli_fit, cli_sensitivity, cli_validate
 
 app = typer.Typer(
     name="ballscrew",
@@ -64,11 +64,35 @@ def run(
     model: ModelName = None,
     settings: Settings = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    band: Annotated[
+        bool, typer.Option("--band", help="How far off the results may be: uncertain inputs, and other laws.")
+    ] = False,
+    samples: Annotated[
+        int | None, typer.Option("--samples", metavar="N", help="With --band: samples, 16384; of a whole nut 1024.")
+    ] = None,
+    level: Annotated[
+        float | None, typer.Option("--level", metavar="SHARE", help="With --band: share in the band, 0.95.")
+    ] = None,
+    only_given: Annotated[
+        bool, typer.Option("--only-given", help="With --band: only what the file says is uncertain.")
+    ] = False,
+    to: Annotated[
+        Path | None, typer.Option("--to", "-o", metavar="FILE", help="With --band: also draw .png, .svg or .pdf.")
+    ] = None,
 ) -> None:
-    """Friction at the operating point of a case file."""
+    """Friction at the operating point of a case file; with --band how far off it may be."""
     from ballscrew.interfaces import config, nut_report, report
 
     loaded = config.load(case, settings or [], model)
+    if band or to is not None or only_given or (samples, level) != (None, None):
+        from ballscrew.interfaces import cli_band
+        from ballscrew.interfaces.band import Options
+
+        options = Options(samples, level, only_given, to)
+        options.check(band)
+        with _progress("band") as progress:
+            cli_band.run(loaded, options, as_json, progress)
+        return
     if loaded.parts is not None:
         if as_json:
             typer.echo(nut_report.json_text(loaded, loaded.parts))
@@ -185,6 +209,8 @@ def reproduce(
 
 
 app.command(cls=_Command)(cli_check.check)
+app.command(cls=_Command)(cli_fit.fit)
+app.command(cls=_Command)(cli_sensitivity.sensitivity)
 app.command(cls=_Command)(cli_validate.validate)
 
 

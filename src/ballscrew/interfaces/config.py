@@ -13,15 +13,16 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ballscrew.analyses.distributions import Distribution
 from ballscrew.analyses.nut_parts import NutParts
-from ballscrew.calibrations import calibrated, calibration
+from ballscrew.calibrations import Calibration, calibrated, calibration
 from ballscrew.components.catalogue import CatalogueRow
 from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.screw import MATERIALS, BallScrew, Operation
 from ballscrew.faults import Fault, InputError, nearest, raise_if_any
-from ballscrew.interfaces import nut_tables, units
+from ballscrew.interfaces import nut_tables, uncertain, units
 from ballscrew.interfaces.nuts import ENDS, LISTED, kind_of
 from ballscrew.interfaces.schema import (
     DEFAULT_MODEL,
@@ -40,7 +41,7 @@ from ballscrew.references import citations_of, keys_in
 from ballscrew.solvers.pure_rolling import curvature_slip
 
 _NEEDED = ("screw", "lubricant", "operation")
-_SECTIONS = (*_NEEDED, *NUT_TABLES, "model", "sweep")
+_SECTIONS = (*_NEEDED, *NUT_TABLES, "model", "sweep", "calibration")
 _START = "start from examples/olaru2005.toml"
 _USUAL_LIMITS = Limits()
 
@@ -66,6 +67,15 @@ class Case:
     limits: Limits = _USUAL_LIMITS
     #: In words, what was derived from other numbers.
     notes: Sequence[str] = ()
+    #: Distributions of inputs that the file gives, in SI, named as sweeps name inputs; the rest of the case has
+    #: their central values. With what is usual for the others: :func:`~ballscrew.interfaces.uncertain.all_of`.
+    uncertain: Mapping[str, Distribution] = dataclasses.field(default_factory=dict[str, Distribution])
+    #: Inputs that the file says are known exactly (± 0).
+    exact: frozenset[str] = frozenset()
+    #: The named calibration that two numbers of the model are from.
+    calibration: Calibration | None = None
+    #: What a fit left beside the numbers it found (``[calibration]``), as it is written.
+    fit: Mapping[str, Any] = dataclasses.field(default_factory=dict[str, Any])
 
 
 def load(path: Path, settings: Sequence[str] = (), model: str | None = None) -> Case:
@@ -161,15 +171,22 @@ def build(
     operation = _operation(tables["operation"], faults) if "operation" in tables else None
     friction_model = _model(tables.get("model", {}), model, faults)
     sweep = _sweep(tables.get("sweep", {}), faults)
+    fit = tables.get("calibration", {})
+    if not isinstance(fit, dict):
+        faults.append(Fault("calibration", "must be a table", str(fit), "leave it as ballscrew fit wrote it"))
     parts, notes = nut_tables.nut_parts(tables, *made, faults)
     mounted = nut_tables.installation(tables["installation"], faults) if "installation" in tables else None
     limits = nut_tables.limits(tables["limits"], faults) if "limits" in tables else _USUAL_LIMITS
     screw = made.screw
     if faults or screw is None or lubricant is None or operation is None or friction_model is None:
         raise InputError(*faults)
+    calibrated_by = tables.get("model", {}).get("calibration")
     return Case(
-        friction_model, screw, lubricant, operation, sweep, oil, made.row, made.listed, parts, mounted, limits, notes
-    )
+        friction_model, screw, lubricant, operation, sweep, oil, made.row, made.listed, parts, mounted, limits, notes,
+        *uncertain.written_in(tables, friction_model, screw, lubricant),
+        None if calibrated_by is None else calibration(calibrated_by),
+        fit,
+    )  # fmt: skip
 
 
 class _MadeScrew(NamedTuple):

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, create_model
 from pydantic_core import PydanticCustomError
 
 from ballscrew.faults import Fault, fault_of
-from ballscrew.interfaces import units
+from ballscrew.interfaces import distribution_text, units
 from ballscrew.interfaces.nuts import NUT_FIELDS, PERCENT, Share
 from ballscrew.quantities import Quantity
 
@@ -49,8 +49,22 @@ EXAMPLES: Mapping[str, str | float] = {
 }
 
 
-def _si(raw: object, quantity: Quantity) -> float:
-    """A raw value in SI and within its bounds, or the fault in it as pydantic wants to hear it."""
+#: What the text of a distribution has and a plain number has not; :func:`~ballscrew.interfaces.distribution_text.read`
+#: says what it means.
+_DISTRIBUTION = r"±|\+\s*/?\s*[-−–]|\("
+
+
+def _si(raw: object, quantity: Quantity, may_vary: bool = False) -> float:
+    """A raw value in SI and within its bounds, or the fault in it as pydantic wants to hear it.
+
+    Of a distribution, where one may stand, it is the central value.
+    """
+    written = distribution_text.read(raw, quantity) if may_vary else distribution_text.refused(raw, quantity)
+    if isinstance(written, Fault):
+        words = {"problem": written.problem, "given": written.given, "remedy": written.remedy}
+        raise PydanticCustomError("fault", "{problem}", words)
+    if written is not None:
+        return written.central
     value = units.parse("", raw, quantity)
     fault = value if isinstance(value, Fault) else fault_of("", quantity, value)
     if fault is not None:
@@ -89,8 +103,11 @@ def _example(quantity: Quantity, default: Any) -> str | float:
     return default if quantity.unit == "1" else f"{number:.6g} {quantity.shown_in}"
 
 
-def json_of(quantity: Quantity, default: Any) -> dict[str, Any]:
-    """What a field looks like in the file: text with a unit, or a plain number within its bounds."""
+def json_of(quantity: Quantity, default: Any, may_vary: bool = False) -> dict[str, Any]:
+    """What a field looks like in the file: text with a unit, or a plain number within its bounds.
+
+    A plain number that may be uncertain may be the text of a distribution, too.
+    """
     info = quantity.info
     examples = [_example(quantity, default)]
     description = {"description": info.meaning, "x-symbol": info.symbol}
@@ -102,28 +119,43 @@ def json_of(quantity: Quantity, default: Any) -> dict[str, Any]:
         "exclusiveMaximum": info.below,
         "maximum": info.at_most,
     }
-    kind = "integer" if info.whole else "number"
-    given = {name: bound for name, bound in bounds.items() if bound is not None}
-    return {**description, "type": kind, "examples": examples, **given}
+    number = {"type": "integer" if info.whole else "number"}
+    number |= {name: bound for name, bound in bounds.items() if bound is not None}
+    described = {**description, "examples": examples}
+    if may_vary and not info.whole:
+        return {**described, "anyOf": [number, {"type": "string", "pattern": _DISTRIBUTION}]}
+    return {**described, **number}
 
 
-def _field(quantity: Quantity, default: Any, shown: Any) -> tuple[Any, Any]:
-    read = BeforeValidator(functools.partial(_si, quantity=quantity))
+def _field(quantity: Quantity, default: Any, shown: Any, may_vary: bool) -> tuple[Any, Any]:
+    read = BeforeValidator(functools.partial(_si, quantity=quantity, may_vary=may_vary))
     kind = int if quantity.info.whole else float
-    return Annotated[kind, read, WithJsonSchema(json_of(quantity, shown))], Field(default=default)
+    return Annotated[kind, read, WithJsonSchema(json_of(quantity, shown, may_vary))], Field(default=default)
 
 
 def section_of(
-    title: str, quantities: Mapping[str, Quantity], cls: type, /, required: bool, **others: Any
+    title: str,
+    quantities: Mapping[str, Quantity],
+    cls: type,
+    /,
+    required: bool,
+    uncertain: Collection[str] = (),
+    **others: Any,
 ) -> type[BaseModel]:
-    """A model with a field for each quantity; unset fields keep the default of the part."""
+    """A model with a field for each quantity; unset fields keep the default of the part.
+
+    Those named ``uncertain`` may have a distribution.
+    """
     needed = {
         field.name
         for field in dataclasses.fields(cls)
         if field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
     }
     own = defaults_of(cls)
-    fields = {n: _field(q, ... if required and n in needed else None, own.get(n)) for n, q in quantities.items()}
+    fields = {
+        n: _field(q, ... if required and n in needed else None, own.get(n), n in uncertain)
+        for n, q in quantities.items()
+    }
     return create_model(title, __config__=ConfigDict(extra="forbid"), **fields, **others)
 
 

@@ -95,7 +95,8 @@ def name_of_law(slot: str, law: Any) -> str:
 @functools.cache
 def _coefficients(slot: str, name: str) -> type[BaseModel]:
     """The model of a table that sets coefficients of a law."""
-    return section_of(name, coefficients_of(slot, name), _SLOTS[slot][name], required=False)
+    known = coefficients_of(slot, name)
+    return section_of(name, known, _SLOTS[slot][name], required=False, uncertain=known if slot in LAWS else ())
 
 
 def _slot(slot: str) -> tuple[Any, Any]:
@@ -105,7 +106,10 @@ def _slot(slot: str) -> tuple[Any, Any]:
     tables += [
         {
             "law": {"const": name},
-            **{field: json_of(q, defaults_of(_SLOTS[slot][name]).get(field)) for field, q in found.items()},
+            **{
+                field: json_of(q, defaults_of(_SLOTS[slot][name]).get(field), slot in LAWS)
+                for field, q in found.items()
+            },
         }
         for name in _SLOTS[slot]
         if (found := coefficients_of(slot, name))
@@ -137,16 +141,19 @@ def sections() -> Mapping[str, type[BaseModel]]:
     same_side = Annotated[bool, Field(strict=True, description="whether screw and nut are held on the same side")]
     return {
         "screw": section_of(
-            "Screw", screw, BallScrew, required=True, catalogue=(row, None), catalogue_file=(file, None), **materials
+            "Screw", screw, BallScrew, required=True, uncertain=fields_of(BallScrew),
+            catalogue=(row, None), catalogue_file=(file, None), **materials,
         ),
         "screw_of_row": section_of(
-            "ScrewOfRow", screw, BallScrew, required=False,
+            "ScrewOfRow", screw, BallScrew, required=False, uncertain=fields_of(BallScrew),
             catalogue=(row, ...), catalogue_file=(file, None), **materials,
         ),
-        "lubricant": section_of("Lubricant", oil, Lubricant, required=False, grade=(grade, None)),
-        "operation": section_of("Operation", fields_of(Operation), Operation, required=True),
+        "lubricant": section_of("Lubricant", oil, Lubricant, required=False, uncertain=oil, grade=(grade, None)),
+        "operation": section_of(
+            "Operation", fields_of(Operation), Operation, required=True, uncertain=fields_of(Operation)
+        ),
         "model": section_of(
-            "Model", fields_of(FrictionModel), FrictionModel, required=False,
+            "Model", fields_of(FrictionModel), FrictionModel, required=False, uncertain=fields_of(FrictionModel),
             name=(model_name, Field(default=None, json_schema_extra={"default": DEFAULT_MODEL})),
             calibration=(_one_of(calibrations(), "named calibration of two of its numbers"), None),
             **{slot: _slot(slot) for slot in LAWS},
@@ -183,6 +190,7 @@ def case_file() -> type[BaseModel]:
         dict[str, str],
         Field(description='axes of a sweep by field, "100:4000:14 N" (start:stop:count) or "100, 200, 500 N"'),
     ]
+    fit = Annotated[dict[str, Any], Field(description="what ballscrew fit left beside the numbers that it found")]
     return create_model(
         "BallscrewCase",
         __config__=ConfigDict(extra="forbid", title="ballscrew case file"),
@@ -191,6 +199,7 @@ def case_file() -> type[BaseModel]:
         **others,
         model=(parts["model"], Field(default=None)),
         sweep=(axes, Field(default=None)),
+        calibration=(fit, Field(default=None)),
     )
 
 

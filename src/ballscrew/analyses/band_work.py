@@ -1,0 +1,229 @@
+"""What a band is made of: samples evaluated, the factors of other laws, what follows from a torque, and faults."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.analyses.comparison import Candidate
+from ballscrew.analyses.distributions import Distribution, within
+from ballscrew.analyses.engines import Engine, engine_faults
+from ballscrew.analyses.outputs import OPERATION, known_outputs
+from ballscrew.analyses.plan import Subject
+from ballscrew.analyses.sampling import JointNormal, Sampler, evenly_spread
+from ballscrew.equations import transmission
+from ballscrew.faults import Fault, fault_of, nearest
+
+#: How the outputs begin that say for which reason a sample is not valid.
+VALIDITY = "validity_"
+#: Points that a Sobol' sequence of 30 bits has.
+_MOST_SAMPLES = 2**30
+Values = NDArray[np.float64]
+
+
+class Drawn(NamedTuple):
+    """What the engine computes of each sample, and what the laws make of it."""
+
+    screw_torque: Values
+    ideal_torque: Values
+    #: Computed where it is wanted.
+    friction_power: Values = np.full(1, np.nan)
+    #: The torque with the laws drawn over that with the model's.
+    factor: Values = np.ones(1)
+
+    @property
+    def torque(self) -> Values:
+        """The friction torque with the laws drawn."""
+        return self.screw_torque * self.factor
+
+
+def _efficiency(drawn: Drawn) -> Values:
+    still = drawn.ideal_torque + drawn.torque == 0
+    return np.where(still, 0.0, transmission.efficiency(drawn.ideal_torque, np.where(still, 1.0, drawn.torque)))
+
+
+def _back_driving_efficiency(drawn: Drawn) -> Values:
+    eta = _efficiency(drawn)
+    none = eta == 0
+    return np.where(none, -np.inf, transmission.back_driving_efficiency(np.where(none, 1.0, eta)))
+
+
+#: What has a band: all of it follows from the friction torque.
+FOLLOWING: Mapping[str, Callable[[Drawn], Values]] = {
+    "screw_torque": lambda drawn: drawn.torque,
+    "drive_torque": lambda drawn: drawn.ideal_torque + drawn.torque,
+    "holding_torque": lambda drawn: transmission.holding_torque(drawn.ideal_torque, drawn.torque),
+    "friction_power": lambda drawn: drawn.friction_power * drawn.factor,
+    "efficiency": _efficiency,
+    "back_driving_efficiency": _back_driving_efficiency,
+}
+#: The outputs that may have a band.
+BANDED = tuple(FOLLOWING)
+#: Those that are never negative: their spread is that of their logarithm.
+POSITIVE = frozenset({"screw_torque", "drive_torque", "friction_power"})
+
+
+@dataclasses.dataclass(frozen=True)
+class Alternative:
+    """A law that could stand in a slot instead: by how much it moves the torque, as a natural logarithm."""
+
+    slot: str
+    name: str
+    shift: float
+
+
+def computed_for(outputs: Sequence[str]) -> tuple[str, ...]:
+    """What the engine computes of each sample, besides validity."""
+    return ("screw_torque", "ideal_torque", *(["friction_power"] if "friction_power" in outputs else []))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Work:
+    """Samples to evaluate, and the factors of the laws that may be drawn."""
+
+    sampler: Sampler
+    #: The result at the central values.
+    central: Any
+    #: By slot the laws that could be in it, with the torque of each over the model's; NaN where it is not valid.
+    ratios: Mapping[str, Sequence[tuple[str, Values]]]
+
+    @classmethod
+    def of(
+        cls,
+        subject: Subject,
+        uncertain: Mapping[str, Distribution],
+        joint: JointNormal | None,
+        point: Mapping[str, Any],
+        alternatives: Sequence[Candidate],
+        engine: Engine | None,
+        computed: Sequence[str],
+    ) -> Work:
+        """Evaluate the model and the alternatives at the central values."""
+        known = subject.inputs
+        inputs = {name: within(distribution, known[name][1].info) for name, distribution in uncertain.items()}
+        fixed = {name: value for name, value in point.items() if name not in inputs}
+        masks = [name for name in known_outputs(subject.nut) if name.startswith(VALIDITY)]
+        sampler = Sampler(subject, inputs, fixed, (*computed, "valid", *masks), joint, engine)
+        central = subject.at(point)
+        ratios: dict[str, list[tuple[str, Values]]] = {}
+        for candidate in alternatives:
+            if candidate.counts and candidate.slot and (subject.nut is None or subject.nut.knows(candidate.model)):
+                result = dataclasses.replace(subject, model=candidate.model).at(point)
+                with np.errstate(all="ignore"):
+                    ratio = np.asarray(result.screw_torque, dtype=float) / central.screw_torque
+                    usable = np.asarray(result.valid) & np.isfinite(ratio) & (ratio > 0)
+                ratios.setdefault(candidate.slot, []).append((candidate.name, np.where(usable, ratio, np.nan)))
+        return cls(sampler, central, ratios)
+
+    @property
+    def masks(self) -> list[str]:
+        """The outputs that say for which reason a sample is not valid."""
+        return [name for name in self.sampler.outputs if name.startswith(VALIDITY)]
+
+    @property
+    def inputs(self) -> int:
+        """How many uncertain inputs there are."""
+        return len(self.sampler.names)
+
+    @property
+    def dimensions(self) -> int:
+        """Of a sample: one for each input, and one for each slot."""
+        return self.inputs + len(self.ratios)
+
+    def evaluated(self, shares: Values, done: Callable[[int, int], None] | None) -> dict[str, NDArray[Any]]:
+        """The outputs of each sample; where no input is uncertain, all alike."""
+        if self.inputs:
+            return self.sampler.evaluated(shares[: self.inputs], done)
+        wanted = known_outputs(self.sampler.subject.nut)
+        central = {name: np.asarray(wanted[name].read(self.central)) for name in self.sampler.outputs}
+        shape = np.shape(self.central.screw_torque)
+        return {
+            name: np.broadcast_to(np.broadcast_to(value, shape)[..., np.newaxis], (*shape, shares.shape[1])).ravel()
+            for name, value in central.items()
+        }
+
+    def laws_at(self, place: int) -> list[Values]:
+        """By slot the factors of the torque of the laws that are valid at one of the points; 1 is the model's own."""
+        found = [np.array([np.ravel(ratio)[place] for _, ratio in laws]) for laws in self.ratios.values()]
+        return [np.array([1.0, *ratios[np.isfinite(ratios)]]) for ratios in found]
+
+    def shifts_at(self, place: int) -> dict[str, list[Alternative]]:
+        """The laws that are valid at one of the points, by slot."""
+        found = {
+            slot: [
+                Alternative(slot, name, float(np.log(np.ravel(ratio)[place])))
+                for name, ratio in laws
+                if np.isfinite(np.ravel(ratio)[place])
+            ]
+            for slot, laws in self.ratios.items()
+        }
+        return {slot: laws for slot, laws in found.items() if laws}
+
+
+def shares_of(dimensions: int, count: int, seed: int) -> Values:
+    """Shares of shape (dimensions, samples), evenly spread; none where nothing is drawn."""
+    return evenly_spread(dimensions, count, seed) if dimensions else np.empty((0, count))
+
+
+def factor_of(laws: Sequence[Values], shares: Values) -> Values:
+    """The factor of the torque for each sample: one law of each slot, all equally likely."""
+    factor = np.ones(shares.shape[1])
+    for ratios, row in zip(laws, shares, strict=True):
+        factor *= ratios[np.minimum((row * len(ratios)).astype(int), len(ratios) - 1)]
+    return factor
+
+
+# -- faults ---------------------------------------------------------------------------------------
+
+
+def faults_of_options(outputs: Sequence[str], count: Any, seed: Any, level: Any, engine: Any) -> list[Fault]:
+    """What is wrong with the options of a band."""
+    faults = [
+        Fault("band.outputs", "has no band", str(name), nearest(str(name), BANDED))
+        for name in outputs
+        if name not in BANDED
+    ]
+    if isinstance(count, bool) or not isinstance(count, int | np.integer) or not 2 <= count <= _MOST_SAMPLES:
+        faults.append(Fault("band.samples", "must be a whole number from 2 to 2^30", str(count), "such as 2**14"))
+    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
+        faults.append(Fault("band.seed", "must be a whole number of 0 or more", str(seed)))
+    if not isinstance(level, int | float) or not 0 < level < 1:
+        faults.append(Fault("band.level", "must lie between 0 and 1", str(level), "0.95 is usual"))
+    return faults + engine_faults("band", engine)
+
+
+def faults_of_point(point: Mapping[str, Any]) -> list[Fault]:
+    """Loads and speeds that are not one number."""
+    return [
+        Fault(f"band.{name}", "must be one number", "", "for several, call again for each, or take band_along")
+        for name, value in point.items()
+        if np.ndim(value)
+    ]
+
+
+def faults_of_inputs(subject: Subject, uncertain: Mapping[str, Any], joint: JointNormal | None) -> list[Fault]:
+    """What is wrong with the uncertain inputs."""
+    known, faults = subject.inputs, list[Fault]()
+    for name, distribution in uncertain.items():
+        where = f"band.uncertain.{name}"
+        if name not in known:
+            faults.append(Fault(where, "unknown name", "", nearest(name, known)))
+        elif not isinstance(distribution, Distribution):
+            kinds = ", ".join(kind.__name__ for kind in get_args(Distribution))
+            faults.append(Fault(where, "is no distribution", str(distribution), f"one of {kinds}"))
+        elif known[name][1].info.whole:
+            faults.append(Fault(where, "is a whole number, which has no distribution", "", "leave it out"))
+        else:
+            part, quantity = known[name]
+            ends = (fault_of(part, quantity, float(end)) for end in distribution.telling)
+            faults += list(dict.fromkeys(fault for fault in ends if fault is not None))
+    for name in () if joint is None else joint.names:
+        if name in uncertain:
+            faults.append(Fault(f"band.uncertain.{name}", "is among the joint ones, too", "", "leave one of them out"))
+        elif name not in known or name in OPERATION:
+            faults.append(Fault(f"band.joint.{name}", "unknown name", "", nearest(name, known)))
+    return faults

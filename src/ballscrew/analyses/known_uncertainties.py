@@ -1,0 +1,110 @@
+"""How far off the numbers are that users rarely know: ``data/uncertainties.toml``, about the values of a case."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+import operator
+import tomllib
+from collections.abc import Collection, Mapping
+from importlib import resources
+from typing import Any
+
+from ballscrew.analyses.distributions import Distribution, LogNormal, Normal, Uniform, within
+from ballscrew.analyses.outputs import inputs_of
+from ballscrew.components.laws import ProportionalBallForce
+from ballscrew.components.materials import TEMPERATURE, Lubricant
+from ballscrew.components.screw import BallScrew
+from ballscrew.model import FrictionModel
+from ballscrew.quantities import Info
+
+#: Half the width of the interval that holds 95 % of a normal distribution, in standard deviations.
+NORMAL_95 = 1.959963984540054
+#: What stands for a source where there is none.
+JUDGEMENT = "judgement"
+#: The viscosity of an oil whose grade and temperature are known.
+_OF_GRADE = "viscosity_of_grade"
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class KnownUncertainty:
+    """How far off a number may be, in one of four ways, with its source and the reason in a sentence.
+
+    ``half_width``, ``share``, ``limits`` and ``factor`` are as the head of the file says.
+    """
+
+    name: str
+    source: str
+    reason: str
+    half_width: float | None = None
+    share: float | None = None
+    limits: float | None = None
+    factor: float | None = None
+
+    def about(self, value: float, info: Info) -> Distribution | None:
+        """The distribution about a value of a quantity, SI; None for one at its lower bound, which was switched off."""
+        bound = info.at_least if info.above is None else info.above
+        above = value - (bound or 0.0)
+        if self.half_width is not None:
+            found: Distribution = Normal(value, self.half_width / NORMAL_95)
+        elif above <= 0:
+            return None
+        elif self.share is not None:
+            found = Normal(value, self.share * above / NORMAL_95)
+        elif self.limits is not None:
+            found = Uniform(value * (1 - self.limits), value * (1 + self.limits))
+        else:
+            assert self.factor is not None, self.name
+            found = LogNormal(value, math.exp(math.log(self.factor) / NORMAL_95))
+        return within(found, info)
+
+
+@functools.cache
+def known_uncertainties() -> Mapping[str, KnownUncertainty]:
+    """Those shipped, by the name of the input."""
+    text = resources.files("ballscrew").joinpath("data/uncertainties.toml").read_text(encoding="utf-8")
+    tables: dict[str, dict[str, Any]] = tomllib.loads(text)
+    return {name: KnownUncertainty(name=name, **table) for name, table in tables.items()}
+
+
+def usual_uncertainties(
+    model: FrictionModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    *,
+    given: Collection[str] = (),
+    exact: Collection[str] = (),
+) -> Mapping[str, tuple[Distribution, KnownUncertainty]]:
+    """The usual distributions of inputs, about the values they have, and where they are from.
+
+    Left out are those whose distribution is ``given`` and those that are known exactly. Of an oil made from a grade
+    the temperature is uncertain and the viscosity follows, or, where the temperature is exact, the viscosity is by
+    what a grade leaves open: never both, as one would undo the other.
+    """
+    inputs, known = inputs_of(model, screw, lubricant), known_uncertainties()
+    parts = {"screw": screw, "lubricant": lubricant, "model": model}
+    found: dict[str, tuple[Distribution, KnownUncertainty]] = {}
+    for name in known:
+        if name not in inputs or name in given or name in exact or not _counts(name, model, lubricant, exact):
+            continue
+        part, quantity = inputs[name]
+        value = operator.attrgetter(name)(parts[part])
+        value = model.imposed_ball_force(screw) if value is None else value
+        graded = name == "viscosity" and lubricant.grade is not None
+        uncertainty = known[_OF_GRADE if graded else name]
+        distribution = uncertainty.about(float(value), quantity.info)
+        if distribution is not None:
+            found[name] = distribution, uncertainty
+    return found
+
+
+def _counts(name: str, model: FrictionModel, lubricant: Lubricant, exact: Collection[str]) -> bool:
+    """Whether an input has a part in the result."""
+    if name == "ball_to_ball_force":
+        return not isinstance(model.ball_force, ProportionalBallForce)
+    if name == "friction.full_film_friction_coefficient":
+        return model.full_film is None
+    if name == "viscosity" and lubricant.grade is not None:
+        return TEMPERATURE.name in exact
+    return True

@@ -1,0 +1,25 @@
+"""A bar for those who wait."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+from collections.abc import Callable, Generator
+from typing import Any
+
+
+@contextlib.contextmanager
+def progress(what: str) -> Generator[Callable[[int, int], None]]:
+    """A progress bar on the error stream, for ``done(finished, total)`` points; silent where nobody looks."""
+    from rich.console import Console
+    from rich.progress import Progress, Task, TextColumn
+
+    class Rate(TextColumn):
+        def render(self, task: Task) -> Any:
+            self.text_format = "" if not task.speed else f"{task.speed:,.0f} points/s"
+            return super().render(task)
+
+    columns = (*Progress.get_default_columns(), Rate(""))
+    with Progress(*columns, console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as bar:
+        task = bar.add_task(what, total=None)
+        yield lambda finished, total: bar.update(task, completed=finished, total=total)

@@ -1,0 +1,240 @@
+"""``ballscrew run --band``: words, JSON, pictures, bad input."""
+
+import json
+import math
+
+import pytest
+from matplotlib.text import Text
+
+from ballscrew.interfaces import band, comparison, config
+from ballscrew.interfaces.figures import style
+from ballscrew.interfaces.uncertain import all_of, joint_of
+
+
+@pytest.fixture
+def drive(example):
+    return example.with_name("feed_drive.toml")
+
+
+def document_of(process):
+    assert process.returncode == 0, process.stderr
+    return json.loads(process.stdout)
+
+
+def test_json(drive, ballscrew):
+    with_band = document_of(ballscrew("run", drive, "--band", "--json", "--samples", "512"))
+    without = document_of(ballscrew("run", drive, "--json"))
+    found = with_band.pop("band")
+    assert {**with_band, "warnings": without["warnings"]} == without
+    assert (found["level"], found["samples"], found["seed"]) == (0.95, 512, 0)
+    torque = found["screw_torque"]
+    assert torque["value"] == without["results"]["screw_torque"]
+    assert torque["low"] < torque["median"] < torque["high"]
+    for cause in ("parameters", "model_form"):
+        assert torque[cause]["low"] < torque["value"] < torque[cause]["high"]
+    assert 0 < torque["share_of_parameters"] < 1
+    for name in ("efficiency", "back_driving_efficiency", "holding_torque", "drive_torque", "friction_power"):
+        assert found[name]["value"] == pytest.approx(without["results"][name], rel=1e-12)
+    assert found["self_locking_share"] == 0
+    assert found["inputs"]["temperature"]["distribution"].startswith("normal, mean 313.15 K")
+    assert found["inputs"]["friction.full_film_friction_coefficient"]["source"] == "SKF2018"
+    assert {law["name"] for law in found["laws"]["rolling"]} == {"olaru", "houpert", "aihara"}
+
+
+def test_only_given(drive, ballscrew):
+    given = ("--set", "screw.screw_conformity=0.54 ± 0.01", "--only-given", "--samples", "256", "--json")
+    found = document_of(ballscrew("run", drive, "--band", *given))["band"]
+    assert list(found["inputs"]) == ["screw_conformity"]
+    assert found["inputs"]["screw_conformity"]["source"] == "given"
+    nothing = document_of(ballscrew("run", drive, "--band", *given[2:]))["band"]
+    assert nothing["inputs"] == {}
+    assert nothing["screw_torque"]["parameters"] == dict.fromkeys(("low", "high"), nothing["screw_torque"]["value"])
+
+
+def test_words(drive, ballscrew):
+    process = ballscrew("run", drive, "--band", "--set", "lubricant.temperature=45 ± 5 degC", "--samples", "1024")
+    assert process.returncode == 0, process.stderr
+    text = process.stdout
+    assert text.startswith("5000 N, 600 rpm, model reference\n")
+    assert "95 % of the samples between" in text
+    assert "self-locking in none of the samples" in text
+    assert "  temperature 45 degC ± 5 K\n" in text
+    assert "  full film: eyring" in text
+    assert "(ISO3290-1: grades G3 to G40" in text
+    for words in ("inputs and laws", "inputs alone", "laws alone", "efficiency, load drives"):
+        assert words in text
+    assert not any(word in text for word in ("nan", "Traceback"))
+
+
+def test_the_bars_are_on_one_axis(drive, ballscrew):
+    text = ballscrew("run", drive, "--band", "--samples", "1024").stdout
+    rows = [line for line in text.splitlines() if line.startswith(("inputs and", "inputs alone", "laws alone"))]
+    strokes = {line.index("│") for line in rows}
+    assert len(rows) == 3
+    assert len(strokes) == 1
+    plain = ballscrew("run", drive, "--band", "--samples", "64", environment={"PYTHONIOENCODING": "ascii"})
+    assert "#" in plain.stdout
+
+
+def test_a_whole_nut(example, ballscrew):
+    nut = example.with_name("catalogue_screw.toml")
+    found = document_of(ballscrew("run", nut, "--band", "--json", "--samples", "32"))
+    assert found["band"]["samples"] == 32
+    assert found["band"]["screw_torque"]["value"] == found["results"]["screw_torque"]
+    assert "loads" in found
+
+
+@pytest.mark.parametrize(
+    ("setting", "words"),
+    [
+        ("operation.axial_load=0 N", "no band: without load there is no friction torque"),
+        ("operation.screw_speed=0 rpm", "self-locking in none of the samples"),
+        ("operation.axial_load=1e-3 N", "of the samples lie outside the model's validity"),
+    ],
+)
+def test_limits_in_words(setting, words, drive, ballscrew):
+    process = ballscrew("run", drive, "--band", "--samples", "256", "--set", setting)
+    assert process.returncode == 0, process.stderr
+    assert words in process.stdout
+    assert process.stderr == ""
+    document_of(ballscrew("run", drive, "--band", "--samples", "256", "--set", setting, "--json"))
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        (["--samples", "8"], "--samples: needs --band (8) · add --band"),
+        (["--level", "0.9"], "--level: needs --band (0.9) · add --band"),
+        (["--only-given"], "--only-given: needs --band"),
+        (["--to", "band.png"], "--to: needs --band (band.png) · add --band"),
+        (["--band", "--samples", "1"], "--samples: must be a whole number from 2 to 2^30 (1)"),
+        (["--band", "--level", "95"], "--level: must lie between 0 and 1 (95.0)"),
+        (["--band", "--level", "nan"], "--level: must lie between 0 and 1 (nan)"),
+        (["--band", "--to", "band.doc"], "--to: unknown kind of file (band.doc)"),
+        (["--band", "--set", "screw.screw_conformity=0.54 ± x"], "screw.screw_conformity: is not a number"),
+    ],
+)
+def test_bad_input(options, expected, drive, ballscrew, tmp_path):
+    process = ballscrew("run", drive, *options)
+    assert process.returncode == 2
+    assert process.stdout == ""
+    assert process.stderr.startswith(expected)
+    assert len(process.stderr.strip().splitlines()) == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("kind", ["png", "svg", "pdf"])
+def test_pictures(kind, drive, ballscrew, tmp_path):
+    process = ballscrew("run", drive, "--band", "--samples", "64", "--to", f"band.{kind}")
+    assert process.returncode == 0, process.stderr
+    begin = {"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}[kind]
+    assert (tmp_path / f"band.{kind}").read_bytes().startswith(begin)
+    assert f"band.{kind}: 64 samples of 14 uncertain inputs" in process.stdout
+
+
+@pytest.mark.parametrize(
+    ("settings", "axis"),
+    [
+        ([], "speed of the screw (rpm)"),
+        (["operation.screw_speed=0 rpm"], "axial load on the nut (N)"),
+        (["operation.screw_speed=600 ± 50 rpm"], "speed of the screw (rpm)"),
+    ],
+)
+def test_what_a_picture_says(settings, axis, drive):
+    case = config.load(drive, settings)
+    options = band.Options(samples=64)
+    with style.house_style():
+        figure = band.picture(case, band.computed(case, options), options)
+        figure.draw_without_rendering()
+    left, right = figure.axes
+    assert left.get_xlabel() == axis
+    assert "N m" in left.get_ylabel()
+    labels = [label.get_text() for label in right.get_yticklabels()]
+    assert labels[:3] == ["inputs and laws", "inputs alone", "laws alone"]
+    assert "rolling: houpert" in labels
+    caption = " ".join(text.get_text().replace("\n", " ") for text in figure.findobj(Text))
+    assert "75 balls" in caption
+    assert "64 samples of" in caption
+    assert ("the screw speed is exact" in caption) == ("50 rpm" in str(settings))
+    assert all(math.isfinite(x) for x in (*left.get_xlim(), *left.get_ylim(), *right.get_xlim()))
+
+
+def test_laws_that_only_leave_something_out_are_no_alternatives(drive):
+    case = config.load(drive)
+    names = {(law.slot, law.name) for law in band.alternatives(case)}
+    assert not names & band.LEAVE_OUT
+    assert ("rolling", "houpert") in names
+    everything = {(law.slot, law.name) for law in comparison.candidates(case)[1]}
+    assert everything >= {("slip", "curvature"), ("frame", "bearing")}
+    with_the_papers = config.load(drive, ["model.slip=curvature"])
+    assert ("slip", "ellipse") in {(law.slot, law.name) for law in band.alternatives(with_the_papers)}
+
+
+def test_a_calibration_is_drawn_with_its_correlation(drive):
+    case = config.load(drive, ["model.calibration=rexroth-2006"])
+    joint = joint_of(case, all_of(case))
+    assert joint is not None
+    assert joint.covariance[0, 1] < 0
+    slots = {law.slot for law in band.alternatives(case)}
+    assert "rolling" in slots
+    assert not slots & {"friction", "ball_force"}
+    plain = config.load(drive)
+    assert joint_of(plain, all_of(plain)) is None
+
+
+FIT = """
+[model]
+friction.boundary_friction_coefficient = "0.11 ± 0.00392"
+
+[calibration]
+numbers = ["friction.boundary_friction_coefficient", "viscosity"]
+values = [0.11, 0.09]
+covariance = [[4e-6, -3.6e-6], [-3.6e-6, 4e-6]]
+"""
+
+
+def fitted(example, tmp_path, text=FIT):
+    path = tmp_path / "fitted.toml"
+    original = example.read_text(encoding="utf-8").partition("[model]")[0]
+    path.write_text(original.replace('"0.1 Pa s"', '"0.09 Pa s ± 0.00392 Pa s"') + text, encoding="utf-8")
+    return path
+
+
+def test_a_fit_is_drawn_with_its_correlation(example, tmp_path, ballscrew):
+    """Opposite errors of two numbers that both raise the torque: the band is narrower than without the table."""
+    path = fitted(example, tmp_path)
+    joint = joint_of(config.load(path), all_of(config.load(path)))
+    assert joint.names == ("friction.boundary_friction_coefficient", "viscosity")
+    alone = fitted(example, tmp_path, FIT.partition("[calibration]")[0])
+    case = config.load(alone)
+    independent = band.computed(case, band.Options(samples=1024, only_given=True)).band["screw_torque"].parameters
+    path = fitted(example, tmp_path)
+    found = (
+        band.computed(config.load(path), band.Options(samples=1024, only_given=True)).band["screw_torque"].parameters
+    )
+    assert found.high - found.low < 0.9 * (independent.high - independent.low)
+    assert "friction" not in {law.slot for law in band.alternatives(config.load(path))}
+    assert ballscrew("run", path).returncode == 0
+
+
+def test_a_number_changed_after_the_fit_is_no_part_of_it(example, tmp_path):
+    case = config.load(fitted(example, tmp_path), ["lubricant.viscosity=0.2 Pa s ± 10 %"])
+    assert joint_of(case, all_of(case)).names == ("friction.boundary_friction_coefficient",)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ('calibration = "mine"\n', "calibration: must be a table (mine)"),
+        ('[calibration]\nnumbers = ["viscosity"]\n', "calibration: is not as a fit writes it"),
+    ],
+)
+def test_a_fit_that_is_none(text, expected, example, tmp_path, ballscrew):
+    path = fitted(example, tmp_path, "")
+    path.write_text(
+        text + path.read_text(encoding="utf-8") if text.startswith("cal") else path.read_text(encoding="utf-8") + text,
+        encoding="utf-8",
+    )
+    process = ballscrew("run", path, "--band", "--samples", "8")
+    assert (process.returncode, process.stdout) == (2, "")
+    assert process.stderr.startswith(expected)
