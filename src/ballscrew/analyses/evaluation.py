@@ -21,7 +21,7 @@ from ballscrew.engine import kernel as kernels
 from ballscrew.engine.emission import Source, UnknownOperationError, kernel_text
 from ballscrew.engine.grid import COLUMNS, ROWS, Split, inner_axes, split
 from ballscrew.engine.kernel import Kernel
-from ballscrew.engine.program import Player, Program
+from ballscrew.engine.program import Program
 from ballscrew.faults import Fault, InputError, raise_if_any
 
 #: Fewest columns of a grid: a short row is mostly its beginning and its end.
@@ -127,7 +127,7 @@ class Evaluation:
 
 
 def _by_numpy(plan: Plan, program: Program | None) -> Evaluation:
-    player = None if program is None else Player(program)
+    player = None if program is None else program.player
 
     def works(plan: Plan) -> _Work:
         def work(part: slice, results: Mapping[str, NDArray[Any]], first: int) -> None:
@@ -271,7 +271,7 @@ class _Grid(_Kernels):
             if names:
                 inputs = self.plan.points_at(np.asarray(places))
                 with np.errstate(all="ignore"):
-                    Player(program).play([inputs[name] for name in self.plan.varying], values)
+                    program.player.play([inputs[name] for name in self.plan.varying], values)
             for name in names:
                 found[source, name] = values[name].astype(float, copy=False)
         return [found[key] for key in self.cut.tables]

@@ -26,7 +26,7 @@ from ballscrew.components.screw import BallScrew
 from ballscrew.engine import random
 from ballscrew.engine.emission import Source, UnknownOperationError, kernel_text
 from ballscrew.engine.kernel import Kernel
-from ballscrew.engine.program import Player, Program
+from ballscrew.engine.program import Program
 from ballscrew.engine.sketch import UNIT, Moments, Sketch
 from ballscrew.engine.tape import Tape
 from ballscrew.faults import Fault, InputError, nearest, raise_if_any
@@ -203,7 +203,7 @@ def _recorded(plan: Plan, distributions: Mapping[str, Distribution]) -> Program 
 
 
 def _by_numpy(plan: Plan, distributions: Mapping[str, Distribution], program: Program | None, seed: int) -> _Work:
-    player = None if program is None else Player(program)
+    player = None if program is None else program.player
 
     def work(part: slice, results: Mapping[str, NDArray[Any]]) -> None:
         numbers = random.uniform(part, len(distributions), seed)

@@ -26,7 +26,7 @@ from ballscrew.assembly import NutFriction
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.engine.merging import merged_program
-from ballscrew.engine.program import Player, Program
+from ballscrew.engine.program import Program
 from ballscrew.engine.tape import Tape
 from ballscrew.faults import Fault, fault_of, nearest, raise_if_any
 from ballscrew.model import FrictionModel
@@ -109,7 +109,7 @@ class Subject:
                 result = self.at(points)
                 program = merged_program(tape, {name: output.read(result) for name, output in wanted.items()})
                 blank = {n: np.empty(1, output.dtype) for n, output in wanted.items()}
-                Player(program).play([np.full(1, 0.5)] * tape.inputs, blank)
+                program.player.play([np.full(1, 0.5)] * tape.inputs, blank)
         except Exception:  # whatever a law of the user's cannot do with a recording, it may do with arrays
             return None
         return program

@@ -8,6 +8,7 @@ load and at rest (the logarithm of zero is minus infinity).
 from __future__ import annotations
 
 import dataclasses
+import functools
 import threading
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
@@ -40,6 +41,11 @@ class Program:
         chosen = needed(steps, traced.values())
         known = frozenset(i for i in (*range(tape.inputs), *(i for i, _ in chosen)) if tape.nonnegative[i])
         return cls(tape.inputs, chosen, traced, constants, known)
+
+    @functools.cached_property
+    def player(self) -> Player:
+        """NumPy, ready to play the program."""
+        return Player(self)
 
     @property
     def text(self) -> str:
@@ -81,7 +87,8 @@ class Player:
     def __init__(self, program: Program) -> None:
         self.program = program
         self._slots: list[Any] = [None] * program.inputs
-        self.buffers: list[tuple[int, bool]] = []
+        #: By slot, whether a buffer is for a mask.
+        self.buffers: dict[int, bool] = {}
         self._results: dict[str, int] = {}
         self._calls = self._arrange()
         self._local = threading.local()
@@ -102,10 +109,9 @@ class Player:
             if i not in position:
                 position[i] = free[step.is_mask].pop() if free[step.is_mask] else self._new_buffer(step.is_mask)
             calls.append((step.function, operands, position[i]))
-            buffers = dict(self.buffers)
-            for _, o in {(kind, o) for kind, o in step.operands if kind == "step" and last_use[o] == i}:
-                if position[o] in buffers:
-                    free[buffers[position[o]]].append(position[o])
+            for o in dict.fromkeys(o for kind, o in step.operands if kind == "step" and last_use[o] == i):
+                if position[o] in self.buffers:
+                    free[self.buffers[position[o]]].append(position[o])
         self._copies = {name: position[i] for name, i in outputs.items() if name not in self._results}
         return calls
 
@@ -115,7 +121,7 @@ class Player:
 
     def _new_buffer(self, is_mask: bool) -> int:
         slot = self._new_slot()
-        self.buffers.append((slot, is_mask))
+        self.buffers[slot] = is_mask
         return slot
 
     def play(self, inputs: Sequence[Any], results: Mapping[str, NDArray[Any]]) -> None:
@@ -138,6 +144,6 @@ class Player:
             workspaces = self._local.workspaces = {}
         if size not in workspaces:
             slots = workspaces[size] = list(self._slots)
-            for slot, is_mask in self.buffers:
+            for slot, is_mask in self.buffers.items():
                 slots[slot] = np.empty(size, dtype=bool if is_mask else float)
         return workspaces[size]
