@@ -120,11 +120,20 @@ def print_result(case: config.Case, result: FrictionResult) -> None:
         if said and warning.startswith("skid: "):
             continue
         console.print(f"beware  {warning}", style="yellow", markup=False, soft_wrap=True)
-    console.print(LEFT_OUT, markup=False, soft_wrap=True)
+    for line in (LEFT_OUT, *of_fit(case)):
+        console.print(line, markup=False, soft_wrap=True)
     if any(float(part) for part in result.contributions.values()):
         console.print(parts_table(result.contributions, float(result.screw_torque), console.encoding))
     console.print(_quadrants(result))
     console.print(_contacts(result))
+
+
+def of_fit(case: config.Case) -> list[str]:
+    """What a fit left beside the numbers of the case: its log, and torque that no model of the balls has."""
+    said = [f"calibrated to {case.fit['log']}"] if case.fit.get("log") else []
+    if constant := case.fit.get("constant_torque"):
+        said.append(f"not in it: {constant} that the log has at all loads and speeds, of seals and bearings; add it")
+    return said
 
 
 def at_rest(case: config.Case) -> FrictionResult:
