@@ -1,0 +1,89 @@
+"""What the page on calibration shows: its commands, what they print, draw and write; run as people run them."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+EXAMPLES = "rig.toml", "rig_log.csv"
+FIT = ["fit", "examples/rig_log.csv", "--case", "examples/rig.toml"]
+BOTH = "boundary_friction_coefficient,constant_torque"
+LIMITS = [
+    "--limits", "axial_load=0.5:12 kN", "--limits", "screw_speed=5:1000 rpm", "--limits", "temperature=20:60 degC",
+]  # fmt: skip
+ROUGH = [*FIT, "--free", f"{BOTH},screw_roughness,nut_roughness", *LIMITS]
+#: By name; in this order, for the later ones read what the earlier ones write.
+COMMANDS = {
+    "first": [*FIT, "--picture", "first.png"],
+    "second": [*FIT, "--free", BOTH, *LIMITS, "--picture", "second.png", "-o", "rig-calibrated.toml"],
+    "rough": ROUGH,
+    "prior": [*ROUGH, "--set", "screw.nut_roughness=0.3 ± 0.05 um"],
+    "run": ["run", "rig-calibrated.toml"],
+    "band": ["run", "rig-calibrated.toml", "--band", "--only-given"],
+    "sweep": ["sweep", "rig-calibrated.toml", "--output", "screw_torque"],
+}
+#: Of these the page shows the numbers and the next test.
+SHORTENED = "rough", "prior"
+WRITTEN = "first.png", "second.png", "rig-calibrated.toml"
+WIDTH = "110"
+
+
+def write(folder: Path) -> None:
+    """Commands with their output as text, and the files that they write."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as name:
+        place = Path(name)
+        (place / "examples").mkdir()
+        for example in EXAMPLES:
+            shutil.copy(ROOT / "examples" / example, place / "examples")
+        for name, arguments in COMMANDS.items():
+            said = _said(["-m", "ballscrew.interfaces.cli", *arguments], place)
+            said = _shortened(said) if name in SHORTENED else said
+            (folder / f"{name}.txt").write_text(f"$ {_typed(arguments)}\n{said}", encoding="utf-8")
+        for name in WRITTEN:
+            shutil.copy(place / name, folder)
+        said = _said([str(ROOT / "docs" / "calibration_example.py")], place)
+        (folder / "python.txt").write_text(said, encoding="utf-8")
+
+
+def _said(arguments: list[str], place: Path) -> str:
+    done = subprocess.run(
+        [sys.executable, *arguments],
+        cwd=place,
+        env={**os.environ, "COLUMNS": WIDTH, "PYTHONIOENCODING": "utf-8"},
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+    )
+    if done.returncode:
+        raise RuntimeError(f"{' '.join(arguments)}\n{done.stderr}")
+    return "\n".join(line.rstrip() for line in done.stdout.splitlines()) + "\n"
+
+
+def _shortened(said: str) -> str:
+    before, scores, _ = said.partition("How far off")
+    _, next_test, after = said.partition("next test:")
+    assert scores
+    assert next_test
+    return f"{before}[…]\n\n{next_test}{after}"
+
+
+def _typed(arguments: list[str]) -> str:
+    """The command as it is typed, options with values on lines of their own."""
+    words: list[str] = []
+    for argument in arguments:
+        name, equals, value = argument.partition("=")
+        words.append(f'{name}="{value}"' if equals and " " in value else argument)
+    lines = [f".venv/bin/ballscrew {words[0]} {words[1]}"]
+    for word in words[2:]:
+        if word.startswith("-") and len(lines[-1]) > 60:
+            lines[-1] += " \\"
+            lines.append(f"      {word}")
+        else:
+            lines[-1] += f" {word}"
+    return "\n".join(lines)

@@ -1,0 +1,175 @@
+"""What data tell, on straight lines, where all of it has a closed form."""
+
+import numpy as np
+import pytest
+
+from ballscrew.analyses import robust
+from ballscrew.analyses.identifiability import LIMIT, Identifiability, Told, Uncertainty, weighted
+from ballscrew.analyses.robust import Solution, scatter_of
+
+NOTHING = np.empty((0, 3))
+
+
+def columns(rows, seed=0):
+    """Three columns of different sizes, correlated."""
+    drawn = np.random.default_rng(seed).standard_normal((rows, 3))
+    return np.stack([np.ones(rows), drawn[:, 0], 5 * drawn[:, 0] + 3 * drawn[:, 1]], axis=1)
+
+
+def least_squares(slopes, noise):
+    """A fit of a straight line to nothing but noise, as the trust region leaves it without a bend."""
+    values = np.linalg.lstsq(slopes, noise, rcond=None)[0]
+    residuals = slopes @ values - noise
+    return Solution(values, residuals, slopes, scatter_of(residuals, noise), True)
+
+
+def by_the_loss(slopes, noise):
+    unbounded = np.full(slopes.shape[1], np.inf)
+    prior = robust.Prior(lambda x: np.empty(0), lambda x: np.empty((0, x.size)))
+    start = np.zeros(slopes.shape[1])
+    return robust.solve(lambda v: (slopes @ v, slopes), noise, start, 1 + start, (-unbounded, unbounded), prior)
+
+
+@pytest.fixture
+def no_bend(monkeypatch):
+    monkeypatch.setattr(robust, "BEND", 1e6)
+
+
+def covariance_of(solution, known=None):
+    numbers = solution.values.size
+    return Uncertainty.of(solution, np.ones(numbers), np.empty((0, numbers)) if known is None else known).covariance
+
+
+@pytest.mark.usefixtures("no_bend")
+def test_without_a_bend_the_covariance_is_that_of_least_squares():
+    """s² (XᵀX)⁻¹; with 20 000 rows it is known to about a per cent."""
+    slopes = columns(20_000)
+    noise = np.random.default_rng(4).normal(0, 0.3, 20_000)
+    found = covariance_of(least_squares(slopes, noise))
+    classical = 0.3**2 * np.linalg.inv(slopes.T @ slopes)
+    error = np.sqrt(np.diagonal(classical))
+    np.testing.assert_allclose(found / np.outer(error, error), classical / np.outer(error, error), atol=0.04)
+
+
+@pytest.mark.usefixtures("no_bend")
+def test_few_rows_count_the_numbers_that_were_fitted():
+    """The mean over many logs of 12 rows: n/(n − p) times the squares of residuals, which p numbers made smaller."""
+    ones = np.ones((12, 1))
+    found = [
+        covariance_of(least_squares(ones, np.random.default_rng(seed).standard_normal(12)))[0, 0]
+        for seed in range(4000)
+    ]
+    # each variance is off by √(2/11); their mean by less than a per cent
+    assert np.mean(found) == pytest.approx(1 / 12, rel=0.03)
+
+
+@pytest.mark.usefixtures("no_bend")
+def test_errors_hold_where_the_noise_depends_on_the_place():
+    """White (1980): noise that grows with the column makes its slope worse than s² (XᵀX)⁻¹ says."""
+    slopes = columns(20_000)[:, 1:2]
+    noise = slopes[:, 0] * np.random.default_rng(4).standard_normal(20_000)
+    found = covariance_of(least_squares(slopes, noise))[0, 0]
+    # of x ~ N(0, 1): E[x⁴]/E[x²]² = 3
+    assert found * 20_000 == pytest.approx(3, rel=0.1)
+
+
+def test_the_bend_costs_five_per_cent():
+    slopes = columns(20_000)
+    noise = np.random.default_rng(4).normal(0, 0.3, 20_000)
+    solution = by_the_loss(slopes, noise)
+    classical = 0.3**2 * np.linalg.inv(slopes.T @ slopes)
+    ratio = np.diagonal(covariance_of(solution)) / np.diagonal(classical)
+    np.testing.assert_allclose(ratio, 1.048, atol=0.03)
+
+
+def autoregressive(rows, correlation, seed):
+    found = np.random.default_rng(seed).standard_normal(rows)
+    for i in range(1, rows):
+        found[i] += correlation * found[i - 1]
+    return found
+
+
+@pytest.mark.usefixtures("no_bend")
+@pytest.mark.parametrize("correlation", [0.5, 0.8])
+def test_noise_that_follows_itself_widens_a_mean_as_theory_says(correlation):
+    """The variance of a mean of an AR(1) series is σ²/n (1 + φ)/(1 − φ); weights that fall take up to a fifth off."""
+    rows, ones = 5000, np.ones((5000, 1))
+    noises = [autoregressive(rows, correlation, seed) for seed in range(30)]
+    found = np.mean([covariance_of(least_squares(ones, noise))[0, 0] for noise in noises])
+    theory = (1 + correlation) / (1 - correlation) / (1 - correlation**2) / rows
+    assert 0.8 * theory < found < 1.05 * theory
+
+
+def test_a_prior_adds_its_information():
+    """Without rows that tell anything the error is that of the prior; with both, of both."""
+    slopes = columns(2000)
+    noise = np.random.default_rng(4).normal(0, 0.3, 2000)
+    solution = by_the_loss(slopes, noise)
+    alone = covariance_of(solution)[0, 0]
+    known = np.array([[1 / 0.004, 0, 0]])
+    # the column of ones is next to uncorrelated with the others
+    assert covariance_of(solution, known)[0, 0] == pytest.approx(1 / (1 / alone + 1 / 0.004**2), rel=0.05)
+    blind = Solution(np.zeros(1), np.ones(50), np.zeros((50, 1)), 1.0, True)
+    assert covariance_of(blind, np.array([[1 / 0.1]]))[0, 0] == pytest.approx(0.01)
+
+
+def test_directions_are_told_down_to_half_the_scale():
+    root = np.diag([100.0, 1.01 / LIMIT, 0.99 / LIMIT, 0.0])
+    found = Told.of(root)
+    assert found.told.tolist() == [True, True, False, False]
+    assert found.numbers_told.tolist() == [True, True, False, False]
+    np.testing.assert_allclose(np.abs(found.open), np.eye(4)[:, 2:])
+    # what is lost in rounding is not told, whatever the scatter
+    assert Told.of(np.diag([1e12, 1e3])).told.tolist() == [True, False]
+    assert not Told.of(np.zeros((0, 2))).told.any()
+
+
+def twins():
+    """Two numbers of which only the sum counts, one that is told, and a sensor."""
+    rows = 500
+    drawn = np.random.default_rng(0).standard_normal((rows, 2))
+    slopes = np.stack([drawn[:, 0], drawn[:, 0], drawn[:, 1], np.ones(rows)], axis=1)
+    return by_the_loss(slopes, np.random.default_rng(1).normal(0, 0.1, rows))
+
+
+def test_of_two_that_act_as_one_the_product_is_told():
+    found = Identifiability.of(twins(), ("one", "other", "third"), np.ones(4))
+    assert found.identified == {"one": False, "other": False, "third": True}
+    together, third, apart = found.combinations
+    assert together.identified
+    assert third.identified
+    assert not apart.identified
+    assert together.powers == pytest.approx({"one": 0.5**0.5, "other": 0.5**0.5, "third": 0}, abs=0.1)
+    assert set(apart.powers) == {"one", "other"}
+    assert sorted(apart.powers.values()) == pytest.approx([-(0.5**0.5), 0.5**0.5])
+    assert apart.relative_error > 1e6
+
+
+def test_the_error_of_a_combination_is_that_of_the_data():
+    solution = twins()
+    found = Identifiability.of(solution, ("one", "other", "third"), np.ones(4))
+    root = weighted(solution)
+    information = root.T @ root
+    # taking the sensor out is the complement of Schur
+    rest = information[:3, :3] - np.outer(information[:3, 3], information[3, :3]) / information[3, 3]
+    np.testing.assert_allclose(found.singular_values**2, np.linalg.eigvalsh(rest)[::-1], atol=1e-9 * rest.max())
+
+
+def test_what_depends_on_what_is_not_told_has_no_variance():
+    solution = twins()
+    found = Uncertainty.of(solution, np.ones(4), np.empty((0, 4)))
+    total = found.variance_of(np.array([[1.0, 1, 0, 0], [1, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]))
+    np.testing.assert_array_equal(np.isnan(total), [False, True, True, False, False])
+    # the sum of the two has the error of one number in their place
+    slopes = solution.slopes[:, 1:]
+    alone = by_the_loss(slopes, np.random.default_rng(1).normal(0, 0.1, 500))
+    np.testing.assert_allclose(total[0], covariance_of(alone)[0, 0], rtol=1e-3)
+    assert found.variance_of(np.zeros(4)) == 0
+
+
+def test_scales_change_what_is_told_and_no_error():
+    solution = by_the_loss(columns(500), np.random.default_rng(1).normal(0, 0.1, 500))
+    one, other = (Uncertainty.of(solution, scale, NOTHING) for scale in (np.ones(3), np.array([10.0, 0.1, 3.0])))
+    np.testing.assert_allclose(one.covariance, other.covariance, rtol=1e-9)
+    small = Uncertainty.of(solution, np.array([1e-6, 1.0, 1.0]), NOTHING)
+    assert np.isnan(small.variance_of(np.array([1.0, 0, 0])))
