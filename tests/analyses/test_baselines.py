@@ -5,7 +5,7 @@ import pytest
 
 from ballscrew.analyses.baselines import STRIBECK_SHARES, Conditions, efficiency_pair, robust_linear, stribeck
 
-ROWS = 2000
+ROWS, ZERO_ERROR = 2000, 0.02
 
 
 def conditions(seed=0):
@@ -15,7 +15,7 @@ def conditions(seed=0):
     speed = np.exp(random.uniform(*np.log((1, 100)), ROWS))
     speed[0] = 100.0
     sign = np.where(random.random(ROWS) < 0.5, -1.0, 1.0)
-    return Conditions(load, speed, 8e-4 * load, sign < 0, np.stack([np.ones(ROWS), sign]))
+    return Conditions(load, speed, 8e-4 * load, sign < 0, np.stack([np.ones(ROWS), sign]), np.ones((ROWS, 1)))
 
 
 def spoilt(torque, noise=0.0, outliers=0.05, seed=1):
@@ -26,7 +26,7 @@ def spoilt(torque, noise=0.0, outliers=0.05, seed=1):
 
 def law_of_stribeck(at, coulomb, load, extra, viscous, fall):
     friction = coulomb + load * at.axial_load + extra * np.exp(-at.screw_speed / fall) + viscous * at.screw_speed
-    return at.weights[0] * at.ideal_torque + at.weights[1] * friction
+    return at.weights[0] * at.ideal_torque + at.weights[1] * friction + ZERO_ERROR
 
 
 @pytest.mark.parametrize("place", [3, 12, 20])

@@ -30,10 +30,11 @@ def samples(found):
 
 
 def test_where_the_model_is_nearly_a_straight_line_the_errors_are_those_of_the_curvature(found, samples):
-    """``exp(−½ Σ ρ)`` near its top is normal with the covariance (Σ ρ″/2 g gᵀ)⁻¹, g the derivatives."""
+    """``exp(−½ k Σ ρ)`` near its top is normal with the covariance (k Σ ρ″/2 g gᵀ)⁻¹, g the derivatives."""
     solution = found.solution
-    bend = (1 + (solution.residuals / solution.scatter / 1.35) ** 2) ** -1.5
-    root = np.sqrt(bend)[:, np.newaxis] * solution.slopes / solution.scatter
+    r = solution.residuals / solution.scatter
+    bend, pull = (1 + (r / 1.35) ** 2) ** -1.5, r / np.sqrt(1 + (r / 1.35) ** 2)
+    root = np.sqrt(bend * bend.sum() / (pull @ pull))[:, np.newaxis] * solution.slopes / solution.scatter
     deviation = np.sqrt(np.linalg.inv(root.T @ root)[0, 0])
     drawn = samples.samples[FRICTION]
     effective = drawn.size / samples.forgetting

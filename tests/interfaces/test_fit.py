@@ -245,7 +245,14 @@ def test_a_case_file_is_written_whole(fit, log):
     assert calibration["covariance"] == [[pytest.approx(estimate["std"] ** 2)]]
     torque, unit = calibration["constant_torque"].split(maxsplit=1)
     assert unit == "N m"
-    assert float(torque) == pytest.approx(said["estimates"]["constant_torque"]["value"])
+    assert float(torque) == pytest.approx(said["estimates"]["constant_torque"]["value"], rel=1e-5)
+
+
+def test_a_fit_is_not_lost_for_want_of_a_next_test(fit, log):
+    found = document_of(fit(log(), "--limits", "axial_load=1:2 GN", "--json"))
+    assert found["next_test"] is None
+    assert any("no next test" in warning for warning in found["warnings"])
+    assert found["estimates"][FRICTION]["identified"]
 
 
 def test_numbers_that_are_not_identified_are_written_without_an_error(fit, log):
@@ -402,7 +409,6 @@ def test_the_inertia_takes_its_share_of_the_torque(fit, log):
         (["--limits", "screw_speed=1 kg:2 rpm"], "--limits screw_speed: wrong unit (1 kg)"),
         (["--limits", "temperature=20:60 degC"], "--limits temperature"),
         (["--limits", "speed=1:2 rpm"], "--limits speed: unknown name"),
-        (["--limits", "axial_load=1:2 GN"], "no valid point within the limits"),
         (["--kind", "torque"], "--kind: unknown kind of torque (torque)"),
         (["--inertia", "2 kg"], "--inertia"),
         (["--inertia", "-1 kg m^2"], "--inertia: must be positive"),
@@ -540,7 +546,6 @@ def half_turned(name, factor):
     return {**data, name: np.where(np.arange(120) < 60, data[name], factor * data[name])}
 
 
-@pytest.mark.xfail(reason="nothing is said of rows that miss by more than the friction itself")
 @pytest.mark.parametrize(("name", "factor"), [("torque", -1), ("load", 1e-3)])
 def test_signs_and_units_that_change_halfway_are_not_passed_over_in_silence(name, factor, fit, log):
     """No model follows half of the rows, and it says so."""
@@ -548,7 +553,6 @@ def test_signs_and_units_that_change_halfway_are_not_passed_over_in_silence(name
     assert any("signs, units" in warning for warning in found["warnings"])
 
 
-@pytest.mark.xfail(reason="numbers of the sensor count as identified whatever the log says, with an error of 0")
 def test_the_sensor_has_an_error_or_is_not_identified(fit, log):
     found = document_of(fit(log(half_turned("load", 1e-3)), "--json"))
     assert all(estimate["std"] is None or estimate["std"] > 0 for estimate in found["sensor"].values())

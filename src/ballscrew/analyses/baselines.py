@@ -22,7 +22,8 @@ _ROUNDS = 50
 class Conditions:
     """Magnitudes of load and speed at the rows of a log, the ideal torque, and whether the load helps the motion.
 
-    ``weights`` are the factors of ideal torque and friction torque in what was measured, of shape (2, rows).
+    ``weights`` are the factors of ideal torque and friction torque in what was measured, of shape (2, rows); ``sensor``
+    are the errors of the sensor that are fitted beside, as columns: the model has them, too.
     """
 
     axial_load: Vector
@@ -30,12 +31,13 @@ class Conditions:
     ideal_torque: Vector
     helping: NDArray[np.bool_]
     weights: Vector
+    sensor: Vector
 
     def rows(self, chosen: NDArray[np.bool_]) -> Conditions:
         """Some of the rows."""
         return Conditions(
             self.axial_load[chosen], self.screw_speed[chosen], self.ideal_torque[chosen], self.helping[chosen],
-            self.weights[:, chosen],
+            self.weights[:, chosen], self.sensor[chosen],
         )  # fmt: skip
 
 
@@ -45,6 +47,8 @@ class Baseline:
 
     words: str
     coefficients: dict[str, float]
+    #: How many were fitted, those of the sensor among them.
+    numbers: int
     torque: Callable[[Conditions], Vector]
 
 
@@ -58,7 +62,7 @@ def stribeck(conditions: Conditions, torque: Vector) -> Baseline:
     def columns(rows: Conditions, speed: float) -> Vector:
         n = rows.screw_speed
         friction = np.stack([np.ones_like(n), rows.axial_load, np.exp(-n / speed), n], axis=1)
-        return rows.weights[1][:, np.newaxis] * friction
+        return np.hstack([rows.weights[1][:, np.newaxis] * friction, rows.sensor])
 
     def torque_of(rows: Conditions, speed: float, found: Vector) -> Vector:
         return rows.weights[0] * rows.ideal_torque + columns(rows, speed) @ found
@@ -67,8 +71,9 @@ def stribeck(conditions: Conditions, torque: Vector) -> Baseline:
     tried = [(speed, *robust_linear(columns(conditions, speed), rest)) for speed in STRIBECK_SHARES * fastest]
     speed, found, _ = min(tried, key=lambda trial: trial[2])
     names = ("coulomb_torque", "torque_per_load", "stribeck_torque", "viscous_torque_coefficient")
-    coefficients = {**dict(zip(names, found.tolist(), strict=True)), "stribeck_speed": float(speed)}
-    return Baseline("Stribeck, viscous and load", coefficients, lambda rows: torque_of(rows, speed, found))
+    coefficients = {**dict(zip(names, found.tolist(), strict=False)), "stribeck_speed": float(speed)}
+    words, numbers = "Stribeck, viscous and load", found.size + 1
+    return Baseline(words, coefficients, numbers, lambda rows: torque_of(rows, speed, found))
 
 
 def efficiency_pair(conditions: Conditions, torque: Vector) -> Baseline:
@@ -79,7 +84,8 @@ def efficiency_pair(conditions: Conditions, torque: Vector) -> Baseline:
 
     def columns(rows: Conditions) -> Vector:
         friction = rows.weights[1] * rows.ideal_torque
-        return np.stack([np.where(rows.helping, 0.0, friction), np.where(rows.helping, friction, 0.0)], axis=1)
+        pair = np.stack([np.where(rows.helping, 0.0, friction), np.where(rows.helping, friction, 0.0)], axis=1)
+        return np.hstack([pair, rows.sensor])
 
     rest = torque - conditions.weights[0] * conditions.ideal_torque
     found, _ = robust_linear(columns(conditions), rest)
@@ -87,6 +93,7 @@ def efficiency_pair(conditions: Conditions, torque: Vector) -> Baseline:
     return Baseline(
         "efficiency pair",
         {name: float(value) for name, value in coefficients.items()},
+        found.size,
         lambda rows: rows.weights[0] * rows.ideal_torque + columns(rows) @ found,
     )
 

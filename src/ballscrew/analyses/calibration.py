@@ -98,8 +98,9 @@ def fit(
     friction = response(solution.values[: len(numbers)])[0][1]
     far = np.abs(predicted - log.torque) > OUTLYING * solution.scatter
     rows = Rows(log, reading, predicted, friction, held_out, far)
-    told = Identifiability.of(solution, problem.names, problem.scale)
-    uncertainty = Uncertainty.of(solution, problem.scale, known.slopes(solution.values))
+    scale = np.maximum(problem.scale, np.abs(solution.values))
+    told = Identifiability.of(solution, problem.names, scale)
+    uncertainty = Uncertainty.of(solution, scale, known.slopes(solution.values))
     estimates = _estimates(problem, solution, told, uncertainty, known)
     found = CalibratedModel(
         subject=_with(subject, response, solution),
@@ -111,8 +112,16 @@ def fit(
         priors=known,
         solution=solution,
         rows=rows,
-        scores=_scores(rows, torques, len(problem.parameters)),
-        settings={"free": list(free), "holdout": holdout, "seed": seed, "inertia": inertia, "reading": reading.words},
+        scores=_scores(problem, rows, torques),
+        settings={
+            "free": list(free),
+            "priors": {name: prior.words(problem.quantity(name).unit) for name, prior in (priors or {}).items()},
+            "bounds": {name: list(map(float, pair)) for name, pair in (bounds or {}).items()},
+            "holdout": holdout,
+            "seed": seed,
+            "inertia": inertia,
+            "reading": reading.words,
+        },
     )
     return dataclasses.replace(found, warnings=warnings_of(found))
 
@@ -168,7 +177,9 @@ def _estimates(
     found: dict[str, Estimate] = {}
     for i, parameter in enumerate(problem.parameters):
         value, variance = float(solution.values[i]), float(uncertainty.covariance[i, i])
-        identified = told.identified.get(parameter.name, True) and not at_bound[i]
+        # of the sensor, all that is asked is whether it is known
+        known_well = told.identified.get(parameter.name, bool(uncertainty.told.numbers_told[i]))
+        identified = known_well and not at_bound[i]
         prior = known.deviation(i, value)
         found[parameter.name] = Estimate(
             name=parameter.name,
@@ -190,19 +201,21 @@ def _with(subject: Subject, response: Response, solution: Solution) -> Subject:
     return subject.changed(dict(zip(response.names, values, strict=True)))
 
 
-def _scores(rows: Rows, torques: Vector, numbers: int) -> list[Score]:
+def _scores(problem: Problem, rows: Rows, torques: Vector) -> list[Score]:
     """How far the model is off before and after, and the descriptions without physics, on the same rows."""
     log, fitted = rows.log, ~rows.held_out
     weights = rows.reading.weights(log.axial_load, log.screw_speed)
     helping = weights[0] * weights[1] < 0
-    conditions = baselines.Conditions(np.abs(log.axial_load), np.abs(log.screw_speed), torques[0], helping, weights)
+    conditions = baselines.Conditions(
+        np.abs(log.axial_load), np.abs(log.screw_speed), torques[0], helping, weights, problem.of_sensor
+    )
     described = {
         "the model as given": (0, np.sum(weights * torques, axis=0)),
-        "the model calibrated": (numbers, rows.predicted),
+        "the model calibrated": (len(problem.parameters), rows.predicted),
     }
     for baseline in baselines.ALL:
         found = baseline(conditions.rows(fitted), log.torque[fitted])
-        described[found.words] = (len(found.coefficients), found.torque(conditions))
+        described[found.words] = (found.numbers, found.torque(conditions))
     return [
         Score(words, count, rows.rms(predicted - log.torque, fitted), rows.rms(predicted - log.torque, rows.held_out))
         for words, (count, predicted) in described.items()

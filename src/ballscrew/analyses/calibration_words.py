@@ -68,6 +68,12 @@ def _of_rows(found: CalibratedModel) -> list[str]:
     said: list[str] = []
     if not found.solution.converged:
         said.append("the fit did not come to rest: its numbers are not to be used")
+    typical = float(np.median(np.abs(found.rows.friction)))
+    if found.solution.scatter > typical:
+        said.append(
+            f"rows miss by {found.solution.scatter:.2g} N m, more than the friction itself ({typical:.2g} N m): "
+            "look at their signs, units and conditions"
+        )
     outlying = float(np.mean(found.rows.outlying))
     if outlying > MANY_OUTLIERS:
         said.append(f"{outlying:.0%} of the rows lie far from any fit: look at their signs, units and conditions")

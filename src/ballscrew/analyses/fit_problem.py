@@ -121,6 +121,15 @@ class Problem:
         low, high = ([getattr(p, side) for p in self.parameters] for side in ("low", "high"))
         return np.array(low), np.array(high)
 
+    @property
+    def of_sensor(self) -> Vector:
+        """Derivatives by the errors of the sensor, of shape (rows, errors)."""
+        return self.columns[:, self.free - len(self.response.names) :]
+
+    def quantity(self, name: str) -> Quantity:
+        """What a parameter is."""
+        return next(parameter.quantity for parameter in self.parameters if parameter.name == name)
+
     def torque(self, values: Vector) -> tuple[Vector, Vector]:
         """The torque of every row as it would be measured, and its derivatives, of shape (rows, parameters).
 

@@ -46,6 +46,15 @@ class Told:
         return self.directions[:, ~self.told]
 
     @property
+    def measured(self) -> Vector:
+        """All directions that are measured at all, as columns: what is not told well still leaks into other numbers.
+
+        Of those that are not told, parts that are only rounding are left out.
+        """
+        cleaned = np.where(self.told | (np.abs(self.directions) > PRESENT), self.directions, 0.0)
+        return cleaned[:, self.singular_values > ROUNDING * self.singular_values.max(initial=0.0)]
+
+    @property
     def numbers_told(self) -> NDArray[np.bool_]:
         """The numbers that have no part in a direction that is not told, and are known well enough themselves."""
         parts = np.abs(self.directions)
@@ -107,7 +116,7 @@ def weighted(solution: Solution) -> Vector:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Uncertainty:
-    """Covariance of the parameters of a fit within what data and priors tell, and the directions that they do not."""
+    """Covariance of the parameters of a fit within what data and priors measure, and what they do not tell."""
 
     covariance: Vector
     scale: Vector
@@ -115,7 +124,7 @@ class Uncertainty:
 
     @classmethod
     def of(cls, solution: Solution, scale: Vector, prior_slopes: Vector) -> Uncertainty:
-        """``H⁻¹ B H⁻¹`` within the directions that are told; it holds whatever the noise is distributed like.
+        """``H⁻¹ B H⁻¹`` within the directions that are measured; it holds whatever the noise is distributed like.
 
         H is the curvature of the loss with the information of the prior. B is the covariance of its slope, with the
         products of rows that follow each other as long as their residuals are alike (NeweyWest1987), times n/(n − p).
@@ -123,7 +132,7 @@ class Uncertainty:
         root = weighted(solution) * scale
         known = prior_slopes * scale
         told = Told.of(np.vstack([root, known]))
-        inside = told.directions[:, told.told]
+        inside = told.measured
         psi, _ = pull(solution.residuals, solution.scatter)
         scores = psi[:, np.newaxis] * (solution.slopes / solution.scatter * scale) @ inside
         spread = _long_run(scores, memory(psi))

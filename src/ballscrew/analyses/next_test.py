@@ -112,9 +112,8 @@ def _grid(ranges: Mapping[str, tuple[float, float]]) -> dict[str, Vector]:
         if name in ranges:
             low, high = ranges[name]
             by_ratios = name != TEMPERATURE.name
-            axes.append(
-                np.geomspace(max(low, 1e-3 * high), high, number) if by_ratios else np.linspace(low, high, number)
-            )
+            least = low if low > 0 else 1e-3 * high
+            axes.append(np.geomspace(least, high, number) if by_ratios else np.linspace(low, high, number))
     meshes = np.meshgrid(*axes, indexing="ij")
     return dict(zip(("axial_load", "screw_speed", TEMPERATURE.name), (m.ravel() for m in meshes), strict=False))
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses.robust import BEND, Vector
+from ballscrew.analyses.robust import BEND, Vector, pull
 from ballscrew.faults import Fault, InputError
 
 if TYPE_CHECKING:
@@ -40,10 +40,11 @@ class Posterior:
 def posterior(
     found: CalibratedModel, steps: int = 2000, seed: int = 0, done: Callable[[int, int], None] | None = None
 ) -> Posterior:
-    """Samples of ``exp(−½ Σ ρ(r))`` times the priors within the bounds, by emcee's affine-invariant walkers.
+    """Samples of ``exp(−½ k Σ ρ(r))`` times the priors within the bounds, by emcee's affine-invariant walkers.
 
-    ρ is the loss of the fit and r the residual in units of its scatter, which stays as it was found; residuals that
-    follow each other count as independent here. Raises :class:`~ballscrew.faults.InputError` without emcee.
+    ρ is the loss of the fit and r the residual in units of its scatter, which stays as it was found; k makes the loss
+    as sharp as its residuals are spread, ``Σ ψ' / Σ ψ²`` at the fit. Residuals that follow each other count as independent
+    here. Raises :class:`~ballscrew.faults.InputError` without emcee.
     """
     try:
         import emcee
@@ -54,13 +55,16 @@ def posterior(
     torque = problem.on(~found.rows.held_out)
     measured = found.rows.log.torque[~found.rows.held_out]
 
+    psi, curvature = pull(solution.residuals, solution.scatter)
+    sharpness = float(np.sum(curvature) / max(float(np.sum(psi**2)), 1e-300))
+
     def logarithm(values: Vector) -> float:
         if np.any(values < low) or np.any(values > high):
             return -np.inf
         predicted, _ = torque(values)
         r = (predicted - measured) / solution.scatter
         loss = float(np.sum(2 * BEND**2 * (np.sqrt(1 + (r / BEND) ** 2) - 1)))
-        return -0.5 * (loss + float(np.sum(found.priors.residuals(values) ** 2)))
+        return -0.5 * (sharpness * loss + float(np.sum(found.priors.residuals(values) ** 2)))
 
     random = np.random.default_rng(seed)
     count = problem.start.size

@@ -89,11 +89,14 @@ class Found:
 def alternatives(case: Case) -> list[Candidate]:
     """The case's model with each law that could as well be the right one: none that only leaves something out.
 
-    A calibration holds for the laws that it was fitted with: those whose coefficients it sets are not exchanged.
+    A named calibration holds for the laws that it was fitted with: those whose coefficients it sets are not exchanged.
+    With any other law a fit would have found other numbers: of a case that a fit wrote none is exchanged.
     """
+    if case.fit:
+        return []
     _, laws = comparison.candidates(case)
-    numbers = (*([] if case.calibration is None else PARAMETERS.values()), *case.fit.get("numbers", ()))
-    fitted = {str(name).partition(".")[0] for name in numbers if "." in str(name)}
+    numbers = [] if case.calibration is None else PARAMETERS.values()
+    fitted = {name.partition(".")[0] for name in numbers}
     return [
         law
         for law in laws
@@ -180,6 +183,11 @@ def sentences(case: Case, found: Found) -> list[str]:
         f"median {units.shown(torque.median, quantity)}, "
         f"{100 * found.band.level:.4g} % of the samples between {low} and {high}"
     ]
+    if case.fit:
+        lines.append(
+            f"calibrated to {case.fit.get('log') or 'a log'}: what the fit held counts as known, no law is exchanged; "
+            f"on rows held out the model was off by {case.fit.get('holdout_rms', 'an unknown torque')}"
+        )
     if float(case.operation.axial_load) > 0:
         share = found.band.self_locking_share
         lines.append(f"self-locking in {share:.2%} of the samples" if share else "self-locking in none of the samples")

@@ -50,8 +50,9 @@ def print_fit(case: Case, fitted: Fitted) -> None:
         console.print(_combinations(found))
     console.print(_scores(found))
     console.print(_residuals(found))
-    for line in next_test_in_words(fitted.next_test, found):
-        say(line)
+    if fitted.next_test is not None:
+        for line in next_test_in_words(fitted.next_test, found):
+            say(line)
 
 
 def _estimates(found: CalibratedModel) -> Table:

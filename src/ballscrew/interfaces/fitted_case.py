@@ -88,7 +88,7 @@ def calibration_of(case: Case, found: CalibratedModel) -> dict[str, Any]:
         "values": [estimate.value for estimate in estimates if estimate.identified],
         "covariance": covariance.tolist(),
         "not_identified": [n for n, known in zip(found.response.names, told, strict=True) if not known],
-        **({} if constant is None else {"constant_torque": f"{constant.value:.4g} {constant.quantity.unit}"}),
+        **({} if constant is None else {"constant_torque": f"{constant.value:.6g} {constant.quantity.unit}"}),
         "residual_rms": f"{found.residual_rms:.6g} N m",
         **({} if found.holdout_rms is None else {"holdout_rms": f"{found.holdout_rms:.6g} N m"}),
         "warnings": list(found.warnings),

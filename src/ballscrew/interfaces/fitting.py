@@ -51,7 +51,8 @@ class Fitted:
     """A calibration, and the test that would teach most."""
 
     model: CalibratedModel
-    next_test: NextTest
+    #: None where no point within the limits is valid.
+    next_test: NextTest | None
     log: TorqueLog
 
 
@@ -66,6 +67,8 @@ def fitted(case: Case, path: Path, asked: Asked, done: Callable[[int, int], None
     free = [name.strip() for given in asked.free or [USUALLY_FREE] for name in given.split(",") if name.strip()]
     known = _quantities(case, free)
     faults: list[Fault] = []
+    if not free:
+        faults.append(Fault("--free", "has no names", ", ".join(asked.free), f"write --free {USUALLY_FREE}"))
     bounds = _ranges("--bounds", asked.bounds, known, faults)
     conditions = {name: q for name, (_, q) in inputs_of(case.model, case.screw, case.lubricant).items()}
     limits = _ranges("--limits", asked.limits, {n: conditions[n] for n in CONDITIONS if n in conditions}, faults)
@@ -82,14 +85,25 @@ def fitted(case: Case, path: Path, asked: Asked, done: Callable[[int, int], None
         for name in free
         if name in known and (full := _full(subject, name)) is not None and full in case.uncertain
     }
+    again = bool(priors) and log.source is not None and case.fit.get("sha256") == log.source[1]
+    if again:  # what was found in this log is no news for it
+        priors = {}
     try:
         found = fit(
             case.model, case.screw, case.lubricant, log, free, priors=priors, bounds=bounds,
             kind=cast("Kind", asked.kind or "unknown"), inertia=inertia, holdout=asked.holdout, seed=asked.seed,
         )  # fmt: skip
-        return Fitted(found, found.next_test(limits), log)
     except InputError as error:
         raise InputError(*(_in_words(fault) for fault in error.faults)) from None
+    if again:
+        said = "the case was fitted to this very log before: its errors are not taken as priors"
+        found = dataclasses.replace(found, warnings=(*found.warnings, said))
+    try:
+        return Fitted(found, found.next_test(limits), log)
+    except InputError as error:
+        # the fit is not lost for it
+        said = tuple(f"no next test: {_in_words(fault)}" for fault in error.faults)
+        return Fitted(dataclasses.replace(found, warnings=(*found.warnings, *said)), None, log)
 
 
 def _in_words(fault: Fault) -> Fault:
@@ -191,18 +205,22 @@ def json_text(case: Case, fitted: Fitted) -> str:
         },
         "covariance": {"names": list(found.estimates), "matrix": _covariance(found)},
         "residuals": {name: trend._asdict() for name, trend in found.rows.trends.items()},
-        "next_test": {
-            "point": fitted.next_test.best,
-            "readings": fitted.next_test.readings,
-            "remaining_volume": fitted.next_test.best_volume,
-            "random_remaining_volume": fitted.next_test.random_volume,
-            "remaining_error": fitted.next_test.remaining_error,
-        },
+        "next_test": None if fitted.next_test is None else _next_test(fitted.next_test),
         "rows": _rows(found),
         "inputs": config.inputs(case),
         "provenance": provenance(case, found),
     }
     return as_json(document)
+
+
+def _next_test(test: NextTest) -> dict[str, Any]:
+    return {
+        "point": test.best,
+        "readings": test.readings,
+        "remaining_volume": test.best_volume,
+        "random_remaining_volume": test.random_volume,
+        "remaining_error": test.remaining_error,
+    }
 
 
 def _estimate(estimate: Estimate) -> dict[str, Any]:

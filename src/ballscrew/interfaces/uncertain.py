@@ -11,7 +11,7 @@ from ballscrew.analyses.distributions import Distribution, Normal
 from ballscrew.analyses.known_uncertainties import usual_uncertainties
 from ballscrew.analyses.outputs import inputs_of
 from ballscrew.calibrations import PARAMETERS, Calibration
-from ballscrew.components.materials import Lubricant
+from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.faults import Fault, raise_if_any
 from ballscrew.interfaces.distribution_text import Written, in_words, read
@@ -46,8 +46,8 @@ class Uncertain:
 def all_of(case: Case, only_given: bool = False) -> Mapping[str, Uncertain]:
     """The uncertain inputs of a case, named as sweeps name inputs: those given, then the usual ones of all others.
 
-    ``only_given`` leaves the usual ones out. Numbers of a named calibration have its errors, one by one: that
-    they are correlated :func:`joint_of` knows.
+    ``only_given`` leaves the usual ones out. Of a case that a fit wrote they are left out for what the fit held.
+    Numbers of a named calibration have its errors, one by one: that they are correlated :func:`joint_of` knows.
     """
     known = inputs_of(case.model, case.screw, case.lubricant)
     found = {
@@ -58,7 +58,11 @@ def all_of(case: Case, only_given: bool = False) -> Mapping[str, Uncertain]:
         found |= {name: u for name, u in _of_calibration(case.calibration, known).items() if name not in case.exact}
     if not only_given:
         usual = usual_uncertainties(case.model, case.screw, case.lubricant, given=found, exact=case.exact)
+        # a fit holds for what it held: not for the temperature of the day, and not for what it could not tell
+        open_after_fit = {TEMPERATURE.name, *case.fit.get("not_identified", ())}
         for name, (distribution, why) in usual.items():
+            if case.fit and name not in open_after_fit:
+                continue
             words = in_words(distribution, known[name][1])
             found[name] = Uncertain(distribution, why.source, False, words, why.reason)
     return found

@@ -21,7 +21,7 @@ MOST_POINTS = 4000
 Axis = tuple[Callable[[Any], Any], str]
 
 
-def overview(title: str, caption: str, found: CalibratedModel, test: NextTest, axes: dict[str, Axis]) -> Figure:
+def overview(title: str, caption: str, found: CalibratedModel, test: NextTest | None, axes: dict[str, Axis]) -> Figure:
     """Six panels; ``axes`` has the scale and the label of each quantity on an axis, by the name of the input."""
     figure, panels = style.new_figure(caption, rows=2, columns=3)
     figure.suptitle(title, x=0.012, ha="left", fontsize=11, fontweight="bold")
@@ -33,7 +33,10 @@ def overview(title: str, caption: str, found: CalibratedModel, test: NextTest, a
     for panel in panels[1 + len(against) : 4]:
         panel.set_axis_off()
     _scores(panels[4], found)
-    _next(panels[5], found, test, axes)
+    if test is None:
+        panels[5].set_axis_off()
+    else:
+        _next(panels[5], found, test, axes)
     return figure
 
 
