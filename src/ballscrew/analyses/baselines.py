@@ -11,11 +11,11 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses.robust import BEND, Vector, pull, scatter_of
+from ballscrew.analyses.robust import Loss, Vector, biweight, line, scatter_of
 
 #: Speeds of Stribeck that are tried, as shares of the largest speed of the log.
 STRIBECK_SHARES = np.geomspace(0.002, 1.0, 25)
-_ROUNDS = 50
+_ROUNDS, _SETTLED = 50, 1e-7
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -99,25 +99,29 @@ def efficiency_pair(conditions: Conditions, torque: Vector) -> Baseline:
 
 
 def robust_linear(columns: Vector, values: Vector) -> tuple[Vector, float]:
-    """Coefficients of a linear model by the loss of :mod:`ballscrew.analyses.robust`, and that loss in SI.
+    """Coefficients of a linear model by the two losses of :mod:`ballscrew.analyses.robust`, and the first loss in SI.
 
     Iteratively reweighted least squares.
     """
     scale = np.linalg.norm(columns, axis=0)
     scale[scale == 0] = 1.0
-    scaled, weights = columns / scale, np.ones_like(values)
-    found, residuals, scatter = np.zeros(columns.shape[1]), -values, 1.0
-    for _ in range(_ROUNDS):
-        root = np.sqrt(weights)
-        before, found = found, np.linalg.lstsq(root[:, np.newaxis] * scaled, root * values, rcond=None)[0]
-        residuals = scaled @ found - values
-        scatter = scatter_of(residuals, values)
-        psi, _ = pull(residuals, scatter)
-        weights = psi / np.where(residuals == 0, 1.0, residuals / scatter)
-        weights[residuals == 0] = 1.0
-        if np.max(np.abs(found - before)) <= 1e-9 * np.max(np.abs(found), initial=1e-300):
-            break
-    return found / scale, scatter**2 * float(np.sum(2 * BEND**2 * (np.sqrt(1 + (residuals / scatter / BEND) ** 2) - 1)))
+    scaled = columns / scale
+
+    def fitted(found: Vector, loss: Loss, scatter: float | None = None) -> tuple[Vector, float]:
+        held = scatter
+        for _ in range(_ROUNDS):
+            residuals = scaled @ found - values
+            scatter = scatter_of(residuals, values) if held is None else held
+            root = np.sqrt(loss((residuals / scatter) ** 2)[1])
+            before, found = found, np.linalg.lstsq(root[:, np.newaxis] * scaled, root * values, rcond=None)[0]
+            if np.max(np.abs(found - before)) <= _SETTLED * np.max(np.abs(found), initial=1e-300):
+                break
+        return found, scatter_of(scaled @ found - values, values) if held is None else held
+
+    found, scatter = fitted(np.linalg.lstsq(scaled, values, rcond=None)[0], line)
+    cost = scatter**2 * float(np.sum(line(((scaled @ found - values) / scatter) ** 2)[0]))
+    found, _ = fitted(found, biweight, scatter)
+    return found / scale, cost
 
 
 ALL: Sequence[Callable[[Conditions, Vector], Baseline]] = (stribeck, efficiency_pair)

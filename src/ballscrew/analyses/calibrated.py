@@ -19,7 +19,7 @@ from ballscrew.analyses.posterior import Posterior, posterior
 from ballscrew.analyses.priors import Priors
 from ballscrew.analyses.readings import Reading
 from ballscrew.analyses.response import Response
-from ballscrew.analyses.robust import Solution
+from ballscrew.analyses.robust import END, Solution, scatter_of
 from ballscrew.analyses.sampling import JointNormal
 from ballscrew.analyses.torque_log import TorqueLog
 from ballscrew.components.materials import TEMPERATURE, Lubricant
@@ -43,19 +43,22 @@ class Estimate:
     identified: bool
     start: float
     at_bound: bool = False
+    #: Whether the log bounds it on one side only.
+    one_sided: bool = False
     #: How much of the variance that a prior left is still there: 1 where the data add nothing; 0 without a prior.
     prior_share: float = 0.0
     #: Degrees of freedom of the standard error: rows fitted less numbers.
     freedom: float = np.inf
+    bounds: tuple[float, float] = (-np.inf, np.inf)
 
     def interval(self, level: float = 0.95) -> tuple[float, float] | None:
-        """The symmetric interval by Student's distribution; None where there is no standard error."""
+        """The interval by Student's distribution, within the bounds; None where there is no standard error."""
         if self.std is None:
             return None
         from scipy.special import stdtrit
 
         half = float(stdtrit(self.freedom, 0.5 + level / 2)) * self.std
-        return self.value - half, self.value + half
+        return max(self.value - half, self.bounds[0]), min(self.value + half, self.bounds[1])
 
 
 class Score(NamedTuple):
@@ -93,7 +96,19 @@ class Rows:
     #: The friction torque in it.
     friction: NDArray[np.float64]
     held_out: NDArray[np.bool_]
-    outlying: NDArray[np.bool_]
+    #: Of the rows fitted, about the model.
+    scatter: float
+
+    @functools.cached_property
+    def outlying(self) -> NDArray[np.bool_]:
+        """The rows that are outliers: among those fitted, or among those held out, by the scatter of each."""
+        off = np.abs(self.residuals)
+        held = self.held_out
+        scatter = np.full(off.size, self.scatter)
+        if held.any():
+            # a model that is wrong for all of them must not lose them all
+            scatter[held] = max(self.scatter, scatter_of(self.residuals[held], self.log.torque))
+        return off > END * scatter
 
     @property
     def direction(self) -> NDArray[np.float64]:

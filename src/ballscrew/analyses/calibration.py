@@ -15,13 +15,13 @@ from ballscrew.analyses.calibrated import CalibratedModel, Estimate, Rows, Score
 from ballscrew.analyses.calibration_words import warnings_of
 from ballscrew.analyses.distributions import Distribution
 from ballscrew.analyses.engines import Engine, engine_faults
-from ballscrew.analyses.fit_problem import CONSTANT_TORQUE, Problem
+from ballscrew.analyses.fit_problem import CONSTANT_TORQUE, Problem, awake, drift_of
 from ballscrew.analyses.identifiability import Identifiability, Uncertainty
 from ballscrew.analyses.plan import Subject
 from ballscrew.analyses.priors import Priors
 from ballscrew.analyses.readings import read_as
 from ballscrew.analyses.response import Response, resolved
-from ballscrew.analyses.robust import OUTLYING, Solution, Vector, solve
+from ballscrew.analyses.robust import Solution, Vector, loss_of, solve
 from ballscrew.analyses.torque_log import Kind, TorqueLog
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew
@@ -36,6 +36,10 @@ CELL = 0.02
 FEWEST_CELLS, FEWEST_ROWS = 10, 10
 #: An estimate so near a bound, in units of its scale, is at it.
 AT_BOUND = 1e-3
+#: Where a number moves by two standard errors, the loss rises by four; by less than this share of it, it is flat.
+TWO, FLAT = 2.0, 0.2
+#: A number whose prior keeps more than this share of its variance is known by the prior alone.
+ALL_PRIOR = 0.9
 
 
 def fit(
@@ -76,8 +80,16 @@ def fit(
     recorded.
     """
     subject = Subject(model, screw, lubricant)
-    raise_if_any(_faults_of_options(free, priors or {}, bounds or {}, holdout, kind, engine))
+    raise_if_any(_faults_of_options(free, priors or {}, bounds or {}, holdout, seed, kind, engine))
     asked = {name: CONSTANT_TORQUE.name if name == CONSTANT_TORQUE.name else resolved(subject, name) for name in free}
+    raise_if_any(
+        [
+            Fault("fit.free", "names one number twice", f"{name} and {other}", "leave one out")
+            for place, name in enumerate(asked)
+            for other in list(asked)[:place]
+            if asked[other] == asked[name]
+        ]
+    )
     log = TorqueLog.of(data).cleaned(inertia=inertia)
     numbers = [name for name in dict.fromkeys(asked.values()) if name != CONSTANT_TORQUE.name]
     response = Response.of(subject, numbers, points_of(log, lubricant), engine=engine, times=EVALUATIONS)
@@ -86,22 +98,24 @@ def fit(
     if not finite.all():
         log, torques, slopes = log.taken(finite, "no torque in the model"), torques[:, finite], slopes[:, finite]
         response = response.at(points_of(log, lubricant))
-    reading = read_as(log.torque, torques, log.axial_load, log.screw_speed, log.kind if kind == "unknown" else kind)
-    problem = Problem.of(subject, response, asked, log, reading, torques, slopes, bounds or {})
+    said = log.kind if kind == "unknown" else kind
+    reading, left = read_as(log.torque, torques, log.axial_load, log.screw_speed, drift_of(log), said)
+    problem = Problem.of(subject, response, asked, log, reading, left, torques, slopes, bounds or {})
     held_out = _held_out(log, holdout, seed)
-    known = Priors({problem.names.index(n): prior for n, prior in (priors or {}).items()}, problem.start, problem.scale)
+    start = awake(problem, log.torque, left)
+    given = {problem.names.index(name): prior for name, prior in (priors or {}).items()}
+    known = Priors(problem.deviations | given, start, problem.scale)
     solution = solve(
-        problem.on(~held_out), log.torque[~held_out], problem.start, problem.scale, problem.bounds, known.all,
-        done,
-    )  # fmt: skip
+        problem.on(~held_out), log.torque[~held_out], start, problem.scale, problem.bounds, known.all, done
+    )
     predicted, _ = problem.torque(solution.values)
     friction = response(solution.values[: len(numbers)])[0][1]
-    far = np.abs(predicted - log.torque) > OUTLYING * solution.scatter
-    rows = Rows(log, reading, predicted, friction, held_out, far)
+    rows = Rows(log, reading, predicted, friction, held_out, solution.scatter)
     scale = np.maximum(problem.scale, np.abs(solution.values))
     told = Identifiability.of(solution, problem.names, scale)
     uncertainty = Uncertainty.of(solution, scale, known.slopes(solution.values))
-    estimates = _estimates(problem, solution, told, uncertainty, known)
+    one_sided = _one_sided(problem, solution, uncertainty, held_out, log)
+    estimates = _estimates(problem, solution, one_sided, uncertainty, known)
     found = CalibratedModel(
         subject=_with(subject, response, solution),
         estimates={name: estimates[name] for name in problem.names},
@@ -136,12 +150,32 @@ def points_of(log: TorqueLog, lubricant: Lubricant) -> dict[str, NDArray[np.floa
 
 
 def _faults_of_options(
-    free: Sequence[str], priors: Mapping[str, Any], bounds: Mapping[str, Any], holdout: Any, kind: Any, engine: Any
+    free: Sequence[str],
+    priors: Mapping[str, Any],
+    bounds: Mapping[str, Any],
+    holdout: Any,
+    seed: Any,
+    kind: Any,
+    engine: Any,
 ) -> list[Fault]:
     faults = engine_faults("fit", engine)
     if isinstance(free, str) or not len(free):
         faults.append(Fault("fit.free", "must be a list of names", str(free), 'free=["boundary_friction_coefficient"]'))
         return faults
+    if set(free) == {CONSTANT_TORQUE.name}:
+        faults.append(Fault("fit.free", "needs a number of the model, too", CONSTANT_TORQUE.name, "add one"))
+    if not isinstance(seed, int) or seed < 0:
+        faults.append(Fault("fit.seed", "must be a whole number, 0 or more", str(seed)))
+    faults += [
+        Fault(f"fit.priors.{n}", "is no distribution", str(p), "such as ballscrew.Normal(0.12, 0.02)")
+        for n, p in priors.items()
+        if not isinstance(p, Distribution)
+    ]
+    faults += [
+        Fault(f"fit.bounds.{n}", "must be a pair of numbers", str(pair), "such as (0.05, 0.2)")
+        for n, pair in bounds.items()
+        if np.shape(pair) != (2,)
+    ]
     for where, named in {"priors": priors, "bounds": bounds}.items():
         faults += [Fault(f"fit.{where}.{n}", "is not free", "", nearest(n, free)) for n in named if n not in free]
     if not isinstance(holdout, int | float) or not 0 <= holdout <= 0.5:
@@ -168,8 +202,32 @@ def _held_out(log: TorqueLog, share: float, seed: int) -> NDArray[np.bool_]:
     return np.isin(cell, chosen)
 
 
+def _one_sided(
+    problem: Problem, solution: Solution, uncertainty: Uncertainty, held_out: NDArray[np.bool_], log: TorqueLog
+) -> NDArray[np.bool_]:
+    """The numbers whose misses hardly grow two standard errors away, to one side at least.
+
+    There the torques have gone flat, as on a clamp: what derivatives say ends there.
+    """
+    torque, measured = problem.on(~held_out), log.torque[~held_out]
+    psi = solution.pull
+    sharpness = solution.curvature * np.count_nonzero(~solution.outlying) / max(float(psi @ psi), 1e-300)
+    here = loss_of(solution.residuals, solution.scatter)
+    covariance, found = uncertainty.covariance, np.zeros(len(problem.parameters), dtype=bool)
+    for i in range(len(problem.response.names)):
+        error = math.sqrt(covariance[i, i])
+        if error == 0:
+            continue
+        for sign in (-1, 1):
+            step = sign * TWO * covariance[:, i] / error
+            there, _ = torque(np.clip(solution.values + step, *problem.bounds))
+            rise = sharpness * (loss_of(there - measured, solution.scatter) - here)
+            found[i] |= rise < FLAT * TWO**2
+    return found
+
+
 def _estimates(
-    problem: Problem, solution: Solution, told: Identifiability, uncertainty: Uncertainty, known: Priors
+    problem: Problem, solution: Solution, one_sided: NDArray[np.bool_], uncertainty: Uncertainty, known: Priors
 ) -> dict[str, Estimate]:
     low, high = problem.bounds
     near = AT_BOUND * problem.scale
@@ -177,20 +235,23 @@ def _estimates(
     found: dict[str, Estimate] = {}
     for i, parameter in enumerate(problem.parameters):
         value, variance = float(solution.values[i]), float(uncertainty.covariance[i, i])
-        # of the sensor, all that is asked is whether it is known
-        known_well = told.identified.get(parameter.name, bool(uncertainty.told.numbers_told[i]))
-        identified = known_well and not at_bound[i]
         prior = known.deviation(i, value)
+        share = 0.0 if prior is None else min(1.0, variance / prior**2)
+        of_sensor = i >= problem.free
+        told = uncertainty.told.numbers_told[i] and (of_sensor or share <= ALL_PRIOR)
+        identified = bool(told and not at_bound[i] and not one_sided[i])
         found[parameter.name] = Estimate(
             name=parameter.name,
             quantity=parameter.quantity,
             value=value,
             std=math.sqrt(variance) if identified else None,
-            identified=bool(identified),
+            identified=identified,
             start=parameter.start,
             at_bound=bool(at_bound[i]),
+            one_sided=bool(one_sided[i] and told),
             freedom=max(1, solution.residuals.size - solution.values.size),
-            prior_share=0.0 if prior is None else min(1.0, variance / prior**2),
+            prior_share=share,
+            bounds=(parameter.low, parameter.high),
         )
     return found
 

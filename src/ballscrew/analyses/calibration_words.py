@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ballscrew.analyses.robust import memory, pull
+from ballscrew.analyses.robust import memory
 
 if TYPE_CHECKING:
     from ballscrew.analyses.calibrated import CalibratedModel
@@ -32,23 +32,36 @@ def product(powers: Mapping[str, float]) -> str:
 
 
 def _not_told(found: CalibratedModel) -> list[str]:
+    """What the log cannot tell; that a number is at its bound, or misses are large, is said elsewhere."""
+    without = [name for name, e in found.estimates.items() if not e.identified and not e.at_bound and not e.one_sided]
     said: list[str] = []
     for combination in found.identifiability.combinations:
         if combination.identified:
             continue
         names = [name for name, power in combination.powers.items() if abs(power) >= 0.05]
+        without = [name for name in without if name not in names]
+        with_prior = [name for name in names if found.estimates[name].identified]
         if len(names) == 1:
-            said.append(f"{names[0]} is not identified: the torques of this log hardly depend on it")
+            near = f"near {found.estimates[names[0]].value:.4g}"
+            said.append(f"{names[0]} is not identified: {near} the torques of this log hardly depend on it")
+        elif with_prior:
+            said.append(f"{' and '.join(names)} cannot be told apart by this log: what is known of "
+                        f"{' and '.join(with_prior)} is known with the help of the prior")  # fmt: skip
         else:
             said.append(
                 f"{' and '.join(names)} cannot be told apart by this log: it says nothing of "
                 f"{product(combination.powers)}; fix one of them, give one a prior, or measure elsewhere"
             )
-    return said
+    return [*said, *(f"{name} is not identified: it is known to less than half of its size" for name in without)]
 
 
 def _of_bounds(found: CalibratedModel) -> list[str]:
-    return [
+    said = [
+        f"{estimate.name} is bounded on one side only: beyond {estimate.value:.4g} the torques hardly change"
+        for estimate in found.estimates.values()
+        if estimate.one_sided and not estimate.at_bound
+    ]
+    return said + [
         f"{estimate.name} came to rest at its bound ({estimate.value:.4g}): the model cannot follow the log any further"
         for estimate in found.estimates.values()
         if estimate.at_bound
@@ -77,8 +90,7 @@ def _of_rows(found: CalibratedModel) -> list[str]:
     outlying = float(np.mean(found.rows.outlying))
     if outlying > MANY_OUTLIERS:
         said.append(f"{outlying:.0%} of the rows lie far from any fit: look at their signs, units and conditions")
-    psi, _ = pull(found.solution.residuals, found.solution.scatter)
-    if memory(psi):
+    if memory(found.solution.pull):
         said.append("residuals that follow each other are alike: the errors are larger for it")
     if not found.rows.held_out.any():
         said.append("too few rows to hold any out: how well the model predicts is not known")

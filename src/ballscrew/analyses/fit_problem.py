@@ -8,10 +8,11 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ballscrew.analyses.distributions import Distribution, Normal
 from ballscrew.analyses.plan import Subject
 from ballscrew.analyses.readings import Reading
 from ballscrew.analyses.response import Response
-from ballscrew.analyses.robust import Vector
+from ballscrew.analyses.robust import Vector, loss_of
 from ballscrew.analyses.torque_log import TorqueLog
 from ballscrew.faults import Fault, raise_if_any
 from ballscrew.quantities import Info, Quantity
@@ -22,14 +23,25 @@ CONSTANT_TORQUE = Quantity(
     "N m",
     Info("M_0", "friction torque of seals, bearings and wipers, the same at all loads and speeds"),
 )
-#: Errors of the torque sensor, which are fitted beside the friction: the zero where both directions were run, the drift
-#: also where the operating points did not change along with it (and the sensor is then right at the beginning).
-TORQUE_OFFSET = Quantity(
-    "torque_offset", "N m", Info("T_0", "zero error of the torque sensor in the middle of the log")
-)
+#: Errors of the torque sensor, which are fitted beside the friction where the log can tell them from it: the zero where
+#: both directions were run, the drift also where the operating points did not change along with it (the sensor is
+#: then right at the beginning).
+TORQUE_OFFSET = Quantity("torque_offset", "N m", Info("T_0", "zero error of the torque sensor, mean of the log"))
 TORQUE_DRIFT = Quantity("torque_drift", "N m", Info("T_1", "drift of the torque sensor over the log"))
-#: A drift of one direction is fitted if the numbers leave this share of it unexplained, and any in so many rows.
-NEWS, FEWEST_TO_DRIFT = 0.8, 20
+#: Half waves over the log, for a zero that wanders: sensors and seals warm up.
+WANDERING = (2, 3, 4)
+TORQUE_WANDER = {
+    waves: Quantity(f"torque_wander_{waves}", "N m", Info(f"T_{waves}", f"{waves} half waves of the zero over the log"))
+    for waves in WANDERING
+}
+#: A zero is taken to wander by so many times the scatter of the log, not much more.
+USUAL_WANDER = 3.0
+#: A number whose scale moves all torques together by less than so many scatters is asleep; where else it is sought.
+ASLEEP, ELSEWHERE = 1.0, (3.0, 10.0, 1 / 3, 0.1)
+#: A drift of one direction is fitted if the numbers leave this share of it unexplained.
+NEWS = 0.8
+#: Fewer rows tell no drift, and fewer than these no wandering.
+FEWEST_TO_DRIFT, FEWEST_TO_WANDER = 20, 60
 
 
 @dataclasses.dataclass(frozen=True)
@@ -42,6 +54,8 @@ class Parameter:
     scale: float
     low: float = -np.inf
     high: float = np.inf
+    #: The standard deviation that it has anyway, about zero; None where nothing is known.
+    deviation: float | None = None
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -65,12 +79,13 @@ class Problem:
         asked: Mapping[str, str],
         log: TorqueLog,
         reading: Reading,
+        scatter: float,
         torques: Vector,
         slopes: Vector,
         bounds: Mapping[str, tuple[float, float]],
     ) -> Problem:
         """``asked`` says which input a person means by each name; ``torques`` and ``slopes`` are what the
-        response says at the start.
+        response says at the start, ``scatter`` is what the reading leaves.
 
         Raises :class:`~ballscrew.faults.InputError` for bounds that leave no room.
         """
@@ -91,11 +106,15 @@ class Problem:
             # a zero error has the same sign in both directions, and friction has not
             parameters.append(Parameter(TORQUE_OFFSET.name, TORQUE_OFFSET, 0.0, usual))
             columns.append(np.ones(len(log)))
-        drift = _drift(log)
+        drift, wander = drift_of(log), USUAL_WANDER * scatter
         if drift is not None and (both or _is_news(drift, np.einsum("tr,trn->rn", weights, slopes))):
             parameters.append(Parameter(TORQUE_DRIFT.name, TORQUE_DRIFT, 0.0, usual))
             # without a zero error the sensor was right at the beginning
             columns.append(drift if both else drift + 0.5)
+            if both and len(log) >= FEWEST_TO_WANDER:
+                for waves, quantity in TORQUE_WANDER.items():
+                    parameters.append(Parameter(quantity.name, quantity, 0.0, usual, deviation=wander))
+                    columns.append(np.cos(waves * np.pi * (drift + 0.5)))
         parameters = [_bounded(parameter, bounds) for parameter in parameters]
         linear = np.stack(columns, axis=1) if columns else np.empty((len(log), 0))
         return cls(response, free, parameters, weights, linear)
@@ -126,6 +145,11 @@ class Problem:
         """Derivatives by the errors of the sensor, of shape (rows, errors)."""
         return self.columns[:, self.free - len(self.response.names) :]
 
+    @property
+    def deviations(self) -> dict[int, Distribution]:
+        """By place, what parameters are anyway."""
+        return {i: Normal(0.0, p.deviation) for i, p in enumerate(self.parameters) if p.deviation is not None}
+
     def quantity(self, name: str) -> Quantity:
         """What a parameter is."""
         return next(parameter.quantity for parameter in self.parameters if parameter.name == name)
@@ -152,7 +176,23 @@ class Problem:
         return torque
 
 
-def _drift(log: TorqueLog) -> Vector | None:
+def awake(problem: Problem, measured: Vector, scatter: float) -> Vector:
+    """Where to start: elsewhere for a number that nothing depends on at its start, as on the clamp of friction."""
+    start, (low, high) = problem.start, problem.bounds
+    torque, slopes = problem.torque(start)
+    asleep = np.linalg.norm(slopes, axis=0) * problem.scale < ASLEEP * scatter
+    for i in np.flatnonzero(asleep[: len(problem.response.names)]):
+        least = loss_of(torque - measured, scatter)
+        for factor in ELSEWHERE:
+            tried = start.copy()
+            tried[i] = np.clip(factor * start[i], low[i], high[i])
+            off = loss_of(problem.torque(tried)[0] - measured, scatter)
+            if off < least:
+                start, least = tried, off
+    return start
+
+
+def drift_of(log: TorqueLog) -> Vector | None:
     """A line over the time of a log, or else over its rows, which come one after the other anyway."""
     time = np.asarray(log.line if log.time is None else log.time, dtype=float)
     return None if len(log) < FEWEST_TO_DRIFT or np.ptp(time) == 0 else (time - time.min()) / np.ptp(time) - 0.5
@@ -167,11 +207,15 @@ def _is_news(drift: Vector, slopes: Vector) -> bool:
 
 
 def _parameter(name: str, quantity: Quantity, start: float) -> Parameter:
-    """A number of the model with the bounds it has anyway; its scale is its own size, or its range where it is zero."""
+    """A number of the model with the bounds it has anyway; its scale is its
+    own size or what it has to its bound; its range where it is zero.
+    """
     info = quantity.info
     low = max((bound for bound in (info.at_least, info.above) if bound is not None), default=-np.inf)
     high = min((bound for bound in (info.at_most, info.below) if bound is not None), default=np.inf)
     scale = abs(start) or (high - low if np.isfinite(high - low) else 1.0)
+    # of a conformity what counts is what it has above one half
+    scale = min([scale, *(abs(start - end) for end in (low, high) if np.isfinite(end) and end != start)])
     # open bounds are kept clear of
     low += 1e-6 * scale * (info.above is not None)
     high -= 1e-6 * scale * (info.below is not None)

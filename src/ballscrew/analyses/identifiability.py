@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses.robust import Solution, Vector, memory, pull
+from ballscrew.analyses.robust import Solution, Vector, memory
 
 #: A combination counts as identified if its standard error is at most this share of the scale.
 LIMIT = 0.5
@@ -23,6 +23,8 @@ ROUNDING = 1e-7
 PART = 0.05
 #: and if it is there at all but for rounding.
 PRESENT = 1e-5
+#: A row that a fit follows all by itself says nothing of its noise.
+MOST_LEVERAGE = 0.9
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -109,9 +111,9 @@ class Identifiability:
 
 
 def weighted(solution: Solution) -> Vector:
-    """Derivatives in units of the scatter, rows that the loss bends for counting less."""
-    _, curvature = pull(solution.residuals, solution.scatter)
-    return np.sqrt(curvature)[:, np.newaxis] * solution.slopes / solution.scatter
+    """Derivatives in units of the scatter, as the loss counts them: rows that are outliers count nothing."""
+    root = np.sqrt(solution.curvature) / solution.scatter * solution.slopes
+    return np.where(solution.outlying[:, np.newaxis], 0.0, root)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -126,23 +128,25 @@ class Uncertainty:
     def of(cls, solution: Solution, scale: Vector, prior_slopes: Vector) -> Uncertainty:
         """``H⁻¹ B H⁻¹`` within the directions that are measured; it holds whatever the noise is distributed like.
 
-        H is the curvature of the loss with the information of the prior. B is the covariance of its slope, with the
-        products of rows that follow each other as long as their residuals are alike (NeweyWest1987), times n/(n − p).
+        H is the curvature of the loss with the information of the prior. B is the covariance of its slope: residuals
+        over one less the leverage of their row (HC3, MacKinnonWhite1985), with the products of rows that follow each
+        other as long as they are alike (NeweyWest1987). In no direction is it less than equal noise in all rows would
+        make it: with few rows that matter, their own residuals say little.
         """
-        root = weighted(solution) * scale
-        known = prior_slopes * scale
+        root, known = weighted(solution) * scale, prior_slopes * scale
         told = Told.of(np.vstack([root, known]))
         inside = told.measured
-        psi, _ = pull(solution.residuals, solution.scatter)
-        scores = psi[:, np.newaxis] * (solution.slopes / solution.scatter * scale) @ inside
-        spread = _long_run(scores, memory(psi))
-        rows, parameters = scores.shape
-        spread *= rows / max(rows - parameters, 1)
+        slopes = root @ inside
+        rows, parameters = slopes.shape
         prior = inside.T @ (known.T @ known) @ inside
-        curved = inside.T @ (root.T @ root) @ inside + prior
-        inverse = np.linalg.inv(curved)
-        outside = scale[:, np.newaxis] * inside
-        return cls(outside @ inverse @ (spread + prior) @ inverse @ outside.T, scale, told)
+        inverse = np.linalg.inv(slopes.T @ slopes + prior)
+        leverage = np.minimum(np.einsum("ri,ij,rj->r", slopes, inverse, slopes), MOST_LEVERAGE)
+        psi, weight = solution.pull, np.sqrt(solution.curvature)
+        scores = (psi / (1 - leverage) / weight)[:, np.newaxis] * slopes
+        spread = _long_run(scores, memory(psi)) + prior
+        even = float(psi @ psi) / solution.curvature / max(rows - parameters, 1) * (slopes.T @ slopes) + prior
+        outside = scale[:, np.newaxis] * inside @ inverse
+        return cls(outside @ _at_least(spread, even) @ outside.T, scale, told)
 
     def variance_of(self, gradients: Vector) -> Vector:
         """Variance of what has these derivatives by the parameters, along the last axis; NaN where it is not told."""
@@ -151,6 +155,14 @@ class Uncertainty:
         astray = np.linalg.norm(scaled @ self.told.open, axis=-1)
         variance = np.einsum("...i,ij,...j", gradients, self.covariance, gradients)
         return np.where(astray > PART * length, np.nan, variance)
+
+
+def _at_least(one: Vector, other: Vector) -> Vector:
+    """A covariance that is in every direction what one of two is, and no less than the other."""
+    root = np.linalg.cholesky(other + 1e-14 * np.trace(other) * np.eye(other.shape[0]))
+    ratios, directions = np.linalg.eigh(np.linalg.solve(root, np.linalg.solve(root, one).T))
+    back = root @ directions
+    return np.asarray(back * np.maximum(ratios, 1.0) @ back.T, dtype=np.float64)
 
 
 def _long_run(scores: Vector, reach: int) -> Vector:

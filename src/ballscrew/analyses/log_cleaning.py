@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.analyses.log_motion import CLEAR, Floats, motion_of, runs_in
-from ballscrew.analyses.log_signs import with_signs
 from ballscrew.analyses.torque_log import INERTIA, REQUIRED, TorqueLog, quantities, random_keys
 from ballscrew.faults import Fault, InputError, fault_of
 from ballscrew.quantities import within_bounds
@@ -21,7 +20,7 @@ LEAST_ROWS, FEW_ROWS = 3, 30
 #: A log that is longer is thinned to so many rows before anything but its acceleration is looked at.
 HELD = 1_000_000
 #: Speeds below this share of the largest are rest; the largest is that of all rows but one in a thousand.
-_REST, _LARGEST = 1e-3, 0.999
+_REST, _LARGEST = 1e-4, 0.999
 #: Speeds that are not clear of their noise are rest too, up to this share of the largest.
 _NOISY_REST = 0.02
 #: A row beside a gap may have narrow windows only: one so much noisier than the others may hide an acceleration.
@@ -50,7 +49,7 @@ def cleaned(log: TorqueLog, inertia: float | None, most: int) -> TorqueLog:
     log = of_settings(thinned(in_order(without_gaps(log, (*REQUIRED, "time"))), HELD))
     log = without_gaps(log, ("temperature",))
     log = without_rest(without_ramps(log, inertia))
-    log = thinned(with_signs(log), most)
+    log = thinned(log, most)
     if len(log) < LEAST_ROWS:
         told = "; ".join(f"{reason}: {count}" for reason, count in log.left_out.items())
         remedy = f"a fit needs {LEAST_ROWS} rows or more at steady speed"

@@ -112,6 +112,9 @@ def _grid(ranges: Mapping[str, tuple[float, float]]) -> dict[str, Vector]:
         if name in ranges:
             low, high = ranges[name]
             by_ratios = name != TEMPERATURE.name
+            if low == high or high <= 0:
+                axes.append(np.array([high]))
+                continue
             least = low if low > 0 else 1e-3 * high
             axes.append(np.geomspace(least, high, number) if by_ratios else np.linspace(low, high, number))
     meshes = np.meshgrid(*axes, indexing="ij")

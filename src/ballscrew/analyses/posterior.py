@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses.robust import BEND, Vector, pull
+from ballscrew.analyses.robust import Vector, loss_of
 from ballscrew.faults import Fault, InputError
 
 if TYPE_CHECKING:
@@ -43,8 +43,8 @@ def posterior(
     """Samples of ``exp(−½ k Σ ρ(r))`` times the priors within the bounds, by emcee's affine-invariant walkers.
 
     ρ is the loss of the fit and r the residual in units of its scatter, which stays as it was found; k makes the loss
-    as sharp as its residuals are spread, ``Σ ψ' / Σ ψ²`` at the fit. Residuals that follow each other count as independent
-    here. Raises :class:`~ballscrew.faults.InputError` without emcee.
+    as sharp as its residuals are spread, ``Σ ψ' / Σ ψ²`` at the fit. Residuals that follow each other count as
+    independent here. Raises :class:`~ballscrew.faults.InputError` without emcee.
     """
     try:
         import emcee
@@ -55,15 +55,15 @@ def posterior(
     torque = problem.on(~found.rows.held_out)
     measured = found.rows.log.torque[~found.rows.held_out]
 
-    psi, curvature = pull(solution.residuals, solution.scatter)
-    sharpness = float(np.sum(curvature) / max(float(np.sum(psi**2)), 1e-300))
+    psi = solution.pull
+    kept = int(np.count_nonzero(~solution.outlying))
+    sharpness = solution.curvature * kept / max(float(psi @ psi), 1e-300)
 
     def logarithm(values: Vector) -> float:
         if np.any(values < low) or np.any(values > high):
             return -np.inf
         predicted, _ = torque(values)
-        r = (predicted - measured) / solution.scatter
-        loss = float(np.sum(2 * BEND**2 * (np.sqrt(1 + (r / BEND) ** 2) - 1)))
+        loss = loss_of(predicted - measured, solution.scatter)
         return -0.5 * (sharpness * loss + float(np.sum(found.priors.residuals(values) ** 2)))
 
     random = np.random.default_rng(seed)

@@ -1,33 +1,34 @@
-"""Least squares that outliers do not rule.
+"""Least squares that outliers do not rule: MM estimation (Yohai1987).
 
-The loss is the pseudo-Huber one, ``ρ(r) = 2 c² (√(1 + (r/c)²) − 1)`` in units of the scatter: a square near
-zero, a straight line far out. The scatter is 1.4826 times the median of the absolute residuals, found anew between
-fits.
+First comes a loss that is a square near zero and a straight line far out, ``2 c² (√(1 + (r/c)²) − 1)``, with residuals
+r in units of the scatter; the scatter is 1.4826 times the median of the absolute residuals, found anew between fits.
+From there Tukey's biweight goes on, ``(c²/3)(1 − (1 − (r/c)²)³)`` and constant beyond c: what is far out, to one side
+or to both, then counts nothing. Both are 95 % efficient for normal noise.
 """
 
 from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 Vector = NDArray[np.float64]
+#: Of squared residuals in units of the scatter: the loss and its two derivatives.
+Loss = Callable[[Vector], tuple[Vector, Vector, Vector]]
 
-#: Where the loss bends, in units of the scatter: little is lost on normal noise (95 % efficient).
-BEND = 1.35
+#: Where the first loss bends and where the second ends, in units of the scatter.
+BEND, END = 1.35, 4.685
 #: From the median of absolute residuals to the standard deviation of normal noise.
 MEDIAN_TO_DEVIATION = 1.4826
-#: Residuals beyond this many times the scatter are counted as outliers.
-OUTLYING = 4.0
 #: How often the scatter is found anew, and when it has settled.
 ROUNDS, SETTLED = 20, 1e-3
-#: Rows further apart than this count as independent.
-LONGEST_MEMORY = 1000
 #: No scatter is smaller than this share of the torques themselves: sums of floats are not exact.
 LEAST_SCATTER = 1e-9
+#: Rows further apart than this count as independent, and fewer rows than these tell nothing of each other.
+LONGEST_MEMORY, FEWEST_TO_REMEMBER = 1000, 20
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -50,27 +51,31 @@ class Solution:
 
     @property
     def outlying(self) -> NDArray[np.bool_]:
-        """The rows that are outliers."""
-        return np.abs(self.residuals) > OUTLYING * self.scatter
+        """The rows that count nothing."""
+        return np.abs(self.residuals) > END * self.scatter
 
     @property
-    def rms(self) -> float:
-        """Root mean square of the residuals, outliers left out."""
-        kept = self.residuals[~self.outlying]
-        return float(np.sqrt(np.mean(kept**2))) if kept.size else float("nan")
+    def pull(self) -> Vector:
+        """Half the derivative of the biweight by each residual in units of the scatter: ψ."""
+        r = self.residuals / self.scatter
+        return np.where(self.outlying, 0.0, r * (1 - (r / END) ** 2) ** 2)
+
+    @property
+    def curvature(self) -> float:
+        """The mean of the derivative of ψ over the rows that count."""
+        r2 = (self.residuals[~self.outlying] / self.scatter / END) ** 2
+        # so many rows in the bend that the mean is near zero would be no fit
+        return max(float(np.mean((1 - r2) * (1 - 5 * r2))), 0.1) if r2.size else 1.0
 
 
 def scatter_of(residuals: Vector, torques: Vector) -> float:
     """The scatter of residuals; see the module."""
-    least = LEAST_SCATTER * float(np.max(np.abs(torques), initial=0.0))
-    return max(MEDIAN_TO_DEVIATION * float(np.median(np.abs(residuals))), least, np.finfo(float).tiny)
+    return max(MEDIAN_TO_DEVIATION * float(np.median(np.abs(residuals))), least_scatter(torques))
 
 
-def pull(residuals: Vector, scatter: float) -> tuple[Vector, Vector]:
-    """Derivative of half the loss by the residual in units of the scatter, and its own derivative."""
-    r = residuals / scatter
-    bent = np.sqrt(1 + (r / BEND) ** 2)
-    return r / bent, bent**-3
+def least_scatter(torques: Vector) -> float:
+    """What the scatter of such torques is at least."""
+    return max(LEAST_SCATTER * float(np.max(np.abs(torques), initial=0.0)), float(np.finfo(float).tiny))
 
 
 def solve(
@@ -86,33 +91,42 @@ def solve(
 
     Scatter and parameters are found in turn, each fit from where the last one ended. ``done`` is told after each.
     """
-    from scipy.optimize import least_squares  # 0.2 s: for those only who fit
+    known = _Remembered(model)
 
-    known, loss = _Remembered(model), cast("Any", _loss(measured.size))
-    values = np.clip(start, *_inside(bounds))
-    scatter = scatter_of(known(values)[0] - measured, measured)
-    converged = False
-    for turn in range(ROUNDS):
+    def fitted(values: Vector, scatter: float, loss: Callable[[Vector], Vector]) -> tuple[Vector, bool]:
+        from scipy.optimize import least_squares  # 0.2 s: for those only who fit
 
-        def residuals(x: Vector, scatter: float = scatter) -> Vector:
+        def residuals(x: Vector) -> Vector:
             return np.concatenate([(known(x)[0] - measured) / scatter, prior.residuals(x)])
 
-        def slopes(x: Vector, scatter: float = scatter) -> Vector:
+        def slopes(x: Vector) -> Vector:
             return np.concatenate([known(x)[1] / scatter, prior.slopes(x)])
 
-        jac: Any = slopes  # SciPy's types know only names of methods
+        options: Any = {"jac": slopes, "loss": loss}  # SciPy's types know only names
         found = least_squares(
-            residuals, values, jac, x_scale=scale, bounds=bounds, loss=loss,
-            xtol=1e-9, ftol=1e-10, gtol=1e-9, max_nfev=100,
-        )  # fmt: skip
-        values, converged = found.x, bool(found.status > 0)
+            residuals, values, x_scale=scale, bounds=bounds, xtol=1e-9, ftol=1e-10, gtol=1e-9, max_nfev=100, **options
+        )
+        return found.x, bool(found.status > 0)
+
+    values = np.clip(start, *_inside(bounds))
+    scatter = scatter_of(known(values)[0] - measured, measured)
+    for turn in range(ROUNDS):
+        values, _ = fitted(values, scatter, _loss(line, measured.size))
         before, scatter = scatter, scatter_of(known(values)[0] - measured, measured)
         if done is not None:
-            done(turn + 1, ROUNDS)
+            done(turn + 1, ROUNDS + 1)
         if abs(scatter - before) <= SETTLED * before:
             break
+    values, converged = fitted(np.clip(values, *_inside(bounds)), scatter, _loss(biweight, measured.size))
+    if done is not None:
+        done(ROUNDS + 1, ROUNDS + 1)
     torques, derivatives = known(values)
     return Solution(values, torques - measured, derivatives, scatter, converged)
+
+
+def loss_of(residuals: Vector, scatter: float) -> float:
+    """The sum of the biweight over rows."""
+    return float(np.sum(biweight((residuals / scatter) ** 2)[0]))
 
 
 def memory(psi: Vector) -> int:
@@ -120,7 +134,7 @@ def memory(psi: Vector) -> int:
     rows = psi.size
     centred = psi - psi.mean()
     power = float(centred @ centred)
-    if power == 0 or rows < 20:
+    if power == 0 or rows < FEWEST_TO_REMEMBER:
         return 0
     longest = min(rows // 10, LONGEST_MEMORY)
     lost = 2 / np.sqrt(rows)
@@ -153,15 +167,24 @@ def _inside(bounds: tuple[Vector, Vector]) -> tuple[Vector, Vector]:
     return low + 1e-9 * room, high - 1e-9 * room
 
 
-def _loss(rows: int) -> Callable[[Vector], Vector]:
-    """The loss as SciPy wants it, of squared residuals: bent for rows of the log, a plain square for the prior."""
+def line(z: Vector) -> tuple[Vector, Vector, Vector]:
+    """The first loss of squared residuals, with its two derivatives."""
+    root = np.sqrt(1 + z / BEND**2)
+    return 2 * BEND**2 * (root - 1), 1 / root, -0.5 / (BEND**2 * root**3)
+
+
+def biweight(z: Vector) -> tuple[Vector, Vector, Vector]:
+    """Tukey's biweight of squared residuals, with its two derivatives."""
+    rest = np.maximum(1 - z / END**2, 0.0)
+    return END**2 / 3 * (1 - rest**3), rest**2, -2 / END**2 * rest
+
+
+def _loss(of_rows: Loss, rows: int) -> Callable[[Vector], Vector]:
+    """A loss as SciPy wants it, of squared residuals: for rows of the log, and a plain square for the prior."""
 
     def loss(z: Vector) -> Vector:
-        root = np.sqrt(1 + z[:rows] / BEND**2)
         found = np.array([z, np.ones_like(z), np.zeros_like(z)])
-        found[0, :rows] = 2 * BEND**2 * (root - 1)
-        found[1, :rows] = 1 / root
-        found[2, :rows] = -0.5 / (BEND**2 * root**3)
+        found[:, :rows] = of_rows(z[:rows])
         return found
 
     return loss
