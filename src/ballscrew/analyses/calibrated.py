@@ -19,7 +19,7 @@ from ballscrew.analyses.posterior import Posterior, posterior
 from ballscrew.analyses.priors import Priors
 from ballscrew.analyses.readings import Reading
 from ballscrew.analyses.response import Response
-from ballscrew.analyses.robust import END, Solution, scatter_of
+from ballscrew.analyses.robust import END, MEDIAN_TO_DEVIATION, Solution
 from ballscrew.analyses.sampling import JointNormal
 from ballscrew.analyses.torque_log import TorqueLog
 from ballscrew.components.materials import TEMPERATURE, Lubricant
@@ -96,19 +96,17 @@ class Rows:
     #: The friction torque in it.
     friction: NDArray[np.float64]
     held_out: NDArray[np.bool_]
-    #: Of the rows fitted, about the model.
-    scatter: float
+    #: The scatter about the model at each row, as the rows fitted have it.
+    scatter: NDArray[np.float64]
 
     @functools.cached_property
     def outlying(self) -> NDArray[np.bool_]:
         """The rows that are outliers: among those fitted, or among those held out, by the scatter of each."""
-        off = np.abs(self.residuals)
+        off = np.abs(self.residuals) / self.scatter
         held = self.held_out
-        scatter = np.full(off.size, self.scatter)
-        if held.any():
-            # a model that is wrong for all of them must not lose them all
-            scatter[held] = max(self.scatter, scatter_of(self.residuals[held], self.log.torque))
-        return off > END * scatter
+        # a model that is wrong for all rows held out must not lose them all
+        wide = max(1.0, MEDIAN_TO_DEVIATION * float(np.median(off[held]))) if held.any() else 1.0
+        return off > END * np.where(held, wide, 1.0)
 
     @property
     def direction(self) -> NDArray[np.float64]:
@@ -249,7 +247,7 @@ class CalibratedModel:
         gradient[:, : slopes.shape[2]] = slopes[1]
         if CONSTANT_TORQUE.name in self.estimates:
             gradient[:, slopes.shape[2]] = 1.0
-        variance = self.uncertainty.variance_of(gradient) + (self.solution.scatter**2 if scatter else 0.0)
+        variance = self.uncertainty.variance_of(gradient) + (self.solution.noise.of(friction) ** 2 if scatter else 0.0)
         half = normal_half_width(level) * np.sqrt(variance)
         shape = arrays[0].shape
         return Band(*(np.reshape(torque, shape)[()] for torque in (friction - half, friction, friction + half)))

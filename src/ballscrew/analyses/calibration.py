@@ -110,7 +110,7 @@ def fit(
     )
     predicted, _ = problem.torque(solution.values)
     friction = response(solution.values[: len(numbers)])[0][1]
-    rows = Rows(log, reading, predicted, friction, held_out, solution.scatter)
+    rows = Rows(log, reading, predicted, friction, held_out, solution.noise.of(predicted))
     scale = np.maximum(problem.scale, np.abs(solution.values))
     told = Identifiability.of(solution, problem.names, scale)
     uncertainty = Uncertainty.of(solution, scale, known.slopes(solution.values))

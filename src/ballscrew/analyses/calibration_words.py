@@ -82,9 +82,10 @@ def _of_rows(found: CalibratedModel) -> list[str]:
     if not found.solution.converged:
         said.append("the fit did not come to rest: its numbers are not to be used")
     typical = float(np.median(np.abs(found.rows.friction)))
-    if found.solution.scatter > typical:
+    scatter = float(np.median(found.rows.scatter))
+    if scatter > typical:
         said.append(
-            f"rows miss by {found.solution.scatter:.2g} N m, more than the friction itself ({typical:.2g} N m): "
+            f"rows miss by {scatter:.2g} N m, more than the friction itself ({typical:.2g} N m): "
             "look at their signs, units and conditions"
         )
     outlying = float(np.mean(found.rows.outlying))

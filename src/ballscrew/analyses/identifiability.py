@@ -112,7 +112,7 @@ class Identifiability:
 
 def weighted(solution: Solution) -> Vector:
     """Derivatives in units of the scatter, as the loss counts them: rows that are outliers count nothing."""
-    root = np.sqrt(solution.curvature) / solution.scatter * solution.slopes
+    root = (np.sqrt(solution.curvature) / solution.scatter)[:, np.newaxis] * solution.slopes
     return np.where(solution.outlying[:, np.newaxis], 0.0, root)
 
 

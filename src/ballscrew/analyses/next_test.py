@@ -140,7 +140,7 @@ def _derivatives(found: CalibratedModel, tests: Mapping[str, Vector]) -> NDArray
     points = dict(tests)
     if found.lubricant.grade is not None and TEMPERATURE.name not in points:
         points[TEMPERATURE.name] = np.full(points["axial_load"].size, found.lubricant.temperature)
-    _, slopes = response.at(points)(found.solution.values[: len(response.names)])
+    torques, slopes = response.at(points)(found.solution.values[: len(response.names)])
     directions = [sign for sign in (1.0, -1.0) if np.any(sign * log.screw_speed > 0)]
     ones = np.ones(points["axial_load"].size)
     made: list[Vector] = []
@@ -150,8 +150,9 @@ def _derivatives(found: CalibratedModel, tests: Mapping[str, Vector]) -> NDArray
         columns += [weights[1][:, np.newaxis]] * (len(found.estimates) - len(response.names))
         # a later test has the zero error of the sensor, and nobody knows its drift by then
         columns += [(ones if name == "torque_offset" else 0 * ones)[:, np.newaxis] for name in found.sensor]
-        made.append(np.hstack(columns))
-    return np.stack(made, axis=1) / found.solution.scatter
+        scatter = found.solution.noise.of(np.sum(weights * torques, axis=0))
+        made.append(np.hstack(columns) / scatter[:, np.newaxis])
+    return np.stack(made, axis=1)
 
 
 def _after(before: Vector, derivatives: Vector, readings: int) -> Vector:

@@ -1,7 +1,8 @@
 """Least squares that outliers do not rule: MM estimation (Yohai1987).
 
 First comes a loss that is a square near zero and a straight line far out, ``2 c² (√(1 + (r/c)²) − 1)``, with residuals
-r in units of the scatter; the scatter is 1.4826 times the median of the absolute residuals, found anew between fits.
+r in units of the scatter, which is found anew between fits: 1.4826 times the median of the absolute residuals, over
+parts of the rows in the order of their torque, so that it may grow with the torque (:class:`Noise`).
 From there Tukey's biweight goes on, ``(c²/3)(1 − (1 − (r/c)²)³)`` and constant beyond c: what is far out, to one side
 or to both, then counts nothing. Both are 95 % efficient for normal noise.
 """
@@ -9,8 +10,9 @@ or to both, then counts nothing. Both are 95 % efficient for normal noise.
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +26,9 @@ BEND, END = 1.35, 4.685
 #: From the median of absolute residuals to the standard deviation of normal noise.
 MEDIAN_TO_DEVIATION = 1.4826
 #: How often the scatter is found anew, and when it has settled.
-ROUNDS, SETTLED = 20, 1e-3
+ROUNDS, SETTLED = 20, 5e-3
+#: The scatter is looked at over so many parts, each of so many rows; with fewer it is the same everywhere.
+FEWEST_PARTS, MOST_PARTS, ROWS_OF_PART = 3, 8, 12
 #: No scatter is smaller than this share of the torques themselves: sums of floats are not exact.
 LEAST_SCATTER = 1e-9
 #: Rows further apart than this count as independent, and fewer rows than these tell nothing of each other.
@@ -39,15 +43,32 @@ class Prior:
     slopes: Callable[[Vector], Vector]
 
 
+class Noise(NamedTuple):
+    """How readings scatter about a torque M: ``√(floor² + (share · M)²)``, in N m."""
+
+    floor: float
+    share: float
+
+    def of(self, torques: Vector) -> Vector:
+        """The scatter at some torques."""
+        return np.hypot(self.floor, self.share * torques)
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class Solution:
-    """Where the fit came to rest: parameters, residuals (model − measured), derivatives, and the scatter."""
+    """Where the fit came to rest: parameters, torques, residuals (model − measured), derivatives, and the noise."""
 
     values: Vector
+    torques: Vector
     residuals: Vector
     slopes: Vector
-    scatter: float
+    noise: Noise
     converged: bool
+
+    @functools.cached_property
+    def scatter(self) -> Vector:
+        """The scatter at each row."""
+        return self.noise.of(self.torques)
 
     @property
     def outlying(self) -> NDArray[np.bool_]:
@@ -63,7 +84,7 @@ class Solution:
     @property
     def curvature(self) -> float:
         """The mean of the derivative of ψ over the rows that count."""
-        r2 = (self.residuals[~self.outlying] / self.scatter / END) ** 2
+        r2 = ((self.residuals / self.scatter / END) ** 2)[~self.outlying]
         # so many rows in the bend that the mean is near zero would be no fit
         return max(float(np.mean((1 - r2) * (1 - 5 * r2))), 0.1) if r2.size else 1.0
 
@@ -71,6 +92,27 @@ class Solution:
 def scatter_of(residuals: Vector, torques: Vector) -> float:
     """The scatter of residuals; see the module."""
     return max(MEDIAN_TO_DEVIATION * float(np.median(np.abs(residuals))), least_scatter(torques))
+
+
+def noise_of(residuals: Vector, torques: Vector) -> Noise:
+    """The noise of residuals about torques, from the scatter over parts of the rows in the order of their size."""
+    parts = min(MOST_PARTS, residuals.size // ROWS_OF_PART)
+    least = least_scatter(torques)
+    if parts < FEWEST_PARTS:
+        return Noise(scatter_of(residuals, torques), 0.0)
+    chosen = np.array_split(np.argsort(np.abs(torques), kind="stable"), parts)
+    y = np.array([scatter_of(residuals[part], torques) ** 2 for part in chosen])
+    x = np.array([np.mean(torques[part] ** 2) for part in chosen])
+    # squares of scatters are known to a share of themselves
+    weights = 1 / np.maximum(y, np.median(y) / 100) ** 2
+    mean_x, mean_y = np.average(x, weights=weights), np.average(y, weights=weights)
+    spread = np.average((x - mean_x) ** 2, weights=weights)
+    share = 0.0 if spread == 0 else float(np.average((x - mean_x) * (y - mean_y), weights=weights) / spread)
+    share = max(share, 0.0)
+    floor = float(mean_y - share * mean_x)
+    if floor < 0:
+        floor, share = 0.0, float(np.sum(weights * x * y) / np.sum(weights * x * x))
+    return Noise(max(float(np.sqrt(floor)), least), float(np.sqrt(share)))
 
 
 def least_scatter(torques: Vector) -> float:
@@ -93,14 +135,14 @@ def solve(
     """
     known = _Remembered(model)
 
-    def fitted(values: Vector, scatter: float, loss: Callable[[Vector], Vector]) -> tuple[Vector, bool]:
+    def fitted(values: Vector, scatter: Vector, loss: Callable[[Vector], Vector]) -> tuple[Vector, bool]:
         from scipy.optimize import least_squares  # 0.2 s: for those only who fit
 
         def residuals(x: Vector) -> Vector:
             return np.concatenate([(known(x)[0] - measured) / scatter, prior.residuals(x)])
 
         def slopes(x: Vector) -> Vector:
-            return np.concatenate([known(x)[1] / scatter, prior.slopes(x)])
+            return np.concatenate([known(x)[1] / scatter[:, np.newaxis], prior.slopes(x)])
 
         options: Any = {"jac": slopes, "loss": loss}  # SciPy's types know only names
         found = least_squares(
@@ -109,22 +151,26 @@ def solve(
         return found.x, bool(found.status > 0)
 
     values = np.clip(start, *_inside(bounds))
-    scatter = scatter_of(known(values)[0] - measured, measured)
+    # far from the solution, misses are no noise that grows with the torque
+    noise = Noise(scatter_of(known(values)[0] - measured, measured), 0.0)
+    scatter = noise.of(measured)
     for turn in range(ROUNDS):
         values, _ = fitted(values, scatter, _loss(line, measured.size))
-        before, scatter = scatter, scatter_of(known(values)[0] - measured, measured)
+        torques = known(values)[0]
+        noise = noise_of(torques - measured, torques)
+        before, scatter = scatter, noise.of(torques)
         if done is not None:
             done(turn + 1, ROUNDS + 1)
-        if abs(scatter - before) <= SETTLED * before:
+        if np.max(np.abs(scatter - before) / before) <= SETTLED:
             break
     values, converged = fitted(np.clip(values, *_inside(bounds)), scatter, _loss(biweight, measured.size))
     if done is not None:
         done(ROUNDS + 1, ROUNDS + 1)
     torques, derivatives = known(values)
-    return Solution(values, torques - measured, derivatives, scatter, converged)
+    return Solution(values, torques, torques - measured, derivatives, noise, converged)
 
 
-def loss_of(residuals: Vector, scatter: float) -> float:
+def loss_of(residuals: Vector, scatter: Vector | float) -> float:
     """The sum of the biweight over rows."""
     return float(np.sum(biweight((residuals / scatter) ** 2)[0]))
 
