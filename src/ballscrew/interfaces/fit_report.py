@@ -57,7 +57,8 @@ def print_fit(case: Case, fitted: Fitted) -> None:
 
 def _estimates(found: CalibratedModel) -> Table:
     table = table_of("Fitted", "", "", "value", "± standard error", "95 % interval", "from")
-    for estimate in (*found.estimates.values(), *found.sensor.values()):
+    shown = [e for e in found.sensor.values() if not e.name.startswith("torque_wander")]
+    for estimate in (*found.estimates.values(), *shown):
         table.add_row(
             in_words(estimate.name),
             estimate.quantity.shown_in.replace("um", "µm") if estimate.quantity.unit != "1" else "",

@@ -10,6 +10,7 @@ from typing import Any, cast, get_args
 from ballscrew import __version__
 from ballscrew.analyses.calibrated import CalibratedModel, Estimate
 from ballscrew.analyses.calibration import fit
+from ballscrew.analyses.fit_problem import CONSTANT_TORQUE
 from ballscrew.analyses.next_test import NextTest
 from ballscrew.analyses.outputs import inputs_of
 from ballscrew.analyses.plan import Subject
@@ -26,7 +27,7 @@ USUALLY_FREE = "boundary_friction_coefficient"
 #: What a test is described by.
 CONDITIONS = ("axial_load", "screw_speed", "temperature")
 #: What a fault of the fit is called on the command line.
-_OPTIONS: Mapping[str, str] = {"fit.free": "--free", "fit.holdout": "--holdout", "fit.kind": "--kind"}
+_OPTIONS: Mapping[str, str] = {f"fit.{name}": f"--{name}" for name in ("free", "holdout", "kind", "seed")}
 _LIMITS = "fit.limits."
 
 
@@ -125,7 +126,8 @@ def _quantities(case: Case, free: Sequence[str]) -> dict[str, Quantity]:
     """What the free numbers are, as far as they are known: the fit says what is wrong with the others."""
     subject = Subject(case.model, case.screw, case.lubricant)
     full = {name: _full(subject, name) for name in free}
-    return {name: subject.inputs[found][1] for name, found in full.items() if found is not None}
+    known = {name: subject.inputs[found][1] for name, found in full.items() if found is not None}
+    return known | ({CONSTANT_TORQUE.name: CONSTANT_TORQUE} if CONSTANT_TORQUE.name in free else {})
 
 
 def _ranges(
