@@ -24,7 +24,7 @@ COMMANDS = {
     "rough": ROUGH,
     "prior": [*ROUGH, "--set", "screw.nut_roughness=0.3 ± 0.05 um"],
     "run": ["run", "rig-calibrated.toml"],
-    "band": ["run", "rig-calibrated.toml", "--band", "--only-given"],
+    "band": ["run", "rig-calibrated.toml", "--band"],
     "sweep": ["sweep", "rig-calibrated.toml", "--output", "screw_torque"],
 }
 #: Of these the page shows the numbers and the next test.

@@ -41,7 +41,7 @@ def print_fit(case: Case, fitted: Fitted) -> None:
         say(line, "dim")
     say(f"torque read as: {found.rows.reading.words}", "dim")
     if found.rows.outlying.any():
-        say(f"outliers: {int(found.rows.outlying.sum())} rows, which count little", "dim")
+        say(f"outliers: {int(found.rows.outlying.sum())} rows, which count nothing", "dim")
     console.print()
     console.print(_estimates(found))
     for warning in found.warnings:
