@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from scipy.stats import t as student
 from synthetic import OIL, TRUE_FRICTION, log, truth
 
 import ballscrew as bs
@@ -12,7 +13,7 @@ from ballscrew.analyses.olaru2005.case import SCREW
 from ballscrew.faults import InputError
 
 PAPER = bs.FrictionModel.olaru2005()
-FRICTION, OFFSET = "boundary_friction_coefficient", "pure_rolling_offset"
+FRICTION, OFFSET, SEALS = "boundary_friction_coefficient", "pure_rolling_offset", "constant_torque"
 SEEDS = 200
 
 
@@ -21,14 +22,27 @@ def share_covered(hits):
     return float(np.mean(hits))
 
 
+CALM = {"drift": 0.0, "outliers": 0.0}
 SCENARIOS = {
-    "the friction coefficient": ([FRICTION], [TRUE_FRICTION], {}),
+    "strong drift and outliers": ([FRICTION], [TRUE_FRICTION], {"drift": 0.1, "outliers": 0.1}),
     "two of one law": ([FRICTION, "decay"], [TRUE_FRICTION, 1.42], {}),
-    "with strong drift and outliers": ([FRICTION], [TRUE_FRICTION], {"drift": 0.1, "outliers": 0.1}),
-    "friction torque, with seals": ([FRICTION, "constant_torque"], [TRUE_FRICTION, 0.0], {"kind": "friction"}),
     "the offset as well, with the clamp": (
         [FRICTION, OFFSET], [TRUE_FRICTION, 0.34], {"speeds": (10, 10_000), "noise": 0.003},
     ),
+    "all forward, then all backward, while the zero wanders by twice the noise": (
+        [FRICTION, SEALS], [TRUE_FRICTION, 0.0], {**CALM, "design": "strokes", "rows": 200, "wander": 0.02},
+    ),
+    "one direction, one row of ten too large": (
+        [FRICTION], [TRUE_FRICTION], {"both": False, "outliers": 0.1, "one_sided": True, "drift": 0},
+    ),
+    "few rows of friction with noise of 5 %": (
+        [FRICTION, SEALS], [TRUE_FRICTION, 0.0],
+        {**CALM, "design": "alternating", "rows": 60, "noise": 0.001, "share": 0.05, "kind": "friction"},
+    ),
+    "few rows of drive torque with noise of 1 %": (
+        [FRICTION], [TRUE_FRICTION], {**CALM, "design": "alternating", "rows": 60, "noise": 1e-4, "share": 0.01},
+    ),
+    "twenty rows": ([FRICTION], [TRUE_FRICTION], {**CALM, "rows": 20}),
 }  # fmt: skip
 
 
@@ -108,6 +122,13 @@ def test_a_prior_counts_and_says_how_much():
     # the log says nothing of it: all that is known is the prior
     assert found.estimates[OFFSET].prior_share == pytest.approx(1.0, abs=0.02)
     assert not found.estimates[OFFSET].identified
+    assert found.estimates[OFFSET].interval() is None
+    # the other one is known through it: what the product leaves, and what the prior does
+    estimate, Y = found.estimates[FRICTION], found.estimates[OFFSET].value
+    by_prior = estimate.value * (15 * Y**2 - 15 * Y**4) / (1 - 5 * Y**3 + 3 * Y**5) * 0.01
+    alone = fit(PAPER, SCREW, OIL, columns, [FRICTION]).estimates[FRICTION].std
+    assert estimate.identified
+    assert estimate.std == pytest.approx(np.hypot(by_prior, alone), rel=0.1)
     told = fit(PAPER, SCREW, OIL, columns, [FRICTION], priors={FRICTION: bs.LogNormal(0.11, 3.0)})
     assert told.estimates[FRICTION].prior_share < 0.01
 
@@ -121,18 +142,82 @@ def test_a_number_at_its_bound_has_no_error_bar():
     assert any("bound" in warning for warning in found.warnings)
 
 
-@pytest.mark.parametrize("kind", ["drive", "friction"])
-@pytest.mark.parametrize("turn", ["as it is", "reversed", "magnitude"])
-def test_the_model_tells_what_the_torque_is_and_which_signs_it_has(kind, turn):
-    columns = log(truth(), kind=kind, drift=0, outliers=0)
-    if turn == "reversed":
-        columns["torque"] = -columns["torque"]
-    if turn == "magnitude":
-        columns["torque"] = np.abs(columns["torque"])
+def parts():
+    """A log with the true ideal torque and friction torque of its rows, as magnitudes, and its noise."""
+    columns = log(truth(), drift=0, outliers=0)
+    result = truth()(SCREW, OIL, axial_load=columns["axial_load"], screw_speed=np.abs(columns["screw_speed"]))
+    sign = np.sign(columns["screw_speed"])
+    noise = columns["torque"] - result.ideal_torque - sign * result.screw_torque
+    return columns, result.ideal_torque, result.screw_torque, sign, noise
+
+
+AS_IT_IS, SHAFT = "friction torque, its sign that of the speed", "torque on the shaft, load and speed with their signs"
+OPPOSITE = "torque on the shaft, loads with the opposite sign"
+AGAINST = "torque on the shaft, the load always against the motion"
+#: What was measured by ideal torque, friction and directions of speed and load; then the load that was logged.
+READ = {
+    "friction": (lambda i, f, s, w: s * f, False, AS_IT_IS),
+    "friction, reversed": (lambda i, f, s, w: -s * f, False, f"{AS_IT_IS}; reversed"),
+    "friction, magnitude": (lambda i, f, s, w: f, False, "magnitude of the friction torque"),
+    "friction, negative": (lambda i, f, s, w: -f, False, "magnitude of the friction torque; reversed"),
+    "drive": (lambda i, f, s, w: i + s * f, False, SHAFT),
+    "drive, reversed": (lambda i, f, s, w: -i - s * f, False, f"{SHAFT}; reversed"),
+    "drive, load with a sign": (lambda i, f, s, w: w * i + s * f, True, SHAFT),
+    "opposite load": (lambda i, f, s, w: -w * i + s * f, True, OPPOSITE),
+    "opposite speed": (lambda i, f, s, w: i - s * f, False, f"{OPPOSITE}; reversed"),
+    "against the motion": (lambda i, f, s, w: s * (i + f), False, AGAINST),
+    "along the motion": (lambda i, f, s, w: w * s * i + f, True, "torque in the direction of the motion"),
+    "drive, magnitude": (lambda i, f, s, w: i + f, False, "magnitude of the driving torque"),
+    "shaft, magnitude": (lambda i, f, s, w: i + w * s * f, True, "magnitude of the torque on the shaft"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("how", READ)
+def test_the_model_tells_what_the_torque_is_and_which_signs_it_has(how):
+    measured, signed, words = READ[how]
+    columns, ideal, friction, sign, noise = parts()
+    load_sign = np.where(np.random.default_rng(7).random(400) < 0.5, -1.0, 1.0) if signed else np.ones(400)
+    columns["torque"] = measured(ideal, friction, sign, load_sign) + noise
+    columns["axial_load"] = load_sign * columns["axial_load"]
     found = fit(PAPER, SCREW, OIL, columns, [FRICTION])
-    assert found.rows.reading.kind == kind
-    assert found.rows.reading.reversed == (turn == "reversed")
+    assert found.rows.reading.words.removesuffix("; reversed") == words.removesuffix("; reversed")
+    assert found.rows.reading.reversed == words.endswith("reversed")
+    assert found.rows.reading.kind == ("friction" if how.startswith("friction") else "drive")
+    # 400 rows of noise 0.01 leave an error of 0.002 or so
     assert found.estimates[FRICTION].value == pytest.approx(TRUE_FRICTION, abs=0.006)
+    assert found.residual_rms == pytest.approx(0.01, rel=0.15)
+
+
+@pytest.mark.parametrize(("how", "heading"), [("friction, magnitude", "friction_torque"), ("drive", "drive_torque")])
+def test_what_a_heading_says_counts(how, heading):
+    columns, ideal, friction, sign, noise = parts()
+    del columns["torque"]
+    columns[heading] = READ[how][0](ideal, friction, sign, 1.0) + noise
+    reading = fit(PAPER, SCREW, OIL, columns, [FRICTION]).rows.reading
+    assert (reading.words, reading.kind) == (READ[how][2], heading.removesuffix("_torque"))
+    # a person who knows better is believed
+    other = {"friction": "drive", "drive": "friction"}[reading.kind]
+    assert fit(PAPER, SCREW, OIL, columns, [FRICTION], kind=other).rows.reading.kind == other
+
+
+def test_a_log_of_one_direction_has_a_reading_too():
+    for sign, turned in ((1, 1), (-1, 1), (1, -1), (-1, -1)):
+        columns = log(truth(), both=False, kind="friction", drift=0, outliers=0)
+        columns["screw_speed"] = sign * columns["screw_speed"]
+        columns["torque"] = turned * columns["torque"]
+        found = fit(PAPER, SCREW, OIL, columns, [FRICTION])
+        assert found.rows.reading.kind == "friction"
+        assert np.all(found.rows.direction == turned)
+        assert found.estimates[FRICTION].value == pytest.approx(TRUE_FRICTION, abs=0.012)
+
+
+@pytest.mark.parametrize(("kind", "words"), [("friction", "misses something"), ("drive", "signs, units")])
+def test_signs_that_are_mixed_are_no_fault_but_are_told(kind, words):
+    """Of friction alone the wrong signs look like noise that grows with the torque, but residuals give them away."""
+    columns = log(truth(), kind=kind)
+    assert not fit(PAPER, SCREW, OIL, columns, [FRICTION]).warnings
+    columns["torque"][::3] *= -1
+    assert any(words in warning for warning in fit(PAPER, SCREW, OIL, columns, [FRICTION]).warnings)
 
 
 def test_temperatures_change_the_oil():
@@ -161,7 +246,9 @@ def test_what_is_held_out_is_not_fitted():
     assert 0.15 < held_out.mean() < 0.25
     spoilt = dict(columns, torque=np.where(held_out, columns["torque"] + 5.0, columns["torque"]))
     again = fit(PAPER, SCREW, OIL, spoilt, [FRICTION], seed=3, kind="drive")
-    assert again.estimates[FRICTION].value == found.estimates[FRICTION].value
+    # which reading is meant, and what noise is usual, is looked up in all rows
+    one, other = found.estimates[FRICTION], again.estimates[FRICTION]
+    assert other.value == pytest.approx(one.value, abs=1e-3 * one.std)
 
 
 def test_prediction_and_band_are_those_of_the_fitted_model():
@@ -174,7 +261,7 @@ def test_prediction_and_band_are_those_of_the_fitted_model():
     true = truth()(SCREW, OIL, axial_load=load, screw_speed=speed).screw_torque
     assert np.all((band.low < true) & (true < band.high))
     scatter = np.sqrt((wide.high - wide.low) ** 2 - (band.high - band.low) ** 2) / (2 * 1.959964)
-    np.testing.assert_allclose(scatter, found.solution.scatter, rtol=1e-6)
+    np.testing.assert_allclose(scatter, found.solution.noise.of(own), rtol=1e-6)
     assert np.ndim(found.band(500.0, 5.0).low) == 0
 
 
@@ -210,6 +297,14 @@ def test_logs_without_what_is_needed_are_refused(changed):
         ([FRICTION], {"kind": "torque"}, "unknown kind"),
         ([FRICTION], {"priors": {OFFSET: bs.Normal(0.3, 0.1)}}, "is not free"),
         ([FRICTION], {"bounds": {FRICTION: (0.3, 0.1)}}, "leave no room"),
+        ([FRICTION], {"bounds": {FRICTION: 0.3}}, "must be a pair"),
+        ([FRICTION], {"bounds": {FRICTION: (0.1, 0.2, 0.3)}}, "must be a pair"),
+        ([FRICTION], {"priors": {FRICTION: 0.1}}, "is no distribution"),
+        ([FRICTION], {"seed": -1}, "whole number, 0 or more"),
+        ([FRICTION], {"seed": 1.5}, "whole number, 0 or more"),
+        ([FRICTION, f"model.friction.{FRICTION}"], {}, "names one number twice"),
+        ([SEALS], {}, "needs a number of the model"),
+        ([SEALS, SEALS], {}, "needs a number of the model"),
     ],
 )
 def test_what_cannot_be_fitted_is_refused(free, options, words):
@@ -225,6 +320,40 @@ def test_a_number_without_a_value_has_nothing_to_start_from():
 def test_the_force_between_balls_starts_from_what_stands_for_none():
     found = fit(PAPER, SCREW, OIL, log(truth(), noise=1e-4, outliers=0), ["ball_to_ball_force"])
     assert found.estimates["ball_to_ball_force"].start == pytest.approx(1 / 56)
+
+
+def test_a_number_that_the_clamp_hides_is_sought_elsewhere():
+    """All points start on the clamp, where nothing depends on the coefficient: the truth is five times larger."""
+    start = truth(boundary_friction_coefficient=0.0201)
+    columns = log(truth(), noise=0.003, speeds=(50, 1000))
+    result = start(SCREW, OIL, axial_load=columns["axial_load"], screw_speed=np.abs(columns["screw_speed"]))
+    assert np.all(result.screw.friction_coefficient <= 0.02)
+    found = fit(start, SCREW, OIL, columns, [FRICTION]).estimates[FRICTION]
+    assert abs(found.value - TRUE_FRICTION) < 4 * found.std < 0.02
+
+
+def test_intervals_keep_within_the_bounds():
+    columns = log(truth(), rows=30, noise=0.02)
+    wide = fit(PAPER, SCREW, OIL, columns, [FRICTION]).estimates[FRICTION]
+    middle = wide.value
+    assert wide.interval()[0] < middle - wide.std
+    bounds = {FRICTION: (middle - wide.std, middle + 0.5 * wide.std)}
+    narrow = fit(PAPER, SCREW, OIL, columns, [FRICTION], bounds=bounds).estimates[FRICTION]
+    assert narrow.interval() == pytest.approx(bounds[FRICTION])
+    # Student's distribution of so many rows less numbers
+    half = (wide.interval(0.9)[1] - wide.interval(0.9)[0]) / 2
+    assert half == pytest.approx(student.ppf(0.95, wide.freedom) * wide.std)
+
+
+def test_the_zero_of_the_sensor_wanders_where_both_directions_tell():
+    columns = log(truth(), rows=300, wander=0.03, outliers=0, noise=0.003)
+    found = fit(PAPER, SCREW, OIL, columns, [FRICTION], holdout=0)
+    assert list(found.sensor) == ["torque_offset", "torque_drift", *(f"torque_wander_{waves}" for waves in (2, 3, 4))]
+    # a sine of one wave is nearly made of them; without them its 0.02 would remain
+    assert found.residual_rms < 0.006
+    assert list(fit(PAPER, SCREW, OIL, log(truth(), rows=50), [FRICTION]).sensor) == ["torque_offset", "torque_drift"]
+    assert list(fit(PAPER, SCREW, OIL, log(truth(), rows=19), [FRICTION]).sensor) == ["torque_offset"]
+    assert list(fit(PAPER, SCREW, OIL, log(truth(), both=False), [FRICTION]).sensor) == ["torque_drift"]
 
 
 def test_ten_rows_are_few_but_enough():

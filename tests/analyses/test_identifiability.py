@@ -5,7 +5,7 @@ import pytest
 
 from ballscrew.analyses import robust
 from ballscrew.analyses.identifiability import LIMIT, Identifiability, Told, Uncertainty, weighted
-from ballscrew.analyses.robust import Solution, scatter_of
+from ballscrew.analyses.robust import Noise, Solution, scatter_of
 
 NOTHING = np.empty((0, 3))
 
@@ -20,7 +20,7 @@ def least_squares(slopes, noise):
     """A fit of a straight line to nothing but noise, as the trust region leaves it without a bend."""
     values = np.linalg.lstsq(slopes, noise, rcond=None)[0]
     residuals = slopes @ values - noise
-    return Solution(values, residuals, slopes, scatter_of(residuals, noise), True)
+    return Solution(values, slopes @ values, residuals, slopes, Noise(scatter_of(residuals, noise), 0.0), True)
 
 
 def by_the_loss(slopes, noise):
@@ -32,7 +32,8 @@ def by_the_loss(slopes, noise):
 
 @pytest.fixture
 def no_bend(monkeypatch):
-    monkeypatch.setattr(robust, "BEND", 1e6)
+    for name in ("BEND", "END"):
+        monkeypatch.setattr(robust, name, 1e6)
 
 
 def covariance_of(solution, known=None):
@@ -51,16 +52,76 @@ def test_without_a_bend_the_covariance_is_that_of_least_squares():
     np.testing.assert_allclose(found / np.outer(error, error), classical / np.outer(error, error), atol=0.04)
 
 
+def hc3(slopes, residuals):
+    """``(XᵀX)⁻¹ Σ x xᵀ r²/(1 − h)² (XᵀX)⁻¹``, row by row."""
+    inverse = np.linalg.inv(slopes.T @ slopes)
+    total = np.zeros_like(inverse)
+    for row, r in zip(slopes, residuals, strict=True):
+        total += np.outer(row, row) * (r / (1 - row @ inverse @ row)) ** 2
+    return inverse @ total @ inverse
+
+
+def even(slopes, residuals):
+    """s² (XᵀX)⁻¹."""
+    rows, numbers = slopes.shape
+    return residuals @ residuals / (rows - numbers) * np.linalg.inv(slopes.T @ slopes)
+
+
 @pytest.mark.usefixtures("no_bend")
-def test_few_rows_count_the_numbers_that_were_fitted():
-    """The mean over many logs of 12 rows: n/(n − p) times the squares of residuals, which p numbers made smaller."""
+def test_the_variance_of_a_mean_of_few_rows_has_a_closed_form():
+    """All rows have the leverage 1/n: Σ r²/(n − 1)², a little more than s²/n, and without the leverage too small."""
     ones = np.ones((12, 1))
-    found = [
-        covariance_of(least_squares(ones, np.random.default_rng(seed).standard_normal(12)))[0, 0]
-        for seed in range(4000)
-    ]
-    # each variance is off by √(2/11); their mean by less than a per cent
-    assert np.mean(found) == pytest.approx(1 / 12, rel=0.03)
+    found = []
+    for seed in range(2000):
+        solution = least_squares(ones, np.random.default_rng(seed).standard_normal(12))
+        found.append(covariance_of(solution)[0, 0])
+        assert found[-1] == pytest.approx(solution.residuals @ solution.residuals / 11**2, rel=1e-9)
+    # each variance is off by √(2/11); their mean by a per cent
+    assert np.mean(found) == pytest.approx(1 / 11, rel=0.03)
+
+
+@pytest.mark.usefixtures("no_bend")
+def test_one_number_has_the_larger_of_two_variances():
+    """That of HC3, or of equal noise in all rows; either is the larger one in some logs."""
+    larger = []
+    slopes = columns(15)[:, 1:2]
+    for seed in range(50):
+        solution = least_squares(slopes, np.random.default_rng(seed).standard_normal(15))
+        both = [float(of(slopes, solution.residuals)[0, 0]) for of in (hc3, even)]
+        assert covariance_of(solution)[0, 0] == pytest.approx(max(both), rel=1e-8)
+        larger.append(both[0] > both[1])
+    assert 0 < np.mean(larger) < 1
+
+
+@pytest.mark.usefixtures("no_bend")
+def test_no_combination_of_numbers_is_known_better_than_either_says():
+    slopes = columns(18)
+    for seed in range(50):
+        solution = least_squares(slopes, np.random.default_rng(seed).standard_normal(18))
+        found = covariance_of(solution)
+        root = np.linalg.inv(np.linalg.cholesky(found))
+        shares = [np.linalg.eigvalsh(root @ of(slopes, solution.residuals) @ root.T) for of in (hc3, even)]
+        # in each direction the larger of the two, and nothing more
+        assert np.max(shares) < 1 + 1e-6
+        assert shares[0].max() > 1 - 1e-6 or shares[1].min() > 1 - 1e-6
+
+
+@pytest.mark.usefixtures("no_bend")
+def test_a_row_that_stands_alone_counts_with_its_leverage():
+    """One row far out in the column: the line runs through it nearly, and its residual says nothing of its noise."""
+    place = np.append(np.random.default_rng(0).uniform(-1, 1, 59), 8.0)
+    slopes = np.stack([np.ones(60), place], axis=1)
+    hits = {"fit": 0, "plain": 0}
+    for seed in range(1000):
+        # noise that grows with the column
+        noise = np.hypot(0.3, place) * np.random.default_rng(seed).standard_normal(60)
+        solution = least_squares(slopes, noise)
+        inverse = np.linalg.inv(slopes.T @ slopes)
+        plain = inverse @ (slopes.T * solution.residuals**2) @ slopes @ inverse
+        for name, variance in {"fit": covariance_of(solution)[1, 1], "plain": plain[1, 1]}.items():
+            hits[name] += abs(solution.values[1]) < 2 * np.sqrt(variance)
+    assert hits["plain"] < 600
+    assert hits["fit"] > hits["plain"] + 150
 
 
 @pytest.mark.usefixtures("no_bend")
@@ -73,13 +134,13 @@ def test_errors_hold_where_the_noise_depends_on_the_place():
     assert found * 20_000 == pytest.approx(3, rel=0.1)
 
 
-def test_the_bend_costs_five_per_cent():
+def test_the_biweight_costs_five_per_cent():
     slopes = columns(20_000)
     noise = np.random.default_rng(4).normal(0, 0.3, 20_000)
     solution = by_the_loss(slopes, noise)
     classical = 0.3**2 * np.linalg.inv(slopes.T @ slopes)
     ratio = np.diagonal(covariance_of(solution)) / np.diagonal(classical)
-    np.testing.assert_allclose(ratio, 1.048, atol=0.03)
+    np.testing.assert_allclose(ratio, 1 / 0.95, atol=0.03)
 
 
 def autoregressive(rows, correlation, seed):
@@ -109,7 +170,7 @@ def test_a_prior_adds_its_information():
     known = np.array([[1 / 0.004, 0, 0]])
     # the column of ones is next to uncorrelated with the others
     assert covariance_of(solution, known)[0, 0] == pytest.approx(1 / (1 / alone + 1 / 0.004**2), rel=0.05)
-    blind = Solution(np.zeros(1), np.ones(50), np.zeros((50, 1)), 1.0, True)
+    blind = Solution(np.zeros(1), np.ones(50), np.ones(50), np.zeros((50, 1)), Noise(1.0, 0.0), True)
     assert covariance_of(blind, np.array([[1 / 0.1]]))[0, 0] == pytest.approx(0.01)
 
 
@@ -126,7 +187,7 @@ def test_directions_are_told_down_to_half_the_scale():
 
 def twins():
     """Two numbers of which only the sum counts, one that is told, and a sensor."""
-    rows = 500
+    rows = 5000
     drawn = np.random.default_rng(0).standard_normal((rows, 2))
     slopes = np.stack([drawn[:, 0], drawn[:, 0], drawn[:, 1], np.ones(rows)], axis=1)
     return by_the_loss(slopes, np.random.default_rng(1).normal(0, 0.1, rows))
@@ -162,7 +223,7 @@ def test_what_depends_on_what_is_not_told_has_no_variance():
     np.testing.assert_array_equal(np.isnan(total), [False, True, True, False, False])
     # the sum of the two has the error of one number in their place
     slopes = solution.slopes[:, 1:]
-    alone = by_the_loss(slopes, np.random.default_rng(1).normal(0, 0.1, 500))
+    alone = by_the_loss(slopes, np.random.default_rng(1).normal(0, 0.1, 5000))
     np.testing.assert_allclose(total[0], covariance_of(alone)[0, 0], rtol=1e-3)
     assert found.variance_of(np.zeros(4)) == 0
 
@@ -170,6 +231,27 @@ def test_what_depends_on_what_is_not_told_has_no_variance():
 def test_scales_change_what_is_told_and_no_error():
     solution = by_the_loss(columns(500), np.random.default_rng(1).normal(0, 0.1, 500))
     one, other = (Uncertainty.of(solution, scale, NOTHING) for scale in (np.ones(3), np.array([10.0, 0.1, 3.0])))
-    np.testing.assert_allclose(one.covariance, other.covariance, rtol=1e-9)
-    small = Uncertainty.of(solution, np.array([1e-6, 1.0, 1.0]), NOTHING)
+    np.testing.assert_allclose(one.covariance, other.covariance, rtol=1e-7)
+    small = Uncertainty.of(solution, np.array([1e-3, 1.0, 1.0]), NOTHING)
     assert np.isnan(small.variance_of(np.array([1.0, 0, 0])))
+
+
+def test_what_is_not_told_well_still_leaks_into_other_numbers():
+    """Two columns that are nearly alike: held fast, the other would be known six times better than it is."""
+    drawn = np.random.default_rng(0).standard_normal((500, 2))
+    slopes = np.stack([drawn[:, 0], drawn[:, 0] + 0.17 * drawn[:, 1]], axis=1)
+    solution = by_the_loss(slopes, np.random.default_rng(1).normal(0, 0.1, 500))
+    open_to_much = Uncertainty.of(solution, np.array([0.03, 1.0]), np.empty((0, 2)))
+    assert open_to_much.told.told.tolist() == [True, False]
+    classical = 0.1**2 * np.linalg.inv(slopes.T @ slopes)
+    np.testing.assert_allclose(np.diagonal(open_to_much.covariance), np.diagonal(classical), rtol=0.25)
+    assert classical[1, 1] > 25 * 0.1**2 / (slopes[:, 1] @ slopes[:, 1])
+
+
+def test_directions_that_are_only_rounding_are_not_measured():
+    found = Told.of(np.diag([100.0, 0.1, 1e-9, 0.0]))
+    assert found.told.tolist() == [True, False, False, False]
+    np.testing.assert_array_equal(np.abs(found.measured), np.eye(4)[:, :2])
+    # a part that rounding leaves in what is not told is no part
+    turned = np.array([[100.0, 0, 0], [0, 0.1, 1e-7]])
+    assert np.count_nonzero(Told.of(turned).measured) == 2

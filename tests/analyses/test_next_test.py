@@ -28,11 +28,15 @@ def both():
 
 
 def information(found):
-    """Of all parameters of a fit, those that are open known to their own size; rows by rows."""
+    """Of all parameters of a fit, those that are open known to their own size; rows by rows, without outliers."""
     total = np.diag(1 / found.uncertainty.scale**2)
-    bend = (1 + (found.solution.residuals / found.solution.scatter / 1.35) ** 2) ** -1.5
-    for weight, slopes in zip(bend, found.solution.slopes / found.solution.scatter, strict=True):
-        total = total + weight * np.outer(slopes, slopes)
+    solution = found.solution
+    u = (solution.residuals / solution.scatter / 4.685) ** 2
+    rows = np.flatnonzero(u < 1)
+    # the derivative of the pull of Tukey's biweight
+    curvature = np.mean((1 - u[rows]) * (1 - 5 * u[rows]))
+    for row in rows:
+        total = total + curvature * np.outer(solution.slopes[row], solution.slopes[row]) / solution.scatter[row] ** 2
     return total
 
 
@@ -45,17 +49,20 @@ def test_what_remains_is_the_inverse_of_the_sum_of_both_informations(both):
         load, speed = (float(proposal.tests[name][place]) for name in ("axial_load", "screw_speed"))
         coefficient = both.estimates[FRICTION].value
 
-        def torque(value, load=load, speed=speed):
+        def torques(value, load=load, speed=speed):
             friction = dataclasses.replace(PAPER.friction, boundary_friction_coefficient=value)
             model = dataclasses.replace(PAPER, friction=friction)
-            return model(SCREW, OIL, axial_load=load, screw_speed=speed).screw_torque
+            result = model(SCREW, OIL, axial_load=load, screw_speed=speed)
+            return np.array([result.ideal_torque, result.screw_torque])
 
-        slope = (torque(coefficient + 1e-6) - torque(coefficient - 1e-6)) / 2e-6
+        ideal, friction = torques(coefficient)
+        slope = (torques(coefficient + 1e-6) - torques(coefficient - 1e-6))[1] / 2e-6
         after = before
         for reading in range(readings):
             sign = 1 if reading % 2 else -1
-            # friction and seals turn with the direction, the zero error does not, and the drift is not known by then
-            row = np.array([sign * slope, sign, 1.0, 0.0]) / both.solution.scatter
+            # friction and seals turn with the direction, the zero error does not, and how it moves is not known by then
+            row = np.array([sign * slope, sign, 1.0, *[0.0] * (len(both.sensor) - 1)])
+            row = row / both.solution.noise.of(ideal + sign * friction)
             after = after + np.outer(row, row)
         volumes = [np.sqrt(np.linalg.det(np.linalg.inv(total)[:count, :count])) for total in (after, before)]
         assert proposal.remaining_volume[place] == pytest.approx(volumes[0] / volumes[1], rel=1e-5)
@@ -133,8 +140,9 @@ def test_one_direction_is_asked_for_where_the_log_has_one():
     proposal = found.next_test(readings=readings)
     place = int(np.argmin(proposal.remaining_volume))
     load, speed = (proposal.tests[name][place : place + 1] for name in ("axial_load", "screw_speed"))
-    _, slopes = found.response.at({"axial_load": load, "screw_speed": speed})(found.solution.values[:1])
-    row = np.array([slopes[1, 0, 0], *(name == "torque_offset" for name in found.sensor)]) / found.solution.scatter
+    torques, slopes = found.response.at({"axial_load": load, "screw_speed": speed})(found.solution.values[:1])
+    assert list(found.sensor) == ["torque_drift"]
+    row = np.array([slopes[1, 0, 0], 0.0]) / found.solution.noise.of(torques.sum())
     before = information(found)
     after = before + readings * np.outer(row, row)
     volumes = [np.sqrt(np.linalg.inv(total)[0, 0]) for total in (after, before)]

@@ -30,12 +30,13 @@ def samples(found):
 
 
 def test_where_the_model_is_nearly_a_straight_line_the_errors_are_those_of_the_curvature(found, samples):
-    """``exp(−½ k Σ ρ)`` near its top is normal with the covariance (k Σ ρ″/2 g gᵀ)⁻¹, g the derivatives."""
+    """``exp(−½ k Σ ρ)`` near its top is normal with the covariance (k Σ ψ′ g gᵀ)⁻¹, g the derivatives."""
     solution = found.solution
     r = solution.residuals / solution.scatter
-    bend, pull = (1 + (r / 1.35) ** 2) ** -1.5, r / np.sqrt(1 + (r / 1.35) ** 2)
-    root = np.sqrt(bend * bend.sum() / (pull @ pull))[:, np.newaxis] * solution.slopes / solution.scatter
-    deviation = np.sqrt(np.linalg.inv(root.T @ root)[0, 0])
+    u = np.minimum((r / 4.685) ** 2, 1)
+    bend, pull = (1 - u) * (1 - 5 * u), r * (1 - u) ** 2
+    g = solution.slopes / solution.scatter[:, np.newaxis]
+    deviation = np.sqrt(np.linalg.inv(bend.sum() / (pull @ pull) * (g.T * bend) @ g)[0, 0])
     drawn = samples.samples[FRICTION]
     effective = drawn.size / samples.forgetting
     assert effective > 100

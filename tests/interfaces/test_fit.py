@@ -53,8 +53,11 @@ def case(tmp_path_factory):
     return path
 
 
-def columns(rows=120, seed=0, loads=(200, 4000), speeds=(10, 1000), noise=NOISE):
-    """A drive torque in both directions, in the units of people, at single settings in random order."""
+def columns(rows=120, seed=0, loads=(200, 4000), speeds=(10, 1000), noise=NOISE, against=False):
+    """A drive torque in both directions, in the units of people, at single settings in random order.
+
+    The load has one direction, or is always against the motion.
+    """
     random = np.random.default_rng(seed)
     made = config.build(tomllib.loads(PAPER), None, EXAMPLES)
     friction = dataclasses.replace(made.model.friction, boundary_friction_coefficient=TRUE_FRICTION)
@@ -63,7 +66,9 @@ def columns(rows=120, seed=0, loads=(200, 4000), speeds=(10, 1000), noise=NOISE)
     speed = np.exp(random.uniform(*np.log(speeds), rows))
     sign = np.where(random.random(rows) < 0.5, -1.0, 1.0)
     result = true(made.screw, made.lubricant, axial_load=load, screw_speed=speed * RPM)
-    torque = result.ideal_torque + sign * result.screw_torque + random.normal(0, noise, rows)
+    torque = (
+        (sign if against else 1.0) * result.ideal_torque + sign * result.screw_torque + random.normal(0, noise, rows)
+    )
     return {"speed": sign * speed, "load": load, "torque": torque}
 
 
@@ -168,7 +173,6 @@ def test_words(fit, log):
     text = done.stdout
     assert text.startswith("log.csv: 120 of 120 rows used, model olaru2005\n")
     for words in (
-        'the heading says only "torque"',
         "torque read as: torque on the shaft, load and speed with their signs",
         "the model calibrated",
         "the model as given",
@@ -304,7 +308,7 @@ def test_a_log_that_is_not_there_is_refused(fit, tmp_path):
 
 
 def test_a_distribution_of_the_case_is_a_prior(fit, log):
-    path = log(columns(30, noise=0.05))
+    path = log(columns(30))
     free, prior = (), ("--set", f"model.friction.{FRICTION}=0.11 ± 0.005")
     alone, told = (document_of(fit(path, "--json", *options))["estimates"][FRICTION] for options in (free, prior))
     assert alone["prior_share"] == 0
@@ -364,6 +368,38 @@ def test_a_motor_current_with_its_torque_constant(fit, log):
     assert found["value"] == pytest.approx(expected["value"], rel=1e-6)
     (line,) = refused(fit(path), "needs the torque constant")
     assert "--torque-constant" in line
+
+
+@pytest.mark.parametrize("against", [False, True])
+def test_a_motor_current_with_loads_as_magnitudes(against, fit, log):
+    """The weight of a slide has one direction; a load of the process is against the motion and turns with it."""
+    data = columns(against=against)
+    path = log({**data, "torque": data["torque"] / 0.5}, torque="motor current [A]")
+    found = document_of(fit(path, "--json", "--torque-constant", "0.5 N m/A"))
+    words = "the load always against the motion" if against else "load and speed with their signs"
+    assert found["rows"]["torque"] == f"torque on the shaft, {words}"
+    estimate = found["estimates"][FRICTION]
+    assert abs(estimate["value"] - TRUE_FRICTION) < 4 * estimate["std"] < 0.02
+
+
+def test_a_torque_with_the_opposite_sign_is_read_as_such(fit, log):
+    expected = document_of(fit(log(), "--json"))["estimates"][FRICTION]
+    turned = log(changed(torque=-columns()["torque"]), torque="drive torque [N m]")
+    found = document_of(fit(turned, "--json"))
+    assert found["rows"]["torque"].endswith("; reversed")
+    assert found["estimates"][FRICTION]["value"] == pytest.approx(expected["value"], rel=1e-6)
+
+
+def test_without_any_load_nothing_is_told_of_the_balls(fit, log):
+    done = fit(log(), "--json", "--column", "axial_load=0 N")
+    found = document_of(done)
+    assert found["estimates"][FRICTION]["identified"] is False
+    assert found["estimates"][FRICTION]["std"] is None
+    assert found["next_test"] is None
+    for words in ("hardly depend on it", "signs, units and conditions", "no next test"):
+        assert any(words in warning for warning in found["warnings"])
+    assert any("one axial load only" in note for note in found["rows"]["notes"])
+    assert "Traceback" not in done.stderr
 
 
 def test_headings_by_hand(fit, log):
@@ -463,9 +499,6 @@ REFUSED = {
         {name: values for name, values in columns().items() if name != "load"}, {}, ['has no column "axial_load [N]"'],
     ),
     "always at rest": (changed(speed=np.zeros(120)), {}, ["at rest: 120"]),
-    "signs that disagree": (
-        changed(torque=-columns()["torque"]), {"torque": "drive torque [N m]"}, ["signs of load, speed and torque"],
-    ),
 }  # fmt: skip
 
 

@@ -28,7 +28,8 @@ MEDIAN_TO_DEVIATION = 1.4826
 #: How often the scatter is found anew, and when it has settled.
 ROUNDS, SETTLED = 20, 5e-3
 #: The scatter is looked at over so many parts, each of so many rows; with fewer it is the same everywhere.
-FEWEST_PARTS, MOST_PARTS, ROWS_OF_PART = 3, 8, 12
+FEWEST_PARTS, MOST_PARTS, ROWS_OF_PART = 3, 8, 15
+_TURNS = 5
 #: No scatter is smaller than this share of the torques themselves: sums of floats are not exact.
 LEAST_SCATTER = 1e-9
 #: Rows further apart than this count as independent, and fewer rows than these tell nothing of each other.
@@ -102,17 +103,29 @@ def noise_of(residuals: Vector, torques: Vector) -> Noise:
         return Noise(scatter_of(residuals, torques), 0.0)
     chosen = np.array_split(np.argsort(np.abs(torques), kind="stable"), parts)
     y = np.array([scatter_of(residuals[part], torques) ** 2 for part in chosen])
-    x = np.array([np.mean(torques[part] ** 2) for part in chosen])
-    # squares of scatters are known to a share of themselves
-    weights = 1 / np.maximum(y, np.median(y) / 100) ** 2
+    x = np.array([np.mean(torques[part] ** 2) for part in chosen], dtype=np.float64)
+    unit_y, unit_x = float(np.median(y)), float(np.max(x)) or 1.0
+    if unit_y == 0:
+        return Noise(scatter_of(residuals, torques), 0.0)
+    y, x = np.asarray(y / unit_y), np.asarray(x / unit_x)
+    floor, share = _line_through(x, y, np.ones(parts))
+    for _ in range(_TURNS):
+        expected = floor + share * x
+        # squares of scatters are known to a share of what they are, not of what they came out as
+        floor, share = _line_through(x, y, 1 / np.maximum(expected, 1e-3) ** 2)
+    return Noise(max(float(np.sqrt(floor * unit_y)), least), float(np.sqrt(share * unit_y / unit_x)))
+
+
+def _line_through(x: Vector, y: Vector, weights: Vector) -> tuple[float, float]:
+    """``y = floor + share · x`` by weighted least squares, neither below zero."""
     mean_x, mean_y = np.average(x, weights=weights), np.average(y, weights=weights)
     spread = np.average((x - mean_x) ** 2, weights=weights)
     share = 0.0 if spread == 0 else float(np.average((x - mean_x) * (y - mean_y), weights=weights) / spread)
     share = max(share, 0.0)
     floor = float(mean_y - share * mean_x)
     if floor < 0:
-        floor, share = 0.0, float(np.sum(weights * x * y) / np.sum(weights * x * x))
-    return Noise(max(float(np.sqrt(floor)), least), float(np.sqrt(share)))
+        return 0.0, float(np.sum(weights * x * y) / np.sum(weights * x * x))
+    return floor, share
 
 
 def least_scatter(torques: Vector) -> float:
