@@ -27,6 +27,7 @@ from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.faults import Fault, nearest, raise_if_any
 from ballscrew.model import FrictionModel
+from ballscrew.quantities import within_bounds
 
 #: How often a fit evaluates the whole log, roughly: only the choice of the engine depends on it.
 EVALUATIONS = 60
@@ -91,6 +92,8 @@ def fit(
         ]
     )
     log = TorqueLog.of(data).cleaned(inertia=inertia)
+    if lubricant.grade is not None and log.temperature is not None:
+        log = log.taken(np.asarray(within_bounds(TEMPERATURE.info, log.temperature)), "temperature beyond any oil")
     numbers = [name for name in dict.fromkeys(asked.values()) if name != CONSTANT_TORQUE.name]
     response = Response.of(subject, numbers, points_of(log, lubricant), engine=engine, times=EVALUATIONS)
     torques, slopes = response(response.start)
@@ -239,6 +242,8 @@ def _estimates(
         share = 0.0 if prior is None else min(1.0, variance / prior**2)
         of_sensor = i >= problem.free
         told = uncertainty.told.numbers_told[i] and (of_sensor or share <= ALL_PRIOR)
+        # in one direction a zero error of the sensor is the same as it
+        told = told and (parameter.name != CONSTANT_TORQUE.name or problem.knows_zero)
         identified = bool(told and not at_bound[i] and not one_sided[i])
         found[parameter.name] = Estimate(
             name=parameter.name,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ballscrew.analyses.fit_problem import CONSTANT_TORQUE
 from ballscrew.analyses.robust import memory
 
 if TYPE_CHECKING:
@@ -16,8 +17,10 @@ if TYPE_CHECKING:
 MANY_OUTLIERS = 0.1
 #: Residuals depend on something if their means over its parts differ by this much of what was measured.
 TREND_SHARE, TREND_ERRORS = 0.02, 4.0
-#: A prior that leaves more than this share of its variance told more than the data.
-MOSTLY_PRIOR = 0.5
+#: A prior that keeps more than this share of its variance told something.
+MOSTLY_PRIOR = 0.05
+#: A description without physics that is off by less than this share of the model says that the model is another screw.
+FAR_BETTER = 0.5
 
 
 def warnings_of(found: CalibratedModel) -> list[str]:
@@ -52,6 +55,12 @@ def _not_told(found: CalibratedModel) -> list[str]:
                 f"{' and '.join(names)} cannot be told apart by this log: it says nothing of "
                 f"{product(combination.powers)}; fix one of them, give one a prior, or measure elsewhere"
             )
+    if CONSTANT_TORQUE.name in without and not found.problem.knows_zero:
+        without.remove(CONSTANT_TORQUE.name)
+        said.append(
+            "constant_torque is not identified: friction of one sign cannot be told from a zero error of the sensor; "
+            "measure in both directions"
+        )
     return [*said, *(f"{name} is not identified: it is known to less than half of its size" for name in without)]
 
 
@@ -70,8 +79,7 @@ def _of_bounds(found: CalibratedModel) -> list[str]:
 
 def _of_priors(found: CalibratedModel) -> list[str]:
     return [
-        f"{estimate.name} is known by its prior more than by the log, which leaves "
-        f"{estimate.prior_share:.0%} of its variance"
+        f"{estimate.name} is known by its prior, too: the log leaves {estimate.prior_share:.0%} of the prior's variance"
         for estimate in found.estimates.values()
         if estimate.prior_share > MOSTLY_PRIOR
     ]
@@ -95,6 +103,17 @@ def _of_rows(found: CalibratedModel) -> list[str]:
         said.append("residuals that follow each other are alike: the errors are larger for it")
     if not found.rows.held_out.any():
         said.append("too few rows to hold any out: how well the model predicts is not known")
+    by_words = {score.words: score.fitted for score in found.scores}
+    own = by_words.pop("the model calibrated")
+    by_words.pop("the model as given")
+    best = min(by_words, key=lambda words: by_words[words])
+    if by_words[best] < FAR_BETTER * own:
+        said.append(
+            f"the description without physics ({best}) is {own / by_words[best]:.1f} times nearer to the log: look at "
+            "units, kind of torque, and whether this is the screw"
+        )
+    if "viscosity" in found.response.names and found.rows.log.temperature is not None:
+        said.append("viscosity is free: it counts for the whole log, whatever the temperatures")
     if found.rows.log.temperature is not None and found.lubricant.grade is None:
         said.append(
             "the temperatures of the log are not used: the oil has a viscosity, and no grade that changes with it"

@@ -146,6 +146,11 @@ class Problem:
         return self.columns[:, self.free - len(self.response.names) :]
 
     @property
+    def knows_zero(self) -> bool:
+        """Whether a zero error of the sensor is told from friction."""
+        return any(parameter.name == TORQUE_OFFSET.name for parameter in self.parameters)
+
+    @property
     def deviations(self) -> dict[int, Distribution]:
         """By place, what parameters are anyway."""
         return {i: Normal(0.0, p.deviation) for i, p in enumerate(self.parameters) if p.deviation is not None}

@@ -156,7 +156,7 @@ def print_band(case: Case, found: Found) -> None:
         say(line)
     console.print(_causes(case, found, console.encoding))
     console.print(_others(case, found))
-    for line in laws_in_words(found):
+    for line in laws_in_words(case, found):
         say(line)
     for line in inputs_in_words(found):
         say(line, "dim")
@@ -188,6 +188,7 @@ def sentences(case: Case, found: Found) -> list[str]:
             f"calibrated to {case.fit.get('log') or 'a log'}: what the fit held counts as known, no law is exchanged; "
             f"on rows held out the model was off by {case.fit.get('holdout_rms', 'an unknown torque')}"
         )
+        lines += report.constant_torque(case)
     if float(case.operation.axial_load) > 0:
         share = found.band.self_locking_share
         lines.append(f"self-locking in {share:.2%} of the samples" if share else "self-locking in none of the samples")
@@ -247,17 +248,17 @@ def _others(case: Case, found: Found) -> Table:
     return table
 
 
-def laws_in_words(found: Found) -> list[str]:
+def laws_in_words(case: Case, found: Found) -> list[str]:
     """The laws that were drawn instead of the model's, slot by slot."""
     shown = [
         f"  {slot.replace('_', ' ')}: " + ", ".join(f"{law.name} {math.expm1(law.shift):+.1%}" for law in laws)
         for slot, laws in found.band.alternatives.items()
     ]
-    return (
-        ["", "laws that are valid here and could stand in place of the model's, and the torque with each", *shown]
-        if (shown)
-        else ["", "no other law is valid here: the band is that of the inputs alone"]
-    )
+    if case.fit:
+        return []  # said already: none is exchanged
+    if not shown:
+        return ["", "no other law is valid here: the band is that of the inputs alone"]
+    return ["", "laws that are valid here and could stand in place of the model's, and the torque with each", *shown]
 
 
 def inputs_in_words(found: Found) -> list[str]:

@@ -140,6 +140,7 @@ def compare(
     if to is not None:
         comparison.draw(loaded, compared, to)
         typer.echo(f"{to}: {len(compared.rows)} models and laws", err=as_json)
+    _say_constant_torque(loaded)
 
 
 @app.command(cls=_Command)
@@ -190,6 +191,7 @@ def sweep(
         typer.echo(f"{to}: {export.size_in_words(dataset, plan)}, model {loaded.model.label}")
     if beware := outside.warning(loaded, plan, dataset, to):
         typer.echo(beware, err=True)
+    _say_constant_torque(loaded)
 
 
 @app.command(cls=_Command)
@@ -289,6 +291,14 @@ def _stopped_in_words() -> Generator[None]:
             raise
         typer.echo(str(error), err=True)
         raise typer.Exit(1) from None
+
+
+def _say_constant_torque(case: Any) -> None:
+    """What a calibrated case has beside the torque of the balls."""
+    from ballscrew.interfaces import report
+
+    for line in report.constant_torque(case):
+        typer.echo(line, err=True)
 
 
 def _step(what: str, done: int, total: int) -> None:

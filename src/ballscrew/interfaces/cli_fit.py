@@ -84,10 +84,10 @@ def fit(
         free or [], bounds or [], limits or [], column or [], kind, inertia, torque_constant, holdout, seed, keep_going
     )
     if to is not None:
-        fitted_case.check(to)
+        fitted_case.check(to, case)
         check_writable("--to", to)
     if picture is not None:
-        comparison.check_picture(picture)
+        comparison.check_picture(picture, "--picture")
     with progress("fit") as done:
         found = fitting.fitted(loaded, log, asked, done)
     if as_json:

@@ -310,11 +310,11 @@ def _ends(spread: Spread | None) -> dict[str, Any] | None:
 # -- the picture ----------------------------------------------------------------------------------
 
 
-def check_picture(to: Path) -> None:
+def check_picture(to: Path, option: str = "--to") -> None:
     """Raise :class:`~ballscrew.faults.InputError` if no picture can be written there."""
     if to.suffix.lower() not in _PICTURES:
-        raise InputError(Fault("--to", "unknown kind of file", str(to), "end it in .png, .svg or .pdf"))
-    check_writable("--to", to)
+        raise InputError(Fault(option, "unknown kind of file", str(to), "end it in .png, .svg or .pdf"))
+    check_writable(option, to)
 
 
 def draw(case: config.Case, found: Comparison, to: Path) -> None:

@@ -27,8 +27,12 @@ _HEAD = "A calibrated model, written by ballscrew fit. Numbers that are not iden
 _DIGITS = 12
 
 
-def check(to: Path) -> None:
-    """Raise :class:`~ballscrew.faults.InputError` if the name is not that of a case file."""
+def check(to: Path, case: Path) -> None:
+    """Raise :class:`~ballscrew.faults.InputError` if the name is that of no case file, or of the case itself."""
+    if to.resolve() == case.resolve():
+        raise InputError(
+            Fault("--to", "is the case itself", str(to), "choose another name: its comments would be lost")
+        )
     if to.suffix.lower() != ".toml":
         raise InputError(Fault("--to", "is no case file", str(to), "end it in .toml; a picture is --picture"))
 

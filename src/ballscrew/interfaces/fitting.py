@@ -168,7 +168,7 @@ def _value(where: str, text: str, quantity: Quantity) -> float | Fault:
 def _number(option: str, text: str | None, quantity: Quantity, faults: list[Fault]) -> float | None:
     if text is None:
         return None
-    found = units.parse(option, text, quantity)
+    found = units.parse(option, text.replace("Nm", "N m"), quantity)
     if isinstance(found, Fault):
         faults.append(found)
         return None

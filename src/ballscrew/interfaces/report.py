@@ -130,10 +130,15 @@ def print_result(case: config.Case, result: FrictionResult) -> None:
 
 def of_fit(case: config.Case) -> list[str]:
     """What a fit left beside the numbers of the case: its log, and torque that no model of the balls has."""
-    said = [f"calibrated to {case.fit['log']}"] if case.fit.get("log") else []
-    if constant := case.fit.get("constant_torque"):
-        said.append(f"not in it: {constant} that the log has at all loads and speeds, of seals and bearings; add it")
-    return said
+    return [*([f"calibrated to {case.fit['log']}"] if case.fit.get("log") else []), *constant_torque(case)]
+
+
+def constant_torque(case: config.Case) -> list[str]:
+    """Friction that a fit found and that no model of the balls has."""
+    constant = case.fit.get("constant_torque")
+    return (
+        [f"not in it: {constant} that the log has at all loads and speeds, of seals and bearings"] if constant else []
+    )
 
 
 def at_rest(case: config.Case) -> FrictionResult:
