@@ -105,16 +105,21 @@ def fit(
     reading, left = read_as(log.torque, torques, log.axial_load, log.screw_speed, drift_of(log), said)
     problem = Problem.of(subject, response, asked, log, reading, left, torques, slopes, bounds or {})
     held_out = _held_out(log, holdout, seed)
-    start = awake(problem, log.torque, left)
+    start = awake(problem, log.torque[~held_out], left, problem.start, ~held_out)
     given = {problem.names.index(name): prior for name, prior in (priors or {}).items()}
     known = Priors(problem.deviations | given, start, problem.scale)
     solution = solve(
         problem.on(~held_out), log.torque[~held_out], start, problem.scale, problem.bounds, known.all, done
     )
+    again = awake(problem, log.torque[~held_out], left, solution.values, ~held_out)
+    if not np.array_equal(again, solution.values):  # it came to rest where nothing depends on a number, and need not
+        solution = solve(
+            problem.on(~held_out), log.torque[~held_out], again, problem.scale, problem.bounds, known.all, done
+        )
     predicted, _ = problem.torque(solution.values)
     friction = response(solution.values[: len(numbers)])[0][1]
     rows = Rows(log, reading, predicted, friction, held_out, solution.noise.of(predicted))
-    scale = np.maximum(problem.scale, np.abs(solution.values))
+    scale = problem.scale_at(solution.values)
     told = Identifiability.of(solution, problem.names, scale)
     uncertainty = Uncertainty.of(solution, scale, known.slopes(solution.values))
     one_sided = _one_sided(problem, solution, uncertainty, held_out, log)

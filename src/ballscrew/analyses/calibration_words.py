@@ -19,6 +19,8 @@ MANY_OUTLIERS = 0.1
 TREND_SHARE, TREND_ERRORS = 0.02, 4.0
 #: A prior that keeps more than this share of its variance told something.
 MOSTLY_PRIOR = 0.05
+#: Noise that is more than this share of the torque is no noise.
+WILD = 0.3
 #: A description without physics that is off by less than this share of the model says that the model is another screw.
 FAR_BETTER = 0.5
 
@@ -91,9 +93,9 @@ def _of_rows(found: CalibratedModel) -> list[str]:
         said.append("the fit did not come to rest: its numbers are not to be used")
     typical = float(np.median(np.abs(found.rows.friction)))
     scatter = float(np.median(found.rows.scatter))
-    if scatter > typical:
+    if scatter > typical or found.solution.noise.share > WILD:
         said.append(
-            f"rows miss by {scatter:.2g} N m, more than the friction itself ({typical:.2g} N m): "
+            f"rows miss by {scatter:.2g} N m, where friction is {typical:.2g} N m: "
             "look at their signs, units and conditions"
         )
     outlying = float(np.mean(found.rows.outlying))

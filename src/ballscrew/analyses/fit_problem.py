@@ -134,6 +134,14 @@ class Problem:
         """What changes are measured by."""
         return np.array([parameter.scale for parameter in self.parameters])
 
+    def scale_at(self, values: Vector) -> Vector:
+        """What changes are measured by where the fit came to rest."""
+        numbers = len(self.response.names)
+        pairs = zip(self.parameters, values, strict=True)
+        # bounds that a person gives say what is wanted, not what matters
+        own = [_scale(*_ends(p.quantity.info), float(v), p.scale) for p, v in pairs]
+        return np.array([*own[:numbers], *np.maximum(self.scale, np.abs(values))[numbers:]])
+
     @property
     def bounds(self) -> tuple[Vector, Vector]:
         """Lower and upper bounds."""
@@ -181,17 +189,17 @@ class Problem:
         return torque
 
 
-def awake(problem: Problem, measured: Vector, scatter: float) -> Vector:
-    """Where to start: elsewhere for a number that nothing depends on at its start, as on the clamp of friction."""
-    start, (low, high) = problem.start, problem.bounds
-    torque, slopes = problem.torque(start)
+def awake(problem: Problem, measured: Vector, scatter: float, start: Vector, chosen: NDArray[np.bool_]) -> Vector:
+    """Where to go on from: elsewhere for a number that nothing depends on where it is, as on the clamp of friction."""
+    model, (low, high) = problem.on(chosen), problem.bounds
+    torque, slopes = model(start)
     asleep = np.linalg.norm(slopes, axis=0) * problem.scale < ASLEEP * scatter
     for i in np.flatnonzero(asleep[: len(problem.response.names)]):
         least = loss_of(torque - measured, scatter)
         for factor in ELSEWHERE:
             tried = start.copy()
             tried[i] = np.clip(factor * start[i], low[i], high[i])
-            off = loss_of(problem.torque(tried)[0] - measured, scatter)
+            off = loss_of(model(tried)[0] - measured, scatter)
             if off < least:
                 start, least = tried, off
     return start
@@ -216,15 +224,25 @@ def _parameter(name: str, quantity: Quantity, start: float) -> Parameter:
     own size or what it has to its bound; its range where it is zero.
     """
     info = quantity.info
-    low = max((bound for bound in (info.at_least, info.above) if bound is not None), default=-np.inf)
-    high = min((bound for bound in (info.at_most, info.below) if bound is not None), default=np.inf)
-    scale = abs(start) or (high - low if np.isfinite(high - low) else 1.0)
-    # of a conformity what counts is what it has above one half
-    scale = min([scale, *(abs(start - end) for end in (low, high) if np.isfinite(end) and end != start)])
+    low, high = _ends(info)
+    scale = _scale(low, high, start, high - low if np.isfinite(high - low) else 1.0)
     # open bounds are kept clear of
     low += 1e-6 * scale * (info.above is not None)
     high -= 1e-6 * scale * (info.below is not None)
     return Parameter(name, quantity, start, scale, low, high)
+
+
+def _ends(info: Info) -> tuple[float, float]:
+    """The bounds that a quantity has anyway."""
+    low = max((bound for bound in (info.at_least, info.above) if bound is not None), default=-np.inf)
+    high = min((bound for bound in (info.at_most, info.below) if bound is not None), default=np.inf)
+    return low, high
+
+
+def _scale(low: float, high: float, value: float, otherwise: float) -> float:
+    """The size of a value, or what it has to a bound: of a conformity what counts is what it has above one half."""
+    sizes = [abs(value), *(abs(value - end) for end in (low, high) if np.isfinite(end))]
+    return min((size for size in sizes if size > 0), default=otherwise) if value else otherwise
 
 
 def _bounded(parameter: Parameter, bounds: Mapping[str, tuple[float, float]]) -> Parameter:
