@@ -10,7 +10,7 @@ import errno
 import io
 import os
 import sys
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Generator, Sequence
 from pathlib import Path
 from typing import Annotated, Any, NoReturn
 
@@ -87,11 +87,12 @@ def run(
     if band or to is not None or only_given or (samples, level) != (None, None):
         from ballscrew.interfaces import cli_band
         from ballscrew.interfaces.band import Options
+        from ballscrew.interfaces.progress import progress
 
         options = Options(samples, level, only_given, to)
         options.check(band)
-        with _progress("band") as progress:
-            cli_band.run(loaded, options, as_json, progress)
+        with progress("band") as done:
+            cli_band.run(loaded, options, as_json, done)
         return
     if loaded.parts is not None:
         if as_json:
@@ -178,11 +179,12 @@ def sweep(
     by whatever, the same command goes on where it was.
     """
     from ballscrew.interfaces import config, export, outside
+    from ballscrew.interfaces.progress import progress
 
     loaded = config.load(case, settings or [], model)
     plan = export.plan(loaded, vary or [], output or [], to)
-    with _stopped_in_words(), export.workers(scheduler, to) as cluster, _progress("sweep") as progress:
-        dataset = export.evaluate(loaded, plan, progress, to, cluster)
+    with _stopped_in_words(), export.workers(scheduler, to) as cluster, progress("sweep") as done:
+        dataset = export.evaluate(loaded, plan, done, to, cluster)
     if to is None:
         export.write_csv(sys.stdout, dataset, plan)
     else:
@@ -256,23 +258,6 @@ def options(
     ] = False,
 ) -> None:
     """What a ball screw loses to friction: torque, efficiency, back-driving, and why, term by term."""
-
-
-@contextlib.contextmanager
-def _progress(what: str) -> Generator[Callable[[int, int], None]]:
-    """A progress bar on the error stream, for ``done(finished, total)`` points; silent where nobody looks."""
-    from rich.console import Console
-    from rich.progress import Progress, Task, TextColumn
-
-    class Rate(TextColumn):
-        def render(self, task: Task) -> Any:
-            self.text_format = "" if not task.speed else f"{task.speed:,.0f} points/s"
-            return super().render(task)
-
-    columns = (*Progress.get_default_columns(), Rate(""))
-    with Progress(*columns, console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as bar:
-        task = bar.add_task(what, total=None)
-        yield lambda finished, total: bar.update(task, completed=finished, total=total)
 
 
 @contextlib.contextmanager
