@@ -12,7 +12,7 @@ from ballscrew.analyses.calibration import fit
 from ballscrew.analyses.olaru2005.case import SCREW
 from ballscrew.faults import InputError
 
-pytest.importorskip("emcee")
+pytest.importorskip("emcee", reason="emcee is not installed (the extra calibrate)")
 PAPER = bs.FrictionModel.olaru2005()
 FRICTION, OFFSET = "boundary_friction_coefficient", "pure_rolling_offset"
 

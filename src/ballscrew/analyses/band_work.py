@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple, get_args
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.analyses.comparison import Candidate
-from ballscrew.analyses.distributions import Distribution, within
+from ballscrew.analyses.distributions import Distribution, distribution_fault, within
 from ballscrew.analyses.engines import Engine, engine_faults
 from ballscrew.analyses.outputs import OPERATION, known_outputs
 from ballscrew.analyses.plan import Subject
@@ -210,13 +210,8 @@ def faults_of_inputs(subject: Subject, uncertain: Mapping[str, Any], joint: Join
     known, faults = subject.inputs, list[Fault]()
     for name, distribution in uncertain.items():
         where = f"band.uncertain.{name}"
-        if name not in known:
-            faults.append(Fault(where, "unknown name", "", nearest(name, known)))
-        elif not isinstance(distribution, Distribution):
-            kinds = ", ".join(kind.__name__ for kind in get_args(Distribution))
-            faults.append(Fault(where, "is no distribution", str(distribution), f"one of {kinds}"))
-        elif known[name][1].info.whole:
-            faults.append(Fault(where, "is a whole number, which has no distribution", "", "leave it out"))
+        if fault := distribution_fault(where, name, distribution, known, "leave it out"):
+            faults.append(fault)
         else:
             part, quantity = known[name]
             ends = (fault_of(part, quantity, float(end)) for end in distribution.telling)

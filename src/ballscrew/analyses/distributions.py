@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
-from typing import TypeAlias
+from collections.abc import Mapping, Sequence
+from typing import TypeAlias, get_args
 
 from ballscrew._arrays import namespace
-from ballscrew.faults import Fault, as_float, is_concrete, raise_if_any
-from ballscrew.quantities import Array, Info
+from ballscrew.faults import Fault, as_float, is_concrete, nearest, raise_if_any
+from ballscrew.quantities import Array, Info, Quantity
 
 #: Wichura 1988, algorithm AS 241, PPND16: numerator and denominator by rising powers.
 #: In 0.425² − q², q = u − ½, where |q| ≤ 0.425.
@@ -240,6 +240,20 @@ def within(distribution: Distribution, info: Info) -> Distribution:
         low=max(distribution.low, low if below > UNREACHED else -math.inf),
         high=min(distribution.high, high if beyond > UNREACHED else math.inf),
     )
+
+
+def distribution_fault(
+    where: str, name: str, given: object, known: Mapping[str, tuple[str, Quantity]], remedy: str
+) -> Fault | None:
+    """What is wrong with the distribution of an input; ``remedy`` is for a whole number, which has none."""
+    if name not in known:
+        return Fault(where, "unknown name", "", nearest(name, known))
+    if not isinstance(given, Distribution):
+        kinds = ", ".join(kind.__name__ for kind in get_args(Distribution))
+        return Fault(where, "is no distribution", str(given), f"one of {kinds}")
+    if known[name][1].info.whole:
+        return Fault(where, "is a whole number, which has no distribution", "", remedy)
+    return None
 
 
 def allowed(info: Info) -> tuple[float, float]:

@@ -10,14 +10,14 @@ from __future__ import annotations
 import operator
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from ballscrew._arrays import map_blocks
-from ballscrew.analyses.distributions import Distribution
+from ballscrew.analyses.distributions import Distribution, distribution_fault
 from ballscrew.analyses.engines import Engine, engine_faults, may_be_compiled, worth_compiling
 from ballscrew.analyses.outputs import OPERATION, attributes_of
 from ballscrew.analyses.plan import Plan, Subject
@@ -29,7 +29,7 @@ from ballscrew.engine.kernel import Kernel
 from ballscrew.engine.program import Program
 from ballscrew.engine.sketch import UNIT, Moments, Sketch
 from ballscrew.engine.tape import Tape
-from ballscrew.faults import Fault, InputError, nearest, raise_if_any
+from ballscrew.faults import Fault, InputError, raise_if_any
 from ballscrew.model import FrictionModel
 
 #: Samples of a block, which is evaluated on one thread and whose sums are merged in the order of the
@@ -134,13 +134,8 @@ def _faults_of_inputs(subject: Subject, distributions: Mapping[str, Any], fixed:
             faults.append(Fault(f"monte_carlo.{name}", "missing", "", remedy))
     for name, distribution in distributions.items():
         where = f"monte_carlo.distributions.{name}"
-        if name not in known:
-            faults.append(Fault(where, "unknown name", "", nearest(name, known)))
-        elif not isinstance(distribution, Distribution):
-            kinds = ", ".join(kind.__name__ for kind in get_args(Distribution))
-            faults.append(Fault(where, "is no distribution", str(distribution), f"one of {kinds}"))
-        elif known[name][1].info.whole:
-            faults.append(Fault(where, "is a whole number, which has no distribution", "", f"give {name}=…"))
+        fault = distribution_fault(where, name, distribution, known, f"give {name}=…")
+        faults += [] if fault is None else [fault]
         if name in fixed:
             faults.append(Fault(where, "is given as one number too", str(fixed[name]), "leave one of them out"))
     for name, value in fixed.items():

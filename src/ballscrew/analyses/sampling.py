@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ballscrew.analyses.distributions import Distribution, standard_normal_quantile
+from ballscrew.analyses.distributions import Distribution, allowed, standard_normal_quantile
 from ballscrew.analyses.engines import Engine
 from ballscrew.analyses.evaluation import Evaluation
 from ballscrew.analyses.plan import Plan, Subject
@@ -66,7 +66,7 @@ class Sampler:
         }
         values |= {} if self.joint is None else self.joint.quantiles(shares[alone:])
         known = self.subject.inputs
-        return {name: _within(known[name][1].info, drawn) for name, drawn in values.items()}
+        return {name: np.clip(drawn, *allowed(known[name][1].info)) for name, drawn in values.items()}
 
     def evaluated(
         self, shares: NDArray[np.float64], done: Callable[[int, int], None] | None = None
@@ -95,12 +95,3 @@ def evenly_spread(inputs: int, samples: int, seed: int = 0) -> NDArray[np.float6
     shares = sequence.random_base2(exponent)[:samples].T
     least = 0.5**32  # beyond it there are no points, and at 0 and 1 no quantiles
     return np.clip(np.ascontiguousarray(shares), least, 1 - least)
-
-
-def _within(info: Any, values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Values moved to the nearest that the bounds of a quantity allow."""
-    low = -np.inf if info.at_least is None else info.at_least
-    low = low if info.above is None else max(low, np.nextafter(info.above, np.inf))
-    high = np.inf if info.at_most is None else info.at_most
-    high = high if info.below is None else min(high, np.nextafter(info.below, -np.inf))
-    return np.clip(values, low, high)

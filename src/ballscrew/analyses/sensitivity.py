@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.analyses.derivatives import JAX_INSTEAD, derivatives
-from ballscrew.analyses.distributions import Distribution
+from ballscrew.analyses.distributions import Distribution, distribution_fault
 from ballscrew.analyses.nut_parts import NutParts
 from ballscrew.analyses.outputs import known_outputs
 from ballscrew.analyses.plan import Subject
@@ -208,11 +208,11 @@ def _faults(
 ) -> list[Fault]:
     """What is wrong with what a person gives, but for the values of inputs."""
     known, wanted = subject.inputs, known_outputs(subject.nut)
-    faults = [
-        Fault(f"sensitivity.uncertain.{name}", "unknown name", "", nearest(name, known))
-        for name in uncertain
-        if name not in known
-    ]
+    found = (
+        distribution_fault(f"sensitivity.uncertain.{name}", name, given, known, "leave it out")
+        for name, given in uncertain.items()
+    )
+    faults = [fault for fault in found if fault is not None]
     if not uncertain:
         remedy = 'give a distribution to an input: {"viscosity": LogNormal(0.1, 1.3)}'
         faults.append(Fault("sensitivity.uncertain", "no input is uncertain", "", remedy))

@@ -44,10 +44,10 @@ class Told(io.RawIOBase):
         self.empty_from: int | None = None
         self.is_junk = False
 
-    def readable(self) -> bool:  # noqa: D102
+    def readable(self) -> bool:  # noqa: D102  (of io.RawIOBase)
         return True
 
-    def readinto(self, buffer: Any) -> int:  # noqa: D102
+    def readinto(self, buffer: Any) -> int:  # noqa: D102  (of io.RawIOBase)
         while data := self._file.read(len(buffer)):
             self._hash.update(data)
             kept = data if self._wide else self._without_empty(data)
