@@ -102,13 +102,9 @@ def fit(
         log, torques, slopes = log.taken(finite, "no torque in the model"), torques[:, finite], slopes[:, finite]
         response = response.at(points_of(log, lubricant))
     said = log.kind if kind == "unknown" else kind
-    held_out, drift = _held_out(log, holdout, seed), drift_of(log)
-    # what is held out is not looked at, not even for what the column is
-    some = log.taken(~held_out)
-    reading, left = read_as(
-        some.torque, torques[:, ~held_out], some.axial_load, some.screw_speed,
-        None if drift is None else drift[~held_out], said,
-    )  # fmt: skip
+    held_out = _held_out(log, holdout, seed)
+    # what the column is can be looked up in all rows: of few, those left to fit do not always tell
+    reading, left = read_as(log.torque, torques, log.axial_load, log.screw_speed, drift_of(log), said)
     problem = Problem.of(subject, response, asked, log, reading, left, torques, slopes, bounds or {})
     start = awake(problem, log.torque[~held_out], left, problem.start, ~held_out)
     given = {problem.names.index(name): prior for name, prior in (priors or {}).items()}
