@@ -12,6 +12,7 @@ from ballscrew.analyses.validation_sets import SETS
 from ballscrew.calibrations import calibration
 from ballscrew.faults import InputError
 from ballscrew.interfaces import config, validation
+from ballscrew.interfaces.documents import plain
 from ballscrew.interfaces.figures import style
 from ballscrew.interfaces.figures import validation as figures
 from ballscrew.interfaces.wrapping import WIDTH
@@ -58,7 +59,7 @@ def own(tmp_path):
 @pytest.fixture(scope="module")
 def every():
     asked = validation.request()
-    return json.loads(validation.json_text([e for entries, _ in validation.evaluate(asked) for e in entries]))
+    return plain(validation.documents([e for entries, _ in validation.evaluate(asked) for e in entries]))
 
 
 def test_a_list_uncalibrated_first_calibrated_last(every):

@@ -24,6 +24,8 @@ from ballscrew.engine.kernel import Kernel
 from ballscrew.engine.program import Program
 from ballscrew.faults import Fault, InputError, raise_if_any
 
+#: Up to here the model itself is quicker than recording it first.
+FEW_POINTS = 4096
 #: Fewest columns of a grid: a short row is mostly its beginning and its end.
 FEWEST_COLUMNS = 256
 #: A grid is worth cutting where it has this many times as many points as rows and columns.
@@ -63,6 +65,8 @@ class Evaluation:
         Raises :class:`~ballscrew.faults.InputError` for an engine that cannot be had.
         """
         raise_if_any(engine_faults("sweep", engine))
+        if engine is None and times == 1 and plan.total <= FEW_POINTS:
+            return _by_numpy(plan, None)
         program = plan.recorded()
         why = "a whole nut, or a law of your own, is evaluated by NumPy only"
         if program is not None:

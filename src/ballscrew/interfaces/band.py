@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import io
-import json
 import math
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -23,9 +22,9 @@ from ballscrew.assembly import NUT_REASONS
 from ballscrew.calibrations import PARAMETERS
 from ballscrew.components.screw import Operation
 from ballscrew.faults import Fault, InputError, raise_if_any
-from ballscrew.interfaces import comparison, nut_report, report, uncertain, units
+from ballscrew.interfaces import comparison, report, uncertain, units
+from ballscrew.interfaces.answer import Answer, title
 from ballscrew.interfaces.config import Case
-from ballscrew.interfaces.documents import as_json
 from ballscrew.interfaces.files import whole
 from ballscrew.interfaces.schema import LAWS
 from ballscrew.interfaces.uncertain import Uncertain
@@ -164,12 +163,6 @@ def print_band(case: Case, found: Found) -> None:
         say(f"beware  {line}", "yellow")
 
 
-def title(case: Case) -> str:
-    """Load, speed, nut and model."""
-    nut = [] if case.parts is None else [nut_report.nut_in_words(case.parts)]
-    return ", ".join([report.operating_point(case), *nut, report.model_in_words(case)])
-
-
 def sentences(case: Case, found: Found) -> list[str]:
     """The answer in words."""
     torque, quantity = found.band[_TORQUE], _quantities(case)[_TORQUE]
@@ -303,11 +296,10 @@ def _percent(share: float) -> str:
 # -- for programs ---------------------------------------------------------------------------------
 
 
-def json_text(case: Case, found: Found, text: str) -> str:
-    """The JSON object of a result, its ``text``, with the band beside it; all in SI, non-finite is null."""
-    document: dict[str, Any] = json.loads(text)
-    known = found.band
-    document["band"] = {
+def document(answer: Answer, found: Found) -> dict[str, Any]:
+    """The document of an answer with the band beside it; all in SI."""
+    case, known, beside = answer.case, found.band, answer.document
+    beside["band"] = {
         "level": known.level,
         "samples": known.count,
         "seed": known.seed,
@@ -321,8 +313,7 @@ def json_text(case: Case, found: Found, text: str) -> str:
         },
         "inputs": {name: _input(case, name, one) for name, one in found.inputs.items()},
     }
-    document["warnings"] = [*document["warnings"], *warnings(found)]
-    return as_json(document)
+    return {**beside, "warnings": [*beside["warnings"], *warnings(found)]}
 
 
 def _as_table(one: OutputBand) -> dict[str, Any]:

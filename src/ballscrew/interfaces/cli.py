@@ -81,7 +81,8 @@ def run(
     ] = None,
 ) -> None:
     """Friction at the operating point of a case file; with --band how far off it may be."""
-    from ballscrew.interfaces import config, nut_report, report
+    from ballscrew.interfaces import config, documents
+    from ballscrew.interfaces.answer import answer
 
     loaded = config.load(case, settings or [], model)
     if band or to is not None or only_given or (samples, level) != (None, None):
@@ -94,22 +95,11 @@ def run(
         with progress("band") as done:
             cli_band.run(loaded, options, as_json, done)
         return
-    if loaded.parts is not None:
-        if as_json:
-            typer.echo(nut_report.json_text(loaded, loaded.parts))
-        else:
-            nut_report.print_result(loaded, loaded.parts)
-        return
-    result = loaded.model(
-        loaded.screw,
-        loaded.lubricant,
-        axial_load=loaded.operation.axial_load,
-        screw_speed=loaded.operation.screw_speed,
-    )
+    found = answer(loaded)
     if as_json:
-        typer.echo(report.json_text(loaded, result))
+        typer.echo(documents.as_json(found.document))
     else:
-        report.print_result(loaded, result)
+        found.print()
 
 
 @app.command(cls=_Command)
@@ -128,14 +118,14 @@ def compare(
     First the models as they are, then the model of the case with one law at a time in place of its
     own: torque, its parts, efficiency in both directions, and what lies outside its validity.
     """
-    from ballscrew.interfaces import comparison, config
+    from ballscrew.interfaces import comparison, config, documents
 
     loaded = config.load(case, settings or [], model)
     if to is not None:
         comparison.check_picture(to)
     compared = comparison.compared(loaded)
     if as_json:
-        typer.echo(comparison.json_text(loaded, compared))
+        typer.echo(documents.as_json(comparison.document(loaded, compared)))
     else:
         comparison.print_comparison(loaded, compared)
     if to is not None:

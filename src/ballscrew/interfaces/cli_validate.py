@@ -42,7 +42,7 @@ def validate(
     For each set the ratio model / stated (the middle of the vendor's band), its scatter, the share of rows inside the
     band, and every row; first the model as it is, then with a named calibration of two numbers.
     """
-    from ballscrew.interfaces import validation
+    from ballscrew.interfaces import documents, validation
 
     asked = validation.request(
         sets or [],
@@ -66,7 +66,7 @@ def validate(
         if not as_json:
             typer.echo(("\n" if len(found) > 1 else "") + validation.text_of(entries, asked))
     if as_json:
-        typer.echo(validation.json_text([entry for entries in found for entry in entries]))
+        typer.echo(documents.as_json(validation.documents([entry for entries in found for entry in entries])))
     if to is not None:
         validation.draw(found, asked, to)
         typer.echo(f"{to}: {len(found)} sets", err=as_json)

@@ -16,7 +16,6 @@ from ballscrew.analyses.comparison import Candidate, Comparison, Row, Spread, co
 from ballscrew.assembly import NUT_REASONS
 from ballscrew.faults import Fault, InputError
 from ballscrew.interfaces import config, nut_report, report
-from ballscrew.interfaces.documents import as_json
 from ballscrew.interfaces.files import check_writable, whole
 from ballscrew.interfaces.schema import LAWS, MODELS, PRINTED_FORMS, coefficients_of, name_of_law
 from ballscrew.result import MECHANISMS, FrictionResult
@@ -262,10 +261,10 @@ def _scale(found: Comparison) -> tuple[str, float, int]:
 # -- programs -------------------------------------------------------------------------------------
 
 
-def json_text(case: config.Case, found: Comparison) -> str:
-    """One JSON object: inputs, all rows in SI, the spread, provenance. Non-finite is null."""
+def document(case: config.Case, found: Comparison) -> dict[str, Any]:
+    """Inputs, all rows in SI, the spread, provenance."""
     reasons = _letters(found)
-    document = {
+    return {
         "inputs": config.inputs(case),
         "case": _row(found.case),
         "models": [_row(row) for row in found.models],
@@ -279,7 +278,6 @@ def json_text(case: config.Case, found: Comparison) -> str:
         "reasons": {reason: NUT_REASONS[reason] for reason in reasons},
         "provenance": {"version": __version__, "model": case.model.label, "references": config.references(case)},
     }
-    return as_json(document)
 
 
 def _row(row: Row) -> dict[str, Any]:

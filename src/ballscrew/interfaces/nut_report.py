@@ -15,7 +15,6 @@ from ballscrew.assembly import NutFriction
 from ballscrew.components.contact import RaceState
 from ballscrew.components.screw import Operation
 from ballscrew.interfaces import config, report, units
-from ballscrew.interfaces.documents import as_json
 from ballscrew.interfaces.nuts import LOSSES, kind_of
 from ballscrew.quantities import Quantity, fields_of, quantities_of
 from ballscrew.solvers.load_distribution import BallLoads
@@ -114,10 +113,10 @@ def nut_in_words(parts: NutParts) -> str:
     return f"{kind_of(parts.nut)} nut{''.join(numbers)}"
 
 
-def print_result(case: config.Case, parts: NutParts) -> None:
+def print_result(case: config.Case, result: NutResult) -> None:
     """Tables on the terminal."""
-    result = evaluate(case, parts)
-    found, console = result.found, Console(highlight=False)
+    assert case.parts is not None
+    parts, found, console = case.parts, result.found, Console(highlight=False)
 
     def say(text: str, style: str | None = None) -> None:
         console.print(text, style=style, markup=False, soft_wrap=True)
@@ -286,19 +285,16 @@ def result_units(found: NutFriction) -> dict[str, Any]:
     }
 
 
-def json_text(case: config.Case, parts: NutParts) -> str:
-    """One JSON object: inputs, results, loads and units in SI, warnings, provenance. Non-finite is null."""
-    result = evaluate(case, parts)
-    return as_json(
-        {
-            "inputs": config.inputs(case),
-            "results": results(result),
-            "loads": loads(result),
-            "units": result_units(result.found),
-            "warnings": warnings(result),
-            "provenance": {"version": __version__, "model": case.model.label, "references": config.references(case)},
-        }
-    )
+def document(case: config.Case, result: NutResult) -> dict[str, Any]:
+    """Inputs, results, loads and units in SI, warnings, provenance."""
+    return {
+        "inputs": config.inputs(case),
+        "results": results(result),
+        "loads": loads(result),
+        "units": result_units(result.found),
+        "warnings": warnings(result),
+        "provenance": {"version": __version__, "model": case.model.label, "references": config.references(case)},
+    }
 
 
 def warnings(result: NutResult) -> list[str]:

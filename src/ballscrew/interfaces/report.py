@@ -15,7 +15,6 @@ from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew, Operation
 from ballscrew.interfaces import config, units
-from ballscrew.interfaces.documents import as_json
 from ballscrew.interfaces.schema import LAWS, MODELS, coefficients_of, name_of_law
 from ballscrew.quantities import Quantity, fields_of, quantities_of
 from ballscrew.result import MECHANISMS, QUADRANTS, FrictionResult
@@ -87,16 +86,15 @@ def result_units() -> dict[str, Any]:
     }
 
 
-def json_text(case: config.Case, result: FrictionResult) -> str:
-    """One JSON object: inputs, results and units in SI, warnings, provenance. Non-finite is null."""
-    document = {
+def document(case: config.Case, result: FrictionResult) -> dict[str, Any]:
+    """Inputs, results and units in SI, warnings, provenance."""
+    return {
         "inputs": config.inputs(case),
         "results": results(result),
         "units": result_units(),
         "warnings": result.warnings,
         "provenance": {"version": __version__, "model": case.model.label, "references": config.references(case)},
     }
-    return as_json(document)
 
 
 def operating_point(case: config.Case) -> str:

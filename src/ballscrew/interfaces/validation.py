@@ -18,7 +18,6 @@ from ballscrew.calibrations import Calibration, calibrated, calibration
 from ballscrew.faults import Fault, InputError, fault_of, nearest, raise_if_any
 from ballscrew.interfaces import units
 from ballscrew.interfaces.catalogue import COLUMNS
-from ballscrew.interfaces.documents import as_json
 from ballscrew.interfaces.files import check_writable, whole
 from ballscrew.interfaces.headings import Column
 from ballscrew.interfaces.rows import made, read
@@ -203,9 +202,9 @@ def fingerprint(file: str) -> str:
 # -- for programs ---------------------------------------------------------------------------------
 
 
-def json_text(entries: Sequence[Entry]) -> str:
-    """A list with an object for each set and model, uncalibrated first, SI. Non-finite is null."""
-    return as_json([_document(entry) for entry in sorted(entries, key=lambda entry: entry.calibration is not None)])
+def documents(entries: Sequence[Entry]) -> list[dict[str, Any]]:
+    """An object for each set and model, uncalibrated first, SI."""
+    return [_document(entry) for entry in sorted(entries, key=lambda entry: entry.calibration is not None)]
 
 
 def _document(entry: Entry) -> dict[str, Any]:
