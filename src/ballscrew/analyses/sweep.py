@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
-from ballscrew.analyses.evaluation import Engine, Evaluation
+from ballscrew.analyses.evaluation import FEW_POINTS, Engine, Evaluation
 from ballscrew.analyses.nut_parts import NutParts
 from ballscrew.analyses.plan import Plan, Subject
 from ballscrew.analyses.stream import stream
@@ -73,7 +73,8 @@ def sweep(
     plan = Plan.of(Subject(model, screw, lubricant, nut), outputs, varied)
     if to is not None:
         return stream(plan, to, engine=engine, block_size=block_size, threads=threads, done=done, cluster=cluster)
-    evaluation = Evaluation.of(plan, engine)
+    few = engine is None and plan.total <= FEW_POINTS
+    evaluation = Evaluation.unrecorded(plan) if few else Evaluation.of(plan, engine)
     results = evaluation.empty(plan.total)
     evaluation.fill(results, slice(0, plan.total), block_size=block_size, threads=threads, done=done)
     return plan.dataset(results)

@@ -12,7 +12,6 @@ from ballscrew.components.catalogue import CONFORMITY_DOUBT, TURNS_WITHOUT_LOAD,
 from ballscrew.components.screw import BallScrew
 from ballscrew.faults import Fault, InputError, nearest, raise_if_any
 from ballscrew.interfaces import column_names, units
-from ballscrew.interfaces.documents import as_json
 from ballscrew.interfaces.headings import Column
 from ballscrew.interfaces.nuts import LISTED, NUTS, kind_in
 from ballscrew.interfaces.rows import Row, made, read
@@ -259,21 +258,21 @@ def _setting(name: str, value: str, comment: str) -> str:
 
 
 def _written(value: float, quantity: Quantity) -> str:
-    number = f"{units.from_si(value, quantity):.12g}"
-    return number if quantity.unit == "1" else f'"{number} {quantity.shown_in}"'
+    text = units.written(value, quantity)
+    return text if quantity.unit == "1" else f'"{text}"'
 
 
 # -- for programs ---------------------------------------------------------------------------------
 
 
-def list_json(rows: Sequence[CatalogueRow]) -> str:
-    """One JSON object with all rows, SI."""
-    return _json({"rows": [_document(row) for row in rows]})
+def list_document(rows: Sequence[CatalogueRow]) -> dict[str, Any]:
+    """All rows, SI."""
+    return _with_units({"rows": [_document(row) for row in rows]})
 
 
-def show_json(row: CatalogueRow) -> str:
-    """One JSON object with one row, SI."""
-    return _json({**_document(row), "assumed": assumed(row)})
+def show_document(row: CatalogueRow) -> dict[str, Any]:
+    """One row, SI."""
+    return _with_units({**_document(row), "assumed": assumed(row)})
 
 
 def _document(row: CatalogueRow) -> dict[str, Any]:
@@ -286,8 +285,7 @@ def _document(row: CatalogueRow) -> dict[str, Any]:
     }
 
 
-def _json(document: dict[str, Any]) -> str:
+def _with_units(document: dict[str, Any]) -> dict[str, Any]:
     parts = {"row": _FIELDS, "derived": _DERIVED}
     found = {part: {name: quantity.unit for name, quantity in names.items()} for part, names in parts.items()}
-    document |= {"units": found, "provenance": {"version": __version__}}
-    return as_json(document)
+    return document | {"units": found, "provenance": {"version": __version__}}

@@ -30,12 +30,12 @@ def list_rows(
     keep_going: KeepGoing = False,
 ) -> None:
     """All rows, one line each."""
-    from ballscrew.interfaces import catalogue
+    from ballscrew.interfaces import catalogue, documents
 
     found, notes = catalogue.load(rows, keep_going)
     chosen = catalogue.chosen(found, " ".join(words or []), rows)
     _say(notes)
-    typer.echo(catalogue.list_json(chosen) if as_json else catalogue.list_text(chosen))
+    typer.echo(documents.as_json(catalogue.list_document(chosen)) if as_json else catalogue.list_text(chosen))
 
 
 @app.command()
@@ -48,7 +48,7 @@ def show(
 ) -> None:
     """One row: what is listed, what follows from it, what was assumed."""
     from ballscrew.faults import Fault, InputError
-    from ballscrew.interfaces import catalogue
+    from ballscrew.interfaces import catalogue, documents
 
     if as_case and as_json:
         raise InputError(Fault("--case", "does not go with --json", "", "give one of the two"))
@@ -58,7 +58,7 @@ def show(
     if as_case:
         typer.echo(catalogue.case_text(row))
     else:
-        typer.echo(catalogue.show_json(row) if as_json else catalogue.show_text(row))
+        typer.echo(documents.as_json(catalogue.show_document(row)) if as_json else catalogue.show_text(row))
 
 
 def _say(notes: Sequence[str]) -> None:

@@ -167,6 +167,12 @@ def _file_faults(to: Path | None, lengths: Sequence[int]) -> list[Fault]:
     return []
 
 
+def length_of(text: str) -> int:
+    """How many values an axis has, before they are made."""
+    span = _RANGE.fullmatch(text.strip().strip("\"'"))
+    return int(span["count"]) if span else text.count(",") + 1
+
+
 def _axis(where: str, text: str, quantity: Quantity) -> np.ndarray | Fault:
     """``"100:4000:14 N"`` (start:stop:count) or ``"100, 200, 500 N"`` in SI, or the first fault in it."""
     text = text.strip().strip("\"'")

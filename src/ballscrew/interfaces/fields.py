@@ -112,7 +112,13 @@ def json_of(quantity: Quantity, default: Any, may_vary: bool = False) -> dict[st
     examples = [_example(quantity, default)]
     description = {"description": info.meaning, "x-symbol": info.symbol}
     if quantity.unit != "1":
-        return {**description, "type": "string", "examples": examples, "x-si-unit": quantity.unit}
+        return {
+            **description,
+            "type": "string",
+            "examples": examples,
+            "x-si-unit": quantity.unit,
+            "x-unit": quantity.shown_in,
+        }
     bounds = {
         "exclusiveMinimum": info.above,
         "minimum": info.at_least,

@@ -222,7 +222,7 @@ def validated(section: str, table: Any, faults: list[Fault]) -> dict[str, Any]:
     Laws are left as they are written: what they may be depends on the model (:func:`law_of`).
     """
     of_row = section == "screw" and isinstance(table, dict) and ("catalogue" in table or "catalogue_file" in table)
-    return _validated(section, sections()["screw_of_row" if of_row else section], table, faults)
+    return read_table(section, sections()["screw_of_row" if of_row else section], table, faults)
 
 
 def law_of(slot: str, written: Any, present: Any, faults: list[Fault]) -> Any:
@@ -248,7 +248,7 @@ def law_of(slot: str, written: Any, present: Any, faults: list[Fault]) -> Any:
     faults += [_no_coefficient(slot, name, field) for field in table if field not in coefficients_of(slot, name)]
     if len(faults) > before or not coefficients_of(slot, name):
         return _SLOTS[slot][name]
-    values = _validated(where, _coefficients(slot, name), table, faults)
+    values = read_table(where, _coefficients(slot, name), table, faults)
     return dataclasses.replace(present, **values) if named is None else _SLOTS[slot][name](**values)
 
 
@@ -273,7 +273,8 @@ def _either(names: Iterable[str]) -> str:
     return " or ".join(f'"{name}"' for name in names)
 
 
-def _validated(where: str, model: type[BaseModel], table: Any, faults: list[Fault]) -> dict[str, Any]:
+def read_table(where: str, model: type[BaseModel], table: Any, faults: list[Fault]) -> dict[str, Any]:
+    """The values of a table that are set; what is wrong goes to the list of faults, in our words."""
     try:
         return model.model_validate(table).model_dump(exclude_unset=True)
     except ValidationError as error:

@@ -29,12 +29,12 @@ _PRODUCT = rf"{_FACTOR}(?:(?:\s*[*·/]\s*|\s+){_FACTOR}){{0,4}}"
 _UNIT = re.compile(rf"(?:1\s*/\s*)?{_PRODUCT}(?:\s*/\s*\({_PRODUCT}\))?")
 _LONGEST_UNIT = 40
 #: Units that people use for a quantity, by its SI unit; the first ones are named in messages.
-_USUAL: Mapping[str, Sequence[str]] = {
-    "m": ("mm", "um", "in", "m", "cm", "nm"),
+USUAL: Mapping[str, Sequence[str]] = {
+    "m": ("mm", "um", "in", "m", "cm", "nm", "uin"),
     "rad": ("deg", "rad"),
     "rad/s": ("rpm", "rev/s", "rad/s", "deg/s"),
     "N": ("N", "kN", "lbf", "MN", "kgf"),
-    "N m": ("N m", "N mm"),
+    "N m": ("N m", "N mm", "lbf in"),
     "Pa": ("MPa", "GPa", "psi", "Pa", "bar"),
     "1/Pa": ("1/GPa", "1/Pa"),
     "Pa s": ("mPa s", "Pa s", "cP"),
@@ -101,6 +101,12 @@ def from_si(value: Any, quantity: Quantity) -> Any:
         return value
     units = registry()
     return units.Quantity(value, _pint_unit(quantity.unit)).to(_pint_unit(quantity.shown_in)).magnitude
+
+
+def written(value: Any, quantity: Quantity) -> str:
+    """A value with its unit as a case file has it, to twelve digits."""
+    number = f"{from_si(float(value), quantity):.12g}"
+    return number if quantity.unit == "1" else f"{number} {quantity.shown_in}"
 
 
 def shown(value: Any, quantity: Quantity, digits: int = 4) -> str:
@@ -175,7 +181,7 @@ def _plain_number(number: float, unit: str, quantity: Quantity) -> str:
 
 def _usual(quantity: Quantity) -> list[str]:
     """The units people use for a quantity, the one it is shown in first."""
-    return list(dict.fromkeys([quantity.shown_in, *_USUAL.get(quantity.unit, ()), quantity.unit]))
+    return list(dict.fromkeys([quantity.shown_in, *USUAL.get(quantity.unit, ()), quantity.unit]))
 
 
 def _advice(quantity: Quantity) -> str:

@@ -1,0 +1,74 @@
+"""``ballscrew serve``: the application in the browser."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import socket
+import webbrowser
+from typing import Annotated
+
+import typer
+
+from ballscrew.faults import Fault, InputError
+
+_NEEDS = ("fastapi", "fastapi_offline", "plotly", "uvicorn", "jinja2", "typst")
+_LOOPBACK = ("127.0.0.1", "localhost", "::1")
+_ANY = ("0.0.0.0", "::")
+
+
+def serve(
+    port: Annotated[int, typer.Option("--port", metavar="N", help="Port to listen on, 0 for any free one.")] = 8017,
+    host: Annotated[
+        str, typer.Option("--host", metavar="NAME", help="Address to listen on; other than 127.0.0.1, others see it.")
+    ] = "127.0.0.1",
+    open_browser: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
+) -> None:
+    """The application in the browser, and its JSON API, on this machine; Ctrl-C ends it.
+
+    The page is at the address it prints, the API under /api. Nothing is asked from outside and nothing is stored.
+    """
+    missing = [name for name in _NEEDS if importlib.util.find_spec(name) is None]
+    if missing:
+        raise InputError(Fault("serve", f"needs {' and '.join(missing)}", "", 'pip install "ballscrew[web]"'))
+    listening = _listening(host, port)
+    import uvicorn
+
+    from ballscrew.interfaces.web import server
+
+    hosts = server.LOOPBACK if host in _LOOPBACK else ("*",) if host in _ANY else (host, *server.LOOPBACK)
+    application = server.application(hosts)
+    server.warm_up()
+    name = f"[{host}]" if ":" in host else host
+    address = f"http://{name}:{listening.getsockname()[1]}"
+    typer.echo(f"ballscrew in the browser: {address} · API: {address}/api · Ctrl-C ends it")
+    if host not in _LOOPBACK:
+        typer.echo("beware: others on the network can use it, too; it has no password and no encryption", err=True)
+    if open_browser:
+        webbrowser.open(address)
+    settings = uvicorn.Config(
+        application, log_level="warning", access_log=False, timeout_keep_alive=75, h11_max_incomplete_event_size=65_536
+    )
+    with listening:
+        uvicorn.Server(settings).run([listening])
+
+
+def _listening(host: str, port: int) -> socket.socket:
+    """A socket that listens there; a fault that names the option if there can be none."""
+    if not 0 <= port <= 65535:
+        raise InputError(Fault("--port", "is no port", str(port), "0 to 65535"))
+    try:
+        family, _, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+    except OSError as error:
+        raise InputError(Fault("--host", "is not known", f"{host}: {error.strerror}", "take 127.0.0.1")) from None
+    # named as TCP, or asyncio leaves Nagle's delay of 40 ms on every answer
+    listening = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
+    listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, int(os.name != "nt"))
+    try:
+        listening.bind(address)
+        listening.listen(128)
+    except OSError as error:
+        listening.close()
+        remedy = "choose another: --port 0 takes any that is free"
+        raise InputError(Fault("--port", "cannot be listened on", f"{port}: {error.strerror}", remedy)) from None
+    return listening

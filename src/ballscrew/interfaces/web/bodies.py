@@ -1,0 +1,147 @@
+"""The body of a request, refused before it can cost anything.
+
+What is here counts bytes and values. Whether a case makes sense, :mod:`ballscrew.interfaces.config` says, as for a
+file.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any, NoReturn
+
+import anyio
+from pydantic import BaseModel, ConfigDict, Field
+from starlette.requests import Request
+
+from ballscrew.components.catalogue import catalogue
+from ballscrew.faults import Fault, InputError
+from ballscrew.interfaces import config
+from ballscrew.interfaces.config import Case
+from ballscrew.interfaces.schema import read_table
+from ballscrew.interfaces.web.problems import Refused
+
+#: A case file has one or two kilobytes.
+MOST_BYTES = 65_536
+#: Tables within tables, and values in all of them.
+DEEPEST, MOST_VALUES = 8, 1_000
+LONGEST_TEXT = 1_000
+#: Balls that are computed one by one, where the bodies of a nut are elastic or its balls differ.
+MOST_BALLS = 1_000
+#: Seconds for a body to arrive.
+PATIENCE = 10.0
+
+Tables = dict[str, Any]
+
+
+class _Body(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+
+
+class CaseBody(_Body):
+    """A case: the tables of a case file as JSON, texts with their units."""
+
+    case: Tables
+
+
+class SweepBody(CaseBody):
+    """A case, what to vary (as ``--vary``), and what to return."""
+
+    vary: dict[str, str] = Field(default_factory=dict)
+    outputs: list[str] = Field(default_factory=list)
+
+
+class BandBody(CaseBody):
+    """A case, and how its band is found."""
+
+    samples: int | None = Field(default=None, strict=True)
+    level: float | None = Field(default=None, strict=True)
+    only_given: bool = Field(default=False, strict=True)
+
+
+async def read(request: Request, kind: type[_Body]) -> Any:
+    """The body of a request as one of the kinds above. Raises :class:`~ballscrew.interfaces.web.problems.Refused`."""
+    media = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+    if media != "application/json":
+        raise Refused(415, Fault("Content-Type", "is not application/json", media, "send JSON"))
+    value = _json(await _bytes(request))
+    _count(value)
+    faults: list[Fault] = []
+    table = read_table("request", kind, value, faults)
+    if faults:
+        raise Refused(422, *faults)
+    return kind(**table)
+
+
+async def _bytes(request: Request) -> bytes:
+    found = bytearray()
+    try:
+        with anyio.fail_after(PATIENCE):
+            async for chunk in request.stream():
+                found += chunk
+                if len(found) > MOST_BYTES:
+                    raise Refused(413, Fault("request", f"has more than {MOST_BYTES} bytes", "", "send one case"))
+    except TimeoutError:
+        raise Refused(408, Fault("request", f"did not arrive within {PATIENCE:g} s")) from None
+    return bytes(found)
+
+
+def _json(body: bytes) -> Any:
+    try:
+        return json.loads(body.decode("utf-8"), parse_constant=_no_number)
+    except RecursionError:
+        raise Refused(400, Fault("request", "is nested too deeply", "", f"{DEEPEST} levels at most")) from None
+    except ValueError as error:
+        raise Refused(400, Fault("request", "is not JSON", str(error), "send one JSON object in UTF-8")) from None
+
+
+def _no_number(name: str) -> NoReturn:
+    raise ValueError(f"{name} is no JSON number")
+
+
+def _count(value: Any) -> None:
+    """Refuse what is nested too deeply, has too many values or too long texts, or letters that are none."""
+    level, seen = [value], 0
+    for _ in range(DEEPEST + 1):
+        seen += len(level)
+        if seen > MOST_VALUES:
+            raise Refused(413, Fault("request", f"has more than {MOST_VALUES} values", "", "send one case"))
+        for item in level:
+            for text in _texts(item):
+                if len(text) > LONGEST_TEXT:
+                    problem = f"has a text of more than {LONGEST_TEXT} letters"
+                    raise Refused(413, Fault("request", problem, text[:40] + "…", "shorten it"))
+                if not text.isascii() and any("\ud800" <= letter <= "\udfff" for letter in text):
+                    raise Refused(400, Fault("request", "has half a letter in it", "", "send Unicode text"))
+        level = [inner for item in level for inner in _inside(item)]
+        if not level:
+            return
+    raise Refused(400, Fault("request", "is nested too deeply", "", f"{DEEPEST} levels at most"))
+
+
+def _inside(value: Any) -> list[Any]:
+    if isinstance(value, dict):
+        return list(value.values())
+    return value if isinstance(value, list) else []
+
+
+def _texts(value: Any) -> list[str]:
+    if isinstance(value, dict):
+        return list(value)
+    return [value] if isinstance(value, str) else []
+
+
+def case_of(tables: Mapping[str, Any]) -> Case:
+    """The case that the tables of a request describe. Raises :class:`~ballscrew.faults.InputError`.
+
+    Nothing in them is taken for a path.
+    """
+    screw = tables.get("screw")
+    if isinstance(screw, Mapping) and "catalogue_file" in screw:
+        remedy = "send the numbers of the screw, or name a row that is shipped"
+        raise InputError(Fault("screw.catalogue_file", "is not taken from a request", "", remedy))
+    case = config.build(tables, rows=catalogue())
+    if case.parts is not None and case.parts.one_by_one and case.screw.loaded_balls > MOST_BALLS:
+        remedy = f"{MOST_BALLS} at most where balls differ or bodies are elastic"
+        raise InputError(Fault("screw.loaded_balls", "too many to compute one by one", "", remedy))
+    return case

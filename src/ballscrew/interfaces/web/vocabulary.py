@@ -1,0 +1,107 @@
+"""What a page needs to know to speak with people: units, meanings, colours, and where to start."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+from typing import Any
+
+from ballscrew import __version__
+from ballscrew.analyses.effects import PAPER
+from ballscrew.analyses.outputs import known_outputs
+from ballscrew.assembly import NUT_REASONS, NutFriction
+from ballscrew.components.catalogue import catalogue
+from ballscrew.components.contact import RaceState
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.interfaces import units
+from ballscrew.interfaces.figures.style import MECHANISM_COLOURS
+from ballscrew.interfaces.nuts import LOSSES
+from ballscrew.interfaces.schema import DEFAULT_MODEL, MODELS
+from ballscrew.quantities import Info, Quantity, fields_of, quantities_of
+from ballscrew.result import MECHANISMS, FrictionResult
+from ballscrew.solvers.load_distribution import BallLoads
+
+#: What inches and pounds show in place of the units people else think in; other units are the same in both.
+_INCHES: Mapping[str, str] = {
+    "mm": "in", "um": "uin", "N": "lbf", "kN": "lbf", "N m": "lbf in", "N mm": "lbf in", "MPa": "psi", "GPa": "psi",
+    "degC": "degF", "m": "in",
+}  # fmt: skip
+
+
+@functools.cache
+def vocabulary() -> dict[str, Any]:
+    """All of it, as one document."""
+    return {
+        "version": __version__,
+        "units": _units(),
+        "systems": {"metric": {}, "inch": dict(_INCHES)},
+        "results": _results(),
+        "mechanisms": _mechanisms(),
+        "reasons": dict(NUT_REASONS),
+        "models": list(MODELS),
+        "default_model": DEFAULT_MODEL,
+        "starts": {
+            "paper": {"title": "the screw of Olaru et al. (2005)", "case": _paper()},
+        },
+        "rows": [{"name": row.name, "source": row.source, "nut": row.nut or "single"} for row in catalogue().values()],
+    }
+
+
+def _units() -> dict[str, Any]:
+    """The units people use, by SI unit: SI = number × factor + offset."""
+    found: dict[str, list[dict[str, Any]]] = {}
+    for si in units.USUAL:
+        quantity = Quantity("", si, Info("", ""))
+        found[si] = []
+        for unit in dict.fromkeys((*units.USUAL[si], si)):
+            offset = units.to_si(0.0, unit, quantity)
+            found[si].append({"unit": unit, "factor": units.to_si(1.0, unit, quantity) - offset, "offset": offset})
+    return found
+
+
+def _described(quantity: Quantity) -> dict[str, str]:
+    return {
+        "meaning": quantity.info.meaning,
+        "symbol": quantity.info.symbol,
+        "unit": quantity.unit,
+        "shown_in": quantity.shown_in,
+    }
+
+
+def _results() -> dict[str, Any]:
+    """Results by name, as ``run`` and ``sweep`` name them."""
+    known = {name: output.quantity for name, output in known_outputs().items()}
+    for part in (NutFriction, FrictionResult, RaceState, BallLoads):
+        known |= quantities_of(part)
+    return {name: _described(quantity) for name, quantity in known.items()}
+
+
+def _mechanisms() -> dict[str, Any]:
+    """The parts of the torque in words, and a colour for each; losses of the nut come after the balls."""
+    more = ("#999999", "#8A6FB0", "#5B1A3A")
+    parts = {name: {"words": words, "colour": MECHANISM_COLOURS[name]} for name, words in MECHANISMS.items()}
+    return parts | {slot: {"words": slot, "colour": colour} for slot, colour in zip(LOSSES, more, strict=True)}
+
+
+def _paper() -> dict[str, Any]:
+    """The paper's screw, oil and operating point as the tables of a case."""
+    return {
+        "screw": _written(PAPER.screw, BallScrew),
+        "lubricant": _written(PAPER.oil, Lubricant),
+        "operation": {
+            name: units.written(getattr(PAPER, name), quantity) for name, quantity in fields_of(Operation).items()
+        },
+        "model": {"name": DEFAULT_MODEL},
+    }
+
+
+def _written(part: Any, cls: type) -> dict[str, Any]:
+    """The numbers of a part that have no default, or another value than that, as they are written in a file."""
+    usual = {name: getattr(cls, name, None) for name in fields_of(cls)}
+    found = {name: getattr(part, name) for name in fields_of(cls)}
+    return {
+        name: value if fields_of(cls)[name].unit == "1" else units.written(value, fields_of(cls)[name])
+        for name, value in found.items()
+        if value is not None and value != usual[name]
+    }
