@@ -1,0 +1,159 @@
+"""Every command of the README and the documentation, typed as it stands there, in a copy of what people have.
+
+The commands of a page run one after the other, so that a later one finds what an earlier one wrote.
+"""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import urllib.request
+from pathlib import Path
+
+import pytest
+
+from .pages import ROOT, blocks, commands, name, pages
+
+#: Run by ``.ci/run`` itself, which is what keeps them true.
+RUN_BY_CI = ("make demo", "make test")
+
+#: Commands that are not run here, and why.
+EXCEPTIONS = {
+    '.venv/bin/pip install ".[fast]"': "a test must not change what is installed, nor need a network",
+    ".venv/bin/python benchmarks/reference.py": "it takes minutes; the page has the tables of the same script",
+    ".venv/bin/ballscrew sweep examples/feed_drive.toml --to /shared/map.zarr --scheduler tcp://head:8786": (
+        "it needs a scheduler and a disk that machines share; tests/analyses/test_cluster.py has its own"
+    ),
+}
+
+#: What such a command must have in it that would fail or hurt here; without it there is no reason to leave it out.
+CANNOT_RUN_HERE = re.compile(r"pip install|benchmarks/|tcp://head:")
+
+#: Options that write a file. A command without them does the same on every page, and is typed once.
+WRITES = re.compile(r"\s(?:--to|--out|--output-file|--picture|-o)\b|\bout/|>")
+
+#: Exit codes that a page announces.
+EXIT_CODES = {}
+
+SERVES = re.compile(r"^(?:\.venv/bin/)?ballscrew serve\b")
+
+EVERY = {page: commands(page) for page in pages()}
+PAGES = [page for page, typed in EVERY.items() if typed]
+
+
+def left_out(command):
+    return command in RUN_BY_CI or command in EXCEPTIONS
+
+
+@pytest.fixture
+def place(tmp_path):
+    """A folder with what a reader has: the examples, the pages, and the program where the pages say that it is."""
+    shutil.copytree(ROOT / "examples", tmp_path / "examples")
+    shutil.copy(ROOT / "README.md", tmp_path)
+    (tmp_path / ".venv").symlink_to(Path(sys.executable).parents[1], target_is_directory=True)
+    return tmp_path
+
+
+def environment():
+    here = str(Path(sys.executable).parent)
+    return {**os.environ, "PATH": f"{here}{os.pathsep}{os.environ['PATH']}", "COLUMNS": "110", "NO_COLOR": "1"}
+
+
+def typed(command, place):
+    return subprocess.run(
+        ["bash", "-c", command], cwd=place, env=environment(), capture_output=True, encoding="utf-8", check=False
+    )
+
+
+def served(command, place):
+    """Start it, ask it for its page, stop it as people do: with Ctrl-C."""
+    words = ["bash", "-c", f"exec {command}"]
+    log = place / "serve.log"
+    with log.open("w", encoding="utf-8") as heard:
+        server = subprocess.Popen(words, cwd=place, env=environment(), stdout=heard, stderr=subprocess.STDOUT)
+        try:
+            page = _page_of(server, log)
+        finally:
+            server.send_signal(signal.SIGINT)
+            code = server.wait(30)
+    assert "<html" in page.lower(), f"{command}\nno page came: {page[:200]}"
+    assert code in (0, 130, -signal.SIGINT), f"{command}\nended with {code}\n{log.read_text()}"
+
+
+def _page_of(server, log):
+    """What stands at the address that it says it listens on."""
+    for _ in range(300):
+        said = log.read_text(encoding="utf-8")
+        address = re.search(r"http://[\w.:-]+", said)
+        assert server.poll() is None, f"it ended by itself\n{said}"
+        if address:
+            try:
+                with urllib.request.urlopen(f"{address[0]}/", timeout=5) as answer:
+                    return answer.read().decode()
+            except OSError:
+                pass  # it says where it will listen before it does
+        time.sleep(0.1)
+    raise AssertionError(f"no page within half a minute\n{log.read_text()}")
+
+
+DONE = {}
+
+
+def done_once(command, place):
+    """What a command does, which is not done again if it leaves nothing behind and stood on another page."""
+    if WRITES.search(command):
+        return typed(command, place)
+    if command not in DONE:
+        DONE[command] = typed(command, place)
+    return DONE[command]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_the_commands_of_a_page_do_what_it_says(page, place):
+    for line, command in EVERY[page]:
+        if left_out(command):
+            continue
+        if SERVES.match(command):
+            served(command, place)
+            continue
+        done = done_once(command, place)
+        expected = EXIT_CODES.get(command, 0)
+        assert done.returncode == expected, (
+            f"{name(page)}:{line}: {command}\nends with {done.returncode}\n{done.stderr}"
+        )
+        assert "Traceback" not in done.stderr, done.stderr
+
+
+def test_ci_runs_what_is_left_to_it():
+    ci = (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
+    for command in RUN_BY_CI:
+        make, *targets = command.split()
+        assert make == "make"
+        for target in targets:
+            assert f"make {target}" in ci, f".ci/run does not run make {target}"
+
+
+def test_no_exception_outlives_its_page():
+    on_pages = {command for typed in EVERY.values() for _, command in typed}
+    for command in (*RUN_BY_CI, *EXCEPTIONS, *EXIT_CODES):
+        assert command in on_pages, f"no page has it any more: {command}"
+
+
+@pytest.mark.parametrize("command", EXCEPTIONS)
+def test_no_exception_without_need(command):
+    assert CANNOT_RUN_HERE.search(command), "it can be run here, so it has to be"
+    assert len(EXCEPTIONS[command].split()) > 4
+
+
+def test_commands_stand_in_console_blocks():
+    """A command in a block of another kind would not be run, and nobody would notice."""
+    for page in pages():
+        for block in blocks(page):
+            if block.info in ("", "text", "bash", "sh", "shell"):
+                for line in block.text.splitlines():
+                    assert not re.match(r"(\$ |\.venv/bin/|ballscrew [a-z]+ )", line), (
+                        f"{name(page)}:{block.line}: {line}"
+                    )

@@ -1,0 +1,50 @@
+"""Every Python example of the README and the documentation runs as it stands there.
+
+The blocks of a page share their names, in order, as for someone who types them one after the other. A block that
+cannot run here has ``<!-- not run: why -->`` before it.
+"""
+
+import shutil
+
+import matplotlib as mpl
+import pytest
+
+from .pages import ROOT, blocks, markers, name, pages
+
+
+def examples(page):
+    return [block for block in blocks(page) if block.info == "python"]
+
+
+PAGES = [page for page in pages() if examples(page)]
+
+
+def test_there_are_examples():
+    assert {"README.md", "docs/start.md"} <= {name(page) for page in PAGES}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_the_examples_of_a_page_run(page, tmp_path, monkeypatch, capsys):
+    shutil.copytree(ROOT / "examples", tmp_path / "examples")
+    monkeypatch.chdir(tmp_path)
+    names = {"__name__": "example"}
+    with mpl.rc_context():
+        for block in examples(page):
+            if not block.not_run:
+                # as many empty lines before it as there are on the page, so that a fault names the page's line
+                source = "\n" * block.line + block.text
+                exec(compile(source, str(page), "exec"), names)
+    capsys.readouterr()
+
+
+@pytest.mark.parametrize("page", pages(), ids=name)
+def test_what_does_not_run_says_why(page):
+    marked = [block for block in blocks(page) if block.not_run]
+    assert len(marked) == markers(page), "a marker stands before a Python block, and before nothing else"
+    for block in marked:
+        assert block.info == "python"
+        assert len(block.not_run.split()) >= 3, f"line {block.line}: this is no reason"
+
+
+def test_few_examples_do_not_run():
+    assert sum(markers(page) for page in pages()) <= 2
