@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal
 
 from ballscrew.engine import kernel as kernels
@@ -11,6 +12,10 @@ from ballscrew.faults import Fault
 #: What can evaluate a plan.
 Engine = Literal["numpy", "compiled"]
 ENGINES: tuple[Engine, ...] = ("numpy", "compiled")
+#: What can evaluate a sweep: also the model itself, which up to :data:`FEW_POINTS` is quicker than recording it first.
+SweepEngine = Literal["numpy", "compiled", "model"]
+SWEEP_ENGINES: tuple[SweepEngine, ...] = (*ENGINES, "model")
+FEW_POINTS = 4096
 
 #: What NumPy needs for one step at one point, on two threads, and the steps of a program whose buffers
 #: begin to outgrow the cache; and what a kernel costs before its first point if it has to be compiled.
@@ -21,10 +26,10 @@ COMPILING_SECONDS, COMPILING_STEP_SECONDS = 0.05, 1.2e-4
 SHORT_SECONDS = 0.1
 
 
-def engine_faults(section: str, engine: str | None) -> list[Fault]:
+def engine_faults(section: str, engine: str | None, engines: Sequence[str] = ENGINES) -> list[Fault]:
     """What is wrong with an engine that is asked for."""
-    if engine is not None and engine not in ENGINES:
-        return [Fault(f"{section}.engine", "unknown engine", str(engine), f"one of {', '.join(ENGINES)}")]
+    if engine is not None and engine not in engines:
+        return [Fault(f"{section}.engine", "unknown engine", str(engine), f"one of {', '.join(engines)}")]
     if engine == "compiled" and not kernels.available():
         remedy = 'pip install "ballscrew[fast]", or leave the engine out'
         return [Fault(f"{section}.engine", "needs a compiler that is not installed", engine, remedy)]

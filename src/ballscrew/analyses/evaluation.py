@@ -15,7 +15,14 @@ from numpy.typing import NDArray
 
 import ballscrew
 from ballscrew._arrays import BLOCK_SIZE, map_blocks, processors
-from ballscrew.analyses.engines import Engine, engine_faults, may_be_compiled, worth_compiling
+from ballscrew.analyses.engines import (
+    SWEEP_ENGINES,
+    Engine,
+    SweepEngine,
+    engine_faults,
+    may_be_compiled,
+    worth_compiling,
+)
 from ballscrew.analyses.plan import Plan
 from ballscrew.engine import kernel as kernels
 from ballscrew.engine.emission import Source, UnknownOperationError, kernel_text
@@ -24,8 +31,6 @@ from ballscrew.engine.kernel import Kernel
 from ballscrew.engine.program import Program
 from ballscrew.faults import Fault, InputError, raise_if_any
 
-#: Up to here the model itself is quicker than recording it first.
-FEW_POINTS = 4096
 #: Fewest columns of a grid: a short row is mostly its beginning and its end.
 FEWEST_COLUMNS = 256
 #: A grid is worth cutting where it has this many times as many points as rows and columns.
@@ -57,14 +62,16 @@ class Evaluation:
         self._row_length = row_length
 
     @classmethod
-    def of(cls, plan: Plan, engine: Engine | None = None, times: int = 1) -> Evaluation:
+    def of(cls, plan: Plan, engine: SweepEngine | None = None, times: int = 1) -> Evaluation:
         """Make a plan ready; the engine is chosen by the size of the work and by what is compiled already.
 
         ``times`` says how often all of it will be evaluated (see :meth:`at`).
 
         Raises :class:`~ballscrew.faults.InputError` for an engine that cannot be had.
         """
-        raise_if_any(engine_faults("sweep", engine))
+        raise_if_any(engine_faults("sweep", engine, SWEEP_ENGINES))
+        if engine == "model":
+            return _by_numpy(plan, None)
         program = plan.recorded()
         why = "a whole nut, or a law of your own, is evaluated by NumPy only"
         if program is not None:
@@ -80,11 +87,6 @@ class Evaluation:
         if engine == "compiled":
             raise InputError(Fault("sweep.engine", why, engine, 'take engine="numpy"'))
         return _by_numpy(plan, program)
-
-    @classmethod
-    def unrecorded(cls, plan: Plan) -> Evaluation:
-        """A plan evaluated by the model itself: for :data:`FEW_POINTS`, quicker than recording it first."""
-        return _by_numpy(plan, None)
 
     def at(self, values: Mapping[str, Any]) -> Evaluation:
         """The same formulas with other values on the axes; nothing is recorded or compiled again.

@@ -12,7 +12,8 @@ import numpy as np
 import xarray as xr
 
 from ballscrew.analyses.cluster import check, fill_on_cluster
-from ballscrew.analyses.evaluation import Engine, Evaluation
+from ballscrew.analyses.engines import SweepEngine
+from ballscrew.analyses.evaluation import Evaluation
 from ballscrew.analyses.lock import Lock
 from ballscrew.analyses.plan import Plan
 from ballscrew.analyses.store import Store, stopping_cleanly
@@ -27,7 +28,7 @@ def stream(
     plan: Plan,
     to: str | os.PathLike[str],
     *,
-    engine: Engine | None = None,
+    engine: SweepEngine | None = None,
     block_size: int | None = None,
     threads: int | None = None,
     done: Callable[[int, int], None] | None = None,

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
-from ballscrew.analyses.evaluation import FEW_POINTS, Engine, Evaluation
+from ballscrew.analyses.engines import SweepEngine
+from ballscrew.analyses.evaluation import Evaluation
 from ballscrew.analyses.nut_parts import NutParts
 from ballscrew.analyses.plan import Plan, Subject
 from ballscrew.analyses.stream import stream
@@ -28,7 +29,7 @@ def sweep(
     *,
     nut: NutParts | None = None,
     outputs: Sequence[str] | None = None,
-    engine: Engine | None = None,
+    engine: SweepEngine | None = None,
     block_size: int | None = None,
     threads: int | None = None,
     done: Callable[[int, int], None] | None = None,
@@ -50,6 +51,8 @@ def sweep(
     Work goes block by block on a few threads, of ``block_size`` points at most, and
     ``done(finished, total)`` is told the points.
     The ``engine`` is chosen by the size of the work: ``"numpy"``, or ``"compiled"``, which needs the extra ``fast``.
+    ``"model"`` calls the model itself on all points: without the quarter of a second that recording it takes, which a
+    few thousand points do not pay back. Engines differ by rounding.
 
     ``to`` names a folder for sweeps larger than the memory: a Zarr store that is filled block by
     block, two of which are in memory at a time. It needs the extra ``data``. The same call goes on
@@ -73,8 +76,7 @@ def sweep(
     plan = Plan.of(Subject(model, screw, lubricant, nut), outputs, varied)
     if to is not None:
         return stream(plan, to, engine=engine, block_size=block_size, threads=threads, done=done, cluster=cluster)
-    few = engine is None and plan.total <= FEW_POINTS
-    evaluation = Evaluation.unrecorded(plan) if few else Evaluation.of(plan, engine)
+    evaluation = Evaluation.of(plan, engine)
     results = evaluation.empty(plan.total)
     evaluation.fill(results, slice(0, plan.total), block_size=block_size, threads=threads, done=done)
     return plan.dataset(results)

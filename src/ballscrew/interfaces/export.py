@@ -18,6 +18,7 @@ import numpy as np
 import xarray as xr
 
 from ballscrew.analyses.cluster import connected
+from ballscrew.analyses.engines import FEW_POINTS
 from ballscrew.analyses.outputs import DEFAULT_OUTPUTS, NUT_OUTPUTS, OPERATION, inputs_of, known_outputs
 from ballscrew.analyses.plan import Plan as Swept
 from ballscrew.analyses.plan import Subject
@@ -233,9 +234,11 @@ def evaluate(
         subject = Subject(case.model, case.screw, case.lubricant, case.parts)
         swept = Swept.of(subject, tuple(names), varied | fixed)
         return stream(swept, to, done=done, cluster=cluster, attributes=oil)
+    few = math.prod(len(values) for values in plan.axes.values()) <= FEW_POINTS
     dataset = sweep(
-        case.model, case.screw, case.lubricant, nut=case.parts, outputs=tuple(names), done=done, **varied, **fixed
-    )
+        case.model, case.screw, case.lubricant, nut=case.parts, outputs=tuple(names),
+        engine="model" if few else None, done=done, **varied, **fixed,
+    )  # fmt: skip
     dataset.attrs |= oil
     return dataset
 

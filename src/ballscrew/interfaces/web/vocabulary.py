@@ -8,16 +8,20 @@ from typing import Any
 
 from ballscrew import __version__
 from ballscrew.analyses.effects import PAPER
+from ballscrew.analyses.nut_parts import Scatter
 from ballscrew.analyses.outputs import known_outputs
 from ballscrew.assembly import NUT_REASONS, NutFriction
 from ballscrew.components.catalogue import catalogue
 from ballscrew.components.contact import RaceState
-from ballscrew.components.materials import Lubricant
+from ballscrew.components.installation import Installation, Limits
+from ballscrew.components.materials import Lubricant, Material
+from ballscrew.components.nut import Bodies
 from ballscrew.components.screw import BallScrew, Operation
 from ballscrew.interfaces import units
 from ballscrew.interfaces.figures.style import MECHANISM_COLOURS
-from ballscrew.interfaces.nuts import LOSSES
-from ballscrew.interfaces.schema import DEFAULT_MODEL, MODELS
+from ballscrew.interfaces.nuts import LISTED, LOSSES, NUT_FIELDS
+from ballscrew.interfaces.schema import DEFAULT_MODEL, LAWS, MODELS
+from ballscrew.model import FrictionModel
 from ballscrew.quantities import Info, Quantity, fields_of, quantities_of
 from ballscrew.result import MECHANISMS, FrictionResult
 from ballscrew.solvers.load_distribution import BallLoads
@@ -50,14 +54,24 @@ def vocabulary() -> dict[str, Any]:
 
 def _units() -> dict[str, Any]:
     """The units people use, by SI unit: SI = number × factor + offset."""
-    found: dict[str, list[dict[str, Any]]] = {}
-    for si in units.USUAL:
-        quantity = Quantity("", si, Info("", ""))
-        found[si] = []
-        for unit in dict.fromkeys((*units.USUAL[si], si)):
-            offset = units.to_si(0.0, unit, quantity)
-            found[si].append({"unit": unit, "factor": units.to_si(1.0, unit, quantity) - offset, "offset": offset})
-    return found
+    known = {si: dict.fromkeys((*usual, si)) for si, usual in units.USUAL.items()}
+    for quantity in (*_known_results().values(), *_known_fields()):
+        if quantity.unit != "1":
+            known.setdefault(quantity.unit, {})[quantity.shown_in] = None
+    return {si: [_unit(unit, si) for unit in those] for si, those in known.items()}
+
+
+def _unit(unit: str, si: str) -> dict[str, Any]:
+    quantity = Quantity("", si, Info("", ""))
+    offset = units.to_si(0.0, unit, quantity)
+    return {"unit": unit, "factor": units.to_si(1.0, unit, quantity) - offset, "offset": offset}
+
+
+def _known_fields() -> list[Quantity]:
+    """The quantities that a case file can have."""
+    parts = (BallScrew, Lubricant, Operation, Material, Bodies, Scatter, Installation, Limits, FrictionModel)
+    laws = [law for slot in (*LAWS.values(), *LOSSES.values()) for law in slot.values() if isinstance(law, type)]
+    return [*NUT_FIELDS.values(), *LISTED.values(), *(q for part in (*parts, *laws) for q in fields_of(part).values())]
 
 
 def _described(quantity: Quantity) -> dict[str, str]:
@@ -71,10 +85,14 @@ def _described(quantity: Quantity) -> dict[str, str]:
 
 def _results() -> dict[str, Any]:
     """Results by name, as ``run`` and ``sweep`` name them."""
+    return {name: _described(quantity) for name, quantity in _known_results().items()}
+
+
+def _known_results() -> dict[str, Quantity]:
     known = {name: output.quantity for name, output in known_outputs().items()}
     for part in (NutFriction, FrictionResult, RaceState, BallLoads):
         known |= quantities_of(part)
-    return {name: _described(quantity) for name, quantity in known.items()}
+    return known
 
 
 def _mechanisms() -> dict[str, Any]:
