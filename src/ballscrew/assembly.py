@@ -123,6 +123,13 @@ class NutFriction:
         return np.max([np.max(contact.maximum_pressure, axis=-1) for contact in contacts], axis=0)
 
     @lazy
+    def minimum_film_parameter(self) -> Annotated[Ratio, Info(r"\lambda", "least film parameter of all contacts")]:
+        """Least film parameter of all contacts that carry load."""
+        contacts = [(pair.load, contact) for pair in self.pairs for contact in (pair.screw, pair.nut)]
+        found = [np.min(np.where(load > 0, contact.film_parameter, np.inf), axis=-1) for load, contact in contacts]
+        return np.min(found, axis=0)
+
+    @lazy
     def valid(self) -> Annotated[Mask, Info("valid", "all conditions of the model hold")]:
         """Where all conditions of the model hold."""
         return np.all(np.stack(np.broadcast_arrays(*self.validity.values())), axis=0)

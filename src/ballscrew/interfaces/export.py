@@ -234,7 +234,8 @@ def evaluate(
         subject = Subject(case.model, case.screw, case.lubricant, case.parts)
         swept = Swept.of(subject, tuple(names), varied | fixed)
         return stream(swept, to, done=done, cluster=cluster, attributes=oil)
-    few = math.prod(len(values) for values in plan.axes.values()) <= FEW_POINTS
+    # files of all kinds have the same bits; what is only looked at may be quicker
+    few = to is None and math.prod(len(values) for values in plan.axes.values()) <= FEW_POINTS
     dataset = sweep(
         case.model, case.screw, case.lubricant, nut=case.parts, outputs=tuple(names),
         engine="model" if few else None, done=done, **varied, **fixed,
