@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from ballscrew.equations import friction, slip
+from ballscrew.solvers.contact_patch import ContactPatch, Ellipse
+from ballscrew.solvers.tractions import Coulomb
 
 RELATIVE = 1e-13
 
@@ -236,3 +238,19 @@ def test_nominal_sliding_speed_is_the_root_of_the_mean_square_over_the_ellipse()
         others = mean_slip(0.0, rim, 0.0, lateral, kappa, 200)[1]
         assert found == pytest.approx(math.hypot(curvature, others), rel=3e-4)  # 0.052 is 0.0520163
     assert slip.nominal_sliding_speed(1.0, 0.0, 0.0, 9.0) ** 2 == pytest.approx(0.052, rel=1e-12)
+
+
+@pytest.mark.parametrize("x", [-0.15, 0.0, 0.1])
+def test_the_slip_is_that_of_a_turning_and_rolling_surface(x):
+    # the patch of the contact integral has vectors in space: a twist of creep, lateral slip, spin and rolling
+    a, R_d, creep, lateral, spin, rolling = 4e-4, 6e-3, -3e-3, 2e-3, 11.0, 150.0
+    patch = ContactPatch.of(Ellipse(a, 0.2 * a, 1e9, R_d), Coulomb(0.1), (8, 5))
+    s_t, s_c = patch.slip(np.array([creep, lateral, 0.0, -rolling, -spin]))
+    t, place = patch.across / a, patch.along / a
+    C = slip.curvature_slip_speed(a, R_d, rolling)
+    along = slip.path_slip_speed(creep, spin * a, C, t, slip.surface_depth(t, a, R_d))
+    assert along == pytest.approx(s_t, rel=1e-12)
+    across = slip.across_slip_speed(lateral, slip.local_spin_speed(spin * a, C, t), place)
+    # the normals lean: (a/R_d)² of it
+    assert across == pytest.approx(s_c, abs=5e-3 * np.max(np.abs(s_c)))
+    assert slip.across_slip_speed(lateral, 0.03, x) == pytest.approx(lateral - 0.03 * x, rel=RELATIVE)

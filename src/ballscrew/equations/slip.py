@@ -160,6 +160,18 @@ def local_spin_speed(spin_rim_speed: Speed, curvature_slip_speed: Speed, height:
     return beta + 2 * C * t
 
 
+def across_slip_speed(lateral_slip_speed: Speed, local_spin_speed: Speed, position_along: Ratio) -> Speed:
+    r"""Slip across the path, race against ball, at a place of the ellipse.
+
+    .. math:: s_c = D - x g
+
+    The position x along the path is in units of a, the semi-axis across it: from -b/a to b/a. With
+    :func:`path_slip_speed` it is the slip that :func:`cell_slip_speed` is the root-mean-square of.
+    """
+    D, g, x = lateral_slip_speed, local_spin_speed, position_along
+    return D - x * g
+
+
 def cell_slip_speed(
     path_slip_speed: Speed, local_spin_speed: Speed, lateral_slip_speed: Speed, cell_variance: Ratio
 ) -> Speed:

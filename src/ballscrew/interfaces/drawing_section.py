@@ -1,0 +1,208 @@
+"""The left half of the drawing: the section across the path, a ball between its grooves."""
+
+from __future__ import annotations
+
+import math
+
+from ballscrew.components.contact import RaceState
+from ballscrew.components.screw import BallScrew
+from ballscrew.interfaces import svg, units
+from ballscrew.interfaces.drawn_ball import DrawnBall, Flank
+from ballscrew.interfaces.svg import FAINT, GREEN, TEXT, TITLE, Point
+from ballscrew.quantities import fields_of, quantities_of
+
+#: The middle of the ball, and its radius.
+BALL, RADIUS = (122.0, 158.0), 78.0
+_HALF_WIDTH, _BODY = 116.0, 44.0
+#: How far the grooves go up the ball, of its radius, or of the height of its contacts: catalogues do not say.
+_LAND, _LAND_OF_CONTACT = 0.35, 0.6
+_LINE = 17.0
+
+_SCREW = fields_of(BallScrew)
+_LENGTH, _ANGLE, _LOAD = _SCREW["ball_diameter"], _SCREW["contact_angle"], quantities_of(RaceState)["contact_load"]
+
+
+class Groove:
+    """One flank of a groove as an arc that touches the ball, in drawing units."""
+
+    def __init__(self, conformity: float, angle: float, side: int, down: int) -> None:
+        self.radius = 2 * conformity * RADIUS
+        #: From the middle of the ball to the contact, y downwards; nut contacts of the loaded side lie to the right.
+        self.normal = (-down * side * math.sin(angle), down * math.cos(angle))
+        self.contact = (BALL[0] + RADIUS * self.normal[0], BALL[1] + RADIUS * self.normal[1])
+        lever = RADIUS - self.radius
+        self.middle = (BALL[0] + lever * self.normal[0], BALL[1] + lever * self.normal[1])
+        self.down = down
+
+    @property
+    def bottom(self) -> Point:
+        """Where the two flanks of the groove meet."""
+        off = BALL[0] - self.middle[0]
+        return BALL[0], self.middle[1] + self.down * math.sqrt(self.radius**2 - off**2)
+
+    def edge(self, land: float) -> Point:
+        """Where the groove ends, at a height over the middle of the ball."""
+        y = BALL[1] + self.down * land
+        half = math.sqrt(max(self.radius**2 - (y - self.middle[1]) ** 2, 0.0))
+        return self.middle[0] + math.copysign(half, self.normal[0]), y
+
+    def around(self, half_width: float) -> tuple[Point, Point]:
+        """The ends of a stretch of the arc to both sides of the contact."""
+        turn = min(half_width / self.radius, 1.0)
+        first, last = (
+            (
+                self.middle[0] + self.radius * (self.normal[0] * math.cos(t) - self.normal[1] * math.sin(t)),
+                self.middle[1] + self.radius * (self.normal[1] * math.cos(t) + self.normal[0] * math.sin(t)),
+            )
+            for t in (-turn, turn)
+        )
+        return first, last
+
+
+def section(ball: DrawnBall) -> list[str]:
+    """The ball, its grooves, its contacts and their angle, a scale, and the sizes in words."""
+    flanks = {flank.side: flank for flank in ball.flanks}
+    main = max(ball.flanks, key=lambda flank: flank.load)
+    parts = [svg.text((8, 20), "Section across the path", TITLE, font_weight="bold")]
+    lowest = min(math.cos(flank.angle) for flank in ball.flanks)
+    land = RADIUS * min(_LAND, _LAND_OF_CONTACT * lowest)
+    for conformity, down, name in ((ball.nut_conformity, -1, "nut"), (ball.screw_conformity, 1, "screw")):
+        grooves = {side: Groove(conformity, flanks.get(side, main).angle, side, down) for side in (1, -1)}
+        left, right = sorted(grooves.values(), key=lambda groove: groove.normal[0])
+        parts += _body(left, right, land, down)
+        for side, groove in grooves.items():
+            ends = svg.to(groove.edge(land), "M"), _arc_to(groove, groove.edge(land), groove.bottom)
+            touching = side in flanks
+            dashes = {} if touching else {"stroke_dasharray": "4 3", "opacity": 0.75}
+            parts.append(svg.path(ends, stroke_width=1.8 if touching else 1.0, **dashes))
+        y = BALL[1] + down * (RADIUS + _BODY - 5)
+        parts.append(svg.text((BALL[0] - _HALF_WIDTH + 6, y + (0 if down > 0 else 9)), name, TEXT))
+    parts.append(svg.circle(BALL, RADIUS, stroke_width=1.6))
+    for flank in ball.flanks:
+        parts += _normal(ball, flank)
+    return [*parts, *_angle(main, _on_both_sides(ball)), *_scale_bar(ball), *_section_notes(ball)]
+
+
+def _on_both_sides(ball: DrawnBall) -> bool:
+    return len(ball.flanks) > 1
+
+
+def _body(left: Groove, right: Groove, land: float, down: int) -> list[str]:
+    """The metal around a groove, and its lands."""
+    outer = BALL[1] + down * (RADIUS + _BODY)
+    sides = BALL[0] - _HALF_WIDTH, BALL[0] + _HALF_WIDTH
+    first, last = left.edge(land), right.edge(land)
+    outline = [
+        svg.to((sides[0], outer), "M"),
+        svg.to((sides[0], first[1])),
+        svg.to(first),
+        _arc_to(left, first, left.bottom),
+        _arc_to(right, right.bottom, last),
+        svg.to((sides[1], last[1])),
+        svg.to((sides[1], outer)),
+        "Z",
+    ]
+    return [
+        svg.path(outline, fill="currentColor", fill_opacity=FAINT, stroke="none"),
+        svg.line((sides[0], first[1]), first, stroke_width=1.8),
+        svg.line(last, (sides[1], last[1]), stroke_width=1.8),
+    ]
+
+
+def _arc_to(groove: Groove, start: Point, end: Point) -> str:
+    """The arc of a groove between two of its points, the short way."""
+    (x, y), (u, v) = ((p[0] - groove.middle[0], p[1] - groove.middle[1]) for p in (start, end))
+    return svg.arc(end, groove.radius, clockwise=x * v - y * u > 0)
+
+
+def _normal(ball: DrawnBall, flank: Flank) -> list[str]:
+    """The line through both contacts of a pair of flanks, and the contacts, as wide as they are."""
+    pair = [
+        Groove(conformity, flank.angle, flank.side, down)
+        for conformity, down in ((ball.nut_conformity, -1), (ball.screw_conformity, 1))
+    ]
+    parts = [svg.line(pair[0].contact, pair[1].contact, stroke_width=1.0, stroke_dasharray="9 3 2 3")]
+    contact = ball.contact
+    widths = (0.0, 0.0) if contact is None else (contact.on_nut, contact.semi_major_axis)
+    for groove, wide in zip(pair, widths, strict=True):
+        if flank.load > 0 and wide > 0:
+            # Hertz: as the cube root of the load
+            start, end = groove.around(wide * _scale(ball) * (flank.load / ball.load) ** (1 / 3))
+            parts.append(svg.path([svg.to(start, "M"), _arc_to(groove, start, end)], stroke=GREEN, stroke_width=4.5))
+        parts.append(svg.circle(groove.contact, 2.6, fill="currentColor", stroke="none"))
+    return parts
+
+
+def _scale(ball: DrawnBall) -> float:
+    """Drawing units of a metre."""
+    return 2 * RADIUS / ball.ball_diameter
+
+
+def _angle(flank: Flank, both: bool) -> list[str]:
+    """The contact angle against the radius."""
+    radius, side = 0.5 * RADIUS, flank.side
+    start = (BALL[0], BALL[1] - radius)
+    end = (BALL[0] + side * radius * math.sin(flank.angle), BALL[1] - radius * math.cos(flank.angle))
+    words = f"α {units.shown(flank.angle, _ANGLE).replace(' deg', '°')}"
+    # beside the arc where there is room: between the normals with two, else on the far side of the radius
+    middle = (BALL[0] - side * 6, BALL[1] - radius + 4) if not both else (BALL[0], BALL[1] + 0.62 * RADIUS)
+    anchor = "middle" if both else "end" if side > 0 else "start"
+    return [
+        svg.line(BALL, (BALL[0], BALL[1] - 0.8 * RADIUS), stroke_width=0.8, opacity=0.8),
+        svg.path([svg.to(start, "M"), svg.arc(end, radius, clockwise=side > 0)], stroke_width=1.0),
+        svg.text(middle, words, TEXT, anchor),
+    ]
+
+
+def _scale_bar(ball: DrawnBall) -> list[str]:
+    """One, two or five times a power of ten millimetres, about a third of the ball."""
+    wanted = 0.42 * ball.ball_diameter * 1e3
+    power = 10 ** math.floor(math.log10(wanted))
+    length = max(step * power for step in (1, 2, 5) if step * power <= wanted)
+    wide, x, y = length * 1e-3 * _scale(ball), BALL[0] + _HALF_WIDTH - 6, BALL[1] + RADIUS + _BODY - 10
+    ends = (x - wide, y), (x, y)
+    return [
+        svg.line(*ends, stroke_width=2.2),
+        *(svg.line((end[0], y - 4), (end[0], y + 4), stroke_width=1.2) for end in ends),
+        svg.text((x - wide / 2, y - 7), f"{length:.6g} mm", TEXT, "middle"),
+    ]
+
+
+def _section_notes(ball: DrawnBall) -> list[str]:
+    y = BALL[1] + RADIUS + _BODY + 22
+    return [svg.text((8, y + _LINE * i), words, TEXT) for i, words in enumerate(_sizes_in_words(ball))]
+
+
+def _sizes_in_words(ball: DrawnBall) -> list[str]:
+    diameter = units.shown(ball.ball_diameter, _LENGTH)
+    radii = [units.shown(f * ball.ball_diameter, _LENGTH) for f in (ball.screw_conformity, ball.nut_conformity)]
+    factors = [f"{f:.4g}" for f in (ball.screw_conformity, ball.nut_conformity)]
+    grooves = (
+        [f"groove radius {radii[0]}, {factors[0]} ⌀"]
+        if factors[0] == factors[1]
+        else [f"screw groove r {radii[0]}, {factors[0]} ⌀", f"nut groove r {radii[1]}, {factors[1]} ⌀"]
+    )
+    return [f"ball ⌀ {diameter}", *grooves, *_loads_in_words(ball)]
+
+
+def _loads_in_words(ball: DrawnBall) -> list[str]:
+    if ball.load == 0:
+        return ["no load on the ball"]
+    words = "load of this ball" if ball.most_loaded else "load of each ball"
+    if not math.isfinite(ball.load):
+        return [f"{words}: no number"]
+    if len(ball.flanks) == 1:
+        return [f"{words} {units.shown(ball.load, _LOAD)}"]
+    loads = " and ".join(units.shown(flank.load, _LOAD) for flank in ball.flanks)
+    angles = " and ".join(units.shown(flank.angle, _ANGLE).replace(" deg", "°") for flank in ball.flanks)
+    return [f"{words} {loads}", f"at {angles}: four contacts"]
+
+
+def in_words(ball: DrawnBall) -> list[str]:
+    """What the section shows, with its numbers."""
+    angles = " and ".join(units.shown(flank.angle, _ANGLE) for flank in ball.flanks)
+    return [
+        "Left: section across the path of the balls, to scale, the screw below and the nut above; how far the grooves "
+        f"reach is assumed. Contact angle {angles}.",
+        f"{'; '.join(_sizes_in_words(ball))}.".replace("⌀", "diameter").replace(" r ", " radius "),
+    ]
