@@ -18,7 +18,7 @@ from ballscrew.interfaces import config, drawing_contact, svg
 from ballscrew.interfaces.answer import answer
 from ballscrew.interfaces.drawing import HEIGHT, WIDTH, drawing
 from ballscrew.interfaces.drawing_section import BALL, RADIUS
-from ballscrew.interfaces.drawn_ball import AT_REST, FOUR_CONTACTS, NO_LOAD, NO_NUMBER, drawn_ball
+from ballscrew.interfaces.drawn_ball import AT_REST, FOUR_CONTACTS, NO_LOAD, NO_NUMBER, NO_SLIP, drawn_ball
 from ballscrew.solvers.contact_integral import contact_integral
 from ballscrew.solvers.tractions import Coulomb
 
@@ -325,13 +325,12 @@ def test_what_is_missing_is_explained(name, words):
     assert bool(list(tree.iter(f"{_NS}ellipse"))) == (words == AT_REST)
 
 
-def test_no_number_is_explained_too():
+@pytest.mark.parametrize(("field", "words"), [("load_parameter", NO_NUMBER), ("creep_speed", NO_SLIP)])
+def test_no_number_is_explained_too(field, words):
     found = answered("screw")
-    spoiled = dataclasses.replace(
-        found.result, screw=dataclasses.replace(found.result.screw, radii_ratio=math.nan, creep_speed=math.nan)
-    )
+    spoiled = dataclasses.replace(found.result, screw=dataclasses.replace(found.result.screw, **{field: math.nan}))
     tree = ElementTree.fromstring(drawing(found._replace(result=spoiled)))
-    assert NO_NUMBER in read(tree)
+    assert words in read(tree)
     assert f"ball ⌀ {found.case.screw.ball_diameter * 1e3:.4g} mm" in texts(tree)
 
 
