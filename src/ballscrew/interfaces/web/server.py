@@ -19,19 +19,13 @@ from ballscrew.faults import Fault, InputError
 from ballscrew.interfaces.answer import answer
 from ballscrew.interfaces.web import api, openapi, problems, vocabulary
 from ballscrew.interfaces.web.bodies import case_of
+from ballscrew.interfaces.web.policy import policy
 from ballscrew.interfaces.web.problems import Refused
 from ballscrew.interfaces.web.work import Desk
 
 #: Where the server may be asked at, unless told otherwise: names of the machine it runs on.
 LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
-#: Only what this server sends is run or shown; plotly.js and the viewer of the API write style attributes.
-POLICY = (
-    "default-src 'none'; script-src 'self'; style-src 'self'; style-src-attr 'unsafe-inline'; "
-    "img-src 'self' data: blob:; connect-src 'self'; font-src 'self'; "
-    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
-)
 _HEADERS = {
-    "Content-Security-Policy": POLICY,
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Opener-Policy": "same-origin",
@@ -44,9 +38,11 @@ def application(hosts: Sequence[str] = LOOPBACK, desk: Desk | None = None) -> Fa
     """The application. ``hosts`` are the names it answers to, ``("*",)`` for any."""
     app = FastAPI(title="ballscrew", version=__version__, docs_url=None, redoc_url=None, openapi_url=None)
     app.state.desk = desk or Desk()
+    plotly = _folder_of("plotly", "package_data") / "plotly.min.js"
+    headers = {**_HEADERS, "Content-Security-Policy": policy(plotly)}
     app.include_router(api.router)
     app.add_api_route("/api/v1/openapi.json", lambda: _openapi(app), include_in_schema=False)
-    _files(app)
+    _files(app, plotly)
     app.add_exception_handler(Refused, _refused)
     app.add_exception_handler(InputError, _at_fault)
     app.add_exception_handler(HTTPException, _not_found)
@@ -59,13 +55,13 @@ def application(hosts: Sequence[str] = LOOPBACK, desk: Desk | None = None) -> Fa
             found = problems.response(421, [Fault("Host", "is not a name of this server", host[:80])])
         else:
             found = await go_on(request)
-        found.headers.update(_HEADERS)
+        found.headers.update(headers)
         return found
 
     return app
 
 
-def _files(app: FastAPI) -> None:
+def _files(app: FastAPI, plotly: Path) -> None:
     """The page and the libraries that it needs, from where they are installed."""
     folders = {"/page": Path(str(_PAGE)), "/viewer": _folder_of("fastapi_offline", "static")}
     for address, folder in folders.items():
@@ -73,7 +69,6 @@ def _files(app: FastAPI) -> None:
     pages = {"/": "index.html", "/api": "api.html"}
     for address, name in pages.items():
         app.add_api_route(address, _sender(Path(str(_PAGE)) / name), include_in_schema=False)
-    plotly = _folder_of("plotly", "package_data") / "plotly.min.js"
     app.add_api_route("/plotly.js", _sender(plotly), include_in_schema=False)
 
 

@@ -1,0 +1,32 @@
+"""The Content-Security-Policy: only what this server sends is run or shown."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import re
+from pathlib import Path
+
+#: What plotly.js writes into an element <style> when it is loaded.
+_STYLE = re.compile(r"textContent='((?:[^'\\]|\\.)*)'")
+
+
+def policy(plotly: Path) -> str:
+    """The policy of all answers.
+
+    plotly.js sets attributes of style, an empty <style> whose rules it adds by script, and the texts of
+    <style> that stand in its file: these are allowed by their hashes, and no others.
+    """
+    texts = ["", *_STYLE.findall(plotly.read_text(encoding="utf-8"))]
+    styles = " ".join(["'self'", *map(_hash, texts)])
+    return (
+        f"default-src 'none'; script-src 'self'; style-src {styles}; style-src-attr 'unsafe-inline'; "
+        "img-src 'self' data: blob:; connect-src 'self'; font-src 'self'; "
+        "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    )
+
+
+def _hash(text: str) -> str:
+    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
+
+
