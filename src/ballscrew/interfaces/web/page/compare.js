@@ -23,7 +23,7 @@ export function showDesigns(answers, mechanisms) {
   }
   const cell = (letter, read) => (good[letter] ? read(good[letter]) : "–");
   const lead = [
-    ["what", ...letters.map((letter) => cell(letter, (answer) => answer.words.title))],
+    ["what", ...letters.map((letter) => cell(letter, (answer) => units.sentence(answer.words.title)))],
     ...ROWS.filter(([name]) => letters.some((letter) => good[letter]?.results[name] !== undefined))
       .map(([name, words]) => [words, ...letters.map((letter) => cell(letter, (answer) => data(name, answer.results[name])))]),
     ["least λ", ...letters.map((letter) => cell(letter, ({ results }) => units.digits(Math.min(results.screw.film_parameter, results.nut.film_parameter), 3)))],
@@ -31,7 +31,7 @@ export function showDesigns(answers, mechanisms) {
     ["verdict", ...letters.map((letter) => cell(letter, (answer) => answer.words.verdicts.map((line) => line.split(":")[0].split(";")[0]).filter((line, at, all) => all.indexOf(line) === at).join("; ")))],
     ["beware", ...letters.map((letter) => (good[letter] ? good[letter].warnings.map((line) => line.split(":")[0].replaceAll("_", " ")).join(", ") || "–" : answers[letter]))],
   ];
-  place.replaceChildren(element("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "designs side by side" },
+  place.replaceChildren(element("div", { class: "scroll whole", tabindex: "0", role: "region", "aria-label": "designs side by side" },
     table("designs side by side", ["", ...letters.map((letter) => `Design ${letter}`)], lead)));
   if (Object.keys(good).length) return charts.designs(good, mechanisms);
   return null;

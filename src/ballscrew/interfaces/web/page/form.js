@@ -8,7 +8,7 @@ const SECTIONS = {
   losses: "Seals and other losses", installation: "Installation", limits: "Limits",
   bodies: "Elastic bodies", deviations: "Balls that differ",
 };
-const OPEN = ["operation", "screw", "lubricant"];
+const OPEN = ["operation", "screw", "lubricant"], OPEN_ON_PHONE = ["operation"];
 const LEFT_OUT = ["screw.catalogue", "screw.catalogue_file"];
 const INCH_ONLY = ["in", "uin", "lbf", "lbf in", "psi", "degF"];
 
@@ -47,8 +47,9 @@ export function build(state, vocabulary, value, law) {
   const form = byId("form");
   const open = new Set([...form.querySelectorAll("details")].filter((one) => one.open).map((one) => one.dataset.section));
   const first = !form.children.length;
+  const usual = matchMedia("(max-width: 46rem)").matches ? OPEN_ON_PHONE : OPEN;
   const parts = Object.keys(SECTIONS).map((name) => element("details",
-    { "data-section": name, open: first ? OPEN.includes(name) : open.has(name) },
+    { "data-section": name, open: first ? usual.includes(name) : open.has(name) },
     element("summary", {}, SECTIONS[name]), element("fieldset", {}, element("legend", { class: "hidden" }, SECTIONS[name]),
       ...Object.entries(section(name).properties).flatMap(([field, node]) => rows(`${name}.${field}`, definition(node), state, value, law)))));
   form.replaceChildren(start(state, vocabulary), ...parts);
@@ -131,7 +132,7 @@ function number(path, node, state, kept, present, style) {
   const shown = kept === undefined ? "" : units.digitsIn(kept, unit, si);
   const asWritten = kept !== undefined && shown === null;
   input.value = kept === undefined ? "" : shown ?? String(kept);
-  input.placeholder = kept === undefined ? units.digitsIn(node.examples?.[0] ?? "", unit, si) ?? "" : "";
+  input.placeholder = kept === undefined ? usual(node.examples?.[0], unit, si) : "";
   const known = [...new Set([unit, ...units.choices(si).map((one) => one.unit)])];
   const select = element("select", { class: "unit", "aria-label": `unit of ${words(path.split(".").pop())}` },
     asWritten ? element("option", { value: "", selected: true }, "as written") : null,
@@ -142,6 +143,12 @@ function number(path, node, state, kept, present, style) {
     changed({ path, text: bare && input.value.trim() ? `${input.value.trim()} ${select.value}`.trim() : input.value.trim() });
   });
   return styled(frame(path, node, input, select), style);
+}
+
+/** What stands where nothing is typed: the usual value. */
+function usual(example, unit, si) {
+  const text = units.digitsIn(example ?? "", unit, si);
+  return text === null ? "" : units.digits(Number(text));
 }
 
 function styled(field, style) {

@@ -53,11 +53,23 @@ function changed({ path, text, unit, start, rebuild }) {
   return go({ rebuild });
 }
 
+/** The state of an address; a design whose start nobody knows becomes the paper's screw, and that is said. */
+function readState() {
+  const found = states.read(location.hash);
+  const known = new Set([...Object.keys(vocabulary.starts), ...vocabulary.rows.map((row) => row.name)]);
+  const unknown = found.designs.filter((one) => !known.has(one.start)).map((one) => one.start);
+  found.designs = found.designs.map((one) => (known.has(one.start) ? one : states.design()));
+  notice(unknown.length ? `The link starts from ${unknown.join(" and ")}, not known here: in its place stands the paper's screw.` : "");
+  return found;
+}
+
 /** Write the state into the address, and show what it means. ``keep`` leaves the state before to the button Back. */
 async function go({ rebuild = false, keep = false, only = "" } = {}) {
   const address = states.written(state);
   if (address !== location.hash) history[keep ? "pushState" : "replaceState"](null, "", address);
-  if (rebuild) await showForm();
+  if (keep) notice("");
+  try { if (rebuild) await showForm(); }
+  catch (problem) { results.fail([silent(problem)]); return; }
   if (only !== "form") await update();
 }
 
@@ -65,9 +77,7 @@ async function showForm() {
   units.setSystem(state.system);
   byId("system").value = units.currentSystem();
   byId("band").checked = state.band;
-  let start;
-  try { start = await startOf(current().start); }
-  catch (problem) { results.fail(problem.lines ?? [String(problem)]); return; }
+  const start = await startOf(current().start);
   const tables = states.tables(start, current().changes, form.fieldOf);
   const at = (path) => path.split(".").reduce((table, name) => (table && typeof table === "object" ? table[name] : undefined), tables);
   const law = (path) => {
@@ -78,6 +88,11 @@ async function showForm() {
   form.build(state, vocabulary, at, law);
   if (focused) byId(focused)?.focus();
   tabs();
+}
+
+function notice(text) {
+  byId("notice").textContent = text;
+  byId("notice").hidden = !text;
 }
 
 function tabs() {
@@ -131,12 +146,14 @@ async function update() {
     await Promise.all([swept, compare(signal)]);
   } catch (problem) {
     if (signal.aborted || problem.name === "AbortError") return;
-    if (!(problem instanceof Problem)) { results.fail([`The server does not answer (${problem.message}). Is it still running?`]); return; }
+    if (!(problem instanceof Problem)) { results.fail([silent(problem)]); return; }
     const homeless = form.showFaults(problem.faults);
     results.fail(homeless.length < problem.faults.length ? [...problem.lines] : problem.lines);
     compare(signal);
   }
 }
+
+function silent(problem) { return `The server does not answer (${problem.message}). Is it still running?`; }
 
 async function draw(body, answer, signal, began) {
   const { axial_load: load, screw_speed: speed } = answer.inputs.operation;
@@ -237,7 +254,7 @@ function listen() {
   });
   byId("models-button").addEventListener("click", models);
   byId("form").addEventListener("submit", (event) => event.preventDefault());
-  addEventListener("popstate", () => { state = states.read(location.hash); shown.band = null; go({ rebuild: true }); });
+  addEventListener("popstate", () => { state = readState(); shown.band = null; go({ rebuild: true }); });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { shown.redraw?.(); shown.redrawDesigns?.(); });
   downloads.build(() => ({ body: shown.body, answer: shown.answer, csv: torqueCsv, name: `ballscrew-${current().start}` }));
 }
@@ -247,7 +264,7 @@ async function begin() {
   units.learn(vocabulary);
   form.learn(schema, changed);
   byId("version").textContent = `Version ${vocabulary.version}.`;
-  state = states.read(location.hash);
+  state = readState();
   units.setSystem(state.system);
   listen();
   await go({ rebuild: true });

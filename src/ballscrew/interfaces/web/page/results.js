@@ -45,17 +45,17 @@ function bandOf(band, name) {
 /** Everything of one answer but its pictures. */
 export function show(answer, band) {
   const { results, words, warnings } = answer;
-  byId("case").textContent = words.title;
+  byId("case").textContent = units.sentence(words.title);
   byId("summary").textContent =
     `Friction torque ${units.shown("screw_torque", results.screw_torque)}, efficiency ${units.digits(results.efficiency)}.`;
   byId("verdicts").replaceChildren(...words.verdicts.map((line) =>
-    element("p", { class: /^(self-locking|skids|preload lost)/.test(line) ? "verdict careful" : "verdict" }, line)));
+    element("p", { class: /^(self-locking|skids|preload lost)/.test(line) ? "verdict careful" : "verdict" }, units.sentence(line))));
   const here = warnings.filter((warning) => !concern(warning));
   byId("verdicts").append(...here.map((line) => warningOf(line)));
   byId("numbers").replaceChildren(element("dl", {}, ...FIRST.filter((name) => results[name] !== undefined).map((name) =>
     element("div", {}, element("dt", {}, CALLED[name]), element("dd", {}, data(name, results[name]), bandOf(band?.band, name))))));
   contacts(answer, warnings);
-  byId("assumed").replaceChildren(element("ul", {}, ...words.assumed.map((line) => element("li", {}, line))),
+  byId("assumed").replaceChildren(element("ul", {}, ...words.assumed.map((line) => element("li", {}, units.sentence(line)))),
     element("p", { class: "small" }, `Model ${answer.provenance.model}, ballscrew ${answer.provenance.version}; sources: ${answer.provenance.references.join(", ")}.`));
   bandWords(band);
 }
@@ -81,7 +81,7 @@ function bandWords(band) {
   if (!band) { place.replaceChildren(); return; }
   if (band.pending) { place.replaceChildren(element("p", {}, "computing the band …")); return; }
   if (band.problem) { place.replaceChildren(element("p", { class: "warning" }, band.problem)); return; }
-  place.replaceChildren(...band.words.sentences.map((line) => element("p", {}, line)), element("p", { class: "small" }, band.words.inputs),
+  place.replaceChildren(...band.words.sentences.map((line) => element("p", {}, units.sentence(line))), element("p", { class: "small" }, band.words.inputs),
     ...band.warnings.filter((line) => !concern(line)).map((line) => element("p", { class: "small" }, line)));
 }
 

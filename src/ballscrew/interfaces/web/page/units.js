@@ -75,6 +75,17 @@ export function shown(name, value, count = 4) {
   return unit && text !== "–" ? `${text} ${spoken(unit)}` : text;
 }
 
+/** A sentence of the program in the units chosen: its numbers converted, its units as people write them. */
+export function sentence(text) {
+  const known = Object.keys(vocabulary.systems.inch).concat("µm").sort((a, b) => b.length - a.length);
+  const pattern = new RegExp(`(?<![\\w.])([-+]?\\d+(?:\\.\\d+)?(?:e[-+]?\\d+)?) (${known.join("|")})(?![\\w/])`, "g");
+  return text.replace(pattern, (_, number, written) => {
+    const unit = written.replace("µ", "u"), here = unitHere(unit);
+    const si = Object.keys(vocabulary.units).find((name) => entry(unit, name));
+    return here === unit ? `${number} ${spoken(unit)}` : `${digits(fromSI(toSI(Number(number), unit, si), here, si))} ${spoken(here)}`;
+  });
+}
+
 /** A heading of an axis or a column: what it is and its unit. */
 export function heading(name, words) {
   const unit = shownUnit(name);
