@@ -1,5 +1,5 @@
-# make demo: set up and reproduce the paper.  make test: set up and run the tests.
-.PHONY: demo test lint types layers docs bench readme clean
+# make demo: set up and reproduce the paper.  make test: set up and run the tests.  make app: the page in the browser.
+.PHONY: app demo test lint types layers docs bench readme clean
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -18,6 +18,9 @@ $(READY): pyproject.toml constraints.txt
 
 demo: $(READY)
 	$(BIN)/ballscrew reproduce olaru2005 --out out/olaru2005
+
+app: $(READY)
+	$(BIN)/ballscrew serve --open
 
 test: $(READY)
 	$(BIN)/pytest

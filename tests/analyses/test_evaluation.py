@@ -270,8 +270,17 @@ def test_without_a_compiler(monkeypatch):
 
 
 def test_unknown_engine():
-    with pytest.raises(bs.InputError, match=r"sweep.engine: unknown engine \(turbo\) · one of numpy, compiled"):
+    with pytest.raises(bs.InputError, match=r"sweep.engine: unknown engine \(turbo\) · one of numpy, compiled, model"):
         bs.sweep(MODELS["olaru2005"], SCREW, OIL, axial_load=[1.0], screw_speed=[1.0], engine="turbo")
+
+
+@pytest.mark.parametrize("name", ["olaru2005", "corrected", "reference"])
+def test_the_model_itself_says_what_its_recording_says(name):
+    """Also at rest and without load; they differ by rounding alone."""
+    axes = {"axial_load": [0.0, 20.0, 400.0, 4000.0], "screw_speed": [0.0, 5.0, 60.0], "lead": [0.005, 0.02]}
+    recorded, itself = (bs.sweep(MODELS[name], SCREW, OIL, engine=engine, **axes) for engine in ("numpy", "model"))
+    xr.testing.assert_allclose(recorded, itself, rtol=1e-9)
+    assert list(recorded.dims) == list(itself.dims)
 
 
 @pytest.mark.compiles
