@@ -11,7 +11,9 @@ from ballscrew.interfaces import drawing_contact, drawing_section, svg
 from ballscrew.interfaces.answer import Answer
 from ballscrew.interfaces.drawn_ball import drawn_ball
 
-WIDTH, HEIGHT = 600.0, 392.0
+WIDTH = 600.0
+#: What is left below the last line.
+_MARGIN = 8.0
 
 
 def drawing(answer: Answer) -> str:
@@ -23,5 +25,7 @@ def drawing(answer: Answer) -> str:
     which = "The most loaded ball" if ball.most_loaded else "A ball"
     title = f"{which} between screw and nut: {answers.title(answer.case)}"
     words = [*drawing_section.in_words(ball), *drawing_contact.in_words(ball)]
-    parts = [*drawing_section.section(ball), *drawing_contact.contact(ball)]
-    return svg.document(WIDTH, HEIGHT, title, " ".join(words), parts)
+    panels = drawing_section.section(ball), drawing_contact.contact(ball)
+    height = max(panel.bottom for panel in panels) + _MARGIN
+    parts = [part for panel in panels for part in panel.parts]
+    return svg.document(WIDTH, height, title, " ".join(words), parts)

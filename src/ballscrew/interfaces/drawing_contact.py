@@ -10,7 +10,7 @@ from typing import NamedTuple
 from ballscrew.components.contact import RaceState
 from ballscrew.interfaces import svg, units
 from ballscrew.interfaces.drawn_ball import DrawnBall, DrawnContact, SlipField
-from ballscrew.interfaces.svg import BLUE, FAINT, GREEN, RED, TEXT, TITLE, Point
+from ballscrew.interfaces.svg import BLUE, FAINT, GREEN, RED, TEXT, TITLE, Panel, Point
 from ballscrew.quantities import quantities_of
 
 #: The left end of the panel, the middle of the ellipse and what is above it, and the most its semi-axes may take.
@@ -24,11 +24,12 @@ _CONTACT = quantities_of(RaceState)
 _SLIP = _CONTACT["creep_speed"]
 
 
-def contact(ball: DrawnBall) -> list[str]:
+def contact(ball: DrawnBall) -> Panel:
     """The ellipse to scale, the lines of pure rolling, the slip as arrows, and what is to be said of them."""
     parts = [svg.text((_LEFT, 20), "Contact of ball and screw", TITLE, font_weight="bold")]
     if ball.contact is None:
-        return [*parts, *_paragraph(ball.missing, 60)]
+        lines = _paragraph(ball.missing, 60)
+        return Panel([*parts, *lines.parts], lines.bottom)
     touching = ball.contact
     place = Place.of(touching)
     outline = (place.middle, place.across, place.along)
@@ -39,7 +40,9 @@ def contact(ball: DrawnBall) -> list[str]:
     if touching.slip is not None:
         parts += _arrows(touching, touching.slip, place)
     bottom = place.middle[1] + place.along + 74
-    return [*parts, *_axes(touching, place), *_legend(touching, bottom), *_captions(ball, touching, bottom)]
+    lines = _paragraph(" ".join(in_words(ball)[1:]), bottom + (0 if touching.slip is None else 22))
+    parts += [*_axes(touching, place), *_legend(touching, bottom), *lines.parts]
+    return Panel(parts, lines.bottom)
 
 
 class Place(NamedTuple):
@@ -150,13 +153,9 @@ def _legend(contact: DrawnContact, y: float) -> list[str]:
     return parts
 
 
-def _captions(ball: DrawnBall, contact: DrawnContact, y: float) -> list[str]:
-    return _paragraph(" ".join(in_words(ball)[1:]), y + (0 if contact.slip is None else 22))
-
-
-def _paragraph(words: str, y: float) -> list[str]:
+def _paragraph(words: str, y: float) -> Panel:
     lines = textwrap.wrap(words, _CHARACTERS)
-    return [svg.text((_LEFT, y + _LINE * i), line, TEXT) for i, line in enumerate(lines)]
+    return Panel([svg.text((_LEFT, y + _LINE * i), line) for i, line in enumerate(lines)], y + _LINE * (len(lines) - 1))
 
 
 def in_words(ball: DrawnBall) -> Sequence[str]:

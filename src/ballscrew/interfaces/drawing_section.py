@@ -8,7 +8,7 @@ from ballscrew.components.contact import RaceState
 from ballscrew.components.screw import BallScrew
 from ballscrew.interfaces import svg, units
 from ballscrew.interfaces.drawn_ball import DrawnBall, Flank
-from ballscrew.interfaces.svg import FAINT, GREEN, TEXT, TITLE, Point
+from ballscrew.interfaces.svg import FAINT, GREEN, TEXT, TITLE, Panel, Point
 from ballscrew.quantities import fields_of, quantities_of
 
 #: The middle of the ball, and its radius.
@@ -59,7 +59,7 @@ class Groove:
         return first, last
 
 
-def section(ball: DrawnBall) -> list[str]:
+def section(ball: DrawnBall) -> Panel:
     """The ball, its grooves, its contacts and their angle, a scale, and the sizes in words."""
     flanks = {flank.side: flank for flank in ball.flanks}
     main = max(ball.flanks, key=lambda flank: flank.load)
@@ -80,11 +80,10 @@ def section(ball: DrawnBall) -> list[str]:
     parts.append(svg.circle(BALL, RADIUS, stroke_width=1.6))
     for flank in ball.flanks:
         parts += _normal(ball, flank)
-    return [*parts, *_angle(main, _on_both_sides(ball)), *_scale_bar(ball), *_section_notes(ball)]
-
-
-def _on_both_sides(ball: DrawnBall) -> bool:
-    return len(ball.flanks) > 1
+    parts += [*_angle(main, both=len(ball.flanks) > 1), *_scale_bar(ball)]
+    notes, y = _sizes_in_words(ball), BALL[1] + RADIUS + _BODY + 22
+    parts += [svg.text((8, y + _LINE * i), words) for i, words in enumerate(notes)]
+    return Panel(parts, y + _LINE * (len(notes) - 1))
 
 
 def _body(left: Groove, right: Groove, land: float, down: int) -> list[str]:
@@ -138,7 +137,7 @@ def _scale(ball: DrawnBall) -> float:
     return 2 * RADIUS / ball.ball_diameter
 
 
-def _angle(flank: Flank, both: bool) -> list[str]:
+def _angle(flank: Flank, *, both: bool) -> list[str]:
     """The contact angle against the radius."""
     radius, side = 0.5 * RADIUS, flank.side
     start = (BALL[0], BALL[1] - radius)
@@ -166,11 +165,6 @@ def _scale_bar(ball: DrawnBall) -> list[str]:
         *(svg.line((end[0], y - 4), (end[0], y + 4), stroke_width=1.2) for end in ends),
         svg.text((x - wide / 2, y - 7), f"{length:.6g} mm", TEXT, "middle"),
     ]
-
-
-def _section_notes(ball: DrawnBall) -> list[str]:
-    y = BALL[1] + RADIUS + _BODY + 22
-    return [svg.text((8, y + _LINE * i), words, TEXT) for i, words in enumerate(_sizes_in_words(ball))]
 
 
 def _sizes_in_words(ball: DrawnBall) -> list[str]:

@@ -10,8 +10,18 @@ import html
 import math
 import re
 from collections.abc import Sequence
+from typing import NamedTuple
 
 Point = tuple[float, float]
+
+
+class Panel(NamedTuple):
+    """Elements, and the foot of the last line of text."""
+
+    parts: Sequence[str]
+    bottom: float
+
+
 #: What may not stand in XML at all, not even escaped.
 _FORBIDDEN = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _FONT = "DejaVu Sans, sans-serif"
