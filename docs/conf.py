@@ -8,6 +8,7 @@ sys.path[:0] = [str(HERE / "_ext"), str(HERE)]
 
 import ballscrew  # noqa: E402  (after the path of the extension)
 import effect_tables  # noqa: E402  (likewise)
+import theory_numbers  # noqa: E402  (likewise)
 import validation_tables  # noqa: E402  (likewise)
 
 project = "ballscrew"
@@ -15,15 +16,24 @@ author = "The ballscrew authors"
 copyright = "2026, the ballscrew authors"
 version = release = ballscrew.__version__
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinxcontrib.bibtex", "mathml"]
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.viewcode",
+    "sphinxcontrib.bibtex",
+    "mathml",
+    "command",
+    "equation",
+]
 myst_enable_extensions = ["dollarmath", "colon_fence", "deflist", "substitution"]
 myst_heading_anchors = 3
-myst_substitutions = {**effect_tables.numbers(), **validation_tables.numbers()}
+myst_substitutions = {**effect_tables.numbers(), **validation_tables.numbers(), **theory_numbers.numbers()}
 html_math_renderer = "mathml"
 html_theme = "furo"
 html_title = "ballscrew"
 html_static_path = ["_static"]
-html_css_files = ["tables.css"]
+html_css_files = ["tables.css", "theory.css"]
 exclude_patterns = ["generated/**"]
 bibtex_bibfiles = [str(HERE.parent / "src/ballscrew/data/references.bib")]
 autodoc_member_order = "bysource"
@@ -35,9 +45,11 @@ def generate(_app):
     """What the pages include: claims and figures of the paper, effects, laws, fields, accuracy, bands, fits."""
     import accuracy_table
     import calibration_pages
+    import errata_page
     import law_tables
     import nut_tables
     import sensitivity_figures
+    import theory_figures
     import uncertainty_tables
     from ballscrew.interfaces.reproduce import reproduce_olaru2005
     from column_table import column_table
@@ -60,6 +72,8 @@ def generate(_app):
     uncertainty_tables.write(generated / "uncertainty")
     sensitivity_figures.write(generated / "sensitivity")
     calibration_pages.write(generated / "calibration")
+    theory_figures.write(generated / "theory")
+    errata_page.write(generated / "theory")
     reproduce_olaru2005(generated / "olaru2005")
 
 

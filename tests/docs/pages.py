@@ -55,7 +55,7 @@ def blocks(page: Path) -> list[Block]:
         found.append(
             Block(
                 fence["info"].strip(),
-                "\n".join(lines[first + 1 : number]) + "\n",
+                "".join(f"{line}\n" for line in lines[first + 1 : number]),
                 first + 1,
                 marker["reason"] if marker else "",
             )

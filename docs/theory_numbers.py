@@ -1,0 +1,93 @@
+"""The numbers in the text of the pages on theory."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+from ballscrew.analyses.effects import CASES, CATALOGUE
+from ballscrew.components.materials import Lubricant
+from ballscrew.equations import friction, hertz, kinematics, preload, transmission
+from ballscrew.model import FrictionModel
+
+REFERENCE = FrictionModel.reference()
+
+
+def numbers() -> dict[str, str]:
+    """By name, as they stand in the text."""
+    found: dict[str, str] = {}
+    for name, case in CASES.items():
+        result = case.result(REFERENCE)
+        s, n, screw = result.screw, result.nut, case.screw
+        rolls = kinematics.ball_rotation(result.entrainment_speed, screw.ball_diameter) / case.screw_speed
+        sideways = 1e3 * kinematics.torsion_speed(case.screw_speed, screw.ball_diameter, screw.lead_angle)
+        by_chain = 1e3 * screw.loaded_balls * result.ball_to_ball_force * result.frame.path_radius
+        found |= {
+            f"t_{name}_angle": f"{math.degrees(float(screw.lead_angle)):.2f}",
+            f"t_{name}_gamma": f"{float(result.frame.curvature_ratio):.3f}",
+            f"t_{name}_load": f"{float(result.contact_load):.0f}",
+            f"t_{name}_orbit": f"{float(kinematics.orbital_rotation(1.0, n.contact_radius) / _screw_turn(result)):.3f}",
+            f"t_{name}_turns": f"{float(rolls):.1f}",
+            f"t_{name}_lateral": f"{float(sideways):.1f}",
+            f"t_{name}_k": f"{float(s.radii_ratio):.1f}",
+            f"t_{name}_long": f"{1e3 * float(s.semi_major_axis):.2f}",
+            f"t_{name}_short": f"{1e3 * float(s.semi_minor_axis):.2f}",
+            f"t_{name}_pressure": f"{float(s.maximum_pressure) / 1e9:.2f}",
+            f"t_{name}_approach": f"{1e6 * float(_approach(s)):.1f}",
+            f"t_{name}_film": f"{1e6 * float(s.minimum_film_thickness):.2f}",
+            f"t_{name}_lambda": f"{float(s.film_parameter):.2f}",
+            f"t_{name}_mu": f"{float(s.friction_coefficient):.3f}",
+            f"t_{name}_screw_torque": f"{float(result.screw_torque):.3f}",
+            f"t_{name}_nut_torque": f"{float(result.nut_torque):.3f}",
+            f"t_{name}_split": f"{1e3 * float(result.screw_torque - result.nut_torque):.1f}",
+            f"t_{name}_chain": f"{float(by_chain):.1f}",
+            f"t_{name}_power": f"{float(result.friction_power):.1f}",
+            f"t_{name}_efficiency": f"{float(result.efficiency):.3f}",
+            f"t_{name}_back": f"{float(result.back_driving_efficiency):.3f}",
+            f"t_{name}_ideal": f"{float(result.ideal_torque):.2f}",
+            f"t_{name}_hold": f"{float(result.holding_torque):.2f}",
+            f"t_{name}_rolling": f"{_percent(result.contributions['hydrodynamic_rolling'] / result.screw_torque)}",
+            f"t_{name}_steel": f"{_percent(result.contributions['elastic_hysteresis'] / result.screw_torque)}",
+        }
+    offset = float(friction.offset_from_traction(0.0))
+    plain = float(transmission.classical_efficiency(CATALOGUE.screw.lead_angle, math.atan(0.1)))
+    found |= {
+        "t_offset": f"{offset:.4f}",
+        "t_slow_film": f"{2**0.68:.2f}",
+        "t_heavy_film": f"{100 * (1 - 2**-0.073):.0f}",
+        "t_lift": f"{float(preload.lift_off_load(1.0)):.2f}",
+        "t_plain": f"{plain:.2f}",
+        "t_centre": f"{1e3 * float(_centre_distance()):.2f}",
+        "t_cold": _film_at(0.0),
+        "t_warm": _film_at(70.0),
+    }
+    return found
+
+
+def _screw_turn(result) -> float:
+    """Speed of the screw for an entrainment speed of one."""
+    return float(result.screw_speed / result.entrainment_speed)
+
+
+def _approach(contact):
+    k = contact.radii_ratio
+    kappa = hertz.ellipticity(k)
+    integrals = hertz.elliptic_integrals(kappa)
+    coefficient = hertz.approach_coefficient(k, kappa, integrals.K, integrals.E)
+    W = contact.contact_load / (contact.equivalent_modulus * contact.rolling_radius**2)
+    return hertz.mutual_approach(coefficient, contact.rolling_radius, W)
+
+
+def _centre_distance():
+    """Distance of the groove centres of the catalogue screw, m."""
+    screw = CATALOGUE.screw
+    return (screw.screw_conformity + screw.nut_conformity - 1) * screw.ball_diameter
+
+
+def _film_at(celsius: float) -> str:
+    oil = Lubricant.from_grade("ISO VG 100", temperature=celsius + 273.15)
+    return f"{float(dataclasses.replace(CATALOGUE, oil=oil).result(REFERENCE).screw.film_parameter):.1f}"
+
+
+def _percent(share) -> str:
+    return f"{100 * float(share):.0f} %"

@@ -1,0 +1,284 @@
+"""Figures of the pages on theory: slip, balance, efficiency, the nut, its life, and the repairs of the paper."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ballscrew.analyses.effect_curves import over_lead
+from ballscrew.analyses.effects import CASES, CATALOGUE, PAPER, RPM
+from ballscrew.analyses.olaru2005.repairs import repairs
+from ballscrew.components.materials import Lubricant
+from ballscrew.equations import life, preload, slip, transmission
+from ballscrew.interfaces.figures import style
+from ballscrew.interfaces.figures.effects import case_caption, mathtext
+from ballscrew.model import FrictionModel
+from ballscrew.result import MECHANISMS
+from ballscrew.solvers.line_slip import creep_of_lines, pure_rolling_lines
+
+REFERENCE = FrictionModel.reference()
+CELSIUS = 273.15
+
+
+def slip_lines() -> Figure:
+    """Slip across the contact with more and more spin, and the lines of pure rolling."""
+    figure, (profile, lines) = style.new_figure(
+        mathtext(
+            "Slip on the line across the contact, from curvature (C at the rim) and spin (E_s times as much), with the "
+            "creep at which no net force is left. Right: where the slip is zero, without a net force and with half of "
+            "the greatest."
+        )
+    )
+    t = np.linspace(-1, 1, 201)
+    for E_s, colour, line in zip((0.0, 0.5, 1.0, 1.5), style.GROWING, style.LINE_STYLES, strict=False):
+        found = pure_rolling_lines(np.asarray(E_s), np.asarray(0.0))
+        creep = float(creep_of_lines(found, 1.0, E_s))
+        profile.plot(
+            t, slip.path_slip_speed(creep, E_s, 1.0, t, t**2), color=colour, ls=line, label=mathtext(f"E_s = {E_s:g}")
+        )
+        at = [float(found.upper), *([float(found.lower)] if found.are_two else [])]
+        profile.plot(at, [0.0] * len(at), "o", color=colour, markersize=5)
+    profile.axhline(0, color=style.GREY, linewidth=0.9)
+    profile.set_xlabel("height in the contact t = y/a (1)")
+    profile.set_ylabel("slip s/C (1)")
+    profile.set_title("Slip with spin")
+    profile.set_xlim(-1, 1)
+    profile.set_xticks([-1, -0.5, 0, 0.5, 1])
+    profile.legend(loc="upper left")
+    spin = np.linspace(0, 2.5, 501)
+    for T, colour, line in ((0.0, style.BLUE, "-"), (0.5, style.RED, "--")):
+        found = pure_rolling_lines(spin, np.full_like(spin, T))
+        lines.plot(spin, found.upper, color=colour, ls=line, label=f"T = {T:g}")
+        lines.plot(spin, np.where(found.are_two, found.lower, np.nan), color=colour, ls=line)
+    lines.set_xlabel(mathtext("spin parameter E_s (1)"))
+    lines.set_ylabel("heights of pure rolling (1)")
+    lines.set_title("Two lines, then one")
+    lines.set_xlim(0, 2.5)
+    lines.set_ylim(-1.05, 1.05)
+    lines.legend(loc="upper right")
+    return figure
+
+
+def power() -> Figure:
+    """Power that goes in against power that is dissipated, by model."""
+    figure, panels = style.new_figure(
+        case_caption(
+            CASES,
+            "Black: what friction takes from the shaft, its torque times the speed. Coloured: what the mechanisms "
+            "dissipate, each from its own forces and speeds. Beside them: the difference.",
+        ),
+        height=3.4,
+    )
+    models = (FrictionModel.olaru2005(), FrictionModel.corrected(), REFERENCE)
+    for panel, case in zip(panels, CASES.values(), strict=True):
+        panel.set_title(case.title)
+        largest = 0.0
+        for row, model in enumerate(models):
+            result = case.result(model)
+            given = float(result.screw_torque) * case.screw_speed
+            panel.barh(row - 0.2, given, height=0.36, color=style.INK, label="into the shaft" if row == 0 else None)
+            left = 0.0
+            for mechanism, colour in style.MECHANISM_COLOURS.items():
+                part = float(result.dissipation[mechanism])
+                panel.barh(
+                    row + 0.2,
+                    part,
+                    left=left,
+                    height=0.36,
+                    color=colour,
+                    label=MECHANISMS[mechanism] if row == 0 else None,
+                )
+                left += part
+            missing = 100 * (given / left - 1)
+            words = f"{missing:+.1f} %".replace("-", "−") if abs(missing) > 1e-6 else "equal"
+            panel.text(max(given, left), row, f"  {words}", va="center", fontsize=9)
+            largest = max(largest, given, left)
+        panel.set_yticks(range(len(models)), ["as printed", "corrected", "reference"])
+        panel.invert_yaxis()
+        panel.grid(visible=False, axis="y")
+        panel.set_xlim(0, 1.25 * largest)
+        panel.set_xlabel("power (W)")
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=4)
+    return figure
+
+
+def quadrants() -> Figure:
+    """The torque on the shaft in the four quadrants, and efficiencies over the lead angle."""
+    figure, (four, leads) = style.new_figure(
+        case_caption(
+            {"catalogue": CATALOGUE},
+            "Left: torque on the shaft; blue, the part of the load. Right: grey, screws as inclined planes with a "
+            "friction angle ρ, the last of them a plain thread with µ 0.1; blue, the catalogue screw with other leads, "
+            "at 10 rpm and 0 °C.",
+        )
+    )
+    result = CATALOGUE.result(REFERENCE)
+    ideal = float(result.ideal_torque)
+    for place, quadrant in enumerate(result.quadrants.values()):
+        shaft, of_load = float(quadrant.shaft_torque), quadrant.load_sign * ideal
+        first = place == 0
+        four.bar(place, of_load, width=0.6, color=style.SKY, label="of the load" if first else None)
+        ends = [place - 0.38, place + 0.38]
+        four.plot(ends, [shaft, shaft], color=style.RED, label="on the shaft" if first else None)
+        beyond = np.sign(shaft) * (max(abs(shaft), ideal) + 0.9)
+        four.text(place, beyond, f"{shaft:+.2f}".replace("-", "−"), ha="center", va="center", fontsize=9)
+    four.axhline(0, color=style.INK, linewidth=1)
+    names = ["screw drives\nforward", "load drives\nin reverse", "screw drives\nin reverse", "load drives\nforward"]
+    four.set_xticks(range(4), names, fontsize=8.5)
+    four.set_ylabel("torque on the shaft (N m)")
+    four.set_title("Four quadrants")
+    four.set_ylim(-1.4 * ideal, 1.75 * ideal)
+    four.grid(visible=False, axis="x")
+    four.legend(loc="upper right", ncols=2)
+    _efficiencies(leads)
+    return figure
+
+
+def _efficiencies(panel: Axes) -> None:
+    phi = np.radians(np.linspace(0.05, 20, 400))
+    for rho, words, height in ((0.3, "ρ = 0.3°", 1.0), (1.0, "ρ = 1°", 0.93), (5.7, "ρ = 5.7°", 0.72)):
+        angle = np.radians(rho)
+        drives = transmission.classical_efficiency(phi, angle)
+        driven = transmission.classical_back_driving_efficiency(phi, angle)
+        panel.plot(np.degrees(phi), drives, color=style.GREY, linewidth=1.2)
+        panel.plot(np.degrees(phi), np.where(driven > -0.3, driven, np.nan), color=style.GREY, ls="--", linewidth=1.2)
+        panel.text(20.2, height, words, fontsize=8.5, va="center", color=style.GREY)
+    oil = Lubricant.from_grade("ISO VG 100", temperature=CELSIUS)
+    lead, _ = over_lead(CATALOGUE)
+    found = dataclasses.replace(CATALOGUE, oil=oil).result(REFERENCE, lead=lead, screw_speed=10 * RPM)
+    angle = np.degrees(np.asarray(found.ball_screw.lead_angle))
+    panel.plot(angle, found.efficiency, color=style.BLUE, label="screw drives")
+    panel.plot(angle, found.back_driving_efficiency, color=style.BLUE, ls="--", label="load drives")
+    panel.axhspan(-0.3, 0, color=style.LIGHT_SHADE, zorder=0)
+    panel.text(10, -0.15, "the screw locks itself", fontsize=9, color=style.GREY, ha="center", va="center")
+    panel.set_xlabel("lead angle φ (°)")
+    panel.set_ylabel("efficiency (1)")
+    panel.set_title("Over the lead angle")
+    panel.set_xlim(0, 20)
+    panel.set_ylim(-0.3, 1.03)
+    panel.legend(loc="lower right", bbox_to_anchor=(1, 0.24))
+
+
+def halves() -> Figure:
+    """The loads of the halves of a double nut over their deflection, and over the load."""
+    x = np.linspace(-1.2, 1.6, 281)
+    forward, backward = preload.forward_half_load(1.0, np.maximum(x, -1)), preload.backward_half_load(1.0, x)
+    figure, (springs, shares) = style.new_figure(
+        mathtext(
+            "Two halves of a double nut as springs of Hertz contacts; loads in units of the preload, displacement in "
+            "units of what the preload alone approaches either half. Left: between the curves stands the load on the "
+            "nut. Right: what it leaves on either half; dotted: lift-off."
+        )
+    )
+    springs.plot(x, forward, color=style.BLUE, label="half that is loaded")
+    springs.plot(x, backward, color=style.RED, ls="--", label="half that is relieved")
+    at = 0.5
+    low, high = float(preload.backward_half_load(1.0, at)), float(preload.forward_half_load(1.0, at))
+    springs.annotate("", (at, high), (at, low), arrowprops={"arrowstyle": "<->", "color": style.INK})
+    springs.text(at + 0.06, (low + high) / 2, "load on the nut F", fontsize=9, va="center")
+    springs.plot(0, 1, "o", color=style.INK, markersize=5)
+    springs.annotate("preload", (0, 1), xytext=(-52, -4), textcoords="offset points", fontsize=9, va="center")
+    springs.set_xlabel("displacement of the nut x (1)")
+    springs.set_ylabel("load of the half / preload (1)")
+    springs.set_title("Two springs against each other")
+    springs.set_xlim(-1.2, 1.6)
+    springs.set_ylim(0, 4.3)
+    springs.legend(loc="upper left")
+    x = np.linspace(0, 1.4, 281)
+    loads = preload.forward_half_load(1.0, x), preload.backward_half_load(1.0, x)
+    outside = loads[0] - loads[1]
+    shares.plot(outside, loads[0], color=style.BLUE, label="half that is loaded")
+    shares.plot(outside, loads[1], color=style.RED, ls="--", label="half that is relieved")
+    shares.plot(outside, outside, color=style.GREY, linewidth=1, label="without preload")
+    shares.axvline(float(preload.lift_off_load(1.0)), color=style.GREY, linestyle=":", linewidth=1.2)
+    shares.set_xlabel("load on the nut / preload (1)")
+    shares.set_ylabel("load of the half / preload (1)")
+    shares.set_title("Who carries the load")
+    shares.set_xlim(0, float(outside[-1]))
+    shares.set_ylim(0, 4.3)
+    shares.legend(loc="upper left")
+    return figure
+
+
+def lives() -> Figure:
+    """The life of a double nut over its load, with more and less preload."""
+    rating = 1.0
+    figure, (by_load, by_preload) = style.new_figure(
+        mathtext(
+            "Double nut; loads and preloads as shares of the dynamic load rating C_a; revolutions that nine of ten "
+            "nuts outlive, both halves together. ISO 3408-5 as recalled."
+        )
+    )
+    load = np.linspace(0.02, 0.4, 191)
+    for share, colour, line in zip((0.0, 0.03, 0.07, 0.12), style.GROWING, style.LINE_STYLES, strict=False):
+        by_load.semilogy(
+            load,
+            double_nut_life(rating, load, share),
+            color=colour,
+            ls=line,
+            label=f"preload {share:.0%}".replace("%", " %"),
+        )
+    by_load.set_xlabel(mathtext("load on the nut F/C_a (1)"))
+    by_load.set_ylabel("life (revolutions)")
+    by_load.set_title("Over the load")
+    by_load.set_xlim(0, 0.4)
+    by_load.legend(loc="upper right")
+    share = np.linspace(0.005, 0.2, 196)
+    for at, colour, line in zip((0.05, 0.1, 0.2), style.GROWING[1:], style.LINE_STYLES, strict=False):
+        kept = double_nut_life(rating, np.full_like(share, at), share) / life.basic_life(rating, at)
+        by_preload.plot(share, kept, color=colour, ls=line, label=f"load {at:.0%}".replace("%", " %"))
+    by_preload.set_xlabel(mathtext("preload F_pr/C_a (1)"))
+    by_preload.set_ylabel("life / life without preload (1)")
+    by_preload.set_title("What a preload costs")
+    by_preload.set_xlim(0, 0.2)
+    by_preload.set_ylim(0, 1.05)
+    by_preload.legend(loc="upper right")
+    return figure
+
+
+def double_nut_life(rating, load, preload_force):
+    """Revolutions of both halves together; without a preload, of the one that carries the load."""
+    if np.all(preload_force == 0):
+        return life.basic_life(rating, load)
+    released = life.preload_release(load, preload_force)
+    relieved = life.relieved_half_load(preload_force, released)
+    loaded = load + relieved
+    tiny = 1e-12 * rating  # a half that is free lasts for ever
+    return life.combined_life(life.basic_life(rating, loaded), life.basic_life(rating, np.maximum(relieved, tiny)))
+
+
+def repair_steps() -> Figure:
+    """Torque and efficiency of the paper's case after each repair."""
+    found = repairs()
+    figure, (alone, together) = style.new_figure(
+        case_caption({"paper": PAPER}, "Left: the printed model with one repair. Right: with all so far."),
+        height=3.3, sharey=True,
+    )  # fmt: skip
+    for panel, torques, title in (
+        (alone, [step.torque_alone for step in found], "One repair alone"),
+        (together, [step.torque_so_far for step in found], "One after the other"),
+    ):
+        panel.barh(range(len(found)), torques, height=0.62, color=[style.GREY, *[style.SKY] * (len(found) - 1)])
+        for row, torque in enumerate(torques):
+            panel.text(torque, row, f" {torque:.4f}", va="center", fontsize=9)
+        panel.axvline(torques[0], color=style.INK, linestyle=":", linewidth=1)
+        panel.set_title(title)
+        panel.set_xlabel(mathtext("friction torque M_S (N m)"))
+        panel.set_xlim(0, 1.22 * max(torques))
+        panel.grid(visible=False, axis="y")
+    alone.set_yticks(range(len(found)), [mathtext(step.words) for step in found], fontsize=8.5)
+    alone.invert_yaxis()
+    return figure
+
+
+FIGURES = {
+    "slip_lines": slip_lines,
+    "power": power,
+    "quadrants": quadrants,
+    "halves": halves,
+    "lives": lives,
+    "repairs": repair_steps,
+}

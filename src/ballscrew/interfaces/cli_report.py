@@ -1,0 +1,54 @@
+"""``ballscrew report``: a case as a file to read and to keep. The work is done in ``interfaces/report_content``."""
+
+from __future__ import annotations
+
+import importlib.util
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from ballscrew.faults import Fault, InputError
+
+#: What each kind of file needs beyond the core.
+_NEEDS = {".html": ("jinja2",), ".pdf": ("typst",)}
+_KINDS: dict[str, Literal["pdf", "html"]] = {".html": "html", ".pdf": "pdf"}
+_TO = "--to"
+
+
+def report(
+    case: Annotated[Path, typer.Argument(help="Case file (TOML), for example examples/catalogue_screw.toml.")],
+    to: Annotated[Path, typer.Option("--to", "-o", metavar="FILE", help="What to write: .pdf or .html.")],
+    model: Annotated[str | None, typer.Option("--model", metavar="NAME", help="{models}; wins over the file.")] = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set operation.axial_load="4 kN".'),
+    ] = None,
+    samples: Annotated[
+        int | None, typer.Option("--samples", metavar="N", help="Of the band: 16384; of a whole nut 1024.")
+    ] = None,
+) -> None:
+    """A report to file: drawing, results, curves, band, checks, inputs and sources on four pages.
+
+    The .html is one file that asks for nothing from outside; the .pdf can be read by machines, too (PDF/UA-1). The
+    same case gives the same bytes.
+    """
+    kind = to.suffix.lower()
+    if kind not in _NEEDS:
+        raise InputError(Fault(_TO, "unknown kind of file", str(to), "end it in .pdf or .html"))
+    missing = [name for name in _NEEDS[kind] if importlib.util.find_spec(name) is None]
+    if missing:
+        raise InputError(Fault(_TO, f"needs {' and '.join(missing)}", str(to), 'pip install "ballscrew[report]"'))
+    from ballscrew.interfaces import config
+    from ballscrew.interfaces.files import check_writable, whole
+
+    loaded = config.load(case, settings or [], model)
+    check_writable(_TO, to)
+    from ballscrew.interfaces.progress import progress
+    from ballscrew.interfaces.report_content import report_bytes
+
+    with progress("report") as done:
+        written = report_bytes(loaded, _KINDS[kind], done, samples)
+    with whole(_TO, to) as path:
+        path.write_bytes(written)
+    typer.echo(f"{to}: report of {case.name}, {len(written) // 1000} kB")

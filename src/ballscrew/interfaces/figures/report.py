@@ -1,0 +1,167 @@
+"""The curves of a report, as SVG that reads as text and follows the page into the dark."""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+import threading
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib import patheffects
+from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.figure import Figure
+
+from ballscrew.interfaces import svg
+from ballscrew.interfaces.figures import style
+from ballscrew.interfaces.report_curves import Curves
+from ballscrew.result import MECHANISMS
+
+#: Inches: the width of an A4 page between its margins.
+_WIDTH, _HEIGHT = 7.1, 2.5
+_SMALL: Any = {
+    "font.size": 8.5, "axes.titlesize": 9, "axes.labelsize": 8.5, "legend.fontsize": 7.5, "xtick.labelsize": 8,
+    "ytick.labelsize": 8, "lines.linewidth": 1.5, "svg.fonttype": "none", "figure.facecolor": "none",
+    "axes.facecolor": "none", "legend.framealpha": 0.0,
+}  # fmt: skip
+_SPEED, _LOAD = "speed of the screw (rpm)", "axial load (N)"
+#: From pale to strong, so that black numbers are read on it.
+_PALE = LinearSegmentedColormap.from_list("pale", ["#F7FBFF", "#9ECAE1"])
+#: Losses of the nut, which have no colour of their own.
+_OTHERS = (style.GREY, style.YELLOW, "#999999")
+_HERE: Mapping[str, Any] = {"color": style.RED, "linewidth": 1.0, "linestyle": "--"}
+#: The style of matplotlib is one for all threads.
+_LOCK = threading.Lock()
+
+
+def pictures(curves: Curves) -> dict[str, str]:
+    """All figures by name, as SVG text without a title."""
+    drawn: Mapping[str, Callable[[Curves], Figure]] = {"speed": _over_speed, "load": _over_load, "maps": _maps}
+    with _LOCK, style.house_style():
+        style.mpl.rcParams.update(_SMALL)
+        return {name: _text_of(draw(curves), name) for name, draw in drawn.items()}
+
+
+def _panels() -> tuple[Figure, Axes, Axes]:
+    figure = Figure(figsize=(_WIDTH, _HEIGHT), layout="constrained")
+    panels: Any = figure.subplots(1, 2)
+    left, right = panels
+    return figure, left, right
+
+
+def _over_speed(curves: Curves) -> Figure:
+    figure, left, right = _panels()
+    parts = {name: part for name, part in curves.parts.items() if np.any(np.nan_to_num(part))}
+    others = iter(_OTHERS * len(parts))
+    colours = [style.MECHANISM_COLOURS.get(name) or next(others) for name in parts]
+    labels = [MECHANISMS.get(name, name) for name in parts]
+    if parts:
+        stacked = np.nan_to_num(np.stack(list(parts.values())))
+        left.stackplot(curves.speeds, stacked, colors=colours, labels=labels, alpha=0.9, linewidth=0)
+        total = stacked.sum(axis=0)
+        left.plot(curves.speeds, total, color=style.INK, linewidth=1.2)
+        left.set_ylim(0, 1.5 * float(np.max(total)) or 1.0)
+        handles, names = left.get_legend_handles_labels()
+        left.legend(handles[::-1], names[::-1], loc="upper center", ncols=2)
+    _frame(left, curves.here[0], curves.speeds, _SPEED, "friction torque on the screw (N m)")
+    left.set_title("Torque and its parts over the speed")
+    _lines(right, curves.speeds, curves.films)
+    _frame(right, curves.here[0], curves.speeds, _SPEED, "film parameter λ")
+    right.set_title("Film over the speed")
+    return figure
+
+
+def _over_load(curves: Curves) -> Figure:
+    figure, left, right = _panels()
+    left.plot(curves.loads, curves.efficiency, color=style.BLUE, label="screw drives")
+    back = np.where(curves.back_driving_efficiency < 0, np.nan, curves.back_driving_efficiency)
+    left.plot(curves.loads, back, color=style.ORANGE, linestyle="--", label="load drives")
+    left.set_ylim(0, 1)
+    left.legend(loc="lower right")
+    _frame(left, curves.here[1], curves.loads, _LOAD, "efficiency")
+    left.set_title("Efficiency over the load")
+    _lines(right, curves.loads, curves.pressure)
+    _frame(right, curves.here[1], curves.loads, _LOAD, "greatest pressure (GPa)")
+    right.set_title("Contact pressure over the load")
+    return figure
+
+
+def _lines(panel: Axes, x: Any, lines: Mapping[str, Any]) -> None:
+    for (words, y), colour, dashes in zip(lines.items(), (style.BLUE, style.ORANGE), ("-", "--"), strict=False):
+        panel.plot(x, y, color=colour, linestyle=dashes, label=words)
+    panel.legend(loc="lower right")
+
+
+def _frame(panel: Axes, here: float, x: Any, across: str, up: str) -> None:
+    panel.axvline(here, **_HERE)
+    panel.set_xlim(0, float(x[-1]))
+    panel.set_ylim(bottom=0)
+    panel.set_xlabel(across)
+    panel.set_ylabel(up)
+
+
+def _maps(curves: Curves) -> Figure:
+    figure, left, right = _panels()
+    for panel, values, title in (
+        (left, curves.map_efficiency, "Efficiency"),
+        (right, curves.map_torque, "Friction torque on the screw (N m)"),
+    ):
+        _map(panel, curves, np.ma.masked_invalid(values))
+        panel.set_title(title)
+    return figure
+
+
+def _map(panel: Axes, curves: Curves, values: Any) -> None:
+    low, high = (float(values.min()), float(values.max())) if values.count() else (math.nan, math.nan)
+    panel.grid(visible=False)
+    if math.isfinite(low) and math.isfinite(high) and high > low:
+        x, y = curves.map_speeds, curves.map_loads
+        # steps that are closer where the values are closer: as many places of the map between each two
+        levels = np.unique([float(f"{level:.2g}") for level in np.quantile(values.compressed(), np.linspace(0, 1, 9))])
+        panel.contourf(x, y, values, levels=40, cmap=_PALE)
+        lines = panel.contour(x, y, values, levels=levels, colors=[style.BLUE], linewidths=0.8)
+        panel.clabel(lines, fontsize=7, colors=["#000000"])
+    panel.plot(
+        *curves.here, "o", color=style.RED, markersize=6, clip_on=False,
+        path_effects=[patheffects.withStroke(linewidth=2.5, foreground="white")],
+    )  # fmt: skip
+    panel.set_xlim(0, float(curves.map_speeds[-1]))
+    panel.set_ylim(0, float(curves.map_loads[-1]))
+    panel.set_xlabel(_SPEED)
+    panel.set_ylabel(_LOAD)
+
+
+def _text_of(figure: Figure, name: str) -> str:
+    """The SVG of a figure: identifiers of its own, ink in the colour of the page, no style that leaks."""
+    buffer = io.BytesIO()
+    style.save_as(figure, buffer, "svg")
+    text = buffer.getvalue().decode()
+    text = text[text.index("<svg") :]
+    text = re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.DOTALL)
+    text = re.sub(r"<defs>\s*<style[^>]*>.*?</style>\s*</defs>\s*", "", text, flags=re.DOTALL)
+    text = re.sub(r"<!--.*?-->\s*", "", text, flags=re.DOTALL)
+    text = re.sub(r'\bid="', f'id="{name}-', text)
+    text = re.sub(r"url\(#", f"url(#{name}-", text)
+    text = re.sub(r'href="#', f'href="#{name}-', text)
+    text = re.sub(style.INK, "currentColor", text, flags=re.IGNORECASE)
+    text = re.sub(style.GREY, "currentColor", text, flags=re.IGNORECASE)
+    text = re.sub(r"stroke: #e4e4e4", "stroke: currentColor; stroke-opacity: 0.14", text, flags=re.IGNORECASE)
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="{_box(text)}"'
+    lines = 'stroke-linejoin="round" stroke-linecap="butt" fill="currentColor"'
+    return re.sub(r"<svg[^>]*>", f"{head} {lines}>", text, count=1)
+
+
+def _box(text: str) -> str:
+    box = re.search(r'viewBox="([^"]*)"', text)
+    assert box is not None
+    return box[1]
+
+
+def named(text: str, words: str) -> str:
+    """An SVG with its name in words, for those who cannot see it."""
+    return re.sub(
+        r"<svg([^>]*)>", lambda m: f'<svg{m[1]} role="img">\n<title>{svg.text_of(words)}</title>', text, count=1
+    )

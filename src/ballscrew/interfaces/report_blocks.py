@@ -1,0 +1,138 @@
+"""What a report is made of, as plain data: sections of paragraphs, lists, tables and pictures.
+
+Texts are texts: whoever writes a report to a file escapes them there.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, TypeAlias
+
+from ballscrew.interfaces import units
+from ballscrew.quantities import Quantity
+
+
+@dataclasses.dataclass(frozen=True)
+class Bar:
+    """A stretch of an axis from 0 to 1, with a mark on it where there is one; it repeats what numbers say."""
+
+    start: float
+    end: float
+    mark: float | None = None
+
+
+@dataclasses.dataclass(frozen=True)
+class Paragraph:
+    """Some sentences."""
+
+    text: str
+    strong: bool = False
+
+
+@dataclasses.dataclass(frozen=True)
+class Bullets:
+    """A list."""
+
+    entries: Sequence[str]
+
+
+@dataclasses.dataclass(frozen=True)
+class Links:
+    """Sources: words, and the address where they are found, if there is one."""
+
+    entries: Sequence[tuple[str, str]]
+
+
+@dataclasses.dataclass(frozen=True)
+class Table:
+    """Columns by heading, and rows. The first cell of a row is its heading; ``texts`` are the columns of words."""
+
+    title: str
+    columns: Sequence[str]
+    rows: Sequence[Sequence[str | Bar]]
+    texts: Sequence[int] = (0,)
+    #: The column that takes what room is left.
+    wide: int = 0
+    note: str = ""
+
+
+@dataclasses.dataclass(frozen=True)
+class Picture:
+    """An SVG drawing, what it shows in words, and what stands below it."""
+
+    svg: str
+    words: str
+    caption: str
+    #: Share of the width of a page.
+    width: float = 1.0
+
+
+@dataclasses.dataclass(frozen=True)
+class Columns:
+    """Tables that stand beside each other where there is room."""
+
+    left: Sequence[Table]
+    right: Sequence[Table]
+
+    @classmethod
+    def of(cls, tables: Sequence[Table]) -> Columns:
+        """Tables in their order, cut in two where both columns are as long as they can be alike."""
+        lengths = [_HEAD + len(table.rows) for table in tables]
+        cut = min(range(len(tables) + 1), key=lambda cut: max(sum(lengths[:cut]), sum(lengths[cut:])))
+        return cls(tables[:cut], tables[cut:])
+
+
+#: Rows that the title and the headings of a table take.
+_HEAD = 2.5
+#: From here on numbers have an exponent.
+_LARGE = 1e7
+Block: TypeAlias = Paragraph | Bullets | Links | Table | Picture | Columns
+
+
+@dataclasses.dataclass(frozen=True)
+class Section:
+    """A heading and what stands below it."""
+
+    title: str
+    blocks: Sequence[Block]
+
+
+@dataclasses.dataclass(frozen=True)
+class Report:
+    """A whole report."""
+
+    title: str
+    subtitle: Sequence[str]
+    sections: Sequence[Section]
+    #: What wrote it, on every page.
+    made_by: str
+
+
+def sentence(words: str) -> str:
+    """Words with a capital at their beginning."""
+    return f"{words[:1].upper()}{words[1:]}"
+
+
+def value(number: float, quantity: Quantity) -> str:
+    """A number with its unit, without an exponent where a person would write none; a dash where there is none."""
+    if not math.isfinite(number):
+        return "–"
+    digits, _, unit = units.shown(number + 0.0, quantity).partition(" ")
+    if "e+" in digits and abs(float(digits)) < _LARGE:
+        digits = f"{float(digits):.10g}"
+    return f"{digits} {unit}" if unit else digits
+
+
+def as_data(report: Report) -> dict[str, Any]:
+    """A report as JSON has it; each block and each bar with its kind."""
+
+    def data(part: Any) -> Any:
+        if dataclasses.is_dataclass(part) and not isinstance(part, type):
+            fields: Mapping[str, Any] = {f.name: data(getattr(part, f.name)) for f in dataclasses.fields(part)}
+            return {"kind": type(part).__name__, **fields}
+        return [data(each) for each in part] if isinstance(part, list | tuple) else part
+
+    found: dict[str, Any] = data(report)
+    return found

@@ -1,0 +1,104 @@
+"""The curves of a report: torque and its parts, efficiency, film and pressure around the operating point."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.analyses.outputs import OPERATION
+from ballscrew.components.screw import Operation
+from ballscrew.interfaces import units
+from ballscrew.interfaces.config import Case
+from ballscrew.quantities import fields_of
+
+Numbers = NDArray[np.float64]
+#: How far curves go beyond the operating point, and how many points they have.
+BEYOND, POINTS, MAP_POINTS, FIRST = 2.0, 61, 25, 0.02
+#: Where the curves of a case at rest or without load end.
+SPEED, LOAD, SHARE_OF_RATING = 1200 * np.pi / 30, 2000.0, 0.2
+_KNOWN = fields_of(Operation)
+
+
+class Curves(NamedTuple):
+    """What is drawn, in the units people think in: rpm, N, N m, GPa."""
+
+    here: tuple[float, float]
+    speeds: Numbers
+    #: Parts of the friction torque over the speed, at the load of the case.
+    parts: Mapping[str, Numbers]
+    #: Film parameters over the speed, by what they are of.
+    films: Mapping[str, Numbers]
+    loads: Numbers
+    #: Over the load, at the speed of the case.
+    efficiency: Numbers
+    back_driving_efficiency: Numbers
+    pressure: Mapping[str, Numbers]
+    map_loads: Numbers
+    map_speeds: Numbers
+    #: Over load (first axis) and speed.
+    map_efficiency: Numbers
+    map_torque: Numbers
+
+
+def friction_of(case: Case) -> Callable[[Any, Any], Any]:
+    """The friction of a case, or of its nut, at loads and speeds."""
+
+    def of(load: Any, speed: Any) -> Any:
+        if case.parts is None:
+            return case.model(case.screw, case.lubricant, axial_load=load, screw_speed=speed)
+        return case.parts.friction(case.model, case.screw, case.lubricant, axial_load=load, screw_speed=speed)
+
+    return of
+
+
+def curves(case: Case) -> Curves:
+    """The curves around the operating point of a case, from rest and from no load to twice of both."""
+    friction = friction_of(case)
+    load, speed = (float(getattr(case.operation, name)) for name in OPERATION)
+    rating = case.listed.get("dynamic_load_rating")
+    most_load = BEYOND * load or (LOAD if rating is None else SHARE_OF_RATING * rating)
+    most_speed = BEYOND * speed or SPEED
+    speeds, loads = (np.linspace(0.0, most, POINTS) for most in (most_speed, most_load))
+    map_loads, map_speeds = (np.linspace(FIRST, 1.0, MAP_POINTS) * most for most in (most_load, most_speed))
+    with np.errstate(all="ignore"):
+        over_speed = friction(np.full_like(speeds, load), speeds)
+        over_load = friction(loads[1:], np.full_like(loads[1:], speed))
+        everywhere = friction(map_loads[:, None], map_speeds[None, :])
+        films, pressure = _contacts(case, over_speed, over_load)
+        return Curves(
+            here=(_people("screw_speed", speed), _people("axial_load", load)),
+            speeds=_people("screw_speed", speeds),
+            parts={name: _array(part, speeds) for name, part in over_speed.contributions.items()},
+            films={name: _array(film, speeds) for name, film in films.items()},
+            loads=_people("axial_load", loads[1:]),
+            efficiency=_array(over_load.efficiency, loads[1:]),
+            back_driving_efficiency=_array(over_load.back_driving_efficiency, loads[1:]),
+            pressure={name: _array(each, loads[1:]) / 1e9 for name, each in pressure.items()},
+            map_loads=_people("axial_load", map_loads),
+            map_speeds=_people("screw_speed", map_speeds),
+            map_efficiency=np.asarray(everywhere.efficiency, dtype=float),
+            map_torque=np.asarray(everywhere.screw_torque, dtype=float),
+        )
+
+
+def _contacts(case: Case, over_speed: Any, over_load: Any) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
+    if case.parts is not None:
+        words = "of all contacts"
+        return {f"least {words}": over_speed.minimum_film_parameter}, {f"greatest {words}": over_load.maximum_pressure}
+    sides = {"at the screw": "screw", "at the nut": "nut"}
+    films = {words: getattr(over_speed, side).film_parameter for words, side in sides.items()}
+    return films, {words: getattr(over_load, side).maximum_pressure for words, side in sides.items()}
+
+
+def _people(name: str, value: Any) -> Any:
+    return units.from_si(value, _KNOWN[name])
+
+
+def _array(value: Any, like: Numbers) -> Numbers:
+    """One number for each point; what is not finite is not drawn."""
+    array = np.broadcast_to(np.asarray(value, dtype=float), like.shape).copy()
+    array[~np.isfinite(array)] = np.nan
+    return array

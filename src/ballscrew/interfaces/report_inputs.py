@@ -1,0 +1,204 @@
+"""The inputs of a case for its report: each with its value and where that is from."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from ballscrew.components.installation import Limits
+from ballscrew.components.materials import TEMPERATURE, Lubricant
+from ballscrew.components.screw import MATERIALS, BallScrew, Operation
+from ballscrew.interfaces import catalogue
+from ballscrew.interfaces.config import Case
+from ballscrew.interfaces.distribution_text import in_words
+from ballscrew.interfaces.nuts import ENDS, LISTED, kind_of
+from ballscrew.interfaces.report_blocks import Table
+from ballscrew.interfaces.report_blocks import value as value_of
+from ballscrew.interfaces.schema import LAWS, coefficients_of, name_of_law
+from ballscrew.quantities import Quantity, fields_of
+
+#: Where a value is from, in a word; :data:`FROM_IN_WORDS` says what is meant.
+CASE, ROW, USUAL, GRADE, DEFAULT, CALIBRATION = "case", "catalogue", "usual", "grade", "default", "calibration"
+FROM_IN_WORDS: Mapping[str, str] = {
+    CASE: "the case gives it",
+    ROW: "listed in the row of the catalogue, or computed from it",
+    USUAL: "the catalogue does not list it: a usual value stands for it",
+    GRADE: "of an oil of that grade at that temperature",
+    DEFAULT: "the default of the program, also where the case gives that value",
+    CALIBRATION: "found by the named calibration",
+}
+_COLUMNS, _TEXTS = ("", "value", "from"), (0, 2)
+_OF_LAWS = ("", "law or value")
+_USUAL_LIMITS = Limits()
+
+
+def tables(case: Case) -> list[Table]:
+    """All inputs, section by section."""
+    found = [
+        Table("Screw", _COLUMNS, _screw(case), _TEXTS),
+        Table("Lubricant", _COLUMNS, _lubricant(case), _TEXTS),
+        Table("Operating point", _COLUMNS, _part(case, case.operation, fields_of(Operation), lambda _: CASE), _TEXTS),
+    ]
+    others = {"Nut": _nut(case), "Installation": _installation(case), "Limits of the checks": _limits(case)}
+    found += [Table(title, _COLUMNS, rows, _TEXTS) for title, rows in others.items() if rows]
+    return found
+
+
+def sources_in_words(case: Case, found: list[Table]) -> str:
+    """What the words in the last column stand for, of those that occur."""
+    used = {str(row[-1]) for table in found for row in table.rows}
+    words = [f"{name}: {text}" for name, text in FROM_IN_WORDS.items() if name in used]
+    row = [] if case.row is None else [f'the row is "{case.row.name}" ({case.row.source})']
+    return f"{'; '.join([*words, *row])}."
+
+
+Rows = list[tuple[str, str, str]]
+
+
+def _part(case: Case, part: Any, known: Mapping[str, Quantity], source: Callable[[str], str], prefix: str = "") -> Rows:
+    """The fields of a part, with their distribution where the case gives one."""
+    rows: Rows = []
+    for name, quantity in known.items():
+        value = getattr(part, name)
+        if value is not None:
+            given = case.uncertain.get(f"{prefix}{name}")
+            words = value_of(value, quantity) if given is None else in_words(given, quantity)
+            exact = " ± 0" if f"{prefix}{name}" in case.exact else ""
+            rows.append((quantity.info.meaning, words + exact, CASE if given is not None else source(name)))
+    return rows
+
+
+def _defaults(kind: Any) -> Mapping[str, Any]:
+    return {field.name: field.default for field in dataclasses.fields(kind) if field.default is not dataclasses.MISSING}
+
+
+def _screw(case: Case) -> Rows:
+    usual, of_row = _defaults(BallScrew), None if case.row is None else case.row.screw()
+    unlisted = {} if case.row is None else catalogue.assumed(case.row)
+    assumed = {name for name in unlisted if name != "loaded_turns"}
+    assumed |= {"screw_conformity", "nut_conformity"} if "conformity" in assumed else set()
+
+    def source(name: str) -> str:
+        value = getattr(case.screw, name)
+        if name in usual and value == usual[name] and (of_row is None or name not in unlisted):
+            return DEFAULT
+        if of_row is not None and value == getattr(of_row, name):
+            return USUAL if name in assumed else ROW
+        return CASE
+
+    rows = _part(case, case.screw, fields_of(BallScrew), source)
+    for name, value in case.listed.items():
+        listed = case.row is not None and getattr(case.row, name) == value
+        rows.append((LISTED[name].info.meaning, value_of(value, LISTED[name]), ROW if listed else CASE))
+    materials = [getattr(case.screw, name) for name in MATERIALS]
+    if all(material is usual[name] for name, material in zip(MATERIALS, materials, strict=True)):
+        rows += [(f"{meaning} of balls, screw, nut", value, DEFAULT) for meaning, value, _ in _material(materials[0])]
+    else:
+        for name, material in zip(MATERIALS, materials, strict=True):
+            spoken, same = name.partition("_")[0], material is usual[name]
+            rows += [
+                (f"{meaning} of the {spoken}", value, DEFAULT if same else CASE)
+                for meaning, value, _ in _material(material)
+            ]
+    return rows
+
+
+def _material(material: Any) -> Rows:
+    return [(q.info.meaning, value_of(getattr(material, n), q), "") for n, q in fields_of(material).items()]
+
+
+def _lubricant(case: Case) -> Rows:
+    oil, usual = case.lubricant, _defaults(Lubricant)
+    rows: Rows = []
+    of_grade: Lubricant | None = None
+    if "grade" in case.oil:
+        of_grade = Lubricant.from_grade(**case.oil)
+        rows.append(("grade", str(case.oil["grade"]), CASE))
+        if "temperature" in case.oil:
+            given = case.uncertain.get("temperature")
+            shown = value_of(case.oil["temperature"], TEMPERATURE)
+            words = shown if given is None else in_words(given, TEMPERATURE)
+            rows.append((TEMPERATURE.info.meaning, words, CASE))
+
+    def source(name: str) -> str:
+        value = getattr(oil, name)
+        if name in usual and value == usual[name]:
+            return DEFAULT
+        return GRADE if of_grade is not None and value == getattr(of_grade, name) else CASE
+
+    return [*rows, *_part(case, oil, fields_of(Lubricant), source)]
+
+
+def _nut(case: Case) -> Rows:
+    parts = case.parts
+    if parts is None:
+        return []
+    of_row = case.row is not None and (case.row.nut or "single") == kind_of(parts.nut)
+    rows: Rows = [("kind of nut", kind_of(parts.nut), ROW if of_row else CASE)]
+    usual = _defaults(type(parts.nut))
+    rows += _part(
+        case, parts.nut, fields_of(parts.nut), lambda n: DEFAULT if getattr(parts.nut, n) == usual.get(n) else CASE
+    )
+    bodies = parts.bodies_of(case.screw)
+    if bodies is not None:
+        given = parts.bodies or {}
+        rows += _part(case, bodies, fields_of(bodies), lambda n: CASE if n in given else DEFAULT)
+    for part in (parts.scatter, *parts.losses.values()):
+        if part is not None:
+            own = _defaults(type(part))
+
+            def source(name: str, part: Any = part, own: Mapping[str, Any] = own) -> str:
+                return DEFAULT if getattr(part, name) == own.get(name) else CASE
+
+            rows += _part(case, part, fields_of(part), source)
+    return rows
+
+
+def _installation(case: Case) -> Rows:
+    mounted = case.installation
+    if mounted is None:
+        return []
+    usual = _defaults(type(mounted))
+    ends = next(name for name, known in ENDS.items() if known is mounted.ends)
+    rows = _part(case, mounted, fields_of(mounted), lambda n: DEFAULT if getattr(mounted, n) == usual.get(n) else CASE)
+    return [("ends of the screw", ends, CASE), *rows]
+
+
+def _limits(case: Case) -> Rows:
+    changed = {
+        name: quantity
+        for name, quantity in fields_of(Limits).items()
+        if getattr(case.limits, name) != getattr(_USUAL_LIMITS, name)
+    }
+    return _part(case, case.limits, changed, lambda _: CASE)
+
+
+def laws(case: Case) -> Table:
+    """The laws of the model with their coefficients, and its numbers."""
+    model = case.model
+    changed = set(model.label.partition(", changed: ")[2].split(", "))
+    by_calibration = (
+        set() if case.calibration is None else {"ball_force", "friction"}
+    )  # what components of a model a named calibration sets
+    rows: Rows = []
+    for slot in LAWS:
+        law = getattr(model, slot)
+        name = name_of_law(slot, law)
+        known = coefficients_of(slot, name)
+        numbers = [
+            f"{coefficient.replace('_', ' ')} "
+            + (
+                value_of(getattr(law, coefficient), quantity)
+                if f"{slot}.{coefficient}" not in case.uncertain
+                else in_words(case.uncertain[f"{slot}.{coefficient}"], quantity)
+            )
+            for coefficient, quantity in known.items()
+        ]
+        source = CALIBRATION if slot in by_calibration and slot in changed else CASE if slot in changed else ""
+        rows.append((slot.replace("_", " "), ": ".join(filter(None, [name, ", ".join(numbers)])), source))
+    rows += _part(case, model, fields_of(model), lambda n: CASE if n in changed else "")
+    said = [(what.partition(", ")[0], words + (f" (from: {source})" if source else "")) for what, words, source in rows]
+    return Table(
+        f"Laws and numbers of the model; what is not marked is that of {model.name}", _OF_LAWS, said, (0, 1), 1
+    )

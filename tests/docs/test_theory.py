@@ -1,0 +1,86 @@
+"""The pages on theory: formulas, letters and units from the code, and no erratum without its section."""
+
+import importlib
+import importlib.util
+import inspect
+import sys
+
+import pytest
+
+from ballscrew.quantities import unit_of
+
+from .pages import DOCS, blocks, name, pages
+
+
+def loaded(path):
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[path.stem] = module  # dataclasses look for their module there
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def equation():
+    return loaded(DOCS / "_ext" / "equation.py")
+
+
+@pytest.fixture(scope="module")
+def errata():
+    sys.path.insert(0, str(DOCS))
+    try:
+        return loaded(DOCS / "errata_page.py")
+    finally:
+        sys.path.remove(str(DOCS))
+
+
+def shown():
+    """The functions whose formulas the pages show, by page."""
+    for page in pages():
+        for block in blocks(page):
+            if block.info.startswith("{equation}"):
+                yield pytest.param(block.info.removeprefix("{equation}").strip(), id=f"{name(page)}:{block.line}")
+
+
+@pytest.mark.parametrize("function", [*shown()])
+def test_formulas_have_their_letters_and_units(equation, function):
+    module, _, called = function.rpartition(".")
+    found = getattr(importlib.import_module(module), called)
+    text = equation._as_rst(function, found, "source.html")
+    assert ".. math::" in text
+    for parameter in inspect.signature(found).parameters:
+        assert f"` {parameter.replace('_', ' ')}" in text, parameter
+    unit = unit_of(inspect.get_annotations(found, eval_str=True)["return"])
+    assert unit == "1" or "the result (" in text
+
+
+def test_letters_are_written_as_in_the_formula(equation):
+    assert equation.tex("sigma_b", r"\sqrt{\sigma_b^2}") == r"\sigma_{b}"
+    assert equation.tex("lam", "") == r"\lambda"
+    assert equation.tex("E", r"\eta_0 v / E' R_x") == "E'"
+    assert equation.tex("phi", r"\cos\varphi") == r"\varphi"
+    assert equation.tex("F_Ss", "") == "F_{Ss}"
+
+
+def test_a_function_without_a_formula_is_refused(equation):
+    hertz = importlib.import_module("ballscrew.equations.hertz")
+    with pytest.raises(ValueError, match="no formula"):
+        equation._as_rst("ballscrew.equations.hertz.ellipticity", hertz.ellipticity, "source.html")
+
+
+def test_every_erratum_has_a_section_and_a_test(errata):
+    assert errata.without_a_section() == []
+    page = errata.page()
+    assert page.count("**Held by** `test_") == len(errata.ERRATA) == page.count("**What it does.**")
+    for erratum in errata.ERRATA:
+        for function in (*erratum.printed, *erratum.right):
+            assert f"```{{equation}} {function}\n" in page
+        assert erratum.right
+
+
+def test_the_errata_add_up_to_the_corrected_model(errata):
+    """Every repair between the two models has a section, but for the helix, which the paper leaves out and says so."""
+    page = errata.page()
+    for field in set(errata.REPAIRS) - {"frame", "ideal_torque"}:
+        assert errata.repaired(field) in page
+    assert "virtual work" in page
