@@ -125,7 +125,7 @@ def _of_case(path: Path, asked: Asked) -> Checked:
     tables = _put(tables, asked)
     if words and isinstance(tables["nut"], dict) and tables["nut"].get("type") != "single":
         tables["nut"].setdefault("preload", "0 N")
-    return _checked(path.name, _built(tables, asked, path.parent), words)
+    return checked(path.name, _built(tables, asked, path.parent), words)
 
 
 def _of_row(row: CatalogueRow, asked: Asked) -> Checked:
@@ -134,7 +134,7 @@ def _of_row(row: CatalogueRow, asked: Asked) -> Checked:
     tables = _put({"screw": {"catalogue": row.name}, **tables}, asked)
     words = _filled(tables, row)
     words += [text for name, text in catalogue.assumed(row).items() if name != "loaded_turns"]
-    return _checked(row.name, _built(tables, asked, rows={row.name: row}), words)
+    return checked(row.name, _built(tables, asked, rows={row.name: row}), words)
 
 
 def _built(
@@ -183,8 +183,8 @@ def _filled(tables: dict[str, Any], row: CatalogueRow) -> list[str]:
     return words
 
 
-def _checked(name: str, case: config.Case, words: Sequence[str]) -> Checked:
-    """What comes out of a case."""
+def checked(name: str, case: config.Case, words: Sequence[str]) -> Checked:
+    """What comes out of a case; without a nut, of a single one. ``words`` are what is assumed besides."""
     parts = NutParts(nut=SingleNut()) if case.parts is None else case.parts
     result = nut_report.evaluate(case, parts)
     computed = _computed(case)
@@ -224,7 +224,7 @@ def _quantity(check: Check) -> Quantity:
     return Quantity(check.name, check.unit, Info("", check.name, _SHOWN_IN.get(check.unit, "")))
 
 
-def _shown(check: Check, value: float | None) -> str:
+def shown(check: Check, value: float | None) -> str:
     """Four digits and the unit, up to a million without an exponent."""
     if value is None or not math.isfinite(value):
         return "–"
@@ -310,7 +310,7 @@ def _checks(found: Checked) -> list[str]:
         words = check.words
         for given, here in _GIVE.items():
             words = words.replace(given, here)
-        cells = f"{_shown(check, check.value):>12} {_shown(check, check.limit):>12} {used:>7}"
+        cells = f"{shown(check, check.value):>12} {shown(check, check.limit):>12} {used:>7}"
         prefix = f"  {check.name.replace('_', ' '):<24}{cells}  "
         lines.append(beside(prefix, ": ".join(filter(None, [verdict, words]))))
     return lines
@@ -342,7 +342,7 @@ def _cells(found: Checked) -> list[str]:
         ),
     ]
     # at the same speed as all others: the revolutions would say no more
-    life = _shown(found.check("running_time"), found.check("running_time").value)
+    life = shown(found.check("running_time"), found.check("running_time").value)
     rigidity = report.shown_or_dash(float(result.loads.rigidity), _LOADS["rigidity"])
     return [found.name, *numbers, rigidity, life, found.verdict]
 

@@ -18,7 +18,7 @@ import typer
 from typer.core import TyperCommand
 
 from ballscrew import interfaces
-from ballscrew.interfaces import cli_catalogue, cli_check, cli_fit, cli_sensitivity, cli_serve, cli_validate
+from ballscrew.interfaces import cli_catalogue, cli_check, cli_fit, cli_report, cli_sensitivity, cli_serve, cli_validate
 
 app = typer.Typer(
     name="ballscrew",
@@ -204,6 +204,7 @@ def reproduce(
 
 app.command(cls=_Command)(cli_check.check)
 app.command(cls=_Command)(cli_fit.fit)
+app.command(cls=_Command)(cli_report.report)
 app.command(cls=_Command)(cli_sensitivity.sensitivity)
 app.command(cls=_Command)(cli_serve.serve)
 app.command(cls=_Command)(cli_validate.validate)

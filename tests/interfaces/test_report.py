@@ -1,0 +1,496 @@
+"""``ballscrew report``: read back as people and machines read it."""
+
+import importlib.util
+import io
+import os
+import re
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pypdf
+import pytest
+
+from ballscrew.faults import InputError
+from ballscrew.interfaces import band, bibliography, check, cli_report, config, report_content
+from ballscrew.interfaces.answer import answer
+from ballscrew.interfaces.report_blocks import Bar, Columns, Links, Picture, Table, value
+from ballscrew.interfaces.report_content import report_bytes
+from ballscrew.quantities import fields_of, quantities_of
+from ballscrew.references import bibliography as entries
+from ballscrew.result import FrictionResult
+
+ROOT = Path(__file__).parents[2]
+EXAMPLES = sorted(path.name for path in (ROOT / "examples").glob("*.toml"))
+#: Enough for the words, and quick.
+SAMPLES = 64
+_TORQUE = quantities_of(FrictionResult)["screw_torque"]
+_OVERSIZE = ('nut.type="oversize-balls"', 'nut.preload="2 kN"')
+
+#: What no reader should see; the checks say "inf revolutions" of a screw that no load wears.
+_NO_NUMBERS = re.compile(r"\b(nan|None|inf(?! (revolutions|h)\b))\b")
+
+CASES = {
+    **{name.removesuffix(".toml"): (name, ()) for name in EXAMPLES},
+    "corrected": ("olaru2005.toml", ('model.name="corrected"',)),
+    "at rest": ("feed_drive.toml", ('operation.screw_speed="0 rpm"',)),
+    "nut at rest": ("catalogue_screw.toml", ('operation.screw_speed="0 rpm"',)),
+    "without load": ("feed_drive.toml", ('operation.axial_load="0 N"',)),
+    "nut without load": ("catalogue_screw.toml", ('operation.axial_load="0 N"',)),
+    "nothing": ("feed_drive.toml", ('operation.axial_load="0 N"', 'operation.screw_speed="0 rpm"')),
+    "oversize balls": ("feed_drive.toml", _OVERSIZE),
+    "calibrated": ("feed_drive.toml", ('model.calibration="rexroth-2006"',)),
+    "overloaded": ("feed_drive.toml", ('operation.axial_load="900 kN"',)),
+    "skids": ("feed_drive.toml", ('operation.axial_load="1 N"', 'operation.screw_speed="5000 rpm"')),
+    "all that can be said": (
+        "catalogue_screw.toml",
+        (
+            'screw.contact_angle="44 deg"',
+            'screw.screw_conformity="0.54 ± 0.01"',
+            'screw.screw_material.young_modulus="210 GPa"',
+            'deviations.ball_diameter="0.3 um"',
+            'deviations.lead="1 um"',
+            'losses.seals.law="known"',
+            'losses.seals.seal_torque="0.2 N m"',
+            'losses.churning="spheres"',
+            'losses.recirculation="force"',
+            'model.friction.law="greenwood-tripp"',
+            'model.friction.asperity_radius="20 um"',
+            'model.full_film="eyring"',
+            'model.ball_force.law="proportional"',
+            "model.ball_force.share_of_load=0.001",
+        ),
+    ),
+}
+
+
+def case_of(name):
+    file, settings = CASES[name]
+    return config.load(ROOT / "examples" / file, settings)
+
+
+@pytest.fixture(scope="module")
+def content():
+    return report_content.content(case_of("catalogue_screw"), samples=SAMPLES)
+
+
+@pytest.fixture(scope="module")
+def pdf():
+    return pypdf.PdfReader(io.BytesIO(report_bytes(case_of("catalogue_screw"), "pdf", samples=SAMPLES)))
+
+
+@pytest.fixture(scope="module")
+def page():
+    return Page(report_bytes(case_of("catalogue_screw"), "html", samples=SAMPLES).decode())
+
+
+def text_of(reader):
+    return re.sub(r"\s+", " ", " ".join(page.extract_text() for page in reader.pages))
+
+
+class Page(HTMLParser):
+    """A page as its tags, and what can be read on it."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.tags, self.read, self.source, self._hidden = [], "", text, 0
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append((tag, dict(attrs)))
+        self._hidden += tag == "style"
+
+    def handle_endtag(self, tag):
+        self._hidden -= tag == "style"
+        self.read += " " * (tag in ("th", "td", "li", "p", "text"))
+
+    def handle_data(self, data):
+        if not self._hidden:
+            self.read += data
+
+    @property
+    def words(self):
+        return re.sub(r"\s+", " ", self.read)
+
+
+def structure_of(reader):
+    """All elements of the structure tree of a PDF: kind and alternative text."""
+    found = []
+
+    def walk(node):
+        node = node.get_object()
+        if isinstance(node, list):
+            for each in node:
+                walk(each)
+        elif isinstance(node, dict):
+            if "/S" in node:
+                found.append((node["/S"], node.get("/Alt")))
+            if "/K" in node:
+                walk(node["/K"])
+
+    walk(reader.trailer["/Root"]["/StructTreeRoot"])
+    return found
+
+
+# -- what is in it --------------------------------------------------------------------------------
+
+
+def test_the_numbers_are_those_of_the_program(pdf, page):
+    found = answer(case_of("catalogue_screw"))
+    result = found.result.found
+    said = [
+        f"Friction torque on the screw {value(float(result.screw_torque), _TORQUE)}",
+        f"efficiency {float(result.efficiency):.1%}",
+        f"torque without load {value(found.result.preload_drag, _TORQUE)}",
+        f"{float(result.back_driving_efficiency):.4g}",
+        *(value(float(part), _TORQUE) for part in result.contributions.values() if part),
+        *(line.capitalize()[:20] for line in found.verdicts),
+    ]
+    for words in (text_of(pdf), page.words):
+        assert [text for text in said if text not in words] == []
+
+
+def test_it_says_how_far_off_it_may_be_and_why(pdf, page):
+    case = case_of("catalogue_screw")
+    found = band.computed(case, band.Options(samples=SAMPLES))
+    low, high = (value(end, _TORQUE) for end in found.band["screw_torque"].both)
+    for words in (text_of(pdf), page.words):
+        assert f"between {low} and {high}" in words
+        assert "screw conformity 0.54 ± 0.01 (judgement: the root diameters of HIWIN2016 imply" in words
+        assert "rolling: olaru" in words
+
+
+def test_every_input_is_there_with_its_origin(content):
+    case = case_of("catalogue_screw")
+    (columns,) = [
+        b for s in content.sections if s.title == "Inputs and model" for b in s.blocks if isinstance(b, Columns)
+    ]
+    tables = {table.title: table.rows for table in (*columns.left, *columns.right)}
+    screw = {what: (words, origin) for what, words, origin in tables["Screw"]}
+    for name, quantity in fields_of(case.screw).items():
+        assert screw[quantity.info.meaning][0] == value(float(getattr(case.screw, name)), quantity)
+    assert screw["ball diameter"] == ("6 mm", "catalogue")
+    assert screw["screw groove radius / ball diameter"] == ("0.54", "usual")
+    assert screw["RMS roughness of the balls"][1] == "default"
+    assert ("ends of the screw", "fixed-supported", "case") in tables["Installation"]
+    assert {"Lubricant", "Operating point", "Nut", "Limits of the checks"} <= set(tables)
+    assert len([title for title in tables if "what is not marked is that of reference" in title]) == 1
+
+
+def test_what_a_case_changes_is_marked_as_its_own():
+    found = report_content.content(case_of("all that can be said"), samples=SAMPLES)
+    rows = [
+        row
+        for section in found.sections
+        for block in section.blocks
+        if isinstance(block, Columns)
+        for table in (*block.left, *block.right)
+        for row in table.rows
+    ]
+    assert ("screw groove radius / ball diameter", "0.54 ± 0.01", "case") in rows
+    assert ("angle of the contact normal against the radial plane", "44 deg", "case") in rows
+    (friction,) = [row[1] for row in rows if row[0] == "friction"]
+    assert friction.startswith("greenwood-tripp: ")
+    assert "asperity radius 20 µm" in friction
+    assert friction.endswith("(from: case)")
+    assert ("rolling", "biboulet-houpert") in rows
+
+
+def test_parts_sum_to_the_torque_and_bars_repeat_them(content):
+    (table,) = next(s for s in content.sections if s.title == "Where the torque comes from").blocks
+    *parts, together = table.rows
+    total = float(together[1].split()[0])
+    assert sum(float(row[1].split()[0]) for row in parts) == pytest.approx(total, rel=1e-3)
+    for _, torque, share, bar in parts:
+        assert isinstance(bar, Bar)
+        assert bar.end - bar.start == pytest.approx(float(torque.split()[0]) / total, abs=1e-3)
+        assert float(share.rstrip("%")) == pytest.approx(100 * (bar.end - bar.start), abs=0.06)
+    assert list(parts) == sorted(parts, key=lambda row: -row[3].end)
+
+
+def test_checks_are_those_of_the_command(content):
+    case = case_of("catalogue_screw")
+    found = check.checked("", case, ())
+    verdict, table = next(s for s in content.sections if s.title == "Checks").blocks
+    assert found.verdict.lower() in verdict.text.lower()
+    assert [row[0] for row in table.rows] == [one.name.replace("_", " ") for one in found.checks]
+    assert all(row[4].startswith("passes: ") for row in table.rows)
+
+
+def test_without_a_nut_the_checks_say_what_they_can():
+    found = report_content.content(case_of("feed_drive"), samples=SAMPLES)
+    verdict, table = next(s for s in found.sections if s.title == "Checks").blocks
+    assert "The case has no nut" in verdict.text
+    assert "give installation" in {row[0]: row[4] for row in table.rows}["buckling"]
+
+
+def test_sources_are_those_that_were_used(content):
+    (links,) = next(s for s in content.sections if s.title == "Sources").blocks
+    assert isinstance(links, Links)
+    words = [text.partition(":")[0] for text, _ in links.entries]
+    assert words == list(dict.fromkeys(words))
+    case = case_of("catalogue_screw")
+    assert set(config.references(case)) | {"Rexroth2006", "ISO3408-5", "SKF2018"} <= set(words)
+    assert "Saltelli2010" not in words
+    links_of = dict(zip(words, (link for _, link in links.entries), strict=True))
+    assert links_of["Olaru2005"] == "https://doi.org/10.1007/1-4020-2933-0_20"
+
+
+def test_at_rest_and_without_load_it_says_so():
+    for name, words in (
+        ("at rest", "At rest nothing slips"),
+        ("without load", "no load: nothing to hold"),
+        ("nothing", "There is no friction torque to take apart"),
+        ("overloaded", "Beware: contact_pressure"),
+        ("calibrated", "from a named calibration"),
+    ):
+        assert words.lower() in Page(report_bytes(case_of(name), "html", samples=SAMPLES).decode()).words.lower()
+
+
+# -- all cases ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_every_case_has_a_report_of_one_to_four_pages(name):
+    case = case_of(name)
+    reader = pypdf.PdfReader(io.BytesIO(report_bytes(case, "pdf", samples=SAMPLES)))
+    assert 1 <= len(reader.pages) <= 4
+    words = text_of(reader)
+    assert f"page {len(reader.pages)} of {len(reader.pages)}" in words
+    assert not _NO_NUMBERS.search(words)
+    found = Page(report_bytes(case, "html", samples=SAMPLES).decode())
+    assert not _NO_NUMBERS.search(found.words)
+    assert len([tag for tag, _ in found.tags if tag == "figure"]) == 4
+
+
+# -- as a PDF -------------------------------------------------------------------------------------
+
+
+def test_the_pdf_is_tagged_for_everybody(pdf):
+    root = pdf.trailer["/Root"]
+    assert root["/MarkInfo"]["/Marked"]
+    assert root["/Lang"] == "en-GB"
+    assert pdf.metadata.title == "Friction of a ball screw: 7000 N, 600 rpm; model reference"
+    assert "/CreationDate" not in pdf.metadata
+    assert re.search(rb"<pdfuaid:part>1</pdfuaid:part>", root["/Metadata"].get_data())
+    kinds = structure_of(pdf)
+    assert [kind for kind, _ in kinds].count("/H1") == 1
+    assert [kind for kind, _ in kinds].count("/H2") == 8
+    assert len([kind for kind, _ in kinds if kind == "/TH"]) > 20
+    alternatives = [alt for kind, alt in kinds if kind == "/Figure"]
+    assert len([alt for alt in alternatives if alt]) >= 4
+    assert any(alt and "between its grooves" in alt for alt in alternatives)
+
+
+def test_figures_of_the_pdf_have_text_that_can_be_read_back(pdf):
+    words = text_of(pdf)
+    for text in ("speed of the screw (rpm)", "film parameter λ", "Contact of ball and screw", "hydrodynamic rolling"):
+        assert text in words
+    fonts = {
+        str(font.get_object()["/BaseFont"])
+        for sheet in pdf.pages
+        for font in sheet["/Resources"].get("/Font", {}).values()
+    }
+    assert any("DejaVu" in font for font in fonts)
+
+
+# -- as HTML --------------------------------------------------------------------------------------
+
+
+def test_the_page_asks_for_nothing_from_outside(page):
+    links = [attributes["href"] for tag, attributes in page.tags if tag == "a" and "href" in attributes]
+    assert links
+    assert all(link.startswith("https://doi.org/10.") for link in links)
+    for tag, attributes in page.tags:
+        assert tag not in ("script", "link", "iframe", "object", "embed", "base", "form", "image", "img")
+        for name, given in attributes.items():
+            assert not name.startswith("on")
+            if name in ("src", "href", "xlink:href") and tag != "a":
+                assert given.startswith("#")
+    assert "@import" not in page.source
+    assert not re.search(r"url\((?!#)", page.source)
+    without = page.source
+    for link in (*links, "http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"):
+        without = without.replace(link, "")
+    assert "://" not in without
+
+
+def test_the_page_is_for_everybody(page):
+    assert ("html", {"lang": "en-GB"}) in page.tags
+    headings = [tag for tag, _ in page.tags if re.fullmatch("h[1-6]", tag)]
+    assert headings == ["h1", *["h2"] * 8]
+    assert all(attributes.get("scope") in ("col", "row") for tag, attributes in page.tags if tag == "th")
+    tables = [tag for tag, _ in page.tags if tag == "table"]
+    assert len(tables) == len([tag for tag, _ in page.tags if tag == "caption"]) > 8
+    for place, (tag, attributes) in enumerate(page.tags):
+        if tag == "svg":
+            assert attributes.get("aria-hidden") == "true" or (
+                attributes.get("role") == "img" and page.tags[place + 1][0] == "title"
+            )
+    names = [attributes["id"] for _, attributes in page.tags if "id" in attributes]
+    assert len(names) == len(set(names))
+    used = set(re.findall(r'(?:url\(#|href="#)([^)"]+)', page.source))
+    assert used <= set(names)
+    assert "prefers-color-scheme: dark" in page.source
+    assert "@media print" in page.source
+
+
+# -- hostile texts --------------------------------------------------------------------------------
+
+_HOSTILE = '#import "x" <script>alert(1)</script> $x$ {{ 1 + 1 }} \\*_`@a &amp; ]'
+
+
+@pytest.mark.parametrize("kind", ["pdf", "html"])
+def test_texts_of_files_come_out_as_text(kind, tmp_path):
+    quoted = _HOSTILE.replace('"', '""')
+    (tmp_path / "rows.csv").write_text(
+        "name,nominal_diameter [mm],lead [mm],ball_diameter [mm],turns,source\n"
+        f'"{quoted}",40,10,6.35,4,"of <b>{quoted}</b>"\n',
+        encoding="utf-8",
+    )
+    tables = config.read(ROOT / "examples" / "feed_drive.toml")
+    tables["screw"] = {"catalogue": _HOSTILE, "catalogue_file": "rows.csv"}
+    case = config.build(tables, folder=tmp_path)
+    written = report_bytes(case, kind, samples=SAMPLES)
+    if kind == "pdf":
+        words = re.sub(r"\s+", "", text_of(pypdf.PdfReader(io.BytesIO(written))))
+        assert re.sub(r"\s+", "", _HOSTILE) in words
+        assert re.sub(r"\s+", "", f"of <b>{_HOSTILE}</b>") in words
+    else:
+        found = Page(written.decode())
+        assert _HOSTILE in found.words
+        assert f"of <b>{_HOSTILE}</b>" in found.words
+        assert not {"script", "b", "img"} & {tag for tag, _ in found.tags}
+
+
+# -- as a command ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", ["pdf", "html"])
+def test_equal_cases_give_equal_bytes_in_all_processes(kind, tmp_path):
+    written = []
+    for seed in ("1", "2"):
+        to = tmp_path / f"{seed}.{kind}"
+        command = [sys.executable, "-m", "ballscrew.interfaces.cli", "report", str(ROOT / "examples/feed_drive.toml")]
+        done = subprocess.run(
+            [*command, "-o", str(to), "--samples", str(SAMPLES)],
+            capture_output=True,
+            text=True,
+            check=False,
+            cwd=tmp_path,
+            env={**os.environ, "PYTHONHASHSEED": seed, "TZ": f"UTC+{seed}"},
+        )
+        assert done.returncode == 0, done.stderr
+        assert done.stdout == f"{to}: report of feed_drive.toml, {len(to.read_bytes()) // 1000} kB\n"
+        assert done.stderr == ""
+        written.append(to.read_bytes())
+    assert written[0] == written[1]
+    assert written[0] == report_bytes(case_of("feed_drive"), kind, samples=SAMPLES)
+
+
+def test_reports_made_at_once_do_not_disturb_each_other():
+    wanted = {name: report_bytes(case_of(name), "html", samples=SAMPLES) for name in ("feed_drive", "olaru2005")}
+    with ThreadPoolExecutor(4) as pool:
+        names = [*wanted] * 2
+        found = list(pool.map(lambda name: report_bytes(case_of(name), "html", samples=SAMPLES), names))
+    assert [each == wanted[name] for name, each in zip(names, found, strict=True)] == [True] * 4
+
+
+def test_it_tells_how_far_it_is():
+    told = []
+    report_bytes(case_of("feed_drive"), "html", lambda *step: told.append(step), SAMPLES)
+    finished = [step for step, _ in told]
+    assert {total for _, total in told} == {100}
+    assert finished == sorted(finished)
+    assert finished[0] < 10
+    assert finished[-1] == 100
+
+
+def test_what_cannot_be_written_is_one_line_and_nothing_is_left(ballscrew, tmp_path):
+    case = ROOT / "examples" / "feed_drive.toml"
+    (tmp_path / "folder.pdf").mkdir()
+    for name, problem in (
+        ("x.doc", "unknown kind of file"),
+        ("x", "unknown kind"),
+        ("folder.pdf", "cannot be written"),
+    ):
+        done = ballscrew("report", case, "-o", tmp_path / name)
+        assert (done.returncode, done.stdout) == (2, "")
+        (line,) = done.stderr.splitlines()
+        assert line.startswith(f"--to: {problem}")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["folder.pdf"]
+    done = ballscrew("report", case, "-o", tmp_path / "x.pdf", "--samples", "1")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "--samples" in done.stderr
+
+
+def test_without_the_extra_it_says_what_to_install(monkeypatch, tmp_path):
+    known = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name in ("typst", "jinja2") else known(name))
+    for kind, needed in (("pdf", "typst"), ("html", "jinja2")):
+        with pytest.raises(InputError, match=rf'--to: needs {needed} .* · pip install "ballscrew\[report\]"'):
+            cli_report.report(ROOT / "examples" / "feed_drive.toml", tmp_path / f"x.{kind}")
+
+
+def test_a_run_does_not_wait_for_what_only_a_report_needs():
+    program = (
+        "import atexit, sys; from ballscrew.interfaces import cli;"
+        "atexit.register(lambda: print([name for name in ('matplotlib', 'jinja2', 'typst') if name in sys.modules]));"
+        "cli.main()"
+    )
+    command = [sys.executable, "-c", program, "run", str(ROOT / "examples" / "feed_drive.toml"), "--json"]
+    assert subprocess.run(command, capture_output=True, check=True, text=True).stdout.endswith("}\n[]\n")
+
+
+# -- its parts ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("written", "read"),
+    [
+        (r"B{\u{a}}lan", "Bălan"),
+        (r"Temperaturabh{\"a}ngigkeit von Fl{\"u}ssigkeiten", "Temperaturabhängigkeit von Flüssigkeiten"),
+        (r"{{\"U}ber die", "Über die"),
+        ("231--240", "231–240"),
+        ("{ISO}", "ISO"),
+    ],
+)
+def test_bibtex_is_read_as_text(written, read):
+    assert bibliography.plain(written) == read
+
+
+def test_every_source_can_be_read():
+    found = bibliography.sources(entries())
+    assert [source.key for source in found] == list(entries())
+    for source in found:
+        assert not re.search(r"[{}\\]", source.words)
+        assert re.match(r".+: .+\.$", source.words)
+    assert found[0].words.startswith("D. Olaru, G. C. Puiu, L. C. Balan, V. Puiu (2005): A New Model to Estimate")
+    assert bibliography.of_catalogue("Rexroth R310RU 3301 (2006.02)") == ["Rexroth2006"]
+    assert bibliography.of_catalogue("HIWIN S99TE20-1610") == ["HIWIN2016"]
+    assert bibliography.of_catalogue("rows.csv row 2") == bibliography.of_catalogue("") == []
+
+
+def test_columns_are_alike_in_length_and_keep_the_order():
+    tables = [Table(str(rows), ("", ""), [("", "")] * rows) for rows in (10, 3, 4, 2)]
+    columns = Columns.of(tables)
+    assert [*columns.left, *columns.right] == tables
+    assert [table.title for table in columns.left] == ["10"]
+
+
+@pytest.mark.parametrize(
+    ("number", "words"), [(14494.0, "14490 N m"), (1e9, "1e+09 N m"), (-0.0, "0 N m"), (float("nan"), "–")]
+)
+def test_values_are_written_without_exponents_where_people_would(number, words):
+    assert value(number, _TORQUE) == words
+
+
+def test_pictures_say_what_they_show(content):
+    pictures = [block for section in content.sections for block in section.blocks if isinstance(block, Picture)]
+    assert len(pictures) == 4
+    result = answer(case_of("catalogue_screw")).result.found
+    assert f"at 600 rpm {float(result.screw_torque):.3g} N m" in pictures[1].words
+    assert f"at 7000 N an efficiency of {float(result.efficiency):.3g}" in pictures[2].words
