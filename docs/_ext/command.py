@@ -13,12 +13,14 @@ from __future__ import annotations
 
 import functools
 import hashlib
+import itertools
 import os
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
+import weakref
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from pathlib import Path
 from typing import Any
@@ -63,13 +65,13 @@ class Page:
 
     def __init__(self, name: str) -> None:
         self.folder = KEPT / name.replace("/", "-")
-        self.place: tempfile.TemporaryDirectory[str] | None = None
+        self.place: Path | None = None
         self.cause = program()
         #: Not run yet, as what they print was at hand; a later one may need what they write.
         self.waiting: list[str] = []
 
     def said(self, typed: str, keep: list[str]) -> str:
-        self.cause = hashlib.sha256(f"{self.cause}\n{typed}".encode()).hexdigest()
+        self.cause = _next_cause(self.cause, typed)
         at_hand = KEPT / f"{self.cause}.txt"
         if at_hand.is_file() and all((self.folder / Path(name).name).is_file() for name in keep):
             self.waiting.append(typed)
@@ -80,17 +82,17 @@ class Page:
         said = self._done(typed)
         self.folder.mkdir(parents=True, exist_ok=True)
         for name in keep:
-            shutil.copy(Path(self._place()) / name, self.folder)
+            shutil.copy(self._place() / name, self.folder)
         at_hand.write_text(said, encoding="utf-8")
         return said
 
-    def _place(self) -> str:
+    def _place(self) -> Path:
         if self.place is None:
-            self.place = tempfile.TemporaryDirectory(prefix="ballscrew-docs-")
-            folder = Path(self.place.name)
-            shutil.copytree(ROOT / "examples", folder / "examples")
-            (folder / ".venv").symlink_to(Path(sys.executable).parents[1], target_is_directory=True)
-        return self.place.name
+            self.place = Path(tempfile.mkdtemp(prefix="ballscrew-docs-"))
+            weakref.finalize(self, shutil.rmtree, self.place, ignore_errors=True)
+            shutil.copytree(ROOT / "examples", self.place / "examples")
+            (self.place / ".venv").symlink_to(Path(sys.executable).parents[1], target_is_directory=True)
+        return self.place
 
     def _done(self, typed: str) -> str:
         here = str(Path(sys.executable).parent)
@@ -113,6 +115,15 @@ class Page:
         if done.returncode:
             raise RuntimeError(f"{typed}\nended with {done.returncode}\n{done.stdout}")
         return "\n".join(line.rstrip() for line in done.stdout.strip("\n").splitlines()) + "\n"
+
+
+def _next_cause(before: str, typed: str) -> str:
+    return hashlib.sha256(f"{before}\n{typed}".encode()).hexdigest()
+
+
+def causes(commands: list[str]) -> list[str]:
+    """By what the output of the commands of a page is kept, one after the other."""
+    return list(itertools.accumulate(commands, _next_cause, initial=program()))[1:]
 
 
 def _chosen(said: str, show: str) -> str:

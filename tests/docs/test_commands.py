@@ -3,6 +3,7 @@
 The commands of a page run one after the other, so that a later one finds what an earlier one wrote.
 """
 
+import importlib.util
 import os
 import re
 import shutil
@@ -15,7 +16,7 @@ from pathlib import Path
 
 import pytest
 
-from .pages import ROOT, blocks, commands, name, pages
+from .pages import DOCS, ROOT, blocks, commands, name, pages
 
 #: Run by ``.ci/run`` itself, which is what keeps them true.
 RUN_BY_CI = ("make demo", "make test")
@@ -38,7 +39,7 @@ WRITES = re.compile(r"\s(?:--to|--out|--output-file|--picture|-o)\b|\bout/|>")
 #: Exit codes that a page announces.
 EXIT_CODES = {}
 
-SERVES = re.compile(r"^(?:\.venv/bin/)?ballscrew serve\b")
+SERVES = re.compile(r"^(?:\.venv/bin/)?ballscrew serve\b(?!.*--help)")
 
 EVERY = {page: commands(page) for page in pages()}
 PAGES = [page for page, typed in EVERY.items() if typed]
@@ -70,7 +71,8 @@ def typed(command, place):
 
 def served(command, place):
     """Start it, ask it for its page, stop it as people do: with Ctrl-C."""
-    words = ["bash", "-c", f"exec {command}"]
+    # what else runs on this machine may have the usual port
+    words = ["bash", "-c", f"exec {command}" if "--port" in command else f"exec {command} --port 0"]
     log = place / "serve.log"
     with log.open("w", encoding="utf-8") as heard:
         server = subprocess.Popen(words, cwd=place, env=environment(), stdout=heard, stderr=subprocess.STDOUT)
@@ -99,7 +101,26 @@ def _page_of(server, log):
     raise AssertionError(f"no page within half a minute\n{log.read_text()}")
 
 
+#: What commands did that stood on a page before.
 DONE = {}
+
+
+@pytest.fixture(scope="module")
+def directive():
+    """The directive that runs commands while the pages are built, as a module."""
+    spec = importlib.util.spec_from_file_location("command_directive", DOCS / "_ext" / "command.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def done_while_built(page, directive):
+    """Whether all commands of a page are such as the build of the pages runs, and it did so with this very program."""
+    found = blocks(page)
+    if any(block.info == "console" for block in found):
+        return False
+    causes = directive.causes([command for _, command in EVERY[page]])
+    return all((directive.KEPT / f"{cause}.txt").is_file() for cause in causes)
 
 
 def done_once(command, place):
@@ -112,7 +133,9 @@ def done_once(command, place):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name)
-def test_the_commands_of_a_page_do_what_it_says(page, place):
+def test_the_commands_of_a_page_do_what_it_says(page, place, directive):
+    if done_while_built(page, directive):
+        return  # a command that fails there is an error of the build
     for line, command in EVERY[page]:
         if left_out(command):
             continue
