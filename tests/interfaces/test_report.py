@@ -18,6 +18,8 @@ from ballscrew.interfaces import band, bibliography, check, cli_report, config, 
 from ballscrew.interfaces.answer import answer
 from ballscrew.interfaces.report_blocks import Bar, Columns, Links, Picture, Table, value
 from ballscrew.interfaces.report_content import report_bytes
+from ballscrew.interfaces.report_html import html_bytes
+from ballscrew.interfaces.report_pdf import pdf_bytes
 from ballscrew.quantities import fields_of, quantities_of
 from ballscrew.references import bibliography as entries
 from ballscrew.result import FrictionResult
@@ -255,13 +257,13 @@ def test_at_rest_and_without_load_it_says_so():
 
 @pytest.mark.parametrize("name", CASES)
 def test_every_case_has_a_report_of_one_to_four_pages(name):
-    case = case_of(name)
-    reader = pypdf.PdfReader(io.BytesIO(report_bytes(case, "pdf", samples=SAMPLES)))
+    content = report_content.content(case_of(name), samples=SAMPLES)
+    reader = pypdf.PdfReader(io.BytesIO(pdf_bytes(content)))
     assert 1 <= len(reader.pages) <= 4
     words = text_of(reader)
     assert f"page {len(reader.pages)} of {len(reader.pages)}" in words
     assert not _NO_NUMBERS.search(words)
-    found = Page(report_bytes(case, "html", samples=SAMPLES).decode())
+    found = Page(html_bytes(content).decode())
     assert not _NO_NUMBERS.search(found.words)
     assert len([tag for tag, _ in found.tags if tag == "figure"]) == 4
 
