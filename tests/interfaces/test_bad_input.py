@@ -1,7 +1,9 @@
 """Bad input: exit code 2, one line a fault, nothing on standard output, nothing written."""
 
+import contextlib
 import dataclasses
 import math
+import time
 from pathlib import Path
 
 import numpy as np
@@ -308,3 +310,49 @@ def test_a_defect_is_not_called_a_full_output(monkeypatch):
     monkeypatch.setattr(cli, "app", defect)
     with pytest.raises(FileNotFoundError, match="a part of the package"):
         cli.main()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        " " * 330 + "+" + " " * 660,
+        "+ " * 500,
+        "5 mm" + " " * 990 + "x",
+        "uniform(" + "," * 990 + ")",
+        "1" * 990 + "x y",
+    ],
+)
+def test_long_texts_cost_nothing(text, example):
+    """The patterns of values are not given what they would need seconds for."""
+    config.load(example)  # what is loaded once is not the question
+    tables = config.read(example)
+    for field in tables["screw"]:
+        tables["screw"][field] = text
+    before = time.process_time()
+    with pytest.raises(InputError):
+        config.build(tables)
+    assert time.process_time() - before < 0.5
+
+
+def test_units_that_are_asked_for_once_are_not_kept():
+    from ballscrew.components.screw import BallScrew
+    from ballscrew.interfaces import units
+    from ballscrew.quantities import fields_of
+
+    lead, first = fields_of(BallScrew)["lead"], units.registry()
+    for i in range(1200):
+        with contextlib.suppress(Exception):
+            units.to_si(1.0, f"m^{i}", lead)
+    assert units.registry() is not first
+    assert units.parse("", "5 mm", lead) == 0.005
+
+
+@pytest.mark.parametrize("command", [["run"], ["compare"], ["sweep"], ["run", "--band"]], ids=len)
+def test_numbers_that_overflow_are_said(command, example, ballscrew):
+    process = ballscrew(*command, example, "--set", "screw.nut_roughness=3e199 um")
+    single_line_fault(process, "case: has numbers too large or too small to compute with")
+
+
+def test_an_axis_by_two_names_is_given_twice(example, ballscrew):
+    twice = ballscrew("sweep", example, "--vary", "axial_load=1,2 N", "--vary", "operation.axial_load=3,4 N")
+    single_line_fault(twice, "sweep.operation.axial_load: is given twice")

@@ -238,3 +238,9 @@ def test_a_fit_that_is_none(text, expected, example, tmp_path, ballscrew):
     process = ballscrew("run", path, "--band", "--samples", "8")
     assert (process.returncode, process.stdout) == (2, "")
     assert process.stderr.startswith(expected)
+
+
+def test_a_law_with_large_numbers_has_a_band(drive, ballscrew):
+    """Its asperities are 1e10 in a square metre: the least number there is, over that, is none."""
+    process = ballscrew("run", drive, "--band", "--json", "--samples", "64", "--set", "model.friction=greenwood-tripp")
+    assert document_of(process)["band"]["inputs"]["friction.asperity_density"]["source"]

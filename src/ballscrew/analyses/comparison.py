@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from ballscrew.analyses.nut_parts import NutParts
@@ -104,12 +104,14 @@ def compare(
     lubricant: Lubricant,
     operation: Operation,
     parts: NutParts | None = None,
+    done: Callable[[int, int], None] | None = None,
 ) -> Comparison:
     """Evaluate the case's model, other models, and the case's with other laws, at one operating point.
 
     Where one of the models is the case's own, their rows are one. With ``parts`` it is done on a whole nut; what
-    knows no such nut is left out.
+    knows no such nut is left out. ``done(finished, total)`` is told the rows.
     """
+    finished = 0
 
     def result_of(model: FrictionModel) -> FrictionResult | NutFriction:
         load, speed = operation.axial_load, operation.screw_speed
@@ -121,6 +123,12 @@ def compare(
     own = Row(Candidate(name, case), result_of(case), 0.0)
 
     def row(candidate: Candidate) -> Row:
+        nonlocal finished
+        if candidate.model is case:
+            return own
+        finished += 1
+        if done is not None:
+            done(finished, len(models) + len(laws) + 1)
         result = result_of(candidate.model)
         change = float(result.screw_torque) / own.torque - 1 if own.torque else math.nan
         return Row(candidate, result, change)
@@ -128,7 +136,7 @@ def compare(
     models, laws = ([c for c in found if parts is None or parts.knows(c.model)] for found in (models, laws))
     return Comparison(
         own,
-        [own if candidate.model is case else row(candidate) for candidate in models],
+        [row(candidate) for candidate in models],
         [row(candidate) for candidate in laws],
     )
 

@@ -166,7 +166,13 @@ class LogNormal:
     def in_deviations(self, *values: float) -> tuple[float, ...]:
         """How many standard deviations the logarithms of values lie above that of the median."""
         width = math.log(self.factor)
-        return tuple(-math.inf if value <= 0 else math.log(value / self.median) / width for value in values)
+        return tuple(-math.inf if value <= 0 else self._log_ratio(value) / width for value in values)
+
+    def _log_ratio(self, value: float) -> float:
+        ratio = value / self.median
+        if 0 < ratio < math.inf:
+            return math.log(ratio)
+        return math.log(value) - math.log(self.median)  # the least number there is, over a large one
 
     @property
     def telling(self) -> tuple[float, ...]:

@@ -72,30 +72,34 @@ class Output:
         return bool if self.name.startswith("valid") or self.name in TRUTHS else float
 
 
-@functools.cache
 def known_outputs(nut: NutParts | None = None) -> Mapping[str, Output]:
     """Everything a sweep can return, by name: ``screw_torque``, ``nut_film_parameter``, ``contribution_curvature``…
 
     On a whole nut there are ``rigidity`` and other results of the loads of all balls, and no single contacts.
     """
+    return _outputs(None if nut is None else tuple(nut.losses))
+
+
+@functools.cache
+def _outputs(losses: tuple[str, ...] | None) -> Mapping[str, Output]:
+    """The outputs of a screw, or of a nut with these losses: kept by names, as a nut is itself alone."""
     found: dict[str, Output] = {}
-    result = FrictionResult if nut is None else NutFriction
+    result = FrictionResult if losses is None else NutFriction
     for name, quantity in quantities_of(result).items():
         if name not in OPERATION:
             found[name] = Output(name, quantity, lambda r, n=name: getattr(r, n))
     torque = quantities_of(FrictionResult)["screw_torque"]
-    losses = {} if nut is None else {name: name for name in nut.losses}
-    for mechanism, words in {**MECHANISMS, **losses}.items():
+    for mechanism, words in {**MECHANISMS, **{name: name for name in losses or ()}}.items():
         info = dataclasses.replace(
             torque.info, symbol=f"M_S ({words})", meaning=f"friction torque on the screw by {words}"
         )
         name = f"contribution_{mechanism}"
         found[name] = Output(name, Quantity(name, torque.unit, info), lambda r, m=mechanism: r.contributions[m])
     mask = quantities_of(FrictionResult)["valid"]
-    for reason, words in (REASONS if nut is None else NUT_REASONS).items():
+    for reason, words in (REASONS if losses is None else NUT_REASONS).items():
         name, info = f"validity_{reason}", Info(reason, f"holds where true; where false, {words}")
         found[name] = Output(name, Quantity(name, mask.unit, info), lambda r, n=reason: r.validity[n])
-    if nut is not None:
+    if losses is not None:
         of_loads = {name: quantities_of(BallLoads)[name] for name in OF_LOADS}
         return found | {n: Output(n, q, lambda r, n=n: getattr(r.loads, n)) for n, q in of_loads.items()}
     for side in ("screw", "nut"):

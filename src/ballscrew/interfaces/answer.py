@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from ballscrew.interfaces import nut_report, report
+from ballscrew.interfaces.computable import computable
 from ballscrew.interfaces.config import Case
 from ballscrew.interfaces.nut_report import NutResult
 from ballscrew.result import FrictionResult
@@ -53,6 +54,7 @@ class Answer(NamedTuple):
             report.print_result(self.case, self.result)
 
 
+@computable()
 def answer(case: Case) -> Answer:
     """Friction of a case at its operating point."""
     if case.parts is not None:

@@ -24,6 +24,7 @@ from ballscrew.components.screw import Operation
 from ballscrew.faults import Fault, InputError, raise_if_any
 from ballscrew.interfaces import comparison, report, uncertain, units
 from ballscrew.interfaces.answer import Answer, title
+from ballscrew.interfaces.computable import computable
 from ballscrew.interfaces.config import Case
 from ballscrew.interfaces.files import whole
 from ballscrew.interfaces.schema import LAWS
@@ -104,6 +105,7 @@ def alternatives(case: Case) -> list[Candidate]:
     ]
 
 
+@computable()
 def computed(case: Case, options: Options, done: Done | None = None) -> Found:
     """The band of a case. Raises :class:`~ballscrew.faults.InputError` in the words of the command line."""
     inputs = uncertain.all_of(case, options.only_given)

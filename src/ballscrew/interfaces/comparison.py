@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import io
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +16,7 @@ from ballscrew.analyses.comparison import Candidate, Comparison, Row, Spread, co
 from ballscrew.assembly import NUT_REASONS
 from ballscrew.faults import Fault, InputError
 from ballscrew.interfaces import config, nut_report, report
+from ballscrew.interfaces.computable import computable
 from ballscrew.interfaces.files import check_writable, whole
 from ballscrew.interfaces.schema import LAWS, MODELS, PRINTED_FORMS, coefficients_of, name_of_law
 from ballscrew.result import MECHANISMS, FrictionResult
@@ -85,10 +86,11 @@ def _coefficients(law: Any) -> dict[str, Any]:
     return {field.name: getattr(law, field.name) for field in dataclasses.fields(law)}
 
 
-def compared(case: config.Case) -> Comparison:
-    """The comparison of a case."""
+@computable()
+def compared(case: config.Case, done: Callable[[int, int], None] | None = None) -> Comparison:
+    """The comparison of a case; ``done(finished, total)`` is told its rows."""
     models, laws = candidates(case)
-    return compare(case.model, models, laws, case.screw, case.lubricant, case.operation, case.parts)
+    return compare(case.model, models, laws, case.screw, case.lubricant, case.operation, case.parts, done)
 
 
 def _unknown(case: config.Case) -> str:

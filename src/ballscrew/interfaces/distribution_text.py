@@ -43,7 +43,7 @@ _KINDS: Mapping[str, _Kind] = {
 }
 #: What is a difference or a pure number, and no value of the quantity.
 _DIFFERENCES, _RATIOS = frozenset({"standard deviation"}), frozenset({"factor"})
-_PLUS_MINUS = re.compile(r"\s*(?:±|\+\s*/?\s*[-−–])\s*")
+_PLUS_MINUS = re.compile(r"±|\+\s*(?:/\s*)?[-−–]")
 _BY_NAME = re.compile(r"\s*(?P<name>[A-Za-z][A-Za-z_\s-]*?)\s*\((?P<numbers>[^()]*)\)\s*(?P<unit>.*?)\s*")
 _BRACKETS = re.compile(r"\s*\((?P<inside>[^()]*)\)\s*(?P<unit>.*?)\s*")
 _TOLERANCE = re.compile(r"(?P<value>.*\S)\s+(?P<letters>[A-Za-z]{1,2})\s?(?P<grade>\d{1,2})\s*")
@@ -57,7 +57,7 @@ def read(raw: object, quantity: Quantity) -> Written | Fault | None:
 
     The fault names no place. Tails are cut at the bounds of the quantity.
     """
-    if not isinstance(raw, str):
+    if not isinstance(raw, str) or len(raw) > units.LONGEST_VALUE:
         return None
     try:
         written = _read(raw, quantity)

@@ -30,6 +30,7 @@ from ballscrew.components.materials import TEMPERATURE, Lubricant, Material
 from ballscrew.components.screw import MATERIALS
 from ballscrew.faults import Fault, InputError, fault_of, nearest
 from ballscrew.interfaces import units
+from ballscrew.interfaces.computable import computable
 from ballscrew.interfaces.config import Case
 from ballscrew.interfaces.files import check_writable, whole
 from ballscrew.quantities import Quantity, fields_of
@@ -86,6 +87,9 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
             if name == "temperature" and section in ("", "lubricant"):
                 remedy = 'give the oil by its grade, such as grade = "ISO VG 100", or vary the viscosity'
             faults.append(Fault(f"sweep.{written}", "unknown field", "", remedy))
+            continue
+        if name in axes:
+            faults.append(Fault(f"sweep.{written}", "is given twice", "", "give each field once"))
             continue
         values = _axis(f"sweep.{name}", text, known[name][1])
         if isinstance(values, Fault):
@@ -212,6 +216,7 @@ def _blank_unit(quantity: Quantity) -> str:
     return "" if quantity.unit == "1" else f" {quantity.shown_in}"
 
 
+@computable()
 def evaluate(
     case: Case,
     plan: Plan,

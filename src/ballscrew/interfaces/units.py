@@ -28,6 +28,10 @@ _FACTOR = r"(?:[A-Za-zµμ°]+(?:(?:\^|\*\*)?[-+]?\d|[²³]|⁻[¹²³])?)"
 _PRODUCT = rf"{_FACTOR}(?:(?:\s*[*·/]\s*|\s+){_FACTOR}){{0,4}}"
 _UNIT = re.compile(rf"(?:1\s*/\s*)?{_PRODUCT}(?:\s*/\s*\({_PRODUCT}\))?")
 _LONGEST_UNIT = 40
+#: Letters of a value. What is longer was never meant as one, and patterns take their time on it.
+LONGEST_VALUE = 200
+#: Writings of units after which the library of units begins anew: it keeps each one that it was ever asked for.
+_MOST_WRITINGS = 1000
 #: Units that people use for a quantity, by its SI unit; the first ones are named in messages.
 USUAL: Mapping[str, Sequence[str]] = {
     "m": ("mm", "um", "in", "m", "cm", "nm", "uin"),
@@ -89,9 +93,16 @@ def _pint_unit(unit: str) -> str:
     return unit.replace("^", "**").strip()
 
 
+_writings: set[str] = set()
+
+
 def to_si(value: float, unit: str, quantity: Quantity) -> float:
     """Convert to the SI unit of a quantity. Raises pint's errors for units that do not fit."""
     units = registry()
+    _writings.add(unit)
+    if len(_writings) > _MOST_WRITINGS:
+        registry.cache_clear()
+        _writings.clear()
     return float(units.Quantity(value, _pint_unit(unit)).to(_pint_unit(quantity.unit)).magnitude)
 
 
@@ -148,6 +159,8 @@ def parse(where: str, raw: object, quantity: Quantity) -> float | Fault:
         if quantity.unit == "1":
             return as_float(raw)
         return Fault(where, "needs a unit", given, f"write {example_of(quantity, given)}")
+    if len(raw) > LONGEST_VALUE:
+        return Fault(where, f"has more than {LONGEST_VALUE} letters", given, _fix(quantity))
     match = _VALUE.fullmatch(raw)
     if match is None:
         problem = "is not a number" if quantity.unit == "1" else "is not a number with a unit"
@@ -162,7 +175,7 @@ def parse(where: str, raw: object, quantity: Quantity) -> float | Fault:
 
 def unit_in(text: str) -> str:
     """The unit at the end of a value, or nothing."""
-    match = _VALUE.fullmatch(text)
+    match = _VALUE.fullmatch(text) if len(text) <= LONGEST_VALUE else None
     return (match["unit"] or "") if match else ""
 
 

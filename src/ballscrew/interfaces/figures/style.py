@@ -17,28 +17,20 @@ import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-#: Colours of Okabe and Ito, told apart with any colour vision.
-BLUE, ORANGE, GREEN, PURPLE, SKY, RED, YELLOW = (
-    "#0072B2",
-    "#E69F00",
-    "#009E73",
-    "#CC79A7",
-    "#56B4E9",
-    "#D55E00",
-    "#F0E442",
-)
-#: From light to dark, for curves of one growing parameter; told apart in print, too.
-GROWING = ("#7FB8DA", "#3C8DBC", "#8A6FB0", "#B0457B", "#5B1A3A")
-INK, GREY, SHADE, LIGHT_SHADE = "#222222", "#666666", "#D9D9D9", "#F2F2F2"
-#: The same colour for a mechanism in all figures.
-MECHANISM_COLOURS: Mapping[str, str] = {
-    "hydrodynamic_rolling": SKY,
-    "elastic_hysteresis": GREEN,
-    "curvature": ORANGE,
-    "spin": RED,
-    "helix": BLUE,
-    "ball_to_ball": PURPLE,
-}
+from ballscrew.interfaces.figures.colours import BLUE as BLUE
+from ballscrew.interfaces.figures.colours import GREEN as GREEN
+from ballscrew.interfaces.figures.colours import GREY as GREY
+from ballscrew.interfaces.figures.colours import GROWING as GROWING
+from ballscrew.interfaces.figures.colours import INK as INK
+from ballscrew.interfaces.figures.colours import LIGHT_SHADE as LIGHT_SHADE
+from ballscrew.interfaces.figures.colours import MECHANISM_COLOURS as MECHANISM_COLOURS
+from ballscrew.interfaces.figures.colours import ORANGE as ORANGE
+from ballscrew.interfaces.figures.colours import PURPLE as PURPLE
+from ballscrew.interfaces.figures.colours import RED as RED
+from ballscrew.interfaces.figures.colours import SHADE as SHADE
+from ballscrew.interfaces.figures.colours import SKY as SKY
+from ballscrew.interfaces.figures.colours import YELLOW as YELLOW
+
 LINE_STYLES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))
 
 STYLE: Any = {
