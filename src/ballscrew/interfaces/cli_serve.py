@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib.util
 import os
 import socket
+import sys
 import webbrowser
 from typing import Annotated
 
@@ -32,9 +34,7 @@ def serve(
     if missing:
         raise InputError(Fault("serve", f"needs {' and '.join(missing)}", "", 'pip install "ballscrew[web]"'))
     listening = _listening(host, port)
-    import uvicorn
-
-    from ballscrew.interfaces.web import server
+    from ballscrew.interfaces.web import listen, server
 
     hosts = server.LOOPBACK if host in _LOOPBACK else ("*",) if host in _ANY else (host, *server.LOOPBACK)
     application = server.application(hosts)
@@ -44,13 +44,11 @@ def serve(
     typer.echo(f"ballscrew in the browser: {address} · API: {address}/api · Ctrl-C ends it")
     if host not in _LOOPBACK:
         typer.echo("beware: others on the network can use it, too; it has no password and no encryption", err=True)
+    sys.stdout.flush()
     if open_browser:
         webbrowser.open(address)
-    settings = uvicorn.Config(
-        application, log_level="warning", access_log=False, timeout_keep_alive=75, h11_max_incomplete_event_size=65_536
-    )
-    with listening:
-        uvicorn.Server(settings).run([listening])
+    with listening, contextlib.suppress(KeyboardInterrupt):  # Ctrl-C is how it ends
+        listen.run(application, listening)
 
 
 def _listening(host: str, port: int) -> socket.socket:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import functools
 import json
-import math
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Annotated, Any
 
 import tomlkit
 import xarray as xr
-from fastapi import APIRouter, Request
+from fastapi import APIRouter, Depends, Query, Request
+from fastapi.routing import APIRoute
 from starlette.responses import Response
 
 from ballscrew import __version__
@@ -22,25 +22,46 @@ from ballscrew.interfaces import comparison, config, export, validation
 from ballscrew.interfaces.answer import Answer, answer
 from ballscrew.interfaces.documents import plain
 from ballscrew.interfaces.schema import json_schema
-from ballscrew.interfaces.web import openapi, vocabulary
+from ballscrew.interfaces.web import limits, openapi, vocabulary
 from ballscrew.interfaces.web.bodies import BandBody, CaseBody, SweepBody, case_of, read
 from ballscrew.interfaces.web.problems import Refused
 from ballscrew.interfaces.web.work import Deadline, Desk
 
-#: Points of a sweep, and values that it returns; a whole nut takes a hundred times as long as a ball.
-MOST_POINTS, MOST_POINTS_OF_NUT, MOST_RETURNED = 20_000, 2_000, 200_000
-#: Samples of a band.
-MOST_SAMPLES, MOST_SAMPLES_OF_NUT = 65_536, 1_024
-#: A report is computed with fewer points of everything, but its pictures take their time.
+#: The files that a report can be, by what ``kind`` calls them.
 KINDS: Mapping[str, str] = {"pdf": "application/pdf", "html": "text/html; charset=utf-8"}
 
-router = APIRouter(prefix="/api/v1")
+
+def _known_query(request: Request) -> None:
+    """Refuse words behind the ``?`` that the address does not know; nothing is left out in silence."""
+    route = request.scope["route"]
+    assert isinstance(route, APIRoute)
+    known = [field.alias for field in route.dependant.query_params]
+    given = list(request.query_params.multi_items())
+    twice = sorted({name for name, _ in given if len(request.query_params.getlist(name)) > 1})
+    raise_if_any(
+        [
+            Fault(f"?{n}", "unknown", "", nearest(n, known) if known else "")
+            for n in request.query_params
+            if n not in known
+        ]
+        + [Fault(f"?{name}", "is given twice", "", "give it once") for name in twice if name in known]
+    )
+
+
+router = APIRouter(prefix="/api/v1", dependencies=[Depends(_known_query)])
+
+
+def _bytes(document: Any) -> bytes:
+    """A document as JSON, without numbers that JSON cannot say."""
+    return json.dumps(plain(document), ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()
 
 
 def _json(document: Any) -> Response:
-    """A document without numbers that JSON cannot say."""
-    text = json.dumps(plain(document), ensure_ascii=False, allow_nan=False, separators=(",", ":"))
-    return Response(text, media_type="application/json")
+    return _sent(_bytes(document))
+
+
+def _sent(document: bytes) -> Response:
+    return Response(document, media_type="application/json")
 
 
 def _desk(request: Request) -> Desk:
@@ -49,8 +70,13 @@ def _desk(request: Request) -> Desk:
 
 
 async def _of_case(request: Request, work: Callable[[config.Case], Any]) -> Any:
+    """Quick work, but where very many balls are computed one by one."""
     body: CaseBody = await read(request, CaseBody)
-    return await _desk(request).quick(lambda: work(case_of(body.case)))
+    desk = _desk(request)
+    case = await desk.quick(lambda: case_of(body.case))
+    if limits.balls_of(case) > limits.MANY_BALLS:
+        return await desk.heavy(lambda _: work(case))
+    return await desk.quick(lambda: work(case))
 
 
 @router.post("/run", openapi_extra=openapi.body(CaseBody), responses=openapi.answers("Run"))
@@ -72,28 +98,17 @@ def _words(found: Answer) -> dict[str, Any]:
 async def sweep(request: Request) -> Response:
     """Friction over ranges of load, speed or anything else, as ``ballscrew sweep`` computes it."""
     body: SweepBody = await read(request, SweepBody)
-    raise_if_any(_too_many(body.vary, 1, MOST_POINTS))
+    limits.check_size(body.vary, len(body.outputs))
 
     def work(done: Deadline) -> Response:
         case = case_of(body.case)
-        of_file = {} if body.vary else case.sweep
-        most = MOST_POINTS if case.parts is None else MOST_POINTS_OF_NUT
-        raise_if_any(_too_many(body.vary or of_file, len(body.outputs), most))
+        if not body.vary:
+            limits.check_size(case.sweep, len(body.outputs))
         plan = export.plan(case, [f"{name}={text}" for name, text in body.vary.items()], body.outputs, None)
+        limits.check_sweep(case, plan)
         return _json(_swept(case, plan, export.evaluate(case, plan, done)))
 
     return await _desk(request).heavy(work)
-
-
-def _too_many(vary: Mapping[str, str], outputs: int, most: int) -> list[Fault]:
-    """What is too large of a sweep, before its axes are made."""
-    points = math.prod(map(export.length_of, vary.values()))
-    faults: list[Fault] = []
-    if points > most:
-        faults.append(Fault("sweep", "too many points", f"{points:,}", f"{most:,} at most here; the rest by ballscrew"))
-    elif points * outputs > MOST_RETURNED:
-        faults.append(Fault("sweep", "too many values", f"{points * outputs:,}", f"{MOST_RETURNED:,} at most here"))
-    return faults
 
 
 def _swept(case: config.Case, plan: export.Plan, dataset: xr.Dataset) -> dict[str, Any]:
@@ -108,28 +123,26 @@ def _swept(case: config.Case, plan: export.Plan, dataset: xr.Dataset) -> dict[st
     }
 
 
-@router.post("/compare", openapi_extra=openapi.body(CaseBody), responses=openapi.answers("Object"))
+@router.post("/compare", openapi_extra=openapi.body(CaseBody), responses=openapi.answers("Compare"))
 async def compare(request: Request) -> Response:
     """All models and all laws side by side: what ``ballscrew compare --json`` prints."""
     body: CaseBody = await read(request, CaseBody)
 
-    def work(_: Deadline) -> Response:
+    def work(done: Deadline) -> Response:
         case = case_of(body.case)
-        return _json(comparison.document(case, comparison.compared(case)))
+        return _json(comparison.document(case, comparison.compared(case, done)))
 
     return await _desk(request).heavy(work)
 
 
-@router.post("/band", openapi_extra=openapi.body(BandBody), responses=openapi.answers("Object"))
+@router.post("/band", openapi_extra=openapi.body(BandBody), responses=openapi.answers("Band"))
 async def band(request: Request) -> Response:
     """The band of a case and its causes: what ``ballscrew run --band --json`` prints, and the words beside it."""
     body: BandBody = await read(request, BandBody)
 
     def work(done: Deadline) -> Response:
         case = case_of(body.case)
-        most = MOST_SAMPLES if case.parts is None else MOST_SAMPLES_OF_NUT
-        if body.samples is not None and body.samples > most:
-            raise InputError(Fault("--samples", "too many", str(body.samples), f"{most:,} at most here"))
+        limits.check_samples(case, body.samples)
         found = bands.computed(case, bands.Options(body.samples, body.level, body.only_given), done)
         words = {"sentences": bands.sentences(case, found), "inputs": bands.assumed_in_words(found)}
         return _json({**bands.document(answer(case), found), "words": words})
@@ -137,14 +150,16 @@ async def band(request: Request) -> Response:
     return await _desk(request).heavy(work)
 
 
-@router.get("/catalogue", responses=openapi.answers("Object"))
-async def catalogue(words: str = "") -> Response:
+@router.get("/catalogue", responses=openapi.answers("Catalogue"))
+async def catalogue(
+    words: Annotated[str, Query(description="all of them must be in a row")] = "",
+) -> Response:
     """Rows of the catalogue with these words: what ``ballscrew catalogue list --json`` prints."""
     return _json(rows.list_document(rows.chosen(shipped(), words)))
 
 
-@router.get("/catalogue/{name}", responses=openapi.answers("Object", 404))
-async def row(name: str) -> Response:
+@router.get("/catalogue/{name}", responses=openapi.answers("Row", 404))
+async def row(name: openapi.RowName) -> Response:
     """One row: what ``ballscrew catalogue show --json`` prints, and the case that ``--case`` writes, as tables."""
     try:
         found = rows.named(shipped(), name)
@@ -153,46 +168,51 @@ async def row(name: str) -> Response:
     return _json({**rows.show_document(found), "case": tomlkit.parse(rows.case_text(found)).unwrap()})
 
 
-@router.get("/validate", responses=openapi.answers("List"))
-async def validate(request: Request, set: str = "") -> Response:
+@router.get("/validate", responses=openapi.answers("Validation"))
+async def validate(
+    request: Request,
+    set: Annotated[str, Query(json_schema_extra={"enum": ["", *validation.SETS]}, description="one set alone")] = "",
+) -> Response:
     """The model against what vendors and laboratories state: what ``ballscrew validate --json`` prints."""
-    if set and set not in validation.SETS:
-        raise InputError(Fault("validate", "unknown set", set, nearest(set, validation.SETS)))
-    return await _desk(request).heavy(lambda _: _validated(set))
+    asked = validation.request([set] if set else [])
+    return await _desk(request).heavy(lambda _: _sent(_validated(tuple(data.name for data in asked.sets))))
 
 
-@functools.lru_cache
-def _validated(name: str) -> Response:
-    """The rows are shipped and do not change: computed once."""
-    found = validation.evaluate(validation.request([name] if name else []))
-    return _json(validation.documents([entry for entries, _ in found for entry in entries]))
+@functools.cache
+def _validated(names: tuple[str, ...]) -> bytes:
+    """The rows are shipped and do not change: computed once for each of the sets."""
+    found = validation.evaluate(validation.request(names))
+    return _bytes(validation.documents([entry for entries, _ in found for entry in entries]))
 
 
-@router.get("/schema", responses=openapi.answers("Object"))
+@router.get("/schema", responses=openapi.answers("Schema"))
 async def schema() -> Response:
     """JSON Schema of a case file: what ``ballscrew schema`` prints."""
-    return _json(json_schema())
+    return _sent(_schema())
 
 
-@router.get("/vocabulary", responses=openapi.answers("Object"))
+@functools.cache
+def _schema() -> bytes:
+    return _bytes(json_schema())
+
+
+@router.get("/vocabulary", responses=openapi.answers("Vocabulary"))
 async def words() -> Response:
     """Units and their factors, results and mechanisms by name, models, and cases to start from."""
-    return _json(vocabulary.vocabulary())
+    return _sent(_vocabulary())
+
+
+@functools.cache
+def _vocabulary() -> bytes:
+    return _bytes(vocabulary.vocabulary())
 
 
 @router.post("/toml", openapi_extra=openapi.body(CaseBody), responses=openapi.text("application/toml"))
 async def toml(request: Request) -> Response:
     """The case as a file, ready for ``ballscrew run``."""
     body: CaseBody = await read(request, CaseBody)
-    case_of(body.case)
-    return Response(tomlkit.dumps(_without_nothing(body.case)), media_type="application/toml")
-
-
-def _without_nothing(tables: Any) -> Any:
-    """Tables without nulls, which TOML does not have."""
-    if isinstance(tables, dict):
-        return {name: _without_nothing(value) for name, value in tables.items() if value is not None}
-    return tables
+    await _desk(request).quick(lambda: case_of(body.case))
+    return Response(tomlkit.dumps(body.case), media_type="application/toml")
 
 
 @router.post("/drawing", openapi_extra=openapi.body(CaseBody), responses=openapi.text("image/svg+xml"))
@@ -204,15 +224,20 @@ async def drawing(request: Request) -> Response:
 
 
 @router.post("/report", openapi_extra=openapi.body(CaseBody), responses=openapi.text(*KINDS.values()))
-async def report(request: Request, kind: str = "pdf") -> Response:
-    """The report of a case to file, ``kind`` pdf or html: what ``ballscrew report`` writes."""
-    from ballscrew.interfaces.report_content import report_bytes  # with its pictures: only for those who ask
-
+async def report(
+    request: Request,
+    kind: Annotated[str, Query(json_schema_extra={"enum": [*KINDS]}, description="the file that it is to be")] = "pdf",
+) -> Response:
+    """The report of a case to file: what ``ballscrew report`` writes."""
     body: CaseBody = await read(request, CaseBody)
     if kind not in KINDS:
-        raise InputError(Fault("report.kind", "unknown kind of file", kind, nearest(kind, KINDS)))
+        raise InputError(Fault("?kind", "unknown kind of file", kind, nearest(kind, KINDS)))
 
     def work(done: Deadline) -> Response:
-        return Response(report_bytes(case_of(body.case), kind, done), media_type=KINDS[kind])
+        from ballscrew.interfaces.report_content import report_bytes  # with its writers: only for those who ask
+
+        case = case_of(body.case)
+        found = report_bytes(case, "pdf" if kind == "pdf" else "html", done, samples=limits.samples_of_report(case))
+        return Response(found, media_type=KINDS[kind])
 
     return await _desk(request).heavy(work)

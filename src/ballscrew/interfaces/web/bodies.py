@@ -7,15 +7,16 @@ file.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator, Mapping
 from typing import Any, NoReturn
 
 import anyio
 from pydantic import BaseModel, ConfigDict, Field
-from starlette.requests import Request
+from starlette.requests import ClientDisconnect, Request
 
 from ballscrew.components.catalogue import catalogue
-from ballscrew.faults import Fault, InputError
+from ballscrew.faults import Fault, InputError, raise_if_any
 from ballscrew.interfaces import config
 from ballscrew.interfaces.config import Case
 from ballscrew.interfaces.schema import read_table
@@ -26,8 +27,8 @@ MOST_BYTES = 65_536
 #: Tables within tables, and values in all of them.
 DEEPEST, MOST_VALUES = 8, 1_000
 LONGEST_TEXT = 1_000
-#: Balls that are computed one by one, where the bodies of a nut are elastic or its balls differ.
-MOST_BALLS = 1_000
+#: Loaded balls that are computed one by one, where the bodies of a nut are elastic or its balls differ.
+MOST_BALLS = 500
 #: Seconds for a body to arrive.
 PATIENCE = 10.0
 
@@ -74,21 +75,29 @@ async def read(request: Request, kind: type[_Body]) -> Any:
 
 
 async def _bytes(request: Request) -> bytes:
+    too_large = Refused(413, Fault("request", f"has more than {MOST_BYTES} bytes", "", "send one case"))
+    length = request.headers.get("content-length", "0")
+    if length.isdecimal() and int(length[:10]) > MOST_BYTES:
+        raise too_large
     found = bytearray()
     try:
         with anyio.fail_after(PATIENCE):
             async for chunk in request.stream():
                 found += chunk
                 if len(found) > MOST_BYTES:
-                    raise Refused(413, Fault("request", f"has more than {MOST_BYTES} bytes", "", "send one case"))
+                    raise too_large
     except TimeoutError:
         raise Refused(408, Fault("request", f"did not arrive within {PATIENCE:g} s")) from None
+    except ClientDisconnect:
+        raise Refused(400, Fault("request", "broke off")) from None  # read by nobody
     return bytes(found)
 
 
 def _json(body: bytes) -> Any:
     try:
-        return json.loads(body.decode("utf-8"), parse_constant=_no_number)
+        return json.loads(
+            body.decode("utf-8"), parse_constant=_no_number, parse_float=_number, object_pairs_hook=_table
+        )
     except RecursionError:
         raise Refused(400, Fault("request", "is nested too deeply", "", f"{DEEPEST} levels at most")) from None
     except ValueError as error:
@@ -97,6 +106,22 @@ def _json(body: bytes) -> Any:
 
 def _no_number(name: str) -> NoReturn:
     raise ValueError(f"{name} is no JSON number")
+
+
+def _number(text: str) -> float:
+    """A number that a computer has; JSON would make 1e999 infinite."""
+    if not math.isfinite(found := float(text)):
+        raise ValueError(f"{text[:40]} is no number that a computer has")
+    return found
+
+
+def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """A table in which each name stands once, as in a case file; JSON would let the last one win."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        names = [name for name, _ in pairs]
+        raise ValueError(f"{next(name for name in names if names.count(name) > 1)[:40]} is given twice")
+    return found
 
 
 def _count(value: Any) -> None:
@@ -140,8 +165,21 @@ def case_of(tables: Mapping[str, Any]) -> Case:
     if isinstance(screw, Mapping) and "catalogue_file" in screw:
         remedy = "send the numbers of the screw, or name a row that is shipped"
         raise InputError(Fault("screw.catalogue_file", "is not taken from a request", "", remedy))
+    raise_if_any([Fault(where, "must not be null", "", "leave it out") for where in _nulls("", tables)])
     case = config.build(tables, rows=catalogue())
     if case.parts is not None and case.parts.one_by_one and case.screw.loaded_balls > MOST_BALLS:
-        remedy = f"{MOST_BALLS} at most where balls differ or bodies are elastic"
-        raise InputError(Fault("screw.loaded_balls", "too many to compute one by one", "", remedy))
+        given, remedy = f"{case.screw.loaded_balls:g}", f"{MOST_BALLS} at most where balls differ or bodies are elastic"
+        raise InputError(Fault("screw.loaded_balls", "too many to compute one by one", given, remedy))
     return case
+
+
+def _nulls(where: str, value: Any) -> Iterator[str]:
+    """Where JSON has null, which no case file can hold."""
+    if value is None:
+        yield where
+    elif isinstance(value, dict):
+        for name, inner in value.items():
+            yield from _nulls(f"{where}.{name}".removeprefix("."), inner)
+    elif isinstance(value, list):
+        for inner in value:
+            yield from _nulls(where, inner)

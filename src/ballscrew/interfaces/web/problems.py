@@ -11,7 +11,7 @@ from starlette.responses import Response
 from ballscrew.faults import LINES_AT_MOST, Fault, InputError
 
 MEDIA_TYPE = "application/problem+json"
-#: What each status is called; no other is sent for what a request does wrong.
+#: What each status is called.
 TITLES: Mapping[int, str] = {
     400: "The request is not JSON",
     404: "There is nothing here",
@@ -22,6 +22,8 @@ TITLES: Mapping[int, str] = {
     421: "This server is not called so",
     422: "The case is at fault",
     429: "Too many others are being served",
+    500: "A defect of ballscrew",
+    503: "The server ends",
 }
 
 
@@ -62,7 +64,7 @@ SCHEMA: Mapping[str, Any] = {
     "properties": {
         "type": {"const": "about:blank"},
         "title": {"type": "string"},
-        "status": {"type": "integer", "minimum": 400, "maximum": 499},
+        "status": {"type": "integer", "minimum": 400, "maximum": 599},
         "lines": {
             "type": "array",
             "items": {"type": "string"},

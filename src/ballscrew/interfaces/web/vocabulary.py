@@ -18,7 +18,7 @@ from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.nut import Bodies
 from ballscrew.components.screw import BallScrew, Operation
 from ballscrew.interfaces import units
-from ballscrew.interfaces.figures.style import MECHANISM_COLOURS
+from ballscrew.interfaces.figures.colours import MECHANISM_COLOURS
 from ballscrew.interfaces.nuts import LISTED, LOSSES, NUT_FIELDS
 from ballscrew.interfaces.schema import DEFAULT_MODEL, LAWS, MODELS
 from ballscrew.model import FrictionModel

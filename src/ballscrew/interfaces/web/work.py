@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
+import threading
 import time
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-import anyio
-from anyio import CapacityLimiter, to_thread
+from anyio import CapacityLimiter, fail_after
 
 from ballscrew.faults import Fault
 from ballscrew.interfaces.web.problems import Refused
@@ -37,31 +39,92 @@ class Deadline:
         if time.monotonic() > self.end and finished < total:
             raise _OutOfTime
 
+    def stop(self) -> None:
+        """The time is up now."""
+        self.end = -1.0
+
 
 class Desk:
-    """Where requests wait for their turn, of one server."""
+    """Where requests wait for their turn, of one server.
 
-    def __init__(self, longest: float = LONGEST) -> None:
+    A thread cannot be stopped from outside: it ends at its next word to the deadline, and keeps its place until then,
+    even if nobody waits for it any more. None of them keeps the program from ending.
+    """
+
+    def __init__(
+        self, longest: float = LONGEST, quick: int = QUICK, heavy: int = HEAVY, waiting: int = MOST_WAITING
+    ) -> None:
         self.longest = longest
-        self._quick, self._heavy = CapacityLimiter(QUICK), CapacityLimiter(HEAVY)
+        self.waiting = waiting
+        self._quick, self._heavy = CapacityLimiter(quick), CapacityLimiter(heavy)
+        self._at_work: dict[asyncio.Future[Any], Deadline] = {}
+        self._closed = False
 
     async def quick(self, work: Callable[[], Found]) -> Found:
         """What takes some milliseconds."""
-        return await self._done(work, self._quick)
+        return await self._done(lambda _: work(), self._quick)
 
     async def heavy(self, work: Callable[[Deadline], Found]) -> Found:
         """What takes longer: refused where many wait already, and stopped when its time is up."""
-        if self._heavy.statistics().tasks_waiting >= MOST_WAITING:
-            raise Refused(429, Fault("server", "is busy", f"{MOST_WAITING} requests are waiting", "try again soon"))
-        return await self._done(lambda: work(Deadline(self.longest)), self._heavy)
+        if self._heavy.statistics().tasks_waiting >= self.waiting:
+            raise Refused(429, Fault("server", "is busy", f"{self.waiting} requests are waiting", "try again soon"))
+        return await self._done(work, self._heavy)
 
-    async def _done(self, work: Callable[[], Any], limiter: CapacityLimiter) -> Any:
+    def close(self) -> None:
+        """Stop what can be stopped, and let nobody wait for the rest."""
+        self._closed = True
+        for future, deadline in list(self._at_work.items()):
+            deadline.stop()
+            if not future.done():
+                future.set_exception(_ends())
+
+    async def _done(self, work: Callable[[Deadline], Any], limiter: CapacityLimiter) -> Any:
+        place = object()
         try:
-            # a thread cannot be stopped from outside: it is left alone, and ends at its next word to the deadline
-            with anyio.fail_after(self.longest * (1 + MOST_WAITING)):
-                async with limiter:
-                    with anyio.fail_after(self.longest + 1):
-                        return await to_thread.run_sync(work, abandon_on_cancel=True)
-        except (TimeoutError, _OutOfTime):
-            fault = Fault("server", f"stopped after {self.longest:g} s", "", "ask for fewer points or samples")
-            raise Refused(408, fault) from None
+            with fail_after(self.longest * (1 + self.waiting)):
+                await limiter.acquire_on_behalf_of(place)
+        except TimeoutError:
+            raise _stopped(self.longest) from None
+        if self._closed:
+            limiter.release_on_behalf_of(place)
+            raise _ends()
+        loop = asyncio.get_running_loop()
+        future: asyncio.Future[Any] = loop.create_future()
+        deadline = self._at_work[future] = Deadline(self.longest)
+
+        def settle(found: Any, error: BaseException | None) -> None:
+            limiter.release_on_behalf_of(place)
+            del self._at_work[future]
+            if future.done():  # nobody waits any more
+                return
+            if error is None:
+                future.set_result(found)
+            else:
+                future.set_exception(error)
+
+        def run() -> None:
+            try:
+                found, error = work(deadline), None
+            except _OutOfTime:
+                found, error = None, _stopped(self.longest)
+            except BaseException as other:  # whatever it is, it is the answer to who waits
+                found, error = None, other
+            with contextlib.suppress(RuntimeError):  # the server has ended in the meantime
+                loop.call_soon_threadsafe(settle, found, error)
+
+        threading.Thread(target=run, name="ballscrew request", daemon=True).start()
+        try:
+            with fail_after(self.longest + 1):
+                return await future
+        except TimeoutError:
+            raise _stopped(self.longest) from None
+        finally:
+            deadline.stop()
+
+
+def _stopped(seconds: float) -> Refused:
+    return Refused(408, Fault("server", f"stopped after {seconds:g} s", "", "ask for fewer points or samples"))
+
+
+def _ends() -> Refused:
+    return Refused(503, Fault("server", "ends", "", "start it again"))

@@ -1,0 +1,251 @@
+"""A server of its own for each file of tests: a real process, asked over a real socket."""
+
+from __future__ import annotations
+
+import collections
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import httpx
+import psutil
+import pytest
+from playwright.sync_api import ConsoleMessage, Error, Page, Request, sync_playwright
+
+ROOT = Path(__file__).parents[2]
+#: A warning of NumPy in the server is a defect: nobody would see it.
+PYTHON = [sys.executable, "-W", "error::RuntimeWarning", "-m", "ballscrew.interfaces.cli"]
+
+
+class Server:
+    """``ballscrew serve`` in a process."""
+
+    def __init__(self, *arguments: str, environment: dict[str, str] | None = None) -> None:
+        self.errors = tempfile.TemporaryFile("w+", encoding="utf-8")  # a pipe that nobody reads would fill up
+        self.process = subprocess.Popen(
+            [*PYTHON, "serve", "--port", "0", *arguments],
+            stdout=subprocess.PIPE,
+            stderr=self.errors,
+            encoding="utf-8",
+            env={**os.environ, **(environment or {})},
+        )
+        self.first_line = self.process.stdout.readline()
+        found = re.search(r"http://\S+", self.first_line)
+        assert found, self.said()
+        self.address = found[0]
+        self.client = httpx.Client(base_url=self.address, timeout=30, trust_env=False)
+
+    @property
+    def port(self) -> int:
+        return int(self.address.rpartition(":")[2])
+
+    @property
+    def memory(self) -> float:
+        """What it has of the memory, MB."""
+        return psutil.Process(self.process.pid).memory_info().rss / 2**20
+
+    def post(self, address: str, body: object, **more: object) -> httpx.Response:
+        content = body if isinstance(body, bytes) else json.dumps(body).encode()
+        headers = {"Content-Type": "application/json", **more.pop("headers", {})}
+        return self.client.post(f"/api/v1/{address}", content=content, headers=headers, **more)
+
+    def get(self, address: str, **more: object) -> httpx.Response:
+        return self.client.get(f"/api/v1/{address}", **more)
+
+    def end(self) -> tuple[int, str]:
+        """End it as Ctrl-C does: its exit code and what it said of errors."""
+        self.client.close()
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGINT)
+        self.process.communicate(timeout=20)
+        said = self.said()
+        self.errors.close()
+        return self.process.returncode, said
+
+    def said(self) -> str:
+        """What it has written of errors."""
+        self.errors.seek(0)
+        return self.errors.read()
+
+
+@pytest.fixture(scope="module")
+def server():
+    found = Server()
+    yield found
+    code, errors = found.end()
+    assert (code, errors) == (0, "")  # no request left a traceback
+
+
+@pytest.fixture
+def start():
+    """Start a server with options; it is ended whatever happens."""
+    started: list[Server] = []
+
+    def one(*arguments, **options):
+        started.append(Server(*arguments, **options))
+        return started[-1]
+
+    yield one
+    for server in started:
+        if not server.errors.closed:  # by the test
+            server.end()
+
+
+@pytest.fixture
+def paper():
+    """The paper's screw as tables, new for each test."""
+    return tomllib.loads((ROOT / "examples" / "olaru2005.toml").read_text(encoding="utf-8"))
+
+
+@pytest.fixture
+def elastic():
+    """A double nut whose balls are computed one by one."""
+    return tomllib.loads((ROOT / "examples" / "catalogue_screw.toml").read_text(encoding="utf-8"))
+
+
+# -- the page in a browser --------------------------------------------------------------------------
+
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+
+
+class Visit:
+    """Somebody at the page: what they see, and what went wrong behind it."""
+
+    def __init__(self, page: Page, address: str) -> None:
+        self.page = page
+        self.address = address
+        self.requests: list[str] = []
+        self.complaints: list[str] = []
+        #: Complaints that belong to what is tested: that of the browser about an answer of this status.
+        self.expected: tuple[str, ...] = ()
+        self._listeners = {"request": self._asked, "console": self._heard, "pageerror": self._failed}
+        for event, listener in self._listeners.items():
+            page.on(event, listener)
+
+    def leave(self) -> None:
+        """The page is for somebody else."""
+        self.page.goto("about:blank")
+        for event, listener in self._listeners.items():
+            self.page.remove_listener(event, listener)
+
+    def _asked(self, request: Request) -> None:
+        self.requests.append(request.url)
+
+    def _heard(self, message: ConsoleMessage) -> None:
+        if message.type in ("error", "warning"):
+            self.complaints.append(f"{message.type}: {message.text}")
+
+    def _failed(self, error: Error) -> None:
+        self.complaints.append(str(error))
+
+    def open(self, fragment: str = "") -> Visit:
+        self.page.goto(f"{self.address}/{fragment}")
+        self.page.wait_for_selector("html[data-ready]")
+        return self.settle()
+
+    def settle(self) -> Visit:
+        """Wait until all that was asked for is shown."""
+        self.page.wait_for_selector('#results[aria-busy="false"]')
+        return self
+
+    def type(self, field: str, text: str) -> Visit:
+        """Type into a field, ``operation.axial_load``, with its section open."""
+        self.reveal(field)
+        self.page.locator(self.id(field)).fill(text)
+        return self.settle()
+
+    def choose(self, field: str, value: str) -> Visit:
+        self.reveal(field)
+        self.page.locator(self.id(field)).select_option(value)
+        return self.settle()
+
+    def unit(self, field: str, unit: str) -> Visit:
+        self.reveal(field)
+        self.page.locator(self.id(field).replace("#f-", "#u-")).select_option(unit)
+        return self.settle()
+
+    def reveal(self, field: str) -> None:
+        opened = "e => { for (let d = e.closest('details'); d; d = d.parentElement.closest('details')) d.open = true }"
+        self.page.locator(self.id(field)).evaluate(opened)
+
+    @staticmethod
+    def id(field: str) -> str:
+        return f"#f-{field.replace('.', '-')}"
+
+    def text(self, selector: str) -> str:
+        return self.page.locator(selector).inner_text()
+
+    def numbers(self) -> dict[str, Any]:
+        """Every exact number of the answer on the page: results, contacts, parts of the torque by their words."""
+        return self.page.evaluate(
+            """() => {
+              const exact = (one) => one.value === "" ? null : Number(one.value);
+              const all = (where, name) => Object.fromEntries(
+                [...document.querySelectorAll(`${where} data`)].map((one) => [name(one), exact(one)]));
+              const own = (one) => one.dataset.name, beside = (one) => one.closest("li").children[1].textContent;
+              return {
+                results: all("#numbers", own), screw: all("#contacts td:nth-child(2)", own),
+                nut: all("#contacts td:nth-child(3)", own), parts: all("#torque-chart .legend", beside),
+              };
+            }"""
+        )
+
+    def download(self, selector: str) -> bytes:
+        with self.page.expect_download() as found:
+            self.page.locator(selector).click()
+        return Path(found.value.path()).read_bytes()
+
+    def outside(self) -> list[str]:
+        """Requests to anything but the server."""
+        own = (f"{self.address}/", f"blob:{self.address}/", "data:")
+        return [one for one in self.requests if not one.startswith(own)]
+
+    def posts(self) -> int:
+        return sum("/api/v1/" in one for one in self.requests)
+
+
+@pytest.fixture(scope="session")
+def browser():
+    if CHROMIUM is None:
+        pytest.skip("needs chromium: apt-get install chromium")
+    with sync_playwright() as playwright:
+        found = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield found
+        found.close()
+
+
+@pytest.fixture(scope="session")
+def pages(browser):
+    """Pages that nobody is at, by the options of their contexts; to load plotly.js anew takes a second."""
+    return collections.defaultdict(list)
+
+
+@pytest.fixture
+def visit(browser, pages, server):
+    """Visitors of the page; afterwards nothing was complained of, and nothing was asked from elsewhere."""
+    visits: list[tuple[str, Visit]] = []
+
+    def one(address: str = server.address, **options: Any) -> Visit:
+        settings = {"viewport": {"width": 1360, "height": 900}, **options}
+        free = pages[repr(settings)]
+        page = free.pop() if free else browser.new_context(**settings).new_page()
+        visits.append((repr(settings), Visit(page, address)))
+        return visits[-1][1]
+
+    yield one
+    for settings, found in visits:
+        found.leave()
+        pages[settings].append(found.page)
+    complaints = [
+        line for _, found in visits for line in found.complaints if not any(words in line for words in found.expected)
+    ]
+    outside = [line for _, found in visits for line in found.outside()]
+    assert (complaints, outside) == ([], [])

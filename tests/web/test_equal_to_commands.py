@@ -1,0 +1,239 @@
+"""What the server answers is what the command line prints, number for number and line for line."""
+
+import csv
+import io
+import json
+import tomllib
+from pathlib import Path
+
+import pytest
+import typer.testing
+
+from ballscrew.components.catalogue import catalogue
+from ballscrew.faults import InputError
+from ballscrew.interfaces import cli, config, validation
+
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
+PAPER = next(path for path in EXAMPLES if path.stem == "olaru2005")
+SETTINGS = [
+    [],
+    ["operation.axial_load=1.5 kN"],
+    ["operation.screw_speed=0 rpm", "model.name=corrected"],
+    ["model.friction=greenwood-tripp", "lubricant.grade=ISO VG 32", "lubricant.temperature=60 degC"],
+]
+
+
+def printed(*words):
+    """What a command prints; a fault comes as it is."""
+    found = typer.testing.CliRunner().invoke(cli.app, [str(word) for word in words])
+    if found.exception is not None and not isinstance(found.exception, SystemExit):
+        raise found.exception
+    assert found.exit_code == 0, found.output
+    return found.stdout
+
+
+def tables_of(path, settings=()):
+    tables = config.override(tomllib.loads(path.read_text(encoding="utf-8")), settings)
+    if "grade" in tables["lubricant"]:
+        for name in ("viscosity", "pressure_viscosity_coefficient"):
+            tables["lubricant"].pop(name, None)
+    return tables
+
+
+def written(tables, tmp_path):
+    """The tables as a file, as the server itself writes them."""
+    import tomlkit
+
+    path = tmp_path / "case.toml"
+    path.write_text(tomlkit.dumps(tables), encoding="utf-8")
+    return path
+
+
+@pytest.fixture(params=[(path, settings) for path in EXAMPLES for settings in SETTINGS], ids=lambda p: p[0].stem)
+def tables(request):
+    return tables_of(*request.param)
+
+
+def test_run(server, tables, tmp_path):
+    found = server.post("run", {"case": tables}).json()
+    words = found.pop("words")
+    assert found == json.loads(printed("run", written(tables, tmp_path), "--json"))
+    text = printed("run", written(tables, tmp_path))
+    flat = " ".join(text.split())
+    assert " ".join(words["title"].split()) in flat
+    assert all(" ".join(line.split()) in flat for line in words["verdicts"])
+
+
+def test_compare(server, tables, tmp_path):
+    found = server.post("compare", {"case": tables}).json()
+    assert found == json.loads(printed("compare", written(tables, tmp_path), "--json"))
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("options", [{}, {"samples": 100, "level": 0.8}, {"samples": 64, "only_given": True}])
+def test_band(server, path, options):
+    found = server.post("band", {"case": tables_of(path), **options}).json()
+    words = ["--samples", options.get("samples")] * ("samples" in options)
+    words += ["--level", options.get("level")] * ("level" in options)
+    words += ["--only-given"] * options.get("only_given", False)
+    found.pop("words")
+    assert found == json.loads(printed("run", path, "--band", "--json", *words))
+
+
+AXES = [
+    {},
+    {"axial_load": "100:4000:3 N"},
+    {"operation.axial_load": "1, 2 kN", "lead": "5, 10 mm", "screw_speed": "0, 600 rpm"},
+]
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("vary", AXES, ids=len)
+def test_sweep(server, path, vary):
+    outputs = ["screw_torque", "efficiency", "holding_torque"]
+    found = server.post("sweep", {"case": tables_of(path), "vary": vary, "outputs": outputs}).json()
+    words = [word for name, text in vary.items() for word in ("--vary", f"{name}={text}")]
+    text = printed("sweep", path, *words, *[word for name in outputs for word in ("--output", name)])
+    heading, *rows = csv.reader(io.StringIO(text))
+    known = server.get("vocabulary").json()["units"]
+    columns = {**found["axes"], **found["outputs"]}
+    assert [one.partition(" [")[0] for one in heading] == [name.replace("_", " ") for name in columns]
+    assert len(rows) == len(points := grid(found)) >= 3
+    for row, point in zip(rows, points, strict=True):
+        for cell, title, (name, value) in zip(row, heading, point.items(), strict=True):
+            if not cell:  # what is not finite, or makes no sense
+                continue
+            _, bracket, unit = title.partition(" [")
+            si = columns[name]["unit"]
+            by = next((u for u in known.get(si, ()) if u["unit"] == unit.rstrip("]")), {"factor": 1, "offset": 0})
+            assert bracket or si == "1"
+            assert value == pytest.approx(float(cell) * by["factor"] + by["offset"], rel=1e-10, abs=1e-14)
+
+
+def grid(found):
+    """A swept answer as one row a point."""
+    rows = [({}, [])]
+    for name, axis in found["axes"].items():
+        rows = [({**row, name: value}, [*at, i]) for row, at in rows for i, value in enumerate(axis["values"])]
+    for row, at in rows:
+        for name, output in found["outputs"].items():
+            value = output["values"]
+            for place in at:
+                value = value[place]
+            row[name] = value
+    return [row for row, _ in rows]
+
+
+def test_catalogue(server):
+    assert server.get("catalogue").json() == json.loads(printed("catalogue", "list", "--json"))
+    found = server.get("catalogue", params={"words": "Double 40x"}).json()
+    assert found == json.loads(printed("catalogue", "list", "double", "40x", "--json"))
+    for name in list(catalogue())[::7]:
+        row = server.get(f"catalogue/{name}").json()
+        assert row.pop("case") == tomllib.loads(printed("catalogue", "show", name, "--case"))
+        assert row == json.loads(printed("catalogue", "show", name.upper(), "--json"))
+
+
+def test_each_row_of_the_catalogue_is_a_case(server):
+    """The page starts from them."""
+    for name in catalogue():
+        case = server.get(f"catalogue/{name}").json()["case"]
+        assert server.post("run", {"case": case}).status_code == 200
+
+
+@pytest.mark.parametrize("name", ["", *validation.SETS])
+def test_validate(server, name):
+    found = server.get("validate", params={"set": name}).json()
+    assert found == json.loads(printed("validate", *[name] * bool(name), "--json"))
+
+
+def test_schema(server):
+    assert server.get("schema").json() == json.loads(printed("schema"))
+
+
+def test_toml(server, tables, tmp_path):
+    found = server.post("toml", {"case": tables})
+    assert found.headers["content-type"].partition(";")[0] == "application/toml"
+    assert tomllib.loads(found.text) == tables
+    path = tmp_path / "sent.toml"
+    path.write_bytes(found.content)
+    assert (
+        json.loads(printed("run", path, "--json"))["results"] == server.post("run", {"case": tables}).json()["results"]
+    )
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_drawing_and_report(server, path):
+    from ballscrew.interfaces.answer import answer
+    from ballscrew.interfaces.drawing import drawing
+
+    found = server.post("drawing", {"case": tables_of(path)})
+    assert found.headers["content-type"].partition(";")[0] == "image/svg+xml"
+    assert found.text == drawing(answer(config.load(path)))
+
+
+# -- what is refused ------------------------------------------------------------------------------
+
+BAD = {
+    "unit": ["screw.lead=5"],
+    "several": [
+        "screw.lead=5",
+        "operation.axial_load=-4 kN",
+        "screw.contact_angle=90 deg",
+        "lubricant.viscosity=1 cSt",
+    ],
+    "unknown": ["screw.leed=5 mm", "operation.axial_laod=1 N", "oil.x=1"],
+    "too many": [f"screw.key{i}=1" for i in range(15)],
+    "law": ["model.hertz=exat", "model.friction.decai=1"],
+    "model": ["model.name=olaru205"],
+    "row": ["screw.catalogue=rexroth-40x10x6-6-doubel"],
+    "calibration": ["model.calibration=rexroth-2007"],
+    "nut": ["nut.type=duble", "nut.preload=7"],
+    "ball": ["screw.ball_diameter=31.75 mm"],
+    "distribution": ["screw.lead=5 mm ± 1 ± 2 mm", "screw.screw_conformity=uniform(0.52)"],
+    "sweep": ["sweep.axial_load=5"],
+    "material": ["screw.ball_material=5"],
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_lines_of_cases_at_fault(server, name):
+    path = PAPER
+    tables = config.override(tomllib.loads(path.read_text(encoding="utf-8")), BAD[name])
+    said = refused(*["run", path, *(word for setting in BAD[name] for word in ("--set", setting))])
+    for address in ("run", "compare", "band", "sweep", "toml"):
+        found = server.post(address, {"case": tables})
+        assert found.status_code == 422
+        assert found.headers["content-type"] == "application/problem+json"
+        assert found.json()["lines"] == said
+        assert len(found.json()["faults"]) >= len(said) or len(said) == 10
+
+
+@pytest.mark.parametrize(
+    ("address", "more", "words"),
+    [
+        ("sweep", {"vary": {"axial_laod": "1:2:3 N"}}, ["sweep", "--vary", "axial_laod=1:2:3 N"]),
+        ("sweep", {"vary": {"axial_load": "1:2:0 N"}}, ["sweep", "--vary", "axial_load=1:2:0 N"]),
+        ("sweep", {"vary": {"axial_load": "1:2:2.5 N"}}, ["sweep", "--vary", "axial_load=1:2:2.5 N"]),
+        ("sweep", {"vary": {"axial_load": "1, two N"}}, ["sweep", "--vary", "axial_load=1, two N"]),
+        ("sweep", {"vary": {"axial_load": "-1 N"}}, ["sweep", "--vary", "axial_load=-1 N"]),
+        ("sweep", {"outputs": ["eficiency"]}, ["sweep", "--output", "eficiency"]),
+        ("band", {"samples": 1}, ["run", "--band", "--samples", "1"]),
+        ("band", {"level": 2.0}, ["run", "--band", "--level", "2"]),
+    ],
+)
+def test_lines_of_requests_at_fault(server, paper, address, more, words):
+    found = server.post(address, {"case": paper, **more})
+    assert (found.status_code, found.json()["lines"]) == (422, refused(words[0], PAPER, *words[1:]))
+
+
+def test_names_that_are_not_there(server):
+    assert server.get("catalogue/40x10").json()["lines"] == refused("catalogue", "show", "40x10")
+    assert server.get("catalogue?words=wood").json()["lines"] == refused("catalogue", "list", "wood")
+    assert server.get("validate?set=rexroth").json()["lines"] == refused("validate", "rexroth")
+
+
+def refused(*words):
+    with pytest.raises(InputError) as caught:
+        printed(*words)
+    return caught.value.lines()

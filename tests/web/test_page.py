@@ -1,0 +1,401 @@
+"""What the page shows is what the command line computes, in whatever units; its address holds all of it."""
+
+import json
+import re
+import urllib.parse
+
+import pytest
+from typer.testing import CliRunner
+
+from ballscrew.interfaces.cli import app
+from ballscrew.result import MECHANISMS
+
+DOUBLE = "rexroth-40x10x6-6-double"
+
+
+@pytest.fixture
+def computed(tmp_path):
+    """The results of the command line for the case file that the page gives."""
+
+    def run(visit):
+        path = tmp_path / "case.toml"
+        path.write_bytes(visit.download("#downloads button:text-is('TOML')"))
+        found = CliRunner().invoke(app, ["run", str(path), "--json"])
+        assert found.exit_code == 0, found.output
+        return json.loads(found.stdout)
+
+    return run
+
+
+def agree(visit, document):
+    """Every number shown is that of the document, to the last bit."""
+    shown, results = visit.numbers(), document["results"]
+    parts = {MECHANISMS.get(name, name): value for name, value in results["contributions"].items() if value != 0}
+    assert {"screw_torque", "drive_torque", "efficiency", "friction_power"} <= shown["results"].keys()
+    assert shown["results"] == {name: results[name] for name in shown["results"]}
+    assert len(shown["screw"]) >= 7
+    assert shown["screw"] == {name: results["screw"][name] for name in shown["screw"]}
+    assert shown["nut"] == {name: results["nut"][name] for name in shown["nut"]}
+    assert shown["parts"] == {"sum": results["screw_torque"], **parts}
+    return results
+
+
+def test_by_keyboard_alone(visit, computed):
+    here = visit().open()
+    keyboard = here.page.keyboard
+    before = agree(here, computed(here))
+    here.page.locator("#start").focus()
+    keyboard.type(DOUBLE[:12])  # as people choose in a list
+    here.settle()
+    assert here.page.locator("#start").input_value().startswith("rexroth-40x10")
+    keyboard.press("Tab")  # the summary of the section
+    keyboard.press("Tab")
+    assert here.page.evaluate("document.activeElement.id") == "f-operation-axial_load"
+    keyboard.press("Control+A")
+    keyboard.type("7000")
+    keyboard.press("Tab")
+    keyboard.press("Tab")
+    assert here.page.evaluate("document.activeElement.id") == "f-operation-screw_speed"
+    keyboard.press("Control+A")
+    keyboard.type("500")
+    keyboard.press("ArrowUp")
+    keyboard.press("Shift+ArrowUp")
+    here.settle()
+    found = computed(here)
+    assert found["inputs"]["operation"]["axial_load"] == 7000
+    assert here.page.locator("#f-operation-screw_speed").input_value() == "610"
+    after = agree(here, found)
+    assert after["screw_torque"] != before["screw_torque"]
+
+
+CASES = {
+    "row": [("start", "hiwin-40-16k5"), ("operation.axial_load", "9.5"), ("operation.screw_speed", "1e3")],
+    "double nut": [("start", DOUBLE), ("operation.axial_load", "7 kN"), ("nut.preload", "3 kN")],
+    "law": [("model.friction", "load-sharing"), ("model.friction.boundary_friction_coefficient", "0.11")],
+    "coefficient of the model's own law": [("model.friction.boundary_friction_coefficient", "0.09")],
+    "model": [("model.name", "olaru2005")],
+    "uncertain": [
+        ("screw.screw_conformity", "0.54 ± 0.01"),
+        ("screw.lead", "5 ± 0.01"),
+        ("screw.nut_conformity", "0.53"),
+    ],
+    "inches": [
+        ("units", "inch"),
+        ("operation.axial_load", "900"),
+        ("screw.lead", "0.2"),
+        ("lubricant.viscosity", "60"),
+    ],
+    "seals": [("losses.seals", "known"), ("losses.seals.seal_torque", "0.2"), ("operation.screw_speed", "100")],
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_shows_what_the_command_line_computes(visit, computed, case):
+    here = visit().open()
+    before = here.numbers()
+    for field, text in CASES[case]:
+        if field == "start":
+            here.page.locator("#start").select_option(text)
+            here.settle()
+        elif field == "units":
+            here.page.locator("#system").select_option(text)
+        elif here.page.locator(here.id(field)).evaluate("one => one.localName") == "select":
+            here.choose(field, text)
+        else:
+            here.type(field, text)
+    agree(here, computed(here))
+    assert here.numbers() != before
+
+
+def test_uncertain_input_and_its_band(visit, computed):
+    here = visit().open()
+    here.type("screw.screw_conformity", "0.54 ± 0.01").page.locator("#band").check()
+    here.page.wait_for_selector("#band-words >> text=95 %")
+    assert here.page.locator("#numbers .interval").count() >= 3
+    assert computed(here)["inputs"]["screw"]["screw_conformity"] == 0.54
+    here.type("operation.axial_load", "3000")  # the band before is not left standing
+    here.page.wait_for_selector("#band-words >> text=computing")
+    here.page.wait_for_selector("#band-words >> text=95 %")
+    low, high = re.search(r"([\d.]+) to ([\d.]+)", here.text("#numbers .interval >> nth=0")).groups()
+    assert float(low) < here.numbers()["results"]["screw_torque"] < float(high)
+
+
+# -- units ------------------------------------------------------------------------------------------
+
+
+def values(here):
+    """What every field shows."""
+    fields = "[...document.querySelectorAll('#form input')]"
+    return here.page.evaluate(f"Object.fromEntries({fields}.map((one) => [one.id, one.value]))")
+
+
+def test_units_do_not_drift(visit):
+    here = visit().open(f"#A={DOUBLE}")
+    here.type("operation.axial_load", "1234.5678901 N").unit("operation.axial_load", "N")
+    here.type("lubricant.temperature", "40")
+    before, numbers = values(here), here.numbers()
+    here.page.wait_for_timeout(400)
+    asked, address = here.posts(), here.page.url
+    for _ in range(5):
+        here.page.locator("#system").select_option("inch")
+        assert here.page.locator("#f-operation-axial_load").input_value().startswith("277.5419")
+        assert here.page.locator("#f-lubricant-temperature").input_value() == "104"
+        assert here.numbers() == numbers
+        for unit in ("kN", "lbf", "kgf", "N"):
+            here.unit("operation.axial_load", unit)
+        here.unit("lubricant.temperature", "degF")
+        here.unit("lubricant.temperature", "K")
+        here.page.locator("#system").select_option("metric")
+        assert values(here) == before
+    here.page.wait_for_timeout(400)
+    assert here.numbers() == numbers
+    assert here.posts() == asked  # nothing of that needs the server
+    assert here.page.url == address
+
+
+def test_everything_shown_is_in_the_units_chosen(visit):
+    here = visit().open(f"#A={DOUBLE}&B=paper")
+    metric = here.page.locator("main").inner_text()
+    assert "lbf" not in metric.replace("lbf\n", "")
+    here.page.locator("#system").select_option("inch")
+    here.page.wait_for_selector(".ytitle >> text=lbf·in >> nth=0")
+    for part in ("#results section.answer", "#contacts", "#assumed", "#compare", "#torque-chart", "#map-chart"):
+        text = here.text(part)
+        assert not re.search(r"\d (N|kN|N·m|mm|µm|MPa|GPa|°C)\b", text), text
+    assert "psi" in here.text("#contacts")
+    torque = here.numbers()["results"]["screw_torque"]
+    assert f"{torque / 0.1129848290276167:.4g} lbf·in" in here.text("#summary")
+
+
+# -- the address ------------------------------------------------------------------------------------
+
+
+def test_the_address_restores_everything(visit):
+    here = visit().open()
+    here.type("operation.axial_load", "3.21 kN").choose("model.friction", "load-sharing")
+    here.page.locator("#add").click()
+    here.settle().page.locator("#start").select_option(DOUBLE)
+    here.settle().type("nut.preload", "4 kN")
+    here.unit("operation.screw_speed", "rev/s")
+    here.page.locator("#band").check()
+    here.page.wait_for_selector("#band-words >> text=95 %")
+    here.page.wait_for_timeout(500)  # the address follows when typing rests
+    there = visit().open(here.page.url.partition("/#")[2].join(["#", ""]))
+    there.page.wait_for_selector("#band-words >> text=95 %")
+    assert there.page.locator("#design-B").get_attribute("aria-pressed") == "true"
+    assert values(there) == values(here)
+    assert there.numbers() == here.numbers()
+    assert there.text("#compare") == here.text("#compare")
+    assert there.text("#band-words") == here.text("#band-words")
+    assert there.page.locator("#u-operation-screw_speed").input_value() == "rev/s"
+
+
+def test_back_and_forward(visit):
+    here = visit().open()
+    first = here.numbers()
+    here.page.locator("#start").select_option(DOUBLE)
+    second = here.settle().numbers()
+    here.page.locator("#add").click()
+    here.settle().type("operation.axial_load", "5000")
+    third = here.numbers()
+    here.page.wait_for_timeout(500)
+    here.page.go_back()
+    assert here.settle().numbers() == second
+    here.page.go_back()
+    assert here.settle().numbers() == first
+    here.page.go_forward()
+    here.settle().page.go_forward()
+    assert here.settle().numbers() == third
+    assert here.page.locator("#f-operation-axial_load").input_value() == "5000"
+
+
+def test_typing_does_not_flood_the_history(visit):
+    here = visit().open()
+    before = here.page.evaluate("history.length")
+    field = here.page.locator("#f-operation-axial_load")
+    field.focus()
+    for _ in range(250):  # a key held down; browsers complain of 200 addresses written in 10 s
+        here.page.keyboard.press("ArrowUp")
+    here.settle()
+    here.page.wait_for_timeout(500)
+    assert here.page.evaluate("history.length") == before
+    load = field.input_value()
+    assert float(load) > 10_000
+    assert f"A.operation.axial_load={load}+N" in here.page.url
+    assert here.numbers()["results"] == visit().open(f"#A=paper&A.operation.axial_load={load}+N").numbers()["results"]
+
+
+NONSENSE = {
+    "unknown start": ("#A=no-such-screw", "The link starts from no-such-screw, not known here"),
+    "start from the prototype": ("#A=__proto__&B=constructor", "__proto__ and constructor, not known here"),
+    "unknown field": ("#A=paper&A.screw.colour=red&A.nonsense.x=1", "left out: A.screw.colour, A.nonsense.x"),
+    "prototype": ("#A=paper&A.__proto__.polluted=1&A.constructor.polluted=1&A.operation.constructor=1&units=constructor", "A.__proto__"),
+    "path of a file": ("#A=paper&A.screw.catalogue_file=/etc/passwd", "left out: A.screw.catalogue_file"),
+    "unknown unit": ("#A=paper&unit.operation.axial_load=furlong", "left out: unit.operation.axial_load"),
+    "script": ("#A=<script>window.hurt=1</script>&A.<img src=x onerror=hurt=1>=1", "<script>window.hurt=1</script>"),
+    "long": (f"#A={'x' * 100_000}&{'y' * 100_000}=1&z=1&z=2&z=3&z=4", "…"),
+    "only noise": ("#%%%&&&=&=1&;;", "left out"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("link", NONSENSE)
+def test_nonsense_in_a_link_does_no_harm(visit, link):
+    fragment, words = NONSENSE[link]
+    plain = visit().open()
+    here = visit().open(fragment)
+    assert words in here.text("#notice")
+    assert len(here.text("#notice")) < 500
+    assert here.numbers() == plain.numbers()
+    assert here.page.evaluate("[window.hurt, {}.polluted, Object.polluted, document.images.length]") == [
+        None,
+        None,
+        None,
+        0,
+    ]
+    here.type("operation.axial_load", "1000")  # and the page goes on
+    assert here.numbers() != plain.numbers()
+
+
+@pytest.mark.parametrize(
+    "text", ["<script>window.hurt = 1</script>", "__proto__", "1e400 N", "9" * 3000, "\u202e5 N", "5 N; rm"]
+)
+def test_nonsense_in_a_field_is_refused_in_words(visit, text):
+    here = visit()
+    here.expected = ("status of 422", "status of 413")
+    here.open(f"#A=paper&A.operation.axial_load={urllib.parse.quote(text)}")
+    assert here.text("#faults").strip()
+    assert here.page.evaluate("window.hurt") is None
+    here.type("operation.axial_load", "1000")
+    assert here.page.locator("#faults p").count() == 0
+
+
+# -- designs ----------------------------------------------------------------------------------------
+
+
+def compared(here):
+    """The numbers of the table, by design."""
+    return here.page.evaluate(
+        """() => { const rows = [...document.querySelectorAll("#compare tbody tr")]; const found = {};
+          [...document.querySelectorAll("#compare thead th")].slice(1).forEach((head, place) => {
+            found[head.textContent] = Object.fromEntries(rows.map((row) => row.children[place + 1].querySelector("data"))
+              .filter((one) => one && one.value !== "").map((one) => [one.dataset.name, Number(one.value)])); });
+          return found; }"""
+    )
+
+
+def test_three_and_four_designs(visit, computed):
+    here = visit().open()
+    for start in (DOUBLE, "hiwin-40-16k5", "rexroth-16x5x3-4-double"):
+        here.page.locator("#add").click()
+        here.settle().page.locator("#start").select_option(start)
+        here.settle()
+    here.type("operation.axial_load", "2.5 kN")
+    table = compared(here)
+    assert list(table) == ["Design A", "Design B", "Design C", "Design D"]
+    assert here.page.locator("#add").is_disabled()
+    for letter in "ABCD":
+        here.page.locator(f"#design-{letter}").click()
+        results = agree(here.settle(), computed(here))
+        assert len(table[f"Design {letter}"]) >= 5
+        for name, value in table[f"Design {letter}"].items():
+            assert value == results[name], (letter, name)
+    here.page.locator("#design-B").click()
+    here.settle().page.locator("#remove").click()
+    assert compared(here.settle()) == {
+        "Design A": table["Design A"], "Design B": table["Design C"], "Design C": table["Design D"]
+    }  # fmt: skip
+    for _ in range(2):
+        here.page.locator("#remove").click()
+        here.settle()
+    assert here.page.locator("#remove").is_disabled()
+    assert here.page.evaluate("document.activeElement.id") == "design-A"  # focus is not lost with the button
+    assert not here.page.locator("#compare table").count()
+
+
+def test_one_design_at_fault_does_not_spoil_the_others(visit):
+    here = visit()
+    here.expected = ("status of 422",)
+    here.open("#A=paper&B=paper&B.operation.axial_load=nonsense&C=hiwin-40-16k5&show=A")
+    table = compared(here)
+    assert table["Design B"] == {}
+    assert table["Design A"]["screw_torque"] == here.numbers()["results"]["screw_torque"]
+    assert "operation.axial_load" in here.text("#compare")
+    assert not here.page.locator("#faults p").count()
+
+
+# -- faults -----------------------------------------------------------------------------------------
+
+
+def test_a_fault_stands_beside_its_field(visit, server):
+    here = visit()
+    here.expected = ("status of 422",)
+    here.open().type("operation.axial_load", "4000 furlong")
+    body = {"case": {**server.get("vocabulary").json()["starts"]["paper"]["case"]}}
+    body["case"]["operation"] = {**body["case"]["operation"], "axial_load": "4000 furlong"}
+    line = server.post("run", body).json()["faults"][0]["line"]
+    field = here.page.locator("[data-path='operation.axial_load']")
+    assert f"operation.axial_load: {field.locator('.fault').inner_text()}" == line
+    assert field.locator("input").get_attribute("aria-invalid") == "true"
+    assert "f-operation-axial_load-fault" in field.locator("input").get_attribute("aria-describedby")
+    assert line in here.text("#faults")
+    assert "of the input before" in here.text("#faults")
+    assert float(here.page.locator("#numbers").evaluate("one => getComputedStyle(one).opacity")) < 0.5
+    assert "not computed" in here.page.title()
+    here.type("operation.axial_load", "4000")
+    assert field.locator(".fault").inner_text() == ""
+    assert field.locator("input").get_attribute("aria-invalid") is None
+    assert float(here.page.locator("#numbers").evaluate("one => getComputedStyle(one).opacity")) == 1
+    assert "N·m" in here.page.title()
+
+
+def test_a_fault_opens_its_section(visit):
+    here = visit()
+    here.expected = ("status of 422",)
+    here.open("#A=paper&A.nut.preload=-5+kN&A.nut.type=double")
+    fault = here.page.locator("[data-path='nut.preload'] .fault")
+    assert fault.is_visible()
+    assert fault.inner_text()
+
+
+def test_the_server_stops_and_comes_back(visit, start):
+    own = start()
+    here = visit(own.address)
+    here.expected = ("ERR_CONNECTION_REFUSED", "ERR_CONNECTION_RESET", "ERR_EMPTY_RESPONSE")
+    here.open()
+    port = own.port
+    own.end()
+    here.type("operation.axial_load", "5000")
+    assert "The server does not answer" in here.text("#faults")
+    assert "stale" in here.page.locator("#results").get_attribute("class")
+    start("--port", str(port))
+    here.type("operation.axial_load", "5100")
+    assert here.page.locator("#faults p").count() == 0
+    assert here.numbers()["results"]["screw_torque"] > 0
+
+
+def test_models_and_laws_side_by_side(visit, server):
+    here = visit().open()
+    here.page.locator("#models-button").click()
+    here.page.wait_for_selector("#models table")
+    found = server.post("compare", {"case": server.get("vocabulary").json()["starts"]["paper"]["case"]}).json()
+    shown = here.page.locator("#models data[data-name=screw_torque]").evaluate_all(
+        "all => all.map((one) => Number(one.value))"
+    )
+    assert shown == [row["screw_torque"] for row in (found["case"], *found["models"], *found["laws"])]
+    here.type("operation.axial_load", "3000")
+    assert not here.page.locator("#models table").count()  # of another case
+
+
+def test_a_script_that_is_slipped_in_does_not_run(visit):
+    here = visit()
+    here.expected = ("Content Security Policy",)
+    here.open()
+    here.page.evaluate(
+        """() => { const one = document.createElement("script"); one.textContent = "window.hurt = 1"; document.body.append(one);
+          const two = document.createElement("div"); two.innerHTML = '<img src="data:," onerror="window.hurt = 2">'; document.body.append(two);
+          const three = document.createElement("script"); three.src = "https://example.invalid/x.js"; document.body.append(three); }"""
+    )
+    here.page.wait_for_timeout(300)
+    assert here.page.evaluate("window.hurt") is None
+    assert any("script-src" in line for line in here.complaints)
+    here.requests = [one for one in here.requests if "example.invalid" not in one]  # asked for here, and stopped
