@@ -29,7 +29,7 @@ class Server:
     """``ballscrew serve`` in a process."""
 
     def __init__(self, *arguments: str, environment: dict[str, str] | None = None) -> None:
-        self.errors = tempfile.TemporaryFile("w+", encoding="utf-8")  # a pipe that nobody reads would fill up
+        self.errors = tempfile.TemporaryFile("w+", encoding="utf-8")  # noqa: SIM115  (a pipe would fill up)
         self.process = subprocess.Popen(
             [*PYTHON, "serve", "--port", "0", *arguments],
             stdout=subprocess.PIPE,

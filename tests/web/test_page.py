@@ -52,7 +52,7 @@ def test_by_keyboard_alone(visit, computed):
     keyboard.press("Tab")
     assert here.page.evaluate("document.activeElement.id") == "f-operation-axial_load"
     keyboard.press("Control+A")
-    keyboard.type("7000")
+    keyboard.type("7.5")
     keyboard.press("Tab")
     keyboard.press("Tab")
     assert here.page.evaluate("document.activeElement.id") == "f-operation-screw_speed"
@@ -62,7 +62,7 @@ def test_by_keyboard_alone(visit, computed):
     keyboard.press("Shift+ArrowUp")
     here.settle()
     found = computed(here)
-    assert found["inputs"]["operation"]["axial_load"] == 7000
+    assert found["inputs"]["operation"]["axial_load"] == 7500
     assert here.page.locator("#f-operation-screw_speed").input_value() == "610"
     after = agree(here, found)
     assert after["screw_torque"] != before["screw_torque"]
@@ -131,12 +131,13 @@ def values(here):
 
 def test_units_do_not_drift(visit):
     here = visit().open(f"#A={DOUBLE}")
-    here.type("operation.axial_load", "1234.5678901 N").unit("operation.axial_load", "N")
+    here.type("operation.axial_load", "1234.5678901 N").page.keyboard.press("Tab")
+    assert here.page.locator("#f-operation-axial_load").input_value() == "1234.5678901"  # its unit stands beside it
     here.type("lubricant.temperature", "40")
     before, numbers = values(here), here.numbers()
     here.page.wait_for_timeout(400)
     asked, address = here.posts(), here.page.url
-    for _ in range(5):
+    for _ in range(3):
         here.page.locator("#system").select_option("inch")
         assert here.page.locator("#f-operation-axial_load").input_value().startswith("277.5419")
         assert here.page.locator("#f-lubricant-temperature").input_value() == "104"
@@ -158,7 +159,7 @@ def test_everything_shown_is_in_the_units_chosen(visit):
     metric = here.page.locator("main").inner_text()
     assert "lbf" not in metric.replace("lbf\n", "")
     here.page.locator("#system").select_option("inch")
-    here.page.wait_for_selector(".ytitle >> text=lbf·in >> nth=0")
+    here.page.wait_for_selector("#said >> text=lbf·in", state="attached")
     for part in ("#results section.answer", "#contacts", "#assumed", "#compare", "#torque-chart", "#map-chart"):
         text = here.text(part)
         assert not re.search(r"\d (N|kN|N·m|mm|µm|MPa|GPa|°C)\b", text), text
@@ -229,7 +230,10 @@ NONSENSE = {
     "unknown start": ("#A=no-such-screw", "The link starts from no-such-screw, not known here"),
     "start from the prototype": ("#A=__proto__&B=constructor", "__proto__ and constructor, not known here"),
     "unknown field": ("#A=paper&A.screw.colour=red&A.nonsense.x=1", "left out: A.screw.colour, A.nonsense.x"),
-    "prototype": ("#A=paper&A.__proto__.polluted=1&A.constructor.polluted=1&A.operation.constructor=1&units=constructor", "A.__proto__"),
+    "prototype": (
+        "#A=paper&A.__proto__.polluted=1&A.constructor.polluted=1&A.operation.constructor=1&units=constructor",
+        "left out: A.__proto__.polluted, A.constructor.polluted, A.operation.constructor",
+    ),
     "path of a file": ("#A=paper&A.screw.catalogue_file=/etc/passwd", "left out: A.screw.catalogue_file"),
     "unknown unit": ("#A=paper&unit.operation.axial_load=furlong", "left out: unit.operation.axial_load"),
     "script": ("#A=<script>window.hurt=1</script>&A.<img src=x onerror=hurt=1>=1", "<script>window.hurt=1</script>"),
@@ -239,13 +243,13 @@ NONSENSE = {
 
 
 @pytest.mark.parametrize("link", NONSENSE)
-def test_nonsense_in_a_link_does_no_harm(visit, link):
+def test_nonsense_in_a_link_does_no_harm(visit, server, link):
     fragment, words = NONSENSE[link]
-    plain = visit().open()
+    plain = server.post("run", {"case": server.get("vocabulary").json()["starts"]["paper"]["case"]}).json()
     here = visit().open(fragment)
     assert words in here.text("#notice")
     assert len(here.text("#notice")) < 500
-    assert here.numbers() == plain.numbers()
+    agree(here, plain)
     assert here.page.evaluate("[window.hurt, {}.polluted, Object.polluted, document.images.length]") == [
         None,
         None,
@@ -253,7 +257,7 @@ def test_nonsense_in_a_link_does_no_harm(visit, link):
         0,
     ]
     here.type("operation.axial_load", "1000")  # and the page goes on
-    assert here.numbers() != plain.numbers()
+    assert here.numbers()["results"]["screw_torque"] < plain["results"]["screw_torque"]
 
 
 @pytest.mark.parametrize(
@@ -391,9 +395,14 @@ def test_a_script_that_is_slipped_in_does_not_run(visit):
     here.expected = ("Content Security Policy",)
     here.open()
     here.page.evaluate(
-        """() => { const one = document.createElement("script"); one.textContent = "window.hurt = 1"; document.body.append(one);
-          const two = document.createElement("div"); two.innerHTML = '<img src="data:," onerror="window.hurt = 2">'; document.body.append(two);
-          const three = document.createElement("script"); three.src = "https://example.invalid/x.js"; document.body.append(three); }"""
+        """() => {
+          const inline = document.createElement("script"), outer = document.createElement("script");
+          const image = document.createElement("div");
+          inline.textContent = "window.hurt = 1";
+          outer.src = "https://example.invalid/x.js";
+          image.innerHTML = '<img src="data:," onerror="window.hurt = 2">';
+          document.body.append(inline, outer, image);
+        }"""
     )
     here.page.wait_for_timeout(300)
     assert here.page.evaluate("window.hurt") is None

@@ -20,22 +20,25 @@ export function learn(document, report) {
   changed = report;
 }
 
+function own(table, name) { return table && Object.hasOwn(table, name) ? table[name] : undefined; }
+
 function definition(node) {
   return node?.$ref ? schema.$defs[node.$ref.split("/").pop()] : node;
 }
 
 function section(name) {
-  const node = schema.properties[name];
+  const node = own(schema.properties, name);
   return definition(node?.anyOf ? node.anyOf[0] : node);
 }
 
-/** The schema of a field by its path: ``screw.lead``, ``model.friction.boundary_friction_coefficient``. */
+/** The schema of a field of the form by its path: ``screw.lead``, ``model.friction.boundary_friction_coefficient``. */
 export function fieldOf(path) {
-  const [name, field, inner] = path.split(".");
-  const node = definition(section(name)?.properties?.[field]);
-  if (!inner) return node;
-  if (node?.properties) return definition(node.properties[inner]);
-  return node?.anyOf?.map((one) => one.properties?.[inner]).find((one) => one);
+  const [name, field, inner, ...others] = path.split(".");
+  if (!own(SECTIONS, name) || LEFT_OUT.includes(`${name}.${field}`) || others.length) return undefined;
+  const node = definition(own(section(name).properties, field));
+  if (inner === undefined || !node) return node;
+  if (node.properties) return definition(own(node.properties, inner));
+  return node.anyOf?.map((one) => own(one.properties, inner)).find((one) => one);
 }
 
 function words(name) { return name.replaceAll("_", " "); }
@@ -50,27 +53,43 @@ export function build(state, vocabulary, value, law) {
   const usual = matchMedia("(max-width: 46rem)").matches ? OPEN_ON_PHONE : OPEN;
   const parts = Object.keys(SECTIONS).map((name) => element("details",
     { "data-section": name, open: first ? usual.includes(name) : open.has(name) },
-    element("summary", {}, SECTIONS[name]), element("fieldset", {}, element("legend", { class: "hidden" }, SECTIONS[name]),
+    element("summary", { id: `s-${name}` }, SECTIONS[name]), element("fieldset", {}, element("legend", { class: "hidden" }, SECTIONS[name]),
       ...Object.entries(section(name).properties).flatMap(([field, node]) => rows(`${name}.${field}`, definition(node), state, value, law)))));
-  form.replaceChildren(start(state, vocabulary), ...parts);
+  // the list of starts stays: who chooses from it by letters is not interrupted
+  if (first) form.append(start(vocabulary));
+  while (form.children.length > 1) form.lastChild.remove();
+  form.append(...parts);
+  byId("start").value = state.designs[state.show].start;
+  byId("reset").hidden = !Object.keys(state.designs[state.show].changes).length;
+  for (const path of Object.keys(state.designs[state.show].changes)) mark(path, true);
 }
 
-function start(state, vocabulary) {
+/** Mark a field that differs from the start. */
+export function mark(path, differs) {
+  const field = fieldAt(path);
+  field?.classList.toggle("changed", differs);
+  const words = field?.querySelector(".differs");
+  if (words) words.textContent = differs ? " changed" : "";
+}
+
+function fieldAt(path) { return [...byId("form").querySelectorAll("[data-path]")].find((one) => one.dataset.path === path); }
+
+function start(vocabulary) {
   const groups = new Map();
   for (const row of vocabulary.rows) groups.set(row.source, [...(groups.get(row.source) ?? []), row]);
-  const current = state.designs[state.show].start;
-  const option = (name, text) => element("option", { value: name, selected: name === current }, text);
+  const option = (name, text) => element("option", { value: name }, text);
   const select = element("select", { id: "start", onchange: (event) => changed({ start: event.target.value }) },
     element("optgroup", { label: "Papers" }, ...Object.entries(vocabulary.starts).map(([name, one]) => option(name, one.title))),
     ...[...groups].map(([source, rows]) => element("optgroup", { label: source },
       ...rows.map((row) => option(row.name, `${row.name} (${row.nut} nut)`.replace(/-(\w+) \(\1 nut\)/, " ($1 nut)"))))));
-  return element("div", { class: "field start" }, element("label", { for: "start" }, "Start from"), select);
+  const reset = element("button", { type: "button", id: "reset", onclick: () => changed({ start: select.value }), title: "Undo all changes of this design" }, "Reset");
+  return element("div", { class: "field start given" }, element("label", { for: "start" }, "Start from"), element("div", { class: "entry" }, select, reset));
 }
 
 function rows(path, node, state, value, law) {
   if (LEFT_OUT.includes(path)) return [];
   if (node.properties) {
-    return [element("details", { class: "inner", "data-section": path }, element("summary", {}, words(path.split(".")[1])),
+    return [element("details", { class: "inner", "data-section": path }, element("summary", { id: `s-${path}` }, words(path.split(".")[1])),
       ...Object.entries(node.properties).flatMap(([name, inner]) => rows(`${path}.${name}`, definition(inner), state, value, law)))];
   }
   if (isLaw(node)) return lawRows(path, node, state, value, law);
@@ -92,12 +111,12 @@ function lawRows(path, node, state, value, law) {
   return found;
 }
 
-function frame(path, node, control, ...others) {
+function frame(path, node, given, control, ...others) {
   const id = `f-${path.replaceAll(".", "-")}`;
   control.id = id;
   control.setAttribute("aria-describedby", `${id}-about ${id}-fault`);
-  return element("div", { class: "field", "data-path": path, title: node.description },
-    element("label", { for: id }, words(path.split(".").pop())), element("div", { class: "entry" }, control, ...others),
+  return element("div", { class: given ? "field given" : "field", "data-path": path, title: node.description },
+    element("label", { for: id }, words(path.split(".").pop()), element("span", { class: "differs" })), element("div", { class: "entry" }, control, ...others),
     element("p", { id: `${id}-about`, class: "hidden" }, node.description ?? ""), element("p", { id: `${id}-fault`, class: "fault" }));
 }
 
@@ -107,7 +126,7 @@ function choice(path, node, kept, present) {
   const select = element("select", { onchange: (event) => changed({ path, text: event.target.value, rebuild: true }) },
     element("option", { value: "" }, empty),
     ...options.map((name) => element("option", { value: name, selected: String(kept) === name }, name)));
-  return frame(path, node, select);
+  return frame(path, node, kept !== undefined, select);
 }
 
 /** The unit that a field is shown in: chosen for it, or that of the system, or that it was typed in. */
@@ -125,8 +144,8 @@ function number(path, node, state, kept, present, style) {
   if (!si) {
     input.value = kept ?? "";
     input.placeholder = String(present ?? node.examples?.[0] ?? "");
-    input.addEventListener("input", () => changed({ path, text: input.value }));
-    return styled(frame(path, node, input), style);
+    input.addEventListener("input", () => typed(path, input, input.value.trim()));
+    return styled(frame(path, node, kept !== undefined, input), style);
   }
   const unit = unitOf(path, node, kept, state);
   const shown = kept === undefined ? "" : units.digitsIn(kept, unit, si);
@@ -134,15 +153,27 @@ function number(path, node, state, kept, present, style) {
   input.value = kept === undefined ? "" : shown ?? String(kept);
   input.placeholder = kept === undefined ? usual(node.examples?.[0], unit, si) : "";
   const known = [...new Set([unit, ...units.choices(si).map((one) => one.unit)])];
-  const select = element("select", { class: "unit", "aria-label": `unit of ${words(path.split(".").pop())}` },
+  const select = element("select", { class: "unit", id: `u-${path.replaceAll(".", "-")}`, "aria-label": `unit of ${words(path.split(".").pop())}` },
     asWritten ? element("option", { value: "", selected: true }, "as written") : null,
     ...known.map((name) => element("option", { value: name, selected: !asWritten && name === unit }, units.spoken(name))));
   select.addEventListener("change", () => changed({ path, unit: select.value, rebuild: true }));
   input.addEventListener("input", () => {
-    const bare = /^[\s\d.eE+-]*$/.test(input.value);
-    changed({ path, text: bare && input.value.trim() ? `${input.value.trim()} ${select.value}`.trim() : input.value.trim() });
+    const text = input.value.trim();
+    const bare = text !== "" && /^[\s\d.eE+±-]*$/.test(text);
+    if (bare && !select.value) select.value = unit;
+    typed(path, input, bare ? `${text} ${select.value}` : text);
   });
-  return styled(frame(path, node, input, select), style);
+  // a unit that was typed goes where units stand
+  input.addEventListener("change", () => {
+    const found = units.taken(input.value, si);
+    if (found) [input.value, select.value] = [found.digits, found.unit];
+  });
+  return styled(frame(path, node, kept !== undefined, input, select), style);
+}
+
+function typed(path, input, text) {
+  input.closest(".field").classList.toggle("given", text !== "");
+  changed({ path, text });
 }
 
 /** What stands where nothing is typed: the usual value. */
@@ -177,7 +208,7 @@ export function showFaults(faults) {
     field.querySelector("[aria-invalid]")?.removeAttribute("aria-invalid");
   }
   for (const { where, line } of faults) {
-    const field = [...byId("form").querySelectorAll("[data-path]")].find((one) => one.dataset.path === where);
+    const field = fieldAt(where);
     if (!field) { homeless.push(line); continue; }
     field.classList.add("wrong");
     field.querySelector(".fault").textContent = line.slice(where.length + 2);

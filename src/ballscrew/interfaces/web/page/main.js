@@ -1,31 +1,27 @@
 // The page: state in the address, a form, and an answer that follows what is typed.
 
-import * as charts from "./charts.js";
-import { showDesigns, showModels } from "./compare.js";
-import { byId, csv, element, save } from "./dom.js";
+import * as answers from "./answers.js";
+import { byId, element } from "./dom.js";
 import * as downloads from "./downloads.js";
 import * as form from "./form.js";
 import * as results from "./results.js";
-import { Problem, ask, get, send } from "./server.js";
+import { get } from "./server.js";
 import * as states from "./state.js";
 import * as units from "./units.js";
 
-const POINTS = 41, MAP = 21, MAP_OF_NUT = 11;
-const BAND_WAITS = 600;
+const ADDRESS_WAITS = 300;
 
-let vocabulary, schema, state;
+let vocabulary, state;
 const starts = new Map(); // tables of the cases to start from, by name
-const answers = new Map(); // answers by their cases, as text
-let flight = new AbortController();
-let banding = new AbortController();
-let bandTimer;
-let shown = {}; // what is on the page: answer, band, sweeps
+let laws; // of the answer that the form was built with
+let addressTimer;
+let address; // that is to be written
 
 // -- the case of a design ---------------------------------------------------------------------------
 
 async function startOf(name) {
   if (!starts.has(name)) {
-    const paper = vocabulary.starts[name]?.case;
+    const paper = Object.hasOwn(vocabulary.starts, name) ? vocabulary.starts[name].case : undefined;
     starts.set(name, paper ?? (await get(`catalogue/${encodeURIComponent(name)}`)).case);
   }
   return starts.get(name);
@@ -41,36 +37,70 @@ function current() { return state.designs[state.show]; }
 
 function changed({ path, text, unit, start, rebuild }) {
   if (start !== undefined) {
+    settle();
     state.designs[state.show] = states.design(start);
     return go({ rebuild: true, keep: true });
   }
   if (unit !== undefined) { state.fields[path] = unit; return go({ rebuild: true, only: "form" }); }
-  const own = starts.get(current().start);
-  const usual = path.split(".").reduce((table, name) => table?.[name], own);
-  if (text === "" && usual === undefined) delete current().changes[path];
-  else current().changes[path] = text;
-  if (text === "") for (const inner of Object.keys(current().changes)) if (inner.startsWith(`${path}.`)) delete current().changes[inner];
+  const { changes } = current();
+  const usual = states.inside(starts.get(current().start), path);
+  if (text === "" && usual === undefined) delete changes[path];
+  else changes[path] = text;
+  if (text === "") for (const inner of Object.keys(changes)) if (inner.startsWith(`${path}.`)) delete changes[inner];
+  form.mark(path, path in changes);
+  byId("reset").hidden = !Object.keys(changes).length;
   return go({ rebuild });
 }
 
-/** The state of an address; a design whose start nobody knows becomes the paper's screw, and that is said. */
+/** The state of an address; what is not known here is left out, and that is said. */
 function readState() {
-  const found = states.read(location.hash);
-  const known = new Set([...Object.keys(vocabulary.starts), ...vocabulary.rows.map((row) => row.name)]);
-  const unknown = found.designs.filter((one) => !known.has(one.start)).map((one) => one.start);
-  found.designs = found.designs.map((one) => (known.has(one.start) ? one : states.design()));
-  notice(unknown.length ? `The link starts from ${unknown.join(" and ")}, not known here: in its place stands the paper's screw.` : "");
+  const { state: found, strange } = states.read(location.hash, form.fieldOf, units.isUnit);
+  const rows = new Set([...Object.keys(vocabulary.starts), ...vocabulary.rows.map((row) => row.name)]);
+  const unknown = found.designs.filter((one) => !rows.has(one.start)).map((one) => brief(one.start));
+  found.designs = found.designs.map((one) => (rows.has(one.start) ? one : states.design()));
+  notice([
+    unknown.length ? `The link starts from ${unknown.join(" and ")}, not known here: in its place stands the paper's screw.` : "",
+    strange.length ? `The link has words that are not known here and left out: ${strange.slice(0, 3).map(brief).join(", ")}${strange.length > 3 ? ", …" : ""}.` : "",
+  ].join(" ").trim());
   return found;
+}
+
+function brief(text) { return text.length > 40 ? `${text.slice(0, 40)}…` : text; }
+
+/** Write the address that waits to be written: browsers stop a page that writes it at each key. */
+function settle() {
+  clearTimeout(addressTimer);
+  if (address !== undefined && address !== location.hash) history.replaceState(null, "", address);
+  address = undefined;
 }
 
 /** Write the state into the address, and show what it means. ``keep`` leaves the state before to the button Back. */
 async function go({ rebuild = false, keep = false, only = "" } = {}) {
-  const address = states.written(state);
-  if (address !== location.hash) history[keep ? "pushState" : "replaceState"](null, "", address);
-  if (keep) notice("");
+  if (only !== "form") byId("results").setAttribute("aria-busy", "true");
+  const written = states.written(state);
+  if (keep) {
+    settle();
+    if (written !== location.hash) history.pushState(null, "", written);
+    notice("");
+  } else {
+    address = written;
+    clearTimeout(addressTimer);
+    addressTimer = setTimeout(settle, ADDRESS_WAITS);
+  }
   try { if (rebuild) await showForm(); }
-  catch (problem) { results.fail([silent(problem)]); return; }
+  catch (problem) { results.fail(problem.lines ?? [answers.silent(problem)]); return; }
   if (only !== "form") await update();
+}
+
+async function update() {
+  answers.forgetModels();
+  await answers.follow(() => Promise.all(state.designs.map(caseOf)), state, (faults) => {
+    // the laws of the model are known with its answer
+    const { answer } = answers.current();
+    const found = answer && JSON.stringify([answer.inputs.model, answer.inputs.losses]);
+    if (found !== laws && !faults.length) { laws = found; showForm(); }
+    return form.showFaults(faults);
+  });
 }
 
 async function showForm() {
@@ -79,15 +109,24 @@ async function showForm() {
   byId("band").checked = state.band;
   const start = await startOf(current().start);
   const tables = states.tables(start, current().changes, form.fieldOf);
-  const at = (path) => path.split(".").reduce((table, name) => (table && typeof table === "object" ? table[name] : undefined), tables);
   const law = (path) => {
-    const known = shown.answer?.inputs[path.split(".")[0]]?.[path.split(".")[1]];
+    const known = states.inside(answers.current().answer?.inputs, path);
     return typeof known === "string" ? { law: known } : known;
   };
-  const focused = document.activeElement?.id;
-  form.build(state, vocabulary, at, law);
-  if (focused) byId(focused)?.focus();
-  tabs();
+  keepingFocus(() => {
+    form.build(state, vocabulary, (path) => states.inside(tables, path), law);
+    tabs();
+  });
+}
+
+/** Focus, and the place of the cursor, stay where they are when what has them is made anew. */
+function keepingFocus(rebuild) {
+  const { id, selectionStart: from, selectionEnd: to } = document.activeElement;
+  rebuild();
+  const again = id && document.activeElement.id !== id ? byId(id) : null;
+  if (again?.disabled) byId(`design-${states.LETTERS[state.show]}`).focus();
+  else again?.focus({ preventScroll: true });
+  if (again && typeof from === "number") again.setSelectionRange(from, to);
 }
 
 function notice(text) {
@@ -96,172 +135,58 @@ function notice(text) {
 }
 
 function tabs() {
-  const letter = (place) => states.LETTERS[place];
-  const buttons = state.designs.map((one, place) => element("button", { type: "button", class: "tab", "aria-pressed": String(place === state.show),
-    onclick: () => { state.show = place; go({ rebuild: true, keep: true }); } }, `Design ${letter(place)}`));
-  const add = element("button", { type: "button", id: "add", disabled: state.designs.length === states.LETTERS.length, onclick: () => {
+  const turn = (act) => () => { settle(); act(); go({ rebuild: true, keep: true }); };
+  const buttons = state.designs.map((_, place) => element("button", { type: "button", class: "tab", id: `design-${states.LETTERS[place]}`,
+    "aria-pressed": String(place === state.show), onclick: turn(() => { state.show = place; }) },
+  element("span", { class: "long" }, "Design "), states.LETTERS[place]));
+  const add = element("button", { type: "button", id: "add", disabled: state.designs.length === states.LETTERS.length, onclick: turn(() => {
     state.designs.push(states.design(current().start, current().changes));
     state.show = state.designs.length - 1;
-    go({ rebuild: true, keep: true });
-  } }, "Add design");
-  const remove = element("button", { type: "button", id: "remove", disabled: state.designs.length === 1, onclick: () => {
+  }) }, "Add design");
+  const remove = element("button", { type: "button", id: "remove", disabled: state.designs.length === 1, onclick: turn(() => {
     state.designs.splice(state.show, 1);
     state.show = Math.min(state.show, state.designs.length - 1);
-    go({ rebuild: true, keep: true });
-  } }, "Remove");
+  }) }, "Remove");
   byId("designs").replaceChildren(...buttons, add, remove);
 }
 
-// -- what the server says ---------------------------------------------------------------------------
-
-async function answerOf(body, signal) {
-  const key = JSON.stringify(body);
-  if (!answers.has(key)) {
-    const found = await ask("run", body, signal);
-    if (answers.size > 50) answers.delete(answers.keys().next().value);
-    answers.set(key, found);
-  }
-  return answers.get(key);
-}
-
-async function update() {
-  flight.abort();
-  flight = new AbortController();
-  const { signal } = flight;
-  const began = performance.now();
-  let body;
-  try {
-    body = { case: await caseOf(current()) };
-    const answer = await answerOf(body, signal);
-    if (signal.aborted) return;
-    const known = shown.answer;
-    shown = { ...shown, body, answer, band: shown.of === JSON.stringify(body) ? shown.band : null };
-    form.showFaults([]);
-    results.succeed();
-    results.show(answer, shown.band);
-    if (!known) showForm(); // the laws of the model are known now
-    performance.measure("numbers", { start: began });
-    const swept = draw(body, answer, signal, began);
-    band(body);
-    await Promise.all([swept, compare(signal)]);
-  } catch (problem) {
-    if (signal.aborted || problem.name === "AbortError") return;
-    if (!(problem instanceof Problem)) { results.fail([silent(problem)]); return; }
-    const homeless = form.showFaults(problem.faults);
-    results.fail(homeless.length < problem.faults.length ? [...problem.lines] : problem.lines);
-    compare(signal);
-  }
-}
-
-function silent(problem) { return `The server does not answer (${problem.message}). Is it still running?`; }
-
-async function draw(body, answer, signal, began) {
-  const { axial_load: load, screw_speed: speed } = answer.inputs.operation;
-  const nut = Boolean(answer.loads);
-  const fast = speed > 0 ? 2 * speed : 200, heavy = load > 0 ? 2 * load : 10_000;
-  const parts = Object.keys(answer.results.contributions).map((name) => `contribution_${name}`);
-  const films = nut ? ["minimum_film_parameter"] : ["screw_film_parameter", "nut_film_parameter"];
-  const pressures = nut ? ["maximum_pressure"] : ["screw_maximum_pressure", "nut_maximum_pressure"];
-  const sweep = (vary, outputs) => ask("sweep", { ...body, vary, outputs }, signal);
-  const size = nut ? MAP_OF_NUT : MAP;
-  const alongSpeed = await sweep({ screw_speed: `${fast / 100}:${fast}:${POINTS} rad/s` }, ["screw_torque", ...parts, ...films]);
-  if (signal.aborted) return;
-  shown.alongSpeed = alongSpeed;
-  await charts.torque(alongSpeed, answer, vocabulary.mechanisms);
-  performance.measure("chart", { start: began });
-  charts.film(alongSpeed, answer);
-  const picture = send("drawing", body, signal).then((found) => found.text()).then(showDrawing);
-  const alongLoad = sweep({ axial_load: `${heavy / 50}:${heavy}:${nut ? 15 : POINTS} N` }, pressures).then((found) => charts.pressure(found, answer));
-  const everywhere = sweep({ axial_load: `${heavy / 20}:${heavy}:${size} N`, screw_speed: `${fast / 20}:${fast}:${size} rad/s` }, ["efficiency"])
-    .then((found) => charts.map(found, answer));
-  shown.redraw = () => draw(body, answer, signal, performance.now());
-  await Promise.all([picture, alongLoad, everywhere]);
-  performance.measure("all", { start: began });
-}
-
-function showDrawing(text) {
-  const found = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
-  if (found.nodeName === "svg") byId("drawing").replaceChildren(document.importNode(found, true));
-}
-
-/** The band, when asked for, once typing has come to rest. */
-function band(body) {
-  clearTimeout(bandTimer);
-  banding.abort();
-  if (!state.band) { shown.band = null; return; }
-  const key = JSON.stringify(body);
-  if (shown.of === key && shown.band && !shown.band.pending) return;
-  shown = { ...shown, of: key, band: { pending: true } };
-  results.show(shown.answer, shown.band);
-  banding = new AbortController();
-  const { signal } = banding;
-  bandTimer = setTimeout(async () => {
-    let found;
-    try { found = await ask("band", body, signal); }
-    catch (problem) { found = { problem: problem.lines?.join("; ") ?? String(problem) }; }
-    if (signal.aborted) return;
-    shown.band = found;
-    results.show(shown.answer, found);
-  }, shown.banded ? BAND_WAITS : 0);
-  shown.banded = true;
-}
-
-async function compare(signal) {
-  const found = {};
-  for (const [place, one] of state.designs.entries()) {
-    try { found[states.LETTERS[place]] = await answerOf({ case: await caseOf(one) }, signal); }
-    catch (problem) {
-      if (signal.aborted) return;
-      found[states.LETTERS[place]] = problem.lines?.[0] ?? String(problem);
-    }
-  }
-  shown.redrawDesigns = () => showDesigns(found, vocabulary.mechanisms);
-  shown.redrawDesigns();
-}
-
-async function models() {
-  byId("models").textContent = "computing …";
-  try { showModels(await ask("compare", shown.body)); }
-  catch (problem) { byId("models").textContent = problem.lines?.join("; ") ?? String(problem); }
-}
-
 // -- the beginning ----------------------------------------------------------------------------------
-
-function torqueCsv() {
-  const { axes, outputs } = shown.alongSpeed;
-  const names = Object.keys(outputs);
-  const rows = axes.screw_speed.values.map((speed, place) => [speed, ...names.map((name) => outputs[name].values[place])]);
-  save("torque_over_speed.csv", new Blob([csv(["screw_speed [rad/s]", ...names.map((name) => `${name} [${outputs[name].unit}]`)], rows)], { type: "text/csv" }));
-}
 
 function listen() {
   byId("system").addEventListener("change", async (event) => {
     state.system = event.target.value;
     state.fields = {};
     await go({ rebuild: true, only: "form" });
-    if (shown.answer) { results.show(shown.answer, shown.band); shown.redraw?.(); shown.redrawDesigns?.(); }
+    answers.again();
   });
   byId("band").addEventListener("change", (event) => {
     state.band = event.target.checked;
     go({ only: "form" });
-    band(shown.body);
-    results.show(shown.answer, shown.band);
+    answers.band(state.band);
   });
   byId("share").addEventListener("click", async (event) => {
+    settle();
     try { await navigator.clipboard.writeText(location.href); event.target.textContent = "Link copied"; }
     catch { event.target.textContent = "Copy it from the address bar"; }
     setTimeout(() => { event.target.textContent = "Copy link"; }, 2500);
   });
-  byId("models-button").addEventListener("click", models);
+  byId("models-button").addEventListener("click", answers.models);
   byId("form").addEventListener("submit", (event) => event.preventDefault());
-  addEventListener("popstate", () => { state = readState(); shown.band = null; go({ rebuild: true }); });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { shown.redraw?.(); shown.redrawDesigns?.(); });
-  downloads.build(() => ({ body: shown.body, answer: shown.answer, csv: torqueCsv, name: `ballscrew-${current().start}` }));
+  addEventListener("popstate", () => {
+    clearTimeout(addressTimer);
+    address = undefined;
+    state = readState();
+    go({ rebuild: true });
+  });
+  addEventListener("pagehide", settle);
+  downloads.build(() => ({ ...answers.current(), csv: answers.torqueCsv, name: `ballscrew-${current().start}` }));
 }
 
 async function begin() {
+  let schema;
   [vocabulary, schema] = await Promise.all([get("vocabulary"), get("schema")]);
   units.learn(vocabulary);
+  answers.learn(vocabulary);
   form.learn(schema, changed);
   byId("version").textContent = `Version ${vocabulary.version}.`;
   state = readState();

@@ -42,12 +42,23 @@ function bandOf(band, name) {
   return element("span", { class: "interval" }, `${units.digits(units.inShownUnit(name, one.low))} to ${units.shown(name, one.high)}`);
 }
 
+let sayLater;
+
+/** Say it to those who listen, once typing has come to rest. */
+function say(text) {
+  clearTimeout(sayLater);
+  sayLater = setTimeout(() => { byId("said").textContent = text; }, 700);
+}
+
 /** Everything of one answer but its pictures. */
 export function show(answer, band) {
   const { results, words, warnings } = answer;
   byId("case").textContent = units.sentence(words.title);
-  byId("summary").textContent =
-    `Friction torque ${units.shown("screw_torque", results.screw_torque)}, efficiency ${units.digits(results.efficiency)}.`;
+  const torque = units.shown("screw_torque", results.screw_torque);
+  const summary = `Friction torque ${torque}, efficiency ${units.digits(results.efficiency)}.`;
+  byId("summary").textContent = summary;
+  say(summary);
+  document.title = `${torque} · ballscrew`;
   byId("verdicts").replaceChildren(...words.verdicts.map((line) =>
     element("p", { class: /^(self-locking|skids|preload lost)/.test(line) ? "verdict careful" : "verdict" }, units.sentence(line))));
   const here = warnings.filter((warning) => !concern(warning));
@@ -87,8 +98,13 @@ function bandWords(band) {
 
 /** Nothing valid to show: say why, and dim what is from before. */
 export function fail(lines) {
+  const place = byId("faults");
   byId("results").classList.add("stale");
-  byId("faults").replaceChildren(...lines.map((line) => element("p", {}, line)));
+  document.title = "not computed · ballscrew";
+  clearTimeout(sayLater);
+  const words = [...lines, byId("case").textContent ? "What stands below is of the input before." : null].filter(Boolean);
+  if ([...place.children].map((one) => one.textContent).join("\n") === words.join("\n")) return; // said already
+  place.replaceChildren(...words.map((line) => element("p", {}, line)));
 }
 
 export function succeed() {

@@ -22,26 +22,33 @@ export function written(state) {
   return `#${words}`;
 }
 
-/** The state that a fragment stands for; what is not understood is left out. */
-export function read(fragment) {
+/**
+ * The state that a fragment stands for, and the words of it that are ``strange``: they are left out.
+ * ``schema(path)`` knows the fields, ``isUnit(unit, field)`` their units.
+ */
+export function read(fragment, schema, isUnit) {
   const words = new URLSearchParams(fragment.replace(/^#/, ""));
   const state = fresh();
-  const designs = LETTERS.filter((letter) => words.has(letter)).map((letter) => {
-    const changes = {};
-    for (const [key, text] of words) {
-      if (key.startsWith(`${letter}.`) && isPath(key.slice(2))) changes[key.slice(2)] = text;
-    }
-    return design(words.get(letter), changes);
-  });
-  if (designs.length) state.designs = designs;
-  for (const [key, unit] of words) if (key.startsWith("unit.") && isPath(key.slice(5))) state.fields[key.slice(5)] = unit;
-  state.show = Math.max(0, Math.min(LETTERS.indexOf(words.get("show") ?? "A"), state.designs.length - 1));
+  const letters = LETTERS.filter((letter) => words.has(letter));
+  if (letters.length) state.designs = letters.map((letter) => design(words.get(letter)));
+  const strange = [];
+  for (const [key, text] of words) {
+    const [first, ...others] = key.split("."), path = others.join(".");
+    const place = letters.indexOf(first);
+    if (place >= 0 && schema(path)) state.designs[place].changes[path] = text;
+    else if (first === "unit" && isUnit(text, schema(path))) state.fields[path] = text;
+    else if (!OWN.includes(key) && !letters.includes(key)) strange.push(key);
+  }
+  state.show = Math.max(0, letters.indexOf(words.get("show")));
   state.system = words.get("units") ?? "metric";
   state.band = words.get("band") === "1";
-  return state;
+  return { state, strange };
 }
 
-function isPath(text) { return /^[a-z_]+(\.[a-z_]+){1,2}$/.test(text) && !text.includes("__"); }
+/** What is at a path of tables within tables. */
+export function inside(tables, path) {
+  return path.split(".").reduce((table, name) => (table && typeof table === "object" && Object.hasOwn(table, name) ? table[name] : undefined), tables);
+}
 
 /** The tables of a case: those of its start with the changes put in. */
 export function tables(start, changes, schema) {

@@ -3,12 +3,13 @@
 const NUMBER = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i;
 const SPOKEN = { um: "µm", uin: "µin", degC: "°C", degF: "°F", deg: "°", "N m": "N·m", "N mm": "N·mm", "lbf in": "lbf·in",
   "mPa s": "mPa·s", "Pa s": "Pa·s", "1/GPa": "1/GPa", "N/um": "N/µm" };
+const LIKE = { preload_drag: "screw_torque" };
 
 let vocabulary;
 let system = "metric";
 
 export function learn(words) { vocabulary = words; }
-export function setSystem(name) { system = name in vocabulary.systems ? name : "metric"; }
+export function setSystem(name) { system = Object.hasOwn(vocabulary.systems, name) ? name : "metric"; }
 export function currentSystem() { return system; }
 
 /** A unit as people write it. */
@@ -18,7 +19,10 @@ export function spoken(unit) { return SPOKEN[unit] ?? unit; }
 export function unitHere(unit) { return vocabulary.systems[system][unit] ?? unit; }
 
 /** The units people use for a quantity, by its SI unit. */
-export function choices(si) { return vocabulary.units[si] ?? []; }
+export function choices(si) { return (si && vocabulary.units[si]) || []; }
+
+/** Whether a field, as the schema has it, can be shown in a unit. */
+export function isUnit(unit, field) { return Boolean(field?.["x-si-unit"] && entry(unit, field["x-si-unit"])); }
 
 function entry(unit, si) { return choices(si).find((one) => one.unit === unit); }
 
@@ -56,14 +60,17 @@ export function digits(value, count = 4) {
     ? rounded.toExponential().replace("e+", "e") : String(rounded);
 }
 
+/** What is known of a result; some go by the name of another one. */
+function resultOf(name) { return vocabulary.results[LIKE[name] ?? name]; }
+
 /** The unit in which a result is shown, and its value there. */
 export function shownUnit(name) {
-  const known = vocabulary.results[name];
+  const known = resultOf(name);
   return known && known.unit !== "1" ? unitHere(known.shown_in) : "";
 }
 
 export function inShownUnit(name, value) {
-  const known = vocabulary.results[name];
+  const known = resultOf(name);
   if (!known || known.unit === "1" || value === null) return value;
   return fromSI(value, unitHere(known.shown_in), known.unit);
 }
