@@ -249,3 +249,13 @@ def visit(browser, pages, server):
     ]
     outside = [line for _, found in visits for line in found.outside()]
     assert (complaints, outside) == ([], [])
+
+
+@pytest.fixture
+def ballscrew():
+    """Run a command that ends by itself."""
+
+    def command(*arguments):
+        return subprocess.run([*PYTHON, *arguments], capture_output=True, encoding="utf-8", check=False, timeout=60)
+
+    return command

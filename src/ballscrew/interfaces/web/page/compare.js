@@ -31,7 +31,7 @@ export function showDesigns(answers, mechanisms) {
     ["verdict", ...letters.map((letter) => cell(letter, (answer) => answer.words.verdicts.map((line) => line.split(":")[0].split(";")[0]).filter((line, at, all) => all.indexOf(line) === at).join("; ")))],
     ["beware", ...letters.map((letter) => (good[letter] ? good[letter].warnings.map((line) => line.split(":")[0].replaceAll("_", " ")).join(", ") || "–" : answers[letter]))],
   ];
-  place.replaceChildren(element("div", { class: "scroll whole", tabindex: "0", role: "region", "aria-label": "designs side by side" },
+  place.replaceChildren(element("div", { class: "scroll whole", tabindex: "0", role: "region", "aria-label": "table of the designs" },
     table("designs side by side", ["", ...letters.map((letter) => `Design ${letter}`)], lead)));
   if (Object.keys(good).length) return charts.designs(good, mechanisms);
   return null;

@@ -16,7 +16,7 @@ export function byId(id) { return document.getElementById(id); }
 
 /** A table with a caption, headings above and, where asked for, beside. */
 export function table(caption, headings, rows, { hidden = false, beside = true } = {}) {
-  const head = element("tr", {}, ...headings.map((text) => element("th", { scope: "col" }, text)));
+  const head = element("tr", {}, ...headings.map((text) => (text ? element("th", { scope: "col" }, text) : element("td"))));
   const body = rows.map((cells) => element("tr", {}, ...cells.map((cell, place) =>
     place === 0 && beside ? element("th", { scope: "row" }, cell) : element("td", {}, cell))));
   return element("table", {}, element("caption", { class: hidden ? "hidden" : undefined }, caption),

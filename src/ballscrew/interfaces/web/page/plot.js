@@ -14,7 +14,17 @@ const WIDTH_OF_PAPER = 660;
 const PAPER = { ink: "#1c2127", line: "#d5dade", panel: "#ffffff", accent: "#0062a0", second: "#a34a00" };
 
 const drawn = new Map(); // the charts on the page, by their place
+const seen = new Set(), waiting = new Set(); // places on the screen or near it; charts that wait to come there
 let onScreen; // the colours of the page
+
+// what nobody sees is drawn when it comes into sight: a key pressed costs half as much
+const sight = new IntersectionObserver((entries) => {
+  for (const { target: { id }, isIntersecting } of entries) {
+    seen[isIntersecting ? "add" : "delete"](id);
+    if (isIntersecting && waiting.delete(id)) show(id, colours());
+  }
+}, { rootMargin: "250px" });
+for (const place of document.querySelectorAll(".chart")) sight.observe(place);
 
 function colours() {
   if (!onScreen) {
@@ -49,7 +59,9 @@ export async function draw(id, chart) {
   holder.querySelector(".plot").setAttribute("aria-label", chart.description);
   holder.querySelector(".legend").replaceChildren(...chart.legend(colours()).map(key));
   numbers(id, holder);
-  return show(id, colours());
+  if (seen.has(id)) return show(id, colours());
+  waiting.add(id);
+  return null;
 }
 
 function show(id, palette, more = {}) {
@@ -60,6 +72,7 @@ function show(id, palette, more = {}) {
 /** A chart that cannot be drawn, and why. */
 export function refuse(id, words) {
   drawn.delete(id);
+  waiting.delete(id);
   byId(id).replaceChildren(element("p", { class: "warning" }, `This chart could not be computed: ${words}`));
 }
 
@@ -105,6 +118,7 @@ async function picture({ name, figure }) {
 /** Draw all charts once more, as for paper or for the screen. */
 function again(palette, more) {
   for (const [id, chart] of drawn) {
+    waiting.delete(id);
     byId(id).querySelector(".legend").replaceChildren(...chart.legend(palette).map(key));
     show(id, palette, more);
   }

@@ -1,0 +1,226 @@
+"""The page for everybody: keyboard, screen readers, small and large letters, light and dark, on paper."""
+
+import itertools
+from pathlib import Path
+
+import axe_playwright_python
+import pytest
+
+DOUBLE = "rexroth-40x10x6-6-double"
+AXE = (Path(axe_playwright_python.__file__).parent / "axe.min.js").read_text(encoding="utf-8")
+SIZES = {"desktop": {"width": 1360, "height": 900}, "phone": {"width": 390, "height": 844}}
+OPEN_ALL = "for (const one of document.querySelectorAll('details')) one.open = true"
+FOCUS = "document.activeElement.id || document.activeElement.className || document.activeElement.textContent"
+
+
+def violations(here):
+    """What axe finds, with the places: an evaluation by the debugger is not stopped by the policy of the page."""
+    here.page.evaluate(f"{AXE}; 0")
+    found = here.page.evaluate("axe.run(document, {resultTypes: ['violations']})")["violations"]
+    return [(one["id"], one["impact"], [node["target"] for node in one["nodes"]][:3]) for one in found]
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("size", SIZES)
+def test_axe_finds_nothing(visit, size, scheme):
+    here = visit(viewport=SIZES[size], color_scheme=scheme)
+    here.expected = ("status of 422",)
+    here.open(f"#A={DOUBLE}&A.operation.axial_load=7+kN&B=paper&band=1&show=A")
+    here.page.wait_for_selector("#band-words >> text=95 %")
+    here.page.locator("#models-button").click()
+    here.page.wait_for_selector("#models table")
+    here.page.evaluate(OPEN_ALL)
+    here.page.wait_for_timeout(200)
+    assert violations(here) == []
+    here.type("operation.axial_load", "nonsense")
+    here.page.wait_for_selector(".field.wrong")
+    assert violations(here) == []
+
+
+def test_everything_is_reached_by_tab_and_is_seen_to_be(visit):
+    here = visit().open(f"#A={DOUBLE}&B=paper")
+    here.page.evaluate(OPEN_ALL)
+    here.page.wait_for_timeout(200)
+    reached, hidden = [], []
+    count = here.page.evaluate(
+        """[...document.querySelectorAll("a[href], button:enabled, input, select, summary, [tabindex='0']")]
+           .filter((one) => one.checkVisibility()).length"""
+    )
+    here.page.evaluate("document.body.focus()")
+    for _ in range(count):
+        here.page.keyboard.press("Tab")
+        mark = here.page.evaluate(
+            """() => { const one = document.activeElement;
+              const style = getComputedStyle(one), box = one.getBoundingClientRect();
+              one.dataset.count = Number(one.dataset.count ?? 0) + 1;
+              const outlined = style.outlineStyle !== "none" && parseFloat(style.outlineWidth) >= 2;
+              const seen = outlined
+                && box.bottom > 0 && box.top < innerHeight && box.right > 0;
+              return [one.localName, one.id || one.textContent.slice(0, 30), seen]; }"""
+        )
+        reached.append(mark[1])
+        if not mark[2]:
+            hidden.append(mark)
+    assert hidden == []
+    assert here.page.evaluate("document.querySelectorAll('[data-count]').length") == count
+    assert reached[0] == "Skip to the results"
+    for name in (
+        "start",
+        "f-operation-axial_load",
+        "u-operation-axial_load",
+        "system",
+        "share",
+        "models-button",
+        "band",
+    ):
+        assert name in reached
+
+
+def test_the_skip_link_skips(visit):
+    here = visit().open()
+    here.page.keyboard.press("Tab")
+    here.page.keyboard.press("Enter")
+    here.page.keyboard.press("Tab")
+    assert here.page.evaluate("document.querySelector('#results').contains(document.activeElement)")
+
+
+def test_focus_stays_when_the_form_is_made_anew(visit):
+    here = visit().open()
+    for field, value in (("#u-operation-axial_load", "kN"), ("#f-model-name", "olaru2005"), ("#start", DOUBLE)):
+        here.page.evaluate(OPEN_ALL)
+        here.page.locator(field).focus()
+        here.page.locator(field).select_option(value)
+        here.settle()
+        assert "#" + here.page.evaluate(FOCUS) == field
+    here.page.locator("#system").focus()
+    here.page.locator("#system").select_option("inch")
+    here.settle()
+    assert here.page.evaluate(FOCUS) == "system"
+    here.page.locator("#add").focus()
+    here.page.keyboard.press("Enter")
+    here.settle()
+    assert here.page.evaluate(FOCUS) == "add"
+
+
+def test_results_and_faults_are_said(visit):
+    here = visit()
+    here.expected = ("status of 422",)
+    here.open()
+    assert here.page.locator("#said").get_attribute("role") == "status"
+    assert here.page.locator("#faults").get_attribute("role") == "alert"
+    here.page.evaluate(
+        """() => { window.heard = []; const said = document.querySelector("#said");
+          new MutationObserver(() => heard.push(said.textContent)).observe(said, { childList: true }); }"""
+    )
+    here.page.locator("#f-operation-axial_load").focus()
+    for _ in range(8):
+        here.page.keyboard.press("ArrowUp")
+    here.page.wait_for_timeout(1500)
+    heard = here.page.evaluate("heard")
+    assert 1 <= len(heard) <= 2  # not at every key
+    assert heard[-1] == here.text("#summary")
+    here.type("operation.axial_load", "nonsense")
+    assert "operation.axial_load" in here.text("#faults")
+
+
+def test_headings_tables_and_labels(visit):
+    here = visit().open("#A=paper&B=paper")
+    here.page.evaluate(OPEN_ALL)
+    levels = here.page.evaluate("[...document.querySelectorAll('h1, h2, h3')].map((one) => Number(one.localName[1]))")
+    assert levels[0] == 1
+    assert levels.count(1) == 1
+    assert all(after - before <= 1 for before, after in itertools.pairwise(levels))
+    wrong = here.page.evaluate(
+        """() => [...document.querySelectorAll("th")].filter((one) => !["col", "row"].includes(one.scope)).length
+          + [...document.querySelectorAll("table")].filter((one) => !one.caption?.textContent).length
+          + [...document.querySelectorAll("section, form, nav")].filter((one) =>
+              !one.ariaLabel && !one.getAttribute("aria-labelledby")).length"""
+    )
+    assert wrong == 0
+    for field in here.page.locator("#form input, #form select, header select").all():
+        assert field.evaluate("one => one.labels.length === 1 || Boolean(one.ariaLabel)")
+
+
+@pytest.mark.parametrize("width", [320, 390, 680, 768, 1024])  # 680: a screen of 1360 with letters of 200 %
+def test_no_scrolling_to_the_side(visit, width):
+    here = visit(viewport={"width": width, "height": 800})
+    here.open(f"#A={DOUBLE}&B=paper&C=hiwin-40-16k5&D=paper&band=1")
+    here.page.evaluate(OPEN_ALL)
+    here.page.wait_for_selector("#band-words >> text=95 %")
+    assert here.page.evaluate("document.documentElement.scrollWidth") <= width
+    outside = here.page.evaluate(
+        """() => [...document.querySelectorAll("main *, header *")].filter((one) => one.checkVisibility()
+          && one.getBoundingClientRect().right > innerWidth + 1 && !one.closest(".scroll, .drawing, .plot, .hidden"))
+          .map((one) => `${one.localName}.${one.className} ${one.textContent.slice(0, 30)}`)"""
+    )
+    assert outside == []
+
+
+def test_the_answer_is_in_sight_of_who_types_on_a_phone(visit):
+    here = visit(viewport=SIZES["phone"]).open()
+    here.page.locator("#f-operation-axial_load").focus()
+    here.page.keyboard.press("ArrowUp")
+    here.settle()
+    box = here.page.locator("#summary").bounding_box()
+    assert 0 <= box["y"] <= SIZES["phone"]["height"] - box["height"] + 1
+
+
+def test_nothing_moves_where_motion_is_not_wanted(visit):
+    here = visit(reduced_motion="reduce").open()
+    here.type("operation.axial_load", "3000")
+    assert here.page.evaluate("document.getAnimations().length") == 0
+
+
+def contrast(one, other):
+    """The contrast of two colours ``rgb(…)`` after WCAG."""
+
+    def luminance(colour):
+        parts = [int(part) / 255 for part in colour.strip("rgba()").split(",")[:3]]
+        light = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
+        return 0.2126 * light[0] + 0.7152 * light[1] + 0.0722 * light[2]
+
+    bright, dark = sorted([luminance(one), luminance(other)], reverse=True)
+    return (bright + 0.05) / (dark + 0.05)
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_letters_of_charts_and_drawing_can_be_read(visit, scheme):
+    here = visit(color_scheme=scheme, viewport={"width": 1360, "height": 4000}).open()
+    here.page.wait_for_selector("#pressure-chart .xtick text")
+    back = here.page.evaluate("getComputedStyle(document.querySelector('section')).backgroundColor")
+    fills = here.page.evaluate(
+        """() => ["torque-chart", "film-chart", "pressure-chart", "drawing"]
+          .flatMap((id) => [...document.querySelectorAll(`#${id} text`)])
+          .filter((one) => one.textContent).map((one) => getComputedStyle(one).fill)"""
+    )
+    assert len(fills) > 30
+    assert min(contrast(fill, back) for fill in set(fills)) > 4.5
+
+
+def test_changing_to_dark_redraws(visit):
+    here = visit(color_scheme="light").open()
+    ink = "getComputedStyle(document.querySelector('#torque-chart .xtick text')).fill"
+    before = here.page.evaluate(ink)
+    here.page.emulate_media(color_scheme="dark")
+    here.page.wait_for_timeout(300)
+    after = here.page.evaluate(ink)
+    here.page.emulate_media(color_scheme="light")
+    assert before != after
+
+
+def test_on_paper_it_is_a_sheet(visit):
+    here = visit(color_scheme="dark").open(f"#A={DOUBLE}&A.operation.axial_load=7+kN")
+    here.page.emulate_media(media="print", color_scheme="dark")
+    here.page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    here.page.wait_for_timeout(300)
+    visible = "[...document.querySelectorAll(`{}`)].filter((one) => one.checkVisibility()).length"
+    assert here.page.evaluate(visible.format("button, nav, .tools, #band")) == 0
+    assert here.page.evaluate(visible.format("[data-path='operation.axial_load'] input")) == 1
+    assert here.page.evaluate(visible.format("[data-path='limits.static_safety']")) == 0  # nothing given there
+    assert here.page.evaluate(visible.format(".main-svg")) > 3
+    dark = here.page.evaluate("getComputedStyle(document.querySelector('#pressure-chart .xtick text')).fill")
+    assert contrast(dark, "rgb(255, 255, 255)") > 7
+    pages = here.page.pdf(format="A4")
+    assert pages.startswith(b"%PDF")
+    here.page.evaluate("dispatchEvent(new Event('afterprint'))")
+    here.page.emulate_media(media="screen", color_scheme="dark")

@@ -1,0 +1,102 @@
+"""What can be taken away from the page: each file is parsed, and its numbers are those of the page."""
+
+import csv
+import io
+import json
+import re
+import tomllib
+import xml.etree.ElementTree as ET
+
+import pypdf
+import pytest
+from typer.testing import CliRunner
+
+from ballscrew.interfaces.cli import app
+
+DOUBLE = "rexroth-40x10x6-6-double"
+STARTS = {"paper": "#A=paper&A.operation.axial_load=3+kN", "double nut": f"#A={DOUBLE}&A.operation.axial_load=7+kN"}
+
+
+@pytest.fixture(params=STARTS)
+def here(visit, request):
+    return visit().open(STARTS[request.param])
+
+
+def taken(here, kind):
+    content = here.download(f"#downloads button:text-is('{kind}')")
+    here.page.wait_for_selector(f"#download-words >> text={kind} saved")
+    return content
+
+
+def test_toml_and_json(here, tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_bytes(taken(here, "TOML"))
+    assert tomllib.loads(path.read_text(encoding="utf-8"))["operation"]["axial_load"] in ("3 kN", "7 kN")
+    printed = CliRunner().invoke(app, ["run", str(path), "--json"])
+    assert printed.exit_code == 0
+    document = json.loads(taken(here, "JSON"))
+    assert document == json.loads(printed.stdout)
+    assert document["results"]["screw_torque"] == here.numbers()["results"]["screw_torque"]
+
+
+def rows_of(content):
+    headings, *rows = csv.reader(io.StringIO(content.decode("utf-8")))
+    assert all(len(row) == len(headings) for row in rows)
+    return headings, [[cell if cell in ("", "true", "false") else float(cell) for cell in row] for row in rows]
+
+
+def test_csv_of_the_curve(here, tmp_path):
+    headings, rows = rows_of(taken(here, "CSV"))
+    assert headings[:2] == ["screw_speed [rad/s]", "screw_torque [N m]"]
+    assert len(rows) == 41
+    path = tmp_path / "case.toml"
+    path.write_bytes(taken(here, "TOML"))
+    speed, torque = rows[20][:2]
+    path.write_text(re.sub(r'screw_speed = ".*"', f'screw_speed = "{speed!r} rad/s"', path.read_text(encoding="utf-8")))
+    found = json.loads(CliRunner().invoke(app, ["run", str(path), "--json"]).stdout)
+    assert torque == pytest.approx(found["results"]["screw_torque"], rel=1e-12)
+    parts = [place for place, name in enumerate(headings) if name.startswith("contribution_")]
+    assert sum(rows[20][place] for place in parts) == pytest.approx(torque, rel=1e-12)
+
+
+def test_report_as_pdf_and_html(here):
+    torque = f"{here.numbers()['results']['screw_torque']:.3g}"
+    reader = pypdf.PdfReader(io.BytesIO(taken(here, "PDF")))
+    assert torque in "".join(page.extract_text() for page in reader.pages)
+    html = taken(here, "HTML").decode("utf-8")
+    assert html.lower().startswith("<!doctype html>")
+    assert torque in html
+
+
+def test_drawing_as_svg(here):
+    root = ET.fromstring(taken(here, "SVG"))
+    assert root.tag == "{http://www.w3.org/2000/svg}svg"
+    assert "Contact of ball and screw" in "".join(root.itertext())
+
+
+CHARTS = {"torque-chart": 41, "map-chart": (21, 11), "film-chart": 41, "pressure-chart": (41, 15), "compare-chart": 2}
+
+
+@pytest.mark.parametrize("chart", CHARTS)
+def test_csv_and_svg_of_each_chart(visit, chart):
+    here = visit(color_scheme="dark").open(f"#A=paper&B={DOUBLE}")
+    content = here.download(f"#{chart} button[aria-label^=CSV]").decode("utf-8")
+    headings, *rows = csv.reader(io.StringIO(content))
+    assert len(rows) in (CHARTS[chart] if isinstance(CHARTS[chart], tuple) else (CHARTS[chart],))
+    assert all(len(row) == len(headings) for row in rows)
+    if chart == "torque-chart":  # the operating point is in the middle of its curve
+        middle = next(row for row in rows if float(row[0]) == pytest.approx(600, rel=0.02))
+        assert float(middle[1]) == pytest.approx(here.numbers()["results"]["screw_torque"], rel=0.02)
+        assert headings[:2] == ["speed of the screw (rpm)", "friction torque (N·m)"]
+    if chart == "compare-chart":
+        assert sum(map(float, rows[0][1:])) == pytest.approx(here.numbers()["results"]["screw_torque"], rel=1e-9)
+    here.page.evaluate(f"document.querySelector('#{chart} details').open = true")
+    here.page.wait_for_selector(f"#{chart} table")
+    shown = here.page.locator(f"#{chart} tbody tr >> nth=0").locator("th, td").all_inner_texts()
+    if chart != "compare-chart":
+        assert [float(cell) for cell in shown] == pytest.approx([float(cell) for cell in rows[0]], rel=1e-4)
+    picture = here.download(f"#{chart} button[aria-label^=SVG]").decode("utf-8")
+    root = ET.fromstring(picture)
+    words = "".join(root.itertext())
+    assert (headings[0] if chart != "compare-chart" else "friction torque").split(" (")[0] in words
+    assert "rgb(28, 33, 39)" in picture  # dark ink for white paper, though the screen is dark
