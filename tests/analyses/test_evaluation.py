@@ -283,6 +283,14 @@ def test_the_model_itself_says_what_its_recording_says(name):
     assert list(recorded.dims) == list(itself.dims)
 
 
+def test_the_model_itself_fills_no_store(tmp_path):
+    """A store goes on with what it was begun with, which must have a name of its own."""
+    with pytest.raises(bs.InputError, match=r"sweep.engine: fills no store \(model\)"):
+        bs.sweep(
+            MODELS["olaru2005"], SCREW, OIL, axial_load=[1.0], screw_speed=1.0, engine="model", to=tmp_path / "a.zarr"
+        )
+
+
 @pytest.mark.compiles
 def test_a_law_that_kernels_do_not_know():
     """It is evaluated by NumPy, unless a kernel is asked for."""

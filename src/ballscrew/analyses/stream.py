@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from ballscrew.analyses.cluster import check, fill_on_cluster
-from ballscrew.analyses.engines import SweepEngine
+from ballscrew.analyses.engines import Engine
 from ballscrew.analyses.evaluation import Evaluation
 from ballscrew.analyses.lock import Lock
 from ballscrew.analyses.plan import Plan
@@ -28,7 +28,7 @@ def stream(
     plan: Plan,
     to: str | os.PathLike[str],
     *,
-    engine: SweepEngine | None = None,
+    engine: Engine | None = None,
     block_size: int | None = None,
     threads: int | None = None,
     done: Callable[[int, int], None] | None = None,

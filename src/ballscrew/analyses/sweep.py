@@ -75,6 +75,8 @@ def sweep(
         raise InputError(Fault("sweep.cluster", "needs a store", "", remedy))
     plan = Plan.of(Subject(model, screw, lubricant, nut), outputs, varied)
     if to is not None:
+        if engine == "model":
+            raise InputError(Fault("sweep.engine", "fills no store", engine, 'take engine="numpy"'))
         return stream(plan, to, engine=engine, block_size=block_size, threads=threads, done=done, cluster=cluster)
     evaluation = Evaluation.of(plan, engine)
     results = evaluation.empty(plan.total)
