@@ -281,7 +281,8 @@ def compared(here):
     return here.page.evaluate(
         """() => { const rows = [...document.querySelectorAll("#compare tbody tr")]; const found = {};
           [...document.querySelectorAll("#compare thead th")].slice(1).forEach((head, place) => {
-            found[head.textContent] = Object.fromEntries(rows.map((row) => row.children[place + 1].querySelector("data"))
+            const cells = rows.map((row) => row.children[place + 1].querySelector("data"));
+            found[head.textContent] = Object.fromEntries(cells
               .filter((one) => one && one.value !== "").map((one) => [one.dataset.name, Number(one.value)])); });
           return found; }"""
     )
@@ -343,12 +344,16 @@ def test_a_fault_stands_beside_its_field(visit, server):
     assert "f-operation-axial_load-fault" in field.locator("input").get_attribute("aria-describedby")
     assert line in here.text("#faults")
     assert "of the input before" in here.text("#faults")
-    assert float(here.page.locator("#numbers").evaluate("one => getComputedStyle(one).opacity")) < 0.5
+    struck = "getComputedStyle(document.querySelector('#numbers data')).textDecorationLine"
+    faint = "Number(getComputedStyle(document.querySelector('#torque-chart .plot')).opacity)"
+    assert here.page.evaluate(struck) == "line-through"
+    assert here.page.evaluate(faint) < 0.5
     assert "not computed" in here.page.title()
     here.type("operation.axial_load", "4000")
     assert field.locator(".fault").inner_text() == ""
     assert field.locator("input").get_attribute("aria-invalid") is None
-    assert float(here.page.locator("#numbers").evaluate("one => getComputedStyle(one).opacity")) == 1
+    assert here.page.evaluate(struck) == "none"
+    assert here.page.evaluate(faint) == 1
     assert "N·m" in here.page.title()
 
 
