@@ -98,7 +98,8 @@ def test_sweep(server, path, vary):
     known = server.get("vocabulary").json()["units"]
     columns = {**found["axes"], **found["outputs"]}
     assert [one.partition(" [")[0] for one in heading] == [name.replace("_", " ") for name in columns]
-    assert len(rows) == len(points := grid(found)) >= 3
+    points = grid(found)
+    assert len(rows) == len(points) >= 3
     for row, point in zip(rows, points, strict=True):
         for cell, title, (name, value) in zip(row, heading, point.items(), strict=True):
             if not cell:  # what is not finite, or makes no sense

@@ -36,7 +36,7 @@ from ballscrew.interfaces.files import check_writable, whole
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.validity import REASONS
 
-_RANGE = re.compile(r"(?P<start>[^:]+):(?P<stop>[^:]+):\s*(?P<count>\d{1,9})\s*(?P<unit>1\s*/.*|[^\d\s.].*)?")
+_RANGE = re.compile(r"(?P<start>[^:]+):(?P<stop>[^:]+):\s*(?P<count>\d{1,18})\s*(?P<unit>1\s*/.*|[^\d\s.].*)?")
 _SECTIONS = ("operation", "screw", "lubricant", "model", "nut")
 #: A folder that is filled block by block, so that a sweep need not fit into memory.
 STORE = ".zarr"

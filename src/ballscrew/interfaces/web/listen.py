@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 import socket
 from typing import Any
 
@@ -41,12 +42,22 @@ class _Patient(H11Protocol):
     def data_received(self, data: bytes) -> None:
         """Some bytes have come."""
         super().data_received(data)
-        reads_head = self.conn.their_state is h11.IDLE
-        drains_body = self.conn.our_state is h11.DONE and self.conn.their_state is h11.SEND_BODY
-        if not (reads_head or drains_body):
+        answered = self.conn.our_state is h11.DONE
+        if not (self.conn.their_state is h11.IDLE or (answered and self.reads_body)):
             self._stop_waiting()
         elif self._waiting is None:
             self._wait()
+
+    def on_response_complete(self) -> None:
+        """The answer is out, perhaps before all of the request was in."""
+        super().on_response_complete()
+        if self.reads_body and self._waiting is None:
+            self._wait()
+
+    @property
+    def reads_body(self) -> bool:
+        """Whether a request has begun and has not all come."""
+        return self.conn.their_state is h11.SEND_BODY
 
     def send_400_response(self, msg: str) -> None:  # noqa: ARG002  (it only says that it is invalid)
         """Refuse what is no HTTP, in our words."""
@@ -79,8 +90,12 @@ class _Server(uvicorn.Server):
         self._desk = desk
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """Take no more requests, and answer those that wait."""
+        """Take no more requests, and answer those that wait; what comes to no end is broken off."""
         self._desk.close()
+        for connection in list(self.server_state.connections):
+            if isinstance(connection, _Patient) and connection.reads_body:
+                connection.transport.close()
+        logging.getLogger("uvicorn.error").setLevel(logging.CRITICAL)  # it would show where each was broken off
         await super().shutdown(sockets)
 
 
@@ -88,6 +103,7 @@ def run(application: FastAPI, listening: socket.socket) -> None:
     """Serve until a signal ends it."""
     settings = uvicorn.Config(
         application, http=_Patient, ws="none", lifespan="off", log_level="error", access_log=False,
-        timeout_keep_alive=75, timeout_graceful_shutdown=_FAREWELL, h11_max_incomplete_event_size=LONGEST_HEAD,
+        proxy_headers=False, server_header=False, timeout_keep_alive=75, timeout_graceful_shutdown=_FAREWELL,
+        h11_max_incomplete_event_size=LONGEST_HEAD,
     )  # fmt: skip
     _Server(settings, application.state.desk).run([listening])

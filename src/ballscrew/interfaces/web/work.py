@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import math
 import threading
 import time
 from collections.abc import Callable
@@ -77,6 +78,8 @@ class Desk:
             deadline.stop()
             if not future.done():
                 future.set_exception(_ends())
+        for limiter in (self._quick, self._heavy):
+            limiter.total_tokens = math.inf  # those who wait come to the desk, and find it closed
 
     async def _done(self, work: Callable[[Deadline], Any], limiter: CapacityLimiter) -> Any:
         place = object()

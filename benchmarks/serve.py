@@ -1,0 +1,187 @@
+"""How the server does under load: 50 users at once, mixed load for minutes, and its slowest requests.
+
+python benchmarks/serve.py                  # 50 users, then 60 s of mixed load
+python benchmarks/serve.py --seconds 300    # the same, for 300 s
+python benchmarks/serve.py --limits         # the slowest request of each kind that is not refused
+"""
+
+import argparse
+import concurrent.futures
+import itertools
+import json
+import re
+import signal
+import statistics
+import subprocess
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import psutil
+
+USERS = 50
+CASE = {
+    "screw": {"catalogue": "rexroth-40x10x6-6-double"},
+    "lubricant": {"grade": "ISO VG 100", "temperature": "40 degC"},
+    "operation": {"axial_load": "7 kN", "screw_speed": "600 rpm"},
+}
+NUT = {**CASE, "nut": {"preload": "7 %"}, "bodies": {}}
+AXES = {"axial_load": "100:9000:20 N", "screw_speed": "1:900:20 rpm"}
+
+
+def started() -> tuple[subprocess.Popen[str], str]:
+    """The process of a server, and its address."""
+    program = [sys.executable, "-m", "ballscrew.interfaces.cli", "serve", "--port", "0"]
+    process = subprocess.Popen(program, stdout=subprocess.PIPE, encoding="utf-8")
+    assert process.stdout is not None
+    line = process.stdout.readline()
+    found = re.search(r"http://\S+", line)
+    if found is None:
+        sys.exit(f"the server does not start: {line}")
+    return process, found[0]
+
+
+def memory_of(process: subprocess.Popen[str]) -> float:
+    """What a process has of the memory, MB."""
+    return psutil.Process(process.pid).memory_info().rss / 2**20
+
+
+def case_number(i: int) -> dict[str, Any]:
+    """A case that nobody has asked for before."""
+    return {**CASE, "operation": {"axial_load": f"{1 + i % 9000} N", "screw_speed": f"{1 + i % 900}.{i} rpm"}}
+
+
+def crowd(address: str, users: int = USERS, each: int = 10) -> tuple[list[float], Counter[int]]:
+    """So many users at once, each with some requests one after the other: seconds by request, and statuses."""
+    seconds: list[float] = []
+    statuses: Counter[int] = Counter()
+
+    def user(number: int) -> None:
+        with httpx.Client(base_url=address, timeout=60, trust_env=False) as client:
+            for i in range(each):
+                before = time.perf_counter()
+                answer = client.post("/api/v1/run", json={"case": case_number(number * each + i)})
+                seconds.append(time.perf_counter() - before)
+                statuses[answer.status_code] += 1
+
+    with concurrent.futures.ThreadPoolExecutor(users) as pool:
+        list(pool.map(user, range(users)))
+    return seconds, statuses
+
+
+def requests(number: int) -> Iterator[tuple[str, Any, int]]:
+    """Endless requests of all kinds, each with numbers of its own: address, body, and the status it should have."""
+    for i in itertools.count(number, 1000):
+        case = case_number(i)
+        nut = {**NUT, "operation": case["operation"]}
+        yield "run", {"case": case}, 200
+        yield "sweep", {"case": case, "vary": AXES, "outputs": ["screw_torque"]}, 200
+        yield "drawing", {"case": case}, 200
+        yield "run", {"case": nut}, 200
+        yield "compare", {"case": case}, 200
+        yield "sweep", {"case": nut, "vary": {"axial_load": "1:9:9 kN"}, "outputs": ["rigidity"]}, 200
+        yield "band", {"case": case, "samples": 512}, 200
+        yield "run", {"case": {**case, "screw": {"catalogue": f"no-such-{i}"}}}, 422
+        yield "run", {"case": {**case, "screw": {**CASE["screw"], "lead": f"{i} m^{2 + i % 7}/s s"}}}, 422
+        yield "sweep", {"case": case, "vary": {f"load{i}": "1:2:3 N"}}, 422
+
+
+def mixed(
+    process: subprocess.Popen[str], address: str, seconds: float, users: int = 4, every: float = 5.0
+) -> tuple[list[tuple[float, float]], Counter[tuple[str, int]], Counter[str]]:
+    """Mixed load for so long: (seconds, MB) every few seconds, and answers that are not what they should be."""
+    end = time.monotonic() + seconds
+    wrong: Counter[tuple[str, int]] = Counter()
+    counts: Counter[str] = Counter()
+
+    def user(number: int) -> None:
+        with httpx.Client(base_url=address, timeout=60, trust_env=False) as client:
+            for path, body, status in requests(number):
+                if time.monotonic() > end:
+                    return
+                answer = client.post(f"/api/v1/{path}", json=body)
+                counts[path] += 1
+                if answer.status_code != status:
+                    wrong[path, answer.status_code] += 1
+
+    begun = time.monotonic()
+    memory: list[tuple[float, float]] = []
+    with concurrent.futures.ThreadPoolExecutor(users) as pool:
+        running = [pool.submit(user, number) for number in range(users)]
+        while time.monotonic() < end:
+            time.sleep(min(every, max(0.0, end - time.monotonic())))
+            memory.append((time.monotonic() - begun, memory_of(process)))
+        for one in running:
+            one.result()
+    return memory, wrong, counts
+
+
+def slowest(address: str) -> Iterator[tuple[str, str, int, float]]:
+    """Seconds of the slowest requests that are let through, alone."""
+    from ballscrew.interfaces.web.bodies import MOST_BALLS
+    from ballscrew.interfaces.web.limits import MOST_BALLS_IN_ALL, MOST_POINTS, MOST_POINTS_OF_NUT, MOST_SAMPLES
+
+    deviations = {"ball_diameter": "2 um", "lead": "3 um"}
+    ball = {**CASE, "model": {"name": "reference"}}
+    rigid = {**CASE, "nut": {"preload": "7 %"}}
+    many = {**CASE["screw"], "loaded_balls": MOST_BALLS}
+    double = {**NUT, "screw": many, "deviations": deviations}
+    oversize = {**double, "nut": {"type": "oversize-balls", "preload": "3 kN"}}
+    points = {"two nuts": MOST_BALLS_IN_ALL // (2 * MOST_BALLS), "oversize": MOST_BALLS_IN_ALL // MOST_BALLS}
+    asked = [
+        ("run", f"{2 * MOST_BALLS} balls one by one", {"case": double}),
+        ("sweep", f"{MOST_POINTS} points", {"case": ball, "vary": {"axial_load": f"1:9000:{MOST_POINTS} N"}}),
+        ("sweep", f"{MOST_POINTS_OF_NUT} points, nut",
+         {"case": rigid, "vary": {"axial_load": f"1:9000:{MOST_POINTS_OF_NUT} N"}}),
+        ("sweep", f"{MOST_BALLS_IN_ALL} balls, two nuts",
+         {"case": double, "vary": {"axial_load": f"1:9000:{points['two nuts']} N"}}),
+        ("sweep", f"{MOST_BALLS_IN_ALL} balls, oversize",
+         {"case": oversize, "vary": {"axial_load": f"1:9000:{points['oversize']} N"}}),
+        ("compare", "two nuts", {"case": double}),
+        ("compare", "oversize", {"case": oversize}),
+        ("band", f"{MOST_SAMPLES} samples", {"case": ball, "samples": MOST_SAMPLES}),
+        ("band", f"{MOST_BALLS_IN_ALL} balls, two nuts", {"case": double, "samples": points["two nuts"]}),
+        ("band", f"{MOST_BALLS_IN_ALL} balls, oversize", {"case": oversize, "samples": points["oversize"]}),
+        ("report", "a ball", {"case": ball}),
+        ("report", f"{MOST_BALLS_IN_ALL} balls, two nuts", {"case": double}),
+    ]  # fmt: skip
+    with httpx.Client(base_url=address, timeout=60, trust_env=False) as client:
+        for path, what, body in asked:
+            before = time.perf_counter()
+            answer = client.post(f"/api/v1/{path}", json=body)
+            yield path, what, answer.status_code, time.perf_counter() - before
+
+
+def main() -> None:
+    """Run what is asked for, and print a table."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--seconds", type=float, default=60.0)
+    parser.add_argument("--limits", action="store_true")
+    parser.add_argument("--json", type=Path)
+    options = parser.parse_args()
+    process, address = started()
+    try:
+        if options.limits:
+            for path, what, status, seconds in slowest(address):
+                print(f"{path:8} {what:32} {status} {seconds:6.2f} s")
+            return
+        seconds, statuses = crowd(address)
+        shares = statistics.quantiles(seconds, n=20)
+        print(f"{USERS} users, {len(seconds)} requests: {dict(statuses)}")
+        print(f"  median {1000 * statistics.median(seconds):.0f} ms, 95 % {1000 * shares[-1]:.0f} ms")
+        memory, wrong, counts = mixed(process, address, options.seconds)
+        print(f"mixed load for {options.seconds:g} s: {dict(counts)}; not as they should be: {dict(wrong) or 'none'}")
+        print("\n".join(f"  {at:6.0f} s {mb:8.1f} MB" for at, mb in memory))
+        if options.json:
+            options.json.write_text(json.dumps({"seconds": seconds, "memory": memory}))
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.wait(20)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,305 @@
+"""Whatever is sent: a clear refusal at once, and the server goes on as before."""
+
+import concurrent.futures
+import json
+import socket
+import time
+
+import pytest
+
+from ballscrew.interfaces.web import bodies, limits
+
+AT_ONCE = 1.0
+#: For clocks of machines that do other things, too.
+PATIENCE = 3
+
+
+@pytest.fixture(autouse=True)
+def unharmed(server, paper):
+    """After each test a usual request is answered as ever."""
+    yield
+    before = time.monotonic()
+    assert server.post("run", {"case": paper}).status_code == 200
+    assert time.monotonic() - before < PATIENCE * AT_ONCE
+
+
+def refused(server, address, body, status, words, **more):
+    before = time.monotonic()
+    found = server.post(address, body, **more)
+    assert time.monotonic() - before < PATIENCE * AT_ONCE
+    assert found.status_code == status, found.text[:500]
+    assert found.headers["content-type"] == "application/problem+json"
+    assert found.headers["x-content-type-options"] == "nosniff"
+    assert any(words in line for line in found.json()["lines"]), found.json()["lines"]
+    assert all(len(line) < 8000 for line in found.json()["lines"])
+
+
+def with_value(case, section, field, value):
+    return {"case": {**case, section: {**case.get(section, {}), field: value}}}
+
+
+BODIES = {
+    "no JSON": (b"{", 400, "request: is not JSON"),
+    "nothing": (b"", 400, "request: is not JSON"),
+    "not UTF-8": (b'{"case": "\xff"}', 400, "request: is not JSON"),
+    "NaN": (b'{"case": NaN}', 400, "NaN is no JSON number"),
+    "infinity": (b'{"case": -Infinity}', 400, "-Infinity is no JSON number"),
+    "1e999": (b'{"case": {"screw": {"loaded_balls": 1e999}}}', 400, "1e999 is no number that a computer has"),
+    "a number of 4000 digits": (b'{"case": {}, "samples": %s}' % (b"1" * 5000), 400, "request: is not JSON"),
+    "twice": (b'{"case": {"screw": {}, "screw": {}}}', 400, "screw is given twice"),
+    "deep": (b'{"case": %s%s}' % (b"[" * 20, b"]" * 20), 400, "request: is nested too deeply"),
+    "very deep": (b'{"case": %s' % (b"[" * 60000), 400, "request: is nested too deeply"),
+    "very deep tables": (b'{"case":' * 7000, 400, "request: is nested too deeply"),
+    "a list": (b"[]", 422, "request: must be a table"),
+    "null": (b"null", 422, "request: must be a table"),
+    "many values": (json.dumps({"case": {"screw": [0] * 1100}}).encode(), 413, "more than 1000 values"),
+    "long text": (json.dumps({"case": {"screw": "x" * 1100}}).encode(), 413, "a text of more than 1000 letters"),
+    "long name": (json.dumps({"case": {"x" * 1100: 1}}).encode(), 413, "a text of more than 1000 letters"),
+    "half a letter": (b'{"case": {"screw": "\\ud800"}}', 400, "half a letter"),
+    "another name": (b'{"case": {}, "model": "reference"}', 422, "request.model: unknown key"),
+    "large": (b" " * 10_000_000, 413, f"more than {bodies.MOST_BYTES} bytes"),
+}
+
+
+@pytest.mark.parametrize("name", BODIES)
+@pytest.mark.parametrize("address", ["run", "band"])
+def test_bodies(server, name, address):
+    refused(server, address, *BODIES[name])
+
+
+def test_a_body_without_length(server):
+    """In pieces, and nobody says beforehand how many."""
+
+    def pieces():
+        for _ in range(160):
+            yield b" " * 65_536
+
+    before = time.monotonic()
+    found = server.client.post("/api/v1/run", content=pieces(), headers={"Content-Type": "application/json"})
+    assert (found.status_code, time.monotonic() - before < PATIENCE * AT_ONCE) == (413, True)
+
+
+@pytest.mark.parametrize("media", ["text/plain", "", "application/x-www-form-urlencoded", "multipart/form-data"])
+def test_other_kinds_of_bodies(server, paper, media):
+    refused(server, "run", {"case": paper}, 415, "Content-Type", headers={"Content-Type": media})
+
+
+VALUES = {
+    "a path": ("screw", "catalogue_file", "../../etc/passwd", "screw.catalogue_file: is not taken from a request"),
+    "an address": ("screw", "catalogue_file", "file:///etc/passwd", "screw.catalogue_file"),
+    "a path as a row": ("screw", "catalogue", "../../etc/passwd", "screw.catalogue: unknown row"),
+    "a path as a calibration": ("model", "calibration", "../calibrations.toml", "model.calibration: unknown"),
+    "a path as a law": ("model", "friction", "/etc/passwd", "model.friction: unknown law"),
+    "a script": ("screw", "lead", "<script>alert(1)</script>", "screw.lead: is not a number with a unit"),
+    "NUL": ("screw", "lead", "5 mm\x00", "screw.lead: unknown unit"),
+    "powers": ("screw", "lead", "5 m**9**9", "screw.lead: unknown unit"),
+    "1e308": ("screw", "loaded_balls", 1e308, "screw."),
+    "minus nothing": ("screw", "loaded_balls", -0.0, "screw.loaded_balls: must be at least 1"),
+    "4000 digits": ("screw", "loaded_balls", 10**4000, "screw.loaded_balls"),
+    "null": ("screw", "loaded_balls", None, "screw.loaded_balls: must not be null"),
+    "truth": ("screw", "loaded_balls", True, "screw.loaded_balls: must be a number"),
+    "a list": ("screw", "loaded_balls", [56], "screw.loaded_balls: must be a number"),
+    "long": ("screw", "lead", "+ " * 490, "screw.lead: has more than 200 letters"),
+    "long number": ("screw", "lead", "1" * 900 + " mm", "screw.lead: has more than 200 letters"),
+    "long unit": ("screw", "lead", "5 " + "m" * 900, "screw.lead: has more than 200 letters"),
+    "distribution": ("screw", "lead", "uniform(2, 1) mm", "screw.lead"),
+    "distribution in a distribution": ("screw", "lead", "normal(normal(1,2),3) mm", "screw.lead"),
+}
+
+
+@pytest.mark.parametrize("name", VALUES)
+def test_values(server, paper, name):
+    section, field, value, words = VALUES[name]
+    if name == "1e308":  # a number of balls is what it is, where they are all alike
+        assert server.post("run", with_value(paper, section, field, value)).status_code in (200, 422)
+        return
+    for address in ("run", "sweep", "toml"):
+        refused(server, address, with_value(paper, section, field, value), 422, words)
+
+
+def test_many_faults_at_once(server, paper):
+    """A text that patterns take long for, in all fields, and hundreds of names that are nearly known."""
+    case = {name: dict.fromkeys(table, "   " * 100 + "+" + " " * 500) for name, table in paper.items()}
+    refused(server, "run", {"case": case}, 422, "has more than 200 letters")
+    unknown = {f"axial_lod{i}": "1 N" for i in range(900)}
+    refused(server, "run", {"case": {**paper, "operation": unknown}}, 422, "unknown key")
+    refused(server, "sweep", {"case": paper, "outputs": list(unknown)}, 422, "unknown output")
+
+
+SWEEPS = {
+    "points": ({"axial_load": "1:2:1000000000 N"}, "too many points"),
+    "points of two axes": ({"axial_load": "1:2:200 N", "screw_speed": "1:2:200 rpm"}, "too many points (40,000)"),
+    "hidden by none": ({"axial_load": "1:2:0 N", "screw_speed": "1:2:9000000 rpm"}, "too many points"),
+    "axes": ({f"axis{i}": "1:2:999999999 N" for i in range(900)}, "too many axes"),
+    "axes of one": ({f"axis{i}": "1 N" for i in range(20)}, "too many axes"),
+    "digits": ({"axial_load": "1:2:" + "9" * 900 + " N"}, "sweep.axial_load"),
+    "names": ({"../../etc/passwd": "1 N"}, "sweep.../../etc/passwd: unknown field"),
+}
+
+
+@pytest.mark.parametrize("name", SWEEPS)
+def test_sweeps(server, paper, name):
+    vary, words = SWEEPS[name]
+    refused(server, "sweep", {"case": paper, "vary": vary}, 422, words)
+    refused(server, "sweep", {"case": {**paper, "sweep": vary}}, 422, words)
+
+
+def test_sweeps_of_nuts(server, paper, elastic):
+    double = {**paper, "nut": {"type": "double", "preload": "1 kN"}}
+    many = {"axial_load": "1:2:2100 N"}
+    refused(server, "sweep", {"case": double, "vary": many}, 422, "too many points (2,100)")
+    some = {"axial_load": "1:2:1500 N"}
+    assert server.post("sweep", {"case": double, "vary": some}).status_code == 200
+    most = limits.MOST_BALLS_IN_ALL // (2 * 121)
+    refused(server, "sweep", {"case": elastic, "vary": some}, 422, f"too many points (1,500) · {most:,} at most here")
+    outputs = [f"contribution_{name}" for name in ("spin", "helix", "curvature")] * 30
+    wide = {"case": paper, "vary": {"axial_load": "1:2:9000 N"}, "outputs": outputs}
+    refused(server, "sweep", wide, 422, "too many values (810,000)")
+
+
+@pytest.mark.parametrize("balls", [1e18, 10**18, 501, 1e300])
+@pytest.mark.parametrize("more", [{"bodies": {}}, {"deviations": {"lead": "1 um"}}], ids=lambda more: next(iter(more)))
+def test_balls_one_by_one(server, paper, balls, more):
+    case = {**with_value(paper, "screw", "loaded_balls", balls)["case"], **more}
+    for address in ("run", "compare", "band", "sweep", "toml", "drawing", "report"):
+        refused(server, address, {"case": case}, 422, "screw.loaded_balls: too many to compute one by one")
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ({"samples": 10**12}, "--samples: too many (1,000,000,000,000)"),
+        ({"samples": 10**4000}, "--samples: too many"),
+        ({"samples": -5}, "--samples"),
+        ({"samples": 1.5}, "request.samples"),
+        ({"samples": "64"}, "request.samples"),
+        ({"level": 2}, "--level"),
+        ({"level": -0.0}, "--level"),
+        ({"level": 1e308}, "--level"),
+        ({"only_given": 1}, "request.only_given: must be true or false"),
+    ],
+)
+def test_bands(server, paper, more, words):
+    refused(server, "band", {"case": paper, **more}, 422, words)
+
+
+@pytest.mark.parametrize("name", ["..%2f..%2fetc%2fpasswd", "%00", "%ff", "<script>", "a" * 5000, "%F0%9F%98%80"])
+def test_names_in_addresses(server, name):
+    for path in (f"/api/v1/catalogue/{name}", f"/page/{name}", f"/viewer/{name}"):
+        found = server.client.get(path)
+        assert found.status_code == 404
+        assert found.headers["content-type"] == "application/problem+json"
+        assert "<script>" not in found.text or found.headers["x-content-type-options"] == "nosniff"
+
+
+@pytest.mark.parametrize(
+    ("path", "words"),
+    [
+        ("catalogue?word=40x", "?word: unknown"),
+        ("catalogue?words=a&words=b", "?words: is given twice"),
+        ("schema?x=1", "?x: unknown"),
+        ("validate?set=../../etc/passwd", "validate: unknown set"),
+        ("validate?rows=/etc/passwd", "?rows: unknown"),
+    ],
+)
+def test_words_behind_the_question_mark(server, path, words):
+    found = server.get(path)
+    assert (found.status_code, words in found.text) == (422, True)
+
+
+@pytest.mark.parametrize("host", ["ballscrew.example", "127.0.0.1.example:80", "localhost.example", "", "[::2]:80"])
+def test_names_of_other_sites(server, host):
+    """No other site's page can read what is here by giving itself this address."""
+    found = server.get("schema", headers={"Host": host})
+    assert found.status_code == 421
+    assert found.json()["lines"][0].startswith("Host: is not a name of this server")
+    assert "content-security-policy" in found.headers
+
+
+@pytest.mark.parametrize("host", ["localhost", "LOCALHOST:1", "127.0.0.1", "[::1]", "[::1]:80"])
+def test_own_names(server, host):
+    assert server.get("schema", headers={"Host": host}).status_code == 200
+
+
+def raw(server, text, wait=3.0):
+    """What comes back for bytes."""
+    with socket.create_connection(("127.0.0.1", server.port), timeout=wait) as connection:
+        connection.sendall(text)
+        found = b""
+        while piece := connection.recv(65_536):
+            found += piece
+        return found
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        b"GET / HTTP/1.1\r\nHost: localhost\r\nX: " + b"x" * 200_000 + b"\r\n\r\n",
+        b"GET /" + b"x" * 200_000,
+        b"nonsense\r\n\r\n",
+        b"GET / HTTP/1.1\r\n\r\n",
+        b"GET / HTTP/1.1\r\nHost: localhost\r\nHost: other\r\n\r\n",
+        b"POST /api/v1/run HTTP/1.1\r\nHost: localhost\r\nContent-Length: x\r\n\r\n",
+        b"POST /api/v1/run HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1\r\nContent-Length: 2\r\n\r\n",
+    ],
+    ids=["long header", "long address", "nonsense", "no host", "two hosts", "bad length", "two lengths"],
+)
+def test_what_is_no_request(server, text):
+    try:
+        found = raw(server, text)
+    except ConnectionResetError:  # it was refused before all was sent
+        return
+    assert found.startswith(b"HTTP/1.1 400")
+    assert b"application/problem+json" in found
+    assert b"content-security-policy" in found.lower() or b"x-content-type-options" in found.lower()
+
+
+HEAD = b"POST /api/v1/run HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 500\r\n\r\n"
+
+
+def test_slow_ones_hold_up_nobody(server, paper):
+    """Half a request each, of heads and of bodies, on a hundred connections."""
+    slow = [socket.create_connection(("127.0.0.1", server.port), timeout=bodies.PATIENCE + 5) for _ in range(100)]
+    try:
+        for i, connection in enumerate(slow):
+            connection.sendall((b"", HEAD[:40], HEAD, HEAD + b'{"case": ')[i % 4])
+        begun = time.monotonic()
+        for _ in range(20):
+            before = time.monotonic()
+            assert server.post("run", {"case": paper}).status_code == 200
+            assert time.monotonic() - before < PATIENCE * AT_ONCE
+        found = [b"".join(iter(lambda connection=connection: connection.recv(65_536), b"")) for connection in slow[:4]]
+        assert bodies.PATIENCE - 2 < time.monotonic() - begun < 3 * bodies.PATIENCE + 5
+    finally:
+        for connection in slow:
+            connection.close()
+    assert found[:2] == [b"", b""]
+    assert all(b"HTTP/1.1 408" in answer and b"did not arrive within" in answer for answer in found[2:])
+
+
+def test_those_who_leave(server):
+    """In the middle of a head, of a body, and before the answer."""
+    for text in (HEAD[:50], HEAD, HEAD + b"{", HEAD + b" " * 500, HEAD.replace(b"run", b"band") + b"{}" + b" " * 498):
+        for _ in range(20):
+            with socket.create_connection(("127.0.0.1", server.port)) as connection:
+                connection.sendall(text)
+
+
+def test_memory_does_not_grow(server, paper):
+    """A thousand refusals of all kinds, each with another text, leave nothing behind."""
+
+    def one(i):
+        long = f"{i} " * 40
+        server.post("run", with_value(paper, "screw", "lead", f"{i} mm {long}"))
+        server.post("run", with_value(paper, "screw", f"leed{i}", "5 mm"))
+        server.post("sweep", {"case": paper, "vary": {f"axial_load{i}": "1:2:3 N"}})
+        server.post("run", b" " * 1_000_000)
+
+    def some(first, last):
+        with concurrent.futures.ThreadPoolExecutor(4) as pool:
+            list(pool.map(one, range(first, last)))
+        return server.memory
+
+    some(0, 50)
+    before = some(50, 100)
+    assert some(100, 300) - before < 10

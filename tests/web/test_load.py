@@ -1,0 +1,45 @@
+"""The server under load, for a short while; ``benchmarks/serve.py`` does it for minutes."""
+
+import importlib.util
+import statistics
+from pathlib import Path
+
+import pytest
+
+SCRIPT = Path(__file__).parents[2] / "benchmarks" / "serve.py"
+
+
+@pytest.fixture(scope="module")
+def serve():
+    spec = importlib.util.spec_from_file_location("serve", SCRIPT)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_fifty_users_at_once(server, serve):
+    seconds, statuses = serve.crowd(server.address, users=50, each=10)
+    assert statuses == {200: 500}
+    assert statistics.median(seconds) < 5  # 0.4 s on two processors that do nothing else
+
+
+def test_memory_stays(server, serve):
+    """What is loaded once comes in the first seconds."""
+    serve.mixed(server.process, server.address, 8)
+    memory, wrong, counts = serve.mixed(server.process, server.address, 15, every=3)
+    assert not wrong
+    assert min(counts[path] for path in ("run", "sweep", "drawing", "compare", "band")) > 3
+    assert memory[-1][1] - memory[0][1] < 15
+
+
+def test_what_is_kept_is_bounded():
+    """No cache has a case or a text of a request as its key: a thousand different ones leave as many entries as one."""
+    from ballscrew.analyses.nut_parts import NutParts
+    from ballscrew.analyses.outputs import _outputs, known_outputs
+    from ballscrew.components.nut import SingleNut
+
+    known_outputs(NutParts(nut=SingleNut()))
+    before = _outputs.cache_info().currsize
+    for _ in range(100):
+        known_outputs(NutParts(nut=SingleNut()))
+    assert _outputs.cache_info().currsize == before

@@ -1,0 +1,98 @@
+"""The API as schemathesis sees it: what it says of itself holds, whatever it is sent."""
+
+from collections import Counter
+
+import jsonschema_rs
+import pytest
+import schemathesis
+from hypothesis import HealthCheck, settings
+from schemathesis.specs.openapi.checks import positive_data_acceptance
+from schemathesis.specs.openapi.definitions import OPENAPI_31
+
+from ballscrew.interfaces.schema import json_schema
+from ballscrew.interfaces.web import problems
+from ballscrew.interfaces.web.server import application
+
+#: Answers by address and status: what was asked must not only have been refused.
+answered: Counter[tuple[str, int]] = Counter()
+FEW = settings(max_examples=12, derandomize=True, deadline=None, suppress_health_check=list(HealthCheck))
+
+
+def described(*phases):
+    """The API, asked under any name: schemathesis asks under its own."""
+    found = schemathesis.openapi.from_asgi("/api/v1/openapi.json", application(hosts=("*",)))
+    found.config.phases.update(phases=list(phases))
+    return found
+
+
+schema = described("examples", "fuzzing")
+#: All fields of a case one by one, a thousand requests: of one address, as all read a case in the same way.
+one_by_one = described("coverage")
+
+
+def asked(case):
+    # positive_data_acceptance: tables can be as the schema says and still be no screw, a ball larger than its groove
+    response = case.call_and_validate(excluded_checks=[positive_data_acceptance])
+    answered[case.operation.path, response.status_code] += 1
+    headers = {name: values[0] for name, values in response.headers.items()}
+    assert "content-security-policy" in headers
+    if response.status_code >= 400:
+        assert headers["content-type"] == problems.MEDIA_TYPE
+        assert response.json()["status"] == response.status_code
+        assert response.json()["lines"]
+
+
+@schema.parametrize()
+@FEW
+def test_addresses(case):
+    asked(case)
+
+
+@one_by_one.include(path="/api/v1/toml").parametrize()
+@FEW
+def test_fields_of_a_case(case):
+    asked(case)
+
+
+@one_by_one.exclude(method="POST").parametrize()
+@FEW
+def test_words_in_addresses(case):
+    asked(case)
+
+
+def test_some_were_answered():
+    """After the others: the examples in the description are cases that are computed."""
+    paths = {operation.ok().path for operation in schema.get_all_operations()}
+    assert {path for path, status in answered if status == 200} == paths
+    assert not [status for _, status in answered if status >= 500]
+
+
+def test_the_description_is_valid():
+    raw = schema.raw_schema
+    jsonschema_rs.validate(OPENAPI_31, raw)
+    for name, part in raw["components"]["schemas"].items():
+        jsonschema_rs.meta.validate(part), name
+    case = raw["components"]["schemas"]["Case"]
+    assert case["properties"].keys() == json_schema()["properties"].keys()
+
+
+def test_the_bodies_to_try_follow_their_schema():
+    """And a body of another form does not."""
+    raw = schema.raw_schema
+    for path, operation in raw["paths"].items():
+        content = operation.get("post", {}).get("requestBody", {}).get("content", {})
+        for media in content.values():
+            validator = jsonschema_rs.validator_for({**media["schema"], "components": raw["components"]})
+            for example in media["examples"].values():
+                validator.validate(example["value"])
+                assert not validator.is_valid({**example["value"], "cases": 1}), path
+                assert not validator.is_valid({**example["value"], "case": {"screw": 5}}), path
+
+
+@pytest.mark.parametrize("method", ["DELETE", "PUT", "PATCH", "OPTIONS", "HEAD", "TRACE"])
+def test_other_methods(server, method):
+    for path in [*schema.raw_schema["paths"], "/", "/api", "/plotly.js"]:
+        found = server.client.request(method, path.replace("{name}", "x"))
+        assert found.status_code == 405
+        assert found.headers["allow"]
+        assert found.headers["content-type"] == problems.MEDIA_TYPE

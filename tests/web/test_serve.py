@@ -1,0 +1,98 @@
+"""``ballscrew serve`` as a process: how it begins and how it ends."""
+
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+
+import httpx
+import pytest
+
+ENDS = (0, 130)
+
+
+def test_it_says_where_it_is(start):
+    before = time.monotonic()
+    server = start()
+    assert time.monotonic() - before < 15  # 2 s on a machine that does nothing else
+    assert server.first_line.startswith(f"ballscrew in the browser: {server.address} · API: {server.address}/api")
+    assert server.get("schema").status_code == 200
+    assert server.end() == (0, "")
+
+
+def test_a_port_in_use_is_one_line(ballscrew):
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        process = ballscrew("serve", "--port", str(taken.getsockname()[1]))
+    assert process.returncode == 2
+    assert process.stdout == ""
+    (line,) = process.stderr.strip().splitlines()
+    assert line.startswith("--port: cannot be listened on")
+    assert "--port 0" in line
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [(["--port", "70000"], "--port: is no port (70000)"), (["--host", "no.such.host.invalid"], "--host: is not known")],
+)
+def test_bad_options(options, expected, ballscrew):
+    process = ballscrew("serve", *options)
+    assert process.returncode == 2
+    assert process.stderr.startswith(expected)
+    assert len(process.stderr.strip().splitlines()) == 1
+
+
+def test_without_the_extra_it_says_what_to_install(tmp_path):
+    """As on an installation without it: the packages cannot be found."""
+    program = (
+        "import sys, importlib.util as u; find = u.find_spec\n"
+        "u.find_spec = lambda name, *more: None if name in ('fastapi', 'uvicorn') else find(name, *more)\n"
+        "from ballscrew.interfaces import cli; sys.argv = ['ballscrew', 'serve']; cli.main()"
+    )
+    process = subprocess.run([sys.executable, "-c", program], capture_output=True, encoding="utf-8", check=False)
+    assert process.returncode == 2
+    assert process.stderr == 'serve: needs fastapi and uvicorn · pip install "ballscrew[web]"\n'
+
+
+def test_it_ends_at_once_while_it_computes(start, elastic):
+    """Also with a body that does not come to its end, and with a connection that says nothing."""
+    server = start()
+    answers = []
+
+    def ask():
+        with httpx.Client(trust_env=False) as client:
+            answers.append(client.post(f"{server.address}/api/v1/band", json={"case": elastic}, timeout=30))
+
+    threads = [threading.Thread(target=ask) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    with socket.create_connection(("127.0.0.1", server.port)) as slow, socket.create_connection(slow.getpeername()):
+        slow.sendall(b"POST /api/v1/run HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n"
+                     b"Content-Type: application/json\r\n\r\n{")  # fmt: skip
+        time.sleep(0.5)
+        before = time.monotonic()
+        code, errors = server.end()
+        assert time.monotonic() - before < 8
+    assert code in ENDS
+    assert "Traceback" not in errors
+    for thread in threads:
+        thread.join()
+    assert {answer.status_code for answer in answers} <= {200, 503}
+
+
+def test_a_second_signal_ends_it_too(start):
+    server = start()
+    for _ in range(2):
+        server.process.send_signal(signal.SIGINT)
+    assert server.end()[0] in ENDS
+
+
+def test_everybody_may_ask_where_others_are_let_in(start):
+    """And only then: the page of another site must not be able to."""
+    server = start("--host", "0.0.0.0")
+    found = httpx.get(
+        f"http://127.0.0.1:{server.port}/api/v1/schema", headers={"Host": "ballscrew.example"}, trust_env=False
+    )
+    assert found.status_code == 200
+    assert "no password" in server.said()
