@@ -191,4 +191,6 @@ def _slip_in_words(contact: DrawnContact, field: SlipField) -> list[str]:
     )
     if field.along_only:
         words.append("The model has no slip across the path.")
+    elif field.lateral:
+        words.append("Drawn as the screw drives.")
     return words

@@ -43,7 +43,7 @@ class Flank(NamedTuple):
 
 @dataclasses.dataclass(frozen=True)
 class SlipField:
-    """Slip of the screw's surface over the ball, in the ellipse as it is seen from the ball; m/s.
+    """Slip of the screw's surface over the ball as the screw drives, in the ellipse as it is seen from the ball; m/s.
 
     Heights t are across the path in units of a, positive where the groove is farther from the axis of the screw; places
     x along the path are in units of a, too, positive the way the screw's surface goes.
@@ -78,8 +78,8 @@ class SlipField:
         if self.along_only:
             return 0.0 * (height + place)
         turn = slip.local_spin_speed(self.spin_rim, self.curvature, height)
-        # the helix drags the screw's surface towards the bottom of its groove
-        return slip.across_slip_speed(-self.lateral, turn, place)
+        # a screw that drives is dragged towards the edge of its groove, one that is driven towards the bottom
+        return slip.across_slip_speed(self.lateral, turn, place)
 
     @property
     def lines(self) -> list[float]:
