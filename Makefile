@@ -1,5 +1,5 @@
 # make demo: set up and reproduce the paper.  make test: set up and run the tests.  make app: the page in the browser.
-.PHONY: app demo test lint types layers docs bench readme clean
+.PHONY: app demo test lint types layers docs bench readme screenshots clean
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -41,6 +41,9 @@ docs: $(READY)
 readme: $(READY)
 	$(BIN)/python docs/make_readme.py
 	$(BIN)/python docs/make_equation_table.py
+
+screenshots: $(READY)
+	$(BIN)/python docs/make_screenshots.py
 
 bench: $(READY)
 	$(BIN)/python benchmarks/engine.py

@@ -2,6 +2,7 @@
 
 import json
 import re
+import statistics
 import urllib.parse
 
 import pytest
@@ -280,7 +281,7 @@ def compared(here):
     """The numbers of the table, by design."""
     return here.page.evaluate(
         """() => { const rows = [...document.querySelectorAll("#compare tbody tr")]; const found = {};
-          [...document.querySelectorAll("#compare thead th")].slice(1).forEach((head, place) => {
+          [...document.querySelectorAll("#compare thead th")].forEach((head, place) => {
             const cells = rows.map((row) => row.children[place + 1].querySelector("data"));
             found[head.textContent] = Object.fromEntries(cells
               .filter((one) => one && one.value !== "").map((one) => [one.dataset.name, Number(one.value)])); });
@@ -413,3 +414,26 @@ def test_a_script_that_is_slipped_in_does_not_run(visit):
     assert here.page.evaluate("window.hurt") is None
     assert any("script-src" in line for line in here.complaints)
     here.requests = [one for one in here.requests if "example.invalid" not in one]  # asked for here, and stopped
+
+
+def test_the_page_keeps_up_with_typing(visit):
+    """Bounds that also a busy machine keeps; ``benchmarks/page.py`` says how fast it is."""
+    here = visit().open()
+    here.page.locator("#f-operation-axial_load").focus()
+    for _ in range(8):
+        here.page.keyboard.press("ArrowUp")
+        here.page.wait_for_timeout(50)
+        here.settle()
+    measured = "(name) => performance.getEntriesByName(name).slice(1).map((one) => one.duration)"
+    assert statistics.median(here.page.evaluate(measured, "numbers")) < 400
+    assert statistics.median(here.page.evaluate(measured, "chart")) < 600
+
+
+def test_what_is_superseded_is_dropped(visit):
+    here = visit().open()
+    field = here.page.locator("#f-operation-axial_load")
+    for load in ("1000", "2000", "3000", "2500"):
+        field.fill(load)  # faster than the server answers
+    here.settle()
+    assert here.numbers()["results"] == visit().open("#A=paper&A.operation.axial_load=2500+N").numbers()["results"]
+    assert "2500 N" in here.text("#case")

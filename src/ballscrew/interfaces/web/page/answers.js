@@ -7,6 +7,7 @@ import { refuse } from "./plot.js";
 import * as results from "./results.js";
 import { Problem, ask, send } from "./server.js";
 import { LETTERS } from "./state.js";
+import { sentence } from "./units.js";
 
 const POINTS = 41, POINTS_OF_NUT = 15, MAP = 21, MAP_OF_NUT = 11;
 const BAND_WAITS = 600;
@@ -34,12 +35,13 @@ async function answerOf(body, signal) {
 }
 
 /** Show the answer of one of the cases, and all of them side by side. What is under way for the cases before is dropped. */
-export async function follow(cases, { show, band: wanted }, report) {
+export async function follow(cases, { designs, show, band: wanted }, report) {
   flight.abort();
   flight = new AbortController();
   const { signal } = flight;
   const began = performance.now();
   let bodies = [];
+  shown.names = designs.map((one) => one.start);
   byId("results").setAttribute("aria-busy", "true");
   try {
     bodies = (await cases()).map((one) => ({ case: one }));
@@ -47,7 +49,7 @@ export async function follow(cases, { show, band: wanted }, report) {
     const body = bodies[show], key = JSON.stringify(body);
     const answer = await answerOf(body, signal);
     if (signal.aborted) return;
-    shown = { body, key, answer, band: shown.key === key ? shown.band : null, designs: shown.designs };
+    shown = { body, key, answer, band: shown.key === key ? shown.band : null, designs: shown.designs, names: shown.names };
     report([]);
     results.succeed();
     results.show(answer, shown.band);
@@ -116,18 +118,22 @@ async function draw(body, answer, signal, began) {
 
 function showDrawing(text) {
   const found = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
-  if (found.nodeName === "svg") byId("drawing").replaceChildren(document.importNode(found, true));
+  if (found.nodeName !== "svg") return;
+  shown.picture = text;
+  for (const words of found.querySelectorAll("text, tspan")) if (!words.childElementCount) words.textContent = sentence(words.textContent);
+  byId("drawing").replaceChildren(document.importNode(found, true));
 }
 
 /** Show all of it once more, in other units: nothing is asked for. */
 export function again() {
-  const { answer, alongSpeed, everywhere, alongLoad, designs, models: compared } = shown;
+  const { answer, alongSpeed, everywhere, alongLoad, picture, designs, names, models: compared } = shown;
   if (!answer) return;
   results.show(answer, shown.band);
   if (alongSpeed) { charts.torque(alongSpeed, answer, mechanisms); charts.film(alongSpeed, answer); }
   if (everywhere) charts.map(everywhere, answer);
   if (alongLoad) charts.pressure(alongLoad, answer);
-  if (designs) showDesigns(designs, mechanisms);
+  if (picture) showDrawing(picture);
+  if (designs) showDesigns(designs, names, mechanisms);
   if (compared) showModels(compared);
 }
 
@@ -164,7 +170,7 @@ async function compare(bodies, signal) {
   }
   if (signal.aborted) return;
   shown.designs = found;
-  await showDesigns(found, mechanisms);
+  await showDesigns(found, shown.names, mechanisms);
 }
 
 /** The case with all models and laws, when asked for. */

@@ -11,8 +11,8 @@ const ROWS = [
   ["friction_power", "heat"], ["preload_drag", "torque without load"],
 ];
 
-/** A table of all designs, and their torques as bars; ``answers`` by letter, a text where there is none. */
-export function showDesigns(answers, mechanisms) {
+/** A table of all designs, and their torques as bars; ``answers`` by letter, a text where there is none; ``names`` of their starts. */
+export function showDesigns(answers, names, mechanisms) {
   const place = byId("compare");
   const letters = Object.keys(answers);
   const good = Object.fromEntries(Object.entries(answers).filter(([, answer]) => answer.results));
@@ -23,6 +23,7 @@ export function showDesigns(answers, mechanisms) {
   }
   const cell = (letter, read) => (good[letter] ? read(good[letter]) : "–");
   const lead = [
+    ["start", ...names],
     ["what", ...letters.map((letter) => cell(letter, (answer) => units.sentence(answer.words.title)))],
     ...ROWS.filter(([name]) => letters.some((letter) => good[letter]?.results[name] !== undefined))
       .map(([name, words]) => [words, ...letters.map((letter) => cell(letter, (answer) => data(name, answer.results[name])))]),

@@ -83,7 +83,7 @@ function start(vocabulary) {
     ...[...groups].map(([source, rows]) => element("optgroup", { label: source },
       ...rows.map((row) => option(row.name, `${row.name} (${row.nut} nut)`.replace(/-(\w+) \(\1 nut\)/, " ($1 nut)"))))));
   const reset = element("button", { type: "button", id: "reset", onclick: () => changed({ start: select.value }), title: "Undo all changes of this design" }, "Reset");
-  return element("div", { class: "field start given" }, element("label", { for: "start" }, "Start from"), element("div", { class: "entry" }, select, reset));
+  return element("div", { class: "field start given" }, element("label", { for: "start" }, "Start from"), select, reset);
 }
 
 function rows(path, node, state, value, law) {

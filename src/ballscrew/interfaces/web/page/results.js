@@ -100,6 +100,7 @@ function bandWords(band) {
 export function fail(lines) {
   const place = byId("faults");
   byId("results").classList.add("stale");
+  byId("results").classList.toggle("empty", !byId("case").textContent);
   document.title = "not computed · ballscrew";
   clearTimeout(sayLater);
   const words = [...lines, byId("case").textContent ? "What stands below is of the input before." : null].filter(Boolean);
@@ -108,6 +109,6 @@ export function fail(lines) {
 }
 
 export function succeed() {
-  byId("results").classList.remove("stale");
+  byId("results").classList.remove("stale", "empty");
   byId("faults").replaceChildren();
 }

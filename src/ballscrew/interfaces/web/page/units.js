@@ -2,7 +2,8 @@
 
 const NUMBER = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i;
 const SPOKEN = { um: "µm", uin: "µin", degC: "°C", degF: "°F", deg: "°", "N m": "N·m", "N mm": "N·mm", "lbf in": "lbf·in",
-  "mPa s": "mPa·s", "Pa s": "Pa·s", "1/GPa": "1/GPa", "N/um": "N/µm" };
+  "mPa s": "mPa·s", "Pa s": "Pa·s", "N/um": "N/µm",
+  "kg/m^3": "kg/m³", "W/(m K)": "W/(m·K)", "J/(kg K)": "J/(kg·K)", "1/m^2": "1/m²", "mm rpm": "mm·rpm", "m rad/s": "m·rad/s" };
 const LIKE = { preload_drag: "screw_torque" };
 
 let vocabulary;

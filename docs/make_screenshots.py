@@ -1,0 +1,101 @@
+"""Pictures of the page, of a report and of the pages of the documentation: ``make screenshots``."""
+
+from __future__ import annotations
+
+import io
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import typst
+from PIL import Image
+from playwright.sync_api import Browser, sync_playwright
+
+ROOT = Path(__file__).parents[1]
+IMAGES = ROOT / "docs" / "images"
+CASE = ROOT / "examples" / "catalogue_screw.toml"
+START = ROOT / "out" / "docs" / "index.html"
+DOUBLE = "rexroth-40x10x6-6-double"
+LARGEST = 300_000  # bytes of a picture
+COMMAND = [sys.executable, "-m", "ballscrew.interfaces.cli"]
+
+DESKTOP, PHONE = {"width": 1360, "height": 1000}, {"width": 390, "height": 844}
+OF_PAGE = {
+    "app_light.png": ("light", DESKTOP, "#A=paper"),
+    "app_dark.png": ("dark", DESKTOP, f"#A={DOUBLE}&A.operation.axial_load=7+kN&B=paper&band=1"),
+    "app_phone.png": ("light", PHONE, "#A=paper"),
+}
+
+
+def save(name: str, png: bytes) -> None:
+    """Write a picture with a palette: these are drawings, not photographs."""
+    path = IMAGES / name
+    Image.open(io.BytesIO(png)).convert("RGB").quantize(128, dither=Image.Dither.NONE).save(path, optimize=True)
+    size = path.stat().st_size
+    print(f"{path.relative_to(ROOT)}: {size / 1000:.0f} kB")
+    if size > LARGEST:
+        sys.exit(f"{name} is larger than {LARGEST / 1000:.0f} kB")
+
+
+def of_page(browser: Browser, address: str) -> None:
+    """The page, light, dark and on a phone."""
+    for name, (scheme, size, fragment) in OF_PAGE.items():
+        page = browser.new_page(color_scheme=scheme, viewport=size, device_scale_factor=2 if size is PHONE else 1)
+        page.goto(f"{address}/{fragment}")
+        page.wait_for_selector("html[data-ready]")
+        page.wait_for_selector('#results[aria-busy="false"]')
+        if "band" in fragment:
+            page.wait_for_selector("#band-words >> text=95 %")
+        if size is PHONE:  # from the operating point down to the first chart
+            page.evaluate("document.querySelector('#verdicts').scrollIntoView()")
+        page.wait_for_selector("#torque-chart .main-svg")
+        page.wait_for_timeout(500)
+        save(name, page.screenshot())
+        page.close()
+
+
+def of_report() -> None:
+    """The first page of a report as it is on paper."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([*COMMAND, "report", CASE, "--to", Path(folder) / "report.pdf"], check=True, capture_output=True)
+        page = Path(folder) / "page.typ"
+        page.write_text('#set page(paper: "a4", margin: 0pt)\n#image("report.pdf", page: 1)\n', encoding="utf-8")
+        save("report_first_page.png", typst.compile(page, root=folder, format="png", ppi=90))
+
+
+def of_docs(browser: Browser) -> None:
+    """Where the documentation starts."""
+    if not START.exists():
+        print("docs_start.png is left as it is: make docs first")
+        return
+    page = browser.new_page(color_scheme="light", viewport=DESKTOP)
+    page.goto(START.as_uri())
+    save("docs_start.png", page.screenshot())
+    page.close()
+
+
+def main() -> None:
+    """All of them."""
+    IMAGES.mkdir(exist_ok=True)
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    server = subprocess.Popen([*COMMAND, "serve", "--port", "0"], stdout=subprocess.PIPE, encoding="utf-8")
+    try:
+        assert server.stdout is not None
+        found = re.search(r"http://\S+", server.stdout.readline())
+        assert found
+        with sync_playwright() as playwright:
+            browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
+            of_page(browser, found[0])
+            of_report()
+            of_docs(browser)
+            browser.close()
+    finally:
+        server.terminate()
+        server.wait()
+
+
+if __name__ == "__main__":
+    main()
