@@ -8,8 +8,6 @@ from typing import Annotated, Literal
 
 import typer
 
-from ballscrew.faults import Fault, InputError
-
 #: What each kind of file needs beyond the core.
 _NEEDS = {".html": ("jinja2",), ".pdf": ("typst",)}
 _KINDS: dict[str, Literal["pdf", "html"]] = {".html": "html", ".pdf": "pdf"}
@@ -33,6 +31,8 @@ def report(
     The .html is one file that asks for nothing from outside; the .pdf can be read by machines, too (PDF/UA-1). The
     same case gives the same bytes.
     """
+    from ballscrew.faults import Fault, InputError
+
     kind = to.suffix.lower()
     if kind not in _NEEDS:
         raise InputError(Fault(_TO, "unknown kind of file", str(to), "end it in .pdf or .html"))

@@ -12,8 +12,6 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.faults import Fault, InputError
-
 _NEEDS = ("fastapi", "fastapi_offline", "plotly", "uvicorn", "jinja2", "typst")
 _LOOPBACK = ("127.0.0.1", "localhost", "::1")
 _ANY = ("0.0.0.0", "::")
@@ -30,6 +28,9 @@ def serve(
 
     The page is at the address it prints, the API under /api. Nothing is asked from outside and nothing is stored.
     """
+    # NumPy behind it: not for those who ask for help only
+    from ballscrew.faults import Fault, InputError
+
     missing = [name for name in _NEEDS if importlib.util.find_spec(name) is None]
     if missing:
         raise InputError(Fault("serve", f"needs {' and '.join(missing)}", "", 'pip install "ballscrew[web]"'))
@@ -53,6 +54,8 @@ def serve(
 
 def _listening(host: str, port: int) -> socket.socket:
     """A socket that listens there; a fault that names the option if there can be none."""
+    from ballscrew.faults import Fault, InputError
+
     if not 0 <= port <= 65535:
         raise InputError(Fault("--port", "is no port", str(port), "0 to 65535"))
     try:
