@@ -162,6 +162,8 @@ def test_at_rest_without_load():
     loaded = table(screw_speed=0.0, limits=Limits(running_time=HOUR))
     assert loaded["running_time"].value == math.inf
     assert loaded["life"].limit == 0
+    assert [found[name].words for name in ("life", "running_time")] == ["no load tires it"] * 2
+    assert loaded["running_time"].words == "it is at rest"
 
 
 def test_the_largest_load_breaks_and_the_mean_load_tires():

@@ -178,8 +178,11 @@ def _life(rated: Force | None, loads: Sequence[Force], speed: AngularSpeed, limi
     lives = [life.basic_life(rated, as_array(load)) for load in loads]
     revolutions = lives[0] if len(lives) == 1 else life.combined_life(*lives)
     time = life.running_time(revolutions, as_array(speed))
-    words = f"nine of ten outlive {float(revolutions):.3g} revolutions, preload included"
-    hours = f"{float(time / HOUR):.3g} h at this speed"
+    endless = not np.isfinite(revolutions)
+    words = (
+        "no load tires it" if endless else f"nine of ten outlive {float(revolutions):.3g} revolutions, preload included"
+    )
+    hours = f"{float(time / HOUR):.3g} h at this speed" if np.isfinite(time) else words if endless else "it is at rest"
     required = limits.running_time
     if required is None:
         advice = "not judged: give limits.running_time"

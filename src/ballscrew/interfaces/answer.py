@@ -35,11 +35,14 @@ class Answer(NamedTuple):
     def assumed(self) -> list[str]:
         """What the result depends on and people seldom write down, and what is left out."""
         if self.case.parts is not None:
-            words = [*nut_report.assumptions(self.case, self.case.parts), nut_report.left_out(self.case.parts)]
+            words = [
+                *nut_report.assumptions(self.case, self.case.parts),
+                nut_report.left_out(self.case, self.case.parts),
+            ]
         else:
             assert isinstance(self.result, FrictionResult)
-            words = [*report.assumed(self.case, self.result).split("; "), report.LEFT_OUT]
-        return [*words, *report.of_fit(self.case)]
+            words = [*report.assumed(self.case, self.result).split("; "), report.left_out(self.case)]
+        return [*filter(None, words), *report.of_fit(self.case)]
 
     @property
     def title(self) -> str:

@@ -30,15 +30,24 @@ def sources(keys: Iterable[str]) -> list[Source]:
 
 
 def of_catalogue(source: str) -> list[str]:
-    """Keys of the catalogue that a row is from: of those whose entry has the number that follows its maker's name."""
-    number = source.partition(" ")[2]
-    return [key for key, entry in bibliography().items() if number and number in entry]
+    """Keys of the catalogue that a row is from: of those whose entry has maker and number as the source has them."""
+    maker, _, number = source.partition(" ")
+    return [
+        key
+        for key, entry in bibliography().items()
+        if (fields := _fields(entry)).get("note") == f"catalogue {number}"
+        and maker in fields.get("organization", "").split()
+    ]
 
 
 def _source(key: str, entry: str) -> Source:
-    fields = {name.lower(): plain(value) for name, value in _FIELD.findall(entry)}
+    fields = _fields(entry)
     doi = fields.get("doi", "")
     return Source(key, _in_words(fields), f"https://doi.org/{doi}" if doi else "")
+
+
+def _fields(entry: str) -> dict[str, str]:
+    return {name.lower(): plain(value) for name, value in _FIELD.findall(entry)}
 
 
 def _in_words(fields: Mapping[str, str]) -> str:

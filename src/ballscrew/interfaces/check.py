@@ -206,7 +206,9 @@ def checked(name: str, case: config.Case, words: Sequence[str]) -> Checked:
         limits=case.limits,
     )
     said = [f"{name.replace('_', ' ')} computed from the geometry: none is listed" for name in stand_ins]
-    assumed = list(dict.fromkeys([*words, *nut_report.assumptions(case, parts), *said, nut_report.left_out(parts)]))
+    assumed = list(
+        dict.fromkeys([*words, *nut_report.assumptions(case, parts), *said, nut_report.left_out(case, parts)])
+    )
     return Checked(name, case, parts, result, computed, found, assumed)
 
 

@@ -130,7 +130,7 @@ def print_result(case: config.Case, result: NutResult) -> None:
         say(line, "bold")
     for warning in found.warnings:
         say(f"beware  {warning}", "yellow")
-    say(left_out(parts))
+    say(left_out(case, parts))
     if float(found.screw_torque):
         console.print(report.parts_table(found.contributions, float(found.screw_torque), console.encoding))
     console.print(_loads(result))
@@ -147,12 +147,10 @@ def assumptions(case: config.Case, parts: NutParts) -> list[str]:
     return [*report.assumed(case).split("; "), bodies, *case.notes]
 
 
-def left_out(parts: NutParts) -> str:
+def left_out(case: config.Case, parts: NutParts) -> str:
     """What a nut loses and was not given."""
     words = [_WORDS[slot] for slot in LOSSES if slot not in parts.losses]
-    return (
-        f"left out: {', '.join(words)}; not compared with measurements" if words else "not compared with measurements"
-    )
+    return report.left_out(case, f"left out: {', '.join(words)}" if words else "")
 
 
 def verdicts(result: NutResult) -> list[str]:

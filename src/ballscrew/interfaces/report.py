@@ -48,7 +48,7 @@ SHORT: Mapping[str, str] = {
 }
 #: What an oil of a grade has where no temperature is given, K.
 DEFAULT_TEMPERATURE = 313.15
-LEFT_OUT = "left out: seals, preload, return path, churning; not compared with measurements"
+LEFT_OUT, NOT_COMPARED = "left out: seals, preload, return path, churning", "not compared with measurements"
 _OUTSIDE = " (outside the model's validity)"
 _BAR_WIDTH = 24
 #: What is varied, not computed.
@@ -118,12 +118,17 @@ def print_result(case: config.Case, result: FrictionResult) -> None:
         if said and warning.startswith("skid: "):
             continue
         console.print(f"beware  {warning}", style="yellow", markup=False, soft_wrap=True)
-    for line in (LEFT_OUT, *of_fit(case)):
+    for line in (left_out(case), *of_fit(case)):
         console.print(line, markup=False, soft_wrap=True)
     if any(float(part) for part in result.contributions.values()):
         console.print(parts_table(result.contributions, float(result.screw_torque), console.encoding))
     console.print(_quadrants(result))
     console.print(_contacts(result))
+
+
+def left_out(case: config.Case, words: str = LEFT_OUT) -> str:
+    """What is not in the torque, and whether anybody measured it; a case from a fit names its log instead."""
+    return "; ".join(filter(None, [words, "" if case.fit.get("log") else NOT_COMPARED]))
 
 
 def of_fit(case: config.Case) -> list[str]:

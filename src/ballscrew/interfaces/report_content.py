@@ -94,8 +94,9 @@ def _subtitle(case: config.Case) -> list[str]:
 
 
 def _answer(answer: Answer) -> list[Block]:
-    verdicts = [f"{sentence(line)}." for line in answer.verdicts]
-    said = " ".join([report_results.headline(answer), *verdicts])
+    # what a fit found besides belongs to every torque above
+    lines = [f"{sentence(line)}." for line in (*report.constant_torque(answer.case), *answer.verdicts)]
+    said = " ".join([report_results.headline(answer), *lines])
     return [Paragraph(said, strong=True), Columns.of(report_results.results(answer))]
 
 
@@ -140,7 +141,7 @@ def _at(x: Any, y: Any, here: float) -> str:
 def _model(case: config.Case) -> Sequence[Block]:
     said = [f"{sentence(line)}." for line in (report.model_in_words(case), *report.of_fit(case))]
     if case.calibration is not None:
-        said.append("Two numbers of it are from a named calibration.")
+        said.append(f"Two numbers of it are from the calibration {case.calibration.name}.")
     return [Paragraph(" ".join(said))]
 
 

@@ -14,6 +14,7 @@ from ballscrew.components.contact import RaceState
 from ballscrew.interfaces import band, check, config, nut_report, report
 from ballscrew.interfaces.answer import Answer
 from ballscrew.interfaces.nut_report import NutResult
+from ballscrew.interfaces.nuts import LISTED
 from ballscrew.interfaces.report_blocks import Bar, Block, Bullets, Paragraph, Table, sentence
 from ballscrew.interfaces.report_blocks import value as value_of
 from ballscrew.quantities import quantities_of
@@ -185,10 +186,12 @@ def _followers(case: config.Case, found: band.Found) -> Table:
 def checks(found: check.Checked) -> list[Block]:
     """Whether the screw does, line by line."""
     without_nut = found.case.parts is None
-    verdict = f"{sentence(found.verdict)}."
-    said = " The case has no nut: it is checked as a single nut without preload." if without_nut else ""
+    said = [found.verdict]
+    if without_nut:
+        said.append("the case has no nut: it is checked as a single nut without preload")
+    said += _computed_ratings(found)
     return [
-        Paragraph(verdict + said, strong=True),
+        Paragraph(" ".join(f"{sentence(words)}." for words in said), strong=True),
         Table(
             "Limits, and how much of each is used",
             ("", "value", "limit", "used", "verdict"),
@@ -197,6 +200,16 @@ def checks(found: check.Checked) -> list[Block]:
             4,
         ),
     ]
+
+
+def _computed_ratings(found: check.Checked) -> list[str]:
+    """The ratings that nobody lists and that the checks took from the geometry instead."""
+    unlisted = [name for name in ("dynamic", "static") if found.case.listed.get(f"{name}_load_rating") is None]
+    if found.computed is None or not unlisted:
+        return []
+    values = [value_of(getattr(found.computed, name), LISTED[f"{name}_load_rating"]) for name in unlisted]
+    ratings = " and ".join(f"{name} {value}" for name, value in zip(unlisted, values, strict=True))
+    return [f"load ratings that are not listed are computed from the geometry, by ISO 3408-5 as recalled: {ratings}"]
 
 
 def _check(one: Check) -> tuple[str, ...]:
