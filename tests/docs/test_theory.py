@@ -1,5 +1,6 @@
 """The pages on theory: formulas, letters and units from the code, and no erratum without its section."""
 
+import dataclasses
 import importlib
 import importlib.util
 import inspect
@@ -79,8 +80,14 @@ def test_every_erratum_has_a_section_and_a_test(errata):
 
 
 def test_the_errata_add_up_to_the_corrected_model(errata):
-    """Every repair between the two models has a section, but for the helix, which the paper leaves out and says so."""
+    """Every repair between the two models has a section, but for the helix, which the page names before them."""
     page = errata.page()
+    fields = {field.name for field in dataclasses.fields(errata.CORRECTED)} - {"name"}
+    differ = {name for name in fields if getattr(errata.PRINTED, name) != getattr(errata.CORRECTED, name)}
+    assert differ == set(errata.REPAIRS)
+    words = (DOCS / "theory" / "errata.md").read_text()
+    assert "six of the points below, and the helix" in words
+    assert len(differ) == 7
     for field in set(errata.REPAIRS) - {"frame", "ideal_torque"}:
         assert errata.repaired(field) in page
     assert "virtual work" in page
