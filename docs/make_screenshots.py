@@ -49,8 +49,8 @@ def of_page(browser: Browser, address: str) -> None:
         page.wait_for_selector('#results[aria-busy="false"]')
         if "band" in fragment:
             page.wait_for_selector("#band-words >> text=95 %")
-        if size is PHONE:  # from the operating point down to the first chart
-            page.evaluate("document.querySelector('#verdicts').scrollIntoView()")
+        if size is PHONE:  # the answer and the first chart
+            page.evaluate("document.querySelector('#results').scrollIntoView()")
         page.wait_for_selector("#torque-chart .main-svg")
         page.wait_for_timeout(500)
         save(name, page.screenshot())

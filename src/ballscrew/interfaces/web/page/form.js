@@ -154,7 +154,7 @@ function number(path, node, state, kept, present, style) {
   input.placeholder = kept === undefined ? usual(node.examples?.[0], unit, si) : "";
   const known = [...new Set([unit, ...units.choices(si).map((one) => one.unit)])];
   const select = element("select", { class: "unit", id: `u-${path.replaceAll(".", "-")}`, "aria-label": `unit of ${words(path.split(".").pop())}` },
-    asWritten ? element("option", { value: "", selected: true }, "as written") : null,
+    asWritten ? element("option", { value: "", selected: true }, "as typed") : null,
     ...known.map((name) => element("option", { value: name, selected: !asWritten && name === unit }, units.spoken(name))));
   select.addEventListener("change", () => changed({ path, unit: select.value, rebuild: true }));
   input.addEventListener("input", () => {

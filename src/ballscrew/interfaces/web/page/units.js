@@ -90,7 +90,7 @@ export function sentence(text) {
   return text.replace(pattern, (_, number, written) => {
     const unit = written.replace("µ", "u"), here = unitHere(unit);
     const si = Object.keys(vocabulary.units).find((name) => entry(unit, name));
-    return here === unit ? `${number} ${spoken(unit)}` : `${digits(fromSI(toSI(Number(number), unit, si), here, si))} ${spoken(here)}`;
+    return here === unit ? `${number.includes("e") ? digits(Number(number)) : number} ${spoken(unit)}` : `${digits(fromSI(toSI(Number(number), unit, si), here, si))} ${spoken(here)}`;
   });
 }
 
