@@ -194,6 +194,8 @@ def ellipses() -> Figure:
             pressure = hertz.hertz_pressure(float(contact.maximum_pressure), t, 0.0) / GIGA
             profile.plot(a * t, pressure, color=colour, ls="-" if side > 0 else "--", label=words)
         shape.set_xlim(-0.8, 0.8)
+        shape.update_datalim([(-0.8, -0.4), (0.8, 0.4)])  # patches alone scale nothing
+        shape.autoscale_view(scalex=False)
         shape.set_aspect("equal", adjustable="datalim")
         shape.set_ylabel("along the path (mm)")
         shape.tick_params(labelbottom=True)

@@ -91,3 +91,15 @@ def test_the_errata_add_up_to_the_corrected_model(errata):
     for field in set(errata.REPAIRS) - {"frame", "ideal_torque"}:
         assert errata.repaired(field) in page
     assert "virtual work" in page
+
+
+def test_both_ellipses_lie_in_their_panel(monkeypatch):
+    monkeypatch.syspath_prepend(str(DOCS))
+    figure = importlib.import_module("theory_figures").ellipses()
+    figure.draw_without_rendering()
+    for panel in figure.axes[:2]:
+        assert len(panel.patches) == 2
+        low, high = panel.get_ylim()
+        for ellipse in panel.patches:
+            middle, height = ellipse.get_center()[1], ellipse.get_height()
+            assert low < middle - height / 2 < middle + height / 2 < high
