@@ -131,10 +131,10 @@ def slowest(address: str) -> Iterator[tuple[str, str, int, float]]:
     many = {**CASE["screw"], "loaded_balls": MOST_BALLS}
     double = {**NUT, "screw": many, "deviations": deviations}
     oversize = {**double, "nut": {"type": "oversize-balls", "preload": "3 kN"}}
-    points = {"two nuts": MOST_BALLS_IN_ALL // (2 * MOST_BALLS), "oversize": MOST_BALLS_IN_ALL // MOST_BALLS}
+    points = {"two nuts": MOST_BALLS_IN_ALL // (2 * MOST_BALLS), "oversize": MOST_BALLS_IN_ALL // (3 * MOST_BALLS)}
     asked = [
         ("run", f"{2 * MOST_BALLS} balls one by one", {"case": double}),
-        ("sweep", f"{MOST_POINTS} points", {"case": ball, "vary": {"axial_load": f"1:9000:{MOST_POINTS} N"}}),
+        ("sweep", f"{MOST_POINTS} points", {"case": ball, "vary": {"axial_load": f"1:9000:{MOST_POINTS} N"}, "outputs": ["screw_torque", "efficiency"]}),
         ("sweep", f"{MOST_POINTS_OF_NUT} points, nut",
          {"case": rigid, "vary": {"axial_load": f"1:9000:{MOST_POINTS_OF_NUT} N"}}),
         ("sweep", f"{MOST_BALLS_IN_ALL} balls, two nuts",

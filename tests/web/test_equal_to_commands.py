@@ -164,13 +164,24 @@ def test_toml(server, tables, tmp_path):
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
-def test_drawing_and_report(server, path):
+def test_drawing(server, path):
     from ballscrew.interfaces.answer import answer
     from ballscrew.interfaces.drawing import drawing
 
     found = server.post("drawing", {"case": tables_of(path)})
     assert found.headers["content-type"].partition(";")[0] == "image/svg+xml"
     assert found.text == drawing(answer(config.load(path)))
+
+
+@pytest.mark.parametrize("kind", ["pdf", "html"])
+@pytest.mark.parametrize("stem", ["olaru2005", "catalogue_screw"])
+def test_report(server, stem, kind, tmp_path):
+    """Byte for byte the file that the command writes."""
+    path, to = PAPER.with_stem(stem), tmp_path / f"report.{kind}"
+    found = server.post(f"report?kind={kind}", {"case": tables_of(path)})
+    assert found.headers["content-type"].partition(";")[0] == {"pdf": "application/pdf", "html": "text/html"}[kind]
+    printed("report", path, "-o", to)
+    assert found.content == to.read_bytes()
 
 
 # -- what is refused ------------------------------------------------------------------------------

@@ -183,6 +183,13 @@ def test_bands(server, paper, more, words):
     refused(server, "band", {"case": paper, **more}, 422, words)
 
 
+def test_a_band_of_very_many_balls_has_fewer_samples(server, elastic):
+    """Where their number is not asked for; the answer says it."""
+    many = with_value(elastic, "screw", "loaded_balls", 400)
+    assert server.post("band", many).json()["band"]["samples"] == limits.MOST_BALLS_IN_ALL // 800
+    refused(server, "band", {**many, "samples": 500}, 422, "--samples: too many (500)")
+
+
 @pytest.mark.parametrize("name", ["..%2f..%2fetc%2fpasswd", "%00", "%ff", "<script>", "a" * 5000, "%F0%9F%98%80"])
 def test_names_in_addresses(server, name):
     for path in (f"/api/v1/catalogue/{name}", f"/page/{name}", f"/viewer/{name}"):

@@ -142,8 +142,8 @@ async def band(request: Request) -> Response:
 
     def work(done: Deadline) -> Response:
         case = case_of(body.case)
-        limits.check_samples(case, body.samples)
-        found = bands.computed(case, bands.Options(body.samples, body.level, body.only_given), done)
+        samples = limits.samples_of(case, body.samples)
+        found = bands.computed(case, bands.Options(samples, body.level, body.only_given), done)
         words = {"sentences": bands.sentences(case, found), "inputs": bands.assumed_in_words(found)}
         return _json({**bands.document(answer(case), found), "words": words})
 
@@ -237,7 +237,7 @@ async def report(
         from ballscrew.interfaces.report_content import report_bytes  # with its writers: only for those who ask
 
         case = case_of(body.case)
-        found = report_bytes(case, "pdf" if kind == "pdf" else "html", done, samples=limits.samples_of_report(case))
+        found = report_bytes(case, "pdf" if kind == "pdf" else "html", done, samples=limits.samples_of(case))
         return Response(found, media_type=KINDS[kind])
 
     return await _desk(request).heavy(work)

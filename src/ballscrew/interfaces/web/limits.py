@@ -9,7 +9,8 @@ import math
 from collections.abc import Mapping
 
 from ballscrew.analyses.uncertainty import NUT_SAMPLES, SAMPLES
-from ballscrew.faults import Fault, raise_if_any
+from ballscrew.components.nut import OversizeBallNut
+from ballscrew.faults import Fault, InputError, raise_if_any
 from ballscrew.interfaces import export
 from ballscrew.interfaces.config import Case
 
@@ -21,6 +22,8 @@ MOST_SAMPLES, MOST_SAMPLES_OF_NUT = 65_536, 1_024
 MOST_BALLS_IN_ALL = 250_000
 #: With more of them at one point, that is no quick work.
 MANY_BALLS = 300
+#: A ball with four contacts takes as long as so many with two.
+_FOUR_CONTACTS = 3
 
 
 def check_size(vary: Mapping[str, str], outputs: int) -> None:
@@ -50,17 +53,17 @@ def check_sweep(case: Case, plan: export.Plan) -> None:
     raise_if_any(faults)
 
 
-def check_samples(case: Case, asked: int | None) -> None:
-    """Refuse a band of too many samples, before one is drawn."""
-    most, samples = _most_samples(case), _usual_samples(case) if asked is None else asked
-    if samples > most:
-        raise_if_any([Fault("--samples", "too many", f"{samples:,}", f"{most:,} at most here")])
+def samples_of(case: Case, asked: int | None = None) -> int | None:
+    """The samples of a band: those asked for, or the usual number, or fewer where its balls are too many.
 
-
-def samples_of_report(case: Case) -> int | None:
-    """The samples of the band in a report: the usual number, or fewer where its balls are too many."""
+    Raises :class:`~ballscrew.faults.InputError` where more are asked for than are computed here.
+    """
     most = _most_samples(case)
-    return most if _usual_samples(case) > most else None
+    if asked is None:
+        return most if _usual_samples(case) > most else None
+    if asked > most:
+        raise InputError(Fault("--samples", "too many", f"{asked:,}", f"{most:,} at most here"))
+    return asked
 
 
 def _usual_samples(case: Case) -> int:
@@ -74,9 +77,12 @@ def _most_samples(case: Case) -> int:
 
 
 def balls_of(case: Case) -> int:
-    """The balls that are computed one by one; none where all are alike."""
+    """The balls that are computed one by one, by the time they take; none where all are alike."""
     parts = case.parts
-    return int(case.screw.loaded_balls) * parts.halves if parts is not None and parts.one_by_one else 0
+    if parts is None or not parts.one_by_one:
+        return 0
+    each = _FOUR_CONTACTS if isinstance(parts.nut, OversizeBallNut) else parts.halves
+    return int(case.screw.loaded_balls) * each
 
 
 def _points(vary: Mapping[str, str]) -> int:

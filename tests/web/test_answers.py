@@ -1,0 +1,93 @@
+"""What goes round each answer: headers, what browsers keep, and that nothing is asked from outside."""
+
+import re
+from urllib.parse import urljoin
+
+import pytest
+
+STRICT = ("content-security-policy", "x-content-type-options", "referrer-policy", "cross-origin-opener-policy")
+
+
+@pytest.mark.parametrize(
+    ("path", "status"),
+    [("/", 200), ("/api", 200), ("/plotly.js", 200), ("/page/main.js", 200), ("/viewer/swagger-ui.css", 200),
+     ("/api/v1/schema", 200), ("/api/v1/openapi.json", 200), ("/none", 404), ("/api/v1/catalogue/none", 404),
+     ("/api/v1/run", 405), ("/api/v1/schema?x=1", 422), ("/page/", 404), ("/page", 404)],
+)  # fmt: skip
+def test_headers(server, path, status):
+    found = server.client.get(path)
+    assert found.status_code == status
+    assert all(found.headers[name] for name in STRICT)
+    assert "'unsafe-eval'" not in found.headers["content-security-policy"]
+    assert "script-src 'self';" in found.headers["content-security-policy"]
+    assert "server" not in found.headers
+    assert found.headers["cache-control"] == ("no-store" if "/v1/" in path or status >= 400 else "no-cache")
+
+
+@pytest.mark.parametrize("path", ["/", "/plotly.js", "/page/main.js", "/viewer/swagger-ui-bundle.js"])
+def test_files_are_sent_once(server, path):
+    """A browser keeps them, and asks whether they are still the same."""
+    tag = server.client.get(path).headers["etag"]
+    again = server.client.get(path, headers={"If-None-Match": tag})
+    assert (again.status_code, again.content) == (304, b"")
+    assert "content-security-policy" in again.headers
+    assert server.client.get(path, headers={"If-None-Match": '"another"'}).status_code == 200
+
+
+def test_a_defect_is_said(monkeypatch):
+    """Of the server, with the same headers; the server writes where it was, and the answer does not."""
+    import asyncio
+
+    import httpx
+
+    from ballscrew.interfaces.web import api
+    from ballscrew.interfaces.web.server import application
+
+    def wrong():
+        raise ArithmeticError("secret")
+
+    monkeypatch.setattr(api, "_schema", wrong)
+
+    async def ask():
+        transport = httpx.ASGITransport(application(), raise_app_exceptions=False)
+        async with httpx.AsyncClient(transport=transport, base_url="http://localhost") as client:
+            return await client.get("/api/v1/schema")
+
+    found = asyncio.run(ask())
+    assert found.status_code == 500
+    assert found.headers["content-type"] == "application/problem+json"
+    assert all(found.headers[name] for name in STRICT)
+    assert "secret" not in found.text
+
+
+@pytest.mark.parametrize("page", ["/", "/api"])
+def test_pages_are_served_from_here(server, page):
+    """Everything they name, and what that names; no script and no style stands in them."""
+    text = server.client.get(page).text
+    assert not re.search(r"<script(?![^>]*\bsrc=)[^>]*>|<style|\son\w+=|javascript:", text)
+    pending, seen = re.findall(r"""(?:src|href)="([^"#]+)[#"]""", text), set()
+    assert pending
+    while pending:
+        address = urljoin(page, pending.pop())
+        assert address.startswith("/"), address
+        if address in seen:
+            continue
+        seen.add(address)
+        found = server.client.get(address)
+        assert found.status_code == 200, address
+        if address.endswith(".js") and "/page/" in address:
+            pending += [urljoin(address, name) for name in re.findall(r"""from "(\.[^"]+)";""", found.text)]
+        if address.endswith(".css"):
+            links = re.findall(r"url\(([^)]+)\)", found.text)
+            assert all(link.strip("\"'").startswith(("data:", "#")) for link in links)
+    assert len(seen) > 3
+
+
+def test_what_is_described_is_there(server):
+    """The viewer shows this document, and each of its addresses is one that answers."""
+    described = server.get("openapi.json").json()
+    assert described["openapi"].startswith("3.1")
+    assert re.search(r'url: "(/[^"]+)"', server.client.get("/page/api.js").text)[1] == "/api/v1/openapi.json"
+    for path, methods in described["paths"].items():
+        for method in methods:
+            assert server.client.request(method, path.replace("{name}", "x")).status_code != 405
