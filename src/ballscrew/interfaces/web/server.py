@@ -21,7 +21,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from ballscrew import __version__
 from ballscrew.faults import Fault, InputError
 from ballscrew.interfaces.answer import answer
-from ballscrew.interfaces.web import api, openapi, problems, vocabulary
+from ballscrew.interfaces.web import api, openapi, plotly_js, problems, vocabulary
 from ballscrew.interfaces.web.bodies import case_of
 from ballscrew.interfaces.web.policy import policy
 from ballscrew.interfaces.web.problems import Refused
@@ -124,7 +124,7 @@ def _files(app: FastAPI, plotly: Path) -> None:
     pages = {"/": "index.html", "/api": "api.html"}
     for address, name in pages.items():
         app.add_api_route(address, _sender(Path(str(_PAGE)) / name), include_in_schema=False)
-    app.add_api_route("/plotly.js", _sender(plotly), include_in_schema=False)
+    app.add_api_route("/plotly.js", plotly_js.sender(plotly), include_in_schema=False)
 
 
 def _sender(path: Path) -> Callable[[Request], Awaitable[Response]]:
