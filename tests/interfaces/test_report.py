@@ -11,14 +11,17 @@ from concurrent.futures import ThreadPoolExecutor
 from html.parser import HTMLParser
 from pathlib import Path
 
+import numpy as np
 import pypdf
 import pytest
 
 from ballscrew.faults import InputError
 from ballscrew.interfaces import band, bibliography, check, cli_report, config, report_content
 from ballscrew.interfaces.answer import answer
+from ballscrew.interfaces.figures import report as figures
 from ballscrew.interfaces.report_blocks import Bar, Columns, Links, Picture, Table, value
 from ballscrew.interfaces.report_content import report_bytes
+from ballscrew.interfaces.report_curves import curves
 from ballscrew.interfaces.report_html import html_bytes
 from ballscrew.interfaces.report_pdf import pdf_bytes
 from ballscrew.quantities import fields_of, quantities_of
@@ -278,6 +281,22 @@ def test_torque_that_a_fit_found_besides_stands_beside_the_torque():
     assert "not compared with measurements" in str(
         next(s for s in report_content.content(case_of("rig"), samples=SAMPLES).sections if s.title == beware.title)
     )
+
+
+@pytest.mark.parametrize(("name", "arrows"), [("at rest", False), ("oversize balls", False), ("feed_drive", True)])
+def test_the_caption_tells_of_arrows_where_there_are_some(name, arrows):
+    (picture,) = report_content._drawing(answer(case_of(name)))
+    assert ("arrows" in picture.caption) == arrows
+
+
+def test_a_torque_without_a_number_is_a_gap():
+    found = curves(case_of("feed_drive"))
+    parts = {name: part.copy() for name, part in found.parts.items()}
+    parts["helix"][20:30] = np.nan
+    panel, _ = figures._over_speed(found._replace(parts=parts)).axes
+    total = panel.lines[0].get_ydata()
+    assert np.all(np.isnan(total[20:30]))
+    assert np.isfinite(total[30:]).all()
 
 
 # -- all cases ------------------------------------------------------------------------------------

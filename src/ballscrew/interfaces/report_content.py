@@ -13,6 +13,7 @@ from ballscrew.interfaces import answer as answers
 from ballscrew.interfaces import band, bibliography, check, config, nut_report, report, report_inputs, report_results
 from ballscrew.interfaces.answer import Answer
 from ballscrew.interfaces.drawing import drawing
+from ballscrew.interfaces.drawn_ball import drawn_ball
 from ballscrew.interfaces.report_blocks import (
     Block,
     Columns,
@@ -103,10 +104,13 @@ def _answer(answer: Answer) -> list[Block]:
 def _drawing(answer: Answer) -> list[Block]:
     ball = "the most loaded ball" if answer.case.parts is not None else "a ball"
     drawn = drawing(answer)
+    touching = drawn_ball(answer).contact
+    slips = touching is not None and touching.slip is not None
+    arrows = "; arrows: slip of the screw's surface over the ball" if slips else ""
     words = f"Drawing of {ball} between its grooves, and of its contact with the screw: {answer.title}."
     caption = (
-        f"{sentence(ball)} between its grooves, to scale; how far the grooves reach is assumed. On the "
-        "right its contact with the screw as seen from the ball; arrows: slip of the screw's surface over the ball."
+        f"{sentence(ball)} between its grooves, to scale; how far the grooves reach is assumed"
+        f"{'' if touching is None else '. On the right its contact with the screw as seen from the ball'}{arrows}."
     )
     return [Picture(drawn, words, caption, 0.8)]
 

@@ -59,11 +59,12 @@ def _over_speed(curves: Curves) -> Figure:
     colours = [style.MECHANISM_COLOURS.get(name) or next(others) for name in parts]
     labels = [MECHANISMS.get(name, name) for name in parts]
     if parts:
-        stacked = np.nan_to_num(np.stack(list(parts.values())))
+        stacked = np.stack(list(parts.values()))
+        stacked[:, ~np.all(np.isfinite(stacked), axis=0)] = np.nan  # a gap, not a torque that lacks a part
         left.stackplot(curves.speeds, stacked, colors=colours, labels=labels, alpha=0.9, linewidth=0)
         total = stacked.sum(axis=0)
         left.plot(curves.speeds, total, color=style.INK, linewidth=1.2)
-        left.set_ylim(0, 1.5 * float(np.max(total)) or 1.0)
+        left.set_ylim(0, 1.5 * float(np.nanmax(total, initial=0.0)) or 1.0)
         handles, names = left.get_legend_handles_labels()
         left.legend(handles[::-1], names[::-1], loc="upper center", ncols=2)
     _frame(left, curves.here[0], curves.speeds, _SPEED, "friction torque on the screw (N m)")
