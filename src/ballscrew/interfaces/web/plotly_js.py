@@ -17,8 +17,8 @@ _BEGIN_NOW, _END_NOW = 'this, (() => {\n"use strict"', "return Plotly;\n})));"
 def eager(script: str) -> str:
     """The script with its one large function in parentheses, if it is built like that; else as it is.
 
-    Browsers parse a function twice, once to skip it and once to run it, but not one in parentheses: they take it that it
-    runs at once. That is a third of the time until there is a chart.
+    Browsers parse a function twice, once to skip it and once to run it, but not one in parentheses: they take it that
+    it runs at once. That is a third of the time until there is a chart.
     """
     if script.count(_BEGIN) != 1 or not script.rstrip().endswith(_END):
         return script
