@@ -127,6 +127,7 @@ def slowest(address: str) -> Iterator[tuple[str, str, int, float]]:
 
     deviations = {"ball_diameter": "2 um", "lead": "3 um"}
     ball = {**CASE, "model": {"name": "reference"}}
+    two = ["screw_torque", "efficiency"]
     rigid = {**CASE, "nut": {"preload": "7 %"}}
     many = {**CASE["screw"], "loaded_balls": MOST_BALLS}
     double = {**NUT, "screw": many, "deviations": deviations}
@@ -134,7 +135,8 @@ def slowest(address: str) -> Iterator[tuple[str, str, int, float]]:
     points = {"two nuts": MOST_BALLS_IN_ALL // (2 * MOST_BALLS), "oversize": MOST_BALLS_IN_ALL // (3 * MOST_BALLS)}
     asked = [
         ("run", f"{2 * MOST_BALLS} balls one by one", {"case": double}),
-        ("sweep", f"{MOST_POINTS} points", {"case": ball, "vary": {"axial_load": f"1:9000:{MOST_POINTS} N"}, "outputs": ["screw_torque", "efficiency"]}),
+        ("sweep", f"{MOST_POINTS} points",
+         {"case": ball, "vary": {"axial_load": f"1:9000:{MOST_POINTS} N"}, "outputs": two}),
         ("sweep", f"{MOST_POINTS_OF_NUT} points, nut",
          {"case": rigid, "vary": {"axial_load": f"1:9000:{MOST_POINTS_OF_NUT} N"}}),
         ("sweep", f"{MOST_BALLS_IN_ALL} balls, two nuts",

@@ -100,7 +100,7 @@ def most() -> str:
         "values that a sweep returns": limits.MOST_RETURNED,
         "samples of a band": limits.MOST_SAMPLES,
         "samples of a band of a whole nut": limits.MOST_SAMPLES_OF_NUT,
-        "balls one by one, over all points or samples (those with four contacts count three times)": limits.MOST_BALLS_IN_ALL,
+        "balls one by one over all points or samples; one with four contacts counts as three": limits.MOST_BALLS_IN_ALL,
         "seconds that a request computes": work.LONGEST,
         "heavy requests at a time": work.HEAVY,
         "heavy requests that wait": work.MOST_WAITING,
