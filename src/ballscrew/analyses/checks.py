@@ -182,10 +182,11 @@ def _life(rated: Force | None, loads: Sequence[Force], speed: AngularSpeed, limi
     words = (
         "no load tires it" if endless else f"nine of ten outlive {float(revolutions):.3g} revolutions, preload included"
     )
-    hours = f"{float(time / HOUR):.3g} h at this speed" if np.isfinite(time) else words if endless else "it is at rest"
+    hours = f"{float(time / HOUR):.3g} h at this speed" if np.isfinite(time) else words if endless else "no turn tires it"
     required = limits.running_time
-    if required is None:
-        advice = "not judged: give limits.running_time"
+    at_rest = not endless and not float(as_array(speed))
+    if required is None or at_rest:
+        advice = "not judged: at rest" if at_rest else "not judged: give limits.running_time"
         return (
             Check(names[0], float(revolutions), None, "1", None, None, f"{words}; {advice}"),
             Check(names[1], float(time), None, "s", None, None, f"{hours}; {advice}"),

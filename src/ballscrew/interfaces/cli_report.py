@@ -26,7 +26,7 @@ def report(
         int | None, typer.Option("--samples", metavar="N", help="Of the band: 16384; of a whole nut 1024.")
     ] = None,
 ) -> None:
-    """A report to file: drawing, results, curves, band, checks, inputs and sources on four pages.
+    """A report to file: drawing, results, curves, band, checks, inputs and sources on up to four pages.
 
     The .html is one file that asks for nothing from outside; the .pdf can be read by machines, too (PDF/UA-1). The
     same case gives the same bytes.

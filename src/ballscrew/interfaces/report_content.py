@@ -129,12 +129,17 @@ def _pictures(found: Curves) -> list[Picture]:
         "maps": f"Maps of efficiency and friction torque over load and speed; the operating point is {speed} rpm "
         f"and {load} N.",
     }
+    masks = {"speed": found.valid_over_speed, "load": found.valid_over_load, "maps": found.valid_everywhere}
+    veiled = {name: "" if np.all(mask) else " In grey: outside the model's validity." for name, mask in masks.items()}
     captions = {
         "speed": f"Friction torque, stacked from its parts, and film parameter over the speed at {load} N; {here}.",
         "load": f"Efficiency and greatest contact pressure over the load at {speed} rpm; {here}.",
         "maps": "Efficiency and friction torque over load and speed; the red dot is the operating point.",
     }
-    return [Picture(named(svg, words[name]), words[name], captions[name]) for name, svg in pictures(found).items()]
+    return [
+        Picture(named(svg, words[name]), words[name], captions[name] + veiled[name])
+        for name, svg in pictures(found).items()
+    ]
 
 
 def _at(x: Any, y: Any, here: float) -> str:

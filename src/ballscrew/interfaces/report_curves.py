@@ -15,6 +15,7 @@ from ballscrew.interfaces.config import Case
 from ballscrew.quantities import fields_of
 
 Numbers = NDArray[np.float64]
+Masks = NDArray[np.bool_]
 #: How far curves go beyond the operating point, and how many points they have.
 BEYOND, POINTS, MAP_POINTS, FIRST = 2.0, 61, 25, 0.02
 #: Where the curves of a case at rest or without load end.
@@ -41,6 +42,10 @@ class Curves(NamedTuple):
     #: Over load (first axis) and speed.
     map_efficiency: Numbers
     map_torque: Numbers
+    #: Where all conditions of the model hold: over the speed, over the load, and over both.
+    valid_over_speed: Masks
+    valid_over_load: Masks
+    valid_everywhere: Masks
 
 
 def friction_of(case: Case) -> Callable[[Any, Any], Any]:
@@ -81,6 +86,9 @@ def curves(case: Case) -> Curves:
             map_speeds=_people("screw_speed", map_speeds),
             map_efficiency=np.asarray(everywhere.efficiency, dtype=float),
             map_torque=np.asarray(everywhere.screw_torque, dtype=float),
+            valid_over_speed=np.broadcast_to(over_speed.valid, speeds.shape),
+            valid_over_load=np.broadcast_to(over_load.valid, loads[1:].shape),
+            valid_everywhere=np.asarray(everywhere.valid),
         )
 
 

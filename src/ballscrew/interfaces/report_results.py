@@ -249,4 +249,5 @@ def headline(answer: Answer) -> str:
     if float(found.axial_load) > 0:
         words.append(f"efficiency {efficiency:.1%}")
     words.append(f"power lost {power}")
-    return f"{', '.join(words)}."
+    outside = "" if found.valid else " (outside the model's validity)"
+    return f"{', '.join(words)}{outside}."

@@ -6,7 +6,7 @@ import io
 import math
 import re
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -33,6 +33,8 @@ _PALE = LinearSegmentedColormap.from_list("pale", ["#F7FBFF", "#9ECAE1"])
 #: Losses of the nut, which have no colour of their own.
 _OTHERS = (style.GREY, style.YELLOW, "#999999")
 _HERE: Mapping[str, Any] = {"color": style.RED, "linewidth": 1.0, "linestyle": "--"}
+#: A veil over what lies outside the model's validity.
+_VEIL, _THIN = style.GREY, 0.25
 #: The style of matplotlib is one for all threads.
 _LOCK = threading.Lock()
 
@@ -72,6 +74,7 @@ def _over_speed(curves: Curves) -> Figure:
     _lines(right, curves.speeds, curves.films)
     _frame(right, curves.here[0], curves.speeds, _SPEED, "film parameter λ")
     right.set_title("Film over the speed")
+    _veil((left, right), curves.speeds, curves.valid_over_speed)
     return figure
 
 
@@ -87,7 +90,17 @@ def _over_load(curves: Curves) -> Figure:
     _lines(right, curves.loads, curves.pressure)
     _frame(right, curves.here[1], curves.loads, _LOAD, "greatest pressure (GPa)")
     right.set_title("Contact pressure over the load")
+    _veil((left, right), curves.loads, curves.valid_over_load)
     return figure
+
+
+def _veil(panels: Sequence[Axes], x: Any, valid: Any) -> None:
+    """Veil where the model does not hold, halfway to the points where it does."""
+    edges = np.concatenate([x[:1], (x[1:] + x[:-1]) / 2, x[-1:]])
+    ends = np.flatnonzero(np.diff(np.concatenate([[False], ~valid, [False]])))
+    for panel in panels:
+        for begin, end in zip(ends[::2], ends[1::2], strict=True):
+            panel.axvspan(edges[begin], edges[end], color=_VEIL, alpha=_THIN, linewidth=0, zorder=3)
 
 
 def _lines(panel: Axes, x: Any, lines: Mapping[str, Any]) -> None:
@@ -125,6 +138,9 @@ def _map(panel: Axes, curves: Curves, values: Any) -> None:
         panel.contourf(x, y, values, levels=40, cmap=_PALE)
         lines = panel.contour(x, y, values, levels=levels, colors=[style.BLUE], linewidths=0.8)
         panel.clabel(lines, fontsize=7, colors=["#000000"])
+    if not np.all(curves.valid_everywhere):
+        outside = np.where(curves.valid_everywhere, 0.0, 1.0)
+        panel.contourf(curves.map_speeds, curves.map_loads, outside, levels=[0.5, 1.5], colors=[_VEIL], alpha=_THIN)
     panel.plot(
         *curves.here, "o", color=style.RED, markersize=6, clip_on=False,
         path_effects=[patheffects.withStroke(linewidth=2.5, foreground="white")],

@@ -18,6 +18,22 @@ function point({ ink, panel }, x, y) {
 
 function diamond({ ink }) { return { kind: "point", name: HERE, colour: ink }; }
 
+const VEIL = "#80808055", OUTSIDE = "outside the model's validity";
+
+/** A veil over the stretches where the model does not hold, each up to halfway to the point where it does. */
+function veils(x, valid) {
+  const edge = (place) => (place <= 0 ? x[0] : place >= x.length ? x.at(-1) : (x[place - 1] + x[place]) / 2);
+  const starts = valid.flatMap((holds, place) => (!holds && (place === 0 || valid[place - 1]) ? [place] : []));
+  return starts.map((start) => {
+    const end = valid.indexOf(true, start);
+    return { type: "rect", yref: "paper", y0: 0, y1: 1, x0: edge(start), x1: edge(end < 0 ? x.length : end), fillcolor: VEIL, line: { width: 0 }, layer: "above" };
+  });
+}
+
+function veiled(valid) { return valid.flat().every(Boolean) ? [] : [{ kind: "area", name: OUTSIDE, colour: VEIL }]; }
+
+function holds(valid) { return valid.map((one) => (one ? "yes" : "no")); }
+
 /** Torque against speed, its parts stacked, and the operating point. */
 export function torque(swept, answer, mechanisms) {
   const speeds = column("screw_speed", swept.axes.screw_speed.values);
@@ -27,6 +43,7 @@ export function torque(swept, answer, mechanisms) {
   const load = units.shown("axial_load", answer.inputs.operation.axial_load);
   const speed = units.inShownUnit("screw_speed", answer.inputs.operation.screw_speed);
   const { screw_torque: sum, contributions } = answer.results;
+  const { values: valid } = swept.outputs.valid;
   const words = (name) => mechanisms[name]?.words ?? name;
   const x = titled("screw_speed", "speed of the screw"), y = titled("screw_torque", "friction torque");
   const share = (name) => element("span", { class: "value" }, data("screw_torque", contributions[name]),
@@ -40,12 +57,12 @@ export function torque(swept, answer, mechanisms) {
         line: { width: 0.5, color: mechanisms[name]?.colour }, fillcolor: mechanisms[name]?.colour, hovertemplate: "%{y:.4g}",
       })), { x: speeds, y: total, name: "sum", mode: "lines", line: { color: colours.ink, width: 2 }, hovertemplate: "%{y:.4g}" },
       point(colours, speed, units.inShownUnit("screw_torque", sum))],
-      layout: layout(colours, x, y),
+      layout: layout(colours, x, y, { shapes: veils(speeds, valid) }),
     }),
     legend: (colours) => [{ kind: "line", name: "sum", colour: colours.ink, value: element("span", { class: "value" }, data("screw_torque", sum)) },
-      ...parts.toReversed().map((name) => ({ kind: "area", name: words(name), colour: mechanisms[name]?.colour, value: share(name) })), diamond(colours)],
-    numbers: () => [[x, y, ...parts.map((name) => titled("screw_torque", words(name)))],
-      speeds.map((at, place) => [at, total[place], ...parts.map((name) => values[name][place])])],
+      ...parts.toReversed().map((name) => ({ kind: "area", name: words(name), colour: mechanisms[name]?.colour, value: share(name) })), diamond(colours), ...veiled(valid)],
+    numbers: () => [[x, y, ...parts.map((name) => titled("screw_torque", words(name))), "valid"],
+      speeds.map((at, place) => [at, total[place], ...parts.map((name) => values[name][place]), holds(valid)[place]])],
   });
 }
 
@@ -55,8 +72,8 @@ const SCALE = [[0, "#8296b5"], [0.5, "#c3b98c"], [1, "#ffe945"]];
 /** Efficiency over load and speed. */
 export function map(swept, answer) {
   const speeds = column("screw_speed", swept.axes.screw_speed.values), loads = column("axial_load", swept.axes.axial_load.values);
-  const found = swept.outputs.efficiency.values;
-  const grid = Object.keys(swept.axes)[0] === "axial_load" ? found : loads.map((_, i) => speeds.map((_, j) => found[j][i]));
+  const byLoad = ({ values }) => (Object.keys(swept.axes)[0] === "axial_load" ? values : loads.map((_, i) => speeds.map((_, j) => values[j][i])));
+  const grid = byLoad(swept.outputs.efficiency), valid = byLoad(swept.outputs.valid);
   const x = titled("screw_speed", "speed of the screw"), y = titled("axial_load", "axial load");
   const { screw_speed: speed, axial_load: load } = answer.inputs.operation;
   return draw("map-chart", {
@@ -68,24 +85,28 @@ export function map(swept, answer) {
         contours: { coloring: "heatmap", showlabels: true, labelfont: { size: 11, color: "#000" } }, line: { width: 0.6, color: "#333" },
         colorbar: { thickness: 12, outlinewidth: 0, tickformat: ".3~g", xpad: 6 },
         hovertemplate: "%{x:.4g}, %{y:.4g}: efficiency %{z:.4f}<extra></extra>", showlegend: false,
+      // plotly fills what the constraint shuts out
+      }, { x: speeds, y: loads, z: valid.map((row) => row.map((one) => (one ? 0 : 1))), type: "contour", name: OUTSIDE, showlegend: false,
+        contours: { type: "constraint", operation: "<", value: 0.5 }, fillcolor: VEIL, line: { width: 0 }, hoverinfo: "skip",
       }, { ...point({ ink: "#000", panel: "#fff" }, units.inShownUnit("screw_speed", speed), units.inShownUnit("axial_load", load)), hoverinfo: "skip", hovertemplate: undefined }],
       layout: layout(colours, x, y, { hovermode: "closest", margin: { l: 72, r: 60, t: 8, b: 42 } }),
     }),
-    legend: (colours) => [diamond(colours)],
+    legend: (colours) => [diamond(colours), ...veiled(valid)],
     numbers: () => [[`${y} \\ ${x}`, ...speeds.map((one) => String(Number(one.toPrecision(6))))], loads.map((one, i) => [one, ...grid[i]])],
   });
 }
 
 /** Curves with a line each, and the operating point. */
-function curves(x, names, called, of) {
+function curves(x, names, called, of, valid) {
   const style = (colours, place) => ({ colour: place ? colours.second : colours.accent, kind: place ? "dash" : "line" });
   return {
     traces: (colours) => names.map((name, place) => ({
       x, y: of(name), name: called[name], mode: "lines", hovertemplate: "%{y:.4g}",
       line: { width: 2, color: style(colours, place).colour, dash: place ? "dash" : "solid" },
     })),
-    legend: (colours) => [...names.map((name, place) => ({ ...style(colours, place), name: called[name] })), diamond(colours)],
-    rows: () => x.map((at, place) => [at, ...names.map((name) => of(name)[place])]),
+    legend: (colours) => [...names.map((name, place) => ({ ...style(colours, place), name: called[name] })), diamond(colours), ...veiled(valid)],
+    rows: () => x.map((at, place) => [at, ...names.map((name) => of(name)[place]), holds(valid)[place]]),
+    veils: veils(x, valid),
   };
 }
 
@@ -103,15 +124,15 @@ export function film(swept, answer) {
   const shapes = zones.map(({ from, to, shade }) => ({ type: "rect", xref: "paper", x0: 0, x1: 1, y0: from, y1: to, fillcolor: shade, opacity: 0.13, line: { width: 0 }, layer: "below" }));
   const annotations = zones.map(({ words, to }) => ({ xref: "paper", x: 0.01, xanchor: "left", y: to, yanchor: "top", text: words, showarrow: false, font: { size: 11 } }));
   const x = titled("screw_speed", "speed of the screw");
-  const lines = curves(speeds, names, FILMS, (name) => swept.outputs[name].values);
+  const lines = curves(speeds, names, FILMS, (name) => swept.outputs[name].values, swept.outputs.valid.values);
   return draw("film-chart", {
     name: "film_over_speed", caption: "film parameter over speed", legend: lines.legend,
     description: `Film parameter against speed; ${units.digits(now, 3)} at the operating point.`,
     figure: (colours) => ({
       traces: [...lines.traces(colours), point(colours, units.inShownUnit("screw_speed", answer.inputs.operation.screw_speed), now)],
-      layout: layout(colours, x, "film parameter λ", { shapes, annotations, yaxis: { range: [0, highest] } }),
+      layout: layout(colours, x, "film parameter λ", { shapes: [...shapes, ...lines.veils], annotations, yaxis: { range: [0, highest] } }),
     }),
-    numbers: () => [[x, ...names.map((name) => `λ, ${FILMS[name]}`)], lines.rows()],
+    numbers: () => [[x, ...names.map((name) => `λ, ${FILMS[name]}`), "valid"], lines.rows()],
   });
 }
 
@@ -124,15 +145,15 @@ export function pressure(swept, answer) {
   const x = titled("axial_load", "axial load"), y = titled("maximum_pressure", "greatest pressure");
   const { results } = answer;
   const now = results.maximum_pressure ?? Math.max(results.screw.maximum_pressure, results.nut.maximum_pressure);
-  const lines = curves(loads, names, PRESSURES, (name) => column("maximum_pressure", swept.outputs[name].values));
+  const lines = curves(loads, names, PRESSURES, (name) => column("maximum_pressure", swept.outputs[name].values), swept.outputs.valid.values);
   return draw("pressure-chart", {
     name: "pressure_over_load", caption: "greatest contact pressure over axial load", legend: lines.legend,
     description: `Greatest contact pressure against axial load; ${units.shown("maximum_pressure", now)} at the operating point.`,
     figure: (colours) => ({
       traces: [...lines.traces(colours), point(colours, units.inShownUnit("axial_load", answer.inputs.operation.axial_load), units.inShownUnit("maximum_pressure", now))],
-      layout: layout(colours, x, y),
+      layout: layout(colours, x, y, { shapes: lines.veils }),
     }),
-    numbers: () => [[x, ...names.map((name) => titled("maximum_pressure", PRESSURES[name]))], lines.rows()],
+    numbers: () => [[x, ...names.map((name) => titled("maximum_pressure", PRESSURES[name])), "valid"], lines.rows()],
   });
 }
 
