@@ -252,7 +252,7 @@ def test_at_rest_and_without_load_it_says_so():
         ("nothing", "There is no friction torque to take apart"),
         ("overloaded", "Beware: contact_pressure"),
         ("calibrated", "from the calibration rexroth-2006"),
-        ("at rest", "it is at rest"),
+        ("at rest", "no turn tires it"),
     ):
         assert words.lower() in Page(report_bytes(case_of(name), "html", samples=SAMPLES).decode()).words.lower()
 

@@ -182,7 +182,8 @@ def _life(rated: Force | None, loads: Sequence[Force], speed: AngularSpeed, limi
     words = (
         "no load tires it" if endless else f"nine of ten outlive {float(revolutions):.3g} revolutions, preload included"
     )
-    hours = f"{float(time / HOUR):.3g} h at this speed" if np.isfinite(time) else words if endless else "no turn tires it"
+    without_end = words if endless else "no turn tires it"
+    hours = f"{float(time / HOUR):.3g} h at this speed" if np.isfinite(time) else without_end
     required = limits.running_time
     at_rest = not endless and not float(as_array(speed))
     if required is None or at_rest:
