@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import math
+import queue
 import threading
 import time
 from collections.abc import Callable
@@ -45,6 +46,34 @@ class Deadline:
         self.end = -1.0
 
 
+class _Places:
+    """Places to work at, with a thread each: the same ones again and again, as each has memory of its own."""
+
+    def __init__(self, count: int) -> None:
+        self.limiter = CapacityLimiter(count)
+        self._idle: list[queue.SimpleQueue[Callable[[], None]]] = []
+
+    def begin(self, work: Callable[[], None], settled: Callable[[], None]) -> None:
+        """Do some work where a place is free, and say from there when the place is free again."""
+
+        def task() -> None:
+            work()
+            self._idle.append(own)
+            settled()
+
+        if self._idle:
+            own = self._idle.pop()
+        else:
+            own = queue.SimpleQueue[Callable[[], None]]()
+            threading.Thread(target=_work_on, args=(own,), name="ballscrew request", daemon=True).start()
+        own.put(task)
+
+
+def _work_on(tasks: queue.SimpleQueue[Callable[[], None]]) -> None:
+    while True:
+        tasks.get()()
+
+
 class Desk:
     """Where requests wait for their turn, of one server.
 
@@ -57,7 +86,7 @@ class Desk:
     ) -> None:
         self.longest = longest
         self.waiting = waiting
-        self._quick, self._heavy = CapacityLimiter(quick), CapacityLimiter(heavy)
+        self._quick, self._heavy = _Places(quick), _Places(heavy)
         self._at_work: dict[asyncio.Future[Any], Deadline] = {}
         self._closed = False
 
@@ -67,7 +96,7 @@ class Desk:
 
     async def heavy(self, work: Callable[[Deadline], Found]) -> Found:
         """What takes longer: refused where many wait already, and stopped when its time is up."""
-        if self._heavy.statistics().tasks_waiting >= self.waiting:
+        if self._heavy.limiter.statistics().tasks_waiting >= self.waiting:
             raise Refused(429, Fault("server", "is busy", f"{self.waiting} requests are waiting", "try again soon"))
         return await self._done(work, self._heavy)
 
@@ -78,11 +107,11 @@ class Desk:
             deadline.stop()
             if not future.done():
                 future.set_exception(_ends())
-        for limiter in (self._quick, self._heavy):
-            limiter.total_tokens = math.inf  # those who wait come to the desk, and find it closed
+        for places in (self._quick, self._heavy):
+            places.limiter.total_tokens = math.inf  # those who wait come to the desk, and find it closed
 
-    async def _done(self, work: Callable[[Deadline], Any], limiter: CapacityLimiter) -> Any:
-        place = object()
+    async def _done(self, work: Callable[[Deadline], Any], places: _Places) -> Any:
+        place, limiter = object(), places.limiter
         try:
             with fail_after(self.longest * (1 + self.waiting)):
                 await limiter.acquire_on_behalf_of(place)
@@ -95,9 +124,20 @@ class Desk:
         future: asyncio.Future[Any] = loop.create_future()
         deadline = self._at_work[future] = Deadline(self.longest)
 
-        def settle(found: Any, error: BaseException | None) -> None:
+        outcome: list[tuple[Any, BaseException | None]] = []
+
+        def run() -> None:
+            try:
+                outcome.append((work(deadline), None))
+            except _OutOfTime:
+                outcome.append((None, _stopped(self.longest)))
+            except BaseException as error:  # whatever it is, it is the answer to who waits
+                outcome.append((None, error))
+
+        def settle() -> None:
             limiter.release_on_behalf_of(place)
             del self._at_work[future]
+            found, error = outcome.pop()
             if future.done():  # nobody waits any more
                 return
             if error is None:
@@ -105,17 +145,11 @@ class Desk:
             else:
                 future.set_exception(error)
 
-        def run() -> None:
-            try:
-                found, error = work(deadline), None
-            except _OutOfTime:
-                found, error = None, _stopped(self.longest)
-            except BaseException as other:  # whatever it is, it is the answer to who waits
-                found, error = None, other
+        def settled() -> None:
             with contextlib.suppress(RuntimeError):  # the server has ended in the meantime
-                loop.call_soon_threadsafe(settle, found, error)
+                loop.call_soon_threadsafe(settle)
 
-        threading.Thread(target=run, name="ballscrew request", daemon=True).start()
+        places.begin(run, settled)
         try:
             with fail_after(self.longest + 1):
                 return await future
