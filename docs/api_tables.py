@@ -14,6 +14,8 @@ from ballscrew.interfaces.web.server import application
 CASE = """\
 case = {
     "screw": {"catalogue": "rexroth-40x10x6-6-double"},
+    "nut": {"type": "double", "preload": "7 %"},
+    "bodies": {},
     "lubricant": {"grade": "ISO VG 100", "temperature": "40 degC"},
     "operation": {"axial_load": "7 kN", "screw_speed": "600 rpm"},
 }

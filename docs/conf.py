@@ -44,6 +44,7 @@ suppress_warnings = ["myst.header"]  # the included claims start with a heading 
 def generate(_app):
     """What the pages include: claims and figures of the paper, effects, laws, fields, accuracy, bands, fits."""
     import accuracy_table
+    import api_tables
     import calibration_pages
     import errata_page
     import law_tables
@@ -73,6 +74,7 @@ def generate(_app):
     sensitivity_figures.write(generated / "sensitivity")
     calibration_pages.write(generated / "calibration")
     theory_figures.write(generated / "theory")
+    api_tables.write(generated / "api")
     errata_page.write(generated / "theory")
     reproduce_olaru2005(generated / "olaru2005")
 

@@ -41,7 +41,11 @@ class Answer(NamedTuple):
             ]
         else:
             assert isinstance(self.result, FrictionResult)
-            words = [*report.assumed(self.case, self.result).split("; "), report.left_out(self.case)]
+            words = [
+                *report.assumed(self.case, self.result).split("; "),
+                *report.no_nut(self.case),
+                report.left_out(self.case),
+            ]
         return [*filter(None, words), *report.of_fit(self.case)]
 
     @property

@@ -230,6 +230,8 @@ def case_text(row: CatalogueRow) -> str:
         "[nut]",
         *_nut(row),
         "",
+        "[bodies]  # elastic screw and nut of a usual size, as ballscrew check takes them; without it they are rigid",
+        "",
         "[lubricant]",
         'grade = "ISO VG 100"',
         'temperature = "40 degC"',

@@ -54,6 +54,8 @@ class NutResult(NamedTuple):
     """A result, and what it is without load."""
 
     found: NutFriction
+    #: The same at rest: what a brake is sized for.
+    rest: NutFriction
     #: Torque of the nut without load: what preload and losses cost.
     preload_drag: float
     #: The flank that carries the load, and the one that it relieves; None where no ball touches.
@@ -73,15 +75,17 @@ class NutResult(NamedTuple):
 
 def evaluate(case: config.Case, parts: NutParts) -> NutResult:
     """The nut of a case at its operating point."""
-    speed = case.operation.screw_speed
-    found = parts.friction(
-        case.model, case.screw, case.lubricant, axial_load=case.operation.axial_load, screw_speed=speed
-    )
-    unloaded = parts.friction(case.model, case.screw, case.lubricant, axial_load=0.0, screw_speed=speed)
+    load, speed = case.operation.axial_load, case.operation.screw_speed
+
+    def friction(load: float, speed: float) -> NutFriction:
+        return parts.friction(case.model, case.screw, case.lubricant, axial_load=load, screw_speed=speed)
+
+    found = friction(load, speed)
     loads, half = found.loads, np.shape(found.loads.balls)[-1] // parts.halves
     return NutResult(
         found,
-        float(unloaded.screw_torque),
+        friction(load, 0.0) if float(speed) and float(load) else found,
+        float(friction(0.0, speed).screw_torque),
         _flank(loads.forward_load[:half], loads.forward_angle[:half], loads.balls[:half]),
         _flank(loads.backward_load[-half:], loads.backward_angle[-half:], loads.balls[-half:]),
     )
@@ -144,7 +148,17 @@ def assumptions(case: config.Case, parts: NutParts) -> list[str]:
         if parts.bodies is None
         else "screw and nut elastic" + ("" if parts.bodies else ", of a usual size")
     )
-    return [*report.assumed(case).split("; "), bodies, *case.notes]
+    return [*report.assumed(case).split("; "), bodies, *case.notes, *_against_vendors(case, parts)]
+
+
+def _against_vendors(case: config.Case, parts: NutParts) -> list[str]:
+    """What ``ballscrew validate`` shows first, where it concerns the case."""
+    if not getattr(parts.nut, "preload", 0.0) or case.calibration is not None or case.fit:
+        return []
+    return [
+        "vendors state more torque of preloaded nuts without load than the model as it is (ballscrew validate), "
+        'model.calibration = "rexroth-2006" meets their tables'
+    ]
 
 
 def left_out(case: config.Case, parts: NutParts) -> str:
@@ -159,15 +173,9 @@ def verdicts(result: NutResult) -> list[str]:
     lines: list[str] = []
     if float(found.axial_load) == 0:
         lines.append("no load: nothing to hold")
-    elif np.isfinite(float(result.found.holding_torque)):
-        held, beware = float(result.found.holding_torque), "" if found.valid else " (outside the model's validity)"
-        torque = units.shown(abs(held), _HOLDING)
-        when = "at this speed" if float(found.screw_speed) else "at rest"
-        lines.append(
-            f"back-drives: the load turns the screw; {torque} on the shaft hold it {when}{beware}"
-            if held > 0
-            else f"self-locking: the load alone does not turn the screw {when}; {torque} on the shaft lower it{beware}"
-        )
+    else:
+        moving = [report.holding(found, "at this speed")] if float(found.screw_speed) else []
+        lines += [line for line in (*moving, report.holding(result.rest, "at rest")) if line]
     if result.preload_is_lost:
         lift_off = units.shown(found.loads.lift_off_load, _LOADS["lift_off_load"])
         lines.append(f"preload lost: the balls lift off the other flank at a load of about {lift_off}")

@@ -10,6 +10,7 @@ from rich.console import Console
 from rich.table import Table
 
 from ballscrew import __version__
+from ballscrew.assembly import NutFriction
 from ballscrew.components.contact import RaceState
 from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.components.materials import TEMPERATURE, Lubricant
@@ -106,7 +107,7 @@ def print_result(case: config.Case, result: FrictionResult) -> None:
     """Tables on the terminal: torque and efficiency, its parts, both directions, both contacts, what to beware of."""
     console = Console(highlight=False)
     console.print(f"[bold]{operating_point(case)}, {model_in_words(case)}[/bold]\n", soft_wrap=True)
-    for line in (design(case, plain_text=True), *assumed(case, result).split("; ")):
+    for line in (design(case, plain_text=True), *assumed(case, result).split("; "), *no_nut(case)):
         console.print(line, style="dim", markup=False, soft_wrap=True)
     console.print()
     console.print(_quantities(result))
@@ -129,6 +130,14 @@ def print_result(case: config.Case, result: FrictionResult) -> None:
 def left_out(case: config.Case, words: str = LEFT_OUT) -> str:
     """What is not in the torque, and whether anybody measured it; a case from a fit names its log instead."""
     return "; ".join(filter(None, [words, "" if case.fit.get("log") else NOT_COMPARED]))
+
+
+def no_nut(case: config.Case) -> list[str]:
+    """What is missing where the row of a preloaded nut is computed without one."""
+    kind = "" if case.row is None else case.row.nut
+    if case.parts is not None or kind in ("", "single"):
+        return []
+    return [f'without preload: the row is a {kind} nut, and none is given; add type = "{kind}" and a preload to [nut]']
 
 
 def of_fit(case: config.Case) -> list[str]:
@@ -154,7 +163,7 @@ def verdicts(result: FrictionResult, rest: FrictionResult) -> list[str]:
     if float(result.axial_load) == 0:
         return ["no load: nothing to hold"]
     moving, share = bool(result.screw_speed), float(result.rolling_share)
-    lines = [line for line in (_holding(result, "at this speed") if moving else "", _holding(rest, "at rest")) if line]
+    lines = [line for line in (holding(result, "at this speed") if moving else "", holding(rest, "at rest")) if line]
     if share < 1 and moving:
         lines.append(f"skids: friction carries only {share:.1%} of what resists the rolling of a ball")
     elif share < 1:
@@ -162,7 +171,7 @@ def verdicts(result: FrictionResult, rest: FrictionResult) -> list[str]:
     return lines
 
 
-def _holding(result: FrictionResult, when: str) -> str:
+def holding(result: FrictionResult | NutFriction, when: str) -> str:
     """Whether the load turns the screw, and the torque that holds or lowers it; nothing where there is no number."""
     held = float(result.holding_torque)
     torque = units.shown(abs(held), quantities_of(FrictionResult)["holding_torque"])

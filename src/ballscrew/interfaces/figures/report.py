@@ -100,7 +100,7 @@ def _veil(panels: Sequence[Axes], x: Any, valid: Any) -> None:
     ends = np.flatnonzero(np.diff(np.concatenate([[False], ~valid, [False]])))
     for panel in panels:
         for begin, end in zip(ends[::2], ends[1::2], strict=True):
-            panel.axvspan(edges[begin], edges[end], color=_VEIL, alpha=_THIN, linewidth=0, zorder=3)
+            panel.axvspan(float(edges[begin]), float(edges[end]), color=_VEIL, alpha=_THIN, linewidth=0, zorder=3)
 
 
 def _lines(panel: Axes, x: Any, lines: Mapping[str, Any]) -> None:
