@@ -1,13 +1,22 @@
 """Time limits and the queue, at a desk of small limits."""
 
 import asyncio
+import concurrent.futures
+import json
 import threading
 import time
 
 import pytest
 
+from ballscrew.interfaces.web import api, server
 from ballscrew.interfaces.web.problems import Refused
 from ballscrew.interfaces.web.work import Desk
+
+
+def played(scene):
+    """In a thread of its own: a browser that is open in this process keeps a loop running in the first one."""
+    with concurrent.futures.ThreadPoolExecutor(1) as pool:
+        pool.submit(asyncio.run, scene).result()
 
 
 def told(seconds):
@@ -45,7 +54,7 @@ def test_what_takes_too_long_is_stopped():
         assert not busy
         assert await desk.heavy(told(0.02)) == "finished"
 
-    asyncio.run(scene())
+    played(scene())
 
 
 def test_what_cannot_be_stopped_keeps_its_place():
@@ -62,7 +71,7 @@ def test_what_cannot_be_stopped_keeps_its_place():
         go_on.set()
         assert await second == "second"
 
-    asyncio.run(scene())
+    played(scene())
 
 
 def test_beyond_the_queue_it_is_refused_and_quick_work_goes_on():
@@ -81,7 +90,7 @@ def test_beyond_the_queue_it_is_refused_and_quick_work_goes_on():
         assert await asyncio.gather(*heavy) == [True] * 5
         assert await desk.heavy(told(0)) == "finished"
 
-    asyncio.run(scene())
+    played(scene())
 
 
 def test_a_fault_is_handed_on_and_frees_its_place():
@@ -96,7 +105,7 @@ def test_a_fault_is_handed_on_and_frees_its_place():
                 await desk.quick(wrong)
         assert await desk.quick(lambda: 1) == 1
 
-    asyncio.run(scene())
+    played(scene())
 
 
 def test_who_leaves_stops_what_was_for_them():
@@ -110,7 +119,7 @@ def test_who_leaves_stops_what_was_for_them():
         await asyncio.sleep(0.1)
         assert not busy
 
-    asyncio.run(scene())
+    played(scene())
 
 
 def test_when_it_closes_nobody_waits():
@@ -124,7 +133,7 @@ def test_when_it_closes_nobody_waits():
         go_on.set()
         assert (await asyncio.gather(tasks[1], return_exceptions=True))[0].status == 503
 
-    asyncio.run(scene())
+    played(scene())
 
 
 def test_threads_are_used_again():
@@ -136,4 +145,42 @@ def test_threads_are_used_again():
             await asyncio.gather(*(desk.heavy(lambda _: seen.add(threading.get_ident())) for _ in range(4)))
         assert len(seen) <= 2
 
-    asyncio.run(scene())
+    played(scene())
+
+
+def test_a_connection_that_ends_stops_what_was_for_it(monkeypatch, paper):
+    """Asked as a server asks the application: the body comes, and then that nobody is there any more."""
+    begun, stopped = threading.Event(), threading.Event()
+
+    def endless(case, options, done):
+        begun.set()
+        try:
+            told(60)(done)
+        finally:
+            stopped.set()
+
+    monkeypatch.setattr(api.bands, "computed", endless)
+    body = json.dumps({"case": paper}).encode()
+    scope = {
+        "type": "http", "asgi": {"version": "3.0"}, "http_version": "1.1", "method": "POST", "scheme": "http",
+        "path": "/api/v1/band", "raw_path": b"/api/v1/band", "query_string": b"", "root_path": "",
+        "headers": [(b"host", b"localhost"), (b"content-type", b"application/json")],
+    }  # fmt: skip
+
+    async def scene():
+        application = server.application(desk=Desk(longest=30))
+        messages = [{"type": "http.request", "body": body, "more_body": False}]
+
+        async def receive():
+            if messages:
+                return messages.pop()
+            await asyncio.to_thread(begun.wait, 20)
+            return {"type": "http.disconnect"}
+
+        async def send(message):
+            pass
+
+        await asyncio.wait_for(application(scope, receive, send), 25)
+        assert await asyncio.to_thread(stopped.wait, 5)
+
+    played(scene())

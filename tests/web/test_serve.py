@@ -1,14 +1,20 @@
 """``ballscrew serve`` as a process: how it begins and how it ends."""
 
+import asyncio
+import concurrent.futures
 import signal
 import socket
 import subprocess
 import sys
 import threading
 import time
+import unittest.mock
 
 import httpx
 import pytest
+import uvicorn
+
+from ballscrew.interfaces.web import listen
 
 ENDS = (0, 130)
 
@@ -96,3 +102,36 @@ def test_everybody_may_ask_where_others_are_let_in(start):
     )
     assert found.status_code == 200
     assert "no password" in server.said()
+
+
+def test_it_answers_to_its_own_address(start):
+    """As browsers write it: in small letters, and in brackets where it has colons."""
+    try:
+        socket.create_server(("::1", 0), family=socket.AF_INET6).close()
+    except OSError:
+        pytest.skip("needs IPv6")
+    server = start("--host", "0:0:0:0:0:0:0:1")
+    assert server.get("schema", headers={"Host": f"[0:0:0:0:0:0:0:1]:{server.port}"}).status_code == 200
+    assert server.get("schema", headers={"Host": "[::2]"}).status_code == 421
+
+
+@pytest.mark.parametrize("reads", [True, False])
+def test_who_does_not_read_is_not_waited_for(monkeypatch, reads):
+    """Or each would keep its answer in the memory for as long as it likes."""
+    monkeypatch.setattr(listen, "_PATIENCE_TO_SEND", 0.05)
+    transport = unittest.mock.Mock()
+    transport.get_extra_info.return_value = None
+
+    async def scene():
+        config = uvicorn.Config(lambda: None, ws="none", lifespan="off", log_level="error")
+        connection = listen._Patient(config, uvicorn.server.ServerState(), {})
+        connection.connection_made(transport)
+        connection.pause_writing()
+        if reads:
+            connection.resume_writing()
+        await asyncio.sleep(0.3)
+        connection.connection_lost(None)
+
+    with concurrent.futures.ThreadPoolExecutor(1) as pool:  # the first thread may have a loop, of a browser
+        pool.submit(asyncio.run, scene()).result()
+    assert transport.abort.called != reads

@@ -37,10 +37,10 @@ def serve(
     listening = _listening(host, port)
     from ballscrew.interfaces.web import listen, server
 
-    hosts = server.LOOPBACK if host in _LOOPBACK else ("*",) if host in _ANY else (host, *server.LOOPBACK)
+    name = f"[{host}]" if ":" in host else host
+    hosts = server.LOOPBACK if host in _LOOPBACK else ("*",) if host in _ANY else (name.lower(), *server.LOOPBACK)
     application = server.application(hosts)
     server.warm_up()
-    name = f"[{host}]" if ":" in host else host
     address = f"http://{name}:{listening.getsockname()[1]}"
     typer.echo(f"ballscrew in the browser: {address} · API: {address}/api · Ctrl-C ends it")
     if host not in _LOOPBACK:

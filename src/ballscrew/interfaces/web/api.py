@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import functools
 import json
 from collections.abc import Callable, Mapping
@@ -69,13 +70,33 @@ def _desk(request: Request) -> Desk:
     return desk
 
 
+async def _heavy(request: Request, work: Callable[[Deadline], Any]) -> Any:
+    """Work at the desk, for as long as somebody waits for it: a page drops what was asked before the next key."""
+    task = asyncio.ensure_future(_desk(request).heavy(work))
+    left = asyncio.ensure_future(_left(request))
+    try:
+        await asyncio.wait((task, left), return_when=asyncio.FIRST_COMPLETED)
+        if not task.done():
+            raise Refused(400, Fault("request", "broke off"))  # read by nobody
+        return task.result()
+    finally:
+        task.cancel()
+        left.cancel()
+
+
+async def _left(request: Request) -> None:
+    """Comes to its end when the connection does; the body has been read."""
+    while (await request.receive())["type"] != "http.disconnect":
+        pass
+
+
 async def _of_case(request: Request, work: Callable[[config.Case], Any]) -> Any:
     """Quick work, but where very many balls are computed one by one."""
     body: CaseBody = await read(request, CaseBody)
     desk = _desk(request)
     case = await desk.quick(lambda: case_of(body.case))
     if limits.balls_of(case) > limits.MANY_BALLS:
-        return await desk.heavy(lambda _: work(case))
+        return await _heavy(request, lambda _: work(case))
     return await desk.quick(lambda: work(case))
 
 
@@ -108,7 +129,7 @@ async def sweep(request: Request) -> Response:
         limits.check_sweep(case, plan)
         return _json(_swept(case, plan, export.evaluate(case, plan, done)))
 
-    return await _desk(request).heavy(work)
+    return await _heavy(request, work)
 
 
 def _swept(case: config.Case, plan: export.Plan, dataset: xr.Dataset) -> dict[str, Any]:
@@ -132,7 +153,7 @@ async def compare(request: Request) -> Response:
         case = case_of(body.case)
         return _json(comparison.document(case, comparison.compared(case, done)))
 
-    return await _desk(request).heavy(work)
+    return await _heavy(request, work)
 
 
 @router.post("/band", openapi_extra=openapi.body(BandBody), responses=openapi.answers("Band"))
@@ -147,7 +168,7 @@ async def band(request: Request) -> Response:
         words = {"sentences": bands.sentences(case, found), "inputs": bands.assumed_in_words(found)}
         return _json({**bands.document(answer(case), found), "words": words})
 
-    return await _desk(request).heavy(work)
+    return await _heavy(request, work)
 
 
 @router.get("/catalogue", responses=openapi.answers("Catalogue"))
@@ -175,7 +196,7 @@ async def validate(
 ) -> Response:
     """The model against what vendors and laboratories state: what ``ballscrew validate --json`` prints."""
     asked = validation.request([set] if set else [])
-    return await _desk(request).heavy(lambda _: _sent(_validated(tuple(data.name for data in asked.sets))))
+    return await _heavy(request, lambda _: _sent(_validated(tuple(data.name for data in asked.sets))))
 
 
 @functools.cache
@@ -240,4 +261,4 @@ async def report(
         found = report_bytes(case, "pdf" if kind == "pdf" else "html", done, samples=limits.samples_of(case))
         return Response(found, media_type=KINDS[kind])
 
-    return await _desk(request).heavy(work)
+    return await _heavy(request, work)

@@ -20,14 +20,20 @@ from ballscrew.interfaces.web.work import Desk
 
 #: Bytes of the head of a request.
 LONGEST_HEAD = 65_536
+#: Seconds for what is sent to be taken, each time the line is full.
+_PATIENCE_TO_SEND = 60.0
 #: Seconds that answers have to go out when the server ends.
 _FAREWELL = 2
 
 
 class _Patient(H11Protocol):
-    """A connection that is closed where the head of a request, or a body nobody reads, does not come to its end."""
+    """A connection that is closed where the head of a request, or a body nobody reads, does not come to its end.
+
+    It is broken off where the answer is not taken.
+    """
 
     _waiting: asyncio.TimerHandle | None = None
+    _full: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: Any) -> None:
         """Somebody has called."""
@@ -37,7 +43,19 @@ class _Patient(H11Protocol):
     def connection_lost(self, exc: Exception | None) -> None:
         """Somebody has left."""
         self._stop_waiting()
+        self._empty()
         super().connection_lost(exc)
+
+    def pause_writing(self) -> None:
+        """The line is full: closing it would wait for who does not read."""
+        super().pause_writing()
+        self._empty()
+        self._full = self.loop.call_later(_PATIENCE_TO_SEND, self.transport.abort)
+
+    def resume_writing(self) -> None:
+        """What was sent is being taken."""
+        super().resume_writing()
+        self._empty()
 
     def data_received(self, data: bytes) -> None:
         """Some bytes have come."""
@@ -72,6 +90,11 @@ class _Patient(H11Protocol):
             ):
                 self.transport.write(self.conn.send(event) or b"")
         self.transport.close()
+
+    def _empty(self) -> None:
+        if self._full is not None:
+            self._full.cancel()
+            self._full = None
 
     def _wait(self) -> None:
         self._waiting = self.loop.call_later(PATIENCE, self.transport.close)
