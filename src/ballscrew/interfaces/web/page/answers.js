@@ -60,6 +60,8 @@ export async function follow(cases, { designs, show, band: wanted }, report) {
   } catch (problem) {
     if (signal.aborted) return;
     const faults = problem instanceof Problem ? problem.faults : [];
+    clearTimeout(bandTimer);
+    banding.abort();
     report(faults);
     results.fail(problem instanceof Problem ? problem.lines : [silent(problem)]);
     await compare(bodies, signal);

@@ -90,7 +90,8 @@ function rows(path, node, state, value, law) {
   if (LEFT_OUT.includes(path)) return [];
   if (node.properties) {
     return [element("details", { class: "inner", "data-section": path }, element("summary", { id: `s-${path}` }, words(path.split(".")[1])),
-      ...Object.entries(node.properties).flatMap(([name, inner]) => rows(`${path}.${name}`, definition(inner), state, value, law)))];
+      element("fieldset", {}, element("legend", { class: "hidden" }, words(path.split(".")[1])),
+        ...Object.entries(node.properties).flatMap(([name, inner]) => rows(`${path}.${name}`, definition(inner), state, value, law))))];
   }
   if (isLaw(node)) return lawRows(path, node, state, value, law);
   if (node.enum || node.type === "boolean") return [choice(path, node, value(path))];

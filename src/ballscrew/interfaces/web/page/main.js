@@ -107,14 +107,17 @@ async function showForm() {
   units.setSystem(state.system);
   byId("system").value = units.currentSystem();
   byId("band").checked = state.band;
-  const start = await startOf(current().start);
-  const tables = states.tables(start, current().changes, form.fieldOf);
+  const design = current(), start = await startOf(design.start);
+  if (design !== current()) return; // chosen in the meantime: the form of another one is made
+  const tables = states.tables(start, design.changes, form.fieldOf);
+  // a text stays as it was typed while it is typed on: 0.10 may become 0.107
+  const kept = (path) => (design.changes[path] === "" ? undefined : design.changes[path]) ?? states.inside(tables, path);
   const law = (path) => {
     const known = states.inside(answers.current().answer?.inputs, path);
     return typeof known === "string" ? { law: known } : known;
   };
   keepingFocus(() => {
-    form.build(state, vocabulary, (path) => states.inside(tables, path), law);
+    form.build(state, vocabulary, kept, law);
     tabs();
   });
 }

@@ -77,9 +77,10 @@ export function refuse(id, words) {
 }
 
 function frame(id, holder) {
-  const details = element("details", {}, element("summary", {}, "Numbers"));
+  const called = drawn.get(id).name.replaceAll("_", " "); // five charts have the same buttons
+  const details = element("details", {}, element("summary", {}, "Numbers", element("span", { class: "hidden" }, `: ${called}`)));
   details.addEventListener("toggle", () => numbers(id, holder));
-  const button = (kind, take) => element("button", { type: "button", onclick: take, "aria-label": `${kind} of this chart` }, kind);
+  const button = (kind, take) => element("button", { type: "button", onclick: take, "aria-label": `${kind}: ${called}` }, kind);
   holder.replaceChildren(element("div", { class: "plot", role: "img" }), element("ul", { class: "legend" }),
     element("div", { class: "beside" }, details,
       button("CSV", () => save(`${drawn.get(id).name}.csv`, new Blob([csv(...drawn.get(id).numbers())], { type: "text/csv" }))),

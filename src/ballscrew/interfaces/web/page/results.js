@@ -57,8 +57,10 @@ export function show(answer, band) {
   const torque = units.shown("screw_torque", results.screw_torque);
   const summary = `Friction torque ${torque}, efficiency ${units.digits(results.efficiency)}.`;
   byId("summary").textContent = summary;
-  say(summary);
-  document.title = `${torque} · ballscrew`;
+  if (!byId("results").classList.contains("stale")) {
+    say(summary);
+    document.title = `${torque} · ballscrew`;
+  }
   byId("verdicts").replaceChildren(...words.verdicts.map((line) =>
     element("p", { class: /^(self-locking|skids|preload lost)/.test(line) ? "verdict careful" : "verdict" }, units.sentence(line))));
   const here = warnings.filter((warning) => !concern(warning));
@@ -102,10 +104,10 @@ export function fail(lines) {
   byId("results").classList.add("stale");
   byId("results").classList.toggle("empty", !byId("case").textContent);
   document.title = "not computed · ballscrew";
-  clearTimeout(sayLater);
   const words = [...lines, byId("case").textContent ? "What stands below is of the input before." : null].filter(Boolean);
   if ([...place.children].map((one) => one.textContent).join("\n") === words.join("\n")) return; // said already
   place.replaceChildren(...words.map((line) => element("p", {}, line)));
+  say(words.join(" "));
 }
 
 export function succeed() {
