@@ -20,8 +20,8 @@ from ballscrew.interfaces.web.problems import Refused
 LONGEST = 20.0
 #: Requests that compute at the same time. More would only share the same processors.
 QUICK, HEAVY = 4, 2
-#: Heavy requests that may wait; a quick one waits for a few milliseconds, whatever comes.
-MOST_WAITING = 16
+#: Heavy requests that may wait, and quick ones: these take some milliseconds each.
+MOST_WAITING, MOST_QUICK_WAITING = 16, 500
 
 Found = TypeVar("Found")
 
@@ -74,6 +74,10 @@ def _work_on(tasks: queue.SimpleQueue[Callable[[], None]]) -> None:
         tasks.get()()
 
 
+def _busy(waiting: int) -> Refused:
+    return Refused(429, Fault("server", "is busy", f"{waiting} requests are waiting", "try again soon"))
+
+
 class Desk:
     """Where requests wait for their turn, of one server.
 
@@ -92,12 +96,14 @@ class Desk:
 
     async def quick(self, work: Callable[[], Found]) -> Found:
         """What takes some milliseconds."""
+        if self._quick.limiter.statistics().tasks_waiting >= MOST_QUICK_WAITING:
+            raise _busy(MOST_QUICK_WAITING)
         return await self._done(lambda _: work(), self._quick)
 
     async def heavy(self, work: Callable[[Deadline], Found]) -> Found:
         """What takes longer: refused where many wait already, and stopped when its time is up."""
         if self._heavy.limiter.statistics().tasks_waiting >= self.waiting:
-            raise Refused(429, Fault("server", "is busy", f"{self.waiting} requests are waiting", "try again soon"))
+            raise _busy(self.waiting)
         return await self._done(work, self._heavy)
 
     def close(self) -> None:

@@ -189,6 +189,7 @@ export async function models() {
 
 /** What was computed of another case is not left standing. */
 export function forgetModels() {
+  delete shown.models;
   byId("models").textContent = "";
 }
 

@@ -41,8 +41,8 @@ export function showDesigns(answers, names, mechanisms) {
 /** What all models and laws say of the case. */
 export function showModels(found) {
   const line = (row) => [row.slot ? `${row.slot.replaceAll("_", " ")}: ${row.name}` : row.name, data("screw_torque", row.screw_torque),
-    row.change === 0 ? "–" : `${row.change > 0 ? "+" : ""}${units.digits(100 * row.change, 3)} %`, data("efficiency", row.efficiency), row.valid ? "yes" : row.not_valid_because.map((reason) => reason.replaceAll("_", " ")).join(", ")];
+    row.change === 0 ? "–" : `${row.change > 0 ? "+" : ""}${units.digits(100 * row.change, 3)} %`, data("efficiency", row.efficiency), row.counts === false ? "printed form, breaks a balance" : row.valid ? "yes" : row.not_valid_because.map((reason) => reason.replaceAll("_", " ")).join(", ")];
   const rows = [["this case", ...line({ ...found.case, slot: null }).slice(1)], ...found.models.map(line), ...found.laws.map(line)];
-  byId("models").replaceChildren(element("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "models and laws" },
+  byId("models").replaceChildren(element("div", { class: "scroll whole", tabindex: "0", role: "region", "aria-label": "models and laws" },
     table("all models as they are, then this case with one law at a time in place of its own", ["model or law", "friction torque", "change", "efficiency", "valid here"], rows)));
 }

@@ -16,6 +16,7 @@ export function build(current) {
 
 async function take(kind, { body, answer, name, csv }) {
   const say = (text) => { byId("download-words").textContent = text; };
+  if (byId("results").classList.contains("stale")) return say("The input is at fault: mend it first.");
   try {
     if (kind === "JSON") {
       const { words, ...document } = answer;

@@ -8,6 +8,10 @@ const SECTIONS = {
   losses: "Seals and other losses", installation: "Installation", limits: "Limits",
   bodies: "Elastic bodies", deviations: "Balls that differ",
 };
+const HINTS = {
+  bodies: "Screw and nut of a catalogue row are elastic; those of the paper are rigid, unless something is given here. Sizes left out are the usual ones.",
+  installation: "For the checks of the report.", limits: "For the checks of the report.",
+};
 const OPEN = ["operation", "screw", "lubricant"], OPEN_ON_PHONE = ["operation"];
 const LEFT_OUT = ["screw.catalogue", "screw.catalogue_file"];
 const INCH_ONLY = ["in", "uin", "lbf", "lbf in", "psi", "degF"];
@@ -54,6 +58,7 @@ export function build(state, vocabulary, value, law) {
   const parts = Object.keys(SECTIONS).map((name) => element("details",
     { "data-section": name, open: first ? usual.includes(name) : open.has(name) },
     element("summary", { id: `s-${name}` }, SECTIONS[name]), element("fieldset", {}, element("legend", { class: "hidden" }, SECTIONS[name]),
+      HINTS[name] ? element("p", { class: "small" }, HINTS[name]) : null,
       ...Object.entries(section(name).properties).flatMap(([field, node]) => rows(`${name}.${field}`, definition(node), state, value, law)))));
   // the list of starts stays: who chooses from it by letters is not interrupted
   if (first) form.append(start(vocabulary));

@@ -10,6 +10,8 @@ import * as states from "./state.js";
 import * as units from "./units.js";
 
 const ADDRESS_WAITS = 300;
+/** The sections that are not of the screw, and what an oil is made from. */
+const OF_USE = ["operation", "lubricant", "model", "losses", "installation", "limits"], MADE_FROM = ["viscosity", "grade", "temperature"];
 
 let vocabulary, state;
 const starts = new Map(); // tables of the cases to start from, by name
@@ -38,7 +40,7 @@ function current() { return state.designs[state.show]; }
 function changed({ path, text, unit, start, rebuild }) {
   if (start !== undefined) {
     settle();
-    state.designs[state.show] = states.design(start);
+    state.designs[state.show] = states.design(start, ofUse(current()));
     return go({ rebuild: true, keep: true });
   }
   if (unit !== undefined) { state.fields[path] = unit; return go({ rebuild: true, only: "form" }); }
@@ -50,6 +52,16 @@ function changed({ path, text, unit, start, rebuild }) {
   form.mark(path, path in changes);
   byId("reset").hidden = !Object.keys(changes).length;
   return go({ rebuild });
+}
+
+/** What was set of the use of a screw, for another one in its place: an oil that was changed stays as a whole. */
+function ofUse({ start, changes }) {
+  const kept = Object.fromEntries(Object.entries(changes).filter(([path]) => OF_USE.includes(path.split(".")[0])));
+  if (Object.keys(kept).some((path) => path.startsWith("lubricant."))) {
+    const { lubricant } = states.tables(starts.get(start), changes, form.fieldOf);
+    for (const name of MADE_FROM) kept[`lubricant.${name}`] = String(lubricant[name] ?? "");
+  }
+  return kept;
 }
 
 /** The state of an address; what is not known here is left out, and that is said. */

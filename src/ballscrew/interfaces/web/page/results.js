@@ -3,9 +3,9 @@
 import { byId, element, table } from "./dom.js";
 import * as units from "./units.js";
 
-const FIRST = ["screw_torque", "drive_torque", "efficiency", "back_driving_efficiency", "friction_power", "preload_drag"];
+const FIRST = ["screw_torque", "drive_torque", "holding_torque", "efficiency", "back_driving_efficiency", "friction_power", "preload_drag"];
 const CALLED = {
-  screw_torque: "friction torque", drive_torque: "drive torque", efficiency: "efficiency, screw drives",
+  screw_torque: "friction torque", drive_torque: "drive torque", holding_torque: "holding torque", efficiency: "efficiency, screw drives",
   back_driving_efficiency: "efficiency, load drives", friction_power: "heat", preload_drag: "torque without load",
 };
 const CONTACT = ["maximum_pressure", "minimum_film_thickness", "film_parameter", "friction_coefficient",
@@ -63,7 +63,11 @@ export function show(answer, band) {
   }
   byId("verdicts").replaceChildren(...words.verdicts.map((line) =>
     element("p", { class: /^(self-locking|skids|preload lost)/.test(line) ? "verdict careful" : "verdict" }, units.sentence(line))));
-  const here = warnings.filter((warning) => !concern(warning));
+  const here = warnings.filter((warning) => !concern(warning)), there = warnings.filter(concern).map((line) => line.split(":")[0].replaceAll("_", " "));
+  if (there.length) {
+    byId("verdicts").prepend(element("p", { class: "warning" }, element("strong", {}, "Outside the model's validity: "),
+      `${there.join(", ")}. `, element("button", { type: "button", onclick: () => byId("contacts").scrollIntoView({ block: "center" }) }, "Why")));
+  }
   byId("verdicts").append(...here.map((line) => warningOf(line)));
   byId("numbers").replaceChildren(element("dl", {}, ...FIRST.filter((name) => results[name] !== undefined).map((name) =>
     element("div", {}, element("dt", {}, CALLED[name]), element("dd", {}, data(name, results[name]), bandOf(band?.band, name))))));
