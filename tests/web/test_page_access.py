@@ -84,6 +84,15 @@ def test_the_skip_link_skips(visit):
     assert here.page.evaluate("document.querySelector('#results').contains(document.activeElement)")
 
 
+def test_the_skip_link_leaves_the_state_in_the_address(visit):
+    here = visit().open("#A=paper&A.operation.axial_load=1234+N")
+    here.page.keyboard.press("Tab")
+    here.page.keyboard.press("Enter")
+    here.settle()
+    assert "1234" in here.page.url
+    assert here.page.input_value("#f-operation-axial_load") == "1234"
+
+
 def test_focus_stays_when_the_form_is_made_anew(visit):
     here = visit().open()
     for field, value in (("#u-operation-axial_load", "kN"), ("#f-model-name", "olaru2005"), ("#start", DOUBLE)):

@@ -187,6 +187,11 @@ function listen() {
   });
   byId("models-button").addEventListener("click", answers.models);
   byId("form").addEventListener("submit", (event) => event.preventDefault());
+  // the fragment of the address is the state: the link to the results must not take its place
+  document.querySelector(".skip").addEventListener("click", (event) => {
+    event.preventDefault();
+    byId("results").focus();
+  });
   addEventListener("popstate", () => {
     clearTimeout(addressTimer);
     address = undefined;
