@@ -369,7 +369,7 @@ def test_cells_with_units_of_their_own(read):
         ("inf", "must be a finite number (inf)"),
         ("1e999", "must be a finite number (inf)"),
         ("True", "is not a number (True)"),
-        ("0.5 kg", "wrong unit (0.5 kg) · use a unit such as N m or N mm"),
+        ("0.5 kg", "wrong unit (0.5 kg) · use a unit such as N m, N mm or lbf in"),
     ],
 )
 def test_text_in_numbers(cell, expected, read):

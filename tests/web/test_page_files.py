@@ -60,7 +60,7 @@ def test_csv_of_the_curve(here, tmp_path):
 
 
 def test_report_as_pdf_and_html(here):
-    torque = f"{here.numbers()['results']['screw_torque']:.3g}"
+    torque = f"{here.numbers()['results']['screw_torque']:.4g}"
     reader = pypdf.PdfReader(io.BytesIO(taken(here, "PDF")))
     assert torque in "".join(page.extract_text() for page in reader.pages)
     html = taken(here, "HTML").decode("utf-8")
