@@ -37,7 +37,7 @@ def test_files_are_sent_once(server, path):
 def test_a_defect_is_said(monkeypatch):
     """Of the server, with the same headers; the server writes where it was, and the answer does not."""
     import asyncio
-import concurrent.futures
+    import concurrent.futures
 
     import httpx
 
