@@ -111,7 +111,7 @@ class _Folder(StaticFiles):
 
     def file_response(self, *args: object, **options: object) -> Response:
         """A file, or that it is the one that the browser has."""
-        found = super().file_response(*args, **options)  # type: ignore[arg-type]
+        found = super().file_response(*args, **options)  # type: ignore[arg-type]  (passed on as they come)
         found.headers["Cache-Control"] = _FILE
         return found
 
