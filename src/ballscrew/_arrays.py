@@ -21,7 +21,7 @@ T = TypeVar("T")
 BLOCK_SIZE = 64_000
 
 
-#: Kinds of number that NumPy understands; most are one of these.
+#: The usual types, for which NumPy is the namespace.
 _OWN = frozenset({np.float64, np.ndarray, float, int, np.bool_})
 
 
@@ -139,16 +139,16 @@ def map_blocks(
     """Call ``evaluate(block)`` for every block of ``range(size)`` on a few threads, the calling one among them.
 
     NumPy releases the interpreter lock inside its loops, so threads share the work; a block is
-    evaluated whole on one thread, so results do not depend on the number of threads. ``done`` is
-    told the number of points finished so far, from the calling thread.
+    evaluated whole on one thread, so results do not depend on the number of threads. ``done`` gets
+    the number of points finished so far, from the calling thread.
     """
     pending = iter(list(blocks(size, block_size)))
     workers = min(threads or processors(), math.ceil(size / block_size))
     lock, stopped = threading.Lock(), threading.Event()
-    finished = told = 0
+    finished = reported = 0
 
-    def work(tell: Callable[[int], None] | None = None) -> None:
-        nonlocal finished, told
+    def work(report: Callable[[int], None] | None = None) -> None:
+        nonlocal finished, reported
         try:
             while not stopped.is_set():
                 with lock:
@@ -158,9 +158,9 @@ def map_blocks(
                 evaluate(block)
                 with lock:
                     finished += block.stop - block.start
-                if tell is not None:
-                    told = finished
-                    tell(told)
+                if report is not None:
+                    reported = finished
+                    report(reported)
         except BaseException:
             stopped.set()
             raise
@@ -170,8 +170,8 @@ def map_blocks(
         return
     with ThreadPoolExecutor(workers - 1) as pool:
         others = [pool.submit(work) for _ in range(workers - 1)]
-        work(done)  # it need not be woken
+        work(done)
         for other in others:
             other.result()
-    if done is not None and told != finished:
+    if done is not None and reported != finished:
         done(finished)

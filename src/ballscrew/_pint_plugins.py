@@ -1,4 +1,4 @@
-"""Interfaces: where the package talks to people and files. Units other than SI live here only."""
+"""Plug-ins that pint would load; a module of its own because the command line sets it before NumPy is loaded."""
 
 #: Libraries that pint would load where they are installed, though units do not need them. The command line
 #: names some, and is half a second sooner there; a program of somebody else's may want pint to know them.

@@ -1,6 +1,6 @@
-"""Faults in what a person gave: one line each, in the same words from Python and the command line.
+"""Errors in the input: one line each, with the same text from Python and the command line.
 
-A fault reads ``section.field: what is wrong (value) · remedy``.
+A line reads ``section.field: what is wrong (value) · remedy``.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ from ballscrew.quantities import Quantity, fields_of, out_of_bounds
 
 #: At most this many lines are printed; the last one then says how many more there are.
 LINES_AT_MOST = 10
-#: What a person gave is shown up to this many characters.
+#: Most characters of a given value in a message.
 LONGEST_VALUE = 200
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class Fault:
-    """One thing wrong with one field.
+    """One error in one field.
 
-    ``{bound}`` in the problem or the remedy stands for a bound in SI, which the interfaces show in
-    the unit people think in.
+    ``{bound}`` in the problem or the remedy stands for a bound in SI, which the faces show in the
+    display unit.
     """
 
     where: str
@@ -36,19 +36,36 @@ class Fault:
     remedy: str = ""
     bound: float | None = None
     unit: str = "1"
+    #: The known name that was probably meant, where the remedy suggests one.
+    meant: str = ""
 
     def __str__(self) -> str:
+        return f"{self.field}: {self.text}"
+
+    @property
+    def field(self) -> str:
+        """The section and field, cut to a length that people read."""
+        return _one_line(_cut(self.where))
+
+    @property
+    def text(self) -> str:
+        """The problem, the value given, and the remedy."""
         bound = "" if self.bound is None else shown(self.bound, self.unit)
-        given = self.given if len(self.given) <= LONGEST_VALUE else f"{self.given[:LONGEST_VALUE]}…"
-        given = f" ({given})" if given else ""
+        given = f" ({_cut(self.given)})" if self.given else ""
         remedy = f" · {self.remedy}" if self.remedy else ""
-        where = self.where if len(self.where) <= LONGEST_VALUE else f"{self.where[:LONGEST_VALUE]}…"
-        line = f"{where}: {self.problem}{given}{remedy}".replace("{bound}", bound)
-        return " ".join("".join(c if c.isprintable() else " " for c in line).split())
+        return _one_line(f"{self.problem}{given}{remedy}".replace("{bound}", bound))
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= LONGEST_VALUE else f"{text[:LONGEST_VALUE]}…"
+
+
+def _one_line(text: str) -> str:
+    return " ".join("".join(c if c.isprintable() else " " for c in text).split())
 
 
 class InputError(ValueError):
-    """Bad input: carries every fault found, prints one line for each."""
+    """Invalid input: carries every fault found, prints one line for each."""
 
     def __init__(self, *faults: Fault) -> None:
         self.faults = faults
@@ -66,24 +83,29 @@ class InputError(ValueError):
 def nearest(word: str, known: Iterable[str]) -> str:
     """``did you mean "…"?`` for the closest known word, else the list of known words."""
     candidates = list(known)
+    found = closest(word, candidates)
+    return f'did you mean "{found}"?' if found else "known: " + ", ".join(candidates)
+
+
+def closest(word: str, known: Iterable[str]) -> str:
+    """The known word that was probably meant; empty if none is close."""
+    candidates = list(known)
     alike = [name for name in candidates if len(word) > 2 and (name.startswith(word) or name.endswith(f"_{word}"))]
     alike.sort(key=lambda name: not name.endswith(f"_{word}"))
     close = alike or difflib.get_close_matches(word, candidates, n=1, cutoff=0.55)
     close = close or [name for name in candidates if len(word) > 3 and name.startswith(word[:4])]
-    if close:
-        return f'did you mean "{close[0]}"?'
-    return "known: " + ", ".join(candidates)
+    return close[0] if close else ""
 
 
 def is_concrete(value: Any) -> bool:
-    """Whether a value is a plain number that can be checked now (arrays and tracers are not)."""
+    """Return whether a value is a plain number that can be checked now (arrays and tracers are not)."""
     if isinstance(value, np.ndarray):
         return value.ndim == 0 and value.dtype.kind in "fiu"
     return isinstance(value, numbers.Real) and value is not True and value is not False
 
 
 def as_float(value: Any) -> float:
-    """A concrete number as a float; what is too big for one is infinite."""
+    """A concrete number as a float; infinite on overflow."""
     try:
         return float(value)
     except OverflowError:
@@ -99,7 +121,7 @@ def shown(value: Any, unit: str) -> str:
 
 
 def fault_of(section: str, quantity: Quantity, value: Any, given: str = "") -> Fault | None:
-    """The fault of one concrete value, or None. ``given`` is what the person wrote, if known."""
+    """The fault of one concrete value, or None. ``given`` is the text of the input, if known."""
     where = f"{section}.{quantity.name}"
     if isinstance(value, str | bytes | bool) or value is None:
         expected = "a number" if quantity.unit == "1" else f"a number in {quantity.unit}"

@@ -1,16 +1,19 @@
-"""Numbers that no computer can compute with, said as a fault of the case."""
+"""Overflow of plain numbers, reported as an error in the input."""
 
 from __future__ import annotations
 
 import contextlib
 from collections.abc import Generator
 
-from ballscrew.faults import Fault, InputError
+from ballscrew.errors import Fault, InputError
 
 
 @contextlib.contextmanager
-def computable() -> Generator[None]:
-    """Also a decorator: what overflows, as plain numbers do where arrays become infinite, is a fault of the input."""
+def overflow_as_input_error() -> Generator[None]:
+    """Turn an overflow or a division by zero of plain floats into an input error; also a decorator.
+
+    Arrays become infinite or NaN instead, and are covered by the validity.
+    """
     try:
         yield
     except (OverflowError, ZeroDivisionError) as error:

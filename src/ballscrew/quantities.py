@@ -1,7 +1,7 @@
 """Quantities: the unit lives in the type.
 
 ``Length = Annotated[Array, Unit("m")]`` and so on. A dataclass field adds an :class:`Info`
-(symbol, meaning, bounds, the unit people think in), and everything else that needs to know about
+(symbol, meaning, bounds, display unit), and everything else that describes
 the field reads it from there: constructor checks, case-file schema, command-line help, dataset
 attributes, table headings.
 
@@ -33,7 +33,7 @@ class Unit:
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class Info:
-    """What a field is: its symbol, its meaning, its bounds and the unit people think in."""
+    """The symbol, the meaning, the bounds and the display unit of a field."""
 
     symbol: str
     meaning: str
@@ -77,7 +77,7 @@ TemperatureCoefficient = Annotated[Array, Unit("1/K")]
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class Quantity:
-    """One annotated name: what :func:`quantities_of` finds on a class."""
+    """An annotated name of a class, with its unit and its description."""
 
     name: str
     unit: str
@@ -85,7 +85,7 @@ class Quantity:
 
     @property
     def shown_in(self) -> str:
-        """The unit people think in; the SI unit where none is declared."""
+        """The display unit; the SI unit where none is declared."""
         return self.info.shown_in or self.unit
 
 
@@ -136,9 +136,9 @@ def _fields_of(cls: Any) -> dict[str, Quantity]:
 
 
 def _conditions(info: Info, value: Array) -> Iterator[tuple[Mask, str, float | None]]:
-    """What must hold of a number or of the elements of an array, and what to say where it does not.
+    """Conditions on a number or on the elements of an array: mask, message where it is false, bound.
 
-    The third item is the bound that ``{bound}`` in the second stands for.
+    ``{bound}`` in the message stands for the bound.
     """
     yield namespace(value).isfinite(value), "must be a finite number", None
     if info.whole:
@@ -155,10 +155,10 @@ def _conditions(info: Info, value: Array) -> Iterator[tuple[Mask, str, float | N
 
 
 def within_bounds(info: Info, value: Array) -> Mask:
-    """Where the elements of an array are finite and within the declared bounds."""
+    """The mask of the elements of an array that are finite and within the declared bounds."""
     return functools.reduce(operator.and_, (holds for holds, _, _ in _conditions(info, value)))
 
 
 def out_of_bounds(info: Info, value: float) -> tuple[str, float | None] | None:
-    """What is wrong with a concrete number, and the bound it breaks; None if it is within all bounds."""
+    """The message for a concrete number and the bound it violates; None if it is within all bounds."""
     return next(((problem, bound) for holds, problem, bound in _conditions(info, value) if not holds), None)

@@ -29,7 +29,7 @@ class PaperEquation:
 
     @property
     def address(self) -> str:
-        """Where it stands, ``Olaru2005 §5 (23)``."""
+        """The address in the paper, ``Olaru2005 §5 (23)``."""
         return f"Olaru2005 §{self.section} ({self.number})"
 
 

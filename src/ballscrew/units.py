@@ -1,18 +1,20 @@
-"""Units at the edge: text with a unit in, SI inside, units people think in out."""
+"""Conversion of units: text with a unit in, SI inside, display units out."""
 
 from __future__ import annotations
 
+import contextlib
+import contextvars
 import functools
 import importlib
 import re
 import reprlib
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Generator, Mapping, Sequence
 from importlib import resources
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ballscrew import interfaces
-from ballscrew.faults import Fault, as_float
+from ballscrew import _pint_plugins
+from ballscrew.errors import Fault, as_float
 from ballscrew.quantities import Quantity
 
 if TYPE_CHECKING:
@@ -22,16 +24,16 @@ _VALUE = re.compile(
     r"\s*(?P<number>[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|nan|inf(?:inity)?))\s*(?P<unit>1\s*/.*?|[^\d\s.,].*?)?\s*",
     re.IGNORECASE,
 )
-# a product or quotient of named units with small powers, and nothing else: pint would also work out
-# "m**9**9**9", and takes its time
+# a product or quotient of named units with small powers, and nothing else: pint would also evaluate
+# "m**9**9**9", which takes long
 _FACTOR = r"(?:[A-Za-zµμ°]+(?:(?:\^|\*\*)?[-+]?\d|[²³]|⁻[¹²³])?)"
 _PRODUCT = rf"{_FACTOR}(?:(?:\s*[*·/]\s*|\s+){_FACTOR}){{0,4}}"
 _UNIT = re.compile(rf"(?:1\s*/\s*)?{_PRODUCT}(?:\s*/\s*\({_PRODUCT}\))?")
 _LONGEST_UNIT = 40
-#: Letters of a value. What is longer was never meant as one, and patterns take their time on it.
+#: Most characters of a value; regular expressions are slow on longer text.
 LONGEST_VALUE = 200
-#: Writings of units after which the library of units begins anew: it keeps each one that it was ever asked for.
-_MOST_WRITINGS = 1000
+#: Distinct unit texts after which the registry is rebuilt: its cache of parsed units has no bound.
+_MOST_PARSED = 1000
 #: Units that people use for a quantity, by its SI unit; the first ones are named in messages.
 USUAL: Mapping[str, Sequence[str]] = {
     "m": ("mm", "um", "in", "m", "cm", "nm", "uin"),
@@ -45,7 +47,7 @@ USUAL: Mapping[str, Sequence[str]] = {
     "K": ("degC", "K", "degF"),
 }
 _NAMED = 3
-#: Writings that pint's parser does not know, and what stands for them.
+#: Spellings that pint's parser does not have, and their replacements.
 _SPELLINGS = {
     "µ": "u",
     "μ": "u",
@@ -61,8 +63,8 @@ _SPELLINGS = {
 
 @functools.cache
 def _pint() -> Any:
-    """The library of units; on the command line without the libraries it looks for in vain."""
-    hidden = [name for name in interfaces.hidden_from_pint if name not in sys.modules]
+    """The library pint, imported without the optional libraries hidden by :mod:`ballscrew._pint_plugins`."""
+    hidden = [name for name in _pint_plugins.hidden_from_pint if name not in sys.modules]
     absent: Any = None  # importing it fails, as if it were not installed
     for name in hidden:
         sys.modules[name] = absent
@@ -77,7 +79,7 @@ def _pint() -> Any:
 def registry() -> pint.UnitRegistry[Any]:
     """The units of ``data/units.txt``; a fraction of pint's own list, and quick to load."""
     pint = _pint()
-    no_file: Any = None  # an empty registry, which pint's own types do not know of
+    no_file: Any = None  # an empty registry; pint's type hints do not allow None
     units: pint.UnitRegistry[Any] = pint.UnitRegistry(no_file, autoconvert_offset_to_baseunit=True)
     text = resources.files("ballscrew").joinpath("data/units.txt").read_text(encoding="utf-8")
     for line in text.splitlines():
@@ -93,21 +95,21 @@ def _pint_unit(unit: str) -> str:
     return unit.replace("^", "**").strip()
 
 
-_writings: set[str] = set()
+_parsed: set[str] = set()
 
 
 def to_si(value: float, unit: str, quantity: Quantity) -> float:
     """Convert to the SI unit of a quantity. Raises pint's errors for units that do not fit."""
     units = registry()
-    _writings.add(unit)
-    if len(_writings) > _MOST_WRITINGS:
+    _parsed.add(unit)
+    if len(_parsed) > _MOST_PARSED:
         registry.cache_clear()
-        _writings.clear()
+        _parsed.clear()
     return float(units.Quantity(value, _pint_unit(unit)).to(_pint_unit(quantity.unit)).magnitude)
 
 
 def from_si(value: Any, quantity: Quantity) -> Any:
-    """Convert a value or an array from SI to the unit people think in."""
+    """Convert a value or an array from SI to the display unit."""
     if quantity.shown_in == quantity.unit or quantity.unit == "1":
         return value
     units = registry()
@@ -120,14 +122,54 @@ def written(value: Any, quantity: Quantity) -> str:
     return number if quantity.unit == "1" else f"{number} {quantity.shown_in}"
 
 
+class ShownQuantity(NamedTuple):
+    """A quantity in a text for people: its value in SI, how many digits of it are shown, and how it is written."""
+
+    value: float
+    quantity: Quantity
+    digits: int
+    text: str
+
+
+_placeholders: contextvars.ContextVar[list[ShownQuantity] | None] = contextvars.ContextVar("placeholders", default=None)
+
+
+@contextlib.contextmanager
+def placeholders() -> Generator[list[ShownQuantity]]:
+    """Texts made meanwhile have ``{0}``, ``{1}`` and so on in place of their quantities, which are collected.
+
+    So they can be shown in other units without being made or parsed again. A placeholder is filled up with underscores:
+    where lines are broken it is as long as what it stands for.
+    """
+    token = _placeholders.set(found := [])
+    try:
+        yield found
+    finally:
+        _placeholders.reset(token)
+
+
+def rounded(value: Any, quantity: Quantity, digits: int = 4) -> str:
+    """The digits of a value in its display unit, rounded for reading."""
+    return f"{from_si(float(value), quantity):.{digits}g}"
+
+
+def label(quantity: Quantity) -> str:
+    """The display unit as it is printed; empty for a number without one."""
+    return "" if quantity.unit == "1" else quantity.shown_in.replace("um", "µm")
+
+
 def shown(value: Any, quantity: Quantity, digits: int = 4) -> str:
-    """A value with its unit, as people read it."""
-    number = f"{from_si(float(value), quantity):.{digits}g}"
-    return number if quantity.unit == "1" else f"{number} {quantity.shown_in.replace('um', 'µm')}"
+    """A value with its unit, rounded for reading."""
+    text = " ".join(filter(None, (rounded(value, quantity, digits), label(quantity))))
+    if (collected := _placeholders.get()) is None:
+        return text
+    collected.append(ShownQuantity(float(value), quantity, digits, text))
+    start = f"{{{len(collected) - 1}"
+    return f"{start}{'_' * (len(text) - len(start) - 1)}}}"
 
 
-def in_people_units(fault: Fault, quantity: Quantity, given: str) -> Fault:
-    """A fault found in SI, in the words of the person who wrote the value."""
+def in_display_units(fault: Fault, quantity: Quantity, given: str) -> Fault:
+    """A fault found in SI, with its bound in the display unit and the value as it was written."""
     bound = "" if fault.bound is None else shown(fault.bound, quantity)
     problem, remedy = (text.replace("{bound}", bound) for text in (fault.problem, fault.remedy))
     return Fault(fault.where, problem, given, remedy)
@@ -140,7 +182,7 @@ def heading(quantity: Quantity, name: str | None = None) -> str:
 
 
 def example_of(quantity: Quantity, number: str = "") -> str:
-    """What a person could write for this quantity."""
+    """An example of valid text for a quantity."""
     return f'"{number or "1"} {quantity.shown_in}"'
 
 
@@ -198,14 +240,14 @@ def _usual(quantity: Quantity) -> list[str]:
 
 
 def _advice(quantity: Quantity) -> str:
-    """What unit to write."""
+    """A remedy that names units of a quantity."""
     if quantity.unit == "rad/s":
         return 'write it in rpm, such as "1500 rpm"'
     *others, last = _usual(quantity)[:_NAMED]
     return f"use a unit such as {', '.join(others)} or {last}" if others else f"use the unit {last}"
 
 
-def _meant(unit: str, quantity: Quantity) -> str:
+def _similar_unit(unit: str, quantity: Quantity) -> str:
     """The usual unit that is written the same but for capitals, blanks and points; nothing else is guessed."""
 
     def bare(text: str) -> str:
@@ -222,11 +264,11 @@ def _converted(where: str, number: float, unit: str, quantity: Quantity, given: 
             raise pint.UndefinedUnitError(unit)
         return to_si(number, unit, quantity)
     except pint.DimensionalityError:
-        meant = _meant(unit, quantity)
+        meant = _similar_unit(unit, quantity)
         remedy = f'did you mean "{meant}"?' if meant else _advice(quantity)
         if quantity.name == "viscosity":
             remedy += '; for a kinematic viscosity multiply by the density, or give grade = "ISO VG 100"'
         return Fault(where, "wrong unit", given, remedy)
-    except Exception:  # pint and Python's tokenizer raise many kinds for text that is no unit
-        meant = _meant(unit[:_LONGEST_UNIT], quantity)
+    except (pint.PintError, ValueError, ArithmeticError):  # pint's own errors are of several kinds
+        meant = _similar_unit(unit[:_LONGEST_UNIT], quantity)
         return Fault(where, "unknown unit", given, f'did you mean "{meant}"?' if meant else _advice(quantity))

@@ -1,4 +1,4 @@
-"""What a log says without physics: the two descriptions of friction that drives and simulators use.
+"""Empirical baselines without physics: the two descriptions of friction that drives and simulators use.
 
 They are fitted with the same loss as the model, so that the rows held out show what physics buys.
 """
@@ -11,11 +11,17 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses.robust import Loss, Vector, biweight, line, scatter_of
+from ballscrew.calibration.robust import (
+    Loss,
+    Vector,
+    biweight,
+    pseudo_huber,
+    scatter_of,
+)
 
 #: Speeds of Stribeck that are tried, as shares of the largest speed of the log.
 STRIBECK_SHARES = np.geomspace(0.002, 1.0, 25)
-_ROUNDS, _SETTLED = 50, 1e-7
+_MAXIMUM_ITERATIONS, _TOLERANCE = 50, 1e-7
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -45,10 +51,10 @@ class Conditions:
 class Baseline:
     """An empirical description of a friction torque: its coefficients in SI, and the torque measured."""
 
-    words: str
+    description: str
     coefficients: dict[str, float]
     #: How many were fitted, those of the sensor among them.
-    numbers: int
+    parameters: int
     torque: Callable[[Conditions], Vector]
 
 
@@ -99,7 +105,7 @@ def efficiency_pair(conditions: Conditions, torque: Vector) -> Baseline:
 
 
 def robust_linear(columns: Vector, values: Vector) -> tuple[Vector, float]:
-    """Coefficients of a linear model by the two losses of :mod:`ballscrew.analyses.robust`, and the first loss in SI.
+    """Coefficients of a linear model by the two losses of :mod:`~ballscrew.calibration.robust`, the first loss in SI.
 
     Iteratively reweighted least squares.
     """
@@ -109,17 +115,17 @@ def robust_linear(columns: Vector, values: Vector) -> tuple[Vector, float]:
 
     def fitted(found: Vector, loss: Loss, scatter: float | None = None) -> tuple[Vector, float]:
         held = scatter
-        for _ in range(_ROUNDS):
+        for _ in range(_MAXIMUM_ITERATIONS):
             residuals = scaled @ found - values
             scatter = scatter_of(residuals, values) if held is None else held
             root = np.sqrt(loss((residuals / scatter) ** 2)[1])
             before, found = found, np.linalg.lstsq(root[:, np.newaxis] * scaled, root * values, rcond=None)[0]
-            if np.max(np.abs(found - before)) <= _SETTLED * np.max(np.abs(found), initial=1e-300):
+            if np.max(np.abs(found - before)) <= _TOLERANCE * np.max(np.abs(found), initial=1e-300):
                 break
         return found, scatter_of(scaled @ found - values, values) if held is None else held
 
-    found, scatter = fitted(np.linalg.lstsq(scaled, values, rcond=None)[0], line)
-    cost = scatter**2 * float(np.sum(line(((scaled @ found - values) / scatter) ** 2)[0]))
+    found, scatter = fitted(np.linalg.lstsq(scaled, values, rcond=None)[0], pseudo_huber)
+    cost = scatter**2 * float(np.sum(pseudo_huber(((scaled @ found - values) / scatter) ** 2)[0]))
     found, _ = fitted(found, biweight, scatter)
     return found / scale, cost
 

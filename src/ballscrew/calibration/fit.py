@@ -10,37 +10,39 @@ from typing import Any, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses import baselines
-from ballscrew.analyses.calibrated import CalibratedModel, Estimate, Rows, Score
-from ballscrew.analyses.calibration_words import warnings_of
-from ballscrew.analyses.distributions import Distribution
-from ballscrew.analyses.engines import Engine, engine_faults
-from ballscrew.analyses.fit_problem import CONSTANT_TORQUE, Problem, awake, drift_of
-from ballscrew.analyses.identifiability import Identifiability, Uncertainty
-from ballscrew.analyses.plan import Subject
-from ballscrew.analyses.priors import Priors
-from ballscrew.analyses.readings import read_as
-from ballscrew.analyses.response import Response, resolved
-from ballscrew.analyses.robust import Solution, Vector, loss_of, solve
-from ballscrew.analyses.torque_log import Kind, TorqueLog
+from ballscrew.calibration import baselines
+from ballscrew.calibration.calibrated_model import CalibratedModel
+from ballscrew.calibration.diagnostics import warning_records
+from ballscrew.calibration.fit_result import AS_GIVEN, CALIBRATED, Estimate, Rows, Score
+from ballscrew.calibration.identifiability import Identifiability, Uncertainty
+from ballscrew.calibration.priors import Priors
+from ballscrew.calibration.problem import CONSTANT_TORQUE, Problem, drift_of, escape_insensitive_start
+from ballscrew.calibration.response import Response, resolve_input
+from ballscrew.calibration.robust import Solution, Vector, loss_of, solve
+from ballscrew.calibration.torque_conventions import identify_convention
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew
-from ballscrew.faults import Fault, nearest, raise_if_any
-from ballscrew.model import FrictionModel
+from ballscrew.errors import Fault, nearest, raise_if_any
+from ballscrew.evaluation.engines import Engine, engine_faults
+from ballscrew.evaluation.plan import Configuration
+from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import within_bounds
+from ballscrew.torque_logs.log_rows import Kind
+from ballscrew.torque_logs.torque_log import TorqueLog
+from ballscrew.uncertainty.distributions import Distribution
 
 #: How often a fit evaluates the whole log, roughly: only the choice of the engine depends on it.
 EVALUATIONS = 60
-#: Operating points are told apart by this share of the largest load and speed.
-CELL = 0.02
+#: Operating points are distinguished by this share of the largest load and speed.
+CELL_WIDTH = 0.02
 #: With fewer operating points than this, single rows are held out; with fewer rows than this, none are.
-FEWEST_CELLS, FEWEST_ROWS = 10, 10
+MINIMUM_CELLS, MINIMUM_ROWS = 10, 10
 #: An estimate so near a bound, in units of its scale, is at it.
 AT_BOUND = 1e-3
 #: Where a number moves by two standard errors, the loss rises by four; by less than this share of it, it is flat.
-TWO, FLAT = 2.0, 0.2
+STEP_ERRORS, FLAT_SHARE = 2.0, 0.2
 #: A number whose prior keeps more than this share of its variance is known by the prior alone.
-ALL_PRIOR = 0.9
+PRIOR_ONLY_SHARE = 0.9
 
 
 def fit(
@@ -61,28 +63,30 @@ def fit(
 ) -> CalibratedModel:
     """Fit numbers of a model, its screw or its lubricant to a log of torques.
 
-    ``data`` is a :class:`~ballscrew.analyses.torque_log.TorqueLog`, or a mapping or dataset of arrays in SI:
+    ``data`` is a :class:`~ballscrew.torque_logs.torque_log.TorqueLog`, or a mapping or dataset of arrays in SI:
     ``axial_load``, ``screw_speed`` and ``torque``, and where they were logged ``temperature`` (for an oil made from a
-    grade) and ``time``. ``free`` names what is fitted, as :func:`~ballscrew.analyses.sweep.sweep` does or by the last
+    grade) and ``time``. ``free`` names what is fitted, as :func:`~ballscrew.sweeps.sweep.sweep` does or by the last
     part of the name alone; ``"constant_torque"`` stands for friction of seals and bearings, which no model of the
     balls has.
 
     ``priors`` are distributions of free numbers, ``bounds`` pairs in SI beside those that the numbers have anyway.
     ``kind`` says whether ``torque`` is ``"friction"`` or ``"drive"`` torque; otherwise the model tells (see
-    :mod:`~ballscrew.analyses.readings`). ``inertia`` (kg m²) takes the acceleration out of a drive torque. The share
-    ``holdout`` of the operating points is not fitted but predicted. Zero error and drift of the sensor are fitted
-    beside the rest where the log can tell them from friction (:mod:`~ballscrew.analyses.fit_problem`).
+    :mod:`~ballscrew.calibration.torque_conventions`). ``inertia`` (kg m²) takes the acceleration out of a drive torque.
+    The share ``holdout`` of the operating points is not fitted but predicted. Zero error and drift of the sensor are
+    fitted beside the rest where the log can tell them from friction (:mod:`~ballscrew.calibration.problem`).
 
-    The loss is robust (:mod:`~ballscrew.analyses.robust`), the derivatives are exact, the standard errors hold for
-    residuals that are not normal and that follow each other (:class:`~ballscrew.analyses.identifiability.Uncertainty`).
-    A number that the data do not tell gets none.
+    The loss is robust (:mod:`~ballscrew.calibration.robust`), the derivatives are exact, the standard errors hold for
+    residuals that are not normal and that follow each other
+    (:class:`~ballscrew.calibration.identifiability.Uncertainty`). A number that the data do not tell gets none.
 
-    Raises :class:`~ballscrew.faults.InputError` for unknown names, data that cannot be used, and laws that cannot be
+    Raises :class:`~ballscrew.errors.InputError` for unknown names, data that cannot be used, and laws that cannot be
     recorded.
     """
-    subject = Subject(model, screw, lubricant)
+    subject = Configuration(model, screw, lubricant)
     raise_if_any(_faults_of_options(free, priors or {}, bounds or {}, holdout, seed, kind, engine))
-    asked = {name: CONSTANT_TORQUE.name if name == CONSTANT_TORQUE.name else resolved(subject, name) for name in free}
+    asked = {
+        name: CONSTANT_TORQUE.name if name == CONSTANT_TORQUE.name else resolve_input(subject, name) for name in free
+    }
     raise_if_any(
         [
             Fault("fit.free", "names one number twice", f"{name} and {other}", "leave one out")
@@ -93,33 +97,33 @@ def fit(
     )
     log = TorqueLog.of(data).cleaned(inertia=inertia)
     if lubricant.grade is not None and log.temperature is not None:
-        log = log.taken(np.asarray(within_bounds(TEMPERATURE.info, log.temperature)), "temperature beyond any oil")
+        log = log.select(np.asarray(within_bounds(TEMPERATURE.info, log.temperature)), "temperature beyond any oil")
     numbers = [name for name in dict.fromkeys(asked.values()) if name != CONSTANT_TORQUE.name]
     response = Response.of(subject, numbers, points_of(log, lubricant), engine=engine, times=EVALUATIONS)
     torques, slopes = response(response.start)
     finite = np.asarray(np.isfinite(torques).all(axis=0))
     if not finite.all():
-        log, torques, slopes = log.taken(finite, "no torque in the model"), torques[:, finite], slopes[:, finite]
+        log, torques, slopes = log.select(finite, "no torque in the model"), torques[:, finite], slopes[:, finite]
         response = response.at(points_of(log, lubricant))
     said = log.kind if kind == "unknown" else kind
     held_out = _held_out(log, holdout, seed)
     # what the column is can be looked up in all rows: of few, those left to fit do not always tell
-    reading, left = read_as(log.torque, torques, log.axial_load, log.screw_speed, drift_of(log), said)
-    problem = Problem.of(subject, response, asked, log, reading, left, torques, slopes, bounds or {})
-    start = awake(problem, log.torque[~held_out], left, problem.start, ~held_out)
+    convention, left = identify_convention(log.torque, torques, log.axial_load, log.screw_speed, drift_of(log), said)
+    problem = Problem.of(subject, response, asked, log, convention, left, torques, slopes, bounds or {})
+    start = escape_insensitive_start(problem, log.torque[~held_out], left, problem.start, ~held_out)
     given = {problem.names.index(name): prior for name, prior in (priors or {}).items()}
     known = Priors(problem.deviations | given, start, problem.scale)
     solution = solve(
         problem.on(~held_out), log.torque[~held_out], start, problem.scale, problem.bounds, known.all, done
     )
-    again = awake(problem, log.torque[~held_out], left, solution.values, ~held_out)
+    again = escape_insensitive_start(problem, log.torque[~held_out], left, solution.values, ~held_out)
     if not np.array_equal(again, solution.values):  # it came to rest where nothing depends on a number, and need not
         solution = solve(
             problem.on(~held_out), log.torque[~held_out], again, problem.scale, problem.bounds, known.all, done
         )
     predicted, _ = problem.torque(solution.values)
     friction = response(solution.values[: len(numbers)])[0][1]
-    rows = Rows(log, reading, predicted, friction, held_out, solution.noise.of(predicted))
+    rows = Rows(log, convention, predicted, friction, held_out, solution.noise.of(predicted))
     scale = problem.scale_at(solution.values)
     told = Identifiability.of(solution, problem.names, scale)
     uncertainty = Uncertainty.of(solution, scale, known.slopes(solution.values))
@@ -138,15 +142,15 @@ def fit(
         scores=_scores(problem, rows, torques),
         settings={
             "free": list(free),
-            "priors": {name: prior.words(problem.quantity(name).unit) for name, prior in (priors or {}).items()},
+            "priors": {name: prior.describe(problem.quantity(name).unit) for name, prior in (priors or {}).items()},
             "bounds": {name: list(map(float, pair)) for name, pair in (bounds or {}).items()},
             "holdout": holdout,
             "seed": seed,
             "inertia": inertia,
-            "reading": reading.words,
+            "reading": convention.description,
         },
     )
-    return dataclasses.replace(found, warnings=warnings_of(found))
+    return dataclasses.replace(found, warning_records=warning_records(found))
 
 
 def points_of(log: TorqueLog, lubricant: Lubricant) -> dict[str, NDArray[np.float64]]:
@@ -195,17 +199,17 @@ def _faults_of_options(
 
 
 def _held_out(log: TorqueLog, share: float, seed: int) -> NDArray[np.bool_]:
-    """Which rows are not fitted: whole operating points where there are enough of them, or else single rows."""
+    """The rows that are held out: whole operating points where there are enough of them, or else single rows."""
     rows = len(log)
-    if share == 0 or rows < FEWEST_ROWS:
+    if share == 0 or rows < MINIMUM_ROWS:
         return np.zeros(rows, dtype=bool)
     places = [np.sign(log.screw_speed)]
     for values in (log.axial_load, log.screw_speed):
         largest = float(np.max(np.abs(values))) or 1.0
-        places.append(np.round(values / (CELL * largest)))
+        places.append(np.round(values / (CELL_WIDTH * largest)))
     _, cell = np.unique(np.stack(places), axis=1, return_inverse=True)
     cells = int(cell.max()) + 1
-    if cells < FEWEST_CELLS:
+    if cells < MINIMUM_CELLS:
         cell, cells = np.arange(rows), rows
     chosen = np.random.default_rng(seed).permutation(cells)[: max(1, round(share * cells))]
     return np.isin(cell, chosen)
@@ -219,7 +223,7 @@ def _one_sided(
     There the torques have gone flat, as on a clamp: what derivatives say ends there.
     """
     torque, measured = problem.on(~held_out), log.torque[~held_out]
-    psi = solution.pull
+    psi = solution.influence
     sharpness = solution.curvature * np.count_nonzero(~solution.outlying) / max(float(psi @ psi), 1e-300)
     here = loss_of(solution.residuals, solution.scatter)
     covariance, found = uncertainty.covariance, np.zeros(len(problem.parameters), dtype=bool)
@@ -228,10 +232,10 @@ def _one_sided(
         if error == 0:
             continue
         for sign in (-1, 1):
-            step = sign * TWO * covariance[:, i] / error
+            step = sign * STEP_ERRORS * covariance[:, i] / error
             there, _ = torque(np.clip(solution.values + step, *problem.bounds))
             rise = sharpness * (loss_of(there - measured, solution.scatter) - here)
-            found[i] |= rise < FLAT * TWO**2
+            found[i] |= rise < FLAT_SHARE * STEP_ERRORS**2
     return found
 
 
@@ -246,10 +250,10 @@ def _estimates(
         value, variance = float(solution.values[i]), float(uncertainty.covariance[i, i])
         prior = known.deviation(i, value)
         share = 0.0 if prior is None else min(1.0, variance / prior**2)
-        of_sensor = i >= problem.free
-        told = uncertainty.told.numbers_told[i] and (of_sensor or share <= ALL_PRIOR)
+        sensor_columns = i >= problem.free
+        told = uncertainty.directions.identifiable_parameters[i] and (sensor_columns or share <= PRIOR_ONLY_SHARE)
         # in one direction a zero error of the sensor is the same as it
-        told = told and (parameter.name != CONSTANT_TORQUE.name or problem.knows_zero)
+        told = told and (parameter.name != CONSTANT_TORQUE.name or problem.has_torque_offset)
         identified = bool(told and not at_bound[i] and not one_sided[i])
         found[parameter.name] = Estimate(
             name=parameter.name,
@@ -260,34 +264,34 @@ def _estimates(
             start=parameter.start,
             at_bound=bool(at_bound[i]),
             one_sided=bool(one_sided[i] and told),
-            freedom=max(1, solution.residuals.size - solution.values.size),
+            degrees_of_freedom=max(1, solution.residuals.size - solution.values.size),
             prior_share=share,
             bounds=(parameter.low, parameter.high),
         )
     return found
 
 
-def _with(subject: Subject, response: Response, solution: Solution) -> Subject:
+def _with(subject: Configuration, response: Response, solution: Solution) -> Configuration:
     """The subject with the fitted numbers in place."""
     values = solution.values[: len(response.names)].tolist()
     return subject.changed(dict(zip(response.names, values, strict=True)))
 
 
 def _scores(problem: Problem, rows: Rows, torques: Vector) -> list[Score]:
-    """How far the model is off before and after, and the descriptions without physics, on the same rows."""
+    """Scores of the model before and after the fit, and of the baselines without physics, on the same rows."""
     log, fitted = rows.log, ~rows.held_out
-    weights = rows.reading.weights(log.axial_load, log.screw_speed)
+    weights = rows.convention.weights(log.axial_load, log.screw_speed)
     helping = weights[0] * weights[1] < 0
     conditions = baselines.Conditions(
-        np.abs(log.axial_load), np.abs(log.screw_speed), torques[0], helping, weights, problem.of_sensor
+        np.abs(log.axial_load), np.abs(log.screw_speed), torques[0], helping, weights, problem.sensor_columns
     )
     described = {
-        "the model as given": (0, np.sum(weights * torques, axis=0)),
-        "the model calibrated": (len(problem.parameters), rows.predicted),
+        AS_GIVEN: (0, np.sum(weights * torques, axis=0)),
+        CALIBRATED: (len(problem.parameters), rows.predicted),
     }
     for baseline in baselines.ALL:
         found = baseline(conditions.rows(fitted), log.torque[fitted])
-        described[found.words] = (found.numbers, found.torque(conditions))
+        described[found.description] = (found.parameters, found.torque(conditions))
     return [
         Score(words, count, rows.rms(predicted - log.torque, fitted), rows.rms(predicted - log.torque, rows.held_out))
         for words, (count, predicted) in described.items()

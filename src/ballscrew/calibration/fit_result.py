@@ -1,40 +1,40 @@
-"""A model calibrated to a log: what was found, how well it is known, and what it predicts."""
+"""The value of a fit: estimates, scores, the rows used, and all that its diagnostics are computed from."""
 
 from __future__ import annotations
 
 import dataclasses
 import functools
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses.calibration_words import product
-from ballscrew.analyses.fit_problem import CONSTANT_TORQUE, Problem
-from ballscrew.analyses.identifiability import Identifiability, Uncertainty
-from ballscrew.analyses.next_test import NextTest, next_test
-from ballscrew.analyses.plan import Subject
-from ballscrew.analyses.posterior import Posterior, posterior
-from ballscrew.analyses.priors import Priors
-from ballscrew.analyses.readings import Reading
-from ballscrew.analyses.response import Response
-from ballscrew.analyses.robust import END, MEDIAN_TO_DEVIATION, Solution
-from ballscrew.analyses.sampling import JointNormal
-from ballscrew.analyses.torque_log import TorqueLog
-from ballscrew.components.materials import TEMPERATURE, Lubricant
+from ballscrew._deprecated import RenamedAttribute
+from ballscrew.calibration.identifiability import Identifiability, Uncertainty
+from ballscrew.calibration.priors import Priors
+from ballscrew.calibration.problem import CONSTANT_TORQUE, Problem
+from ballscrew.calibration.response import Response
+from ballscrew.calibration.robust import BIWEIGHT_CUTOFF, MAD_TO_STANDARD_DEVIATION, Solution
+from ballscrew.calibration.torque_conventions import TorqueConvention
+from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
-from ballscrew.faults import Fault, InputError
-from ballscrew.model import FrictionModel
-from ballscrew.quantities import AngularSpeed, Force, Quantity, Temperature, Torque
+from ballscrew.evaluation.plan import Configuration
+from ballscrew.friction.model import FrictionModel
+from ballscrew.quantities import Quantity, Torque
+from ballscrew.records import Record
+from ballscrew.torque_logs.torque_log import TorqueLog
+from ballscrew.uncertainty.sampling import JointNormal
 
-#: Residuals are looked at over so many parts of the rows.
-PARTS = 5
+#: Bins of rows over which the means of residuals are taken.
+TREND_BINS = 5
+#: Descriptions of the scores of the model itself, before and after the fit.
+AS_GIVEN, CALIBRATED = "the model as given", "the model calibrated"
 
 
 @dataclasses.dataclass(frozen=True)
 class Estimate:
-    """A fitted number in SI. Without identification there is no standard error."""
+    """The estimate of a parameter, in SI; without a standard error where it is not identified."""
 
     name: str
     quantity: Quantity
@@ -45,11 +45,13 @@ class Estimate:
     at_bound: bool = False
     #: Whether the log bounds it on one side only.
     one_sided: bool = False
-    #: How much of the variance that a prior left is still there: 1 where the data add nothing; 0 without a prior.
+    #: Posterior variance over that of the prior: 1 where the data add nothing; 0 without a prior.
     prior_share: float = 0.0
-    #: Degrees of freedom of the standard error: rows fitted less numbers.
-    freedom: float = np.inf
+    #: Degrees of freedom of the standard error: rows fitted less parameters.
+    degrees_of_freedom: float = np.inf
     bounds: tuple[float, float] = (-np.inf, np.inf)
+
+    freedom = RenamedAttribute("freedom", "degrees_of_freedom")
 
     def interval(self, level: float = 0.95) -> tuple[float, float] | None:
         """The interval by Student's distribution, within the bounds; None where there is no standard error."""
@@ -57,21 +59,24 @@ class Estimate:
             return None
         from scipy.special import stdtrit
 
-        half = float(stdtrit(self.freedom, 0.5 + level / 2)) * self.std
+        half = float(stdtrit(self.degrees_of_freedom, 0.5 + level / 2)) * self.std
         return max(self.value - half, self.bounds[0]), min(self.value + half, self.bounds[1])
 
 
 class Score(NamedTuple):
-    """How far a description is off: root mean square over the rows fitted and the rows held out, outliers left out."""
+    """Root mean square of the residuals of a model over the rows fitted and the rows held out, without outliers."""
 
-    words: str
-    numbers: int
+    description: str
+    parameters: int
     fitted: float
     held_out: float
 
+    words = RenamedAttribute("words", "description")
+    numbers = RenamedAttribute("numbers", "parameters")
+
 
 class Band(NamedTuple):
-    """Friction torque with an interval, N m; NaN where the log does not tell it."""
+    """Friction torque with its confidence interval, N m; NaN where the log does not identify it."""
 
     low: Torque
     value: Torque
@@ -79,7 +84,7 @@ class Band(NamedTuple):
 
 
 class Trend(NamedTuple):
-    """Residuals of friction over fifths of the rows in the order of something: its means, theirs, and the errors."""
+    """Means of a column and of the residuals of friction over fifths of the rows in its order, with standard errors."""
 
     values: NDArray[np.float64]
     means: NDArray[np.float64]
@@ -88,16 +93,18 @@ class Trend(NamedTuple):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Rows:
-    """The rows of the log that were used, with what the calibrated model says of them."""
+    """The rows of the log that were used, with the predictions of the calibrated model."""
 
     log: TorqueLog
-    reading: Reading
+    convention: TorqueConvention
     predicted: NDArray[np.float64]
     #: The friction torque in it.
     friction: NDArray[np.float64]
     held_out: NDArray[np.bool_]
-    #: The scatter about the model at each row, as the rows fitted have it.
+    #: Standard deviation of the noise at each row, from the rows fitted.
     scatter: NDArray[np.float64]
+
+    reading = RenamedAttribute("reading", "convention")
 
     @functools.cached_property
     def outlying(self) -> NDArray[np.bool_]:
@@ -105,13 +112,13 @@ class Rows:
         off = np.abs(self.residuals) / self.scatter
         held = self.held_out
         # a model that is wrong for all rows held out must not lose them all
-        wide = max(1.0, MEDIAN_TO_DEVIATION * float(np.median(off[held]))) if held.any() else 1.0
-        return off > END * np.where(held, wide, 1.0)
+        wide = max(1.0, MAD_TO_STANDARD_DEVIATION * float(np.median(off[held]))) if held.any() else 1.0
+        return off > BIWEIGHT_CUTOFF * np.where(held, wide, 1.0)
 
     @property
     def direction(self) -> NDArray[np.float64]:
-        """The sign of friction in what was measured."""
-        return self.reading.weights(self.log.axial_load, self.log.screw_speed)[1]
+        """The sign of friction in the measured torque."""
+        return self.convention.weights(self.log.axial_load, self.log.screw_speed)[1]
 
     @property
     def residuals(self) -> NDArray[np.float64]:
@@ -120,7 +127,7 @@ class Rows:
 
     @functools.cached_property
     def trends(self) -> Mapping[str, Trend]:
-        """How the residuals of friction depend on what was logged, outliers left out; positive: predicted too large."""
+        """Residuals of friction against each logged column, without outliers; positive: predicted too large."""
         log, kept = self.log, ~self.outlying
         against = {
             "screw_speed": np.abs(log.screw_speed),
@@ -132,7 +139,7 @@ class Rows:
         return {
             name: _trend(values[kept], off[kept])
             for name, values in against.items()
-            if values is not None and np.count_nonzero(kept) >= PARTS and np.ptp(values[kept]) > 0
+            if values is not None and np.count_nonzero(kept) >= TREND_BINS and np.ptp(values[kept]) > 0
         }
 
     def rms(self, residuals: NDArray[np.float64], chosen: NDArray[np.bool_]) -> float:
@@ -142,12 +149,12 @@ class Rows:
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
-class CalibratedModel:
-    """What :func:`~ballscrew.analyses.calibration.fit` returns."""
+class FitResult:
+    """The data of a fit: estimates, their identifiability and covariance, the rows, and the scores."""
 
     #: Model, screw and lubricant with the fitted numbers in place.
-    subject: Subject
-    #: By the names that were asked for.
+    subject: Configuration
+    #: By the names of the free parameters.
     estimates: Mapping[str, Estimate]
     #: Zero error and drift of the sensor, where they were fitted.
     sensor: Mapping[str, Estimate]
@@ -160,7 +167,12 @@ class CalibratedModel:
     #: The model before and after, and descriptions without physics.
     scores: Sequence[Score]
     settings: Mapping[str, Any]
-    warnings: Sequence[str] = ()
+    warning_records: Sequence[Record] = ()
+
+    @property
+    def warnings(self) -> list[str]:
+        """The texts of the warnings, the gravest first."""
+        return [record.text for record in self.warning_records]
 
     @property
     def residual_rms(self) -> float:
@@ -204,87 +216,13 @@ class CalibratedModel:
         """The fitted numbers of the model as correlated inputs, for bands; those that are not identified stay put."""
         names = self.response.names
         count = len(names)
-        told = np.array([estimate.identified for estimate in self.estimates.values()][:count])
-        covariance = self.uncertainty.covariance[:count, :count] * np.outer(told, told)
+        identified = np.array([estimate.identified for estimate in self.estimates.values()][:count])
+        covariance = self.uncertainty.covariance[:count, :count] * np.outer(identified, identified)
         return JointNormal(names, self.solution.values[:count], covariance)
-
-    def predict(self, axial_load: Force, screw_speed: AngularSpeed, temperature: Temperature | None = None) -> Torque:
-        """Friction torque on the screw, N m, at loads (N), speeds (rad/s) and temperatures (K); arrays broadcast.
-
-        Without a temperature the oil is as it was given. Raises :class:`~ballscrew.faults.InputError` for a
-        temperature of an oil that was not made from a grade.
-        """
-        oil = self.lubricant if temperature is None else self.lubricant.at(temperature)
-        load, speed = np.abs(np.asarray(axial_load, dtype=float)), np.abs(np.asarray(screw_speed, dtype=float))
-        found = self.model(self.screw, oil, axial_load=load, screw_speed=speed)
-        return found.screw_torque + self.constant_torque
-
-    def band(
-        self,
-        axial_load: Force,
-        screw_speed: AngularSpeed,
-        temperature: Temperature | None = None,
-        *,
-        level: float = 0.95,
-        scatter: bool = False,
-    ) -> Band:
-        """The friction torque with the interval that the calibration leaves, N m; with ``scatter``, of one reading.
-
-        From the exact derivatives and the covariance: ``M ± z √(g C gᵀ)``, within what data and priors tell.
-        Where the torque depends on what they do not tell, the interval is NaN.
-        """
-        if not 0 < level < 1:
-            raise InputError(Fault("band.level", "must lie between 0 and 1", str(level), "0.95 is usual"))
-        oil_temperature = self.lubricant.temperature if temperature is None else temperature
-        given = [axial_load, screw_speed, *([] if oil_temperature is None else [oil_temperature])]
-        arrays = np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in given))
-        names = ("axial_load", "screw_speed", TEMPERATURE.name)
-        points = {name: np.abs(array).ravel() for name, array in zip(names, arrays, strict=False)}
-        values = self.solution.values
-        torques, slopes = self.response.at(points)(values[: len(self.response.names)])
-        friction = torques[1] + self.constant_torque
-        gradient = np.zeros((friction.size, values.size))
-        gradient[:, : slopes.shape[2]] = slopes[1]
-        if CONSTANT_TORQUE.name in self.estimates:
-            gradient[:, slopes.shape[2]] = 1.0
-        variance = self.uncertainty.variance_of(gradient) + (self.solution.noise.of(friction) ** 2 if scatter else 0.0)
-        half = normal_half_width(level) * np.sqrt(variance)
-        shape = arrays[0].shape
-        return Band(*(np.reshape(torque, shape)[()] for torque in (friction - half, friction, friction + half)))
-
-    def next_test(
-        self, limits: Mapping[str, tuple[float, float]] | None = None, readings: int | None = None
-    ) -> NextTest:
-        """The test that would teach most; see :func:`ballscrew.analyses.next_test.next_test`."""
-        return next_test(self, limits, readings)
-
-    def posterior(self, steps: int = 2000, seed: int = 0, done: Callable[[int, int], None] | None = None) -> Posterior:
-        """Samples of the fitted numbers; see :func:`ballscrew.analyses.posterior.posterior`."""
-        return posterior(self, steps, seed, done)
-
-    def report(self) -> str:
-        """What was found, in plain text and SI units."""
-        lines = ["number, value, standard error"]
-        for estimate in (*self.estimates.values(), *self.sensor.values()):
-            unit = "" if estimate.quantity.unit == "1" else f" {estimate.quantity.unit}"
-            error = "not identified" if estimate.std is None else f"± {estimate.std:.2g}{unit}"
-            lines.append(f"{estimate.name}: {estimate.value:.6g}{unit}, {error}")
-        lines += [f"known: {product(c.powers)} to {c.relative_error:.2g}" for c in self.identifiability.combinations
-                  if c.identified]  # fmt: skip
-        lines += [f"not known: {product(c.powers)}" for c in self.identifiability.combinations if not c.identified]
-        lines += [f"{s.words}: rms {s.fitted:.4g} N m, held out {s.held_out:.4g} N m" for s in self.scores]
-        return "\n".join([*lines, *(f"beware: {warning}" for warning in self.warnings)])
 
 
 def _trend(values: NDArray[np.float64], residuals: NDArray[np.float64]) -> Trend:
-    parts = np.array_split(np.argsort(values, kind="stable"), PARTS)
+    parts = np.array_split(np.argsort(values, kind="stable"), TREND_BINS)
     means = np.array([[values[part].mean(), residuals[part].mean()] for part in parts])
     errors = np.array([residuals[part].std() / np.sqrt(part.size) for part in parts])
     return Trend(means[:, 0], means[:, 1], errors)
-
-
-def normal_half_width(level: float) -> float:
-    """Half the width of the interval that holds a share of a standard normal distribution."""
-    from ballscrew.analyses.distributions import standard_normal_quantile
-
-    return float(standard_normal_quantile(np.float64(0.5 + level / 2)))

@@ -1,32 +1,29 @@
-"""The test that teaches most: the operating point whose readings shrink what is left open the most (D-optimal)."""
+"""The most informative next test: the operating point whose readings shrink the confidence region most (D-optimal)."""
 
 from __future__ import annotations
 
 import dataclasses
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses.identifiability import weighted
-from ballscrew.analyses.robust import Vector
+from ballscrew.calibration.fit_result import FitResult
+from ballscrew.calibration.identifiability import weighted_derivatives
+from ballscrew.calibration.robust import Vector
 from ballscrew.components.materials import TEMPERATURE
-from ballscrew.faults import Fault, nearest, raise_if_any
-
-if TYPE_CHECKING:
-    from ballscrew.analyses.calibrated import CalibratedModel
+from ballscrew.errors import Fault, nearest, raise_if_any
 
 #: Without limits, loads and speeds from half the least to twice the largest of the log are thought possible, and
 #: temperatures this many kelvin beyond those of the log.
-BEYOND, BEYOND_KELVIN = 2.0, 10.0
+RANGE_FACTOR, TEMPERATURE_MARGIN = 2.0, 10.0
 #: How many speeds, loads and temperatures are tried.
-SPEEDS, LOADS, TEMPERATURES = 25, 15, 5
-#: A test has this share of the readings of the log, unless told otherwise.
-SHARE_OF_LOG = 0.05
+SPEED_COUNT, LOAD_COUNT, TEMPERATURE_COUNT = 25, 15, 5
+#: Default readings of a test, as a share of those of the log.
+READINGS_SHARE = 0.05
 #: How many random tests the best one is compared with.
-RANDOM_TESTS = 50
+RANDOM_TEST_COUNT = 50
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -35,7 +32,7 @@ class NextTest:
 
     #: The values of the inputs at all tests, each an array of one length.
     tests: Mapping[str, NDArray[np.float64]]
-    #: By test, the volume of the joint confidence region of the numbers asked for, over that without the test.
+    #: By test, the volume of the joint confidence region of the free parameters, over that without the test.
     remaining_volume: NDArray[np.float64]
     #: By name, the standard error after the best test over that before.
     remaining_error: Mapping[str, float]
@@ -52,28 +49,28 @@ class NextTest:
 
     @property
     def best_volume(self) -> float:
-        """What the best test leaves of the volume."""
+        """Remaining volume of the best test."""
         return float(np.min(self.remaining_volume))
 
 
 def next_test(
-    found: CalibratedModel,
+    found: FitResult,
     limits: Mapping[str, tuple[float, float]] | None = None,
     readings: int | None = None,
     seed: int = 0,
 ) -> NextTest:
-    """What one more test would teach, for tests on a grid within limits in SI.
+    """Expected information of one more test, for tests on a grid within limits in SI.
 
     By derivatives at the estimate: with the covariance Σ and the derivatives G of the readings of a test in units of
     the scatter, what remains is ``Σ − Σ Gᵀ (1/m + G Σ Gᵀ)⁻¹ G Σ`` for m readings. Numbers that are open altogether
     count as known to their own size. Points that are not valid are left out.
 
-    Raises :class:`~ballscrew.faults.InputError` for limits of what is no condition of a test.
+    Raises :class:`~ballscrew.errors.InputError` for limits of what is no condition of a test.
     """
     given = dict(limits or {})
     log = found.rows.log
     rows = len(log)
-    count = readings or math.ceil(SHARE_OF_LOG * rows)
+    count = readings or math.ceil(READINGS_SHARE * rows)
     ranges = _ranges(found, given)
     tests = _grid(ranges)
     tests = {name: values[_valid(found, tests)] for name, values in tests.items()}
@@ -85,20 +82,20 @@ def next_test(
     volume = _volume(remaining, asked) / _volume(before[np.newaxis], asked)
     best = int(np.argmin(volume))
     errors = np.sqrt(np.diagonal(remaining[best])[:asked] / np.diagonal(before)[:asked])
-    random = np.random.default_rng(seed).choice(volume, RANDOM_TESTS)
+    random = np.random.default_rng(seed).choice(volume, RANDOM_TEST_COUNT)
     told = dict(zip(found.estimates, errors.tolist(), strict=True))
     return NextTest(tests, volume, told, count, float(np.median(random)))
 
 
-def _ranges(found: CalibratedModel, limits: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
+def _ranges(found: FitResult, limits: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
     log = found.rows.log
     ranges = {
-        name: (float(np.abs(values).min()) / BEYOND, float(np.abs(values).max()) * BEYOND)
+        name: (float(np.abs(values).min()) / RANGE_FACTOR, float(np.abs(values).max()) * RANGE_FACTOR)
         for name, values in {"axial_load": log.axial_load, "screw_speed": log.screw_speed}.items()
     }
     if found.lubricant.grade is not None and log.temperature is not None:
         info = TEMPERATURE.info
-        low, high = float(log.temperature.min()) - BEYOND_KELVIN, float(log.temperature.max()) + BEYOND_KELVIN
+        low, high = float(log.temperature.min()) - TEMPERATURE_MARGIN, float(log.temperature.max()) + TEMPERATURE_MARGIN
         ranges[TEMPERATURE.name] = max(low, info.at_least or low), min(high, info.at_most or high)
     unknown = [name for name in limits if name not in ranges]
     raise_if_any([Fault(f"fit.limits.{n}", "is no condition of a test", "", nearest(n, ranges)) for n in unknown])
@@ -108,7 +105,11 @@ def _ranges(found: CalibratedModel, limits: Mapping[str, tuple[float, float]]) -
 def _grid(ranges: Mapping[str, tuple[float, float]]) -> dict[str, Vector]:
     """Tests all over the ranges: speeds and loads by ratios, temperatures by differences."""
     axes: list[Vector] = []
-    for name, number in {"axial_load": LOADS, "screw_speed": SPEEDS, TEMPERATURE.name: TEMPERATURES}.items():
+    for name, number in {
+        "axial_load": LOAD_COUNT,
+        "screw_speed": SPEED_COUNT,
+        TEMPERATURE.name: TEMPERATURE_COUNT,
+    }.items():
         if name in ranges:
             low, high = ranges[name]
             by_ratios = name != TEMPERATURE.name
@@ -121,20 +122,20 @@ def _grid(ranges: Mapping[str, tuple[float, float]]) -> dict[str, Vector]:
     return dict(zip(("axial_load", "screw_speed", TEMPERATURE.name), (m.ravel() for m in meshes), strict=False))
 
 
-def _valid(found: CalibratedModel, tests: Mapping[str, Vector]) -> NDArray[np.bool_]:
+def _valid(found: FitResult, tests: Mapping[str, Vector]) -> NDArray[np.bool_]:
     oil = found.lubricant.at(tests[TEMPERATURE.name]) if TEMPERATURE.name in tests else found.lubricant
     result = found.model(found.screw, oil, axial_load=tests["axial_load"], screw_speed=tests["screw_speed"])
     return np.asarray(result.valid & np.isfinite(result.screw_torque))
 
 
-def _open(found: CalibratedModel) -> Vector:
+def _open(found: FitResult) -> Vector:
     """Covariance of all parameters of the fit, those that are open known to their own size."""
-    root = weighted(found.solution)
+    root = weighted_derivatives(found.solution)
     own = np.diag(1 / found.uncertainty.scale**2)
     return np.asarray(np.linalg.inv(root.T @ root + own), dtype=np.float64)
 
 
-def _derivatives(found: CalibratedModel, tests: Mapping[str, Vector]) -> NDArray[np.float64]:
+def _derivatives(found: FitResult, tests: Mapping[str, Vector]) -> NDArray[np.float64]:
     """Derivatives of the readings of each test in units of the scatter, of shape (tests, directions, parameters)."""
     log, response = found.rows.log, found.response
     points = dict(tests)
@@ -145,7 +146,7 @@ def _derivatives(found: CalibratedModel, tests: Mapping[str, Vector]) -> NDArray
     ones = np.ones(points["axial_load"].size)
     made: list[Vector] = []
     for sign in directions:
-        weights = found.rows.reading.weights(ones, sign * ones)
+        weights = found.rows.convention.weights(ones, sign * ones)
         columns = [np.einsum("tr,trn->rn", weights, slopes)]
         columns += [weights[1][:, np.newaxis]] * (len(found.estimates) - len(response.names))
         # a later test has the zero error of the sensor, and nobody knows its drift by then

@@ -7,29 +7,30 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses.robust import Vector, loss_of
-from ballscrew.faults import Fault, InputError
-
-if TYPE_CHECKING:
-    from ballscrew.analyses.calibrated import CalibratedModel
+from ballscrew._deprecated import RenamedAttribute
+from ballscrew.calibration.fit_result import FitResult
+from ballscrew.calibration.robust import Vector, loss_of
+from ballscrew.errors import Fault, InputError
 
 #: Walkers for each parameter, and the share of the steps that is thrown away as the way in.
-WALKERS, WAY_IN = 4, 0.3
+WALKERS, BURN_IN = 4, 0.3
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Posterior:
-    """Samples of the numbers asked for, by name, and how far they can be trusted."""
+    """Samples of the free parameters by name, with the diagnostics of the chain."""
 
     samples: dict[str, NDArray[np.float64]]
-    #: Steps over which walkers forget where they were; of NaN or much of the run, the run is too short.
-    forgetting: float
+    #: Integrated autocorrelation time in steps; where it is NaN or a large share of the run, the run is too short.
+    autocorrelation_time: float
     acceptance: float
+
+    forgetting = RenamedAttribute("forgetting", "autocorrelation_time")
 
     def interval(self, name: str, level: float = 0.95) -> tuple[float, float]:
         """The interval with equal shares of the samples on either side."""
@@ -38,13 +39,13 @@ class Posterior:
 
 
 def posterior(
-    found: CalibratedModel, steps: int = 2000, seed: int = 0, done: Callable[[int, int], None] | None = None
+    found: FitResult, steps: int = 2000, seed: int = 0, done: Callable[[int, int], None] | None = None
 ) -> Posterior:
     """Samples of ``exp(−½ k Σ ρ(r))`` times the priors within the bounds, by emcee's affine-invariant walkers.
 
     ρ is the loss of the fit and r the residual in units of its scatter, which stays as it was found; k makes the loss
     as sharp as its residuals are spread, ``Σ ψ' / Σ ψ²`` at the fit. Residuals that follow each other count as
-    independent here. Raises :class:`~ballscrew.faults.InputError` without emcee.
+    independent here. Raises :class:`~ballscrew.errors.InputError` without emcee.
     """
     try:
         import emcee
@@ -55,7 +56,7 @@ def posterior(
     torque = problem.on(~found.rows.held_out)
     measured = found.rows.log.torque[~found.rows.held_out]
 
-    psi = solution.pull
+    psi = solution.influence
     kept = int(np.count_nonzero(~solution.outlying))
     sharpness = solution.curvature * kept / max(float(psi @ psi), 1e-300)
 
@@ -76,7 +77,7 @@ def posterior(
     for step, _ in enumerate(sampler.sample(state, iterations=steps), start=1):
         if done is not None:
             done(step, steps)
-    kept = sampler.get_chain(discard=int(WAY_IN * steps), flat=True)
-    forgetting = float(np.max(sampler.get_autocorr_time(quiet=True, tol=0)))
+    kept = sampler.get_chain(discard=int(BURN_IN * steps), flat=True)
+    autocorrelation_time = float(np.max(sampler.get_autocorr_time(quiet=True, tol=0)))
     samples = {name: kept[:, i] for i, name in enumerate(problem.names)}
-    return Posterior(samples, forgetting, float(np.mean(sampler.acceptance_fraction)))
+    return Posterior(samples, autocorrelation_time, float(np.mean(sampler.acceptance_fraction)))

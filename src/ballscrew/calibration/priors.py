@@ -1,4 +1,4 @@
-"""What is known of numbers before a log is read, as residuals beside those of the log."""
+"""Priors: knowledge of parameters before a log is read, as residuals beside those of the log."""
 
 from __future__ import annotations
 
@@ -8,11 +8,14 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ballscrew.analyses.distributions import Distribution, LogNormal, Normal, Triangular, Uniform
-from ballscrew.analyses.robust import Prior, Vector
+from ballscrew.calibration.robust import (
+    Prior,
+    Vector,
+)
+from ballscrew.uncertainty.distributions import Distribution, LogNormal, Normal, Triangular, Uniform
 
-#: A number that nothing tells stays near its start: as if it were known to this many times its scale.
-LEASH = 10.0
+#: Regularisation of unidentified parameters: a weak normal prior about the start with this many scales as deviation.
+REGULARISATION_SCALE = 10.0
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -29,34 +32,34 @@ class Priors:
 
     @property
     def all(self) -> Prior:
-        """The priors, and the leash on everything."""
+        """The priors, and the weak regularisation of all parameters."""
 
         def residuals(x: Vector) -> Vector:
-            return np.concatenate([self.residuals(x), (x - self.start) / (LEASH * self.scale)])
+            return np.concatenate([self.residuals(x), (x - self.start) / (REGULARISATION_SCALE * self.scale)])
 
         def slopes(x: Vector) -> Vector:
-            return np.vstack([self.slopes(x), np.diag(1 / (LEASH * self.scale))])
+            return np.vstack([self.slopes(x), np.diag(1 / (REGULARISATION_SCALE * self.scale))])
 
         return Prior(residuals, slopes)
 
     def residuals(self, x: Vector) -> Vector:
-        """How far the parameters are from what was known, in standard deviations."""
-        return np.array([_residual(prior, x[i])[0] for i, prior in self._told])
+        """Residuals of the priors, in standard deviations."""
+        return np.array([_residual(prior, x[i])[0] for i, prior in self._informative])
 
     def slopes(self, x: Vector) -> Vector:
         """Derivatives of the residuals by the parameters."""
-        found = np.zeros((len(self._told), x.size))
-        for row, (i, prior) in enumerate(self._told):
+        found = np.zeros((len(self._informative), x.size))
+        for row, (i, prior) in enumerate(self._informative):
             found[row, i] = _residual(prior, x[i])[1]
         return found
 
     def deviation(self, place: int, value: float) -> float | None:
         """The standard deviation that the prior of a parameter leaves; None without one."""
-        told = dict(self._told)
+        told = dict(self._informative)
         return None if place not in told else abs(1 / _residual(told[place], value)[1])
 
     @property
-    def _told(self) -> Sequence[tuple[int, Normal | LogNormal | Triangular]]:
+    def _informative(self) -> Sequence[tuple[int, Normal | LogNormal | Triangular]]:
         return [(i, prior) for i, prior in self.given.items() if not isinstance(prior, Uniform)]
 
 

@@ -8,14 +8,14 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses.distributions import Distribution, Normal
-from ballscrew.analyses.plan import Subject
-from ballscrew.analyses.readings import Reading
-from ballscrew.analyses.response import Response
-from ballscrew.analyses.robust import Vector, loss_of
-from ballscrew.analyses.torque_log import TorqueLog
-from ballscrew.faults import Fault, raise_if_any
+from ballscrew.calibration.response import Response
+from ballscrew.calibration.robust import Vector, loss_of
+from ballscrew.calibration.torque_conventions import TorqueConvention
+from ballscrew.errors import Fault, raise_if_any
+from ballscrew.evaluation.plan import Configuration
 from ballscrew.quantities import Info, Quantity
+from ballscrew.torque_logs.torque_log import TorqueLog
+from ballscrew.uncertainty.distributions import Distribution, Normal
 
 #: Friction that depends on nothing but the direction, and that no model of the balls has.
 CONSTANT_TORQUE = Quantity(
@@ -29,19 +29,20 @@ CONSTANT_TORQUE = Quantity(
 TORQUE_OFFSET = Quantity("torque_offset", "N m", Info("T_0", "zero error of the torque sensor, mean of the log"))
 TORQUE_DRIFT = Quantity("torque_drift", "N m", Info("T_1", "drift of the torque sensor over the log"))
 #: Half waves over the log, for a zero that wanders: sensors and seals warm up.
-WANDERING = (2, 3, 4)
+WANDER_HALF_WAVES = (2, 3, 4)
 TORQUE_WANDER = {
     waves: Quantity(f"torque_wander_{waves}", "N m", Info(f"T_{waves}", f"{waves} half waves of the zero over the log"))
-    for waves in WANDERING
+    for waves in WANDER_HALF_WAVES
 }
 #: A zero is taken to wander by so many times the scatter of the log, not much more.
-USUAL_WANDER = 3.0
-#: A number whose scale moves all torques together by less than so many scatters is asleep; where else it is sought.
-ASLEEP, ELSEWHERE = 1.0, (3.0, 10.0, 1 / 3, 0.1)
+WANDER_DEVIATION = 3.0
+#: The fit is insensitive to a parameter whose scale moves all torques together by less than this many scatters: it is
+#: then started again from these multiples of its start.
+INSENSITIVE, RESTART_FACTORS = 1.0, (3.0, 10.0, 1 / 3, 0.1)
 #: A drift of one direction is fitted if the numbers leave this share of it unexplained.
-NEWS = 0.8
+MINIMUM_INDEPENDENT_SHARE = 0.8
 #: Fewer rows tell no drift, and fewer than these no wandering.
-FEWEST_TO_DRIFT, FEWEST_TO_WANDER = 20, 60
+MINIMUM_ROWS_FOR_DRIFT, MINIMUM_ROWS_FOR_WANDER = 20, 60
 
 
 @dataclasses.dataclass(frozen=True)
@@ -63,7 +64,7 @@ class Problem:
     """The parameters of a fit: numbers of the model first, then those that the torque is linear in."""
 
     response: Response
-    #: Of the numbers asked for; those of the sensor come behind.
+    #: Number of free parameters; those of the sensor follow them.
     free: int
     parameters: Sequence[Parameter]
     #: Factors of ideal torque and friction torque in what was measured, of shape (2, rows).
@@ -74,27 +75,27 @@ class Problem:
     @classmethod
     def of(
         cls,
-        subject: Subject,
+        subject: Configuration,
         response: Response,
         asked: Mapping[str, str],
         log: TorqueLog,
-        reading: Reading,
+        convention: TorqueConvention,
         scatter: float,
         torques: Vector,
         slopes: Vector,
         bounds: Mapping[str, tuple[float, float]],
     ) -> Problem:
         """``asked`` says which input a person means by each name; ``torques`` and ``slopes`` are what the
-        response says at the start, ``scatter`` is what the reading leaves.
+        response says at the start, ``scatter`` is what the torque convention leaves.
 
-        Raises :class:`~ballscrew.faults.InputError` for bounds that leave no room.
+        Raises :class:`~ballscrew.errors.InputError` for bounds that leave no room.
         """
         names = {full: name for name, full in asked.items()}
         parameters = [
             _parameter(names[full], subject.inputs[full][1], float(start))
             for full, start in zip(response.names, response.start, strict=True)
         ]
-        weights = reading.weights(log.axial_load, log.screw_speed)
+        weights = convention.weights(log.axial_load, log.screw_speed)
         usual = float(np.median(np.abs(torques[1]))) or 1.0
         columns: list[Vector] = []
         if CONSTANT_TORQUE.name in asked:
@@ -106,12 +107,12 @@ class Problem:
             # a zero error has the same sign in both directions, and friction has not
             parameters.append(Parameter(TORQUE_OFFSET.name, TORQUE_OFFSET, 0.0, usual))
             columns.append(np.ones(len(log)))
-        drift, wander = drift_of(log), USUAL_WANDER * scatter
-        if drift is not None and (both or _is_news(drift, np.einsum("tr,trn->rn", weights, slopes))):
+        drift, wander = drift_of(log), WANDER_DEVIATION * scatter
+        if drift is not None and (both or _is_independent(drift, np.einsum("tr,trn->rn", weights, slopes))):
             parameters.append(Parameter(TORQUE_DRIFT.name, TORQUE_DRIFT, 0.0, usual))
             # without a zero error the sensor was right at the beginning
             columns.append(drift if both else drift + 0.5)
-            if both and len(log) >= FEWEST_TO_WANDER:
+            if both and len(log) >= MINIMUM_ROWS_FOR_WANDER:
                 for waves, quantity in TORQUE_WANDER.items():
                     parameters.append(Parameter(quantity.name, quantity, 0.0, usual, deviation=wander))
                     columns.append(np.cos(waves * np.pi * (drift + 0.5)))
@@ -121,21 +122,21 @@ class Problem:
 
     @property
     def names(self) -> list[str]:
-        """The names of the numbers asked for, as they were asked for."""
+        """The names of the free parameters, as given."""
         return [parameter.name for parameter in self.parameters[: self.free]]
 
     @property
     def start(self) -> Vector:
-        """Where the fit starts."""
+        """The start values of the fit."""
         return np.array([parameter.start for parameter in self.parameters])
 
     @property
     def scale(self) -> Vector:
-        """What changes are measured by."""
+        """The scales of the parameters."""
         return np.array([parameter.scale for parameter in self.parameters])
 
     def scale_at(self, values: Vector) -> Vector:
-        """What changes are measured by where the fit came to rest."""
+        """The scales of the parameters at the solution."""
         numbers = len(self.response.names)
         pairs = zip(self.parameters, values, strict=True)
         # bounds that a person gives say what is wanted, not what matters
@@ -149,13 +150,13 @@ class Problem:
         return np.array(low), np.array(high)
 
     @property
-    def of_sensor(self) -> Vector:
+    def sensor_columns(self) -> Vector:
         """Derivatives by the errors of the sensor, of shape (rows, errors)."""
         return self.columns[:, self.free - len(self.response.names) :]
 
     @property
-    def knows_zero(self) -> bool:
-        """Whether a zero error of the sensor is told from friction."""
+    def has_torque_offset(self) -> bool:
+        """True where a zero error of the sensor is distinguished from friction."""
         return any(parameter.name == TORQUE_OFFSET.name for parameter in self.parameters)
 
     @property
@@ -164,7 +165,7 @@ class Problem:
         return {i: Normal(0.0, p.deviation) for i, p in enumerate(self.parameters) if p.deviation is not None}
 
     def quantity(self, name: str) -> Quantity:
-        """What a parameter is."""
+        """The quantity of a parameter."""
         return next(parameter.quantity for parameter in self.parameters if parameter.name == name)
 
     def torque(self, values: Vector) -> tuple[Vector, Vector]:
@@ -189,14 +190,16 @@ class Problem:
         return torque
 
 
-def awake(problem: Problem, measured: Vector, scatter: float, start: Vector, chosen: NDArray[np.bool_]) -> Vector:
-    """Where to go on from: elsewhere for a number that nothing depends on where it is, as on the clamp of friction."""
+def escape_insensitive_start(
+    problem: Problem, measured: Vector, scatter: float, start: Vector, chosen: NDArray[np.bool_]
+) -> Vector:
+    """A start from which the fit depends on every parameter: a flat one, as on the clamp of friction, is moved."""
     model, (low, high) = problem.on(chosen), problem.bounds
     torque, slopes = model(start)
-    asleep = np.linalg.norm(slopes, axis=0) * problem.scale < ASLEEP * scatter
-    for i in np.flatnonzero(asleep[: len(problem.response.names)]):
+    insensitive = np.linalg.norm(slopes, axis=0) * problem.scale < INSENSITIVE * scatter
+    for i in np.flatnonzero(insensitive[: len(problem.response.names)]):
         least = loss_of(torque - measured, scatter)
-        for factor in ELSEWHERE:
+        for factor in RESTART_FACTORS:
             tried = start.copy()
             tried[i] = np.clip(factor * start[i], low[i], high[i])
             off = loss_of(model(tried)[0] - measured, scatter)
@@ -208,15 +211,15 @@ def awake(problem: Problem, measured: Vector, scatter: float, start: Vector, cho
 def drift_of(log: TorqueLog) -> Vector | None:
     """A line over the time of a log, or else over its rows, which come one after the other anyway."""
     time = np.asarray(log.line if log.time is None else log.time, dtype=float)
-    return None if len(log) < FEWEST_TO_DRIFT or np.ptp(time) == 0 else (time - time.min()) / np.ptp(time) - 0.5
+    return None if len(log) < MINIMUM_ROWS_FOR_DRIFT or np.ptp(time) == 0 else (time - time.min()) / np.ptp(time) - 0.5
 
 
-def _is_news(drift: Vector, slopes: Vector) -> bool:
-    """Whether a drift is something else than what the numbers do: a log from slow to fast cannot tell the two."""
+def _is_independent(drift: Vector, slopes: Vector) -> bool:
+    """Test whether a drift is independent of the effects of the parameters, unlike in a log run from slow to fast."""
     columns = np.hstack([np.ones((drift.size, 1)), slopes])
     columns = columns / np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
     rest = drift - columns @ np.linalg.lstsq(columns, drift, rcond=None)[0]
-    return float(rest @ rest) > NEWS * float(drift @ drift)
+    return float(rest @ rest) > MINIMUM_INDEPENDENT_SHARE * float(drift @ drift)
 
 
 def _parameter(name: str, quantity: Quantity, start: float) -> Parameter:
@@ -246,7 +249,7 @@ def _scale(low: float, high: float, value: float, otherwise: float) -> float:
 
 
 def _bounded(parameter: Parameter, bounds: Mapping[str, tuple[float, float]]) -> Parameter:
-    """A parameter with the bounds asked for, within its own."""
+    """A parameter with the given bounds, within its own."""
     if parameter.name not in bounds:
         return parameter
     low, high = max(bounds[parameter.name][0], parameter.low), min(bounds[parameter.name][1], parameter.high)

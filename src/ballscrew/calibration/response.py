@@ -9,22 +9,27 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ballscrew.analyses.derivatives import slopes_of
-from ballscrew.analyses.engines import Engine
-from ballscrew.analyses.evaluation import Evaluation
-from ballscrew.analyses.outputs import OPERATION
-from ballscrew.analyses.plan import Subject
 from ballscrew.components.materials import TEMPERATURE
-from ballscrew.faults import Fault, InputError, nearest, raise_if_any
+from ballscrew.errors import (
+    Fault,
+    InputError,
+    nearest,
+    raise_if_any,
+)
+from ballscrew.evaluation.derivatives import slopes_of
+from ballscrew.evaluation.engines import Engine
+from ballscrew.evaluation.evaluation import Evaluation
+from ballscrew.evaluation.outputs import OPERATION
+from ballscrew.evaluation.plan import Configuration
 
 #: The torques that every reading of a log is made of, in this order.
 TORQUES = ("ideal_torque", "screw_torque")
 
 
-def resolved(subject: Subject, name: str, section: str = "fit") -> str:
-    """The input that a person means: its name, that of a coefficient without its law, or either with its section.
+def resolve_input(subject: Configuration, name: str, section: str = "fit") -> str:
+    """The input of that name: its own, that of a coefficient without its law, or either with its section.
 
-    Raises :class:`~ballscrew.faults.InputError` for what no input or more than one is called.
+    Raises :class:`~ballscrew.errors.InputError` for what no input or more than one is called.
     """
     known = subject.inputs
     bare = name.removeprefix("model.").removeprefix("screw.").removeprefix("lubricant.")
@@ -40,7 +45,7 @@ def resolved(subject: Subject, name: str, section: str = "fit") -> str:
     return found[0]
 
 
-def start_of(subject: Subject, name: str) -> float:
+def initial_value(subject: Configuration, name: str) -> float:
     """The value that a number has before it is fitted."""
     value = subject.value_of(name)
     if value is None and name == "ball_to_ball_force":
@@ -66,7 +71,7 @@ class Response:
     @classmethod
     def of(
         cls,
-        subject: Subject,
+        subject: Configuration,
         names: Sequence[str],
         points: Mapping[str, NDArray[np.float64]],
         *,
@@ -75,13 +80,13 @@ class Response:
     ) -> Response:
         """``points`` are the magnitudes of load and speed, and perhaps the temperature, all of one length.
 
-        ``times`` says how often the whole will be evaluated. Raises :class:`~ballscrew.faults.InputError` for
+        ``times`` says how often the whole will be evaluated. Raises :class:`~ballscrew.errors.InputError` for
         a law that cannot be recorded, and for values that are refused.
         """
         if subject.nut is not None:
             remedy = "leave out [nut] and what belongs to it: its balls are fitted as those of a single nut"
             raise_if_any([Fault("fit", "knows no whole nuts", "", remedy)])
-        start = np.array([start_of(subject, name) for name in names])
+        start = np.array([initial_value(subject, name) for name in names])
         rows = {name: xr.DataArray(values, dims="row") for name, values in points.items()}
         held = dict(zip(names, start.tolist(), strict=True))
         plan = slopes_of(subject, TORQUES, list(names), {**rows, **held})

@@ -22,30 +22,30 @@ Vector = NDArray[np.float64]
 Loss = Callable[[Vector], tuple[Vector, Vector, Vector]]
 
 #: Where the first loss bends and where the second ends, in units of the scatter.
-BEND, END = 1.35, 4.685
+PSEUDO_HUBER_SCALE, BIWEIGHT_CUTOFF = 1.35, 4.685
 #: From the median of absolute residuals to the standard deviation of normal noise.
-MEDIAN_TO_DEVIATION = 1.4826
+MAD_TO_STANDARD_DEVIATION = 1.4826
 #: How often the scatter is found anew, and when it has settled.
-ROUNDS, SETTLED = 20, 5e-3
+MAXIMUM_ROUNDS, SCATTER_TOLERANCE = 20, 5e-3
 #: The scatter is looked at over so many parts, each of so many rows; with fewer it is the same everywhere.
-FEWEST_PARTS, MOST_PARTS, ROWS_OF_PART = 3, 8, 15
-_TURNS = 5
+MINIMUM_BINS, MAXIMUM_BINS, ROWS_PER_BIN = 3, 8, 15
+_REWEIGHTINGS = 5
 #: No scatter is smaller than this share of the torques themselves: sums of floats are not exact.
-LEAST_SCATTER = 1e-9
+MINIMUM_SCATTER_SHARE = 1e-9
 #: Rows further apart than this count as independent, and fewer rows than these tell nothing of each other.
-LONGEST_MEMORY, FEWEST_TO_REMEMBER = 1000, 20
+MAXIMUM_LAG, MINIMUM_ROWS = 1000, 20
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Prior:
-    """What is known of the parameters beforehand: residuals in standard deviations, and their derivatives."""
+    """Prior knowledge of the parameters: residuals in standard deviations, and their derivatives."""
 
     residuals: Callable[[Vector], Vector]
     slopes: Callable[[Vector], Vector]
 
 
 class Noise(NamedTuple):
-    """How readings scatter about a torque M: ``√(floor² + (share · M)²)``, in N m."""
+    """Standard deviation of readings about a torque M: ``√(floor² + (share · M)²)``, in N m."""
 
     floor: float
     share: float
@@ -57,7 +57,7 @@ class Noise(NamedTuple):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Solution:
-    """Where the fit came to rest: parameters, torques, residuals (model − measured), derivatives, and the noise."""
+    """The solution of a fit: parameters, torques, residuals (model − measured), derivatives, and the noise."""
 
     values: Vector
     torques: Vector
@@ -74,32 +74,32 @@ class Solution:
     @property
     def outlying(self) -> NDArray[np.bool_]:
         """The rows that count nothing."""
-        return np.abs(self.residuals) > END * self.scatter
+        return np.abs(self.residuals) > BIWEIGHT_CUTOFF * self.scatter
 
     @property
-    def pull(self) -> Vector:
+    def influence(self) -> Vector:
         """Half the derivative of the biweight by each residual in units of the scatter: ψ."""
         r = self.residuals / self.scatter
-        return np.where(self.outlying, 0.0, r * (1 - (r / END) ** 2) ** 2)
+        return np.where(self.outlying, 0.0, r * (1 - (r / BIWEIGHT_CUTOFF) ** 2) ** 2)
 
     @property
     def curvature(self) -> float:
         """The mean of the derivative of ψ over the rows that count."""
-        r2 = ((self.residuals / self.scatter / END) ** 2)[~self.outlying]
+        r2 = ((self.residuals / self.scatter / BIWEIGHT_CUTOFF) ** 2)[~self.outlying]
         # so many rows in the bend that the mean is near zero would be no fit
         return max(float(np.mean((1 - r2) * (1 - 5 * r2))), 0.1) if r2.size else 1.0
 
 
 def scatter_of(residuals: Vector, torques: Vector) -> float:
     """The scatter of residuals; see the module."""
-    return max(MEDIAN_TO_DEVIATION * float(np.median(np.abs(residuals))), least_scatter(torques))
+    return max(MAD_TO_STANDARD_DEVIATION * float(np.median(np.abs(residuals))), minimum_scatter(torques))
 
 
 def noise_of(residuals: Vector, torques: Vector) -> Noise:
     """The noise of residuals about torques, from the scatter over parts of the rows in the order of their size."""
-    parts = min(MOST_PARTS, residuals.size // ROWS_OF_PART)
-    least = least_scatter(torques)
-    if parts < FEWEST_PARTS:
+    parts = min(MAXIMUM_BINS, residuals.size // ROWS_PER_BIN)
+    least = minimum_scatter(torques)
+    if parts < MINIMUM_BINS:
         return Noise(scatter_of(residuals, torques), 0.0)
     chosen = np.array_split(np.argsort(np.abs(torques), kind="stable"), parts)
     y = np.array([scatter_of(residuals[part], torques) ** 2 for part in chosen])
@@ -109,7 +109,7 @@ def noise_of(residuals: Vector, torques: Vector) -> Noise:
         return Noise(scatter_of(residuals, torques), 0.0)
     y, x = np.asarray(y / unit_y), np.asarray(x / unit_x)
     floor, share = _line_through(x, y, np.ones(parts))
-    for _ in range(_TURNS):
+    for _ in range(_REWEIGHTINGS):
         expected = floor + share * x
         # squares of scatters are known to a share of what they are, not of what they came out as
         floor, share = _line_through(x, y, 1 / np.maximum(expected, 1e-3) ** 2)
@@ -128,9 +128,9 @@ def _line_through(x: Vector, y: Vector, weights: Vector) -> tuple[float, float]:
     return floor, share
 
 
-def least_scatter(torques: Vector) -> float:
-    """What the scatter of such torques is at least."""
-    return max(LEAST_SCATTER * float(np.max(np.abs(torques), initial=0.0)), float(np.finfo(float).tiny))
+def minimum_scatter(torques: Vector) -> float:
+    """The least scatter of such torques."""
+    return max(MINIMUM_SCATTER_SHARE * float(np.max(np.abs(torques), initial=0.0)), float(np.finfo(float).tiny))
 
 
 def solve(
@@ -144,9 +144,9 @@ def solve(
 ) -> Solution:
     """Fit ``model(values) -> (torques, derivatives)`` to what was measured.
 
-    Scatter and parameters are found in turn, each fit from where the last one ended. ``done`` is told after each.
+    Scatter and parameters are found in turn, each fit from where the last one ended. ``done`` is called after each.
     """
-    known = _Remembered(model)
+    known = _CachedModel(model)
 
     def fitted(values: Vector, scatter: Vector, loss: Callable[[Vector], Vector]) -> tuple[Vector, bool]:
         from scipy.optimize import least_squares  # 0.2 s: for those only who fit
@@ -167,18 +167,18 @@ def solve(
     # far from the solution, misses are no noise that grows with the torque
     noise = Noise(scatter_of(known(values)[0] - measured, measured), 0.0)
     scatter = noise.of(measured)
-    for turn in range(ROUNDS):
-        values, _ = fitted(values, scatter, _loss(line, measured.size))
+    for turn in range(MAXIMUM_ROUNDS):
+        values, _ = fitted(values, scatter, _loss(pseudo_huber, measured.size))
         torques = known(values)[0]
         noise = noise_of(torques - measured, torques)
         before, scatter = scatter, noise.of(torques)
         if done is not None:
-            done(turn + 1, ROUNDS + 1)
-        if np.max(np.abs(scatter - before) / before) <= SETTLED:
+            done(turn + 1, MAXIMUM_ROUNDS + 1)
+        if np.max(np.abs(scatter - before) / before) <= SCATTER_TOLERANCE:
             break
     values, converged = fitted(np.clip(values, *_inside(bounds)), scatter, _loss(biweight, measured.size))
     if done is not None:
-        done(ROUNDS + 1, ROUNDS + 1)
+        done(MAXIMUM_ROUNDS + 1, MAXIMUM_ROUNDS + 1)
     torques, derivatives = known(values)
     return Solution(values, torques, torques - measured, derivatives, noise, converged)
 
@@ -188,14 +188,14 @@ def loss_of(residuals: Vector, scatter: Vector | float) -> float:
     return float(np.sum(biweight((residuals / scatter) ** 2)[0]))
 
 
-def memory(psi: Vector) -> int:
-    """How many rows on residuals are still alike: twice the lag of the first correlation that is lost in the noise."""
+def autocorrelation_lag(psi: Vector) -> int:
+    """Bandwidth of the autocorrelation of residuals: twice the lag before the first insignificant correlation."""
     rows = psi.size
     centred = psi - psi.mean()
     power = float(centred @ centred)
-    if power == 0 or rows < FEWEST_TO_REMEMBER:
+    if power == 0 or rows < MINIMUM_ROWS:
         return 0
-    longest = min(rows // 10, LONGEST_MEMORY)
+    longest = min(rows // 10, MAXIMUM_LAG)
     lost = 2 / np.sqrt(rows)
     for lag in range(1, longest + 1):
         if float(centred[lag:] @ centred[:-lag]) / power < lost:
@@ -203,7 +203,7 @@ def memory(psi: Vector) -> int:
     return longest
 
 
-class _Remembered:
+class _CachedModel:
     """A model that remembers its last values: the solver asks for torques and derivatives one after the other."""
 
     def __init__(self, model: Callable[[Vector], tuple[Vector, Vector]]) -> None:
@@ -226,16 +226,16 @@ def _inside(bounds: tuple[Vector, Vector]) -> tuple[Vector, Vector]:
     return low + 1e-9 * room, high - 1e-9 * room
 
 
-def line(z: Vector) -> tuple[Vector, Vector, Vector]:
+def pseudo_huber(z: Vector) -> tuple[Vector, Vector, Vector]:
     """The first loss of squared residuals, with its two derivatives."""
-    root = np.sqrt(1 + z / BEND**2)
-    return 2 * BEND**2 * (root - 1), 1 / root, -0.5 / (BEND**2 * root**3)
+    root = np.sqrt(1 + z / PSEUDO_HUBER_SCALE**2)
+    return 2 * PSEUDO_HUBER_SCALE**2 * (root - 1), 1 / root, -0.5 / (PSEUDO_HUBER_SCALE**2 * root**3)
 
 
 def biweight(z: Vector) -> tuple[Vector, Vector, Vector]:
     """Tukey's biweight of squared residuals, with its two derivatives."""
-    rest = np.maximum(1 - z / END**2, 0.0)
-    return END**2 / 3 * (1 - rest**3), rest**2, -2 / END**2 * rest
+    rest = np.maximum(1 - z / BIWEIGHT_CUTOFF**2, 0.0)
+    return BIWEIGHT_CUTOFF**2 / 3 * (1 - rest**3), rest**2, -2 / BIWEIGHT_CUTOFF**2 * rest
 
 
 def _loss(of_rows: Loss, rows: int) -> Callable[[Vector], Vector]:

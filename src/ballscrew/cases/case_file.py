@@ -1,7 +1,7 @@
 """Case files: TOML with units in, checked parts out.
 
 Every fault of a file is found before anything is computed, and each is one line in the words of
-:mod:`ballscrew.faults`.
+:mod:`ballscrew.errors`.
 """
 
 from __future__ import annotations
@@ -13,78 +13,46 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ballscrew.analyses.distributions import Distribution
-from ballscrew.analyses.nut_parts import NutParts
-from ballscrew.calibrations import Calibration, calibrated, calibration
-from ballscrew.components.catalogue import CatalogueRow
-from ballscrew.components.installation import Installation, Limits
-from ballscrew.components.laws import ProportionalBallForce
-from ballscrew.components.materials import Lubricant, Material
-from ballscrew.components.screw import MATERIALS, BallScrew, Operation
-from ballscrew.faults import Fault, InputError, nearest, raise_if_any
-from ballscrew.interfaces import nut_tables, uncertain, units
-from ballscrew.interfaces.nuts import ENDS, LISTED, kind_of
-from ballscrew.interfaces.schema import (
+from ballscrew import units
+from ballscrew.cases import nut_tables, uncertain_inputs
+from ballscrew.cases.case import USUAL_LIMITS
+from ballscrew.cases.case import Case as Case
+from ballscrew.cases.nut_kinds import ENDS, LISTED, kind_of
+from ballscrew.cases.provenance import references as references
+from ballscrew.cases.schema import (
     DEFAULT_MODEL,
     LAWS,
     MODELS,
     NUT_TABLES,
-    coefficients_of,
     law_of,
     name_of_law,
-    validated,
 )
-from ballscrew.interfaces.units import in_people_units
-from ballscrew.model import FrictionModel
+from ballscrew.cases.sections import Sections, validated_sections
+from ballscrew.components.catalogue import CatalogueRow
+from ballscrew.components.installation import Installation
+from ballscrew.components.materials import Lubricant, Material
+from ballscrew.components.screw import MATERIALS, BallScrew, Operation
+from ballscrew.components.traits import traits_of
+from ballscrew.errors import Fault, InputError, closest, nearest, raise_if_any
+from ballscrew.friction.calibrations import calibrated, calibration
+from ballscrew.friction.law_names import coefficients
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.nut_parts import NutParts
 from ballscrew.quantities import fields_of
-from ballscrew.references import citations_of, keys_in
-from ballscrew.solvers.pure_rolling import curvature_slip
+from ballscrew.units import in_display_units
 
 _NEEDED = ("screw", "lubricant", "operation")
 _SECTIONS = (*_NEEDED, *NUT_TABLES, "model", "sweep", "calibration")
 _START = "start from examples/olaru2005.toml"
-_USUAL_LIMITS = Limits()
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class Case:
-    """What a case file says: a model, a screw, a lubricant, an operating point, perhaps a sweep."""
-
-    model: FrictionModel
-    screw: BallScrew
-    lubricant: Lubricant
-    operation: Operation
-    sweep: Mapping[str, str]
-    #: Grade and temperature the oil was made from, where it was.
-    oil: Mapping[str, Any]
-    #: The catalogue row the screw was made from, where it was.
-    row: CatalogueRow | None = None
-    #: Load ratings and root diameter, where a catalogue or the case lists them.
-    listed: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
-    #: The nut with its preload, bodies and losses; without one the screw is only its loaded balls.
-    parts: NutParts | None = None
-    installation: Installation | None = None
-    limits: Limits = _USUAL_LIMITS
-    #: In words, what was derived from other numbers.
-    notes: Sequence[str] = ()
-    #: Distributions of inputs that the file gives, in SI, named as sweeps name inputs; the rest of the case has
-    #: their central values. With what is usual for the others: :func:`~ballscrew.interfaces.uncertain.all_of`.
-    uncertain: Mapping[str, Distribution] = dataclasses.field(default_factory=dict[str, Distribution])
-    #: Inputs that the file says are known exactly (± 0).
-    exact: frozenset[str] = frozenset()
-    #: The named calibration that two numbers of the model are from.
-    calibration: Calibration | None = None
-    #: What a fit left beside the numbers it found (``[calibration]``), as it is written.
-    fit: Mapping[str, Any] = dataclasses.field(default_factory=dict[str, Any])
-
-
-def load(path: Path, settings: Sequence[str] = (), model: str | None = None) -> Case:
+def load(path: Path, settings: Sequence[str] = (), model: str | None = None, *, allow_code: bool = False) -> Case:
     """The case of a file, with settings from the command line. Raises ``InputError`` with all faults."""
-    return build(override(read(path), settings), model, path.parent)
+    return build(override(read(path), settings), model, path.parent, allow_code=allow_code)
 
 
 def read(path: Path) -> dict[str, Any]:
-    """The tables of a TOML file. Raises :class:`~ballscrew.faults.InputError` if it is none."""
+    """The tables of a TOML file. Raises :class:`~ballscrew.errors.InputError` if it is none."""
     where = str(path)
     try:
         text = path.read_bytes().decode("utf-8-sig")
@@ -154,36 +122,41 @@ def build(
     model: str | None = None,
     folder: Path = Path(),
     rows: Mapping[str, CatalogueRow] | None = None,
+    *,
+    allow_code: bool = False,
 ) -> Case:
     """The case that tables describe. Raises ``InputError`` with all faults found.
 
-    A catalogue row is one of ``rows``, or of the file in ``folder`` that the case names, or of those shipped.
+    A catalogue row is one of ``rows``, or of the file in ``folder`` that the case names, or of those shipped. Laws
+    that it names as ``module:name`` are imported, from ``folder`` too, where ``allow_code`` says so.
     """
-    unknown = {name: nearest(name, _SECTIONS) for name in tables if name not in _SECTIONS}
-    faults = [Fault(name, "unknown section", "", guess) for name, guess in unknown.items()]
+    unknown = [name for name in tables if name not in _SECTIONS]
+    faults = [Fault(name, "unknown section", "", nearest(name, _SECTIONS)) for name in unknown]
+    misspelt = {closest(name, _SECTIONS) for name in unknown}
     faults += [
         Fault(name, "missing section", "", f"add a table [{name}]")
         for name in _NEEDED
-        if name not in tables and f'did you mean "{name}"?' not in unknown.values()
+        if name not in tables and name not in misspelt
     ]
-    made = _screw(tables["screw"], folder, rows, faults) if "screw" in tables else _NO_SCREW
-    lubricant, oil = _lubricant(tables["lubricant"], faults) if "lubricant" in tables else (None, {})
-    operation = _operation(tables["operation"], faults) if "operation" in tables else None
-    friction_model = _model(tables.get("model", {}), model, faults)
+    sections = validated_sections(tables)
+    made = _screw(sections, folder, rows, faults) if "screw" in sections else _NO_SCREW
+    lubricant, oil = _lubricant(sections, faults) if "lubricant" in sections else (None, {})
+    operation = _operation(sections, faults) if "operation" in sections else None
+    friction_model = _model(sections, model, faults, folder if allow_code else None)
     sweep = _sweep(tables.get("sweep", {}), faults)
     fit = tables.get("calibration", {})
     if not isinstance(fit, dict):
         faults.append(Fault("calibration", "must be a table", str(fit), "leave it as ballscrew fit wrote it"))
-    parts, notes = nut_tables.nut_parts(tables, *made, faults)
-    mounted = nut_tables.installation(tables["installation"], faults) if "installation" in tables else None
-    limits = nut_tables.limits(tables["limits"], faults) if "limits" in tables else _USUAL_LIMITS
+    parts, notes = nut_tables.nut_parts(sections, *made, faults)
+    mounted = nut_tables.installation(sections, faults) if "installation" in sections else None
+    limits = nut_tables.limits(sections, faults) if "limits" in sections else USUAL_LIMITS
     screw = made.screw
     if faults or screw is None or lubricant is None or operation is None or friction_model is None:
         raise InputError(*faults)
     calibrated_by = tables.get("model", {}).get("calibration")
     return Case(
         friction_model, screw, lubricant, operation, sweep, oil, made.row, made.listed, parts, mounted, limits, notes,
-        *uncertain.written_in(tables, friction_model, screw, lubricant),
+        *uncertain_inputs.parse_distributions(tables, friction_model, screw, lubricant),
         None if calibrated_by is None else calibration(calibrated_by),
         fit,
     )  # fmt: skip
@@ -200,10 +173,12 @@ class _MadeScrew(NamedTuple):
 _NO_SCREW = _MadeScrew(None, None, {})
 
 
-def _screw(table: Any, folder: Path, rows: Mapping[str, CatalogueRow] | None, faults: list[Fault]) -> _MadeScrew:
+def _screw(
+    sections: Sections, folder: Path, rows: Mapping[str, CatalogueRow] | None, faults: list[Fault]
+) -> _MadeScrew:
     """The screw of a table, or of a catalogue row with what the table changes."""
     before = len(faults)
-    values = validated("screw", table, faults)
+    table, values = sections.tables["screw"], sections.values_of("screw", faults)
     row = nut_tables.row_of(table, folder, rows, faults) if isinstance(table, dict) else None
     if len(faults) > before:
         return _NO_SCREW
@@ -222,15 +197,15 @@ def _screw(table: Any, folder: Path, rows: Mapping[str, CatalogueRow] | None, fa
             written = table.get(quantity.name)
             if written is None and row is not None:
                 written = units.shown(getattr(row, quantity.name), quantity)
-            faults.append(in_people_units(fault, quantity, str(written)))
+            faults.append(in_display_units(fault, quantity, str(written)))
         return _NO_SCREW
     return _MadeScrew(screw, row, {name: value for name, value in listed.items() if value is not None})
 
 
-def _lubricant(table: Any, faults: list[Fault]) -> tuple[Lubricant | None, Mapping[str, Any]]:
+def _lubricant(sections: Sections, faults: list[Fault]) -> tuple[Lubricant | None, Mapping[str, Any]]:
     """An oil from its viscosity, or from its grade and temperature, and those two."""
     before = len(faults)
-    values = validated("lubricant", table, faults)
+    table, values = sections.tables["lubricant"], sections.values_of("lubricant", faults)
     if isinstance(table, dict):
         if "grade" in table and "viscosity" in table:
             given = f"{table['viscosity']} and {table['grade']}"
@@ -254,28 +229,28 @@ def _lubricant(table: Any, faults: list[Fault]) -> tuple[Lubricant | None, Mappi
     return dataclasses.replace(oil, **values), made_from
 
 
-def _operation(table: Any, faults: list[Fault]) -> Operation | None:
+def _operation(sections: Sections, faults: list[Fault]) -> Operation | None:
     before = len(faults)
-    values = validated("operation", table, faults)
+    values = sections.values_of("operation", faults)
     return Operation(**values) if len(faults) == before else None
 
 
-def _model(table: Any, chosen: str | None, faults: list[Fault]) -> FrictionModel | None:
+def _model(sections: Sections, chosen: str | None, faults: list[Fault], code: Path | None) -> FrictionModel | None:
     """A preset with the fields of the table put in; ``chosen`` on the command line wins over its name."""
     before = len(faults)
-    values = validated("model", table, faults)
+    table, values = sections.tables.get("model", {}), sections.values_of("model", faults)
     named = table.get("name", DEFAULT_MODEL) if isinstance(table, dict) else DEFAULT_MODEL
     name = named if chosen is None else chosen
     if isinstance(name, str) and name not in MODELS:
         faults.append(Fault("model.name", "unknown model", name, nearest(name, MODELS)))
     preset = MODELS.get(name) if isinstance(name, str) else None
-    changes = _laws(table, preset or MODELS[DEFAULT_MODEL], faults) if isinstance(table, dict) else {}
-    if isinstance(changes.get("ball_force"), ProportionalBallForce) and "ball_to_ball_force" in table:
-        remedy = 'leave it out and set ball_force.share_of_load, or write ball_force = "imposed"'
-        given = str(table["ball_to_ball_force"])
-        faults.append(
-            Fault("model.ball_to_ball_force", 'does not count with ball_force = "proportional"', given, remedy)
-        )
+    changes = _laws(table, preset or MODELS[DEFAULT_MODEL], faults, code) if isinstance(table, dict) else {}
+    force = changes.get("ball_force")
+    if not traits_of(force).uses_imposed_force and "ball_to_ball_force" in table:
+        problem = f'does not count with ball_force = "{name_of_law("ball_force", force)}"'
+        instead = [f"set ball_force.{name}" for name in coefficients(force)]
+        remedy = f'{" and ".join(["leave it out", *instead])}, or write ball_force = "imposed"'
+        faults.append(Fault("model.ball_to_ball_force", problem, str(table["ball_to_ball_force"]), remedy))
     if len(faults) > before or preset is None:
         return None
     numbers = {field: value for field, value in values.items() if field in fields_of(FrictionModel)}
@@ -297,16 +272,18 @@ def _calibrated(model: FrictionModel, table: Mapping[str, Any]) -> FrictionModel
     return calibrated(model, calibration(name))
 
 
-def _laws(table: Mapping[str, Any], preset: FrictionModel, faults: list[Fault]) -> dict[str, Any]:
+def _laws(table: Mapping[str, Any], preset: FrictionModel, faults: list[Fault], code: Path | None) -> dict[str, Any]:
     """The laws that a table puts into slots."""
     return {
-        slot: law_of(slot, written, getattr(preset, slot), faults) for slot, written in table.items() if slot in LAWS
+        slot: law_of(slot, written, getattr(preset, slot), faults, code)
+        for slot, written in table.items()
+        if slot in LAWS
     }
 
 
 def changed(model: FrictionModel, changes: Mapping[str, Any]) -> FrictionModel:
     """A model with other laws and numbers. The offset that the paper imposes goes with its slip law."""
-    if changes.get("slip", curvature_slip) is not curvature_slip:
+    if "slip" in changes and not traits_of(changes["slip"]).curvature_alone:
         changes = {"pure_rolling_offset": None, **changes}
     return dataclasses.replace(model, **changes)
 
@@ -336,7 +313,7 @@ def inputs(case: Case) -> dict[str, Any]:
         },
         **({} if case.parts is None else _inputs_of_nut(case.parts, case.screw)),
         **({} if case.installation is None else {"installation": _mounting(case.installation)}),
-        **({} if case.limits is _USUAL_LIMITS else {"limits": _numbers(case.limits)}),
+        **({} if case.limits is USUAL_LIMITS else {"limits": _numbers(case.limits)}),
     }
 
 
@@ -354,18 +331,12 @@ def _mounting(mounted: Installation) -> dict[str, Any]:
     return {**_numbers(mounted), "ends": next(name for name, known in ENDS.items() if known is mounted.ends)}
 
 
-def references(case: Case) -> list[str]:
-    """Keys of the sources of the model, and of the oil where it was made from a grade."""
-    of_oil = keys_in(Lubricant.from_grade.__doc__) if case.oil else ()
-    losses = {} if case.parts is None else case.parts.losses
-    of_nut = [key for law in losses.values() for key in keys_in(type(law).__doc__)]
-    return list(dict.fromkeys([*citations_of(case.model), *of_oil, *of_nut]))
-
-
 def _law(slot: str, law: Any) -> str | dict[str, Any]:
     """A law as a file names it: by name alone, or with its coefficients."""
     name = name_of_law(slot, law)
-    return {"law": name, **_numbers(law)} if coefficients_of(slot, name) else name
+    if not dataclasses.is_dataclass(law):
+        return name
+    return {"law": name, **{field.name: getattr(law, field.name) for field in dataclasses.fields(law)}}
 
 
 def _numbers(part: Any) -> dict[str, Any]:

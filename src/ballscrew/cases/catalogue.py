@@ -7,15 +7,16 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ballscrew import __version__
+from ballscrew import units
+from ballscrew._version import __version__
+from ballscrew.cases.nut_kinds import LISTED, NUTS, kind_in
 from ballscrew.components.catalogue import CONFORMITY_DOUBT, TURNS_WITHOUT_LOAD, CatalogueRow, catalogue
 from ballscrew.components.screw import BallScrew
-from ballscrew.faults import Fault, InputError, nearest, raise_if_any
-from ballscrew.interfaces import column_names, units
-from ballscrew.interfaces.headings import Column
-from ballscrew.interfaces.nuts import LISTED, NUTS, kind_in
-from ballscrew.interfaces.rows import Row, made, read
+from ballscrew.errors import Fault, InputError, closest, nearest, raise_if_any
 from ballscrew.quantities import Quantity, fields_of, quantities_of
+from ballscrew.tables import column_names
+from ballscrew.tables.headings import Column
+from ballscrew.tables.rows import Row, made, read
 
 _FIELDS = fields_of(CatalogueRow)
 _DERIVED = {name: quantity for name, quantity in quantities_of(CatalogueRow).items() if name not in _FIELDS}
@@ -96,8 +97,11 @@ def named(rows: Mapping[str, CatalogueRow], name: str, where: str = "", file: st
     if found is not None:
         return rows.get(name, found)
     containing = [f'"{known}"' for known in rows if name and name.casefold() in known.casefold()][:3]
-    remedy = f"did you mean {' or '.join(containing)}?" if containing else nearest(name, rows)
-    if not remedy.startswith("did"):
+    if containing:
+        remedy = f"did you mean {' or '.join(containing)}?"
+    elif closest(name, rows):
+        remedy = nearest(name, rows)
+    else:
         remedy = f'see "ballscrew catalogue list{"" if file is None else f" --rows {file}"}"'
     where = where or ("catalogue" if file is None else Path(file).name)
     raise InputError(Fault(where, "unknown row", name, remedy))

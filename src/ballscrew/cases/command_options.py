@@ -6,7 +6,7 @@ import dataclasses
 import re
 from collections.abc import Collection, Iterable, Mapping
 
-from ballscrew.faults import Fault
+from ballscrew.errors import Fault
 
 #: The options by the field that they set.
 OPTIONS: Mapping[str, str] = {

@@ -10,10 +10,11 @@ from typing import Annotated, Any
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, create_model
 from pydantic_core import PydanticCustomError
 
-from ballscrew.faults import Fault, fault_of
-from ballscrew.interfaces import distribution_text, units
-from ballscrew.interfaces.nuts import NUT_FIELDS, PERCENT, Share
+from ballscrew import units
+from ballscrew.cases.nut_kinds import NUT_FIELDS, PERCENT, Share
+from ballscrew.errors import Fault, fault_of
 from ballscrew.quantities import Quantity
+from ballscrew.uncertainty import uncertain_value
 
 #: What stands in the schema as an example: examples/feed_drive.toml, and what has no default.
 EXAMPLES: Mapping[str, str | float] = {
@@ -49,8 +50,8 @@ EXAMPLES: Mapping[str, str | float] = {
 }
 
 
-#: What the text of a distribution has and a plain number has not; :func:`~ballscrew.interfaces.distribution_text.read`
-#: says what it means.
+#: Marks of a distribution, which a plain number has not; :func:`~ballscrew.uncertainty.uncertain_value.parse_uncertain`
+#: reads it.
 _DISTRIBUTION = r"±|\+\s*/?\s*[-−–]|\("
 
 
@@ -59,7 +60,11 @@ def _si(raw: object, quantity: Quantity, may_vary: bool = False) -> float:
 
     Of a distribution, where one may stand, it is the central value.
     """
-    written = distribution_text.read(raw, quantity) if may_vary else distribution_text.refused(raw, quantity)
+    written = (
+        uncertain_value.parse_uncertain(raw, quantity)
+        if may_vary
+        else uncertain_value.refuse_distribution(raw, quantity)
+    )
     if isinstance(written, Fault):
         words = {"problem": written.problem, "given": written.given, "remedy": written.remedy}
         raise PydanticCustomError("fault", "{problem}", words)
@@ -68,7 +73,7 @@ def _si(raw: object, quantity: Quantity, may_vary: bool = False) -> float:
     value = units.parse("", raw, quantity)
     fault = value if isinstance(value, Fault) else fault_of("", quantity, value)
     if fault is not None:
-        fault = units.in_people_units(fault, quantity, fault.given if fault is value else str(raw))
+        fault = units.in_display_units(fault, quantity, fault.given if fault is value else str(raw))
         words = {"problem": fault.problem, "given": fault.given, "remedy": fault.remedy}
         raise PydanticCustomError("fault", "{problem}", words)
     assert isinstance(value, float)
@@ -98,7 +103,8 @@ def _example(quantity: Quantity, default: Any) -> str | float:
     written = example_of(quantity)
     if written is not None:
         return written
-    assert default is not None, quantity.name
+    if default is None:  # a coefficient of a law from outside, which has to be given
+        return 1.0 if quantity.unit == "1" else f"1 {quantity.shown_in}"
     number = units.from_si(default, quantity)
     return default if quantity.unit == "1" else f"{number:.6g} {quantity.shown_in}"
 

@@ -12,15 +12,17 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.analyses.calibrated import CalibratedModel, Estimate, normal_half_width
-from ballscrew.analyses.sampling import JointNormal
+from ballscrew import units
+from ballscrew.calibration.calibrated_model import CalibratedModel
+from ballscrew.calibration.fit_result import Estimate
+from ballscrew.cases import case_file
+from ballscrew.cases.case import Case
+from ballscrew.cases.provenance import of_case, references
 from ballscrew.components.materials import Lubricant
-from ballscrew.faults import Fault, InputError
-from ballscrew.interfaces import config, units
-from ballscrew.interfaces.config import Case
-from ballscrew.interfaces.files import whole
-from ballscrew.interfaces.fitting import provenance
+from ballscrew.errors import Fault, InputError
+from ballscrew.files import atomic_write
 from ballscrew.quantities import Quantity, fields_of
+from ballscrew.uncertainty.distributions import normal_half_width
 
 _HEAD = "A calibrated model, written by ballscrew fit. Numbers that are not identified have no error behind them."
 #: Digits of a fitted number: enough to give the same torques.
@@ -28,7 +30,7 @@ _DIGITS = 12
 
 
 def check(to: Path, case: Path) -> None:
-    """Raise :class:`~ballscrew.faults.InputError` if the name is that of no case file, or of the case itself."""
+    """Raise :class:`~ballscrew.errors.InputError` if the name is that of no case file, or of the case itself."""
     if to.resolve() == case.resolve():
         raise InputError(
             Fault("--to", "is the case itself", str(to), "choose another name: its comments would be lost")
@@ -47,7 +49,7 @@ def save(to: Path, tables: Mapping[str, Any], folder: Path, case: Case, found: C
         if file is not None:
             moved = os.path.relpath(folder / file, to.parent)
             text = text.replace(f'{key} = "{file}"', f'{key} = "{Path(moved).as_posix()}"')
-    with whole("--to", to) as path:
+    with atomic_write("--to", to) as path:
         path.write_text(f"# {_HEAD}\n\n{text}", encoding="utf-8")
 
 
@@ -63,7 +65,7 @@ def _with_numbers(tables: Mapping[str, Any], case: Case, found: CalibratedModel)
             made["lubricant"] = {k: v for k, v in made["lubricant"].items() if k not in ("grade", "temperature")}
             for name, quantity in fields_of(Lubricant).items():
                 made["lubricant"].setdefault(name, _number(getattr(case.lubricant, name), quantity))
-    return config.override(made, settings)
+    return case_file.override(made, settings)
 
 
 def _written(estimate: Estimate) -> str:
@@ -79,6 +81,13 @@ def _number(value: float, quantity: Quantity) -> str:
     return number if quantity.unit == "1" else f"{number} {quantity.shown_in}"
 
 
+def provenance_of(case: Case, found: CalibratedModel) -> dict[str, Any]:
+    """Origin of a calibration: version, model, log with its hash, settings, sources."""
+    name, digest = found.rows.log.source or ("", "")
+    of_log = {"log": name, "sha256": digest, "settings": found.settings}
+    return {**of_case(case), **of_log, "references": references(case)}
+
+
 def calibration_of(case: Case, found: CalibratedModel) -> dict[str, Any]:
     """What ``[calibration]`` says, in SI."""
     estimates = list(found.estimates.values())[: len(found.response.names)]
@@ -87,7 +96,7 @@ def calibration_of(case: Case, found: CalibratedModel) -> dict[str, Any]:
     covariance = found.uncertainty.covariance[: len(told), : len(told)][np.ix_(told, told)]
     constant = found.estimates.get("constant_torque")
     return {
-        **provenance(case, found),
+        **provenance_of(case, found),
         "numbers": names,
         "values": [estimate.value for estimate in estimates if estimate.identified],
         "covariance": covariance.tolist(),
@@ -97,27 +106,6 @@ def calibration_of(case: Case, found: CalibratedModel) -> dict[str, Any]:
         **({} if found.holdout_rms is None else {"holdout_rms": f"{found.holdout_rms:.6g} N m"}),
         "warnings": list(found.warnings),
     }
-
-
-def joint_of(table: Any, known: Mapping[str, Any], faults: list[Fault]) -> JointNormal | None:
-    """The correlated numbers of ``[calibration]``; what is wrong with it goes to the list of faults."""
-    try:
-        names = tuple(table["numbers"])
-        values, covariance = np.array(table["values"], dtype=float), np.array(table["covariance"], dtype=float)
-        covariance = covariance.reshape(len(names), len(names))
-        sound = values.shape == (len(names),) and np.isfinite(covariance).all() and np.isfinite(values).all()
-        if not sound or np.any(np.linalg.eigvalsh(covariance) < -1e-9 * np.abs(covariance).max(initial=0.0)):
-            raise ValueError
-    except (TypeError, KeyError, ValueError):
-        remedy = "leave the section as ballscrew fit wrote it, or leave it out"
-        faults.append(Fault("calibration", "is not as a fit writes it", "", remedy))
-        return None
-    unknown = [name for name in names if name not in known]
-    if unknown:
-        remedy = "fit again, or leave the section out"
-        faults.append(Fault("calibration.numbers", "the case has no such number", ", ".join(unknown), remedy))
-        return None
-    return JointNormal(names, values, covariance) if names else None
 
 
 def _plain(value: Any) -> Any:

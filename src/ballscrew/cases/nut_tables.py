@@ -1,4 +1,4 @@
-"""The tables of a case file on the nut and its surroundings: checked parts out, and words on what was derived."""
+"""Parts of the nut and its surroundings, built from the sections of a case, with notes on derived numbers."""
 
 from __future__ import annotations
 
@@ -7,19 +7,21 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ballscrew.analyses.checks import Ratings, ratings_of
-from ballscrew.analyses.nut_parts import NutParts, Scatter
+from ballscrew.cases import catalogue
+from ballscrew.cases.case import PreloadNote
+from ballscrew.cases.nut_kinds import ENDS, LOSSES, NUT_FIELDS, NUTS, Share
+from ballscrew.cases.schema import law_of
+from ballscrew.cases.sections import Sections
 from ballscrew.components.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow
 from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.nut import Nut, SingleNut
 from ballscrew.components.nut_losses import ParasiticLaw
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import geometry
-from ballscrew.faults import Fault, InputError, nearest
-from ballscrew.interfaces import catalogue, units
-from ballscrew.interfaces.nuts import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS, Share
-from ballscrew.interfaces.schema import law_of, validated
+from ballscrew.errors import Fault, InputError, nearest
+from ballscrew.friction.nut_parts import NutParts, Scatter
 from ballscrew.quantities import fields_of
+from ballscrew.sizing.checks import Ratings, ratings_of
 
 #: What a screw with a nut consists of besides its balls.
 _OF_NUT = ("nut", "bodies", "deviations", "losses")
@@ -80,27 +82,21 @@ def _dynamic_rating(screw: BallScrew, row: CatalogueRow | None, listed: Mapping[
     return ratings(screw, row).dynamic, "computed from the geometry (ISO 3408-5)"
 
 
-def _in_words(share: float, rating: float, source: str) -> str:
-    """``preload 5.047 kN: 7 % of the dynamic load rating 72.1 kN, as listed``."""
-    force, rated = (units.shown(value, LISTED["dynamic_load_rating"]) for value in (share * rating, rating))
-    return f"preload {force}: {100 * share:.4g} % of the dynamic load rating {rated}, {source}"
-
-
 def nut_parts(
-    tables: Mapping[str, Any],
+    sections: Sections,
     screw: BallScrew | None,
     row: CatalogueRow | None,
     listed: Mapping[str, float],
     faults: list[Fault],
-) -> tuple[NutParts | None, Sequence[str]]:
-    """The nut and what goes with it, and words on its preload; None where no table speaks of it."""
-    if not any(name in tables for name in _OF_NUT):
+) -> tuple[NutParts | None, Sequence[PreloadNote]]:
+    """The nut with its bodies, deviations and losses, and a note on its preload; None without such a section."""
+    if not any(name in sections for name in _OF_NUT):
         return None, ()
     before = len(faults)
-    nut, notes = _nut(tables["nut"], screw, row, listed, faults) if "nut" in tables else (SingleNut(), ())
-    bodies = validated("bodies", tables["bodies"], faults) if "bodies" in tables else None
-    scatter = validated("deviations", tables["deviations"], faults) if "deviations" in tables else None
-    losses = _losses(tables["losses"], faults) if "losses" in tables else {}
+    nut, notes = _nut(sections, screw, row, listed, faults) if "nut" in sections else (SingleNut(), ())
+    bodies = sections.values_of("bodies", faults) if "bodies" in sections else None
+    scatter = sections.values_of("deviations", faults) if "deviations" in sections else None
+    losses = _losses(sections, faults) if "losses" in sections else {}
     if len(faults) > before or nut is None:
         return None, ()
     parts = NutParts(nut=nut, bodies=bodies, scatter=None if scatter is None else Scatter(**scatter), losses=losses)
@@ -113,10 +109,14 @@ def nut_parts(
 
 
 def _nut(
-    table: Any, screw: BallScrew | None, row: CatalogueRow | None, listed: Mapping[str, float], faults: list[Fault]
-) -> tuple[Nut | None, Sequence[str]]:
+    sections: Sections,
+    screw: BallScrew | None,
+    row: CatalogueRow | None,
+    listed: Mapping[str, float],
+    faults: list[Fault],
+) -> tuple[Nut | None, Sequence[PreloadNote]]:
     before = len(faults)
-    values = validated("nut", table, faults)
+    table, values = sections.tables["nut"], sections.values_of("nut", faults)
     if len(faults) > before:
         return None, ()
     kind = values.pop("type", (row.nut or "single") if row is not None else None)
@@ -143,7 +143,7 @@ def _nut(
         given = str(table["preload"])
         faults.append(Fault("nut.preload", "is a share of a dynamic load rating that is not known", given, remedy))
         return None, ()
-    return NUTS[kind](**{**values, "preload": preload * rating}), (_in_words(preload, rating, source),)
+    return NUTS[kind](**{**values, "preload": preload * rating}), (PreloadNote(preload, rating, source),)
 
 
 def _misplaced(kind: str, table: Mapping[str, Any]) -> list[Fault]:
@@ -165,19 +165,22 @@ def _either(names: Any) -> str:
     return " or ".join(f'"{name}"' for name in names)
 
 
-def _losses(table: Any, faults: list[Fault]) -> dict[str, ParasiticLaw]:
+def _losses(sections: Sections, faults: list[Fault]) -> dict[str, ParasiticLaw]:
     """The laws of the table, by what they are of."""
     before = len(faults)
-    validated("losses", table, faults)
+    sections.values_of("losses", faults)
     if len(faults) > before:
         return {}
-    return {slot: law_of(slot, written, next(iter(LOSSES[slot].values()))(), faults) for slot, written in table.items()}
+    return {
+        slot: law_of(slot, written, next(iter(LOSSES[slot].values()))(), faults)
+        for slot, written in sections.tables["losses"].items()
+    }
 
 
-def installation(table: Any, faults: list[Fault]) -> Installation | None:
+def installation(sections: Sections, faults: list[Fault]) -> Installation | None:
     """How the screw is mounted."""
     before = len(faults)
-    values = validated("installation", table, faults)
+    values = sections.values_of("installation", faults)
     if len(faults) == before:
         if "unsupported_length" not in values:
             faults.append(Fault("installation.unsupported_length", "missing", "", 'add unsupported_length = "1 m"'))
@@ -189,8 +192,8 @@ def installation(table: Any, faults: list[Fault]) -> Installation | None:
     return Installation(**{**values, "ends": ENDS[values["ends"]]}) if len(faults) == before else None
 
 
-def limits(table: Any, faults: list[Fault]) -> Limits:
+def limits(sections: Sections, faults: list[Fault]) -> Limits:
     """The limits of the checks."""
     before = len(faults)
-    values = validated("limits", table, faults)
+    values = sections.values_of("limits", faults)
     return Limits(**values) if len(faults) == before else Limits()

@@ -9,76 +9,45 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-import re
 import reprlib
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema, create_model
 
-from ballscrew.analyses.nut_parts import Scatter
-from ballscrew.calibrations import calibrations
-from ballscrew.components import frame, laws, lubrication, mixed_friction
+from ballscrew.cases.fields import EXAMPLES as EXAMPLES
+from ballscrew.cases.fields import defaults_of, json_of, read_preload, section_of
+from ballscrew.cases.law_import import OUTSIDE, law_from_outside, with_plain_numbers
+from ballscrew.cases.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS
 from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.materials import TEMPERATURE, Lubricant, Material, grades
 from ballscrew.components.nut import Bodies, DoubleNut
+from ballscrew.components.outside_laws import name_of as outside_name
 from ballscrew.components.screw import MATERIALS, BallScrew, Operation
-from ballscrew.equations import film
-from ballscrew.faults import Fault, nearest
-from ballscrew.interfaces.fields import EXAMPLES as EXAMPLES
-from ballscrew.interfaces.fields import defaults_of, json_of, read_preload, section_of
-from ballscrew.interfaces.nuts import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS
-from ballscrew.model import FrictionModel, presets
+from ballscrew.errors import Fault, InputError, closest, nearest
+from ballscrew.friction.calibrations import calibrations
+from ballscrew.friction.law_names import LAWS as LAWS
+from ballscrew.friction.law_names import coefficients
+from ballscrew.friction.model import FrictionModel, presets
+from ballscrew.friction.nut_parts import Scatter
 from ballscrew.quantities import Quantity, fields_of
-from ballscrew.solvers.ellipse_slip import ellipse_slip
-from ballscrew.solvers.line_slip import line_slip
-from ballscrew.solvers.pure_rolling import curvature_slip
 
 MODELS = presets()
 DEFAULT_MODEL = "reference"
 
-#: The laws of each slot by name: functions, and classes where a law has coefficients.
-LAWS: Mapping[str, Mapping[str, Any]] = {
-    "frame": {"bearing": frame.bearing_frame, "helix": frame.helix_frame},
-    "hertz": {"houpert": laws.houpert_hertz, "exact": laws.exact_hertz, "brewe-hamrock": laws.brewe_hamrock_hertz},
-    "film": {
-        "hamrock-dowson": lubrication.HamrockDowson,
-        "hamrock-dowson-central": lubrication.hamrock_dowson_central,
-    },
-    "film_parameter": {"root-sum-square": film.film_parameter, "literal": film.literal_film_parameter},
-    "inlet": {"ideal": lubrication.ideal_inlet, "heated": lubrication.Inlet},
-    "friction": {
-        "zhou-hoeprich": mixed_friction.ZhouHoeprich,
-        "load-sharing": mixed_friction.LoadSharing,
-        "balan": mixed_friction.BalanSharing,
-        "greenwood-tripp": mixed_friction.GreenwoodTrippSharing,
-    },
-    "full_film": {
-        "none": None,
-        "eyring": mixed_friction.EyringTraction,
-        "limiting-shear": mixed_friction.LimitingShearTraction,
-    },
-    "rolling": {
-        "olaru": lubrication.olaru_rolling,
-        "biboulet-houpert": lubrication.biboulet_houpert_rolling,
-        "houpert": lubrication.houpert_rolling,
-        "aihara": lubrication.aihara_rolling,
-    },
-    "elastic_resistance": {"snare": laws.snare_resistance, "hysteresis": laws.Hysteresis},
-    "slip": {"curvature": curvature_slip, "line": line_slip, "ellipse": ellipse_slip},
-    "ball_chain": {"one-neighbour": laws.one_neighbour, "two-neighbours": laws.two_neighbours},
-    "ball_force": {"imposed": laws.imposed_ball_force, "proportional": laws.ProportionalBallForce},
-    "race_torques": {"printed": laws.printed_race_torques, "balanced": laws.balanced_race_torques},
-    "ideal_torque": {"printed": laws.printed_ideal_torque, "virtual-work": laws.virtual_work_torque},
-}
-#: Laws that only the paper as printed has: in another model they break a balance.
-PRINTED_FORMS = frozenset({("film_parameter", "literal"), ("race_torques", "printed"), ("ideal_torque", "printed")})
 _SLOTS = {**LAWS, **LOSSES}
 
 #: The tables on the nut and on how the screw is mounted; all may be left out.
 NUT_TABLES = ("nut", "bodies", "deviations", "losses", "installation", "limits")
 
-_MEANT = re.compile(r'did you mean "(\w+)"')
+
+#: A law from outside in the JSON Schema.
+_OUTSIDE = {
+    "type": "string",
+    "pattern": f"^{OUTSIDE.pattern}$",
+    "description": "a law of your own, module:name; only with --allow-code",
+}
 
 
 def coefficients_of(slot: str, name: str) -> Mapping[str, Quantity]:
@@ -88,8 +57,9 @@ def coefficients_of(slot: str, name: str) -> Mapping[str, Quantity]:
 
 
 def name_of_law(slot: str, law: Any) -> str:
-    """What a law is called in the case file."""
-    return next(name for name, known in _SLOTS[slot].items() if known is law or known is type(law))
+    """What a law is called in the case file: one from outside ``module:name``."""
+    named = (name for name, known in _SLOTS[slot].items() if known is law or known is type(law))
+    return next(named, None) or outside_name(law)
 
 
 @functools.cache
@@ -118,6 +88,7 @@ def _slot(slot: str) -> tuple[Any, Any]:
         "description": f"law of {_place(slot)}: its name, or a table with coefficients",
         "anyOf": [
             {"type": "string", "enum": list(_SLOTS[slot])},
+            *([_OUTSIDE] if slot in LAWS else []),
             *({"type": "object", "properties": table, "additionalProperties": False} for table in tables),
         ],
     }
@@ -225,11 +196,12 @@ def validated(section: str, table: Any, faults: list[Fault]) -> dict[str, Any]:
     return read_table(section, sections()["screw_of_row" if of_row else section], table, faults)
 
 
-def law_of(slot: str, written: Any, present: Any, faults: list[Fault]) -> Any:
+def law_of(slot: str, written: Any, present: Any, faults: list[Fault], folder: Path | None = None) -> Any:
     """The law that is written for a slot; what is wrong with it goes to the list of faults.
 
     A name stands for the law with its own coefficients. A table sets coefficients: of the law that it
-    names with ``law``, or else of the law at present in the slot.
+    names with ``law``, or else of the law at present in the slot. ``module:name`` is a law from outside, which may be
+    imported from a ``folder``, or not at all where there is none.
     """
     where = _place(slot)
     if not isinstance(written, str | dict):
@@ -240,6 +212,8 @@ def law_of(slot: str, written: Any, present: Any, faults: list[Fault]) -> Any:
     place = where if isinstance(written, str) else f"{where}.law"
     named = table.pop("law", None)
     name = name_of_law(slot, present) if named is None else named
+    if isinstance(name, str) and ":" in name and slot in LAWS:  # losses take no law from outside
+        return _from_outside(where, place, name, table, folder, faults)
     if not isinstance(name, str) or name not in _SLOTS[slot]:
         given = name if isinstance(name, str) else reprlib.repr(name)
         faults.append(Fault(place, "unknown law", given, nearest(given, _SLOTS[slot])))
@@ -252,14 +226,32 @@ def law_of(slot: str, written: Any, present: Any, faults: list[Fault]) -> Any:
     return dataclasses.replace(present, **values) if named is None else _SLOTS[slot][name](**values)
 
 
+def _from_outside(
+    where: str, place: str, written: str, table: Mapping[str, Any], folder: Path | None, faults: list[Fault]
+) -> Any:
+    """A law from outside, with the coefficients of a table where it is a dataclass."""
+    before = len(faults)
+    try:
+        found = law_from_outside(place, written, folder)
+        plain = with_plain_numbers(where, found, table, faults)
+        if len(faults) > before or not isinstance(found, type):
+            return found
+        known = coefficients(found)
+        section = section_of(found.__name__, known, found, required=False, uncertain=known)
+        values = read_table(where, section, {n: v for n, v in table.items() if n in known}, faults)
+        return found if len(faults) > before else found(**values, **plain)
+    except InputError as error:
+        faults += error.faults
+        return None
+
+
 def _no_coefficient(slot: str, name: str, field: str) -> Fault:
     known = coefficients_of(slot, name)
     elsewhere = [other for other in _SLOTS[slot] if field in coefficients_of(slot, other)]
-    guess = nearest(field, known) if known else ""
+    guess = nearest(field, known) if closest(field, known) else ""
+    remedy = f"{guess} " if guess else ""
     if elsewhere:
         remedy = f"it belongs to {slot}.law = {_either(elsewhere)}; "
-    else:
-        remedy = f"{guess} " if guess.startswith("did") else ""
     has = ", ".join(known) or "no coefficients"
     return Fault(f"{_place(slot)}.{field}", f'no coefficient of the law "{name}"', "", f"{remedy}{name} has {has}")
 
@@ -280,9 +272,7 @@ def read_table(where: str, model: type[BaseModel], table: Any, faults: list[Faul
     except ValidationError as error:
         found = [_fault(where, model, dict(problem)) for problem in error.errors(include_url=False)]
     # a misspelt key is one fault, not also a missing one
-    meant = {
-        fault.where.rpartition(".")[0] + "." + match[1] for fault in found if (match := _MEANT.match(fault.remedy))
-    }
+    meant = {f"{fault.where.rpartition('.')[0]}.{fault.meant}" for fault in found if fault.meant}
     if "screw.catalogue" in meant:
         meant |= {f"screw.{name}" for name in fields_of(BallScrew)}
     faults += [fault for fault in found if not (fault.problem == "missing" and fault.where in meant)]
@@ -307,7 +297,8 @@ def _fault(section: str, model: type[BaseModel], problem: dict[str, Any]) -> Fau
             slots = [slot for slot in LAWS if any(path[-1] in coefficients_of(slot, name) for name in LAWS[slot])]
             if where == f"model.{path[-1]}" and slots:
                 return Fault(where, "unknown key", "", f'did you mean "{slots[0]}.{path[-1]}"?')
-            return Fault(where, "unknown key", "", nearest(path[-1], _known(model, path[:-1])))
+            known = _known(model, path[:-1])
+            return Fault(where, "unknown key", "", nearest(path[-1], known), meant=closest(path[-1], known))
         case "model_type" | "dict_type" | "model_attributes_type":
             return Fault(where, "must be a table", given, f"write [{where}]")
         case "bool_type":

@@ -1,4 +1,4 @@
-"""What is uncertain of a case: what its file says, and for what is rarely known what is usual."""
+"""Uncertain inputs of a case: those that its file gives, and defaults for those rarely known."""
 
 from __future__ import annotations
 
@@ -7,20 +7,22 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from ballscrew.analyses.distributions import Distribution, Normal
-from ballscrew.analyses.known_uncertainties import usual_uncertainties
-from ballscrew.analyses.outputs import inputs_of
-from ballscrew.calibrations import PARAMETERS, Calibration
+import numpy as np
+
+from ballscrew.cases.case import Case
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew
-from ballscrew.faults import Fault, raise_if_any
-from ballscrew.interfaces.distribution_text import Written, in_words, read
-from ballscrew.model import FrictionModel
+from ballscrew.errors import Fault, raise_if_any
+from ballscrew.evaluation.outputs import inputs_of
+from ballscrew.friction.calibrations import PARAMETERS, Calibration
+from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import Quantity
+from ballscrew.uncertainty.default_uncertainties import default_distributions
+from ballscrew.uncertainty.distributions import Distribution, Normal
+from ballscrew.uncertainty.uncertain_value import UncertainValue, describe_distribution, parse_uncertain
 
 if TYPE_CHECKING:
-    from ballscrew.analyses.sampling import JointNormal
-    from ballscrew.interfaces.config import Case
+    from ballscrew.uncertainty.sampling import JointNormal
 
 #: The source of what stands in the case file.
 GIVEN = "given"
@@ -30,41 +32,41 @@ _SAME = 1e-9
 
 @dataclasses.dataclass(frozen=True)
 class Uncertain:
-    """An uncertain input: its distribution in SI, where that is from, and both in words."""
+    """An uncertain input: its distribution in SI, the source of that, and a description."""
 
     distribution: Distribution
     #: A key of the bibliography, "judgement", "given" or the name of a calibration.
     source: str
-    #: Whether the case file says so, and not this package.
+    #: Whether the case file gives it; otherwise it is a default of this package.
     given: bool
-    #: The distribution in the units people think in.
-    words: str
-    #: Why it is taken, where the package took it.
+    #: The distribution in display units.
+    description: str
+    #: The reason of a default.
     reason: str = ""
 
 
 def all_of(case: Case, only_given: bool = False) -> Mapping[str, Uncertain]:
-    """The uncertain inputs of a case, named as sweeps name inputs: those given, then the usual ones of all others.
+    """The uncertain inputs of a case, named as in sweeps: those given, then the defaults of all others.
 
-    ``only_given`` leaves the usual ones out. Of a case that a fit wrote they are left out for what the fit held.
-    Numbers of a named calibration have its errors, one by one: that they are correlated :func:`joint_of` knows.
+    ``only_given`` leaves the defaults out. A case that a fit wrote has none for the inputs that the fit held fixed.
+    Parameters of a named calibration have its standard errors; :func:`joint_of` has their correlation.
     """
     known = inputs_of(case.model, case.screw, case.lubricant)
     found = {
-        name: Uncertain(distribution, GIVEN, True, in_words(distribution, known[name][1]))
+        name: Uncertain(distribution, GIVEN, True, describe_distribution(distribution, known[name][1]))
         for name, distribution in case.uncertain.items()
     }
     if case.calibration is not None:
         found |= {name: u for name, u in _of_calibration(case.calibration, known).items() if name not in case.exact}
     if not only_given:
-        usual = usual_uncertainties(case.model, case.screw, case.lubricant, given=found, exact=case.exact)
+        usual = default_distributions(case.model, case.screw, case.lubricant, given=found, exact=case.exact)
         # a fit holds for what it held: not for the temperature of the day, and not for what it could not tell
         open_after_fit = {TEMPERATURE.name, *case.fit.get("not_identified", ())}
         for name, (distribution, why) in usual.items():
             if case.fit and name not in open_after_fit:
                 continue
-            words = in_words(distribution, known[name][1])
-            found[name] = Uncertain(distribution, why.source, False, words, why.reason)
+            description = describe_distribution(distribution, known[name][1])
+            found[name] = Uncertain(distribution, why.source, False, description, why.reason)
     return found
 
 
@@ -72,18 +74,14 @@ def joint_of(case: Case, inputs: Mapping[str, Uncertain]) -> JointNormal | None:
     """The correlated errors that a fit or a named calibration left; None where there are none.
 
     Of a fit, numbers count that are still uncertain and still what it found. Raises
-    :class:`~ballscrew.faults.InputError` for a table ``[calibration]`` that is not as a fit writes it.
+    :class:`~ballscrew.errors.InputError` for a table ``[calibration]`` that is not as a fit writes it.
     """
-    import numpy as np
-
-    # what samples is slow to load: only for those who sample
-    from ballscrew.analyses.sampling import JointNormal
+    # loads xarray: only where inputs are sampled
+    from ballscrew.uncertainty.sampling import JointNormal
 
     if case.fit:
-        from ballscrew.interfaces import fitted_case
-
         faults: list[Fault] = []
-        found = fitted_case.joint_of(case.fit, inputs_of(case.model, case.screw, case.lubricant), faults)
+        found = _joint_of_fit(case.fit, inputs_of(case.model, case.screw, case.lubricant), faults)
         raise_if_any(faults)
     elif case.calibration is not None:
         mean = np.array([getattr(case.calibration, field) for field in PARAMETERS])
@@ -101,38 +99,64 @@ def joint_of(case: Case, inputs: Mapping[str, Uncertain]) -> JointNormal | None:
     return JointNormal(names, found.mean[kept], found.covariance[np.ix_(kept, kept)]) if kept else None
 
 
+def _joint_of_fit(table: Any, known: Mapping[str, Any], faults: list[Fault]) -> JointNormal | None:
+    """The correlated numbers of ``[calibration]``; errors in it are added to ``faults``."""
+    # loads xarray: only where inputs are sampled
+    from ballscrew.uncertainty.sampling import JointNormal
+
+    try:
+        names = tuple(table["numbers"])
+        values, covariance = np.array(table["values"], dtype=float), np.array(table["covariance"], dtype=float)
+        covariance = covariance.reshape(len(names), len(names))
+        sound = values.shape == (len(names),) and np.isfinite(covariance).all() and np.isfinite(values).all()
+        if not sound or np.any(np.linalg.eigvalsh(covariance) < -1e-9 * np.abs(covariance).max(initial=0.0)):
+            raise ValueError
+    except (TypeError, KeyError, ValueError):
+        remedy = "leave the section as ballscrew fit wrote it, or leave it out"
+        faults.append(Fault("calibration", "is not as a fit writes it", "", remedy))
+        return None
+    unknown = [name for name in names if name not in known]
+    if unknown:
+        remedy = "fit again, or leave the section out"
+        faults.append(Fault("calibration.numbers", "the case has no such number", ", ".join(unknown), remedy))
+        return None
+    return JointNormal(names, values, covariance) if names else None
+
+
 def _central(distribution: Distribution) -> float:
     return distribution.mean if isinstance(distribution, Normal) else float(distribution.quantile(0.5))
 
 
 def quantity_of(case: Case, name: str) -> Quantity:
-    """What an uncertain input is."""
+    """The quantity of an uncertain input."""
     return inputs_of(case.model, case.screw, case.lubricant)[name][1]
 
 
 def _of_calibration(calibration: Calibration, known: Mapping[str, Any]) -> dict[str, Uncertain]:
-    """The numbers of a calibration with their standard errors."""
+    """The parameters of a calibration with their standard errors."""
     found: dict[str, Uncertain] = {}
     for (field, name), error in zip(PARAMETERS.items(), calibration.standard_errors, strict=True):
         distribution = Normal(getattr(calibration, field), error)
         reason = "as the fit left it"
-        found[name] = Uncertain(distribution, calibration.name, True, in_words(distribution, known[name][1]), reason)
+        found[name] = Uncertain(
+            distribution, calibration.name, True, describe_distribution(distribution, known[name][1]), reason
+        )
     return found
 
 
-def written_in(
+def parse_distributions(
     tables: Mapping[str, Any], model: FrictionModel, screw: BallScrew, lubricant: Lubricant
 ) -> tuple[dict[str, Distribution], frozenset[str]]:
-    """The distributions that the tables of a case file say, by input, and the inputs that they say are exact.
+    """The distributions in the tables of a case file, by input, and the inputs that the tables give as exact.
 
-    The tables are those of a case without faults.
+    The tables must be those of a case without faults.
     """
     found: dict[str, Distribution] = {}
     exact: set[str] = set()
     for name, (section, quantity) in inputs_of(model, screw, lubricant).items():
-        written = read(_at(tables, f"{section}.{name}"), quantity)
+        written = parse_uncertain(_at(tables, f"{section}.{name}"), quantity)
         assert not isinstance(written, Fault), written
-        if isinstance(written, Written):
+        if isinstance(written, UncertainValue):
             if written.distribution is None:
                 exact.add(name)
             else:
@@ -141,7 +165,7 @@ def written_in(
 
 
 def _at(tables: Mapping[str, Any], path: str) -> Any:
-    """What stands at a path in nested tables; None where nothing does."""
+    """The value at a path in nested tables; None where there is none."""
     place: Any = tables
     for key in path.split("."):
         place = place.get(key) if isinstance(place, Mapping) else None

@@ -1,4 +1,4 @@
-"""``ballscrew catalogue``: rows of catalogues, shipped or one's own. The work is done in ``interfaces/catalogue``."""
+"""``ballscrew catalogue``: rows of catalogues, shipped or one's own. The work is done in ``cases/catalogue``."""
 
 from __future__ import annotations
 
@@ -30,12 +30,13 @@ def list_rows(
     keep_going: KeepGoing = False,
 ) -> None:
     """All rows, one line each."""
-    from ballscrew.interfaces import catalogue, documents
+    from ballscrew.cases import catalogue
+    from ballscrew.output import json_text
 
     found, notes = catalogue.load(rows, keep_going)
     chosen = catalogue.chosen(found, " ".join(words or []), rows)
     _say(notes)
-    typer.echo(documents.as_json(catalogue.list_document(chosen)) if as_json else catalogue.list_text(chosen))
+    typer.echo(json_text.as_json(catalogue.list_document(chosen)) if as_json else catalogue.list_text(chosen))
 
 
 @app.command()
@@ -47,8 +48,9 @@ def show(
     keep_going: KeepGoing = False,
 ) -> None:
     """One row: what is listed, what follows from it, what was assumed."""
-    from ballscrew.faults import Fault, InputError
-    from ballscrew.interfaces import catalogue, documents
+    from ballscrew.cases import catalogue
+    from ballscrew.errors import Fault, InputError
+    from ballscrew.output import json_text
 
     if as_case and as_json:
         raise InputError(Fault("--case", "does not go with --json", "", "give one of the two"))
@@ -58,7 +60,7 @@ def show(
     if as_case:
         typer.echo(catalogue.case_text(row))
     else:
-        typer.echo(documents.as_json(catalogue.show_document(row)) if as_json else catalogue.show_text(row))
+        typer.echo(json_text.as_json(catalogue.show_document(row)) if as_json else catalogue.show_text(row))
 
 
 def _say(notes: Sequence[str]) -> None:

@@ -1,4 +1,4 @@
-"""``ballscrew check``: does this screw do? The work is done in ``interfaces/check``."""
+"""``ballscrew check``: friction, stiffness, life and limits of a screw."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+
+from ballscrew.cli.common_options import AllowCode
 
 
 def check(
@@ -61,13 +63,17 @@ def check(
     keep_going: Annotated[
         bool, typer.Option("--keep-going", help="Leave faulty rows out, and say which; fails if none is good.")
     ] = False,
+    allow_code: AllowCode = False,
 ) -> None:
     """From a catalogue row or a case to torque, efficiency, stiffness, life, and whether it does.
 
     What is not given is assumed, and the output says what was. The exit code is 0 where a check fails, too: the
     verdict says so; it is 2 only for bad input.
     """
-    from ballscrew.interfaces import check as work
+    from ballscrew.output.documents.check import document, list_document
+    from ballscrew.output.json_text import as_json as json_of
+    from ballscrew.output.text.check import list_text, text
+    from ballscrew.studies.check import Options, every_row, one
 
     given = {
         "operation.axial_load": axial_load,
@@ -80,13 +86,15 @@ def check(
         "lubricant.temperature": temperature,
         "model.calibration": calibration,
     }
-    asked = work.Asked({key: value for key, value in given.items() if value is not None}, settings or [], model)
+    options = Options(
+        {key: value for key, value in given.items() if value is not None}, settings or [], model, allow_code
+    )
     if every or name is None:
-        found, notes = work.every_row(name, rows, asked, keep_going)
-        text = work.list_json(found) if as_json else work.list_text(found)
+        screws, notes = every_row(name, rows, options, keep_going)
+        output = json_of(list_document(screws)) if as_json else list_text(screws)
     else:
-        one, notes = work.one(name, rows, asked, keep_going)
-        text = work.json_text(one) if as_json else work.text(one)
+        screw, notes = one(name, rows, options, keep_going)
+        output = json_of(document(screw)) if as_json else text(screw)
     for note in notes:
         typer.echo(note, err=True)
-    typer.echo(text)
+    typer.echo(output)

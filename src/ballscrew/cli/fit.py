@@ -1,4 +1,4 @@
-"""``ballscrew fit``: a log of torques in, a calibrated model out. The work is done in ``interfaces/fitting``."""
+"""``ballscrew fit``: a log of torques in, a calibrated model out. The work is done in ``studies/fit``."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+
+from ballscrew.cli.common_options import AllowCode, Verbose, say_engine
 
 
 def fit(
@@ -67,6 +69,8 @@ def fit(
         Path | None,
         typer.Option("--picture", metavar="FILE", help="Draw log and model: .png, .svg or .pdf."),
     ] = None,
+    allow_code: AllowCode = False,
+    verbose: Verbose = False,
 ) -> None:
     """Fit numbers of a model to a log, and say which of them the log cannot tell.
 
@@ -74,29 +78,40 @@ def fit(
     to see how well the model predicts, beside two descriptions without physics. The last lines say where to
     measure next.
     """
-    from ballscrew.interfaces import comparison, config, fit_report, fitted_case, fitting
-    from ballscrew.interfaces.files import check_writable
-    from ballscrew.interfaces.progress import progress
+    from ballscrew.cases import case_file, fitted_case
+    from ballscrew.cli.fit_options import options
+    from ballscrew.cli.progress import progress
+    from ballscrew.figures import files
+    from ballscrew.files import check_writable
+    from ballscrew.output.documents import fit as documents
+    from ballscrew.output.json_text import as_json as json_text
+    from ballscrew.output.text import fit as text
+    from ballscrew.studies import fit as studies
 
-    tables = config.override(config.read(case), settings or [])
-    loaded = config.build(tables, model, case.parent)
-    asked = fitting.Asked(
-        free or [], bounds or [], limits or [], column or [], kind, inertia, torque_constant, holdout, seed, keep_going
-    )
+    tables = case_file.override(case_file.read(case), settings or [])
+    loaded = case_file.build(tables, model, case.parent, allow_code=allow_code)
     if to is not None:
         fitted_case.check(to, case)
         check_writable("--to", to)
     if picture is not None:
-        comparison.check_picture(picture, "--picture")
+        files.check_picture(picture, "--picture")
+    chosen = options(
+        loaded, free=free or [], bounds=bounds or [], limits=limits or [], columns=column or [], kind=kind,
+        inertia=inertia, torque_constant=torque_constant, holdout=holdout, seed=seed, keep_going=keep_going,
+    )  # fmt: skip
     with progress("fit") as done:
-        found = fitting.fitted(loaded, log, asked, done)
+        report = studies.fit(loaded, log, chosen, done)
+    if verbose:
+        say_engine(report.model.response.evaluation.attributes)
     if as_json:
-        typer.echo(fitting.json_text(loaded, found))
+        typer.echo(json_text(documents.document(loaded, report)))
     else:
-        fit_report.print_fit(loaded, found)
+        text.print_fit(loaded, report)
     if to is not None:
-        fitted_case.save(to, tables, case.parent, loaded, found.model)
+        fitted_case.save(to, tables, case.parent, loaded, report.model)
         typer.echo(f"{to}: the calibrated model", err=as_json)
     if picture is not None:
-        fit_report.draw(loaded, found, picture)
-        typer.echo(f"{picture}: {len(found.model.rows.log)} rows", err=as_json)
+        from ballscrew.figures import fit as figures  # matplotlib is slow to import
+
+        files.draw(lambda: figures.picture(loaded, report), picture, "--picture")
+        typer.echo(f"{picture}: {len(report.model.rows.log)} rows", err=as_json)

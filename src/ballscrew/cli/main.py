@@ -17,8 +17,9 @@ from typing import Annotated, Any, NoReturn
 import typer
 from typer.core import TyperCommand
 
-from ballscrew import interfaces
-from ballscrew.interfaces import cli_catalogue, cli_check, cli_fit, cli_report, cli_sensitivity, cli_serve, cli_validate
+from ballscrew import _pint_plugins
+from ballscrew.cli import catalogue, check, fit, report, sensitivity, serve, validate
+from ballscrew.cli.common_options import AllowCode, Verbose, say_engine
 
 app = typer.Typer(
     name="ballscrew",
@@ -28,14 +29,14 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
-app.add_typer(cli_catalogue.app, name="catalogue")
+app.add_typer(catalogue.app, name="catalogue")
 
 
 class _Command(TyperCommand):
     """A command whose help names the models. Their source is slow to load: only when it is asked for."""
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
-        from ballscrew.interfaces.schema import DEFAULT_MODEL, MODELS
+        from ballscrew.cases.schema import DEFAULT_MODEL, MODELS
 
         models = ", ".join(f"{name} (default)" if name == DEFAULT_MODEL else name for name in MODELS)
         for parameter in self.params:
@@ -79,27 +80,32 @@ def run(
     to: Annotated[
         Path | None, typer.Option("--to", "-o", metavar="FILE", help="With --band: also draw .png, .svg or .pdf.")
     ] = None,
+    allow_code: AllowCode = False,
 ) -> None:
     """Friction at the operating point of a case file; with --band how far off it may be."""
-    from ballscrew.interfaces import config, documents
-    from ballscrew.interfaces.answer import answer
+    from ballscrew.cases import case_file
 
-    loaded = config.load(case, settings or [], model)
+    loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
     if band or to is not None or only_given or (samples, level) != (None, None):
-        from ballscrew.interfaces import cli_band
-        from ballscrew.interfaces.band import Options
-        from ballscrew.interfaces.progress import progress
+        from ballscrew.cli import band as band_command
+        from ballscrew.cli.progress import progress
+        from ballscrew.studies.band import Options
 
-        options = Options(samples, level, only_given, to)
-        options.check(band)
+        options = Options(samples, level, only_given)
+        band_command.check(band, options, to)
         with progress("band") as done:
-            cli_band.run(loaded, options, as_json, done)
+            band_command.run(loaded, options, to, as_json, done)
         return
-    found = answer(loaded)
+    from ballscrew.output import json_text
+    from ballscrew.output.documents.run import document
+    from ballscrew.output.text.run import print_run
+    from ballscrew.studies.run import run as run_case
+
+    found = run_case(loaded)
     if as_json:
-        typer.echo(documents.as_json(found.document))
+        typer.echo(json_text.as_json(document(found)))
     else:
-        found.print()
+        print_run(found)
 
 
 @app.command(cls=_Command)
@@ -112,24 +118,32 @@ def compare(
         Path | None,
         typer.Option("--to", "-o", metavar="FILE", help="Also draw a picture of the spread: .png, .svg or .pdf."),
     ] = None,
+    allow_code: AllowCode = False,
 ) -> None:
     """All models and all laws side by side at the operating point of a case file.
 
     First the models as they are, then the model of the case with one law at a time in place of its
     own: torque, its parts, efficiency in both directions, and what lies outside its validity.
     """
-    from ballscrew.interfaces import comparison, config, documents
+    from ballscrew.cases import case_file
+    from ballscrew.figures import files
+    from ballscrew.output import json_text
+    from ballscrew.output.documents import comparison as documents
+    from ballscrew.output.text import comparison as text
+    from ballscrew.studies.comparison import comparison
 
-    loaded = config.load(case, settings or [], model)
+    loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
     if to is not None:
-        comparison.check_picture(to)
-    compared = comparison.compared(loaded)
+        files.check_picture(to)
+    compared = comparison(loaded)
     if as_json:
-        typer.echo(documents.as_json(comparison.document(loaded, compared)))
+        typer.echo(json_text.as_json(documents.document(loaded, compared)))
     else:
-        comparison.print_comparison(loaded, compared)
+        text.print_comparison(loaded, compared)
     if to is not None:
-        comparison.draw(loaded, compared, to)
+        from ballscrew.figures import comparison as figures  # matplotlib is slow to import
+
+        files.draw(lambda: figures.picture(loaded, compared), to)
         typer.echo(f"{to}: {len(compared.rows)} models and laws", err=as_json)
     _say_constant_torque(loaded)
 
@@ -160,6 +174,8 @@ def sweep(
     ] = None,
     model: ModelName = None,
     settings: Settings = None,
+    allow_code: AllowCode = False,
+    verbose: Verbose = False,
 ) -> None:
     """Friction over ranges of load, speed or anything else.
 
@@ -168,20 +184,25 @@ def sweep(
     speed across, ready to paste; otherwise one row a point. A .zarr is filled block by block: stopped
     by whatever, the same command goes on where it was.
     """
-    from ballscrew.interfaces import config, export, outside
-    from ballscrew.interfaces.progress import progress
+    from ballscrew.cases import case_file
+    from ballscrew.cli.progress import progress
+    from ballscrew.output import sweep_files
+    from ballscrew.output.text import sweep as text
+    from ballscrew.studies import sweep as studies
 
-    loaded = config.load(case, settings or [], model)
-    plan = export.plan(loaded, vary or [], output or [], to)
-    with _stopped_in_words(), export.workers(scheduler, to) as cluster, progress("sweep") as done:
-        dataset = export.evaluate(loaded, plan, done, to, cluster)
+    loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
+    plan = studies.plan(loaded, vary or [], output or [], to)
+    with _stopped_in_words(), studies.workers(scheduler, to) as cluster, progress("sweep") as done:
+        dataset = studies.sweep(loaded, plan, done, to, cluster)
+    if verbose:
+        say_engine(dataset.attrs)
     if to is None:
-        export.write_csv(sys.stdout, dataset, plan)
+        sweep_files.write_csv(sys.stdout, dataset, plan)
     else:
-        if not export.is_store(to):
-            export.write(dataset, plan, to)
-        typer.echo(f"{to}: {export.size_in_words(dataset, plan)}, model {loaded.model.label}")
-    if beware := outside.warning(loaded, plan, dataset, to):
+        if not studies.is_store(to):
+            sweep_files.write(dataset, plan, to)
+        typer.echo(f"{to}: {text.size(dataset, plan)}, model {loaded.model.label}")
+    if beware := text.warning(loaded, plan, dataset, to):
         typer.echo(beware, err=True)
     _say_constant_torque(loaded)
 
@@ -192,22 +213,22 @@ def reproduce(
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder for figures, data and claims.")],
 ) -> None:
     """The figures, the data and the claims of a paper, from its equations."""
-    from ballscrew.faults import Fault, InputError, nearest
+    from ballscrew.errors import Fault, InputError, nearest
 
     if paper != "olaru2005":
         raise InputError(Fault("reproduce", "unknown paper", paper, nearest(paper, ["olaru2005"])))
-    from ballscrew.interfaces.reproduce import reproduce_olaru2005
+    from ballscrew.cli.reproduction import reproduce_olaru2005
 
     written = reproduce_olaru2005(out, _step)
     typer.echo(f"{out}: {len(written)} files; read {out / 'claims.md'} first")
 
 
-app.command(cls=_Command)(cli_check.check)
-app.command(cls=_Command)(cli_fit.fit)
-app.command(cls=_Command)(cli_report.report)
-app.command(cls=_Command)(cli_sensitivity.sensitivity)
-app.command(cls=_Command)(cli_serve.serve)
-app.command(cls=_Command)(cli_validate.validate)
+app.command(cls=_Command)(check.check)
+app.command(cls=_Command)(fit.fit)
+app.command(cls=_Command)(report.report)
+app.command(cls=_Command)(sensitivity.sensitivity)
+app.command(cls=_Command)(serve.serve)
+app.command(cls=_Command)(validate.validate)
 
 
 @app.command(cls=_Command)
@@ -215,7 +236,7 @@ def schema() -> None:
     """JSON Schema of a case file."""
     import json
 
-    from ballscrew.interfaces.schema import json_schema
+    from ballscrew.cases.schema import json_schema
 
     typer.echo(json.dumps(json_schema(), indent=2, ensure_ascii=False))
 
@@ -225,19 +246,24 @@ def cite(
     case: Annotated[Path | None, typer.Argument(help="Case file; without one, all sources.")] = None,
     model: ModelName = None,
     settings: Settings = None,
+    allow_code: AllowCode = False,
 ) -> None:
     """BibTeX of the sources that a case makes use of."""
-    from ballscrew.interfaces import config
+    from ballscrew.cases import case_file
     from ballscrew.references import bibliography
 
     entries = bibliography()
-    keys = list(entries) if case is None else config.references(config.load(case, settings or [], model))
+    keys = (
+        list(entries)
+        if case is None
+        else case_file.references(case_file.load(case, settings or [], model, allow_code=allow_code))
+    )
     typer.echo("\n\n".join(entries[key] for key in keys))
 
 
 def _version(wanted: bool) -> None:
     if wanted:
-        from ballscrew import __version__
+        from ballscrew._version import __version__
 
         typer.echo(f"ballscrew {__version__}")
         raise typer.Exit
@@ -262,9 +288,9 @@ def _stopped_in_words() -> Generator[None]:
             typer.echo(line, err=True)
         raise  # the exit code is that of an interrupt
     except OSError as error:
-        from ballscrew.analyses.store import Unfinished
+        from ballscrew.sweeps.store import UnfinishedSweepError
 
-        if not isinstance(error, Unfinished):
+        if not isinstance(error, UnfinishedSweepError):
             raise
         typer.echo(str(error), err=True)
         raise typer.Exit(1) from None
@@ -272,9 +298,9 @@ def _stopped_in_words() -> Generator[None]:
 
 def _say_constant_torque(case: Any) -> None:
     """What a calibrated case has beside the torque of the balls."""
-    from ballscrew.interfaces import report
+    from ballscrew.cases.descriptions import constant_torque
 
-    for line in report.constant_torque(case):
+    for line in constant_torque(case):
         typer.echo(line, err=True)
 
 
@@ -288,24 +314,34 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # a terminal that has no "·" still gets an answer
             stream.reconfigure(errors="backslashreplace")
-    interfaces.hidden_from_pint += ["dask", "scipy"]
+    _pint_plugins.hidden_from_pint += ["dask", "scipy"]
     try:
         try:
             app()
         finally:
             sys.stdout.flush()
     except ValueError as error:
-        from ballscrew.faults import InputError  # with NumPy: not for those who only ask for help
+        from ballscrew.errors import InputError  # with NumPy: not for those who only ask for help
 
-        if not isinstance(error, InputError):
-            raise
-        _refuse(error.lines())
+        if isinstance(error, InputError):
+            _refuse(error.lines())
+        _refuse_law(error)
     except OSError as error:
         if error.errno not in (errno.ENOSPC, errno.EIO, errno.EPIPE):
             raise  # not the output: a defect of ours, to be seen as one
         # nobody can read what we say on a full or closed output; keep Python from trying again at exit
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         _refuse([f"stdout: cannot be written ({error.strerror or error}) · choose another place"])
+    except Exception as error:
+        _refuse_law(error)
+
+
+def _refuse_law(error: Exception) -> NoReturn:
+    """One line for what a law from outside raised; anything else is a defect of ours, to be seen as one."""
+    law = getattr(error, "raised_by_law", None)
+    if law is None:
+        raise error
+    _refuse([f"{law} raised {type(error).__name__}: {error} · call it in Python to see where"])
 
 
 def _refuse(lines: Sequence[str]) -> NoReturn:

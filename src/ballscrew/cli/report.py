@@ -1,4 +1,4 @@
-"""``ballscrew report``: a case as a file to read and to keep. The work is done in ``interfaces/report_content``."""
+"""``ballscrew report``: a case as a file to read and to keep. The work is done in ``report/contents``."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import typer
+
+from ballscrew.cli.common_options import AllowCode
 
 #: What each kind of file needs beyond the core.
 _NEEDS = {".html": ("jinja2",), ".pdf": ("typst",)}
@@ -25,13 +27,14 @@ def report(
     samples: Annotated[
         int | None, typer.Option("--samples", metavar="N", help="Of the band: 16384; of a whole nut 1024.")
     ] = None,
+    allow_code: AllowCode = False,
 ) -> None:
     """A report to file: drawing, results, curves, band, checks, inputs and sources on up to four pages.
 
     The .html is one file that asks for nothing from outside; the .pdf can be read by machines, too (PDF/UA-1). The
     same case gives the same bytes.
     """
-    from ballscrew.faults import Fault, InputError
+    from ballscrew.errors import Fault, InputError
 
     kind = to.suffix.lower()
     if kind not in _NEEDS:
@@ -39,16 +42,16 @@ def report(
     missing = [name for name in _NEEDS[kind] if importlib.util.find_spec(name) is None]
     if missing:
         raise InputError(Fault(_TO, f"needs {' and '.join(missing)}", str(to), 'pip install "ballscrew[report]"'))
-    from ballscrew.interfaces import config
-    from ballscrew.interfaces.files import check_writable, whole
+    from ballscrew.cases import case_file
+    from ballscrew.files import atomic_write, check_writable
 
-    loaded = config.load(case, settings or [], model)
+    loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
     check_writable(_TO, to)
-    from ballscrew.interfaces.progress import progress
-    from ballscrew.interfaces.report_content import report_bytes
+    from ballscrew.cli.progress import progress
+    from ballscrew.report.contents import report_bytes
 
     with progress("report") as done:
         written = report_bytes(loaded, _KINDS[kind], done, samples)
-    with whole(_TO, to) as path:
+    with atomic_write(_TO, to) as path:
         path.write_bytes(written)
     typer.echo(f"{to}: report of {case.name}, {len(written) // 1000} kB")

@@ -18,10 +18,10 @@ from typing import Any
 
 import numpy as np
 
-import ballscrew
-from ballscrew.analyses import olaru2005 as paper
-from ballscrew.faults import Fault, InputError
-from ballscrew.interfaces.files import unwritable
+from ballscrew._version import __version__
+from ballscrew.errors import Fault, InputError
+from ballscrew.files import write_error
+from ballscrew.papers import olaru2005 as paper
 from ballscrew.references import paper_equations
 
 Report = Callable[[str, int, int], None]
@@ -53,7 +53,7 @@ def reproduce_olaru2005(out: Path, report: Report | None = None) -> list[Path]:
     """Write the figures, the data and the claims of Olaru2005 into a folder; what was written is returned.
 
     ``report(what, done, total)`` is told each step. Raises
-    :class:`~ballscrew.faults.InputError` before any work if the folder cannot be written or the
+    :class:`~ballscrew.errors.InputError` before any work if the folder cannot be written or the
     libraries for NetCDF are missing.
     """
     if importlib.util.find_spec("h5netcdf") is None or importlib.util.find_spec("h5py") is None:
@@ -87,7 +87,7 @@ def _whole_folder(out: Path) -> Generator[_Folder]:
             raise NotADirectoryError(20, "is not a folder", str(anchor))
         temporary = Path(tempfile.mkdtemp(dir=anchor, prefix=f".{out.name}."))
     except OSError as error:
-        raise unwritable("reproduce.out", out, error) from None
+        raise write_error("reproduce.out", out, error) from None
     folder = _Folder(temporary)
     try:
         yield folder
@@ -99,15 +99,15 @@ def _whole_folder(out: Path) -> Generator[_Folder]:
         for name in folder.names:
             (temporary / name).replace(out / name)
     except OSError as error:
-        raise unwritable("reproduce.out", out, error) from None
+        raise write_error("reproduce.out", out, error) from None
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
 
 
 def _write(folder: _Folder, report: Report) -> None:
     # matplotlib takes its time: only once the folder is known to be writable
-    from ballscrew.interfaces.figures import ball, style
-    from ballscrew.interfaces.figures import olaru2005 as figures
+    from ballscrew.figures import ball, style
+    from ballscrew.figures import olaru2005 as figures
 
     total, done = len(ball.PLOTS) + len(figures.PLOTS) + 3, 0
 
@@ -185,7 +185,7 @@ def claims_document(
     """All of it in words: claims, choices, other readings, and the verdict on each equation."""
     sections = [
         "# Olaru et al. 2005, reproduced\n",
-        f"Written by ballscrew {ballscrew.__version__}. Every number and verdict below is computed from the "
+        f"Written by ballscrew {__version__}. Every number and verdict below is computed from the "
         "models; the criterion of each verdict stands with the details. *As printed* is the model "
         "`olaru2005`, *corrected* is `corrected`, *to the letter* is `olaru2005-literal`, which also leaves out the "
         "square root of (22) in §4.\n",
@@ -225,7 +225,7 @@ def claims_document(
 
 def _detail(claim: paper.Claim) -> str:
     findings = [(label, claim.findings[name]) for label, name in zip(_LABELS, (*_MODELS, _LITERAL), strict=True)]
-    words = f" {claim.words}" if claim.words else ""
+    words = f" {claim.remark}" if claim.remark else ""
     return (
         f"**{claim.section}: {claim.claim}** (paper: {claim.paper}). Criterion: {claim.criterion}.{words}\n\n"
         + "".join(f"- {label}: {finding.text}: *{finding.verdict}*\n" for label, finding in findings)
@@ -237,7 +237,7 @@ def _readings(checks: Sequence[paper.ClosureCheck]) -> str:
     keys = ("minimum", "efficiency", "first_zone", "second_zone", "split_one", "split_two")
     rows = [
         (
-            f"{check.reading.name}: {check.reading.words}",
+            f"{check.reading.name}: {check.reading.description}",
             *(_marked(check.findings[key]) for key in keys),
             "consistent with the text" if check.consistent else "not consistent with all of it",
         )
@@ -249,7 +249,7 @@ def _readings(checks: Sequence[paper.ClosureCheck]) -> str:
 def _repairs() -> str:
     rows = [
         (
-            r.words,
+            r.description,
             *(f"{value:.4f}" for value in (r.torque_alone, r.efficiency_alone, r.torque_so_far, r.efficiency_so_far)),
         )
         for r in paper.repairs()

@@ -1,4 +1,4 @@
-"""``ballscrew sensitivity``: which input to find out next. The work is done in ``interfaces/sensitivity``."""
+"""``ballscrew sensitivity``: which input to find out next. The work is done in ``studies/sensitivity``."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+
+from ballscrew.cli.common_options import AllowCode
 
 
 def sensitivity(
@@ -40,25 +42,33 @@ def sensitivity(
     to: Annotated[
         Path | None, typer.Option("--to", "-o", metavar="FILE", help="Also draw a picture: .png, .svg or .pdf.")
     ] = None,
+    allow_code: AllowCode = False,
 ) -> None:
     """Which uncertain input the band of a result comes from, and what to find out to halve it.
 
     Uncertain is what the case file gives a distribution, such as "0.54 ± 0.01", and what people rarely know, as
     much as is usual. Laws are not varied here.
     """
-    from ballscrew.interfaces import comparison, config, progress
-    from ballscrew.interfaces import sensitivity as work
+    from ballscrew.cases import case_file
+    from ballscrew.cli import progress
+    from ballscrew.figures import files
+    from ballscrew.output.documents import sensitivity as documents
+    from ballscrew.output.json_text import as_json as json_text
+    from ballscrew.output.text import sensitivity as text
+    from ballscrew.studies import sensitivity as studies
 
-    loaded = config.load(case, settings or [], model)
-    asked = work.Asked(output, method, samples, seed, only_given)
+    loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
+    chosen = studies.Options(output, method, samples, seed, only_given)
     if to is not None:
-        comparison.check_picture(to)
+        files.check_picture(to)
     with progress.progress("sensitivity") as done:
-        found = work.found(loaded, asked, done)
+        report = studies.sensitivity(loaded, chosen, done)
     if as_json:
-        typer.echo(work.json_text(loaded, found))
+        typer.echo(json_text(documents.document(loaded, report)))
     else:
-        work.print_found(loaded, found)
+        text.print_sensitivity(loaded, report)
     if to is not None:
-        work.draw(loaded, found, to)
-        typer.echo(f"{to}: {len(found.result.inputs)} inputs", err=as_json)
+        from ballscrew.figures import sensitivity as figures  # matplotlib is slow to import
+
+        files.draw(lambda: figures.picture(loaded, report), to)
+        typer.echo(f"{to}: {len(report.result.inputs)} inputs", err=as_json)

@@ -29,16 +29,16 @@ def serve(
     The page is at the address it prints, the API under /api. Nothing is asked from outside and nothing is stored.
     """
     # NumPy behind it: not for those who ask for help only
-    from ballscrew.faults import Fault, InputError
+    from ballscrew.errors import Fault, InputError
 
     missing = [name for name in _NEEDS if importlib.util.find_spec(name) is None]
     if missing:
         raise InputError(Fault("serve", f"needs {' and '.join(missing)}", "", 'pip install "ballscrew[web]"'))
     listening = _listening(host, port)
-    from ballscrew.interfaces.web import listen, server
+    from ballscrew.web import connections, guard, server
 
     name = f"[{host}]" if ":" in host else host
-    hosts = server.LOOPBACK if host in _LOOPBACK else ("*",) if host in _ANY else (name.lower(), *server.LOOPBACK)
+    hosts = guard.LOOPBACK if host in _LOOPBACK else ("*",) if host in _ANY else (name.lower(), *guard.LOOPBACK)
     application = server.application(hosts)
     server.warm_up()
     address = f"http://{name}:{listening.getsockname()[1]}"
@@ -49,12 +49,12 @@ def serve(
     if open_browser:
         webbrowser.open(address)
     with listening, contextlib.suppress(KeyboardInterrupt):  # Ctrl-C is how it ends
-        listen.run(application, listening)
+        connections.serve(application, listening)
 
 
 def _listening(host: str, port: int) -> socket.socket:
     """A socket that listens there; a fault that names the option if there can be none."""
-    from ballscrew.faults import Fault, InputError
+    from ballscrew.errors import Fault, InputError
 
     if not 0 <= port <= 65535:
         raise InputError(Fault("--port", "is no port", str(port), "0 to 65535"))

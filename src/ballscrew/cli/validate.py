@@ -1,4 +1,4 @@
-"""``ballscrew validate``: the model against vendors and laboratories. The work is done in ``interfaces/validation``."""
+"""``ballscrew validate``: the model against vendors and laboratories. The work is done in ``studies/validation``."""
 
 from __future__ import annotations
 
@@ -42,9 +42,13 @@ def validate(
     For each set the ratio model / stated (the middle of the vendor's band), its scatter, the share of rows inside the
     band, and every row; first the model as it is, then with a named calibration of two numbers.
     """
-    from ballscrew.interfaces import documents, validation
+    from ballscrew.figures import files
+    from ballscrew.output import json_text
+    from ballscrew.output.documents import validation as documents
+    from ballscrew.output.text import validation as text
+    from ballscrew.studies import validation
 
-    asked = validation.request(
+    request = validation.request(
         sets or [],
         model=model,
         calibration_name=calibration,
@@ -55,18 +59,20 @@ def validate(
         speed=speed,
     )
     if to is not None:
-        validation.check_picture(to)
+        files.check_picture(to)
     found = []
-    for note in asked.notes:
+    for note in request.notes:
         typer.echo(note, err=True)
-    for entries, notes in validation.evaluate(asked):
+    for entries, notes in validation.evaluate(request):
         found.append(entries)
         for note in notes:
             typer.echo(note, err=True)
         if not as_json:
-            typer.echo(("\n" if len(found) > 1 else "") + validation.text_of(entries, asked))
+            typer.echo(("\n" if len(found) > 1 else "") + text.text_of(entries, request))
     if as_json:
-        typer.echo(documents.as_json(validation.documents([entry for entries in found for entry in entries])))
+        typer.echo(json_text.as_json(documents.documents([entry for entries in found for entry in entries])))
     if to is not None:
-        validation.draw(found, asked, to)
+        from ballscrew.figures import validation as figures  # matplotlib is slow to import
+
+        files.draw(lambda: figures.picture(found, request), to)
         typer.echo(f"{to}: {len(found)} sets", err=as_json)

@@ -12,7 +12,7 @@ from typing import Annotated, Any
 
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import geometry
-from ballscrew.faults import Fault, InputError, faults_of, raise_if_any, shown
+from ballscrew.errors import Fault, InputError, faults_of, raise_if_any, shown
 from ballscrew.quantities import Angle, Count, Force, Info, Length, Ratio, Stiffness, Unit
 
 #: Turns that carry no load where the balls of a nut leave and enter (ISO3408-5, as it fits the ratings of catalogues).
@@ -36,7 +36,7 @@ class CatalogueRow:
     Defaults: a conformity of 0.54, which most root diameters of a catalogue imply (HIWIN's grooves for balls of
     3.175 mm have 0.56) and measured grooves (0.542, 0.544) confirm, good to about ±0.01; a contact angle of 45°; one
     thread start; a pitch circle as large as the nominal diameter (those listed are 1.5 to 5 % larger).
-    Raises :class:`~ballscrew.faults.InputError` for values out of bounds.
+    Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
     """
 
     name: str

@@ -1,14 +1,16 @@
-"""What is known of a ball–race contact before its film and its friction: the ground all laws stand on."""
+"""Conditions of a ball–race contact: the one argument of all its laws."""
 
 from __future__ import annotations
 
 import dataclasses
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple, TypeVar
 
 from ballscrew._arrays import lazy, namespace
 from ballscrew.components.materials import Lubricant
 from ballscrew.equations import film, hertz, rheology, slip
 from ballscrew.quantities import AngularSpeed, Force, Info, Length, Pressure, Ratio, Speed
+
+C = TypeVar("C", bound="ContactConditions")
 
 
 class HertzShape(NamedTuple):
@@ -30,7 +32,12 @@ class Motion(NamedTuple):
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class ContactConditions:
-    """Geometry, load, motion and oil of a contact. What only some laws ask for is computed when asked."""
+    """Geometry, load, motion and oil of a contact, and its film as soon as the film laws have made it.
+
+    All laws of a contact take this one argument, in this order: inlet, film, film parameter, full film, friction,
+    rolling, elastic resistance. What the laws before it have found, a law can read; before that it is None. What
+    only some laws ask for is computed when asked.
+    """
 
     contact_load: Annotated[Force, Info("Q", "normal load of the contact")]
     equivalent_modulus: Annotated[Pressure, Info("E'", "equivalent modulus of ball and race", "GPa")]
@@ -46,8 +53,26 @@ class ContactConditions:
     combined_roughness: Annotated[Length, Info(r"\sigma", "combined RMS roughness of ball and race", "um")]
     motion: Motion
     lubricant: Lubricant
+    ball_diameter: Length
+    ball_roughness: Length
+    race_roughness: Length
+    minimum_film_thickness: Annotated[Length, Info("h", "minimum film thickness", "um")] = None
+    film_parameter: Annotated[Ratio, Info(r"\lambda", "film thickness / combined roughness")] = None
+    inlet_film_factor: Annotated[Ratio, Info(r"\phi_T", "what the heat of the inlet leaves of the film")] = None
+    #: Of the law in the slot ``full_film``; None where there is none, and the coefficient of the friction law counts.
+    full_film_friction_coefficient: Ratio | None = None
 
-    @lazy
+    def extended(self, kind: type[C], /, **further: Any) -> C:
+        """A fuller state: these conditions, with all that has been computed of them, and what is given.
+
+        As ``dataclasses.replace``, but nothing that was computed when asked is computed twice.
+        """
+        state = object.__new__(kind)
+        vars(state).update(vars(self))
+        vars(state).update(further)
+        return state
+
+    @property
     def ellipticity(self) -> Annotated[Ratio, Info(r"\kappa", "ratio of the semi-axes a/b")]:
         """Ratio of the semi-axes a/b."""
         return self.hertz.ellipticity

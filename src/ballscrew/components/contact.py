@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-import functools
-from typing import Annotated, Any
+from typing import Annotated
 
 from ballscrew._arrays import lazy, namespace
 from ballscrew.components.conditions import ContactConditions, Motion
@@ -31,9 +30,6 @@ class Contact(ContactConditions):
     What the torque needs is computed at once, the rest when it is asked for.
     """
 
-    minimum_film_thickness: Annotated[Length, Info("h", "minimum film thickness", "um")]
-    film_parameter: Annotated[Ratio, Info(r"\lambda", "film thickness / combined roughness")]
-    inlet_film_factor: Annotated[Ratio, Info(r"\phi_T", "what the heat of the inlet leaves of the film")]
     friction_coefficient: Annotated[Ratio, Info(r"\mu_m", "friction coefficient of the contact")]
     hydrodynamic_rolling_force: Annotated[Force, Info("F_R", "hydrodynamic rolling force")]
     elastic_resistance_moment: Annotated[Torque, Info("M_ER", "elastic resistance moment", "N mm")]
@@ -125,16 +121,6 @@ class ContactLaws:
     elastic_resistance: ElasticResistanceLaw
 
 
-def fields_as_dict(part: ContactConditions) -> dict[str, Any]:
-    """The fields of a state by name, to build the next, fuller one from."""
-    return {name: getattr(part, name) for name in _names(type(part))}
-
-
-@functools.cache
-def _names(kind: type[ContactConditions]) -> tuple[str, ...]:
-    return tuple(field.name for field in dataclasses.fields(kind))
-
-
 def rolling_contact(
     laws: ContactLaws,
     screw: BallScrew,
@@ -172,20 +158,21 @@ def rolling_contact(
         combined_roughness=film.combined_roughness(screw.ball_roughness, raceway.roughness),
         motion=motion,
         lubricant=lubricant,
+        ball_diameter=screw.ball_diameter,
+        ball_roughness=screw.ball_roughness,
+        race_roughness=raceway.roughness,
     )
+    known = vars(conditions)  # filled in stages, here and nowhere else: a new object for each costs more than its law
     inlet = laws.inlet(conditions)
-    thickness = inlet.film * laws.film(R_x, U, G, W, shape.ellipticity)
-    h = namespace(v, thickness).where(v == 0, 0.0, thickness)
-    lam = laws.film_parameter(h, screw.ball_roughness, raceway.roughness)
-    full_film = None if laws.full_film is None else laws.full_film(conditions)
-    return Contact(
-        **fields_as_dict(conditions),
-        minimum_film_thickness=h,
-        film_parameter=lam,
-        inlet_film_factor=inlet.film,
-        friction_coefficient=laws.friction(lam, conditions, full_film),
+    known["inlet_film_factor"] = inlet.film
+    thickness = inlet.film * laws.film(conditions)
+    known["minimum_film_thickness"] = namespace(v, thickness).where(v == 0, 0.0, thickness)
+    known["film_parameter"] = laws.film_parameter(conditions)
+    if laws.full_film is not None:
+        known["full_film_friction_coefficient"] = laws.full_film(conditions)
+    return conditions.extended(
+        Contact,
+        friction_coefficient=laws.friction(conditions),
         hydrodynamic_rolling_force=inlet.rolling * laws.rolling(conditions),
-        elastic_resistance_moment=laws.elastic_resistance(
-            screw.ball_diameter, contact_load, k, conditions.semi_minor_axis
-        ),
+        elastic_resistance_moment=laws.elastic_resistance(conditions),
     )

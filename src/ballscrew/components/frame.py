@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 
 from ballscrew.components.screw import BallScrew
+from ballscrew.components.traits import law_traits
 from ballscrew.equations import geometry, kinematics
 from ballscrew.quantities import Angle, AngularSpeed, Length, Ratio, Speed
 
@@ -34,11 +35,13 @@ class Frame:
         return kinematics.entrainment_speed(screw_speed, self.path_radius, self.curvature_ratio)
 
 
+@law_traits(excluded="leaves the helix out: a known error, and no doubt")
 def bearing_frame(screw: BallScrew) -> Frame:
     """The paper's: the balls roll as in a bearing, the helix angle is neglected (Olaru2005 §2)."""
     return _frame(screw, 0.0)
 
 
+@law_traits(alternative=True)
 def helix_frame(screw: BallScrew) -> Frame:
     """The balls roll along their helix; its osculating plane takes the place of the bearing's.
 

@@ -7,7 +7,7 @@ import enum
 import math
 from typing import Annotated, Any, cast
 
-from ballscrew.faults import Fault, faults_of, raise_if_any
+from ballscrew.errors import Fault, faults_of, raise_if_any
 from ballscrew.quantities import Array, Density, DiameterSpeed, Info, Length, Pressure, Ratio, Unit
 
 
@@ -37,7 +37,7 @@ class Ends(enum.Enum):
 class Installation:
     """A mounted screw. The default density is that of steel.
 
-    Raises :class:`~ballscrew.faults.InputError` for values out of bounds, and for ends that are not :class:`Ends`.
+    Raises :class:`~ballscrew.errors.InputError` for values out of bounds, and for ends that are not :class:`Ends`.
     """
 
     unsupported_length: Annotated[
@@ -64,7 +64,7 @@ class Limits:
     Defaults, all of THK514E: a static safety of 2, its least for loads without shocks (5 with them); a stress of
     147 MPa; half of the buckling load; 0.8 of the critical speed; a DN value of 70000 mm · rpm, that of standard nuts
     there and in HIWIN2016 (fast ones of both stand 130000 to 220000). No running time is asked for by default.
-    Raises :class:`~ballscrew.faults.InputError` for values out of bounds.
+    Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
     """
 
     static_safety: Annotated[

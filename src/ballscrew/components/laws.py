@@ -1,6 +1,6 @@
 """Laws: the interchangeable pieces of a friction model.
 
-Each slot of :class:`~ballscrew.model.FrictionModel` is a Protocol. A law without coefficients is a
+Each slot of :class:`~ballscrew.friction.model.FrictionModel` is a Protocol. A law without coefficients is a
 plain function, a law with coefficients a frozen dataclass that can be called; anything that fits
 the signature may be plugged in.
 """
@@ -12,9 +12,11 @@ from typing import Annotated, NamedTuple, Protocol
 
 from ballscrew.components.conditions import ContactConditions, HertzShape
 from ballscrew.components.frame import Frame
+from ballscrew.components.old_calls import also_with_arguments_of_0_1
 from ballscrew.components.screw import BallScrew
+from ballscrew.components.traits import law_traits
 from ballscrew.equations import equilibrium, friction, hertz, rolling, transmission
-from ballscrew.faults import faults_of, raise_if_any
+from ballscrew.errors import faults_of, raise_if_any
 from ballscrew.quantities import Angle, Count, Force, Info, Length, Ratio, Torque
 
 # -- slots ----------------------------------------------------------------------------------------
@@ -33,29 +35,21 @@ class ContactLoadLaw(Protocol):
 
 
 class HertzLaw(Protocol):
-    """Shape of the contact ellipse."""
+    """Shape of the contact ellipse: of the radii alone, as it is what the conditions of a contact are made of."""
 
     def __call__(self, radii_ratio: Ratio, /) -> HertzShape: ...
 
 
 class FilmLaw(Protocol):
-    """Minimum film thickness."""
+    """Minimum film thickness, inlet cool and full."""
 
-    def __call__(
-        self,
-        rolling_radius: Length,
-        speed_parameter: Ratio,
-        material_parameter: Ratio,
-        load_parameter: Ratio,
-        ellipticity: Ratio,
-        /,
-    ) -> Length: ...
+    def __call__(self, conditions: ContactConditions, /) -> Length: ...
 
 
 class FilmParameterLaw(Protocol):
     """Film thickness against roughness."""
 
-    def __call__(self, minimum_film_thickness: Length, ball_roughness: Length, race_roughness: Length, /) -> Ratio: ...
+    def __call__(self, conditions: ContactConditions, /) -> Ratio: ...
 
 
 class InletFactors(NamedTuple):
@@ -78,11 +72,9 @@ class FullFilmLaw(Protocol):
 
 
 class FrictionLaw(Protocol):
-    """Friction coefficient of a contact from its film parameter and, where a law needs it, its state."""
+    """Friction coefficient of a contact, most often from its film parameter."""
 
-    def __call__(
-        self, film_parameter: Ratio, conditions: ContactConditions, full_film_friction_coefficient: Ratio | None, /
-    ) -> Ratio: ...
+    def __call__(self, conditions: ContactConditions, /) -> Ratio: ...
 
 
 class RollingLaw(Protocol):
@@ -94,9 +86,7 @@ class RollingLaw(Protocol):
 class ElasticResistanceLaw(Protocol):
     """Elastic resistance to rolling."""
 
-    def __call__(
-        self, ball_diameter: Length, contact_load: Force, radii_ratio: Ratio, semi_minor_axis: Length, /
-    ) -> Torque: ...
+    def __call__(self, conditions: ContactConditions, /) -> Torque: ...
 
 
 class BallForceLaw(Protocol):
@@ -141,6 +131,7 @@ class IdealTorqueLaw(Protocol):
 # -- Hertz contact --------------------------------------------------------------------------------
 
 
+@law_traits(excluded="approximates the exact contact: a known error, and no doubt")
 def houpert_hertz(radii_ratio: Ratio) -> HertzShape:
     """The paper's power laws, Olaru2005 §2.2 (18) and (19); 12 % too long at their limit k = 60."""
     major = hertz.semi_major_axis_coefficient_houpert(radii_ratio)
@@ -148,6 +139,7 @@ def houpert_hertz(radii_ratio: Ratio) -> HertzShape:
     return HertzShape(major, minor, major / minor, largest_radii_ratio=60.0)
 
 
+@law_traits(alternative=True)
 def exact_hertz(radii_ratio: Ratio) -> HertzShape:
     """The exact solution with elliptic integrals (Johnson1985 §4.2)."""
     kappa = hertz.ellipticity(radii_ratio)
@@ -155,6 +147,7 @@ def exact_hertz(radii_ratio: Ratio) -> HertzShape:
     return HertzShape(major, major / kappa, kappa, largest_radii_ratio=1000.0)
 
 
+@law_traits(excluded="approximates the exact contact: a known error, and no doubt")
 def brewe_hamrock_hertz(radii_ratio: Ratio) -> HertzShape:
     """The exact formulas with the fits of BreweHamrock1977 for ellipticity and elliptic integral."""
     kappa = hertz.ellipticity_brewe_hamrock(radii_ratio)
@@ -166,11 +159,13 @@ def brewe_hamrock_hertz(radii_ratio: Ratio) -> HertzShape:
 # -- elastic resistance ---------------------------------------------------------------------------
 
 
-def snare_resistance(ball_diameter: Length, contact_load: Force, radii_ratio: Ratio, semi_minor_axis: Length) -> Torque:
+@law_traits(alternative=True)
+def snare_resistance(conditions: ContactConditions) -> Torque:
     """The paper's fit for steel, Olaru2005 §2.2 (20)."""
-    return rolling.elastic_resistance_moment(ball_diameter, contact_load, radii_ratio)
+    return rolling.elastic_resistance_moment(conditions.ball_diameter, conditions.contact_load, conditions.radii_ratio)
 
 
+@law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
 class Hysteresis:
     """Elastic resistance as the part of the work of deformation that the material keeps, Johnson1985 §9.3."""
@@ -183,11 +178,10 @@ class Hysteresis:
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model.elastic_resistance", self))
 
-    def __call__(
-        self, ball_diameter: Length, contact_load: Force, radii_ratio: Ratio, semi_minor_axis: Length
-    ) -> Torque:
+    @also_with_arguments_of_0_1("elastic_resistance")
+    def __call__(self, conditions: ContactConditions) -> Torque:
         """Moment about the ball."""
-        return rolling.hysteresis_moment(self.loss_factor, contact_load, semi_minor_axis)
+        return rolling.hysteresis_moment(self.loss_factor, conditions.contact_load, conditions.semi_minor_axis)
 
 
 # -- the ball chain -------------------------------------------------------------------------------
@@ -200,6 +194,7 @@ class BallChain(NamedTuple):
     braking_force: Force
 
 
+@law_traits(excluded="leaves one of the two neighbours out")
 def one_neighbour(
     ball_friction_coefficient: Ratio, ball_to_ball_force: Force, ball_diameter: Length, frame: Frame
 ) -> BallChain:
@@ -208,6 +203,7 @@ def one_neighbour(
     return BallChain(moment, ball_to_ball_force)
 
 
+@law_traits(alternative=True)
 def two_neighbours(
     ball_friction_coefficient: Ratio, ball_to_ball_force: Force, ball_diameter: Length, frame: Frame
 ) -> BallChain:
@@ -219,11 +215,13 @@ def two_neighbours(
     return BallChain(moment, braking_force)
 
 
+@law_traits(alternative=True)
 def imposed_ball_force(ball_to_ball_force: Force, contact_load: Force) -> Force:
     """The same force at any load, as in the paper."""
     return ball_to_ball_force
 
 
+@law_traits(alternative=True, uses_imposed_force=False)
 @dataclasses.dataclass(frozen=True, eq=False)
 class ProportionalBallForce:
     """A force that grows with the load of the ball; an imposed one does not count.
@@ -255,6 +253,7 @@ class RaceTorques(NamedTuple):
     nut: Torque
 
 
+@law_traits(printed_form=True, excluded="leaves the moments of the contacts out: breaks the balance of energy")
 def printed_race_torques(
     screw_tangential_force: Force,
     nut_tangential_force: Force,
@@ -269,6 +268,7 @@ def printed_race_torques(
     )
 
 
+@law_traits(alternative=True)
 def balanced_race_torques(
     screw_tangential_force: Force,
     nut_tangential_force: Force,
@@ -286,6 +286,7 @@ def balanced_race_torques(
     )
 
 
+@law_traits(printed_form=True, excluded="low by the factor 1 - γ: breaks the balance of energy")
 def printed_ideal_torque(axial_load: Force, screw: BallScrew, frame: Frame) -> Torque:
     """The paper's torque without friction, Olaru2005 §7 (35); low by the factor 1 - γ."""
     return transmission.ideal_torque_printed(
@@ -293,6 +294,7 @@ def printed_ideal_torque(axial_load: Force, screw: BallScrew, frame: Frame) -> T
     )
 
 
+@law_traits(alternative=True)
 def virtual_work_torque(axial_load: Force, screw: BallScrew, frame: Frame) -> Torque:
     """The torque without friction that conserves energy, F P_h/2π."""
     return transmission.ideal_torque(axial_load, screw.lead)

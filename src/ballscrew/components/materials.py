@@ -11,7 +11,7 @@ from typing import Annotated, Any
 
 from ballscrew._arrays import namespace
 from ballscrew.equations import rheology
-from ballscrew.faults import Fault, InputError, fault_of, faults_of, is_concrete, nearest, raise_if_any
+from ballscrew.errors import Fault, InputError, fault_of, faults_of, is_concrete, nearest, raise_if_any
 from ballscrew.quantities import (
     Conductivity,
     Density,
@@ -34,7 +34,7 @@ class Material:
 
     The paper prints no value of its equivalent modulus.
 
-    Raises :class:`~ballscrew.faults.InputError` (a ``ValueError``) for a modulus that is not
+    Raises :class:`~ballscrew.errors.InputError` (a ``ValueError``) for a modulus that is not
     positive or a Poisson's ratio outside [0, 0.5).
     """
 
@@ -53,7 +53,7 @@ class Lubricant:
     capacity are not used yet. The defaults are round figures for mineral oils: the density of
     Jungnickel2010; the others are from no source (the reference oil FVA 3 has 0.134 W/(m K),
     Lubricants2023; ISO VG 100 at 40 °C has a temperature coefficient of 0.054 1/K by its constants
-    here, and 0.041 1/K at 60 °C). Raises :class:`~ballscrew.faults.InputError` for
+    here, and 0.041 1/K at 60 °C). Raises :class:`~ballscrew.errors.InputError` for
     values that are not positive.
     """
 
@@ -105,7 +105,7 @@ class Lubricant:
         """The oil at another temperature in kelvin: what depends on it changes as it does for the grade.
 
         What was changed against the grade, such as a measured viscosity, keeps its ratio to that of the grade.
-        Raises :class:`~ballscrew.faults.InputError` for an oil that was not made from a grade, or a number
+        Raises :class:`~ballscrew.errors.InputError` for an oil that was not made from a grade, or a number
         out of the bounds of :meth:`from_grade`; of an array, elements out of them become NaN.
         """
         if self.grade is None:
@@ -127,7 +127,7 @@ class Lubricant:
         FVA 3 it is measured (Lubricants2023). A real oil of a grade may lie 10 % off its nominal
         viscosity at 40 °C, and further off elsewhere (its viscosity index is not known here).
 
-        Raises :class:`~ballscrew.faults.InputError` for an unknown grade or a temperature
+        Raises :class:`~ballscrew.errors.InputError` for an unknown grade or a temperature
         outside 253.15–423.15 K (-20 to 150 °C).
         """
         oils = _oils()

@@ -7,8 +7,10 @@ from typing import Annotated
 
 from ballscrew._arrays import namespace
 from ballscrew.components.conditions import ContactConditions
+from ballscrew.components.old_calls import also_with_arguments_of_0_1
+from ballscrew.components.traits import law_traits
 from ballscrew.equations import friction, mixed_lubrication, rheology, traction
-from ballscrew.faults import faults_of, raise_if_any
+from ballscrew.errors import faults_of, raise_if_any
 from ballscrew.quantities import ArealDensity, Info, Length, Pressure, Ratio, ShearRate, Viscosity
 
 Boundary = Annotated[
@@ -21,6 +23,7 @@ Decay = Annotated[Ratio, Info("B", "decay of the asperities' share", at_least=0,
 Exponent = Annotated[Ratio, Info("C", "exponent of the film parameter", above=0, hint="the paper has 0.8")]
 
 
+@law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
 class ZhouHoeprich:
     """Friction coefficient between the boundary and the full-film value, Olaru2005 §5 (23)–(26).
@@ -38,24 +41,21 @@ class ZhouHoeprich:
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model.friction", self))
 
-    def __call__(
-        self,
-        film_parameter: Ratio,
-        conditions: ContactConditions | None = None,
-        full_film_friction_coefficient: Ratio | None = None,
-    ) -> Ratio:
+    @also_with_arguments_of_0_1("friction")
+    def __call__(self, conditions: ContactConditions) -> Ratio:
         """Friction coefficient."""
         mu_a = friction.asperity_friction_coefficient(
-            film_parameter, self.boundary_friction_coefficient, self.decay, self.exponent
+            conditions.film_parameter, self.boundary_friction_coefficient, self.decay, self.exponent
         )
         return friction.clamped_friction_coefficient(
-            mu_a, self.boundary_friction_coefficient, _full_film(self, full_film_friction_coefficient)
+            mu_a, self.boundary_friction_coefficient, _full_film(self, conditions)
         )
 
 
 # -- load sharing ---------------------------------------------------------------------------------
 
 
+@law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
 class LoadSharing:
     """Asperities and film share the load, ZhouHoeprich1991; no clamp.
@@ -73,17 +73,16 @@ class LoadSharing:
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model.friction", self))
 
-    def __call__(
-        self,
-        film_parameter: Ratio,
-        conditions: ContactConditions | None = None,
-        full_film_friction_coefficient: Ratio | None = None,
-    ) -> Ratio:
+    @also_with_arguments_of_0_1("friction")
+    def __call__(self, conditions: ContactConditions) -> Ratio:
         """Friction coefficient."""
-        share = mixed_lubrication.asperity_load_share_zhou_hoeprich(film_parameter, self.decay, self.exponent)
-        return _shared(self, share, full_film_friction_coefficient)
+        share = mixed_lubrication.asperity_load_share_zhou_hoeprich(
+            conditions.film_parameter, self.decay, self.exponent
+        )
+        return _shared(self, share, conditions)
 
 
+@law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
 class BalanSharing:
     """Asperities and film share the load, Balan2015; its share is cut at a film parameter of 2."""
@@ -94,19 +93,17 @@ class BalanSharing:
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model.friction", self))
 
-    def __call__(
-        self,
-        film_parameter: Ratio,
-        conditions: ContactConditions | None = None,
-        full_film_friction_coefficient: Ratio | None = None,
-    ) -> Ratio:
+    @also_with_arguments_of_0_1("friction")
+    def __call__(self, conditions: ContactConditions) -> Ratio:
         """Friction coefficient."""
         # no share is left beyond 2, and an infinite film, without load, would be infinity over infinity
+        film_parameter = conditions.film_parameter
         bounded = namespace(film_parameter).minimum(film_parameter, 4.0)
         share = mixed_lubrication.asperity_load_share_balan(bounded)
-        return _shared(self, share, full_film_friction_coefficient)
+        return _shared(self, share, conditions)
 
 
+@law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
 class GreenwoodTrippSharing:
     """Asperities and film share the load, the asperities as elastic hills (GreenwoodTripp1970).
@@ -131,12 +128,8 @@ class GreenwoodTrippSharing:
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model.friction", self))
 
-    def __call__(
-        self,
-        film_parameter: Ratio,
-        conditions: ContactConditions,
-        full_film_friction_coefficient: Ratio | None = None,
-    ) -> Ratio:
+    @also_with_arguments_of_0_1("friction")
+    def __call__(self, conditions: ContactConditions) -> Ratio:
         """Friction coefficient."""
         pressure, most = (
             mixed_lubrication.asperity_pressure(
@@ -146,32 +139,34 @@ class GreenwoodTrippSharing:
                 self.asperity_radius,
                 conditions.combined_roughness,
             )
-            for separation in (film_parameter, 0.0)
+            for separation in (conditions.film_parameter, 0.0)
         )
         xp = namespace(pressure, most)
         # above zero, so that no asperities against no load is none
         needed = xp.maximum(xp.minimum(conditions.mean_pressure, most), 1e-300)
         share = mixed_lubrication.asperity_load_share_greenwood_tripp(pressure, needed)
-        return _shared(self, share, full_film_friction_coefficient)
+        return _shared(self, share, conditions)
 
 
-AnyFriction = ZhouHoeprich | LoadSharing | BalanSharing | GreenwoodTrippSharing
+_Friction = ZhouHoeprich | LoadSharing | BalanSharing | GreenwoodTrippSharing
 
 
-def _full_film(law: AnyFriction, from_its_slot: Ratio | None) -> Ratio:
+def _full_film(law: _Friction, conditions: ContactConditions) -> Ratio:
     """The film's own friction: from the law in its slot, where there is one, else the coefficient."""
+    from_its_slot = conditions.full_film_friction_coefficient
     return law.full_film_friction_coefficient if from_its_slot is None else from_its_slot
 
 
-def _shared(law: AnyFriction, asperity_load_share: Ratio, full_film: Ratio | None) -> Ratio:
+def _shared(law: _Friction, asperity_load_share: Ratio, conditions: ContactConditions) -> Ratio:
     return mixed_lubrication.load_sharing_friction_coefficient(
-        asperity_load_share, law.boundary_friction_coefficient, _full_film(law, full_film)
+        asperity_load_share, law.boundary_friction_coefficient, _full_film(law, conditions)
     )
 
 
 # -- the film alone -------------------------------------------------------------------------------
 
 
+@law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
 class EyringTraction:
     """Friction of the film from the mean shear rate and the mean pressure, Eyring's law with a limit.
@@ -201,6 +196,7 @@ class EyringTraction:
         return xp.where(loaded & moving, mu, 0.0)
 
 
+@law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
 class LimitingShearTraction:
     """Friction of the film from the mean shear rate and the mean pressure, BairWiner1979."""

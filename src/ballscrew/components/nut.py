@@ -8,7 +8,7 @@ from typing import Annotated, NamedTuple, TypeAlias
 import numpy as np
 
 from ballscrew.components.screw import BallScrew
-from ballscrew.faults import Fault, faults_of, raise_if_any
+from ballscrew.errors import Fault, faults_of, raise_if_any
 from ballscrew.quantities import Force, Info, Length
 
 Preload = Annotated[
@@ -24,7 +24,7 @@ Spacing = Annotated[
 class SingleNut:
     """One nut body without preload: each ball touches one flank of screw and nut, and there may be play.
 
-    Raises :class:`~ballscrew.faults.InputError` for a negative play.
+    Raises :class:`~ballscrew.errors.InputError` for a negative play.
     """
 
     axial_play: Annotated[
@@ -41,7 +41,7 @@ class OversizeBallNut:
 
     The preload is the axial force that each flank would carry by itself: that of the balls on one
     flank of the nut, which those on the other hold.
-    Raises :class:`~ballscrew.faults.InputError` for a negative preload.
+    Raises :class:`~ballscrew.errors.InputError` for a negative preload.
     """
 
     preload: Preload
@@ -55,7 +55,7 @@ class DoubleNut:
     """Two nut bodies braced against each other: the balls of each touch one flank, opposite to the other's.
 
     The loaded balls of the screw are those of one body; the other has as many.
-    Raises :class:`~ballscrew.faults.InputError` for a negative preload or spacing.
+    Raises :class:`~ballscrew.errors.InputError` for a negative preload or spacing.
     """
 
     preload: Preload
@@ -70,7 +70,7 @@ class OffsetLeadNut:
     """One nut body whose lead has an offset in its middle, which braces the balls before and behind it.
 
     It works like a :class:`DoubleNut`; the loaded balls of the screw are those of one half.
-    Raises :class:`~ballscrew.faults.InputError` for a negative preload or spacing.
+    Raises :class:`~ballscrew.errors.InputError` for a negative preload or spacing.
     """
 
     preload: Preload
@@ -87,7 +87,7 @@ Nut: TypeAlias = SingleNut | OversizeBallNut | DoubleNut | OffsetLeadNut
 class Bodies:
     """The bodies of screw and nut between the balls, as bars, and where the load enters them.
 
-    Raises :class:`~ballscrew.faults.InputError` for diameters that are not positive or do not fit.
+    Raises :class:`~ballscrew.errors.InputError` for diameters that are not positive or do not fit.
     """
 
     screw_diameter: Annotated[

@@ -19,7 +19,7 @@ from ballscrew.components.frame import helix_frame
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import geometry, kinematics, parasitic, preload, transmission
-from ballscrew.faults import Fault, InputError, faults_of, raise_if_any
+from ballscrew.errors import Fault, InputError, faults_of, raise_if_any
 from ballscrew.quantities import AngularSpeed, Count, Force, Info, Length, Ratio, Speed, Torque
 
 #: Coefficients behind the no-load torques of Rexroth2006: their middle meets the tables within their digits.
@@ -28,14 +28,6 @@ OVERSIZE_BALL_DRAG = 0.0100
 
 #: Diameters and leads this close are one, in m: a table gives whole millimetres.
 SAME_SIZE = 1e-6
-
-
-class DragLaw(Protocol):
-    """Drag torque of a preloaded nut without load, seals apart."""
-
-    def __call__(
-        self, preload_force: Force, nominal_diameter: Length, pitch_circle_diameter: Length, lead: Length, /
-    ) -> Torque: ...
 
 
 class ParasiticLaw(Protocol):
@@ -165,7 +157,7 @@ class Seals:
     def of_table(cls, nominal_diameter: float, lead: float) -> Seals:
         """The two standard seals of Rexroth2006, by nominal diameter and lead.
 
-        Raises :class:`~ballscrew.faults.InputError` with the nearest row for a screw that the table does not have.
+        Raises :class:`~ballscrew.errors.InputError` with the nearest row for a screw that the table does not have.
         """
         found = min(seal_table(), key=lambda row: row.distance(nominal_diameter, lead))
         if not all(distance <= SAME_SIZE for distance in found.distance(nominal_diameter, lead)):

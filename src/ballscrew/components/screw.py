@@ -9,7 +9,7 @@ from typing import Annotated, Any, cast
 from ballscrew._arrays import namespace
 from ballscrew.components.materials import Material
 from ballscrew.equations import geometry, hertz
-from ballscrew.faults import Fault, faults_of, is_concrete, raise_if_any, shown
+from ballscrew.errors import Fault, faults_of, is_concrete, raise_if_any, shown
 from ballscrew.quantities import Angle, AngularSpeed, Count, Force, Info, Length, Mask, Pressure, Ratio
 
 STEEL = Material()
@@ -30,7 +30,7 @@ class Raceway:
 class BallScrew:
     """A ball screw with two-point contact: every ball touches one flank of screw and nut.
 
-    Raises :class:`~ballscrew.faults.InputError` (a ``ValueError``) with one fault for each value
+    Raises :class:`~ballscrew.errors.InputError` (a ``ValueError``) with one fault for each value
     out of bounds, and for a ball too big for the pitch circle or for the lead.
     """
 
@@ -147,7 +147,7 @@ class Operation:
     """What the screw does: the load it moves and the speed it turns at.
 
     Zero load and zero speed are legal and give limits. Raises
-    :class:`~ballscrew.faults.InputError` for negative or non-finite numbers.
+    :class:`~ballscrew.errors.InputError` for negative or non-finite numbers.
     """
 
     axial_load: Annotated[Force, Info("F", "axial load on the nut", at_least=0, hint="give its magnitude")]

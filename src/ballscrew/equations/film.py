@@ -48,6 +48,27 @@ def central_film_thickness(
     return 2.69 * R_x * U**0.67 * G**0.53 * W ** (-0.067) * (1 - 0.61 * xp.exp(-0.73 * kappa))
 
 
+def minimum_film_thickness_chittenden(
+    rolling_radius: Length,
+    speed_parameter: Ratio,
+    material_parameter: Ratio,
+    load_parameter: Ratio,
+    radii_ratio: Ratio,
+) -> Length:
+    r"""Minimum film thickness of a fully flooded, isothermal, piezoviscous-elastic contact, from its radii alone.
+
+    .. math:: h = 3.68 R_x U^{0.68} G^{0.49} W^{-0.073} (1 - \exp(-0.67 k^{2/3}))
+
+    Chittenden1985, for entrainment along a principal axis of the ellipse: k is the equivalent radius across the
+    entrainment over that along it. A ball in a groove is entrained along the minor axis of its ellipse, so k = R_y/R_x
+    is above one, and U and W are counted in R_x, as those of HamrockDowson1977. Zero at rest; grows without limit as
+    the load vanishes, where the law does not hold.
+    """
+    R_x, U, G, W, k = rolling_radius, speed_parameter, material_parameter, load_parameter, radii_ratio
+    xp = namespace(R_x, U, G, W, k)
+    return 3.68 * R_x * U**0.68 * G**0.49 * W ** (-0.073) * (1 - xp.exp(-0.67 * k ** (2 / 3)))
+
+
 def slide_to_roll_ratio(sliding_speed: Speed, entrainment_speed: Speed) -> Ratio:
     r"""Sliding speed in units of the mean speed of the two surfaces.
 

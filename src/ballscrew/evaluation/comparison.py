@@ -1,4 +1,4 @@
-"""Models and laws side by side at one operating point: how far apart they are, and which can be trusted there."""
+"""Comparison of models and laws at one operating point: their spread, and their validity there."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from ballscrew.analyses.nut_parts import NutParts
-from ballscrew.assembly import NutFriction
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew, Operation
-from ballscrew.model import FrictionModel
-from ballscrew.result import FrictionResult
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.nut_friction import NutFriction
+from ballscrew.friction.nut_parts import NutParts
+from ballscrew.friction.result import FrictionResult
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Candidate:
-    """A model to compare: what it is called and, if it is the case's with another law, in which slot.
+    """A model to compare: its name and, where it is the case's model with another law, the slot of the law.
 
-    One that does not count is shown, but enters no spread.
+    With ``counts`` false it is shown, but enters no spread.
     """
 
     name: str
@@ -30,7 +30,7 @@ class Candidate:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Row:
-    """A candidate, and what came out of it."""
+    """A candidate and its result."""
 
     candidate: Candidate
     result: FrictionResult | NutFriction
@@ -108,8 +108,8 @@ def compare(
 ) -> Comparison:
     """Evaluate the case's model, other models, and the case's with other laws, at one operating point.
 
-    Where one of the models is the case's own, their rows are one. With ``parts`` it is done on a whole nut; what
-    knows no such nut is left out. ``done(finished, total)`` is told the rows.
+    Where one of the models is the case's own, their rows are one. With ``parts`` a whole nut is
+    evaluated; models that do not support it are left out. ``done(finished, total)`` reports the rows.
     """
     finished = 0
 
@@ -142,7 +142,7 @@ def compare(
 
 
 def same_law(one: Any, other: Any) -> bool:
-    """Whether two laws are the same, with the same coefficients."""
+    """Return whether two laws are equal, coefficients included."""
     if dataclasses.is_dataclass(one) and type(one) is type(other):
         return vars(one) == vars(other)
     return one is other

@@ -10,18 +10,19 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
-from ballscrew.analyses.engines import Engine, engine_faults
-from ballscrew.analyses.evaluation import Evaluation
-from ballscrew.analyses.outputs import OPERATION, Output, known_outputs
-from ballscrew.analyses.plan import Plan, Subject
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
-from ballscrew.engine.gradient import UnknownSlopeError, partials
-from ballscrew.engine.merging import merged_program
-from ballscrew.engine.program import Program
-from ballscrew.faults import Fault, InputError, nearest, raise_if_any
-from ballscrew.model import FrictionModel
+from ballscrew.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.evaluation.engines import Engine, engine_faults
+from ballscrew.evaluation.evaluation import Evaluation
+from ballscrew.evaluation.outputs import OPERATION, Output, known_outputs
+from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import Info, Quantity
+from ballscrew.tracing.gradient import UnknownDerivativeError, partials
+from ballscrew.tracing.merging import merged_program
+from ballscrew.tracing.program import Program
+from ballscrew.tracing.tape import CannotRecordError
 
 #: How derivatives can be had.
 Method = Literal["tape", "jax"]
@@ -44,36 +45,36 @@ def derivatives(
 ) -> xr.Dataset:
     r"""Outputs and their partial derivatives by inputs and coefficients, as labelled arrays in SI.
 
-    ``by`` names the inputs as :func:`~ballscrew.analyses.sweep.sweep` does (``"axial_load"``, ``"ball_diameter"``,
+    ``by`` names the inputs as :func:`~ballscrew.sweeps.sweep.sweep` does (``"axial_load"``, ``"ball_diameter"``,
     ``"friction.boundary_friction_coefficient"``), varied or not; ``varied`` gives the points as there.
     For each output ``y`` and input ``x`` the dataset has ``y`` and ``d_y_d_x``
     (:math:`\partial y/\partial x`, all other inputs held).
 
     The derivatives are those of the formulas as they are evaluated, without differencing:
-    ``method="tape"`` differentiates what is recorded in reverse (:mod:`ballscrew.engine.gradient`) and evaluates
+    ``method="tape"`` differentiates what is recorded in reverse (:mod:`ballscrew.tracing.gradient`) and evaluates
     it with either ``engine``; ``"jax"`` leaves it to JAX (the extra ``jax``), an independent way to
     the same numbers. At a bend, such as the clamp of the friction coefficient, it is the slope of the branch
     taken; where a power has no slope (no load, at rest) it is infinite or NaN. A number of balls
     counts as continuous.
 
-    Raises :class:`~ballscrew.faults.InputError` for unknown names, outputs that are truth values,
+    Raises :class:`~ballscrew.errors.InputError` for unknown names, outputs that are truth values,
     inputs without a value, and laws that cannot be recorded.
     """
     faults = engine_faults("derivatives", engine)
     if method not in METHODS:
         faults.append(Fault("derivatives.method", "unknown method", str(method), f"one of {', '.join(METHODS)}"))
     raise_if_any(faults)
-    slopes = slopes_of(Subject(model, screw, lubricant), outputs, by, varied)
+    slopes = slopes_of(Configuration(model, screw, lubricant), outputs, by, varied)
     if method == "jax":
         return _by_jax(slopes)
     evaluation = Evaluation.of(slopes, engine)
     results = evaluation.empty(slopes.total)
     evaluation.fill(results, slice(0, slopes.total), threads=threads, done=done)
-    return slopes.dataset(results)
+    return slopes.dataset(results).assign_attrs(evaluation.attributes)
 
 
-def slopes_of(subject: Subject, outputs: Sequence[str], by: Sequence[str], varied: Mapping[str, Any]) -> Slopes:
-    """A plan for outputs and their derivatives. Raises :class:`~ballscrew.faults.InputError` with all faults in it."""
+def slopes_of(subject: Configuration, outputs: Sequence[str], by: Sequence[str], varied: Mapping[str, Any]) -> Slopes:
+    """A plan for outputs and their derivatives. Raises :class:`~ballscrew.errors.InputError` with all faults in it."""
     by = (by,) if isinstance(by, str) else tuple(dict.fromkeys(by))
     known = subject.inputs
     faults = [Fault("derivatives.by", "unknown input", name, nearest(name, known)) for name in by if name not in known]
@@ -133,15 +134,15 @@ class Slopes(Plan):
         varying, tape = self.varying, self.tape(groups)
         found: dict[str, Any] = {}
         try:
-            with np.errstate(all="ignore"):
+            with self.subject.recording():
                 result = self.subject.at(self.fixed | self.traced(tape))
                 for name in self.outputs:
                     found[name] = known_outputs()[name].read(result)
                     slopes = partials(tape, found[name], [varying.index(x) for x in self.by])
                     found |= {_name(name, x): slope for x, slope in zip(self.by, slopes, strict=True)}
-        except UnknownSlopeError as unknown:
+        except UnknownDerivativeError as unknown:
             raise InputError(Fault("derivatives", f"{unknown} has no derivative here", "", JAX_INSTEAD)) from None
-        except TypeError as why:  # a law of the user's that wants plain arrays
+        except CannotRecordError as why:
             raise InputError(Fault("derivatives", f"a law cannot be recorded: {why}", "", JAX_INSTEAD)) from None
         return merged_program(tape, found)
 
@@ -156,7 +157,7 @@ def _unreadable(_: Any) -> Any:
 
 
 def _by_jax(slopes: Slopes) -> xr.Dataset:
-    from ballscrew.analyses.jax_derivatives import jax_value_and_partials
+    from ballscrew.evaluation.jax_derivatives import jax_value_and_partials
 
     everywhere = np.arange(slopes.total)
     shape = everywhere.shape

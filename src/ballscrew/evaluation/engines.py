@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal
 
-from ballscrew.engine import kernel as kernels
-from ballscrew.engine.program import Program
-from ballscrew.faults import Fault
+from ballscrew.errors import Fault
+from ballscrew.kernels import kernel as kernels
+from ballscrew.tracing.program import Program
 
 #: What can evaluate a plan.
 Engine = Literal["numpy", "compiled"]
@@ -36,6 +36,20 @@ def engine_faults(section: str, engine: str | None, engines: Sequence[str] = ENG
     return []
 
 
+#: Why an engine evaluates: see :func:`why_numpy`.
+ASKED_FOR = "it was asked for"
+PAYS = "that is sooner done than by NumPy, compiling included"
+
+
+def why_numpy(engine: Engine | None) -> str:
+    """Why there is no kernel where one could be recorded."""
+    if engine == "numpy":
+        return ASKED_FOR
+    if not kernels.available():
+        return 'no compiler is installed: pip install "ballscrew[fast]"'
+    return "the work is too short for a compiler"
+
+
 def may_be_compiled(program: Program, points: int, engine: Engine | None) -> bool:
     """Whether to look for a kernel at all: asked for, or the work is not short."""
     if engine == "numpy" or not kernels.available():
@@ -45,7 +59,7 @@ def may_be_compiled(program: Program, points: int, engine: Engine | None) -> boo
 
 def worth_compiling(program: Program, points: int, text: str) -> bool:
     """Whether a kernel is sooner done than NumPy: it is compiled already, or that is paid back."""
-    if kernels.is_kept(text):
+    if kernels.is_cached(text):
         return True
     return _numpy_seconds(program, points) > COMPILING_SECONDS + COMPILING_STEP_SECONDS * len(program.steps)
 

@@ -13,23 +13,31 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-import ballscrew
 from ballscrew._arrays import BLOCK_SIZE, map_blocks, processors
-from ballscrew.analyses.engines import (
+from ballscrew._version import __version__
+from ballscrew.errors import (
+    Fault,
+    InputError,
+    raise_if_any,
+)
+from ballscrew.evaluation.engines import (
+    ASKED_FOR,
+    PAYS,
     SWEEP_ENGINES,
     Engine,
     SweepEngine,
     engine_faults,
     may_be_compiled,
+    why_numpy,
     worth_compiling,
 )
-from ballscrew.analyses.plan import Plan
-from ballscrew.engine import kernel as kernels
-from ballscrew.engine.emission import Source, UnknownOperationError, kernel_text
-from ballscrew.engine.grid import COLUMNS, ROWS, Split, inner_axes, split
-from ballscrew.engine.kernel import Kernel
-from ballscrew.engine.program import Program
-from ballscrew.faults import Fault, InputError, raise_if_any
+from ballscrew.evaluation.plan import Plan
+from ballscrew.kernels import kernel as kernels
+from ballscrew.kernels.emission import UnknownOperationError, kernel_text
+from ballscrew.kernels.kernel import Kernel
+from ballscrew.tracing.grid import COLUMNS, ROWS, Split, inner_axes, split
+from ballscrew.tracing.program import Program, Source
+from ballscrew.tracing.tape import CannotRecordError
 
 #: Fewest columns of a grid: a short row is mostly its beginning and its end.
 FEWEST_COLUMNS = 256
@@ -50,9 +58,13 @@ _Works = Callable[[Plan], _Work]
 class Evaluation:
     """A plan made ready by one of the engines; the same bits whatever the blocks and the threads."""
 
-    def __init__(self, plan: Plan, engine: Engine, said: str, works: _Works, block_size: int, row_length: int) -> None:
+    def __init__(
+        self, plan: Plan, engine: Engine, reason: str, said: str, works: _Works, block_size: int, row_length: int
+    ) -> None:
         self.plan = plan
         self.engine: Engine = engine
+        #: Why it is this engine.
+        self.reason = reason
         #: A digest of the formulas as they are evaluated: on like processors, those that share it give the same bits.
         self.fingerprint = hashlib.sha256(f"{engine}\n{said}".encode()).hexdigest()
         self._said = said
@@ -67,41 +79,48 @@ class Evaluation:
 
         ``times`` says how often all of it will be evaluated (see :meth:`at`).
 
-        Raises :class:`~ballscrew.faults.InputError` for an engine that cannot be had.
+        Raises :class:`~ballscrew.errors.InputError` for an engine that cannot be had.
         """
         raise_if_any(engine_faults("sweep", engine, SWEEP_ENGINES))
         if engine == "model":
-            return _by_numpy(plan, None)
-        program = plan.recorded()
-        why = "a whole nut, or a law of your own, is evaluated by NumPy only"
-        if program is not None:
+            return _by_numpy(plan, None, f"the model itself: {ASKED_FOR}")
+        program: Program | None = None
+        try:
+            program = plan.recorded()
             points = plan.total * times
-            if not may_be_compiled(program, points, engine):
-                return _by_numpy(plan, program)
-            try:
+            why = why_numpy(engine)
+            if may_be_compiled(program, points, engine):
                 made = (_Grid.of(plan) if times == 1 else None) or _Points.of(plan, program)
                 if engine or worth_compiling(made.program, points, made.text):
-                    return cls(plan, "compiled", made.said, made.compiled(), LARGEST_BLOCK, made.row_length)
-            except UnknownOperationError as unknown:
-                why = f"{unknown} is not known to kernels"
+                    chosen = ASKED_FOR if engine else PAYS
+                    return cls(plan, "compiled", chosen, made.said, made.compiled(), LARGEST_BLOCK, made.row_length)
+        except CannotRecordError as error:
+            why = f"the model itself, on plain arrays: {error}"
+        except UnknownOperationError as unknown:
+            why = f"{unknown} is not known to kernels"
         if engine == "compiled":
-            raise InputError(Fault("sweep.engine", why, engine, 'take engine="numpy"'))
-        return _by_numpy(plan, program)
+            raise InputError(Fault("sweep.engine", f"cannot be had: {why}", engine, 'take engine="numpy"'))
+        return _by_numpy(plan, program, why)
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """Which engine evaluates, and why, as attributes of a dataset."""
+        return {"engine": self.engine, "engine_reason": self.reason}
 
     def at(self, values: Mapping[str, Any]) -> Evaluation:
         """The same formulas with other values on the axes; nothing is recorded or compiled again.
 
         For plans that were made ready for several ``times`` and whose formulas have these axes as inputs: those of one
-        dimension, and the numbers that :class:`~ballscrew.analyses.derivatives.Slopes` differentiates by.
+        dimension, and the numbers that :class:`~ballscrew.evaluation.derivatives.Slopes` differentiates by.
         """
         axes = {**self.plan.axes, **{name: xr.DataArray(value) for name, value in values.items()}}
         sizes = {str(d): size for axis in axes.values() for d, size in zip(axis.dims, axis.shape, strict=True)}
         plan = dataclasses.replace(self.plan, axes=axes, sizes=sizes)
-        return Evaluation(plan, self.engine, self._said, self._works, self._block_size, self._row_length)
+        return Evaluation(plan, self.engine, self.reason, self._said, self._works, self._block_size, self._row_length)
 
     def empty(self, count: int) -> dict[str, NDArray[Any]]:
         """Room for the results of so many points."""
-        return {name: kernels.room(count, output.dtype) for name, output in self.plan.wanted.items()}
+        return {name: kernels.aligned_array(count, output.dtype) for name, output in self.plan.wanted.items()}
 
     def fill(
         self,
@@ -135,7 +154,7 @@ class Evaluation:
         return math.ceil(size / step) * step
 
 
-def _by_numpy(plan: Plan, program: Program | None) -> Evaluation:
+def _by_numpy(plan: Plan, program: Program | None, reason: str) -> Evaluation:
     player = None if program is None else program.player
 
     def works(plan: Plan) -> _Work:
@@ -153,7 +172,7 @@ def _by_numpy(plan: Plan, program: Program | None) -> Evaluation:
         return work
 
     said = _code_of(plan) if program is None else program.text
-    return Evaluation(plan, "numpy", said, works, max(1, BLOCK_SIZE // plan.subject.balls), 1)
+    return Evaluation(plan, "numpy", reason, said, works, max(1, BLOCK_SIZE // plan.subject.balls), 1)
 
 
 def _code_of(plan: Plan) -> str:
@@ -161,7 +180,7 @@ def _code_of(plan: Plan) -> str:
     subject = plan.subject
     losses = {} if subject.nut is None else subject.nut.losses
     parts = {field.name: getattr(subject.model, field.name) for field in dataclasses.fields(subject.model)}
-    said = [ballscrew.__version__]
+    said = [__version__]
     for name, law in (parts | dict(losses)).items():
         said.append(f"{name} {_said(law)} {_said(type(law).__call__)}")
     return "\n".join(said)
@@ -254,10 +273,7 @@ class _Grid(_Kernels):
             groups.append(sum(COLUMNS if is_inner else ROWS for is_inner in dims) or ROWS)
         if ROWS | COLUMNS in groups or WORTH_CUTTING * (columns + plan.total // columns) > plan.total:
             return None
-        program = plan.recorded(groups)
-        if program is None:
-            return None
-        cut = split(program, groups)
+        cut = split(plan.recorded(groups), groups)
         entries = len(cut.rows.outputs) * (plan.total // columns) + len(cut.columns.outputs) * columns
         return None if entries > MOST_ENTRIES else cls(plan, cut, columns)
 

@@ -1,4 +1,4 @@
-"""Derivatives by JAX: the model runs on arrays of JAX, which keeps the chain rule.
+"""Derivatives by JAX: the model runs on JAX arrays and is differentiated in reverse mode.
 
 Every output at a point depends on the inputs of that point alone. So one pass backwards from the sum
 of an output over the points gives its slopes by all inputs, at all points.
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew._arrays import blocks
-from ballscrew.faults import Fault, InputError
+from ballscrew.errors import Fault, InputError
 
 Field = NDArray[np.float64]
 
@@ -40,7 +40,7 @@ def jax_value_and_partials(
     by block; few are not worth compiling. Values differ from NumPy's by rounding. Runs where JAX runs,
     on a graphics processor if it has one; JAX is switched to double precision for this call alone.
 
-    Raises :class:`~ballscrew.faults.InputError` without JAX.
+    Raises :class:`~ballscrew.errors.InputError` without JAX.
     """
     try:
         import jax

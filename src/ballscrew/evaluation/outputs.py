@@ -1,4 +1,4 @@
-"""What can be varied in a model, and what can be asked of it: names, units and meanings."""
+"""Inputs that can be varied and outputs that can be asked for: names, units and meanings."""
 
 from __future__ import annotations
 
@@ -7,20 +7,20 @@ import functools
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ballscrew.analyses.nut_parts import NutParts
-from ballscrew.assembly import NUT_REASONS, NutFriction
 from ballscrew.components.contact import RaceState
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew, Operation
-from ballscrew.model import FrictionModel
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.nut_friction import NUT_REASONS, NutFriction
+from ballscrew.friction.nut_parts import NutParts
+from ballscrew.friction.result import MECHANISMS, FrictionResult
+from ballscrew.friction.validity import REASONS
 from ballscrew.quantities import Info, Quantity, fields_of, quantities_of
-from ballscrew.result import MECHANISMS, FrictionResult
 from ballscrew.solvers.load_distribution import BallLoads
-from ballscrew.validity import REASONS
 
 #: The fields of the operating point, which every sweep needs.
 OPERATION = tuple(fields_of(Operation))
-#: What a sweep returns unless told otherwise.
+#: Outputs of a sweep by default.
 DEFAULT_OUTPUTS = (
     "screw_torque",
     "nut_torque",
@@ -36,9 +36,9 @@ DEFAULT_OUTPUTS = (
 )
 
 
-#: What of the loads of the balls of a nut is one number.
+#: Scalar results of the loads of the balls of a nut.
 OF_LOADS = ("deflection", "rigidity", "remaining_preload", "lift_off_load", "residual")
-#: What a sweep over a whole nut returns unless told otherwise.
+#: Outputs of a sweep over a whole nut by default.
 NUT_OUTPUTS = (
     "screw_torque",
     "nut_torque",
@@ -60,7 +60,7 @@ TRUTHS = frozenset({"self_locking"})
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Output:
-    """One thing a sweep can return: how to read it off a result, and what it is."""
+    """An output of a sweep: its name, its quantity, and the function that reads it from a result."""
 
     name: str
     quantity: Quantity
@@ -68,12 +68,12 @@ class Output:
 
     @property
     def dtype(self) -> type:
-        """Truth values for what is true or not, numbers for all else."""
+        """``bool`` for truth values, ``float`` for numbers."""
         return bool if self.name.startswith("valid") or self.name in TRUTHS else float
 
 
 def known_outputs(nut: NutParts | None = None) -> Mapping[str, Output]:
-    """Everything a sweep can return, by name: ``screw_torque``, ``nut_film_parameter``, ``contribution_curvature``…
+    """All outputs of a sweep by name: ``screw_torque``, ``nut_film_parameter``, ``contribution_curvature``…
 
     On a whole nut there are ``rigidity`` and other results of the loads of all balls, and no single contacts.
     """
@@ -82,7 +82,7 @@ def known_outputs(nut: NutParts | None = None) -> Mapping[str, Output]:
 
 @functools.cache
 def _outputs(losses: tuple[str, ...] | None) -> Mapping[str, Output]:
-    """The outputs of a screw, or of a nut with these losses: kept by names, as a nut is itself alone."""
+    """The outputs of a screw, or of a nut with these losses; cached by the names of the losses."""
     found: dict[str, Output] = {}
     result = FrictionResult if losses is None else NutFriction
     for name, quantity in quantities_of(result).items():
@@ -115,7 +115,7 @@ def _outputs(losses: tuple[str, ...] | None) -> Mapping[str, Output]:
 def inputs_of(
     model: FrictionModel, screw: BallScrew, lubricant: Lubricant, nut: NutParts | None = None
 ) -> Mapping[str, tuple[str, Quantity]]:
-    """Everything a sweep can vary: name to (part, quantity).
+    """All inputs that a sweep can vary: name to (part, quantity).
 
     Names are those of the fields; a coefficient of a law is ``law.field``, for example
     ``friction.boundary_friction_coefficient``. ``temperature`` is that of an oil made from a grade.

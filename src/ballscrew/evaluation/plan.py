@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import functools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Generator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-import ballscrew
-from ballscrew.analyses.nut_parts import NutParts
-from ballscrew.analyses.outputs import (
+from ballscrew._version import __version__
+from ballscrew.components.materials import TEMPERATURE, Lubricant
+from ballscrew.components.screw import MATERIALS, BallScrew
+from ballscrew.components.traits import traits_of
+from ballscrew.errors import Fault, fault_of, nearest, raise_if_any
+from ballscrew.evaluation.outputs import (
     DEFAULT_OUTPUTS,
     NUT_OUTPUTS,
     OPERATION,
@@ -22,21 +26,19 @@ from ballscrew.analyses.outputs import (
     inputs_of,
     known_outputs,
 )
-from ballscrew.assembly import NutFriction
-from ballscrew.components.materials import TEMPERATURE, Lubricant
-from ballscrew.components.screw import MATERIALS, BallScrew
-from ballscrew.engine.merging import merged_program
-from ballscrew.engine.program import Program
-from ballscrew.engine.tape import Tape
-from ballscrew.faults import Fault, fault_of, nearest, raise_if_any
-from ballscrew.model import FrictionModel
+from ballscrew.friction.model import SLOTS, FrictionModel
+from ballscrew.friction.nut_friction import NutFriction
+from ballscrew.friction.nut_parts import NutParts
+from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.references import citations_of
-from ballscrew.result import FrictionResult
+from ballscrew.tracing.merging import merged_program
+from ballscrew.tracing.program import Program
+from ballscrew.tracing.tape import CannotRecordError, Tape, why_not_recorded
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Subject:
+class Configuration:
     """What is evaluated: a model on a screw with its lubricant, and the nut where there is one."""
 
     model: FrictionModel
@@ -70,7 +72,7 @@ class Subject:
             return changed.model(changed.screw, changed.lubricant, **operation)
         return changed.nut.friction(changed.model, changed.screw, changed.lubricant, **operation)
 
-    def changed(self, values: Mapping[str, Any]) -> Subject:
+    def changed(self, values: Mapping[str, Any]) -> Configuration:
         """The subject with other values of some inputs, those of the operating point left aside."""
         parts = self.by_section
         where = {name: part for name, (part, _) in self.inputs.items()}
@@ -85,7 +87,7 @@ class Subject:
             change = {field: value} if not law else {law: dataclasses.replace(getattr(part, law), **{field: value})}
             parts[where[name]] = dataclasses.replace(part, **change)
         nut = None if self.nut is None else dataclasses.replace(self.nut, nut=parts["nut"])
-        return Subject(parts["model"], parts["screw"], parts["lubricant"], nut)
+        return Configuration(parts["model"], parts["screw"], parts["lubricant"], nut)
 
     def value_of(self, name: str) -> Any:
         """The value an input has where it is not varied."""
@@ -97,22 +99,34 @@ class Subject:
         lowest = info.at_least if info.above is None else info.above
         return lowest is not None and lowest >= 0
 
-    def recorded(self, tape: Tape, points: Mapping[str, Any], wanted: Mapping[str, Output]) -> Program | None:
+    def recorded(self, tape: Tape, points: Mapping[str, Any], wanted: Mapping[str, Output]) -> Program:
         """The outputs wanted as a program of the inputs of a tape, at points that are made of them.
 
-        None for a nut, or if a law of the user's wants plain arrays.
+        Raises :class:`~ballscrew.tracing.tape.CannotRecordError` for a nut, and for a law that wants plain arrays.
         """
         if self.nut is not None:
-            return None
+            raise CannotRecordError("a whole nut is evaluated on plain arrays")
+        with self.recording():
+            result = self.at(points)
+            return merged_program(tape, {name: output.read(result) for name, output in wanted.items()})
+
+    @contextlib.contextmanager
+    def recording(self) -> Generator[None]:
+        """Turn every way in which a law fails to be recorded into one error that says which law, and why.
+
+        What a law raises for another reason is raised as it is.
+        """
+        for slot in SLOTS:
+            if not traits_of(getattr(self.model, slot)).recordable:
+                raise CannotRecordError(f"the law model.{slot} declares that it wants plain arrays")
         try:
             with np.errstate(all="ignore"):
-                result = self.at(points)
-                program = merged_program(tape, {name: output.read(result) for name, output in wanted.items()})
-                blank = {n: np.empty(1, output.dtype) for n, output in wanted.items()}
-                program.player.play([np.full(1, 0.5)] * tape.inputs, blank)
-        except Exception:  # whatever a law of the user's cannot do with a recording, it may do with arrays
-            return None
-        return program
+                yield
+        except Exception as error:  # raised again unless the recording is its cause
+            why = why_not_recorded(error)
+            if why is None:
+                raise
+            raise CannotRecordError("; ".join([str(why), *getattr(error, "__notes__", ())])) from error
 
     def attributes(self, varied: Sequence[str] = ()) -> dict[str, Any]:
         """What is the same at all points, the sources, and the version: attributes of a dataset."""
@@ -130,7 +144,7 @@ class Subject:
         return {
             "title": f"Ball screw friction, model {self.model.label}",
             "Conventions": "CF-1.11",
-            "source": f"ballscrew {ballscrew.__version__}, model {self.model.label}",
+            "source": f"ballscrew {__version__}, model {self.model.label}",
             "references": "; ".join(citations_of(self.model)),
             **{name: value for name, value in fixed.items() if np.ndim(value) == 0},
         }
@@ -140,18 +154,18 @@ class Subject:
 class Plan:
     """A subject, the axes to vary as labelled arrays, and the names of the outputs; can be sent to other processes."""
 
-    subject: Subject
+    subject: Configuration
     axes: Mapping[str, xr.DataArray]
     sizes: Mapping[str, int]
     outputs: tuple[str, ...]
 
     @classmethod
     def of(
-        cls, subject: Subject, outputs: Sequence[str] | None, varied: Mapping[str, Any], section: str = "sweep"
+        cls, subject: Configuration, outputs: Sequence[str] | None, varied: Mapping[str, Any], section: str = "sweep"
     ) -> Plan:
         """A plan from what a person gives.
 
-        Raises :class:`~ballscrew.faults.InputError` with all faults in it, which stand under ``section``.
+        Raises :class:`~ballscrew.errors.InputError` with all faults in it, which stand under ``section``.
         """
         names = _wanted(section, outputs, subject.nut)
         axes = _axes(section, subject, varied)
@@ -188,8 +202,11 @@ class Plan:
         varying = self.varying
         return {name: axis.to_numpy()[()] for name, axis in self.axes.items() if name not in varying}
 
-    def recorded(self, groups: Sequence[int] | None = None) -> Program | None:
-        """The model as a program of the varying inputs, in groups where asked for; None if it cannot be recorded."""
+    def recorded(self, groups: Sequence[int] | None = None) -> Program:
+        """The model as a program of the varying inputs, in groups where asked for.
+
+        Raises :class:`~ballscrew.tracing.tape.CannotRecordError` where it cannot be recorded.
+        """
         tape = self.tape(groups)
         return self.subject.recorded(tape, self.fixed | self.traced(tape), self.wanted)
 
@@ -247,7 +264,7 @@ def _wanted(section: str, names: Sequence[str] | None, nut: NutParts | None) -> 
     return tuple(dict.fromkeys(chosen))
 
 
-def _axes(section: str, subject: Subject, varied: Mapping[str, Any]) -> dict[str, xr.DataArray]:
+def _axes(section: str, subject: Configuration, varied: Mapping[str, Any]) -> dict[str, xr.DataArray]:
     """The values to vary as labelled arrays; all faults in them at once."""
     known = subject.inputs
     parts = subject.by_section

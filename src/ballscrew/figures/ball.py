@@ -15,11 +15,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Ellipse, FancyArrowPatch, Rectangle
 from matplotlib.ticker import MaxNLocator
 
-from ballscrew.analyses.olaru2005 import case
 from ballscrew.equations import kinematics
-from ballscrew.interfaces.figures import style
-from ballscrew.interfaces.figures.style import Columns, Plot
-from ballscrew.result import FrictionResult
+from ballscrew.figures import style
+from ballscrew.figures.style import Columns, Plot
+from ballscrew.friction.result import FrictionResult
+from ballscrew.papers.olaru2005 import case
 
 Results = Mapping[str, FrictionResult]
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,10 +11,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ballscrew.analyses.uncertainty import Band, BandCurve
-from ballscrew.interfaces import units
-from ballscrew.interfaces.figures import style
-from ballscrew.quantities import Quantity
+from ballscrew import units
+from ballscrew.cases.case_file import Case
+from ballscrew.cases.descriptions import title
+from ballscrew.components.screw import Operation
+from ballscrew.figures import style
+from ballscrew.output.text import band as text
+from ballscrew.quantities import Quantity, fields_of
+from ballscrew.studies.band import BandReport
+from ballscrew.uncertainty.bands import Band, BandCurve
 
 _TORQUE = "friction torque on the screw (N m)"
 #: Inches of a line of the right panel, and of what stands around all.
@@ -26,16 +30,16 @@ _TITLE_CHARACTERS = 100
 _COLOURS = (style.SKY, style.BLUE, style.ORANGE)
 
 
-def picture(
-    title: str, caption: str, curve: BandCurve, quantity: Quantity, band: Band, causes: Sequence[str]
-) -> Figure:
+def picture(case: Case, report: BandReport, curve: BandCurve) -> Figure:
     """To the left the torque along a load or a speed, to the right both causes and the laws at the operating point."""
+    band = report.band
     lines = 3 + sum(len(laws) for laws in band.alternatives.values())
-    figure, (left, right) = style.new_figure(caption, height=max(style.PANEL_HEIGHT, _FRAME + _LINE * lines))
-    title = "\n".join(textwrap.wrap(title, _TITLE_CHARACTERS))
-    figure.suptitle(title, x=0.012, ha="left", fontsize=11, fontweight="bold")
-    _along(left, curve, quantity, band)
-    _causes(right, band, causes)
+    height = max(style.PANEL_HEIGHT, _FRAME + _LINE * lines)
+    figure, (left, right) = style.new_figure(text.caption(case, report, curve), height=height)
+    wrapped = "\n".join(textwrap.wrap(title(case), _TITLE_CHARACTERS))
+    figure.suptitle(wrapped, x=0.012, ha="left", fontsize=11, fontweight="bold")
+    _along(left, curve, fields_of(Operation)[curve.along], band)
+    _causes(right, band)
     return figure
 
 
@@ -59,12 +63,10 @@ def _along(panel: Axes, curve: BandCurve, quantity: Quantity, band: Band) -> Non
     panel.legend(loc="best", fontsize=_LABEL_SIZE)
 
 
-def _causes(panel: Axes, band: Band, causes: Sequence[str]) -> None:
+def _causes(panel: Axes, band: Band) -> None:
     torque = band["screw_torque"]
-    labels = list(causes)
-    for y, (interval, colour) in enumerate(
-        zip((torque.both, torque.parameters, torque.model_form), _COLOURS, strict=True)
-    ):
+    labels = list(text.CAUSES)
+    for y, (interval, colour) in enumerate(zip(text.intervals(torque), _COLOURS, strict=True)):
         if all(map(math.isfinite, interval)):
             panel.barh(y, interval.high - interval.low, _BAR, left=interval.low, color=colour)
     if math.isfinite(torque.median):

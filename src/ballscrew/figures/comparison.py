@@ -10,8 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from ballscrew.analyses.comparison import Row
-from ballscrew.interfaces.figures import style
+from ballscrew.cases.case_file import Case
+from ballscrew.evaluation.comparison import Comparison, Row
+from ballscrew.figures import style
+from ballscrew.friction.result import MECHANISMS
+from ballscrew.output.text import comparison as text
 
 #: Inches of a row, and of what stands above and below all rows.
 _ROW, _FRAME = 0.235, 1.5
@@ -26,6 +29,18 @@ class Line(NamedTuple):
     label: str
     row: Row | None = None
     words: str = ""
+
+
+def picture(case: Case, found: Comparison) -> Figure:
+    """The spread of a comparison; call within the house style."""
+    letters = text.reason_letters(found)
+    lines: list[Line] = []
+    for heading, rows in text.row_groups(case, found):
+        lines.append(Line(heading))
+        lines += [Line(text.name_of(row), row, text.row_label(row, found, letters)) for row in rows]
+    title = f"{text.operating_point(case)}, model {case.model.label}"
+    mechanisms = {name: MECHANISMS.get(name, name) for name in text.mechanisms_in(found)}
+    return spread(title, text.caption(case, found), lines, found.case, mechanisms)
 
 
 def spread(title: str, caption: str, lines: Sequence[Line], case: Row, mechanisms: Mapping[str, str]) -> Figure:

@@ -11,14 +11,39 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ballscrew.analyses.calibrated import CalibratedModel, Rows
-from ballscrew.analyses.next_test import NextTest
-from ballscrew.interfaces.figures import style
+from ballscrew import units
+from ballscrew.calibration.calibrated_model import CalibratedModel
+from ballscrew.calibration.fit_result import Rows
+from ballscrew.calibration.next_test import NextTest
+from ballscrew.cases.case import Case
+from ballscrew.figures import style
+from ballscrew.output.text import fit as text
+from ballscrew.quantities import Quantity
+from ballscrew.studies.fit import CONDITIONS, FitReport
+from ballscrew.torque_logs.log_rows import quantities
 
 #: More points than this are a blot.
 MOST_POINTS = 4000
 #: From SI to the unit of an axis, and its label.
 Axis = tuple[Callable[[Any], Any], str]
+
+
+def picture(case: Case, report: FitReport) -> Figure:
+    """A calibration at a glance; call within the house style."""
+    inputs = report.model.subject.inputs
+    known = {**{name: quantity for name, (_, quantity) in inputs.items()}, "time": quantities()["time"]}
+    axes = {name: _axis(name, quantity) for name, quantity in known.items() if name in (*CONDITIONS, "time")}
+    title, caption = text.log_and_model(case, report), text.caption(case, report)
+    return overview(title, caption, report.model, report.next_test, axes)
+
+
+def _axis(name: str, quantity: Quantity) -> Axis:
+    """The scale and the label of an axis."""
+
+    def scaled(values: Any) -> Any:
+        return units.from_si(np.asarray(values), quantity)
+
+    return scaled, f"{text.spoken(name)} [{quantity.shown_in}]"
 
 
 def overview(title: str, caption: str, found: CalibratedModel, test: NextTest | None, axes: dict[str, Axis]) -> Figure:
@@ -96,7 +121,7 @@ def _scores(panel: Axes, found: CalibratedModel) -> None:
     held_out = [score.held_out for score in found.scores]
     panel.barh(places - 0.2, fitted, 0.36, color=style.SKY, label="rows fitted")
     panel.barh(places + 0.2, held_out, 0.36, color=style.ORANGE, label="rows held out")
-    panel.set_yticks(places, [textwrap.fill(score.words, 14) for score in found.scores])
+    panel.set_yticks(places, [textwrap.fill(score.description, 14) for score in found.scores])
     panel.invert_yaxis()
     panel.set(xlabel="root mean square off [N m]", title="what physics buys")
     panel.legend()

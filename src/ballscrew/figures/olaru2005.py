@@ -11,10 +11,10 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew.analyses.olaru2005 import case
-from ballscrew.interfaces.figures import style
-from ballscrew.interfaces.figures.style import Columns, Plot
-from ballscrew.result import MECHANISMS
+from ballscrew.figures import style
+from ballscrew.figures.style import Columns, Plot
+from ballscrew.friction.result import MECHANISMS
+from ballscrew.papers.olaru2005 import case
 
 #: What stands above the panels.
 TITLES: Mapping[str, str] = {"olaru2005": "as printed", "corrected": "corrected"}

@@ -9,9 +9,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew.analyses.sensitivity import HALF
-from ballscrew.analyses.variance import Estimate
-from ballscrew.interfaces.figures import style
+from ballscrew import units
+from ballscrew.cases.case_file import Case
+from ballscrew.figures import style
+from ballscrew.output.text import sensitivity as text
+from ballscrew.studies.sensitivity import SensitivityReport
+from ballscrew.uncertainty.sensitivity import HALF, Sensitivity
+from ballscrew.uncertainty.sobol import Estimate
 
 #: Inches of a row, and of what stands above and below all rows.
 _ROW, _FRAME = 0.36, 1.5
@@ -19,6 +23,31 @@ _TITLE_CHARACTERS = 100
 _BARS = 0.76
 _LABEL_SIZE = 8.0
 _COLOURS = (style.BLUE, style.SKY)
+
+
+def picture(case: Case, report: SensitivityReport) -> Figure:
+    """The measures of all inputs; call within the house style."""
+    result = report.result
+    axis = "share of the variance"
+    if result.method != "sobol":
+        unit = text.unit(result.quantity)
+        axis = "change by one deviation of the input" + (f" ({unit})" if unit else "")
+    shown = ("effect",) if result.method == "local" else text.SHOWN[result.method]
+    return bars(
+        [f"What moves the {text.output_meaning(result)}", text.operating_point(case)],
+        text.caption(case, report),
+        axis,
+        [f"{report.describe(name)}\n{text.distribution(report.uncertain[name])}" for name in result.inputs],
+        {text.HEADINGS[m]: [_as_shown(result, result.measures[m][name]) for name in result.inputs] for m in shown},
+        [(report.describe(known.inputs[-1]), known.remaining) for known in result.explained_variance],
+    )
+
+
+def _as_shown(result: Sensitivity, estimate: Estimate) -> Estimate:
+    """A share as it is, an effect in the display unit."""
+    if result.method == "sobol":
+        return estimate
+    return Estimate(*(float(units.from_si(value, result.quantity)) for value in estimate))
 
 
 def bars(

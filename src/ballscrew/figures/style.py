@@ -17,19 +17,19 @@ import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew.interfaces.figures.colours import BLUE as BLUE
-from ballscrew.interfaces.figures.colours import GREEN as GREEN
-from ballscrew.interfaces.figures.colours import GREY as GREY
-from ballscrew.interfaces.figures.colours import GROWING as GROWING
-from ballscrew.interfaces.figures.colours import INK as INK
-from ballscrew.interfaces.figures.colours import LIGHT_SHADE as LIGHT_SHADE
-from ballscrew.interfaces.figures.colours import MECHANISM_COLOURS as MECHANISM_COLOURS
-from ballscrew.interfaces.figures.colours import ORANGE as ORANGE
-from ballscrew.interfaces.figures.colours import PURPLE as PURPLE
-from ballscrew.interfaces.figures.colours import RED as RED
-from ballscrew.interfaces.figures.colours import SHADE as SHADE
-from ballscrew.interfaces.figures.colours import SKY as SKY
-from ballscrew.interfaces.figures.colours import YELLOW as YELLOW
+from ballscrew.figures.colours import BLUE as BLUE
+from ballscrew.figures.colours import GREEN as GREEN
+from ballscrew.figures.colours import GREY as GREY
+from ballscrew.figures.colours import GROWING as GROWING
+from ballscrew.figures.colours import INK as INK
+from ballscrew.figures.colours import LIGHT_SHADE as LIGHT_SHADE
+from ballscrew.figures.colours import MECHANISM_COLOURS as MECHANISM_COLOURS
+from ballscrew.figures.colours import ORANGE as ORANGE
+from ballscrew.figures.colours import PURPLE as PURPLE
+from ballscrew.figures.colours import RED as RED
+from ballscrew.figures.colours import SHADE as SHADE
+from ballscrew.figures.colours import SKY as SKY
+from ballscrew.figures.colours import YELLOW as YELLOW
 
 LINE_STYLES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))
 

@@ -10,9 +10,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew.analyses.validation import DESCRIPTORS, Entry, Point
-from ballscrew.interfaces import units
-from ballscrew.interfaces.figures import style
+from ballscrew import units
+from ballscrew.figures import style
+from ballscrew.output.text import validation as text
+from ballscrew.studies.validation import Request
+from ballscrew.validation.entries import DESCRIPTORS, Entry, Point
 
 _HEIGHT = 3.2
 #: An axis with fewer values shows no trend.
@@ -22,6 +24,12 @@ _TITLE_CHARACTERS, _TITLE_LINE = 44, 13
 _NAMES_AT_MOST = 4
 #: Marker and colour of the model as it is, and calibrated.
 _MARKS = (("o", "white", style.BLUE), ("o", style.RED, style.RED))
+
+
+def picture(found: Sequence[Sequence[Entry]], request: Request) -> Figure:
+    """The ratios of all sets of a request; call within the house style."""
+    sources = [text.source_and_fit(entries[0].data, request) for entries in found]
+    return ratios(found, text.caption(found, request), sources)
 
 
 def ratios(found: Sequence[Sequence[Entry]], caption: str, sources: Sequence[str]) -> Figure:
@@ -86,7 +94,7 @@ def _panel(panel: Axes, entries: Sequence[Entry], source: str, axis: str) -> Non
     panel.set_ylim(0, 1.06 * max([*tops, 1.0]))
     above: Any = {"loc": "lower left", "bbox_to_anchor": (0, 1), "borderaxespad": 0.2, "borderpad": 0}
     panel.legend(**above, title=source, alignment="left", fontsize=8, title_fontsize=8)
-    words = textwrap.wrap(entries[0].data.words.partition(",")[0], _TITLE_CHARACTERS)
+    words = textwrap.wrap(entries[0].data.title, _TITLE_CHARACTERS)
     # above the legend, which has a line for who states the values and one for each entry
     panel.set_title("\n".join(words), pad=_TITLE_LINE * (len(entries) + 1) + 4)
 

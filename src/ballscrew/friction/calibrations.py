@@ -14,9 +14,9 @@ from importlib import resources
 from typing import Any
 
 from ballscrew.components.laws import ProportionalBallForce
-from ballscrew.components.mixed_friction import AnyFriction
-from ballscrew.faults import Fault, InputError, nearest
-from ballscrew.model import FrictionModel
+from ballscrew.errors import Fault, InputError, nearest
+from ballscrew.friction.law_names import coefficients
+from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import Ratio
 
 #: The two numbers, in the order of the covariance, and where they stand in a model.
@@ -66,7 +66,7 @@ def calibrations() -> Mapping[str, Calibration]:
 
 
 def calibration(name: str) -> Calibration:
-    """The calibration of that name. Raises :class:`~ballscrew.faults.InputError` with the nearest if there is none."""
+    """The calibration of that name. Raises :class:`~ballscrew.errors.InputError` with the nearest if there is none."""
     known = calibrations()
     if name not in known:
         raise InputError(Fault("model.calibration", "unknown calibration", name, nearest(name, known)))
@@ -76,7 +76,7 @@ def calibration(name: str) -> Calibration:
 def calibrated(model: FrictionModel, found: Calibration) -> FrictionModel:
     """The model with the two numbers of a calibration.
 
-    Raises :class:`~ballscrew.faults.InputError` for a model that has no boundary friction, or whose force between the
+    Raises :class:`~ballscrew.errors.InputError` for a model that has no boundary friction, or whose force between the
     balls is imposed.
     """
     return with_parameters(model, found.boundary_friction_coefficient, found.share_of_load)
@@ -84,19 +84,21 @@ def calibrated(model: FrictionModel, found: Calibration) -> FrictionModel:
 
 def with_parameters(model: FrictionModel, boundary_friction_coefficient: Ratio, share_of_load: Ratio) -> FrictionModel:
     """The model with these two numbers; raises as :func:`calibrated` does."""
-    friction, faults = model.friction, list[Fault]()
+    friction: Any = model.friction
+    faults: list[Fault] = []
     if model.ball_to_ball_force is not None:
         problem = "does not count with a calibration, which sets the force between the balls"
         faults.append(
             Fault("model.ball_to_ball_force", problem, str(model.ball_to_ball_force), "leave one of the two out")
         )
-    if isinstance(friction, AnyFriction) and not faults:
+    has_one = "boundary_friction_coefficient" in coefficients(friction)
+    if has_one and not faults:
         return dataclasses.replace(
             model,
             friction=dataclasses.replace(friction, boundary_friction_coefficient=boundary_friction_coefficient),
             ball_force=ProportionalBallForce(share_of_load),
         )
-    if not isinstance(friction, AnyFriction):
+    if not has_one:
         remedy = 'take a friction law that has one, such as "load-sharing"'
         faults.append(Fault("model.friction", "has no boundary friction to calibrate", "", remedy))
     raise InputError(*faults)

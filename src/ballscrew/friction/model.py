@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 from collections.abc import Mapping
+from types import SimpleNamespace
 from typing import Annotated, Any
 
 import numpy as np
@@ -12,7 +13,7 @@ import numpy as np
 from ballscrew._arrays import as_array, lazy
 from ballscrew.components.balance import Resistances, ball_forces
 from ballscrew.components.conditions import Motion
-from ballscrew.components.contact import Contact, ContactLaws, RaceState, fields_as_dict, rolling_contact
+from ballscrew.components.contact import Contact, ContactLaws, RaceState, rolling_contact
 from ballscrew.components.frame import Frame, bearing_frame, helix_frame
 from ballscrew.components.laws import (
     BallChainLaw,
@@ -46,18 +47,21 @@ from ballscrew.components.lubrication import (
     biboulet_houpert_rolling,
     ideal_inlet,
     olaru_rolling,
+    root_sum_square_film_parameter,
 )
+from ballscrew.components.lubrication import literal_film_parameter as printed_film_parameter
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.mixed_friction import LoadSharing, ZhouHoeprich
+from ballscrew.components.outside_laws import usable
 from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.components.traits import traits_of
 from ballscrew.equations import equilibrium, geometry, kinematics
-from ballscrew.equations.film import film_parameter as rms_film_parameter
-from ballscrew.equations.film import literal_film_parameter as printed_film_parameter
 from ballscrew.equations.rolling import nut_pressure_force, screw_pressure_force
 from ballscrew.equations.transmission import contact_load as equal_contact_load
-from ballscrew.faults import Fault, faults_of, is_concrete, raise_if_any
-from ballscrew.quantities import AngularSpeed, Force, Info, Ratio
-from ballscrew.result import FrictionResult
+from ballscrew.errors import Fault, faults_of, is_concrete, raise_if_any
+from ballscrew.friction.law_names import fault_of_law
+from ballscrew.friction.result import FrictionResult
+from ballscrew.quantities import AngularSpeed, Force, Info, Ratio, fields_of
 from ballscrew.solvers.ellipse_slip import ellipse_slip
 from ballscrew.solvers.pure_rolling import curvature_slip
 from ballscrew.solvers.slip import BallProblem, ContactSlip, Slip, SlipLaw
@@ -70,7 +74,7 @@ class FrictionModel:
     """A friction model of a ball screw: one law in each slot, and three numbers.
 
     Call it with a screw, a lubricant, a load and a speed. Change one thing with
-    ``dataclasses.replace``. Raises :class:`~ballscrew.faults.InputError` for numbers out of bounds.
+    ``dataclasses.replace``. Raises :class:`~ballscrew.errors.InputError` for numbers out of bounds.
     """
 
     name: str
@@ -78,7 +82,7 @@ class FrictionModel:
     contact_load: ContactLoadLaw = equal_contact_load
     hertz: HertzLaw
     film: FilmLaw
-    film_parameter: FilmParameterLaw = rms_film_parameter
+    film_parameter: FilmParameterLaw = root_sum_square_film_parameter
     inlet: InletLaw = ideal_inlet
     friction: FrictionLaw = PAPER_FRICTION
     full_film: FullFilmLaw | None = None
@@ -115,7 +119,9 @@ class FrictionModel:
 
     def __post_init__(self) -> None:
         faults = faults_of("model", self, optional=("ball_to_ball_force", "pure_rolling_offset"))
-        if self.pure_rolling_offset is not None and self.slip is not curvature_slip:
+        given = ((slot, getattr(self, slot)) for slot in SLOTS)
+        faults += [fault for slot, law in given if (fault := fault_of_law(slot, law)) is not None]
+        if self.pure_rolling_offset is not None and not traits_of(self.slip).curvature_alone:
             problem = "can only be imposed where curvature is the only slip"
             remedy = "leave it out, or take the slip law of the paper"
             faults.append(Fault("model.pure_rolling_offset", problem, str(self.pure_rolling_offset), remedy))
@@ -132,7 +138,7 @@ class FrictionModel:
             frame=bearing_frame,
             hertz=houpert_hertz,
             film=HamrockDowson(speed_exponent=0.66),
-            film_parameter=printed_film_parameter if literal_film_parameter else rms_film_parameter,
+            film_parameter=printed_film_parameter if literal_film_parameter else root_sum_square_film_parameter,
             ball_chain=one_neighbour,
             race_torques=printed_race_torques,
             ideal_torque=printed_ideal_torque,
@@ -193,14 +199,18 @@ class FrictionModel:
             return self._evaluate(screw, lubricant, operation)
 
     @property
-    def label(self) -> str:
-        """The name of the preset, and the slots and numbers that are not as there."""
+    def changes(self) -> tuple[str, ...]:
+        """The slots and numbers that differ from the preset of the same name."""
         preset = presets().get(self.name)
         if preset is None:
-            return self.name
+            return ()
         fields = [field.name for field in dataclasses.fields(self)]
-        changed = [field for field in fields if not _same(getattr(self, field), getattr(preset, field))]
-        return self.name if not changed else f"{self.name}, changed: {', '.join(changed)}"
+        return tuple(field for field in fields if not _same(getattr(self, field), getattr(preset, field)))
+
+    @property
+    def label(self) -> str:
+        """The name of the preset, and the slots and numbers that differ from it."""
+        return self.name if not self.changes else f"{self.name}, changed: {', '.join(self.changes)}"
 
     @lazy
     def laws_with_coefficients(self) -> dict[str, Any]:
@@ -208,18 +218,30 @@ class FrictionModel:
         slots = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
         return {slot: law for slot, law in slots.items() if dataclasses.is_dataclass(law)}
 
+    @lazy
+    def laws(self) -> SimpleNamespace:
+        """The laws by slot, to be called; those from outside check what they return."""
+        slots = {name: usable(name, getattr(self, name), Slip if name == "slip" else None) for name in SLOTS}
+        return SimpleNamespace(**slots)
+
+    @lazy
+    def contact_laws(self) -> ContactLaws:
+        """The laws that one contact needs, to be called."""
+        return ContactLaws(**{field.name: getattr(self.laws, field.name) for field in dataclasses.fields(ContactLaws)})
+
     def _evaluate(self, screw: BallScrew, lubricant: Lubricant, operation: Operation) -> FrictionResult:
         axial_load, screw_speed = operation.axial_load, operation.screw_speed
-        frame = self.frame(screw)
-        Q = self.contact_load(axial_load, screw.loaded_balls, screw.contact_angle, frame.lead_angle)
+        laws = self.laws
+        frame = laws.frame(screw)
+        Q = laws.contact_load(axial_load, screw.loaded_balls, screw.contact_angle, frame.lead_angle)
         v = frame.entrainment_speed(screw_speed)
         d_w = screw.ball_diameter
         spin = kinematics.relative_spin(screw_speed, frame.rolling_plane_sine)
         lateral = kinematics.torsion_speed(screw_speed, d_w, frame.lead_angle)
         motion = Motion(v, spin / 2, lateral / 2)
         on_screw, on_nut = self.contacts(screw, lubricant, frame, Q, (motion, motion))
-        F_B = self.ball_force(self.imposed_ball_force(screw), Q)
-        chain = self.ball_chain(self.ball_friction_coefficient, F_B, d_w, frame)
+        F_B = laws.ball_force(self.imposed_ball_force(screw), Q)
+        chain = laws.ball_chain(self.ball_friction_coefficient, F_B, d_w, frame)
         asked = Resistances(
             on_screw.hydrodynamic_rolling_force,
             on_nut.hydrodynamic_rolling_force,
@@ -227,7 +249,7 @@ class FrictionModel:
             on_nut.elastic_resistance_moment,
             chain,
         )
-        slip = self.slip(BallProblem(on_screw, on_nut, asked, d_w, frame, screw_speed, self.pure_rolling_offset))
+        slip = laws.slip(BallProblem(on_screw, on_nut, asked, d_w, frame, screw_speed, self.pure_rolling_offset))
         carried = asked.scaled(slip.rolling_share)
         laws_and_numbers = (self, *self.laws_with_coefficients.values())
         return FrictionResult(
@@ -243,10 +265,10 @@ class FrictionModel:
             spin_moment=slip.spin_moment,
             lateral_force=slip.lateral_force,
             rolling_share=slip.rolling_share,
-            race_torques=self.race_torques,
-            ideal_torque_law=self.ideal_torque,
+            race_torques=laws.race_torques,
+            ideal_torque_law=laws.ideal_torque,
             converged=slip.converged,
-            slip_is_curvature_alone=self.slip is curvature_slip,
+            slip_is_curvature_alone=traits_of(self.slip).curvature_alone,
             **self._race_states(on_screw, on_nut, carried, slip, frame, d_w),
         )
 
@@ -254,17 +276,13 @@ class FrictionModel:
         self, screw: BallScrew, lubricant: Lubricant, frame: Frame, contact_load: Force, motions: tuple[Motion, Motion]
     ) -> tuple[Contact, Contact]:
         """The contacts of a ball with screw and nut under a load, in motion; what slips in them comes later."""
-        laws = ContactLaws(
-            self.hertz, self.film, self.film_parameter, self.inlet, self.friction, self.full_film, self.rolling,
-            self.elastic_resistance,
-        )  # fmt: skip
         d_w, gamma = screw.ball_diameter, frame.curvature_ratio
         sides = (
             (screw.screw_raceway, geometry.screw_rolling_radius(d_w, gamma)),
             (screw.nut_raceway, geometry.nut_rolling_radius(d_w, gamma)),
         )
         on_screw, on_nut = (
-            rolling_contact(laws, screw, raceway, lubricant, rolling_radius, contact_load, motion)
+            rolling_contact(self.contact_laws, screw, raceway, lubricant, rolling_radius, contact_load, motion)
             for (raceway, rolling_radius), motion in zip(sides, motions, strict=True)
         )
         return on_screw, on_nut
@@ -280,14 +298,15 @@ class FrictionModel:
         M_s = slip.screw.curvature_moment + M_ERs
         M_n = slip.nut.curvature_moment + M_ERn
         forces = ball_forces(Resistances(F_Rs, F_Rn, M_s, M_n, chain), ball_diameter, frame)
-        torques = self.race_torques(forces.screw_tangential_force, forces.nut_tangential_force, M_s, M_n, frame)
+        torques = self.laws.race_torques(forces.screw_tangential_force, forces.nut_tangential_force, M_s, M_n, frame)
         through = equilibrium.spin_torque(slip.spin_moment, frame.rolling_plane_sine) + equilibrium.torsion_torque(
             slip.lateral_force, ball_diameter, frame.lead_angle
         )
 
         def state(contact: Contact, at_contact: ContactSlip, **changed: Any) -> RaceState:
-            return RaceState(
-                **{**fields_as_dict(contact), **changed},
+            return contact.extended(
+                RaceState,
+                **changed,
                 pure_rolling_offset=at_contact.pure_rolling_offset,
                 curvature_friction_moment=at_contact.curvature_moment,
                 creep_speed=at_contact.creep_speed,
@@ -319,6 +338,12 @@ class FrictionModel:
                 friction_torque=torques.nut + through,
             ),
         }
+
+
+#: The slots of the model: its fields that hold a law.
+SLOTS = tuple(
+    field.name for field in dataclasses.fields(FrictionModel) if field.name not in ("name", *fields_of(FrictionModel))
+)
 
 
 def _misfits(operation: Operation) -> list[Fault]:

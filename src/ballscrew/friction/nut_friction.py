@@ -21,20 +21,32 @@ from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Bodies, Deviations, Nut, OversizeBallNut
 from ballscrew.components.nut_losses import ParasiticLaw
 from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.components.traits import traits_of
 from ballscrew.equations import kinematics, transmission
-from ballscrew.faults import Fault, raise_if_any
-from ballscrew.model import FrictionModel
+from ballscrew.errors import Fault, raise_if_any
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.result import MECHANISMS
+from ballscrew.friction.validity import (
+    CONDITIONS,
+    Condition,
+    contact_masks,
+    input_mask,
+    warning_records,
+)
 from ballscrew.quantities import AngularSpeed, Force, Info, Mask, Power, Pressure, Ratio, Torque
-from ballscrew.result import MECHANISMS
-from ballscrew.solvers.ellipse_slip import ellipse_slip
+from ballscrew.records import Record
 from ballscrew.solvers.four_point_slip import FlankPair, FourPointBall, four_point_slip
 from ballscrew.solvers.load_distribution import BallLoads, ball_loads
-from ballscrew.validity import REASONS, contact_masks, input_mask
 
 #: Share of the loads of all contacts below which it does not count that a condition fails.
 NEGLIGIBLE_SHARE = 0.01
-#: What can be wrong with a nut beyond what can be wrong with a ball.
-NUT_REASONS: Mapping[str, str] = {**REASONS, "load_distribution": "the loads of the balls did not converge"}
+#: The conditions of a ball, and those of a nut.
+NUT_CONDITIONS: Mapping[str, Condition] = {
+    **CONDITIONS,
+    "load_distribution": Condition("load_distribution", "the loads of the balls did not converge"),
+}
+#: The texts alone, by reason.
+NUT_REASONS: Mapping[str, str] = {reason: condition.text for reason, condition in NUT_CONDITIONS.items()}
 
 
 class LoadedPair(NamedTuple):
@@ -74,7 +86,8 @@ class NutFriction:
     @lazy
     def ideal_torque(self) -> Annotated[Torque, Info("M_Sa", "drive torque without friction")]:
         """Drive torque without friction."""
-        return self.model.ideal_torque(self.axial_load, self.ball_screw, self.model.frame(self.ball_screw))
+        laws = self.model.laws
+        return laws.ideal_torque(self.axial_load, self.ball_screw, laws.frame(self.ball_screw))
 
     @lazy
     def drive_torque(self) -> Annotated[Torque, Info("M_Sa + M_S", "drive torque with friction")]:
@@ -135,9 +148,15 @@ class NutFriction:
         return np.all(np.stack(np.broadcast_arrays(*self.validity.values())), axis=0)
 
     @property
+    def warning_records(self) -> list[Record]:
+        """The conditions that fail somewhere, as records."""
+        contacts = [contact for pair in self.pairs for contact in (pair.screw, pair.nut)]
+        return warning_records(self.validity, contacts, NUT_CONDITIONS)
+
+    @property
     def warnings(self) -> list[str]:
-        """The conditions that fail somewhere, in words: ``"reason: explanation"``."""
-        return [f"{reason}: {NUT_REASONS[reason]}" for reason, mask in self.validity.items() if not np.all(mask)]
+        """The conditions that fail somewhere, as texts: ``"reason: explanation"``."""
+        return [f"{record.name}: {record.text}" for record in self.warning_records]
 
 
 def nut_friction(
@@ -156,12 +175,12 @@ def nut_friction(
 
     The loaded balls of the screw are those of one nut body or half. ``bodies`` and ``deviations`` make balls of a kind
     unequal; ``losses`` are further laws by name, such as ``{"seals": Seals(seal_torque=0.2)}``.
-    Raises :class:`~ballscrew.faults.InputError` for numbers out of bounds, and for a model that knows no four
+    Raises :class:`~ballscrew.errors.InputError` for numbers out of bounds, and for a model that knows no four
     contacts where the nut has them.
     """
     operation = Operation(axial_load=as_array(axial_load), screw_speed=as_array(screw_speed))
     four = isinstance(nut, OversizeBallNut)
-    if four and model.slip is not ellipse_slip:
+    if four and 4 not in traits_of(model.slip).contacts_per_ball:
         remedy = 'take the model reference, or slip = "ellipse"'
         raise_if_any(
             [Fault("model.slip", "knows no balls with four contacts, as an oversize-ball nut has", "", remedy)]
@@ -265,7 +284,7 @@ def _on_four_contacts(ball: _Ball, loads: BallLoads) -> _Balls:
     validity: dict[str, list[_Condition]] = {}
     for load, angle in sides:
         at_angle = dataclasses.replace(screw, contact_angle=np.where(load > 0, angle, screw.contact_angle))
-        frame = model.frame(at_angle)
+        frame = model.laws.frame(at_angle)
         lateral = kinematics.torsion_speed(omega, screw.ball_diameter, frame.lead_angle) / 2
         v = frame.entrainment_speed(omega)
         # the ball turns about the binormal; what of its rotation does not roll spins, at the screw more than at the nut
@@ -278,9 +297,9 @@ def _on_four_contacts(ball: _Ball, loads: BallLoads) -> _Balls:
         for contact in contacts:
             for reason, mask in contact_masks(contact).items():
                 validity.setdefault(reason, []).append(_Condition(mask, load))
-    frame = model.frame(screw)
-    F_B = model.ball_force(model.imposed_ball_force(screw), loads.forward_load + loads.backward_load)
-    moment = model.ball_chain(model.ball_friction_coefficient, F_B, screw.ball_diameter, frame).moment
+    frame = model.laws.frame(screw)
+    F_B = model.laws.ball_force(model.imposed_ball_force(screw), loads.forward_load + loads.backward_load)
+    moment = model.laws.ball_chain(model.ball_friction_coefficient, F_B, screw.ball_diameter, frame).moment
     forward, backward = (
         FlankPair(pair.screw, pair.nut, np.where(pair.load > 0, angle, screw.contact_angle))
         for pair, (_, angle) in zip(pairs, sides, strict=True)

@@ -6,22 +6,22 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Annotated, Any
 
-from ballscrew.assembly import NutFriction, nut_friction
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Bodies, Deviations, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut
 from ballscrew.components.nut_losses import ParasiticLaw
 from ballscrew.components.screw import BallScrew
-from ballscrew.faults import faults_of, is_concrete, raise_if_any
-from ballscrew.model import FrictionModel
+from ballscrew.components.traits import traits_of
+from ballscrew.errors import faults_of, is_concrete, raise_if_any
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.nut_friction import NutFriction, nut_friction
 from ballscrew.quantities import AngularSpeed, Count, Force, Info, Length, fields_of
-from ballscrew.solvers.ellipse_slip import ellipse_slip
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Scatter:
     """How much balls and lead scatter, as standard deviations; one seed gives the same balls every time.
 
-    Raises :class:`~ballscrew.faults.InputError` for negative numbers.
+    Raises :class:`~ballscrew.errors.InputError` for negative numbers.
     """
 
     ball_diameter: Annotated[
@@ -67,7 +67,7 @@ class NutParts:
 
     def knows(self, model: FrictionModel) -> bool:
         """Whether a model can be evaluated on this nut: not every one knows balls with four contacts."""
-        return not isinstance(self.nut, OversizeBallNut) or model.slip is ellipse_slip
+        return not isinstance(self.nut, OversizeBallNut) or 4 in traits_of(model.slip).contacts_per_ball
 
     def bodies_of(self, screw: BallScrew) -> Bodies | None:
         """The elastic bodies, of the usual size where nothing else is given."""
@@ -98,7 +98,7 @@ class NutParts:
         axial_load: Force,
         screw_speed: AngularSpeed,
     ) -> NutFriction:
-        """Friction of a screw with this nut, as :func:`~ballscrew.assembly.nut_friction` has it."""
+        """Friction of a screw with this nut, as :func:`~ballscrew.friction.nut_friction.nut_friction` has it."""
         return nut_friction(
             model,
             screw,

@@ -13,8 +13,9 @@ from ballscrew.components.frame import Frame
 from ballscrew.components.laws import BallChain, IdealTorqueLaw, RaceTorqueLaw
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import dissipation, equilibrium, kinematics, transmission
+from ballscrew.friction.validity import validity_masks, warning_records
 from ballscrew.quantities import AngularSpeed, Force, Info, Mask, Power, Ratio, Speed, Torque
-from ballscrew.validity import REASONS, validity_masks
+from ballscrew.records import Record
 
 #: The mechanisms a torque is made of, and what each is called in words.
 MECHANISMS: Mapping[str, str] = {
@@ -263,7 +264,7 @@ class FrictionResult:
 
     @lazy
     def validity(self) -> Mapping[str, Mask]:
-        """Where each condition of the model holds, by reason; see :data:`ballscrew.validity.REASONS`."""
+        """Where each condition of the model holds, by reason; see :data:`ballscrew.friction.validity.REASONS`."""
         return validity_masks(
             self.parts,
             self.screw,
@@ -284,7 +285,11 @@ class FrictionResult:
         return holds
 
     @property
+    def warning_records(self) -> list[Record]:
+        """The conditions that fail somewhere, as records."""
+        return warning_records(self.validity, (self.screw, self.nut))
+
+    @property
     def warnings(self) -> list[str]:
-        """The conditions that fail somewhere, in words: ``"reason: explanation"``."""
-        xp = namespace(self.contact_load)
-        return [f"{reason}: {REASONS[reason]}" for reason, mask in self.validity.items() if not xp.all(mask)]
+        """The conditions that fail somewhere, as texts: ``"reason: explanation"``."""
+        return [f"{record.name}: {record.text}" for record in self.warning_records]

@@ -1,15 +1,19 @@
-"""Where the model may be trusted: one mask for each condition, each with its reason in words."""
+"""Validity of the model: one mask for each condition, and a record for each that fails."""
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
+
+import numpy as np
 
 from ballscrew._arrays import namespace
 from ballscrew.components.contact import Contact, RaceState
 from ballscrew.components.screw import BallScrew
-from ballscrew.faults import is_concrete
+from ballscrew.errors import is_concrete
 from ballscrew.quantities import Mask, Ratio, Torque, fields_of, within_bounds
+from ballscrew.records import Record
 
 #: Y at which the curvature moment (15) changes sign: the root of 1 - 5Y³ + 3Y⁵ in (0, 1).
 LARGEST_PURE_ROLLING_OFFSET = 0.643
@@ -25,21 +29,96 @@ LARGEST_PRESSURE = 4.2e9
 #: Below this the heat of the inlet is no longer a correction of the film but its master.
 SMALLEST_INLET_FACTOR = 0.5
 
-REASONS: Mapping[str, str] = {
-    "inputs": "inputs must be finite and within their bounds, the balls must fit, and the torque must be finite",
-    "skid": "the sliding force exceeds friction coefficient times load at a contact: the ball skids; "
-    "more load or less speed ends it",
-    "pure_rolling_offset": "the lines of pure rolling lie outside "
-    f"0 <= Y < {LARGEST_PURE_ROLLING_OFFSET}, where (15) holds",
-    "radii_ratio": "the radii ratio k is outside the range of the Hertz law (k >= 1, and a largest k of each law)",
-    "contact_pressure": f"the maximum pressure exceeds {LARGEST_PRESSURE / 1e9:g} GPa: the contact yields (ISO 76)",
-    "elastic_regime": f"the load is too light for the film law (M < {SMALLEST_ELASTIC_REGIME_PARAMETER}): "
-    "film and friction are estimates; more load or less speed leads back",
-    "inlet_heating": "the heat of the inlet takes more than half of the film: too fast for its factor to be trusted",
-    "material_parameter": f"G is outside {MATERIAL_PARAMETER_RANGE[0]:.0f} to {MATERIAL_PARAMETER_RANGE[1]:.0f}, "
-    "the materials and oils behind the film regression (26)",
-    "equilibrium": "the slip of the ball did not converge",
-}
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Condition:
+    """A condition of the model: the quantity it concerns and the text shown where it fails.
+
+    Where it compares one number of each contact with one limit: ``quantity`` (its name there), ``limit`` and ``unit``.
+    """
+
+    subject: str
+    text: str
+    quantity: str = ""
+    limit: float | None = None
+    unit: str = "1"
+    #: The limit is the greatest allowed value, not the least.
+    upper: bool = False
+
+
+CONDITIONS: Mapping[str, Condition] = {
+    "inputs": Condition(
+        "inputs", "inputs must be finite and within their bounds, the balls must fit, and the torque must be finite"
+    ),
+    "skid": Condition(
+        "friction_coefficient",
+        "the sliding force exceeds friction coefficient times load at a contact: the ball skids; "
+        "more load or less speed ends it",
+    ),
+    "pure_rolling_offset": Condition(
+        "pure_rolling_offset",
+        f"the lines of pure rolling lie outside 0 <= Y < {LARGEST_PURE_ROLLING_OFFSET}, where (15) holds",
+    ),
+    "radii_ratio": Condition(
+        "semi_major_axis",
+        "the radii ratio k is outside the range of the Hertz law (k >= 1, and a largest k of each law)",
+    ),
+    "contact_pressure": Condition(
+        "maximum_pressure",
+        f"the maximum pressure exceeds {LARGEST_PRESSURE / 1e9:g} GPa: the contact yields (ISO 76)",
+        "maximum_pressure", LARGEST_PRESSURE, "Pa", upper=True,
+    ),
+    "elastic_regime": Condition(
+        "minimum_film_thickness",
+        f"the load is too light for the film law (M < {SMALLEST_ELASTIC_REGIME_PARAMETER}): "
+        "film and friction are estimates; more load or less speed leads back",
+        "elastic_regime_parameter", SMALLEST_ELASTIC_REGIME_PARAMETER,
+    ),
+    "inlet_heating": Condition(
+        "minimum_film_thickness",
+        "the heat of the inlet takes more than half of the film: too fast for its factor to be trusted",
+        "inlet_film_factor", SMALLEST_INLET_FACTOR,
+    ),
+    "material_parameter": Condition(
+        "minimum_film_thickness",
+        f"G is outside {MATERIAL_PARAMETER_RANGE[0]:.0f} to {MATERIAL_PARAMETER_RANGE[1]:.0f}, "
+        "the materials and oils behind the film regression (26)",
+    ),
+    "equilibrium": Condition("equilibrium", "the slip of the ball did not converge"),
+}  # fmt: skip
+#: The texts alone, by reason.
+REASONS: Mapping[str, str] = {reason: condition.text for reason, condition in CONDITIONS.items()}
+
+
+def warning_records(
+    validity: Mapping[str, Mask], contacts: Sequence[Contact], conditions: Mapping[str, Condition] = CONDITIONS
+) -> list[Record]:
+    """One record for each condition that fails somewhere; its value is the worst of all contacts."""
+    return [
+        _record(reason, conditions[reason], contacts)
+        for reason, mask in validity.items()
+        if not namespace(mask).all(mask)
+    ]
+
+
+def _record(reason: str, condition: Condition, contacts: Sequence[Contact]) -> Record:
+    return Record(
+        id=f"validity.{reason}",
+        subject=condition.subject,
+        text=condition.text,
+        severity="warning",
+        holds=False,
+        value=_worst(condition, contacts) if condition.quantity else None,
+        limit=condition.limit,
+        unit=condition.unit,
+    )
+
+
+def _worst(condition: Condition, contacts: Sequence[Contact]) -> float:
+    """The value farthest beyond the limit; NaN where a value is NaN."""
+    values = (getattr(contact, condition.quantity) for contact in contacts)
+    ends = [float(np.max(value) if condition.upper else np.min(value)) for value in values]
+    return float(np.max(ends) if condition.upper else np.min(ends))
 
 
 def validity_masks(

@@ -1,32 +1,32 @@
-"""The kernel that counts numbers for sketches (:mod:`ballscrew.engine.sketch`), and how it lays out its bins."""
+"""The kernel that fills the histogram of a sketch (:mod:`ballscrew.kernels.sketch`), and the layout of the bins."""
 
 from __future__ import annotations
 
 import functools
 
-from ballscrew.engine.emission import SIGNATURE
-from ballscrew.engine.kernel import Kernel
+from ballscrew.kernels.emission import SIGNATURE
+from ballscrew.kernels.kernel import Kernel
 
 #: Bits of the mantissa that tell bins apart.
 MANTISSA_BITS = 11
-#: An octave is what has the same sign and exponent, the leading 12 bits; it has one row of bins.
+#: Numbers of one octave share sign and exponent, the leading 12 bits; an octave has one row of bins.
 FRACTION_BITS = 52
 DROPPED_BITS = FRACTION_BITS - MANTISSA_BITS
 BINS = 2**MANTISSA_BITS
 OCTAVES = 2**12
 
-#: Lanes of a vector, and what is found of each series.
+#: Lanes of a vector, and the statistics of each series.
 LANES = 16
-FOUND = ("count", "mean", "squares", "minimum", "maximum", "uncounted")
+STATISTICS = ("count", "mean", "squares", "minimum", "maximum", "uncounted")
 
 
 @functools.cache
 def counting_kernel() -> Kernel:
-    """The kernel that counts a unit: values in; starts of octaves, bins and what was ``FOUND`` out."""
-    return Kernel.of(_text(), ["points"])
+    """The kernel that counts a unit: values in; starts of octaves, bins and ``STATISTICS`` out."""
+    return Kernel.of(_assembly(), ["points"])
 
 
-def _text() -> str:
+def _assembly() -> str:
     """The kernel as assembly: for each series (a row), two passes for the moments, and one that counts.
 
     The second pass takes out what the mean of the first was off. The passes for the moments go on
@@ -48,7 +48,7 @@ def _text() -> str:
     reduced = "call double @llvm.vector.reduce"
     stores = "".join(
         f"  %to{i} = getelementptr double, ptr %found_here, i64 {i}\n  store double %{name}, ptr %to{i}\n"
-        for i, name in enumerate(FOUND)
+        for i, name in enumerate(STATISTICS)
     )
     return f"""define void @kernel({SIGNATURE}) {{
 entry:
@@ -65,7 +65,7 @@ row_loop:
   %line = getelementptr double, ptr %values, i64 %first_place
   %first_start = mul i64 %row, {OCTAVES}
   %starts_here = getelementptr i64, ptr %starts, i64 %first_start
-  %first_found = mul i64 %row, {len(FOUND)}
+  %first_found = mul i64 %row, {len(STATISTICS)}
   %found_here = getelementptr double, ptr %found, i64 %first_found
   br label %sums
 sums:

@@ -1,10 +1,9 @@
 """Elementary functions on vectors, as polynomials in LLVM's assembly.
 
-To a few units in the last place (a power: times the size of its exponent), for compiled kernels: calls
-to a mathematical library would go lane by lane. The polynomials are near-minimax; the tests recompute
-what they stand for with high precision. Zero, infinity and NaN follow IEEE 754. To a logarithm what is
-smaller than the smallest normal number is zero, and so is an exponential below 3e-308; sines are good
-to a million radians.
+Accurate to a few units in the last place (a power: times the magnitude of its exponent). Calls of a
+mathematical library would be made lane by lane. The polynomials are near-minimax; the tests compare them
+with high-precision values. Zero, infinity and NaN follow IEEE 754. A logarithm takes a subnormal number for
+zero, and an exponential below 3e-308 is zero; sines are accurate up to a million radians.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ import math
 import sys
 from collections.abc import Callable
 
-from ballscrew.engine.ir import Value, Writer, constant, whole
+from ballscrew.kernels.ir import Value, Writer, constant, integer
 
 #: (exp(r) − 1 − r)/r² for |r| ≤ ln 2/2.
 EXP = (
@@ -61,13 +60,13 @@ FRACTION_BITS = 52
 EXPONENT_BIAS = 1023
 #: A double this large has no places behind the point left; and the bits of 2**52, which has none either.
 ROUNDER = 1.5 * 2.0**FRACTION_BITS
-WHOLE_BITS = (EXPONENT_BIAS + FRACTION_BITS) << FRACTION_BITS
+INTEGER_BITS = (EXPONENT_BIAS + FRACTION_BITS) << FRACTION_BITS
 
-NOTHING, ONE, TWO, HALF = map(constant, (0.0, 1.0, 2.0, 0.5))
+ZERO, ONE, TWO, HALF = map(constant, (0.0, 1.0, 2.0, 0.5))
 NOT_A_NUMBER, INFINITY, MINUS_INFINITY = map(constant, (math.nan, math.inf, -math.inf))
 
 ARGUMENT = Value("%x")
-#: The logarithm of what is known not to be negative, which then need not be asked.
+#: The logarithm of a number known not to be negative, without the test of the sign.
 LOG_OF_NONNEGATIVE = "log_of_nonnegative"
 
 
@@ -77,10 +76,10 @@ def _exp(w: Writer, x: Value) -> Value:
     x = w.choose(w.compare("olt", x, constant(SMALLEST_EXPONENT)), constant(SMALLEST_EXPONENT), x)
     rounded = w.multiply_add(x, constant(1 / math.log(2)), constant(ROUNDER + EXPONENT_BIAS - 1))
     n = w.exact("fsub", rounded, constant(ROUNDER + EXPONENT_BIAS - 1))
-    r = _less(w, x, n, LN2)
+    r = _reduce_argument(w, x, n, LN2)
     p = w.multiply_add(w.exact("fmul", r, r), w.polynomial(r, EXP), r)
     twice = w.multiply_add(p, TWO, TWO)
-    half_power = w.from_bits(w.on_wholes("shl", w.bits(rounded), whole(FRACTION_BITS)))
+    half_power = w.from_bits(w.on_integers("shl", w.bits(rounded), integer(FRACTION_BITS)))
     return w.exact("fmul", twice, half_power)
 
 
@@ -88,11 +87,11 @@ def _log(*, nonnegative: bool) -> Callable[[Writer, Value], Value]:
     """The exponent times ln 2, and 2 artanh(s) of the mantissa between √½ and √2."""
 
     def log(w: Writer, x: Value) -> Value:
-        shifted = w.on_wholes("sub", w.bits(x), whole(ROOT_HALF_BITS - (EXPONENT_BIAS << FRACTION_BITS)))
-        fraction = w.on_wholes("and", shifted, whole((1 << FRACTION_BITS) - 1))
-        mantissa = w.from_bits(w.on_wholes("add", fraction, whole(ROOT_HALF_BITS)))
-        exponent = w.on_wholes("lshr", shifted, whole(FRACTION_BITS))
-        as_double = w.from_bits(w.on_wholes("or", exponent, whole(WHOLE_BITS)))
+        shifted = w.on_integers("sub", w.bits(x), integer(ROOT_HALF_BITS - (EXPONENT_BIAS << FRACTION_BITS)))
+        fraction = w.on_integers("and", shifted, integer((1 << FRACTION_BITS) - 1))
+        mantissa = w.from_bits(w.on_integers("add", fraction, integer(ROOT_HALF_BITS)))
+        exponent = w.on_integers("lshr", shifted, integer(FRACTION_BITS))
+        as_double = w.from_bits(w.on_integers("or", exponent, integer(INTEGER_BITS)))
         e = w.exact("fsub", as_double, constant(2.0**FRACTION_BITS + EXPONENT_BIAS))
         s = w.exact("fdiv", w.exact("fsub", mantissa, ONE), w.exact("fadd", mantissa, ONE))
         of_mantissa = w.exact("fmul", s, w.polynomial(w.exact("fmul", s, s), LOG))
@@ -100,30 +99,30 @@ def _log(*, nonnegative: bool) -> Callable[[Writer, Value], Value]:
         result = w.choose(w.compare("ugt", x, constant(sys.float_info.max)), x, result)
         below = MINUS_INFINITY
         if not nonnegative:
-            below = w.choose(w.compare("olt", x, NOTHING), NOT_A_NUMBER, MINUS_INFINITY)
+            below = w.choose(w.compare("olt", x, ZERO), NOT_A_NUMBER, MINUS_INFINITY)
         return w.choose(w.compare("olt", x, constant(sys.float_info.min)), below, result)
 
     return log
 
 
-def _less(w: Writer, x: Value, n: Value, parts: tuple[float, ...]) -> Value:
-    """What is left of x after n times the sum of the parts, without losing what cancels."""
+def _reduce_argument(w: Writer, x: Value, n: Value, parts: tuple[float, ...]) -> Value:
+    """The argument x − n · (sum of the parts), reduced part by part so that nothing is lost to cancellation."""
     for part in parts:
         x = w.multiply_add(n, constant(-part), x)
     return x
 
 
-def _wave(quarters: int) -> Callable[[Writer, Value], Value]:
+def _sine_shifted(quarters: int) -> Callable[[Writer, Value], Value]:
     """sin(x + quarters · π/2)."""
 
-    def wave(w: Writer, x: Value) -> Value:
+    def sine(w: Writer, x: Value) -> Value:
         n = w.intrinsic("roundeven", w.exact("fmul", x, constant(2 / math.pi)))
-        r = _less(w, x, n, HALF_PI)
+        r = _reduce_argument(w, x, n, HALF_PI)
         z = w.exact("fmul", r, r)
         sine = w.multiply_add(w.exact("fmul", r, z), w.polynomial(z, SIN), r)
         cosine = w.multiply_add(z, constant(-0.5), ONE)
         cosine = w.multiply_add(w.exact("fmul", z, z), w.polynomial(z, COS), cosine)
-        # which of the four quarters it is, from a whole number held as a double
+        # the quadrant, from an integer held as a double
         turn = w.exact("fadd", n, constant(float(quarters)))
         half = w.intrinsic("floor", w.exact("fmul", turn, HALF))
         odd = w.compare("one", w.exact("fmul", half, TWO), turn)
@@ -132,7 +131,7 @@ def _wave(quarters: int) -> Callable[[Writer, Value], Value]:
         negative = w.compare("one", w.exact("fmul", whole_turn, TWO), half)
         return w.choose(negative, w.exact("fsub", constant(-0.0), result), result)
 
-    return wave
+    return sine
 
 
 def _arcsin(w: Writer, x: Value) -> Value:
@@ -156,7 +155,7 @@ def _arctan(w: Writer, x: Value) -> Value:
     far, middle = w.compare("ogt", size, constant(1 + math.sqrt(2))), w.compare("ogt", size, constant(math.sqrt(2) - 1))
     numerator = w.choose(far, constant(-1.0), w.choose(middle, w.exact("fsub", size, ONE), size))
     denominator = w.choose(far, size, w.choose(middle, w.exact("fadd", size, ONE), ONE))
-    start = w.choose(far, constant(math.pi / 2), w.choose(middle, constant(math.pi / 4), NOTHING))
+    start = w.choose(far, constant(math.pi / 2), w.choose(middle, constant(math.pi / 4), ZERO))
     s = w.exact("fdiv", numerator, denominator)
     z = w.exact("fmul", s, s)
     p = w.multiply_add(w.exact("fmul", s, z), w.polynomial(z, ARCTAN), s)
@@ -176,7 +175,7 @@ def _log1p(w: Writer, x: Value) -> Value:
     """log(u) · x/(u − 1) with u = 1 + x as it is rounded: the rounding of u cancels."""
     u = w.exact("fadd", ONE, x)
     change = w.exact("fsub", u, ONE)
-    nothing = w.compare("oeq", change, NOTHING)
+    nothing = w.compare("oeq", change, ZERO)
     large = w.compare("ogt", w.intrinsic("fabs", x), constant(1e16))
     scaled = w.exact("fmul", w.call("log", u), w.exact("fdiv", x, w.choose(nothing, ONE, change)))
     return w.choose(nothing, x, w.choose(large, w.call("log", u), scaled))
@@ -186,7 +185,7 @@ def _expm1(w: Writer, x: Value) -> Value:
     """(u − 1) · x/log(u) with u = exp(x) as it is rounded; far from zero, u − 1."""
     u = w.call("exp", x)
     change, logarithm = w.exact("fsub", u, ONE), w.call("log", u)
-    nothing = w.compare("oeq", logarithm, NOTHING)
+    nothing = w.compare("oeq", logarithm, ZERO)
     near = w.compare("olt", w.intrinsic("fabs", x), ONE)
     scaled = w.exact("fmul", change, w.exact("fdiv", x, w.choose(nothing, ONE, logarithm)))
     return w.choose(nothing, x, w.choose(near, scaled, change))
@@ -212,8 +211,8 @@ def _power(w: Writer, x: Value, y: Value) -> Value:
     signed = w.choose(odd, w.exact("fsub", constant(-0.0), result), result)
     broken = w.compare("one", w.intrinsic("floor", y), y)
     negative = w.choose(broken, NOT_A_NUMBER, signed)
-    result = w.choose(w.compare("olt", x, NOTHING), negative, result)
-    trivial = w.on_masks("or", w.compare("oeq", y, NOTHING), w.compare("oeq", x, ONE))
+    result = w.choose(w.compare("olt", x, ZERO), negative, result)
+    trivial = w.on_masks("or", w.compare("oeq", y, ZERO), w.compare("oeq", x, ONE))
     return w.choose(trivial, ONE, result)
 
 
@@ -222,8 +221,8 @@ _ONE_ARGUMENT: dict[str, Callable[[Writer, Value], Value]] = {
     "exp": _exp,
     "log": _log(nonnegative=False),
     LOG_OF_NONNEGATIVE: _log(nonnegative=True),
-    "sin": _wave(0),
-    "cos": _wave(1),
+    "sin": _sine_shifted(0),
+    "cos": _sine_shifted(1),
     "tan": _tan,
     "arcsin": _arcsin,
     "arccos": _arccos,
@@ -236,7 +235,7 @@ NAMES = (*_ONE_ARGUMENT, "power")
 
 
 def definitions(lanes: int) -> str:
-    """All of them as functions of a module; those that nobody calls are dropped by the compiler."""
+    """All functions as text of a module; the compiler drops those that are not called."""
     text: list[str] = []
     for name, body in _ONE_ARGUMENT.items():
         writer = Writer(lanes)

@@ -2,7 +2,7 @@
 
 A result goes to place ``row · columns + column`` of its array; points without a grid are one row. An
 input is an array over the points or over the columns, one number for each row, or a random number
-made on the spot. Rows are walked through a tile of columns at a time, so that what is read of the
+generated in the kernel. Rows are walked through a tile of columns at a time, so that what is read of the
 columns stays in the cache. The last points of a row run through the same instructions as all others, with
 room to spare, so that a point's result does not depend on where blocks begin and end.
 """
@@ -10,17 +10,13 @@ room to spare, so that a point's result does not depend on where blocks begin an
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Literal
 
 import numpy as np
 
-from ballscrew.engine import elementary, random
-from ballscrew.engine.ir import Value, Writer, constant
-from ballscrew.engine.program import Program
-from ballscrew.engine.steps import Operand, Step, choose
-
-#: Where the values of an input come from.
-Source = Literal["points", "columns", "rows", "random"]
+from ballscrew.kernels import elementary, random
+from ballscrew.kernels.ir import Value, Writer, constant
+from ballscrew.tracing.program import Program, Source
+from ballscrew.tracing.steps import Operand, Step, choose
 
 #: Lanes of a vector, for programs of at most so many steps: a short program waits for its longest chain of
 #: operations, and many lanes keep the machine busy meanwhile; a long one runs out of registers and takes long to
@@ -40,7 +36,7 @@ _ON_MASKS = {
     np.logical_and: "and", np.logical_or: "or", np.logical_xor: "xor",
 }  # fmt: skip
 _INTRINSICS = {np.sqrt: "sqrt", np.absolute: "fabs", np.floor: "floor", np.ceil: "ceil"}
-_TRUE, _NOTHING, _ONE = Value("splat (i1 true)"), constant(0.0), constant(1.0)
+_TRUE, _ZERO, _ONE = Value("splat (i1 true)"), constant(0.0), constant(1.0)
 
 SIGNATURE = (
     "i64 %row_start, i64 %row_stop, i64 %column_start, i64 %column_stop, i64 %columns, i64 %tile, "
@@ -49,11 +45,11 @@ SIGNATURE = (
 
 
 class UnknownOperationError(Exception):
-    """A program has an operation that kernels do not know; NumPy evaluates it."""
+    """An operation of a program that kernels do not have; the program is then run by NumPy."""
 
 
 def lanes_for(program: Program) -> int:
-    """How many points a vector holds."""
+    """The number of points in a vector."""
     lanes = next((lanes for steps, lanes in LANES if len(program.steps) <= steps), FEWEST_LANES)
     return lanes if program.inputs <= FEW_INPUTS else max(lanes // 2, FEWEST_LANES)
 
@@ -63,20 +59,22 @@ def kernel_text(
 ) -> str:
     """The module with the kernel of a program.
 
-    ``sources`` tells for each input where its values come from, ``masks`` for each output whether
-    its array holds truth values. Raises :class:`UnknownOperationError`.
+    ``sources`` has the origin of the values of each input, ``masks`` whether the array of each output
+    holds truth values. Raises :class:`UnknownOperationError`.
     """
     w = Writer(lanes or lanes_for(program))
     outputs = list(program.outputs)
-    values = dict(enumerate(_read(w, sources)))
-    body = _Body(w, program, values)
-    results = [body.as_mask(program.outputs[n]) if masks[n] else body.as_number(program.outputs[n]) for n in outputs]
+    values = dict(enumerate(_emit_loops_and_loads(w, sources)))
+    emitter = _StepEmitter(w, program, values)
+    results = [
+        emitter.as_mask(program.outputs[n]) if masks[n] else emitter.as_number(program.outputs[n]) for n in outputs
+    ]
     types = [f"<{w.lanes} x i8>" if masks[name] else w.doubles for name in outputs]
     stored = [
-        w.line(f"zext {w.masks} {result} to {kind}") if masks[name] else result
+        w.instruction(f"zext {w.masks} {result} to {kind}") if masks[name] else result
         for name, result, kind in zip(outputs, results, types, strict=True)
     ]
-    _write(w, types, stored)
+    _emit_stores_and_loop_ends(w, types, stored)
     return "\n".join(
         [
             elementary.definitions(w.lanes),
@@ -86,7 +84,7 @@ def kernel_text(
             f"  store {w.doubles} zeroinitializer, ptr %spare",
             *_pointers("input", len(sources)),
             *_pointers("output", len(outputs)),
-            *(random.key_lines() if "random" in sources else []),
+            *(random.emit_key_schedule() if "random" in sources else []),
             *w.lines,
             "}",
             "declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)",
@@ -105,8 +103,8 @@ def _pointers(name: str, count: int) -> list[str]:
     return lines
 
 
-def _read(w: Writer, sources: Sequence[Source]) -> list[Value]:
-    """The heads of the loops over tiles, rows and points, and the values of the inputs at the points in hand."""
+def _emit_loops_and_loads(w: Writer, sources: Sequence[Source]) -> list[Value]:
+    """Emit the heads of the loops over tiles, rows and points; return the inputs at the points of a vector."""
     values: dict[int, Value] = {}
     w.lines += ["  br label %tile_loop", "tile_loop:"]
     w.lines.append("  %tile_start = phi i64 [ %column_start, %entry ], [ %next_tile, %tile_done ]")
@@ -118,8 +116,8 @@ def _read(w: Writer, sources: Sequence[Source]) -> list[Value]:
     w.lines.append("  %first_place = mul i64 %row, %columns")
     for i, source in enumerate(sources):
         if source == "rows":
-            address = w.line(f"getelementptr double, ptr %input{i}, i64 %row")
-            values[i] = w.spread("double", w.line(f"load double, ptr {address}"))
+            address = w.instruction(f"getelementptr double, ptr %input{i}, i64 %row")
+            values[i] = w.broadcast("double", w.instruction(f"load double, ptr {address}"))
     w.lines += ["  br label %point_loop", "point_loop:"]
     w.lines.append("  %column = phi i64 [ %tile_start, %row_loop ], [ %next_column, %points_done ]")
     w.lines.append("  %place = add i64 %first_place, %column")
@@ -127,22 +125,22 @@ def _read(w: Writer, sources: Sequence[Source]) -> list[Value]:
     w.lines.append(f"  %is_full = icmp sge i64 %points_left, {w.lanes}")
     w.lines.append("  %bytes_left = shl i64 %points_left, 3")
     from_arrays = {i: "%column" if s == "columns" else "%place" for i, s in enumerate(sources) if s in _ARRAYS}
-    addresses = {i: w.line(f"getelementptr double, ptr %input{i}, i64 {at}") for i, at in from_arrays.items()}
+    addresses = {i: w.instruction(f"getelementptr double, ptr %input{i}, i64 {at}") for i, at in from_arrays.items()}
     w.lines += ["  br i1 %is_full, label %load_all, label %load_some", "load_all:"]
-    whole = {i: w.line(f"load {w.doubles}, ptr {address}, align 8") for i, address in addresses.items()}
+    whole = {i: w.instruction(f"load {w.doubles}, ptr {address}, align 8") for i, address in addresses.items()}
     w.lines += ["  br label %evaluate", "load_some:"]
     some: dict[int, Value] = {}
     for i, address in addresses.items():
         w.lines.append(f"  call void @llvm.memcpy.p0.p0.i64(ptr %spare, ptr {address}, i64 %bytes_left, i1 false)")
-        some[i] = w.line(f"load {w.doubles}, ptr %spare")
+        some[i] = w.instruction(f"load {w.doubles}, ptr %spare")
     w.lines += ["  br label %evaluate", "evaluate:"]
     for i in addresses:
-        values[i] = w.line(f"phi {w.doubles} [ {whole[i]}, %load_all ], [ {some[i]}, %load_some ]")
-    drawn = [i for i, source in enumerate(sources) if source == "random"]
-    if drawn:
+        values[i] = w.instruction(f"phi {w.doubles} [ {whole[i]}, %load_all ], [ {some[i]}, %load_some ]")
+    random_inputs = [i for i, source in enumerate(sources) if source == "random"]
+    if random_inputs:
         lanes = ", ".join(f"i64 {lane}" for lane in range(w.lanes))
-        number = w.on_wholes("add", w.spread("i64", "%place"), Value(f"<{lanes}>"))
-        values |= dict(zip(drawn, random.emit_uniform(w, number, len(drawn)), strict=True))
+        number = w.on_integers("add", w.broadcast("i64", "%place"), Value(f"<{lanes}>"))
+        values |= dict(zip(random_inputs, random.emit_uniform(w, number, len(random_inputs)), strict=True))
     return [values[i] for i in range(len(sources))]
 
 
@@ -150,10 +148,10 @@ def _read(w: Writer, sources: Sequence[Source]) -> list[Value]:
 _ARRAYS = ("points", "columns")
 
 
-def _write(w: Writer, types: Sequence[str], values: Sequence[Value]) -> None:
-    """The results into their arrays, past the cache where asked for, and the ends of the loops."""
+def _emit_stores_and_loop_ends(w: Writer, types: Sequence[str], values: Sequence[Value]) -> None:
+    """Emit the stores of the results, non-temporal where asked for, and the ends of the loops."""
     elements = ["i8" if kind.endswith("i8>") else "double" for kind in types]
-    addresses = [w.line(f"getelementptr {kind}, ptr %output{j}, i64 %place") for j, kind in enumerate(elements)]
+    addresses = [w.instruction(f"getelementptr {kind}, ptr %output{j}, i64 %place") for j, kind in enumerate(elements)]
     stores = list(zip(types, values, addresses, elements, strict=True))
     w.lines += ["  br i1 %is_full, label %store_all, label %store_some", "store_all:"]
     w.lines += ["  br i1 %stream, label %store_past_cache, label %store_to_cache", "store_past_cache:"]
@@ -178,7 +176,7 @@ def _write(w: Writer, types: Sequence[str], values: Sequence[Value]) -> None:
     w.lines += ["  br i1 %is_last_tile, label %done, label %tile_loop", "done:", "  ret void"]
 
 
-class _Body:
+class _StepEmitter:
     """The steps of a program as instructions."""
 
     def __init__(self, w: Writer, program: Program, values: dict[int, Value]) -> None:
@@ -187,19 +185,19 @@ class _Body:
         self.nonnegative = program.nonnegative
         self.is_mask = {i: step.is_mask for i, step in program.steps}
         for i, step in program.steps:
-            self.values[i] = self._emitted(step)
+            self.values[i] = self._emit(step)
 
     def as_number(self, index: int) -> Value:
         """The value of a step as doubles; truth counts as one."""
         value = self.values[index]
         if not self.is_mask.get(index, False):
             return value
-        return self.w.line(f"uitofp {self.w.masks} {value} to {self.w.doubles}")
+        return self.w.instruction(f"uitofp {self.w.masks} {value} to {self.w.doubles}")
 
     def as_mask(self, index: int) -> Value:
-        """The value of a step as truth values; what is not zero is true."""
+        """The value of a step as truth values; nonzero is true."""
         value = self.values[index]
-        return value if self.is_mask.get(index, False) else self.w.compare("une", value, _NOTHING)
+        return value if self.is_mask.get(index, False) else self.w.compare("une", value, _ZERO)
 
     def _number(self, operand: tuple[str, Operand]) -> Value:
         kind, what = operand
@@ -209,12 +207,12 @@ class _Body:
         kind, what = operand
         return self.as_mask(int(what)) if kind == "step" else Value(f"splat (i1 {'true' if what else 'false'})")
 
-    def _emitted(self, step: Step) -> Value:
+    def _emit(self, step: Step) -> Value:
         w, function, operands = self.w, step.function, step.operands
         if function is choose:
             if step.is_mask:
                 mask, yes, no = map(self._mask, operands)
-                return w.line(f"select {w.masks} {mask}, {w.masks} {yes}, {w.masks} {no}")
+                return w.instruction(f"select {w.masks} {mask}, {w.masks} {yes}, {w.masks} {no}")
             return w.choose(self._mask(operands[0]), *map(self._number, operands[1:]))
         if step.is_mask and function in _ON_MASKS:
             return w.on_masks(_ON_MASKS[function], *map(self._mask, operands))
@@ -254,7 +252,7 @@ class _Body:
         return result
 
     def _power(self, base: Value, exponent: float) -> Value:
-        """A constant power: whole ones are multiplied out."""
+        """A constant power; integer powers are multiplied out."""
         w = self.w
         if exponent == 0.5:
             return w.intrinsic("sqrt", base)

@@ -1,8 +1,8 @@
-"""Kernels: assembly compiled to machine code, kept in memory and on disk, and called without Python's lock.
+"""Kernels: assembly compiled to machine code, cached in memory and on disk, and called without Python's lock.
 
-The machine code is kept by the content of the assembly, the processor and the compiler's version, so
-that it is found again by the next process and never mistaken. The place is ``BALLSCREW_CACHE``, or
-the user's cache folder; without a place to write, kernels are compiled anew by each process.
+The key of the cache is a digest of the assembly, the processor and the version of the compiler, so that
+the next process finds the code and never a wrong one. The cache is in ``BALLSCREW_CACHE``, or in the user's
+cache folder. It is an optimisation only: where it cannot be read or written, each process compiles its own kernels.
 """
 
 from __future__ import annotations
@@ -24,37 +24,37 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.engine.emission import Source
+from ballscrew.tracing.program import Source
 
-#: Bytes at which a vector may be stored past the cache.
+#: Alignment in bytes that non-temporal stores need.
 ALIGNMENT = 64
 #: Columns that are worked on at a time, row after row: tables of a dozen inputs then stay in the first cache.
 COLUMN_TILE = 512
-#: Results larger than this do not stay in the cache anyway, and are written past it.
+#: Results larger than this do not stay in the cache anyway, and are stored non-temporally.
 LARGEST_CACHED = 4 * 2**20
-#: At most this many kernels are kept in memory, and on disk; the oldest go.
-KEPT = KEPT_ON_DISK = 256
-#: How hard the compiler tries: beyond this, compiling takes longer and the code runs no faster.
+#: Most kernels in the cache in memory, and on disk; the oldest are removed.
+MOST_IN_MEMORY = MOST_ON_DISK = 256
+#: Level of optimisation: beyond this, compiling takes longer and the code runs no faster.
 OPTIMISATION = 2
 
-#: Changes when what a kernel is called with changes.
+#: Version of the calling convention of kernels.
 FORMAT = 1
 
-_whole = ctypes.c_int64
+_int64 = ctypes.c_int64
 _SIGNATURE = ctypes.CFUNCTYPE(
-    None, *[_whole] * 7, ctypes.c_bool, ctypes.c_void_p, ctypes.c_void_p
+    None, *[_int64] * 7, ctypes.c_bool, ctypes.c_void_p, ctypes.c_void_p
 )  # fmt: skip
 _lock = threading.RLock()
 _kernels: dict[str, Kernel] = {}
 
 
 def available() -> bool:
-    """Whether the compiler is installed (the extra ``fast``)."""
+    """Return whether the compiler is installed (the extra ``fast``)."""
     return importlib.util.find_spec("llvmlite") is not None
 
 
 class Kernel:
-    """A compiled kernel; see :mod:`ballscrew.engine.emission` for what it does."""
+    """A compiled kernel; see :mod:`ballscrew.kernels.emission` for what it does."""
 
     def __init__(self, machine_code: bytes, sources: Sequence[Source]) -> None:
         llvm = _llvm()
@@ -69,14 +69,14 @@ class Kernel:
     def of(cls, text: str, sources: Sequence[Source]) -> Kernel:
         """The kernel of an assembly: from memory, from the disk, or compiled."""
         with _lock:
-            name = _content(text)
+            name = _digest(text)
             if name not in _kernels:
                 machine_code = _load(name)
                 if machine_code is None:
-                    machine_code = _compiled(text)
+                    machine_code = _compile(text)
                     _save(name, machine_code)
                 _kernels[name] = cls(machine_code, sources)
-                if len(_kernels) > KEPT:
+                if len(_kernels) > MOST_IN_MEMORY:
                     del _kernels[next(iter(_kernels))]
             return _kernels[name]
 
@@ -123,16 +123,16 @@ class Kernel:
         )
 
 
-def is_kept(text: str) -> bool:
-    """Whether the kernel of an assembly is in memory or on disk, and need not be compiled."""
-    name = _content(text)
+def is_cached(text: str) -> bool:
+    """Return whether the kernel of an assembly is in the cache."""
+    name = _digest(text)
     with contextlib.suppress(OSError, RuntimeError):
-        return name in _kernels or (folder() / name).exists()
+        return name in _kernels or (cache_folder() / name).exists()
     return False
 
 
-def room(count: int, dtype: type) -> NDArray[Any]:
-    """An array that begins where vectors can be stored past the cache."""
+def aligned_array(count: int, dtype: type) -> NDArray[Any]:
+    """An uninitialised array aligned for non-temporal stores."""
     item = np.dtype(dtype).itemsize
     raw = np.empty(count * item + ALIGNMENT, dtype=np.uint8)
     start = -raw.ctypes.data % ALIGNMENT
@@ -140,7 +140,7 @@ def room(count: int, dtype: type) -> NDArray[Any]:
 
 
 def _address(array: NDArray[Any], first: int) -> int:
-    """Where the place 0 of the grid would be, for an array that begins at place ``first``."""
+    """The address of place 0 of the grid, for an array that begins at place ``first``."""
     if not array.flags.c_contiguous:
         raise ValueError("a kernel needs contiguous arrays")
     return array.__array_interface__["data"][0] - first * array.itemsize
@@ -156,7 +156,7 @@ def _llvm() -> Any:
 
 
 def _machine() -> Any:
-    """The processor as the compiler sees it; whoever asks for one takes it over."""
+    """A new target machine for this processor; an execution engine takes ownership of it."""
     llvm = _llvm()
     return llvm.Target.from_default_triple().create_target_machine(
         cpu=llvm.get_host_cpu_name(), features=llvm.get_host_cpu_features().flatten(), opt=OPTIMISATION, jit=True
@@ -170,17 +170,17 @@ def _processor() -> str:
     return f"{llvm.get_default_triple()} {llvm.get_host_cpu_name()} {features} {llvm.llvm_version_info} {FORMAT}"
 
 
-def _content(text: str) -> str:
+def _digest(text: str) -> str:
     """The name of a kernel: a digest of the assembly, the processor and the compiler."""
     return hashlib.sha256(f"{_processor()}\n{text}".encode()).hexdigest()
 
 
-def _compiled(text: str) -> bytes:
-    machine, module = _optimised(text)
+def _compile(text: str) -> bytes:
+    machine, module = _optimise(text)
     return machine.emit_object(module)
 
 
-def _optimised(text: str) -> tuple[Any, Any]:
+def _optimise(text: str) -> tuple[Any, Any]:
     """The processor, and the module ready to be made into its code."""
     llvm = _llvm()
     module = llvm.parse_assembly(text)
@@ -193,8 +193,8 @@ def _optimised(text: str) -> tuple[Any, Any]:
     return machine, module
 
 
-def folder() -> Path:
-    """Where kernels are kept on disk."""
+def cache_folder() -> Path:
+    """The folder of the cache on disk."""
     if place := os.environ.get("BALLSCREW_CACHE"):
         return Path(place) / "kernels"
     if sys.platform == "win32":
@@ -206,8 +206,8 @@ def folder() -> Path:
     return Path(base).expanduser() / "ballscrew" / "kernels"
 
 
-def _is_ours(path: Path) -> bool:
-    """Whether nobody else can write there: code from there is run."""
+def _is_private(path: Path) -> bool:
+    """Return whether nobody else can write there, as code from there is run."""
     if os.name != "posix":
         return True
     state = path.stat()
@@ -215,10 +215,10 @@ def _is_ours(path: Path) -> bool:
 
 
 def _load(name: str) -> bytes | None:
-    """Machine code from the disk, unless it is not there or not whole."""
+    """Machine code from the disk; None where there is none, or it is incomplete."""
     try:
-        path = folder() / name
-        if not (_is_ours(path.parent) and _is_ours(path)):
+        path = cache_folder() / name
+        if not (_is_private(path.parent) and _is_private(path)):
             return None
         digest, machine_code = path.read_bytes().split(b"\n", 1)
         if hashlib.sha256(machine_code).hexdigest().encode() != digest:
@@ -231,11 +231,11 @@ def _load(name: str) -> bytes | None:
 
 
 def _save(name: str, machine_code: bytes) -> None:
-    """Keep machine code on disk, whole or not at all; a disk that does not want it is no fault."""
+    """Write machine code to the cache atomically; a disk that refuses it only costs the next process a compilation."""
     with contextlib.suppress(OSError, RuntimeError):
-        place = folder()
+        place = cache_folder()
         place.mkdir(parents=True, exist_ok=True, mode=0o700)
-        if not _is_ours(place):
+        if not _is_private(place):
             return
         handle, temporary = tempfile.mkstemp(dir=place)
         try:
@@ -246,5 +246,5 @@ def _save(name: str, machine_code: bytes) -> None:
             Path(temporary).unlink(missing_ok=True)
             raise
         by_age = sorted(place.iterdir(), key=lambda path: path.stat().st_mtime)
-        for old in by_age[:-KEPT_ON_DISK]:
+        for old in by_age[:-MOST_ON_DISK]:
             old.unlink(missing_ok=True)

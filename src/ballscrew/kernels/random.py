@@ -1,9 +1,9 @@
-"""Random numbers by counting: the number of a point is enough to know its random numbers.
+"""Counter-based random numbers: those of a point follow from its number and the seed alone.
 
 Philox4x32-10 (Salmon, Moraes, Dror & Shaw 2011) turns a counter and a key into four words of 32 bits
 by ten rounds of multiplication. The counter is the number of the point and that of a pair of inputs,
 the key is the seed; so the numbers are the same whatever the blocks, the threads and the machines.
-Written once for NumPy and once for compiled kernels.
+Implemented once for NumPy and once for compiled kernels.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.engine.ir import Value, Writer, constant, whole
+from ballscrew.kernels.ir import Value, Writer, constant, integer
 
 ROUNDS = 10
 #: Multipliers of the first and the third word, and what is added to the halves of the key after each round.
@@ -57,7 +57,7 @@ def uniform(points: slice, inputs: int, seed: int) -> list[NDArray[np.float64]]:
     return found[:inputs]
 
 
-def key_lines() -> list[str]:
+def emit_key_schedule() -> list[str]:
     """The halves of the key ``%seed`` in each round, as vectors are made of them later: ``%k0.0``, ``%k1.0``, …"""
     lines = [f"  %k0.0 = and i64 %seed, {WORD}", f"  %k1.0 = lshr i64 %seed, {WORD_BITS}"]
     for r in range(1, ROUNDS):
@@ -69,24 +69,24 @@ def key_lines() -> list[str]:
 
 def emit_uniform(w: Writer, number: Value, inputs: int) -> list[Value]:
     """:func:`uniform` in a kernel, for the points whose numbers are in a vector of whole numbers."""
-    low, high = w.on_wholes("and", number, whole(WORD)), w.on_wholes("lshr", number, whole(WORD_BITS))
-    keys = [[w.spread("i64", f"%k{half}.{r}") for half in range(2)] for r in range(ROUNDS)]
+    low, high = w.on_integers("and", number, integer(WORD)), w.on_integers("lshr", number, integer(WORD_BITS))
+    keys = [[w.broadcast("i64", f"%k{half}.{r}") for half in range(2)] for r in range(ROUNDS)]
     found: list[Value] = []
     for pair in range((inputs + 1) // 2):
-        c0, c1, c2, c3 = low, high, whole(pair), whole(0)
+        c0, c1, c2, c3 = low, high, integer(pair), integer(0)
         for k0, k1 in keys:
-            first = w.on_wholes("mul", c0, whole(MULTIPLIERS[0]))
-            third = w.on_wholes("mul", c2, whole(MULTIPLIERS[1]))
-            above = [w.on_wholes("lshr", product, whole(WORD_BITS)) for product in (third, first)]
+            first = w.on_integers("mul", c0, integer(MULTIPLIERS[0]))
+            third = w.on_integers("mul", c2, integer(MULTIPLIERS[1]))
+            high_words = [w.on_integers("lshr", product, integer(WORD_BITS)) for product in (third, first)]
             c0, c1, c2, c3 = (
-                w.on_wholes("xor", w.on_wholes("xor", above[0], c1), k0),
-                w.on_wholes("and", third, whole(WORD)),
-                w.on_wholes("xor", w.on_wholes("xor", above[1], c3), k1),
-                w.on_wholes("and", first, whole(WORD)),
+                w.on_integers("xor", w.on_integers("xor", high_words[0], c1), k0),
+                w.on_integers("and", third, integer(WORD)),
+                w.on_integers("xor", w.on_integers("xor", high_words[1], c3), k1),
+                w.on_integers("and", first, integer(WORD)),
             )
         for one, other in ((c0, c1), (c2, c3)):
-            both = w.on_wholes("or", w.on_wholes("shl", one, whole(WORD_BITS)), other)
-            bits = w.on_wholes("lshr", both, whole(DROPPED_BITS))
-            number_of_bits = w.line(f"uitofp {w.wholes} {bits} to {w.doubles}")
+            both = w.on_integers("or", w.on_integers("shl", one, integer(WORD_BITS)), other)
+            bits = w.on_integers("lshr", both, integer(DROPPED_BITS))
+            number_of_bits = w.instruction(f"uitofp {w.integers} {bits} to {w.doubles}")
             found.append(w.exact("fmul", w.exact("fadd", number_of_bits, constant(0.5)), constant(SPACING)))
     return found[:inputs]

@@ -1,4 +1,4 @@
-"""Sketches: what there is to say about many numbers, without keeping them.
+"""Quantile sketches: histogram, moments and extremes of many numbers in constant memory.
 
 A sketch counts numbers in bins that are the leading bits of a double: sign, exponent and
 ``MANTISSA_BITS`` of the mantissa. Counts are whole numbers, so it does not matter in which order
@@ -16,13 +16,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.engine.counting import (
+from ballscrew.kernels.counting import (
     BINS,
     DROPPED_BITS,
-    FOUND,
     FRACTION_BITS,
     MANTISSA_BITS,
     OCTAVES,
+    STATISTICS,
     counting_kernel,
 )
 
@@ -40,7 +40,7 @@ _NEGATIVE = OCTAVES // 2
 _SPECIAL = _NEGATIVE - 1
 
 Floats = NDArray[np.float64]
-Wholes = NDArray[np.int64]
+Integers = NDArray[np.int64]
 
 
 class Moments(NamedTuple):
@@ -53,8 +53,8 @@ class Moments(NamedTuple):
     maximum: Floats
 
     @classmethod
-    def of_nothing(cls, series: int) -> Moments:
-        """Those of no numbers."""
+    def empty(cls, series: int) -> Moments:
+        """The moments of no numbers."""
         nothing, infinite = np.zeros(series), np.full(series, np.inf)
         return cls(nothing, np.full(series, np.nan), nothing, infinite, -infinite)
 
@@ -109,11 +109,11 @@ class Sketch:
 
     def __init__(self, series: int = 1, *, compiled: bool = False) -> None:
         self.series = series
-        self.moments = Moments.of_nothing(series)
+        self.moments = Moments.empty(series)
         self._kernel = counting_kernel() if compiled else None
         #: For each series and octave, where its bins begin; row 0 of the bins is for octaves not seen before.
-        self._starts: Wholes = np.zeros((series, OCTAVES), dtype=np.int64)
-        self._bins: Wholes = np.zeros((1 + series, BINS), dtype=np.int64)
+        self._starts: Integers = np.zeros((series, OCTAVES), dtype=np.int64)
+        self._bins: Integers = np.zeros((1 + series, BINS), dtype=np.int64)
         self._used = 1
 
     def add(self, values: Floats) -> None:
@@ -125,7 +125,7 @@ class Sketch:
         values = np.asarray(values, dtype=np.float64).reshape(self.series, -1)
         for start in range(0, values.shape[1], UNIT):
             unit = values[:, start : start + UNIT]
-            self.moments = self.moments.merged(self._counted(unit) if self._kernel else self._count(unit))
+            self.moments = self.moments.merged(self._count_compiled(unit) if self._kernel else self._count(unit))
 
     def merge(self, later: Sketch) -> None:
         """Count what another one has counted, after what this one has.
@@ -135,28 +135,28 @@ class Sketch:
         """
         for series in range(self.series):
             octaves = np.flatnonzero(later._starts[series])
-            self._make_room(series, octaves)
+            self._allocate_octaves(series, octaves)
             here = self._starts[series, octaves] // BINS
             self._bins[here] += later._bins[later._starts[series, octaves] // BINS]
         self.moments = self.moments.merged(later.moments)
 
-    def handed_over(self) -> Moments:
-        """The moments, which then begin anew; all else stays.
+    def take_moments(self) -> Moments:
+        """Return the moments and reset them; the histogram stays.
 
         For sketches that count parts of a whole in no fixed order, whose moments are merged in the
-        order of the parts by whoever asked for them.
+        order of the parts by the caller.
         """
-        moments, self.moments = self.moments, Moments.of_nothing(self.series)
+        moments, self.moments = self.moments, Moments.empty(self.series)
         return moments
 
     @property
-    def count(self) -> Wholes:
-        """How many numbers there are besides NaN, (series,)."""
+    def count(self) -> Integers:
+        """The number of values other than NaN, (series,)."""
         return self.moments.numbers.astype(np.int64) + self._infinite(0) + self._infinite(_NEGATIVE)
 
     @property
-    def missing(self) -> Wholes:
-        """How many are NaN, (series,)."""
+    def missing(self) -> Integers:
+        """The number of NaN, (series,)."""
         bins = [self._bins[self._starts[:, _SPECIAL + sign] // BINS] for sign in (0, _NEGATIVE)]
         return np.asarray(sum(here[:, 1:].sum(axis=1) for here in bins))
 
@@ -202,27 +202,27 @@ class Sketch:
             return np.nan
         position = share * (count - 1)
         rank = int(position)
-        number = self._number(series, rank, count)
+        number = self._value_at_rank(series, rank, count)
         if rank == position:
             return number
-        following = self._number(series, rank + 1, count)
+        following = self._value_at_rank(series, rank + 1, count)
         return number if number == following else number + (following - number) * (position - rank)
 
-    def _number(self, series: int, rank: int, count: int) -> float:
-        """About the number with so many before it."""
+    def _value_at_rank(self, series: int, rank: int, count: int) -> float:
+        """The value at a rank, to the width of a bin."""
         least, largest = float(self.minimum[series]), float(self.maximum[series])
         if rank in (0, count - 1):
             return largest if rank else least
-        for octave, bins in self._in_order(series):
+        for octave, bins in self._octaves_ascending(series):
             reached = np.cumsum(bins)
             if rank < reached[-1]:
                 place = int(np.searchsorted(reached, rank, side="right"))
                 within = (rank - int(reached[place] - bins[place]) + 0.5) / int(bins[place])
-                return min(max(_number_in(octave, place, within), least), largest)
+                return min(max(_value_in_bin(octave, place, within), least), largest)
             rank -= int(reached[-1])
         raise AssertionError("a rank is less than the count")
 
-    def _in_order(self, series: int) -> Iterator[tuple[int, Wholes]]:
+    def _octaves_ascending(self, series: int) -> Iterator[tuple[int, Integers]]:
         """The octaves and their bins by rising numbers; NaN left out."""
         seen = np.flatnonzero(self._starts[series])
         for octave in [*seen[seen >= _NEGATIVE][::-1].tolist(), *seen[seen < _NEGATIVE].tolist()]:
@@ -230,12 +230,12 @@ class Sketch:
             bins = bins[:1] if octave % _NEGATIVE == _SPECIAL else bins
             yield octave, bins[::-1] if octave >= _NEGATIVE else bins
 
-    def _infinite(self, sign: int) -> Wholes:
-        """How many infinities of a sign there are, (series,)."""
+    def _infinite(self, sign: int) -> Integers:
+        """The number of infinities of a sign, (series,)."""
         return self._bins[self._starts[:, _SPECIAL + sign] // BINS, 0]
 
-    def _make_room(self, series: int, octaves: Wholes) -> None:
-        """Bins for octaves; those that have some keep them."""
+    def _allocate_octaves(self, series: int, octaves: Integers) -> None:
+        """Allocate bins for octaves that have none."""
         new = octaves[self._starts[series, octaves] == 0]
         if self._used + new.size > len(self._bins):
             more = max(new.size, len(self._bins))
@@ -246,21 +246,21 @@ class Sketch:
     def _count(self, unit: Floats) -> Moments:
         """Count one unit; returns its moments."""
         for series, values in enumerate(unit):
-            self._count_one(series, values)
+            self._count_series(series, values)
         return Moments.of(unit)
 
-    def _count_one(self, series: int, values: Floats) -> None:
+    def _count_series(self, series: int, values: Floats) -> None:
         """Count numbers of one series."""
         bits = np.ascontiguousarray(values).view(np.uint64)
         octaves = (bits >> np.uint64(FRACTION_BITS)).view(np.int64)
         starts = self._starts[series][octaves]
         if not starts.all():
-            self._make_room(series, np.unique(octaves[starts == 0]))
+            self._allocate_octaves(series, np.unique(octaves[starts == 0]))
             starts = self._starts[series][octaves]
         starts += (bits >> np.uint64(DROPPED_BITS)).view(np.int64) & (BINS - 1)
         np.add.at(self._bins.reshape(-1), starts, 1)
 
-    def _counted(self, unit: Floats) -> Moments:
+    def _count_compiled(self, unit: Floats) -> Moments:
         """:meth:`_count` by the kernel."""
         assert self._kernel is not None, "there is a kernel where this is called"
         numbers = unit.shape[1]
@@ -268,17 +268,17 @@ class Sketch:
             whole = np.full((self.series, UNIT), np.nan)  # to the moments, NaN is no number
             whole[:, :numbers] = unit
             unit = whole
-        found = np.empty((self.series, len(FOUND)))
+        found = np.empty((self.series, len(STATISTICS)))
         self._kernel(slice(0, self.series), slice(0, numbers), UNIT, [unit], [self._starts, self._bins, found])
         for series in np.flatnonzero(found[:, -1]):
             values = unit[series, :numbers]
             octaves = (values.view(np.uint64) >> np.uint64(FRACTION_BITS)).view(np.int64)
-            self._count_one(int(series), values[self._starts[series][octaves] == 0])
+            self._count_series(int(series), values[self._starts[series][octaves] == 0])
         self._bins[0] = 0
         return Moments(*found[:, :-1].T)
 
 
-def _number_in(octave: int, place: int, within: float) -> float:
+def _value_in_bin(octave: int, place: int, within: float) -> float:
     """The number a share of the way through a bin of an octave; places are by rising numbers."""
     sign, exponent = octave & _NEGATIVE, octave % _NEGATIVE
     if exponent == 0:

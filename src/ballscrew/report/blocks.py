@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
-from ballscrew.interfaces import units
+from ballscrew import units
 from ballscrew.quantities import Quantity
 
 
@@ -119,7 +119,7 @@ def value(number: float, quantity: Quantity) -> str:
     """A number with its unit, without an exponent where a person would write none; a dash where there is none."""
     if not math.isfinite(number):
         return "–"
-    digits, _, unit = units.shown(number + 0.0, quantity).partition(" ")
+    digits, unit = units.rounded(number + 0.0, quantity), units.label(quantity)
     if "e+" in digits and abs(float(digits)) < _LARGE:
         digits = f"{float(digits):.10g}"
     return f"{digits} {unit}" if unit else digits

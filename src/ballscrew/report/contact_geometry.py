@@ -1,24 +1,19 @@
-"""What is drawn in :mod:`~ballscrew.interfaces.drawing`: a ball, its flanks, the slip at the screw."""
+"""What is drawn in :mod:`~ballscrew.report.drawing`: a ball, its flanks, the slip at the screw."""
 
 from __future__ import annotations
 
 import dataclasses
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.assembly import NutFriction
-from ballscrew.components.contact import RaceState
 from ballscrew.components.nut import OversizeBallNut
+from ballscrew.components.traits import traits_of
 from ballscrew.equations import kinematics, slip
-from ballscrew.interfaces.answer import Answer
-from ballscrew.interfaces.nut_report import NutResult, most_loaded
-from ballscrew.quantities import quantities_of
-from ballscrew.solvers.line_slip import line_slip
-from ballscrew.solvers.pure_rolling import curvature_slip
+from ballscrew.studies.run import Run, Touching
 
 Field = NDArray[np.float64]
 #: Heights across the ellipse at which the slip is asked for a change of sign.
@@ -31,14 +26,6 @@ NO_LOAD = "Without load ball and grooves have no contact area: neither ellipse n
 NO_NUMBER = "No contact is drawn: what came out is no number here."
 NO_SLIP = "No slip is drawn: what came out is no number here."
 FOUR_CONTACTS = "The slip on four contacts is not drawn: the result keeps the power that is lost in it, not its speeds."
-
-
-class Flank(NamedTuple):
-    """A pair of flanks that a ball touches: 1 is the side that carries the load, -1 the other."""
-
-    side: int
-    angle: float
-    load: float
 
 
 @dataclasses.dataclass(frozen=True)
@@ -126,7 +113,7 @@ class DrawnBall:
     ball_diameter: float
     screw_conformity: float
     nut_conformity: float
-    flanks: Sequence[Flank]
+    flanks: Sequence[Touching]
     #: None where nothing presses.
     contact: DrawnContact | None
     #: Why there is no contact.
@@ -140,69 +127,35 @@ class DrawnBall:
         return max(flank.load for flank in self.flanks)
 
 
-def drawn_ball(answer: Answer) -> DrawnBall:
-    """The ball of an answer; of a nut the one with the greatest load."""
-    screw = answer.case.screw
-    if isinstance(answer.result, NutResult):
-        found = answer.result.found
-        flanks, sides = _flanks_of_nut(found), most_loaded(found)
-    else:
-        result = answer.result
-        flanks = [Flank(1, float(screw.contact_angle), float(result.contact_load))]
-        sides = {
-            name: {key: _float(getattr(side, key)) for key in quantities_of(RaceState)}
-            for name, side in (("screw", result.screw), ("nut", result.nut))
-        }
-    contact, missing = _contact(answer, flanks, sides["screw"], sides["nut"]["semi_major_axis"])
+def drawn_ball(run: Run) -> DrawnBall:
+    """The ball of a run; of a nut the one with the greatest load."""
+    screw, sides = run.case.screw, run.contacts
+    contact, missing = _contact(run, run.touching, sides["screw"], sides["nut"]["semi_major_axis"])
     return DrawnBall(
         float(screw.ball_diameter),
         float(screw.screw_conformity),
         float(screw.nut_conformity),
-        flanks,
+        run.touching,
         contact,
         missing,
-        isinstance(answer.result, NutResult),
+        run.nut is not None,
     )
-
-
-def _float(value: Any) -> float:
-    return float(np.asarray(value).reshape(-1)[0])
-
-
-def _flanks_of_nut(found: NutFriction) -> list[Flank]:
-    """The flanks that the most loaded ball touches; without load those that it would."""
-    pair = max(found.pairs, key=lambda pair: float(np.max(pair.load)))
-    ball = int(np.argmax(pair.load))
-
-    def of_ball(value: Any) -> float:
-        array = np.asarray(value).reshape(-1)
-        return float(array[ball if len(array) > 1 else 0])
-
-    loads = found.loads
-    sides = (
-        Flank(1, of_ball(loads.forward_angle), of_ball(loads.forward_load)),
-        Flank(-1, of_ball(loads.backward_angle), of_ball(loads.backward_load)),
-    )
-    touching = [flank for flank in sides if flank.load > 0 and math.isfinite(flank.angle)]
-    if not touching:
-        return [Flank(1, float(found.ball_screw.contact_angle), 0.0)]
-    return touching
 
 
 def _contact(
-    answer: Answer, flanks: Sequence[Flank], side: Mapping[str, float], on_nut: float
+    run: Run, flanks: Sequence[Touching], side: Mapping[str, float], on_nut: float
 ) -> tuple[DrawnContact | None, str]:
     a, b, pressure = (side[name] for name in ("semi_major_axis", "semi_minor_axis", "maximum_pressure"))
     if all(flank.load == 0 for flank in flanks):
         return None, NO_LOAD
     if not all(map(math.isfinite, (a, b, pressure))) or min(a, b) <= 0:
         return None, NO_NUMBER
-    field, missing = _slip(answer, flanks, side)
+    field, missing = _slip(run, flanks, side)
     return DrawnContact(a, b, on_nut, pressure, field, missing), ""
 
 
-def _slip(answer: Answer, flanks: Sequence[Flank], side: Mapping[str, float]) -> tuple[SlipField | None, str]:
-    case, omega = answer.case, float(answer.case.operation.screw_speed)
+def _slip(run: Run, flanks: Sequence[Touching], side: Mapping[str, float]) -> tuple[SlipField | None, str]:
+    case, omega = run.case, float(run.case.operation.screw_speed)
     if omega == 0:
         return None, AT_REST
     if "creep_speed" not in side or (case.parts is not None and isinstance(case.parts.nut, OversizeBallNut)):
@@ -211,7 +164,7 @@ def _slip(answer: Answer, flanks: Sequence[Flank], side: Mapping[str, float]) ->
     at_angle = dataclasses.replace(case.screw, contact_angle=flank.angle)
     v, R_x = float(case.model.frame(at_angle).entrainment_speed(omega)), side["rolling_radius"]
     a, R_d = side["semi_major_axis"], side["deformed_radius"]
-    alone = case.model.slip is curvature_slip
+    of_slip = traits_of(case.model.slip)
     field = SlipField(
         creep=side["creep_speed"],
         spin_rim=side["spin"] * a,
@@ -219,8 +172,8 @@ def _slip(answer: Answer, flanks: Sequence[Flank], side: Mapping[str, float]) ->
         curvature=float(slip.curvature_slip_speed(a, R_d, v / R_x)),
         semi_major_axis=a,
         deformed_radius=R_d,
-        along_only=alone or case.model.slip is line_slip,
-        offset=side["pure_rolling_offset"] if alone else None,
+        along_only=not of_slip.lateral_slip,
+        offset=side["pure_rolling_offset"] if of_slip.curvature_alone else None,
         entrainment_speed=v,
         rolling_radius=R_x,
     )

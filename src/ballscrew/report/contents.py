@@ -8,24 +8,17 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ballscrew import __version__
-from ballscrew.interfaces import answer as answers
-from ballscrew.interfaces import band, bibliography, check, config, nut_report, report, report_inputs, report_results
-from ballscrew.interfaces.answer import Answer
-from ballscrew.interfaces.drawing import drawing
-from ballscrew.interfaces.drawn_ball import drawn_ball
-from ballscrew.interfaces.report_blocks import (
-    Block,
-    Columns,
-    Links,
-    Paragraph,
-    Picture,
-    Report,
-    Section,
-    Table,
-    sentence,
-)
-from ballscrew.interfaces.report_curves import Curves, curves
+from ballscrew._version import __version__
+from ballscrew.cases import case_file, descriptions
+from ballscrew.output import bibliography
+from ballscrew.report import input_tables, result_tables
+from ballscrew.report.blocks import Block, Columns, Links, Paragraph, Picture, Report, Section, Table, sentence
+from ballscrew.report.contact_geometry import drawn_ball
+from ballscrew.report.curves import Curves, curves
+from ballscrew.report.drawing import drawing
+from ballscrew.studies import band
+from ballscrew.studies.check import checked
+from ballscrew.studies.run import Run, run
 
 Done = Callable[[int, int], None]
 Kind = Literal["pdf", "html"]
@@ -35,18 +28,18 @@ _ANSWERED, _BANDED, _DRAWN, _ALL = 5, 60, 85, 100
 _OF_CHECKS = ("ISO3408-5", "ISO76")
 
 
-def report_bytes(case: config.Case, kind: Kind, done: Done | None = None, samples: int | None = None) -> bytes:
+def report_bytes(case: case_file.Case, kind: Kind, done: Done | None = None, samples: int | None = None) -> bytes:
     """The report of a case as a PDF or HTML file; equal cases give equal bytes.
 
     ``done(finished, total)`` is told how far it is. Needs the extra ``report``.
     """
     found = content(case, done, samples)
     if kind == "html":
-        from ballscrew.interfaces.report_html import html_bytes
+        from ballscrew.report.html import html_bytes
 
         written = html_bytes(found)
     else:
-        from ballscrew.interfaces.report_pdf import pdf_bytes
+        from ballscrew.report.pdf import pdf_bytes
 
         written = pdf_bytes(found)
     _tell(done, _ALL)
@@ -58,56 +51,59 @@ def _tell(done: Done | None, finished: int) -> None:
         done(finished, _ALL)
 
 
-def content(case: config.Case, done: Done | None = None, samples: int | None = None) -> Report:
+def content(case: case_file.Case, done: Done | None = None, samples: int | None = None) -> Report:
     """What is in the report of a case."""
-    answer = answers.answer(case)
+    found = run(case)
     _tell(done, _ANSWERED)
 
     def of_band(finished: int, total: int) -> None:
         _tell(done, _ANSWERED + (_BANDED - _ANSWERED) * finished // max(total, 1))
 
-    uncertain = band.computed(case, band.Options(samples=samples), of_band)
+    uncertain = band.band(case, band.Options(samples=samples), of_band)
     _tell(done, _BANDED)
     pictures = _pictures(curves(case))
     _tell(done, _DRAWN)
-    inputs = report_inputs.tables(case)
-    checked = check.checked("", case, ())
+    inputs = input_tables.tables(case)
+    of_checks = checked("", case)
     sections = [
-        Section("Result", [*_answer(answer), *_drawing(answer)]),
-        Section("Where the torque comes from", report_results.parts(answer)),
+        Section("Result", [*_answer(found), *_drawing(found)]),
+        Section("Where the torque comes from", result_tables.parts(found)),
         Section("Around the operating point", pictures),
-        Section("How far off it may be", report_results.band_blocks(case, uncertain)),
-        Section("Checks", report_results.checks(checked)),
-        Section("What to beware of", report_results.beware(answer)),
+        Section("How far off it may be", result_tables.band_blocks(case, uncertain)),
+        Section("Checks", result_tables.checks(of_checks)),
+        Section("What to beware of", result_tables.beware(found)),
         Section(
-            "Inputs and model", [*_model(case), Columns.of([*inputs, report_inputs.laws(case)]), _origins(case, inputs)]
+            "Inputs and model", [*_model(case), Columns.of([*inputs, input_tables.laws(case)]), _origins(case, inputs)]
         ),
         Section("Sources", [Links(_sources(case, uncertain))]),
     ]
     return Report("Friction of a ball screw", _subtitle(case), sections, f"ballscrew {__version__}")
 
 
-def _subtitle(case: config.Case) -> list[str]:
+def _subtitle(case: case_file.Case) -> list[str]:
     of_row = [] if case.row is None else [f"{case.row.name} ({case.row.source})"]
-    nut = [] if case.parts is None else [nut_report.nut_in_words(case.parts)]
-    words = [*of_row, report.design(case, plain_text=True), *nut]
-    return [*words, f"{report.operating_point(case)}; {report.model_in_words(case)}"]
+    nut = [] if case.parts is None else [descriptions.nut_text(case.parts)]
+    lines = [*of_row, descriptions.design(case, plain_text=True), *nut]
+    return [*lines, f"{descriptions.operating_point(case)}; {descriptions.model_text(case)}"]
 
 
-def _answer(answer: Answer) -> list[Block]:
+def _answer(found: Run) -> list[Block]:
+    verdicts = [record.text for record in found.verdicts]
     # what a fit found besides belongs to every torque above
-    lines = [f"{sentence(line)}." for line in (*report.constant_torque(answer.case), *answer.verdicts)]
-    said = " ".join([report_results.headline(answer), *lines])
-    return [Paragraph(said, strong=True), Columns.of(report_results.results(answer))]
+    lines = [f"{sentence(line)}." for line in (*descriptions.constant_torque(found.case), *verdicts)]
+    text = " ".join([result_tables.headline(found), *lines])
+    return [Paragraph(text, strong=True), Columns.of(result_tables.results(found))]
 
 
-def _drawing(answer: Answer) -> list[Block]:
-    ball = "the most loaded ball" if answer.case.parts is not None else "a ball"
-    drawn = drawing(answer)
-    touching = drawn_ball(answer).contact
+def _drawing(found: Run) -> list[Block]:
+    ball = "the most loaded ball" if found.nut is not None else "a ball"
+    drawn = drawing(found)
+    touching = drawn_ball(found).contact
     slips = touching is not None and touching.slip is not None
     arrows = "; arrows: slip of the screw's surface over the ball" if slips else ""
-    words = f"Drawing of {ball} between its grooves, and of its contact with the screw: {answer.title}."
+    words = (
+        f"Drawing of {ball} between its grooves, and of its contact with the screw: {descriptions.title(found.case)}."
+    )
     caption = (
         f"{sentence(ball)} between its grooves, to scale; how far the grooves reach is assumed"
         f"{'' if touching is None else '. On the right its contact with the screw as seen from the ball'}{arrows}."
@@ -117,7 +113,7 @@ def _drawing(answer: Answer) -> list[Block]:
 
 def _pictures(found: Curves) -> list[Picture]:
     # matplotlib takes its time: only for those who want a report
-    from ballscrew.interfaces.figures.report import named, pictures
+    from ballscrew.report.curve_figures import named, pictures
 
     speed, load = (f"{value:.6g}" for value in found.here)
     here = "the dashed line is the operating point"
@@ -147,18 +143,18 @@ def _at(x: Any, y: Any, here: float) -> str:
     return f"{value:.3g}" if math.isfinite(value) else "no number of"
 
 
-def _model(case: config.Case) -> Sequence[Block]:
-    said = [f"{sentence(line)}." for line in (report.model_in_words(case), *report.of_fit(case))]
+def _model(case: case_file.Case) -> Sequence[Block]:
+    said = [f"{sentence(line)}." for line in (descriptions.model_text(case), *descriptions.of_fit(case))]
     if case.calibration is not None:
         said.append(f"Two numbers of it are from the calibration {case.calibration.name}.")
     return [Paragraph(" ".join(said))]
 
 
-def _origins(case: config.Case, inputs: list[Table]) -> Paragraph:
-    return Paragraph(f"Where values are from: {report_inputs.sources_in_words(case, inputs)}")
+def _origins(case: case_file.Case, inputs: list[Table]) -> Paragraph:
+    return Paragraph(f"Where values are from: {input_tables.sources_in_words(case, inputs)}")
 
 
-def _sources(case: config.Case, found: band.Found) -> list[tuple[str, str]]:
-    keys = [*config.references(case), *_OF_CHECKS, *(one.source for one in found.inputs.values())]
+def _sources(case: case_file.Case, found: band.BandReport) -> list[tuple[str, str]]:
+    keys = [*case_file.references(case), *_OF_CHECKS, *(one.source for one in found.inputs.values())]
     keys += [] if case.row is None else bibliography.of_catalogue(case.row.source)
     return [(f"{source.key}: {source.words}", source.link) for source in bibliography.sources(keys)]

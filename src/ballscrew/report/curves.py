@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses.outputs import OPERATION
+from ballscrew import units
+from ballscrew.cases.case_file import Case
 from ballscrew.components.screw import Operation
-from ballscrew.interfaces import units
-from ballscrew.interfaces.config import Case
+from ballscrew.evaluation.outputs import OPERATION
 from ballscrew.quantities import fields_of
 
 Numbers = NDArray[np.float64]

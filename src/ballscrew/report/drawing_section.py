@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 
+from ballscrew import units
 from ballscrew.components.contact import RaceState
 from ballscrew.components.screw import BallScrew
-from ballscrew.interfaces import svg, units
-from ballscrew.interfaces.drawn_ball import DrawnBall, Flank
-from ballscrew.interfaces.svg import FAINT, GREEN, TEXT, TITLE, Panel, Point
 from ballscrew.quantities import fields_of, quantities_of
+from ballscrew.report import svg
+from ballscrew.report.contact_geometry import DrawnBall
+from ballscrew.report.svg import FAINT, GREEN, TEXT, TITLE, Panel, Point
+from ballscrew.studies.run import Touching
 
 #: The middle of the ball, and its radius.
 BALL, RADIUS = (122.0, 158.0), 78.0
@@ -114,7 +116,7 @@ def _arc_to(groove: Groove, start: Point, end: Point) -> str:
     return svg.arc(end, groove.radius, clockwise=x * v - y * u > 0)
 
 
-def _normal(ball: DrawnBall, flank: Flank) -> list[str]:
+def _normal(ball: DrawnBall, flank: Touching) -> list[str]:
     """The line through both contacts of a pair of flanks, and the contacts, as wide as they are."""
     pair = [
         Groove(conformity, flank.angle, flank.side, down)
@@ -137,7 +139,7 @@ def _scale(ball: DrawnBall) -> float:
     return 2 * RADIUS / ball.ball_diameter
 
 
-def _angle(flank: Flank, *, both: bool) -> list[str]:
+def _angle(flank: Touching, *, both: bool) -> list[str]:
     """The contact angle against the radius."""
     radius, side = 0.5 * RADIUS, flank.side
     start = (BALL[0], BALL[1] - radius)
@@ -163,7 +165,7 @@ def _scale_bar(ball: DrawnBall) -> list[str]:
     return [
         svg.line(*ends, stroke_width=2.2),
         *(svg.line((end[0], y - 4), (end[0], y + 4), stroke_width=1.2) for end in ends),
-        svg.text((x - wide / 2, y - 7), f"{length:.6g} mm", TEXT, "middle"),
+        svg.text((x - wide / 2, y - 7), units.shown(length * 1e-3, _LENGTH), TEXT, "middle"),
     ]
 
 

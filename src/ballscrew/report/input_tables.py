@@ -6,17 +6,18 @@ import dataclasses
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from ballscrew.cases import catalogue
+from ballscrew.cases.case_file import Case
+from ballscrew.cases.nut_kinds import ENDS, LISTED, kind_of
+from ballscrew.cases.schema import LAWS, name_of_law
 from ballscrew.components.installation import Limits
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import MATERIALS, BallScrew, Operation
-from ballscrew.interfaces import catalogue
-from ballscrew.interfaces.config import Case
-from ballscrew.interfaces.distribution_text import in_words
-from ballscrew.interfaces.nuts import ENDS, LISTED, kind_of
-from ballscrew.interfaces.report_blocks import Table
-from ballscrew.interfaces.report_blocks import value as value_of
-from ballscrew.interfaces.schema import LAWS, coefficients_of, name_of_law
+from ballscrew.friction.law_names import coefficients
 from ballscrew.quantities import Quantity, fields_of
+from ballscrew.report.blocks import Table
+from ballscrew.report.blocks import value as value_of
+from ballscrew.uncertainty.uncertain_value import describe_distribution
 
 #: Where a value is from, in a word; :data:`FROM_IN_WORDS` says what is meant.
 CASE, ROW, USUAL, GRADE, DEFAULT, CALIBRATION = "case", "catalogue", "usual", "grade", "default", "calibration"
@@ -63,7 +64,7 @@ def _part(case: Case, part: Any, known: Mapping[str, Quantity], source: Callable
         value = getattr(part, name)
         if value is not None:
             given = case.uncertain.get(f"{prefix}{name}")
-            words = value_of(value, quantity) if given is None else in_words(given, quantity)
+            words = value_of(value, quantity) if given is None else describe_distribution(given, quantity)
             exact = " ± 0" if f"{prefix}{name}" in case.exact else ""
             rows.append((quantity.info.meaning, words + exact, CASE if given is not None else source(name)))
     return rows
@@ -118,7 +119,7 @@ def _lubricant(case: Case) -> Rows:
         if "temperature" in case.oil:
             given = case.uncertain.get("temperature")
             shown = value_of(case.oil["temperature"], TEMPERATURE)
-            words = shown if given is None else in_words(given, TEMPERATURE)
+            words = shown if given is None else describe_distribution(given, TEMPERATURE)
             rows.append((TEMPERATURE.info.meaning, words, CASE))
 
     def source(name: str) -> str:
@@ -177,7 +178,7 @@ def _limits(case: Case) -> Rows:
 def laws(case: Case) -> Table:
     """The laws of the model with their coefficients, and its numbers."""
     model = case.model
-    changed = set(model.label.partition(", changed: ")[2].split(", "))
+    changed = set(model.changes)
     by_calibration = (
         set() if case.calibration is None else {"ball_force", "friction"}
     )  # what components of a model a named calibration sets
@@ -185,20 +186,20 @@ def laws(case: Case) -> Table:
     for slot in LAWS:
         law = getattr(model, slot)
         name = name_of_law(slot, law)
-        known = coefficients_of(slot, name)
+        known = coefficients(law)
         numbers = [
             f"{coefficient.replace('_', ' ')} "
             + (
                 value_of(getattr(law, coefficient), quantity)
                 if f"{slot}.{coefficient}" not in case.uncertain
-                else in_words(case.uncertain[f"{slot}.{coefficient}"], quantity)
+                else describe_distribution(case.uncertain[f"{slot}.{coefficient}"], quantity)
             )
             for coefficient, quantity in known.items()
         ]
         source = CALIBRATION if slot in by_calibration and slot in changed else CASE if slot in changed else ""
         rows.append((slot.replace("_", " "), ": ".join(filter(None, [name, ", ".join(numbers)])), source))
     rows += _part(case, model, fields_of(model), lambda n: CASE if n in changed else "")
-    said = [(what.partition(", ")[0], words + (f" (from: {source})" if source else "")) for what, words, source in rows]
+    said = [(what, words + (f" (from: {source})" if source else "")) for what, words, source in rows]
     return Table(
         f"Laws and numbers of the model; what is not marked is that of {model.name}", _OF_LAWS, said, (0, 1), 1
     )

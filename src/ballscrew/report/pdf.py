@@ -7,7 +7,10 @@ import re
 from importlib import resources
 from pathlib import Path
 
-from ballscrew.interfaces.report_blocks import Report, as_data
+from ballscrew.report.blocks import (
+    Report,
+    as_data,
+)
 
 #: Pages that a report may have, and the sizes of letters that are tried until it has no more, in points.
 PAGES, _SIZES = 4, ("9.6", "9", "8.4", "7.8")
@@ -23,7 +26,7 @@ def pdf_bytes(report: Report) -> bytes:
     import matplotlib as mpl
     import typst
 
-    template = resources.files("ballscrew.interfaces").joinpath("templates", "report.typ").read_text(encoding="utf-8")
+    template = resources.files("ballscrew.report").joinpath("templates", "report.typ").read_text(encoding="utf-8")
     own = Path(mpl.get_data_path()) / "fonts" / "ttf"
     fonts = typst.Fonts(include_system_fonts=False, include_embedded_fonts=True, font_paths=[own])
     data = json.dumps(as_data(report), ensure_ascii=False, sort_keys=True)

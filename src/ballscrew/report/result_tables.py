@@ -6,32 +6,33 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ballscrew.analyses.checks import Check
-from ballscrew.analyses.outputs import known_outputs
-from ballscrew.analyses.uncertainty import Interval
-from ballscrew.assembly import NutFriction
+from ballscrew.cases import case_file, descriptions
+from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.components.contact import RaceState
-from ballscrew.interfaces import band, check, config, nut_report, report
-from ballscrew.interfaces.answer import Answer
-from ballscrew.interfaces.nut_report import NutResult
-from ballscrew.interfaces.nuts import LISTED
-from ballscrew.interfaces.report_blocks import Bar, Block, Bullets, Paragraph, Table, sentence
-from ballscrew.interfaces.report_blocks import value as value_of
+from ballscrew.evaluation.outputs import known_outputs
+from ballscrew.friction.nut_friction import NutFriction
+from ballscrew.friction.result import MECHANISMS, FrictionResult
+from ballscrew.output.text import band
+from ballscrew.output.text import check as check_text
+from ballscrew.output.text.run import SHORT, stiffness_fields
 from ballscrew.quantities import quantities_of
-from ballscrew.result import MECHANISMS, FrictionResult
+from ballscrew.records import Record
+from ballscrew.report.blocks import Bar, Block, Bullets, Paragraph, Table, sentence
+from ballscrew.report.blocks import value as value_of
+from ballscrew.sizing.checks import Check
 from ballscrew.solvers.load_distribution import BallLoads
-from ballscrew.solvers.pure_rolling import curvature_slip
+from ballscrew.studies.band import BandReport
+from ballscrew.studies.check import Checked
+from ballscrew.studies.run import Run
+from ballscrew.uncertainty.bands import Interval
 
 _ONE, _NUT, _LOADS = quantities_of(FrictionResult), quantities_of(NutFriction), quantities_of(BallLoads)
 _CONTACT = quantities_of(RaceState)
 _TORQUE = _ONE["screw_torque"]
-_OF_ONE = (
+#: The results of a screw, in this order; a nut has no contact load and entrainment speed of all its balls.
+_RESULTS = (
     "screw_torque", "nut_torque", "ideal_torque", "drive_torque", "holding_torque", "efficiency",
     "back_driving_efficiency", "friction_power", "contact_load", "entrainment_speed",
-)  # fmt: skip
-_OF_NUT = (
-    "screw_torque", "nut_torque", "ideal_torque", "drive_torque", "holding_torque", "efficiency",
-    "back_driving_efficiency", "friction_power",
 )  # fmt: skip
 _OF_CONTACT = (
     "contact_load", "semi_major_axis", "semi_minor_axis", "maximum_pressure", "minimum_film_thickness",
@@ -40,38 +41,25 @@ _OF_CONTACT = (
 )  # fmt: skip
 #: What only one kind of slip law tells.
 _OF_CURVATURE, _OF_SPIN = ("pure_rolling_offset",), ("spin_parameter", "creep_speed", "lateral_slip_speed")
-#: What the band tells besides the friction torque.
-_OF_BAND = ("drive_torque", "holding_torque", "efficiency", "back_driving_efficiency", "friction_power")
-_CAUSES = ("inputs and laws", "inputs alone", "laws alone")
 _SHORT: Mapping[str, str] = {
-    **report.SHORT,
+    **SHORT,
     "holding_torque": "torque that holds a load that drives (negative: lowers it)",
 }
 
 
-def results(answer: Answer) -> list[Table]:
+def results(run: Run) -> list[Table]:
     """Torque, efficiency and power; of a nut how it gives way; and the contacts with screw and nut."""
-    result = answer.result
-    if isinstance(result, NutResult):
-        found, loads = result.found, result.found.loads
-        rows = [_row(found, name, _NUT) for name in _OF_NUT]
-        rows.insert(1, ("torque without load", value_of(result.preload_drag, _TORQUE)))
-        sides, whose = nut_report.most_loaded(found), "Contacts of the most loaded ball"
-        names = ["deflection", "rigidity", *(["remaining_preload", "lift_off_load"] if result.preload else [])]
-        stiff = [_row(loads, name, _LOADS) for name in names]
-        stiff.append(_row(found, "maximum_pressure", _NUT))
-        alone = found.model.slip is curvature_slip
-    else:
-        rows, stiff = [_row(result, name, _ONE) for name in _OF_ONE], []
-        sides = {
-            name: {key: getattr(side, key) for key in _OF_CONTACT}
-            for name, side in (("screw", result.screw), ("nut", result.nut))
-        }
-        whose, alone = "Contacts of each ball", result.slip_is_curvature_alone
+    rows = [_row(run.friction, name, run.quantities) for name in _RESULTS if name in run.quantities]
+    stiff, whose = [], "Contacts of each ball"
+    if run.nut is not None:
+        rows.insert(1, ("torque without load", value_of(run.nut.preload_drag, _TORQUE)))
+        stiff = [_row(run.nut.loads, name, _LOADS) for name in stiffness_fields(run.nut)]
+        stiff.append(_row(run.nut, "maximum_pressure", _NUT))
+        whose = "Contacts of the most loaded ball"
     tables = [Table("Torque, efficiency and power", ("", "value"), rows)]
     if stiff:
         tables.append(Table("How the nut gives way", ("", "value"), stiff))
-    return [*tables, _contacts(whose, sides, alone)]
+    return [*tables, _contacts(whose, run.contacts, run.curvature_alone)]
 
 
 def _row(result: Any, name: str, known: Mapping[str, Any]) -> tuple[str, str]:
@@ -83,7 +71,7 @@ def _contacts(title: str, sides: Mapping[str, Mapping[str, Any]], alone: bool) -
     left_out = _OF_SPIN if alone else _OF_CURVATURE
     rows = [
         (
-            report.SHORT.get(name, _CONTACT[name].info.meaning),
+            SHORT.get(name, _CONTACT[name].info.meaning),
             *(value_of(float(side[name]), _CONTACT[name]) for side in sides.values()),
         )
         for name in _OF_CONTACT
@@ -92,9 +80,9 @@ def _contacts(title: str, sides: Mapping[str, Mapping[str, Any]], alone: bool) -
     return Table(title, ("", "screw", "nut"), rows)
 
 
-def parts(answer: Answer) -> list[Block]:
+def parts(run: Run) -> list[Block]:
     """The parts of the friction torque, the greatest first, as numbers and bars."""
-    found = answer.result.found if isinstance(answer.result, NutResult) else answer.result
+    found = run.friction
     total = float(found.screw_torque)
     values = {name: float(value) for name, value in found.contributions.items()}
     if not math.isfinite(total) or not any(values.values()):
@@ -116,41 +104,37 @@ def parts(answer: Answer) -> list[Block]:
 # -- the band -------------------------------------------------------------------------------------
 
 
-def band_blocks(case: config.Case, found: band.Found) -> list[Block]:
+def band_blocks(case: case_file.Case, report: BandReport) -> list[Block]:
     """How far off the results may be, because of what, and what was taken as uncertain."""
-    said = [Paragraph(f"{'. '.join(map(sentence, band.sentences(case, found)))}.", strong=True)]
-    if not math.isfinite(found.band["screw_torque"].median) or found.band["screw_torque"].both == (0.0, 0.0):
-        return [*said]
-    warned = [Bullets([f"Beware: {line}." for line in band.warnings(found)])] if band.warnings(found) else []
-    laws = [line.strip() for line in band.laws_in_words(case, found) if line]
-    exchanged = [Paragraph(f"{sentence(laws[0])}{': ' * (len(laws) > 1)}{'; '.join(laws[1:])}.")] if laws else []
-    return [*said, _causes(found), _followers(case, found), *warned, *exchanged, *_uncertain(found)]
+    summary = [
+        Paragraph(
+            f"{'. '.join(map(sentence, (verdict.text for verdict in band.verdicts(case, report))))}.", strong=True
+        )
+    ]
+    torque = report.band["screw_torque"]
+    if not math.isfinite(torque.median) or torque.both == (0.0, 0.0):
+        return [*summary]
+    warnings = band.warnings(report)
+    warned = [Bullets([f"Beware: {one.text}." for one in warnings])] if warnings else []
+    laws = band.exchanged_laws(case, report)
+    exchanged = [Paragraph(f"{': '.join(filter(None, [sentence(laws.heading), '; '.join(laws.entries)]))}.")]
+    inputs: list[Block] = [Paragraph(f"{band.input_counts(report)}.")]
+    for heading, entries in band.uncertain_inputs(report):
+        inputs += [Paragraph(f"{sentence(heading)}:"), Bullets(entries)]
+    return [*summary, _causes(report), _followers(case, report), *warned, *exchanged * bool(laws.heading), *inputs]
 
 
-def _uncertain(found: band.Found) -> list[Block]:
-    """What was taken as uncertain, by whose word and why."""
-    blocks: list[Block] = [Paragraph(f"{band.assumed_in_words(found)}.")]
-    items: list[str] = []
-    for line in filter(None, band.inputs_in_words(found)):
-        if line.startswith("  "):
-            items.append(line.strip())
-        else:
-            items = []
-            blocks += [Paragraph(f"{sentence(line)}:"), Bullets(items)]
-    return blocks
-
-
-def _causes(found: band.Found) -> Table:
-    torque = found.band["screw_torque"]
-    intervals: Sequence[Interval] = (torque.both, torque.parameters, torque.model_form)
+def _causes(report: BandReport) -> Table:
+    torque = report.band["screw_torque"]
+    intervals = band.intervals(torque)
     share = torque.share_of_parameters
     shares = ["", *(f"{part:.0%}" if math.isfinite(part) else "–" for part in (share, 1 - share))]
     ends = [end for interval in intervals for end in interval if math.isfinite(end)]
     rows = [
         (words, *(value_of(end, _TORQUE) for end in interval), part, _bar(interval, torque.value, ends))
-        for words, interval, part in zip(_CAUSES, intervals, shares, strict=True)
+        for words, interval, part in zip(band.CAUSES, intervals, shares, strict=True)
     ]
-    level = f"{100 * found.band.level:.4g} %"
+    level = f"{100 * report.band.level:.4g} %"
     return Table(
         f"Friction torque on the screw: {level} of the samples, and the share of its variance",
         ("because of", "from", "to", "share", ""),
@@ -170,11 +154,11 @@ def _bar(interval: Interval, value: float, ends: Sequence[float]) -> Bar | str:
     return Bar(*places)
 
 
-def _followers(case: config.Case, found: band.Found) -> Table:
+def _followers(case: case_file.Case, report: BandReport) -> Table:
     known = known_outputs(case.parts)
     rows: list[tuple[str, ...]] = []
-    for name in _OF_BAND:
-        quantity, one = known[name].quantity, found.band[name]
+    for name in band.SHOWN:
+        quantity, one = known[name].quantity, report.band[name]
         numbers = (one.value, one.median, *one.both)
         rows.append((_SHORT.get(name, quantity.info.meaning), *(value_of(x, quantity) for x in numbers)))
     return Table("What follows from it", ("", "case", "median", "from", "to"), rows)
@@ -183,7 +167,7 @@ def _followers(case: config.Case, found: band.Found) -> Table:
 # -- the checks -----------------------------------------------------------------------------------
 
 
-def checks(found: check.Checked) -> list[Block]:
+def checks(found: Checked) -> list[Block]:
     """Whether the screw does, line by line."""
     without_nut = found.case.parts is None
     said = [found.verdict]
@@ -202,7 +186,7 @@ def checks(found: check.Checked) -> list[Block]:
     ]
 
 
-def _computed_ratings(found: check.Checked) -> list[str]:
+def _computed_ratings(found: Checked) -> list[str]:
     """The ratings that nobody lists and that the checks took from the geometry instead."""
     unlisted = [name for name in ("dynamic", "static") if found.case.listed.get(f"{name}_load_rating") is None]
     if found.computed is None or not unlisted:
@@ -213,34 +197,37 @@ def _computed_ratings(found: check.Checked) -> list[str]:
 
 
 def _check(one: Check) -> tuple[str, ...]:
-    verdict = {True: "passes", False: "FAILS", None: ""}[one.passes]  # the words then say what is missing
+    verdict = {True: "passes", False: "FAILS", None: ""}[one.holds]  # the words then say what is missing
     return (
         one.name.replace("_", " "),
-        check.shown(one, one.value),
-        check.shown(one, one.limit),
+        check_text.shown(one, one.value),
+        check_text.shown(one, one.limit),
         "–" if one.utilisation is None else f"{one.utilisation:.1%}",
-        ": ".join(filter(None, [verdict, one.words])),
+        ": ".join(filter(None, [verdict, one.text])),
     )
 
 
 # -- words ----------------------------------------------------------------------------------------
 
 
-def beware(answer: Answer) -> list[Block]:
+def beware(run: Run) -> list[Block]:
     """Where the result is not to be trusted, what was assumed and what is left out."""
-    result = answer.result
-    warnings = nut_report.warnings(result) if isinstance(result, NutResult) else result.warnings
     valid: Block = (
-        Bullets([f"Beware: {line}." for line in warnings])
-        if warnings
+        Bullets([f"Beware: {_warning(record)}." for record in run.warnings])
+        if run.warnings
         else Paragraph("All conditions of the model hold at the operating point.")
     )
-    return [valid, Bullets([f"{sentence(line)}." for line in answer.assumed])]
+    return [valid, Bullets([f"{sentence(line)}." for line in descriptions.assumed(run.case, run.ball_to_ball_force)])]
 
 
-def headline(answer: Answer) -> str:
+def _warning(record: Record) -> str:
+    """The reason and its text; the loss of the preload is a sentence of its own."""
+    return f"{record.name}: {record.text}" if record.id == f"validity.{record.name}" else record.text
+
+
+def headline(run: Run) -> str:
     """The answer in a sentence or two."""
-    found = answer.result.found if isinstance(answer.result, NutResult) else answer.result
+    found = run.friction
     torque, efficiency = float(found.screw_torque), float(found.efficiency)
     power = value_of(float(found.friction_power), _ONE["friction_power"])
     if not math.isfinite(torque):

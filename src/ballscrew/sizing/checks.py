@@ -1,4 +1,4 @@
-"""Whether a screw lasts: its ratings by geometry, and one table of checks against its limits."""
+"""Ratings of a screw by its geometry, and the checks of its life, strength and speed against their limits."""
 
 from __future__ import annotations
 
@@ -8,14 +8,16 @@ from typing import NamedTuple
 import numpy as np
 
 from ballscrew._arrays import as_array
+from ballscrew._deprecated import RenamedAttribute
 from ballscrew.components.catalogue import CatalogueRow
 from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.nut import Nut, SingleNut
 from ballscrew.components.screw import BallScrew, Operation
 from ballscrew.equations import geometry, life, rating, shaft
-from ballscrew.faults import Fault, raise_if_any, shown
+from ballscrew.errors import Fault, raise_if_any, shown
+from ballscrew.friction.validity import LARGEST_PRESSURE
 from ballscrew.quantities import AngularSpeed, Force, Length, Pressure, Ratio
-from ballscrew.validity import LARGEST_PRESSURE
+from ballscrew.records import Record
 
 #: With this conformity the formulas of ISO3408-5 give the ratings of catalogues (HIWIN2016), whose grooves have 0.54.
 RATING_CONFORMITY = 0.52
@@ -26,7 +28,7 @@ _USUAL = Limits()
 
 
 class Ratings(NamedTuple):
-    """What one nut body, or one half, is rated for."""
+    """Load ratings of one nut body, or one half."""
 
     dynamic: Force
     static: Force
@@ -62,9 +64,9 @@ def loads_of_halves(nut: Nut, axial_load: Force) -> tuple[Force, ...]:
 
 
 class Check(NamedTuple):
-    """One line of the table, in SI. It passes where the utilisation, demand over capacity, is at most one.
+    """One check, in SI. It holds where the utilisation, demand over capacity, is at most one.
 
-    None stands for what is not known; the words then say what to give.
+    None stands for what is not known; the text then states which input is missing.
     """
 
     name: str
@@ -72,8 +74,27 @@ class Check(NamedTuple):
     limit: float | None
     unit: str
     utilisation: float | None
-    passes: bool | None
-    words: str
+    holds: bool | None
+    text: str
+    #: The input without which it is not judged; empty where it is.
+    missing: str = ""
+
+    passes = RenamedAttribute("passes", "holds")
+    words = RenamedAttribute("words", "text")
+
+    @property
+    def record(self) -> Record:
+        """The check as a record of a document: an error where it fails, a note where it is not judged."""
+        return Record(
+            id=f"check.{self.name}",
+            subject=self.name,
+            text=self.text,
+            severity="error" if self.holds is False else "info",
+            holds=self.holds,
+            value=self.value,
+            limit=self.limit,
+            unit=self.unit,
+        )
 
 
 def checks(
@@ -98,7 +119,7 @@ def checks(
     ``half_loads`` are the axial forces at the mean load on the loaded flanks and, if they carry any, on the relieved
     ones; where they are not known, those of the closed formula of :func:`loads_of_halves` are taken.
     ``maximum_pressure`` is that of the most loaded contact. Without a ``root_diameter`` that of the groove is taken.
-    Raises :class:`~ballscrew.faults.InputError` for values that are not positive, loads and speed below zero, and a
+    Raises :class:`~ballscrew.errors.InputError` for values that are not positive, loads and speed below zero, and a
     largest load below the mean.
     """
     Operation(axial_load=axial_load, screw_speed=screw_speed)
@@ -149,25 +170,25 @@ def _groove_bottom(screw: BallScrew) -> Length:
 
 
 def _not_checked(name: str, unit: str, give: str) -> Check:
-    return Check(name, None, None, unit, None, None, f"not checked: give {give}")
+    return Check(name, None, None, unit, None, None, f"not checked: give {give}", give)
 
 
-def _at_most(name: str, value: float, limit: float, unit: str, words: str) -> Check:
+def _at_most(name: str, value: float, limit: float, unit: str, text: str) -> Check:
     utilisation = float(value / limit)
-    return Check(name, float(value), float(limit), unit, utilisation, utilisation <= 1, words)
+    return Check(name, float(value), float(limit), unit, utilisation, utilisation <= 1, text)
 
 
-def _at_least(name: str, value: float, limit: float, unit: str, words: str) -> Check:
+def _at_least(name: str, value: float, limit: float, unit: str, text: str) -> Check:
     utilisation = float(limit / as_array(value))
-    return Check(name, float(value), float(limit), unit, utilisation, utilisation <= 1, words)
+    return Check(name, float(value), float(limit), unit, utilisation, utilisation <= 1, text)
 
 
 def _static_safety(rated: Force | None, load: Force, limits: Limits) -> Check:
     name = "static_safety"
     if rated is None:
         return _not_checked(name, "1", "static_load_rating")
-    words = "static rating against the largest load, preload included"
-    return _at_least(name, life.static_safety(rated, as_array(load)), limits.static_safety, "1", words)
+    text = "static rating against the largest load, preload included"
+    return _at_least(name, life.static_safety(rated, as_array(load)), limits.static_safety, "1", text)
 
 
 def _life(rated: Force | None, loads: Sequence[Force], speed: AngularSpeed, limits: Limits) -> tuple[Check, Check]:
@@ -179,22 +200,23 @@ def _life(rated: Force | None, loads: Sequence[Force], speed: AngularSpeed, limi
     revolutions = lives[0] if len(lives) == 1 else life.combined_life(*lives)
     time = life.running_time(revolutions, as_array(speed))
     endless = not np.isfinite(revolutions)
-    words = (
+    text = (
         "no load tires it" if endless else f"nine of ten outlive {float(revolutions):.3g} revolutions, preload included"
     )
-    without_end = words if endless else "no turn tires it"
+    without_end = text if endless else "no turn tires it"
     hours = f"{float(time / HOUR):.3g} h at this speed" if np.isfinite(time) else without_end
     required = limits.running_time
     at_rest = not endless and not float(as_array(speed))
     if required is None or at_rest:
-        advice = "not judged: at rest" if at_rest else "not judged: give limits.running_time"
+        missing = "" if at_rest else "limits.running_time"
+        advice = "not judged: at rest" if at_rest else f"not judged: give {missing}"
         return (
-            Check(names[0], float(revolutions), None, "1", None, None, f"{words}; {advice}"),
-            Check(names[1], float(time), None, "s", None, None, f"{hours}; {advice}"),
+            Check(names[0], float(revolutions), None, "1", None, None, f"{text}; {advice}", missing),
+            Check(names[1], float(time), None, "s", None, None, f"{hours}; {advice}", missing),
         )
     turns = required / life.running_time(1.0, as_array(speed))
     return (
-        _at_least(names[0], revolutions, turns, "1", words),
+        _at_least(names[0], revolutions, turns, "1", text),
         _at_least(names[1], time, required, "s", hours),
     )
 
@@ -203,13 +225,13 @@ def _contact_pressure(pressure: Pressure | None) -> Check:
     name = "contact_pressure"
     if pressure is None:
         return _not_checked(name, "Pa", "maximum_pressure")
-    words = "largest Hertz pressure against that which leaves a dent of 1e-4 of the ball diameter (ISO 76)"
-    return _at_most(name, pressure, LARGEST_PRESSURE, "Pa", words)
+    text = "largest Hertz pressure against that which leaves a dent of 1e-4 of the ball diameter (ISO 76)"
+    return _at_most(name, pressure, LARGEST_PRESSURE, "Pa", text)
 
 
 def _shaft_stress(load: Force, d_r: Length, limits: Limits) -> Check:
-    words = "largest load over the core of the shaft, pulled or pushed"
-    return _at_most("shaft_stress", shaft.shaft_stress(load, d_r), limits.shaft_stress, "Pa", words)
+    text = "largest load over the core of the shaft, pulled or pushed"
+    return _at_most("shaft_stress", shaft.shaft_stress(load, d_r), limits.shaft_stress, "Pa", text)
 
 
 def _buckling(screw: BallScrew, load: Force, d_r: Length, installation: Installation | None, limits: Limits) -> Check:
@@ -218,8 +240,8 @@ def _buckling(screw: BallScrew, load: Force, d_r: Length, installation: Installa
         return _not_checked(name, "N", "installation")
     ends, E = installation.ends, screw.screw_material.young_modulus
     euler = shaft.buckling_load(ends.buckling_root, E, d_r, installation.unsupported_length)
-    words = f"largest load, if it pushes, against Euler's over {limits.buckling_safety:g}, ends {ends.words}"
-    return _at_most(name, load, euler / limits.buckling_safety, "N", words)
+    text = f"largest load, if it pushes, against Euler's over {limits.buckling_safety:g}, ends {ends.words}"
+    return _at_most(name, load, euler / limits.buckling_safety, "N", text)
 
 
 def _critical_speed(
@@ -230,11 +252,11 @@ def _critical_speed(
         return _not_checked(name, "rad/s", "installation")
     ends, E, rho = installation.ends, screw.screw_material.young_modulus, installation.shaft_density
     critical = shaft.critical_speed(ends.whirling_root, E, rho, d_r, installation.unsupported_length)
-    words = f"speed against {limits.critical_speed_share:g} of that at which the shaft whirls, ends {ends.words}"
-    return _at_most(name, speed, critical * limits.critical_speed_share, "rad/s", words)
+    text = f"speed against {limits.critical_speed_share:g} of that at which the shaft whirls, ends {ends.words}"
+    return _at_most(name, speed, critical * limits.critical_speed_share, "rad/s", text)
 
 
 def _diameter_speed_product(screw: BallScrew, speed: AngularSpeed, limits: Limits) -> Check:
     value = shaft.diameter_speed_product(screw.pitch_circle_diameter, speed)
-    words = "DN value, pitch circle diameter times speed, which the return of the balls must stand"
-    return _at_most("diameter_speed_product", value, limits.diameter_speed_product, "m rad/s", words)
+    text = "DN value, pitch circle diameter times speed, which the return of the balls must stand"
+    return _at_most("diameter_speed_product", value, limits.diameter_speed_product, "m rad/s", text)

@@ -4,7 +4,7 @@ A ball that rolls has four freedoms left: the creep at each contact, and how the
 the spin and the lateral slip that screw and nut force on them. With friction coefficient and
 pressure given, the power lost in slip is a convex function of the four, and its slopes are the
 forces: the balance of the ball is the minimum. So far this is exact, and
-:mod:`ballscrew.solvers.contact_integral` minimises it on a fine grid. Here the ellipse is
+:mod:`oracles.contact_integral` minimises it on a fine grid. Here the ellipse is
 cut into strips (:mod:`ballscrew.solvers.strips`), each with its root-mean-square slip
 (:func:`~ballscrew.equations.slip.cell_slip_speed`), which keeps the function smooth and convex, and
 the minimum is found by a fixed number of damped Newton steps from the closed form of
@@ -24,6 +24,7 @@ from typing import Any, NamedTuple
 
 from ballscrew._arrays import in_blocks, namespace
 from ballscrew.components.contact import Contact
+from ballscrew.components.traits import law_traits
 from ballscrew.equations import kinematics, slip
 from ballscrew.quantities import AngularSpeed, Force, Length, Mask, Ratio, Speed, Torque
 from ballscrew.solvers.line_slip import creep_of_lines, pure_rolling_lines
@@ -60,8 +61,8 @@ class _Freedoms(NamedTuple):
     nut_lateral: Speed
 
 
-class _Settled(NamedTuple):
-    """Where the ball has settled: its freedoms, what passes through it, and the imbalance left."""
+class _Solution(NamedTuple):
+    """The slip in balance: its degrees of freedom, the loads that the ball transmits, and the imbalance left."""
 
     screw_creep: Speed
     nut_creep: Speed
@@ -74,6 +75,7 @@ class _Settled(NamedTuple):
     imbalance: Ratio
 
 
+@law_traits(alternative=True, contacts_per_ball=frozenset({2, 4}))
 def ellipse_slip(ball: BallProblem) -> Slip:
     """The slip law of the reference model: curvature, spin, creep and lateral slip over the ellipse."""
     share = carried_share(ball)
@@ -83,16 +85,16 @@ def ellipse_slip(ball: BallProblem) -> Slip:
     ]
     total_spin = kinematics.relative_spin(1.0, ball.frame.rolling_plane_sine)
     total_lateral = kinematics.torsion_speed(1.0, ball.ball_diameter, ball.frame.lead_angle)
-    settled = _Settled(*in_blocks(_settle, *sides[0], *sides[1], total_spin, total_lateral, ball.ball_diameter))
-    on_screw = settled.screw_creep, total_spin - settled.nut_spin, total_lateral - settled.nut_lateral
-    on_nut = settled.nut_creep, settled.nut_spin, settled.nut_lateral
+    solution = _Solution(*in_blocks(_solve_slip, *sides[0], *sides[1], total_spin, total_lateral, ball.ball_diameter))
+    on_screw = solution.screw_creep, total_spin - solution.nut_spin, total_lateral - solution.nut_lateral
+    on_nut = solution.nut_creep, solution.nut_spin, solution.nut_lateral
     return Slip(
-        screw=_contact_slip(ball, sides[0], settled.screw_moment, *on_screw),
-        nut=_contact_slip(ball, sides[1], settled.nut_moment, *on_nut),
-        spin_moment=settled.spin_moment,
-        lateral_force=settled.lateral_force,
+        screw=_contact_slip(ball, sides[0], solution.screw_moment, *on_screw),
+        nut=_contact_slip(ball, sides[1], solution.nut_moment, *on_nut),
+        spin_moment=solution.spin_moment,
+        lateral_force=solution.lateral_force,
         rolling_share=share,
-        residual=settled.imbalance,
+        residual=solution.imbalance,
         tolerance=TOLERANCE,
     )
 
@@ -120,7 +122,7 @@ def _contact_slip(
     return ContactSlip(offset, moment, omega * cut, omega * spin, omega * lateral)
 
 
-class _Passed(NamedTuple):
+class _Transmitted(NamedTuple):
     """Moments and force that the tractions put on the ball."""
 
     screw_moment: Torque
@@ -136,66 +138,66 @@ class _Forced(NamedTuple):
     lateral: Speed
 
 
-class _Stand(NamedTuple):
-    """A place on the way: the freedoms there, what they pass on, and where to go next.
+class _Iterate(NamedTuple):
+    """An iterate: the degrees of freedom, the loads that the ball transmits, and the next step.
 
     ``power`` is what the balance makes least: power lost in slip less that of the forces held.
     """
 
     freedoms: _Freedoms
-    passed: _Passed
+    transmitted: _Transmitted
     imbalance: Ratio
     power: Speed
     step: _Freedoms
 
 
-def _settle(*numbers: Any) -> _Settled:
+def _solve_slip(*numbers: Any) -> _Solution:
     """The balance of the slip: creep, shares of spin and lateral slip, and the forces they lead to."""
     screw, nut = Side(*numbers[:6]), Side(*numbers[6:12])
     forced, ball_diameter = _Forced(*numbers[12:14]), numbers[14]
     screw_strips, nut_strips = shapes_of(screw), shapes_of(nut)
     xp = namespace(screw.curvature, nut.traction, forced.lateral)
 
-    def stand(at: _Freedoms, newton: float) -> _Stand:
+    def iterate(at: _Freedoms, newton_share: float) -> _Iterate:
         spin, lateral = forced.spin - at.nut_spin, forced.lateral - at.nut_lateral
-        s = forces_of(screw, screw_strips, at.screw_creep, spin, lateral, newton)
-        n = forces_of(nut, nut_strips, at.nut_creep, at.nut_spin, at.nut_lateral, newton)
-        missing = _missing(screw, nut, s, n, ball_diameter)
-        power = missing.screw_weight * (
-            slip_power(screw, s, at.screw_creep, spin, lateral) - (s.path + missing.screw_path) * at.screw_creep
-        ) + missing.nut_weight * (
-            slip_power(nut, n, at.nut_creep, at.nut_spin, at.nut_lateral) - (n.path + missing.nut_path) * at.nut_creep
+        s = forces_of(screw, screw_strips, at.screw_creep, spin, lateral, newton_share)
+        n = forces_of(nut, nut_strips, at.nut_creep, at.nut_spin, at.nut_lateral, newton_share)
+        imbalance = _imbalance(screw, nut, s, n, ball_diameter)
+        power = imbalance.screw_weight * (
+            slip_power(screw, s, at.screw_creep, spin, lateral) - (s.path + imbalance.screw_path) * at.screw_creep
+        ) + imbalance.nut_weight * (
+            slip_power(nut, n, at.nut_creep, at.nut_spin, at.nut_lateral) - (n.path + imbalance.nut_path) * at.nut_creep
         )
-        step = _newton_step(screw, nut, s, n, missing, at, forced)
-        return _Stand(at, _passed_on(screw, nut, s, n), missing.size, power, step)
+        step = _newton_step(screw, nut, s, n, imbalance, at, forced)
+        return _Iterate(at, _transmitted(screw, nut, s, n), imbalance.size, power, step)
 
-    best = stand(_start(screw, nut, forced), NEWTON_SHARES[0])
-    for newton in NEWTON_SHARES[1:]:
-        trial = stand(_Freedoms(*map(operator.add, best.freedoms, best.step)), newton)
+    best = iterate(_start(screw, nut, forced), NEWTON_SHARES[0])
+    for newton_share in NEWTON_SHARES[1:]:
+        trial = iterate(_Freedoms(*map(operator.add, best.freedoms, best.step)), newton_share)
         worse = trial.power > best.power + ROUNDING * xp.abs(best.power)
         shorter = [BACKTRACK * move for move in best.step]
-        best = _Stand(
+        best = _Iterate(
             _Freedoms(*_choose(xp, worse, best.freedoms, trial.freedoms)),
-            _Passed(*_choose(xp, worse, best.passed, trial.passed)),
+            _Transmitted(*_choose(xp, worse, best.transmitted, trial.transmitted)),
             xp.where(worse, best.imbalance, trial.imbalance),
             xp.where(worse, best.power, trial.power),
             _Freedoms(*_choose(xp, worse, shorter, trial.step)),
         )
-    return _Settled(*best.freedoms, *best.passed, best.imbalance)
+    return _Solution(*best.freedoms, *best.transmitted, best.imbalance)
 
 
 def _choose(xp: Any, mask: Mask, yes: Sequence[Any], no: Sequence[Any]) -> list[Any]:
     return [xp.where(mask, one, other) for one, other in zip(yes, no, strict=True)]
 
 
-def _passed_on(screw: Side, nut: Side, s: Forces, n: Forces) -> _Passed:
+def _transmitted(screw: Side, nut: Side, s: Forces, n: Forces) -> _Transmitted:
     """The smaller of the two contacts' spin moments and lateral forces is what passes through the ball.
 
     In balance they are the same. Where one contact cannot hold what the other bears, the other's
-    share of the slip has not settled yet, but the force has: it is all the weaker one can bear.
+    share of the slip has not converged yet, but the force has: it is all the weaker one can bear.
     """
     xp = namespace(s.spin, n.spin)
-    return _Passed(
+    return _Transmitted(
         _curvature_moment(screw, s),
         _curvature_moment(nut, n),
         xp.minimum(
@@ -211,7 +213,7 @@ def _curvature_moment(side: Side, forces: Forces) -> Torque:
     return forces.curvature * side.traction_limit * a**2 / (2 * R_d)
 
 
-class _Missing(NamedTuple):
+class _Imbalance(NamedTuple):
     """What the forces lack to be in balance, in units of friction times load (and semi-axis)."""
 
     screw_path: Ratio
@@ -223,7 +225,7 @@ class _Missing(NamedTuple):
     size: Ratio
 
 
-def _missing(screw: Side, nut: Side, s: Forces, n: Forces, ball_diameter: Length) -> _Missing:
+def _imbalance(screw: Side, nut: Side, s: Forces, n: Forces, ball_diameter: Length) -> _Imbalance:
     """Sliding forces as the balance asks for them, curvature moments included, less those of the slip."""
     xp = namespace(s.path, n.path, screw.traction)
     moments = _curvature_moment(screw, s) + _curvature_moment(nut, n)
@@ -239,7 +241,7 @@ def _missing(screw: Side, nut: Side, s: Forces, n: Forces, ball_diameter: Length
     lateral = weight * s.lateral - (1 - weight) * n.lateral
     relative_spin = spin / xp.where(span > 0, span, 1.0)
     size = xp.sqrt(path[0] ** 2 + path[1] ** 2 + relative_spin**2 + lateral**2)
-    return _Missing(path[0], path[1], spin, lateral, weight, 1 - weight, size)
+    return _Imbalance(path[0], path[1], spin, lateral, weight, 1 - weight, size)
 
 
 def _bounded(traction: Ratio) -> Ratio:
@@ -300,22 +302,22 @@ def _nut_share(screw_scale: Ratio, nut_scale: Ratio, screw_limit: Ratio, nut_lim
 
 
 def _newton_step(
-    screw: Side, nut: Side, s: Forces, n: Forces, missing: _Missing, at: _Freedoms, forced: _Forced
+    screw: Side, nut: Side, s: Forces, n: Forces, imbalance: _Imbalance, at: _Freedoms, forced: _Forced
 ) -> _Freedoms:
     """Damped Newton step: the creeps eliminated, two equations left for the shares of the nut.
 
     No contact takes more than all of the spin or of the lateral slip, or less than none.
     """
     a_s, a_n = screw.semi_major_axis, nut.semi_major_axis
-    w_s, w_n = missing.screw_weight, missing.nut_weight
+    w_s, w_n = imbalance.screw_weight, imbalance.nut_weight
     # with both creeps following, what the rim speed and the lateral slip still change
-    s_spin, s_cross, s_lateral, s_spin_left, s_lateral_left = _eliminated(s, missing.screw_path)
-    n_spin, n_cross, n_lateral, n_spin_left, n_lateral_left = _eliminated(n, missing.nut_path)
+    s_spin, s_cross, s_lateral, s_spin_left, s_lateral_left = _eliminated(s, imbalance.screw_path)
+    n_spin, n_cross, n_lateral, n_spin_left, n_lateral_left = _eliminated(n, imbalance.nut_path)
     spin_spin = w_s * a_s**2 * s_spin + w_n * a_n**2 * n_spin
     spin_lateral = w_s * a_s * s_cross + w_n * a_n * n_cross
     lateral_lateral = w_s * s_lateral + w_n * n_lateral
-    spin_missing = missing.spin + w_s * a_s * s_spin_left - w_n * a_n * n_spin_left
-    lateral_missing = missing.lateral + w_s * s_lateral_left - w_n * n_lateral_left
+    spin_missing = imbalance.spin + w_s * a_s * s_spin_left - w_n * a_n * n_spin_left
+    lateral_missing = imbalance.lateral + w_s * s_lateral_left - w_n * n_lateral_left
     xp = namespace(spin_spin, lateral_lateral)
     determinant = spin_spin * lateral_lateral - spin_lateral**2
     solvable = determinant > 0
@@ -325,14 +327,14 @@ def _newton_step(
     nut_spin = xp.minimum(xp.maximum(at.nut_spin + nut_spin, 0.0), forced.spin) - at.nut_spin
     nut_lateral = xp.minimum(xp.maximum(at.nut_lateral + nut_lateral, 0.0), forced.lateral) - at.nut_lateral
     return _Freedoms(
-        screw_creep=(missing.screw_path + s.path_spin * a_s * nut_spin + s.path_lateral * nut_lateral) / s.path_path,
-        nut_creep=(missing.nut_path - n.path_spin * a_n * nut_spin - n.path_lateral * nut_lateral) / n.path_path,
+        screw_creep=(imbalance.screw_path + s.path_spin * a_s * nut_spin + s.path_lateral * nut_lateral) / s.path_path,
+        nut_creep=(imbalance.nut_path - n.path_spin * a_n * nut_spin - n.path_lateral * nut_lateral) / n.path_path,
         nut_spin=nut_spin,
         nut_lateral=nut_lateral,
     )
 
 
-def _eliminated(forces: Forces, missing: Ratio) -> tuple[Ratio, Ratio, Ratio, Ratio, Ratio]:
+def _eliminated(forces: Forces, imbalance: Ratio) -> tuple[Ratio, Ratio, Ratio, Ratio, Ratio]:
     """Slopes by spin and lateral slip at a given force along the path, and what closing that force adds."""
     f = forces
     follow_spin, follow_lateral = f.path_spin / f.path_path, f.path_lateral / f.path_path
@@ -340,6 +342,6 @@ def _eliminated(forces: Forces, missing: Ratio) -> tuple[Ratio, Ratio, Ratio, Ra
         f.spin_spin - follow_spin * f.path_spin,
         f.spin_lateral - follow_spin * f.path_lateral,
         f.lateral_lateral - follow_lateral * f.path_lateral,
-        follow_spin * missing,
-        follow_lateral * missing,
+        follow_spin * imbalance,
+        follow_lateral * imbalance,
     )

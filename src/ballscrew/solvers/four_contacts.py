@@ -38,7 +38,7 @@ class Ball(NamedTuple):
     path_radius: Length
 
 
-class Touch(NamedTuple):
+class ContactInput(NamedTuple):
     """One of the four contacts."""
 
     traction_limit: Force
@@ -50,16 +50,16 @@ class Touch(NamedTuple):
     contact_angle: Angle
 
 
-class TouchingContact:
+class SlippingContact:
     """A contact and what it sees of the freedoms: speeds and their slopes."""
 
-    def __init__(self, touch: Touch, ball: Ball, *, on_screw: bool, facing: int) -> None:
-        xp = namespace(touch.contact_angle, ball.lead_angle)
-        self.touch, self.on_screw = touch, on_screw
-        self.cosine, self.sine = xp.cos(touch.contact_angle), facing * xp.sin(touch.contact_angle)
+    def __init__(self, inputs: ContactInput, ball: Ball, *, on_screw: bool, facing: int) -> None:
+        xp = namespace(inputs.contact_angle, ball.lead_angle)
+        self.inputs, self.on_screw = inputs, on_screw
+        self.cosine, self.sine = xp.cos(inputs.contact_angle), facing * xp.sin(inputs.contact_angle)
         self.radius = ball.radius
         self.rolling_cosine = self.cosine * xp.cos(ball.lead_angle)
-        bend = slip.curvature_slip_speed(touch.semi_major_axis, touch.deformed_radius, 1 / ball.radius)
+        bend = slip.curvature_slip_speed(inputs.semi_major_axis, inputs.deformed_radius, 1 / ball.radius)
         zero = 0 * self.cosine
         # what the screw adds to creep, spin, lateral slip and curvature slip, for one rad/s
         self.of_screw: tuple[Any, ...] = (zero, zero, zero, zero)
@@ -79,7 +79,7 @@ class TouchingContact:
             (0, bend * self.sine, bend * self.cosine, 0),
         )
         self.side = Side(
-            touch.traction_limit, zero, zero, touch.semi_major_axis, touch.deformed_radius, touch.ellipticity
+            inputs.traction_limit, zero, zero, inputs.semi_major_axis, inputs.deformed_radius, inputs.ellipticity
         )
         self.shapes = shapes_of(self.side)
 
@@ -91,12 +91,12 @@ class TouchingContact:
         """Speed of the ball's surface along the path."""
         return self.cosine * at.rolling + self.sine * at.outward
 
-    def answer(self, at: Freedoms, newton: float) -> Answer:
+    def response(self, at: Freedoms, newton_share: float) -> ContactResponse:
         """The forces on the slip, friction times load included."""
         creep, spin, lateral, curvature = self.speeds(at)
-        limit, a = self.touch.traction_limit, self.touch.semi_major_axis
+        limit, a = self.inputs.traction_limit, self.inputs.semi_major_axis
         side = self.side._replace(curvature=curvature)
-        f = forces_of(side, self.shapes, creep, spin, lateral, newton)
+        f = forces_of(side, self.shapes, creep, spin, lateral, newton_share)
         first = (limit * f.path, limit * a * f.spin, limit * f.lateral, limit * f.curvature)
         second = (
             (limit * f.path_path,),
@@ -104,10 +104,10 @@ class TouchingContact:
             (limit * f.path_lateral, limit * a * f.spin_lateral, limit * f.lateral_lateral),
         )
         parts = (first[0] * creep + first[3] * curvature, first[1] * spin, first[2] * lateral)
-        return Answer(first, second, parts)
+        return ContactResponse(first, second, parts)
 
 
-class Answer(NamedTuple):
+class ContactResponse(NamedTuple):
     """Forces on creep, spin, lateral and curvature slip; slopes of the first three; power by mechanism."""
 
     first: tuple[Any, ...]
@@ -142,13 +142,13 @@ class Resistance(NamedTuple):
         return self.constant + along(self.slopes, at)
 
 
-def resistances_of(contacts: Sequence[TouchingContact], ball: Ball) -> list[Resistance]:
-    """Hydrodynamic rolling, elastic hysteresis, and neighbours; the powers of :mod:`~ballscrew.solvers.free_ball`."""
+def resistances_of(contacts: Sequence[SlippingContact], ball: Ball) -> list[Resistance]:
+    """Hydrodynamic rolling, elastic hysteresis, and neighbours; the powers of :mod:`~oracles.free_ball`."""
     rho, L = ball.radius, ball.path_radius
     rolling: list[Any] = [0.0, 0, 0.0, 0.0, 0.0]
     hysteresis: list[Any] = [0.0, 0, 0.0, 0.0, 0]
     for contact in contacts:
-        F_R, M_ER, c_alpha = contact.touch.rolling_force, contact.touch.elastic_moment, contact.rolling_cosine
+        F_R, M_ER, c_alpha = contact.inputs.rolling_force, contact.inputs.elastic_moment, contact.rolling_cosine
         # surface speeds: R_s (1 - Ω_m) + ρ ω_b at the screw, R_n Ω_m + ρ ω_b at the nut, with ρ ω_b = ρ p + ρ Ω_m c_α
         fixed = L - rho * c_alpha if contact.on_screw else 0.0
         travel = (2 * rho * c_alpha - L) / L if contact.on_screw else (2 * rho * c_alpha + L) / L
@@ -159,11 +159,11 @@ def resistances_of(contacts: Sequence[TouchingContact], ball: Ball) -> list[Resi
         hysteresis = [total + term for total, term in zip(hysteresis, terms, strict=True)]
     # neighbours rub about the ball's axis: that of the two rolling axes, by load
     forward, backward = contacts[1], contacts[3]
-    limits = forward.touch.traction_limit, backward.touch.traction_limit
+    limits = forward.inputs.traction_limit, backward.inputs.traction_limit
     xp = namespace(*limits)
     both = limits[0] + limits[1]
     share = xp.where(both > 0, limits[0] / xp.where(both > 0, both, 1.0), 0.5)
-    apart = forward.touch.contact_angle + backward.touch.contact_angle
+    apart = forward.inputs.contact_angle + backward.inputs.contact_angle
     M_B = ball.friction_moment / xp.sqrt(1 - 4 * share * (1 - share) * xp.sin(apart / 2) ** 2)
     shares = ((share, forward), (1 - share, backward))
     neighbours = (
@@ -179,24 +179,24 @@ def resistances_of(contacts: Sequence[TouchingContact], ball: Ball) -> list[Resi
     ]
 
 
-def carried_share(contacts: Sequence[TouchingContact], ball: Ball) -> Ratio:
+def carried_share(contacts: Sequence[SlippingContact], ball: Ball) -> Ratio:
     """Share of the resistances that friction along the path can carry; one at most.
 
     Asked of the weaker race: all rolling forces and the moments over the ball's diameter.
     """
     needed = ball.friction_moment / (2 * ball.radius) + ball.chain_force
     for contact in contacts:
-        needed = needed + contact.touch.rolling_force + contact.touch.elastic_moment / (2 * ball.radius)
-    limits = [contact.touch.traction_limit for contact in contacts]
+        needed = needed + contact.inputs.rolling_force + contact.inputs.elastic_moment / (2 * ball.radius)
+    limits = [contact.inputs.traction_limit for contact in contacts]
     xp = namespace(needed, *limits)
     asked = _over(needed, xp.minimum(limits[0] + limits[2], limits[1] + limits[3]))
     # nor may one pair spin the ball about the normal of the other, which has to bear the forces as well
     spun: Ratio = 0.0
     for own, other in ((contacts[:2], contacts[2:]), (contacts[2:], contacts[:2])):
         lever = xp.abs(own[1].sine * other[1].cosine - own[1].cosine * other[1].sine)
-        turning = sum(ball.radius * contact.touch.rolling_force + contact.touch.elastic_moment for contact in own)
-        held = sum(ball.radius * contact.touch.traction_limit for contact in own) * lever + sum(
-            slip.pure_spin_moment(contact.touch.traction_limit, contact.touch.semi_major_axis) for contact in other
+        turning = sum(ball.radius * contact.inputs.rolling_force + contact.inputs.elastic_moment for contact in own)
+        held = sum(ball.radius * contact.inputs.traction_limit for contact in own) * lever + sum(
+            slip.pure_spin_moment(contact.inputs.traction_limit, contact.inputs.semi_major_axis) for contact in other
         )
         spun = xp.maximum(spun, _over(lever * turning, held))
     return LARGEST_TRACTION_RATIO / xp.maximum(xp.sqrt(asked**2 + spun**2), LARGEST_TRACTION_RATIO)

@@ -33,9 +33,9 @@ from ballscrew.components.contact import Contact
 from ballscrew.quantities import Angle, Force, Length, Mask, Ratio, Torque
 from ballscrew.solvers.four_contacts import (
     Ball,
+    ContactInput,
     Freedoms,
-    Touch,
-    TouchingContact,
+    SlippingContact,
     carried_share,
     plus,
     resistances_of,
@@ -101,10 +101,10 @@ class FourPointSlip:
 
 def four_point_slip(ball: FourPointBall) -> FourPointSlip:
     """How a ball slips on four contacts, and the torque it puts on the screw."""
-    touches: list[Any] = []
+    inputs: list[Any] = []
     for pair in (ball.forward, ball.backward):
         for contact in (pair.screw, pair.nut):
-            touches += Touch(
+            inputs += ContactInput(
                 contact.friction_coefficient * contact.contact_load,
                 contact.semi_major_axis,
                 contact.deformed_radius,
@@ -116,12 +116,12 @@ def four_point_slip(ball: FourPointBall) -> FourPointSlip:
     common = Ball(
         ball.ball_friction_moment, ball.ball_to_ball_force, ball.ball_diameter / 2, ball.lead_angle, ball.path_radius
     )
-    *parts, nut_torque, share, residual, axis_angle = in_blocks(_settle, *touches, *common)
+    *parts, nut_torque, share, residual, axis_angle = in_blocks(_solve_slip, *inputs, *common)
     return FourPointSlip(dict(zip(PARTS, parts, strict=True)), nut_torque, share, residual, axis_angle)
 
 
-class _Stand(NamedTuple):
-    """A place on the way: the freedoms there, the powers by mechanism, and where to go next."""
+class _Iterate(NamedTuple):
+    """An iterate: the degrees of freedom, the powers by mechanism, and the next step."""
 
     freedoms: Freedoms
     parts: Sequence[Torque]
@@ -130,45 +130,45 @@ class _Stand(NamedTuple):
     step: Freedoms
 
 
-def _settle(*numbers: Any) -> list[Any]:
+def _solve_slip(*numbers: Any) -> list[Any]:
     """The least power: its parts, what is left of the balance, and how the ball turns."""
     ball = Ball(*numbers[28:])
     contacts = [
-        TouchingContact(Touch(*numbers[7 * i : 7 * i + 7]), ball, on_screw=i % 2 == 0, facing=1 if i < 2 else -1)
+        SlippingContact(ContactInput(*numbers[7 * i : 7 * i + 7]), ball, on_screw=i % 2 == 0, facing=1 if i < 2 else -1)
         for i in range(4)
     ]
     resistances = resistances_of(contacts, ball)
-    limits = [contact.touch.traction_limit for contact in contacts]
+    limits = [contact.inputs.traction_limit for contact in contacts]
     xp = namespace(*limits, ball.path_radius)
     capacity = sum(limits)
     capacity = xp.where(capacity > 0, capacity, 1.0)
     share = carried_share(contacts, ball)
 
-    def stand(at: Freedoms, newton: float) -> _Stand:
+    def iterate(at: Freedoms, newton_share: float) -> _Iterate:
         slopes: list[Any] = [share * sum(part.slopes[i] for part in resistances) for i in range(4)]
         seconds: list[list[Any]] = [[0.0] * 4 for _ in range(4)]
         slipping: list[Any] = [0.0, 0.0, 0.0]
         for contact in contacts:
-            answer = contact.answer(at, newton)
-            slipping = [total + part for total, part in zip(slipping, answer.parts, strict=True)]
+            response = contact.response(at, newton_share)
+            slipping = [total + part for total, part in zip(slipping, response.parts, strict=True)]
             for i in range(4):
-                for force, row in zip(answer.first, contact.slopes, strict=True):
+                for force, row in zip(response.first, contact.slopes, strict=True):
                     slopes[i] = plus(slopes[i], force, row[i])
             for k, m in itertools.product(range(3), repeat=2):
-                bend, one, other = answer.second[max(k, m)][min(k, m)], contact.slopes[k], contact.slopes[m]
+                bend, one, other = response.second[max(k, m)][min(k, m)], contact.slopes[k], contact.slopes[m]
                 for i in range(4):
                     for j in range(i + 1):
                         seconds[i][j] = plus(seconds[i][j], bend, one[i], other[j])
         others = [share * part.power(at) for part in resistances]
         power = sum(slipping) + sum(others)
         size = xp.sqrt(sum(slope**2 for slope in slopes)) / capacity
-        return _Stand(at, [*others[:2], *slipping, others[2]], power, size, Freedoms(*_solved(seconds, slopes)))
+        return _Iterate(at, [*others[:2], *slipping, others[2]], power, size, Freedoms(*_solved(seconds, slopes)))
 
-    middle, *alone = (stand(start, NEWTON_SHARES[0]) for start in _starts(contacts, ball))
+    middle, *alone = (iterate(start, NEWTON_SHARES[0]) for start in _starts(contacts, ball))
     best = _better(xp, _better(xp, middle, alone[0]), alone[1])
-    for newton in NEWTON_SHARES[1:]:
+    for newton_share in NEWTON_SHARES[1:]:
         moved = Freedoms(*(place + step for place, step in zip(best.freedoms, best.step, strict=True)))
-        trial = stand(moved, newton)
+        trial = iterate(moved, newton_share)
         shorter = best._replace(step=Freedoms(*(BACKTRACK * step for step in best.step)))
         best = _better(xp, trial, shorter)
     axis_angle = xp.arctan(best.freedoms.outward / best.freedoms.rolling)
@@ -176,14 +176,14 @@ def _settle(*numbers: Any) -> list[Any]:
     return [*best.parts, nut_torque, share + 0 * best.power, best.imbalance, axis_angle]
 
 
-def _better(xp: Any, one: _Stand, other: _Stand) -> _Stand:
+def _better(xp: Any, one: _Iterate, other: _Iterate) -> _Iterate:
     """The place with the smaller power; the first unless it is worse by more than rounding."""
     worse = one.power > other.power + ROUNDING * xp.abs(other.power)
 
     def pick(first: Any, second: Any) -> Any:
         return xp.where(worse, second, first)
 
-    return _Stand(
+    return _Iterate(
         Freedoms(*map(pick, one.freedoms, other.freedoms)),
         list(map(pick, one.parts, other.parts)),
         pick(one.power, other.power),
@@ -192,7 +192,7 @@ def _better(xp: Any, one: _Stand, other: _Stand) -> _Stand:
     )
 
 
-def _starts(contacts: Sequence[TouchingContact], ball: Ball) -> list[Freedoms]:
+def _starts(contacts: Sequence[SlippingContact], ball: Ball) -> list[Freedoms]:
     """Three ways to turn: in the middle between the flanks, and as if rolling on one pair alone."""
     forward, backward = contacts[1], contacts[3]
     rho, L = ball.radius, ball.path_radius

@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 from ballscrew._arrays import namespace
 from ballscrew.components.contact import Contact
+from ballscrew.components.traits import law_traits
 from ballscrew.equations import kinematics, slip
 from ballscrew.quantities import AngularSpeed, Force, Length, Mask, Ratio, Speed, Torque
 from ballscrew.solvers.slip import BallProblem, ContactSlip, Slip, carried_share, contact_rotation, sliding_forces
@@ -64,6 +65,7 @@ class _Side(NamedTuple):
     traction: Ratio
 
 
+@law_traits(excluded="leaves the lateral slip out: a known error, and no doubt", lateral_slip=False)
 def line_slip(ball: BallProblem) -> Slip:
     """The slip law of curvature, spin and creep, without the helix's lateral slip."""
     screw, nut = ball.screw, ball.nut

@@ -28,7 +28,7 @@ from ballscrew.components.frame import helix_frame
 from ballscrew.components.nut import Bodies, Deviations, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut
 from ballscrew.components.screw import BallScrew, Raceway
 from ballscrew.equations import deflection, geometry, hertz
-from ballscrew.faults import Fault, is_concrete, raise_if_any
+from ballscrew.errors import Fault, is_concrete, raise_if_any
 from ballscrew.quantities import Angle, Force, Info, Length, LoadDeflection, Mask, Ratio, Stiffness
 from ballscrew.solvers.ball_springs import Field
 from ballscrew.solvers.nut_balance import NutCase, solved
@@ -86,7 +86,7 @@ def ball_loads(
 
     Without ``bodies`` screw and nut are rigid between the balls; with them, and with ``deviations``, the
     number of balls must be one number. ``constant_contact_angle`` keeps the angle without load.
-    Raises :class:`~ballscrew.faults.InputError` for balls that cannot be counted one by one.
+    Raises :class:`~ballscrew.errors.InputError` for balls that cannot be counted one by one.
     """
     one_by_one = bodies is not None or deviations is not None
     halves = 2 if isinstance(nut, DoubleNut | OffsetLeadNut) else 1

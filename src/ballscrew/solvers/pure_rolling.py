@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from ballscrew._arrays import namespace
 from ballscrew.components.contact import Contact
+from ballscrew.components.traits import law_traits
 from ballscrew.equations import friction
 from ballscrew.quantities import Force, Length, Ratio, Torque
 from ballscrew.solvers.slip import BallProblem, ContactSlip, Slip, sliding_forces
@@ -21,6 +22,9 @@ NEWTON_STEPS = 5
 TOLERANCE = 1e-12
 
 
+@law_traits(
+    excluded="leaves spin and lateral slip out: a known error, and no doubt", curvature_alone=True, lateral_slip=False
+)
 def curvature_slip(ball: BallProblem) -> Slip:
     """The paper's slip law: curvature alone, its lines imposed at a given offset or found from equilibrium.
 

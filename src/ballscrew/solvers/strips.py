@@ -100,7 +100,7 @@ class Forces(NamedTuple):
 
 
 def forces_of(
-    side: Side, shapes: tuple[Shape, ...], creep: Speed, spin: AngularSpeed, lateral: Speed, newton: float
+    side: Side, shapes: tuple[Shape, ...], creep: Speed, spin: AngularSpeed, lateral: Speed, newton_share: float
 ) -> Forces:
     """The forces of a contact: sums over its strips of load, direction of slip, and lever."""
     xp = namespace(side.curvature, creep, spin, lateral)
@@ -115,7 +115,7 @@ def forces_of(
         bend = s * depth + 2 * t * twist
         r = slip.cell_slip_speed(s, g, lateral, variance)
         inverse = xp.minimum(strip.share / r, strip.share / SMALLEST_SLIP)
-        second = newton / strip.share**2 * inverse**3
+        second = newton_share / strip.share**2 * inverse**3
         along, about = second * s, second * lever
         terms = (
             inverse, inverse * t, inverse * (t**2 + variance),

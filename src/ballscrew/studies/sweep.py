@@ -1,40 +1,40 @@
-"""Sweeps from the command line, and their tables as CSV, XLSX or NetCDF."""
+"""Sweeps of a case: axes and outputs from text, checked before anything is computed, and the dataset."""
 
 from __future__ import annotations
 
 import contextlib
-import csv
 import dataclasses
 import importlib.util
-import io
 import logging
 import math
 import re
-from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from ballscrew.analyses.cluster import connected
-from ballscrew.analyses.engines import FEW_POINTS
-from ballscrew.analyses.outputs import DEFAULT_OUTPUTS, NUT_OUTPUTS, OPERATION, inputs_of, known_outputs
-from ballscrew.analyses.plan import Plan as Swept
-from ballscrew.analyses.plan import Subject
-from ballscrew.analyses.stream import stream
-from ballscrew.analyses.sweep import sweep
-from ballscrew.assembly import NUT_REASONS
-from ballscrew.components.laws import ProportionalBallForce
+from ballscrew import units
+from ballscrew.cases.case_file import Case
+from ballscrew.cases.schema import name_of_law
 from ballscrew.components.materials import TEMPERATURE, Lubricant, Material
 from ballscrew.components.screw import MATERIALS
-from ballscrew.faults import Fault, InputError, fault_of, nearest
-from ballscrew.interfaces import units
-from ballscrew.interfaces.computable import computable
-from ballscrew.interfaces.config import Case
-from ballscrew.interfaces.files import check_writable, whole
+from ballscrew.components.traits import traits_of
+from ballscrew.errors import Fault, InputError, fault_of, nearest
+from ballscrew.evaluation.engines import FEW_POINTS
+from ballscrew.evaluation.outputs import DEFAULT_OUTPUTS, NUT_OUTPUTS, OPERATION, inputs_of, known_outputs
+from ballscrew.evaluation.plan import Configuration
+from ballscrew.evaluation.plan import Plan as Swept
+from ballscrew.files import check_writable
+from ballscrew.friction.law_names import coefficients
+from ballscrew.friction.nut_friction import NUT_REASONS
+from ballscrew.friction.validity import REASONS
+from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Quantity, fields_of
-from ballscrew.validity import REASONS
+from ballscrew.sweeps import sweep as sweeps
+from ballscrew.sweeps.cluster import cluster_client
+from ballscrew.sweeps.stream import stream
 
 _RANGE = re.compile(r"(?P<start>[^:]+):(?P<stop>[^:]+):\s*(?P<count>\d{1,18})\s*(?P<unit>1\s*/.*|[^\d\s.].*)?")
 _SECTIONS = ("operation", "screw", "lubricant", "model", "nut")
@@ -74,7 +74,7 @@ class Plan:
 
 
 def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None) -> Plan:
-    """What to sweep. Raises :class:`~ballscrew.faults.InputError` before anything is computed."""
+    """Plan of a sweep. Raises :class:`~ballscrew.errors.InputError` before anything is computed."""
     faults: list[Fault] = []
     known = dict(inputs_of(case.model, case.screw, case.lubricant, case.parts))
     if "grade" in case.oil:
@@ -106,9 +106,11 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
     faults += [
         Fault("--output", "is what is varied", n, "leave it out: it is a column anyway") for n in chosen if n in axes
     ]
-    if "ball_to_ball_force" in axes and isinstance(case.model.ball_force, ProportionalBallForce):
-        remedy = "vary ball_force.share_of_load"
-        faults.append(Fault("sweep.ball_to_ball_force", 'does not count with ball_force = "proportional"', "", remedy))
+    if "ball_to_ball_force" in axes and not traits_of(case.model.ball_force).uses_imposed_force:
+        law = case.model.ball_force
+        remedy = " or ".join(f"vary ball_force.{name}" for name in coefficients(law)) or "leave it out"
+        problem = f'does not count with ball_force = "{name_of_law("ball_force", law)}"'
+        faults.append(Fault("sweep.ball_to_ball_force", problem, "", remedy))
     of_temperature = [name for name in OF_TEMPERATURE if "temperature" in axes and name in axes]
     faults += [Fault(f"sweep.{n}", "goes with the temperature", "", "vary one of the two") for n in of_temperature]
     if "loaded_balls" in axes and case.parts is not None and case.parts.one_by_one:
@@ -157,7 +159,7 @@ def is_store(to: Path | None) -> bool:
 
 
 def _file_faults(to: Path | None, lengths: Sequence[int]) -> list[Fault]:
-    """What is wrong with a file before a byte of it is written."""
+    """The faults of a file that is to be written."""
     if to is None:
         return []
     kind = to.suffix.lower()
@@ -173,7 +175,7 @@ def _file_faults(to: Path | None, lengths: Sequence[int]) -> list[Fault]:
 
 
 def length_of(text: str) -> int:
-    """How many values an axis has, before they are made."""
+    """Number of values of an axis, from its text."""
     span = _RANGE.fullmatch(text.strip().strip("\"'"))
     return int(span["count"]) if span else text.count(",") + 1
 
@@ -198,7 +200,7 @@ def _axis(where: str, text: str, quantity: Quantity) -> np.ndarray | Fault:
     for value in values:
         fault = value if isinstance(value, Fault) else fault_of("sweep", quantity, value)
         if fault is not None:
-            return units.in_people_units(fault, quantity, fault.given if fault is value else text)
+            return units.in_display_units(fault, quantity, fault.given if fault is value else text)
     ends = [value for value in values if not isinstance(value, Fault)]
     if span is None:
         return np.array(ends)
@@ -216,8 +218,8 @@ def _blank_unit(quantity: Quantity) -> str:
     return "" if quantity.unit == "1" else f" {quantity.shown_in}"
 
 
-@computable()
-def evaluate(
+@overflow_as_input_error()
+def sweep(
     case: Case,
     plan: Plan,
     done: Callable[[int, int], None] | None = None,
@@ -236,12 +238,12 @@ def evaluate(
         varied |= _oils(case, values) if name == "temperature" else {name: values}
     oil = {f"lubricant_{name}": value for name, value in case.oil.items() if name not in plan.axes}
     if to is not None and is_store(to):
-        subject = Subject(case.model, case.screw, case.lubricant, case.parts)
+        subject = Configuration(case.model, case.screw, case.lubricant, case.parts)
         swept = Swept.of(subject, tuple(names), varied | fixed)
         return stream(swept, to, done=done, cluster=cluster, attributes=oil)
     # files of all kinds have the same bits; what is only looked at may be quicker
     few = to is None and math.prod(len(values) for values in plan.axes.values()) <= FEW_POINTS
-    dataset = sweep(
+    dataset = sweeps.sweep(
         case.model, case.screw, case.lubricant, nut=case.parts, outputs=tuple(names),
         engine="model" if few else None, done=done, **varied, **fixed,
     )  # fmt: skip
@@ -258,134 +260,22 @@ def workers(scheduler: str | None, to: Path | None) -> Generator[Any]:
     if not is_store(to):
         remedy = "add --to map.zarr, in a folder that all workers share"
         raise InputError(Fault("--scheduler", "needs a store", scheduler, remedy))
-    with connected(scheduler, "--scheduler") as client:
+    with cluster_client(scheduler, "--scheduler") as client:
         # what it logs of a scheduler that is gone, the command says in a line
         logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
         yield client
 
 
 def reasons_of(case: Case) -> Mapping[str, str]:
-    """What can be wrong with a point, in words."""
+    """The reasons for which a point may not be valid, with their texts."""
     return REASONS if case.parts is None else NUT_REASONS
 
 
 def _oils(case: Case, temperatures: np.ndarray) -> dict[str, xr.DataArray]:
-    """What of an oil depends on its temperature; what the case gives itself stays as it is."""
+    """Properties of the oil at the temperatures, without those that the case gives."""
     oils = Lubricant.from_grade(case.oil["grade"], temperatures)
     made = Lubricant.from_grade(**case.oil)
     own = [name for name in OF_TEMPERATURE if getattr(made, name) == getattr(case.lubricant, name)]
     dim, attributes = "temperature", {"units": TEMPERATURE.unit, "long_name": TEMPERATURE.info.meaning}
     coords = {dim: xr.DataArray(temperatures, dims=dim, attrs=attributes)}
     return {name: xr.DataArray(np.broadcast_to(getattr(oils, name), temperatures.shape), coords, dim) for name in own}
-
-
-def size_in_words(dataset: xr.Dataset, plan: Plan) -> str:
-    """``14 x 11 points, 3 outputs``."""
-    points = " x ".join(str(size) for size in dataset.sizes.values()) or "1"
-    return f"{points} points, {len(plan.outputs)} output{'s' if len(plan.outputs) > 1 else ''}"
-
-
-def write_csv(stream: IO[str], dataset: xr.Dataset, plan: Plan) -> None:
-    """The rows as CSV, one after the other."""
-    rows = table(dataset, plan, plan.outputs[0]) if plan.is_table else _rows(dataset, plan)
-    csv.writer(stream, lineterminator="\n").writerows(rows)
-
-
-def write(dataset: xr.Dataset, plan: Plan, to: Path) -> None:
-    """Write .csv, .xlsx or .nc, whole or not at all.
-
-    What other libraries write is made in memory first: on a full disk they end worse than in an
-    ``OSError``.
-    """
-    with whole("--to", to) as path:
-        match to.suffix.lower():
-            case ".nc":
-                path.write_bytes(dataset.to_netcdf(engine="h5netcdf"))
-            case ".xlsx":
-                path.write_bytes(_xlsx(dataset, plan))
-            case _:
-                with path.open("w", encoding="utf-8", newline="") as stream:
-                    write_csv(stream, dataset, plan)
-
-
-def table(dataset: xr.Dataset, plan: Plan, name: str) -> Iterator[list[Any]]:
-    """One output over two axes: the first axis down, the second across, in people's units."""
-    down, across = plan.axes
-    corner = (
-        f"{units.heading(plan.quantities[name], name)}: {_heading(plan, down)} down, {_heading(plan, across)} across"
-    )
-    yield [corner, *_shown(dataset[across], plan, across)]
-    values = _cells(dataset, plan, name).reshape(len(dataset[down]), len(dataset[across]))
-    for position, row in zip(_shown(dataset[down], plan, down), values, strict=True):
-        yield [position, *row]
-
-
-def _rows(dataset: xr.Dataset, plan: Plan) -> Iterator[list[Any]]:
-    """A heading, then one row a point."""
-    names = [*plan.axes, *plan.columns]
-    yield [_heading(plan, name) for name in names]
-    columns = [_cells(dataset, plan, name).ravel() for name in names]
-    yield from (list(row) for row in zip(*(column.tolist() for column in columns), strict=True))
-
-
-def _heading(plan: Plan, name: str) -> str:
-    return units.heading(plan.quantities[name], name)
-
-
-def _cells(dataset: xr.Dataset, plan: Plan, name: str) -> np.ndarray:
-    """One variable at all points; empty where the inputs make no sense."""
-    order = tuple(plan.axes)
-    whole_grid = dataset["valid"].transpose(*order)
-    cells = _shown(xr.broadcast(dataset[name], whole_grid)[0].transpose(*order), plan, name)
-    if name in plan.axes or name.startswith("valid"):
-        return cells
-    return np.where(dataset["validity_inputs"].transpose(*order).to_numpy(), cells, np.array(None, dtype=object))
-
-
-def _shown(array: xr.DataArray, plan: Plan, name: str) -> np.ndarray:
-    """Values in people's units, rounded to 12 digits so that 4000.0000000000005 N reads 4000."""
-    values = array.to_numpy()
-    if values.dtype == bool:
-        return values.astype(int)
-    values = np.asarray(units.from_si(values, plan.quantities[name]), dtype=float)
-    with np.errstate(all="ignore"):
-        digits = 11 - np.floor(np.log10(np.abs(np.where((values == 0) | ~np.isfinite(values), 1.0, values))))
-        scale = 10.0**digits
-        rounded = np.round(values * scale) / scale
-    # what is not finite is an empty cell: no spreadsheet reads "inf"
-    cells = rounded.astype(object)
-    cells[~np.isfinite(values)] = None
-    return cells
-
-
-def _inputs(dataset: xr.Dataset, plan: Plan) -> Iterator[list[Any]]:
-    """All that is not varied, in SI, as numbers with their units, and where the numbers come from."""
-    yield ["input", "value", "unit (SI)"]
-    fixed = {name: dataset[name] for name in OPERATION if name not in plan.axes}
-    for name, value in fixed.items():
-        yield [f"operation_{name}", float(value), plan.quantities[name].unit]
-    for name, value in dataset.attrs.items():
-        number = isinstance(value, int | float | np.number) and not isinstance(value, bool)
-        yield [name, float(value) if number else str(value), plan.units.get(str(name), "") if number else ""]
-
-
-def _xlsx(dataset: xr.Dataset, plan: Plan) -> bytes:
-    """One sheet a table where there are two axes, and one sheet with a row a point."""
-    import xlsxwriter
-
-    buffer = io.BytesIO()
-    workbook = xlsxwriter.Workbook(buffer, {"in_memory": True, "nan_inf_to_errors": True})
-    bold = workbook.add_format({"bold": True})
-    sheets: dict[str, Iterator[list[Any]]] = {}
-    if len(plan.axes) == 2:
-        sheets |= {name[:31]: table(dataset, plan, name) for name in plan.columns}
-    sheets["points"] = _rows(dataset, plan)
-    sheets["inputs"] = _inputs(dataset, plan)
-    for title, rows in sheets.items():
-        sheet = workbook.add_worksheet(title)
-        sheet.freeze_panes(1, 1 if title != "points" else 0)
-        for number, row in enumerate(rows):
-            sheet.write_row(number, 0, row, bold if number == 0 else None)
-        sheet.autofit()
-    workbook.close()
-    return buffer.getvalue()

@@ -1,4 +1,7 @@
-"""A lock file: one process at a time writes into a folder."""
+"""A lock file: one process at a time writes into a folder.
+
+Kept in place of the package ``filelock`` for the reasons in docs/decisions/0012-kept.md.
+"""
 
 from __future__ import annotations
 
@@ -12,10 +15,10 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from ballscrew.faults import Fault, InputError
+from ballscrew.errors import Fault, InputError
 
 _fcntl: ModuleType | None = importlib.import_module("fcntl") if importlib.util.find_spec("fcntl") else None
-#: What a file system says that has no locks.
+#: Error numbers of a file system without locks.
 _NO_LOCKS = {errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP, errno.EINVAL}
 
 
@@ -23,9 +26,9 @@ class Lock:
     """A file with the process and its host, locked by the operating system while the process lives.
 
     The system's lock ends with the process, whatever ended it, and is not fooled by a process id
-    that is used again. Where a file system has no locks, a process of this host is asked for by its
-    id; where there are no process ids to ask for either, the file alone counts.
-    Raises :class:`~ballscrew.faults.InputError` while another process holds it, and ``OSError``.
+    that is used again. Where a file system has no locks, the process of this host is looked up by its
+    id; where that is impossible too, the file alone counts.
+    Raises :class:`~ballscrew.errors.InputError` while another process holds it, and ``OSError``.
     """
 
     def __init__(self, path: Path, where: str, holds: Path) -> None:
@@ -34,14 +37,14 @@ class Lock:
             # "a+" makes the file where there is none and leaves what is in it
             self._file = path.open("a+", encoding="utf-8")
             holder = _holder(self._file)
-            if _taken(self._file, holder):
+            if _is_held_by_other(self._file, holder):
                 self._file.close()
                 who = f"process {holder['process']} on {holder['host']}" if holder else "another process"
                 remedy = f"wait for it or choose another name; if it is gone, remove {path}"
                 raise InputError(Fault(where, f"is being written by {who}", str(holds), remedy))
             if self._is_in_place():
                 break
-            self._file.close()  # the one before us removed it as we opened it
+            self._file.close()  # the previous holder removed it after we had opened it
         self._file.seek(0)
         self._file.truncate()
         self._file.write(json.dumps({"process": os.getpid(), "host": socket.gethostname()}))
@@ -54,7 +57,7 @@ class Lock:
             return False
 
     def release(self) -> None:
-        """Let others write."""
+        """Release the lock and remove its file."""
         if _fcntl is None:
             self._file.close()  # an open file cannot be removed there
         self._path.unlink(missing_ok=True)
@@ -62,7 +65,7 @@ class Lock:
 
 
 def _holder(file: Any) -> dict[str, Any]:
-    """Who wrote a lock file; nothing if it was killed before it could."""
+    """The process and host in a lock file; empty where the process was killed before it wrote them."""
     file.seek(0)
     try:
         holder = json.loads(file.read())
@@ -71,8 +74,8 @@ def _holder(file: Any) -> dict[str, Any]:
         return {}
 
 
-def _taken(file: Any, holder: dict[str, Any]) -> bool:
-    """Whether somebody else holds the lock; takes it if not."""
+def _is_held_by_other(file: Any, holder: dict[str, Any]) -> bool:
+    """Acquire the lock; return whether another process holds it."""
     ours = not holder or holder["host"] == socket.gethostname()
     if _fcntl is not None:
         try:
@@ -85,11 +88,11 @@ def _taken(file: Any, holder: dict[str, Any]) -> bool:
         else:
             # locks of some file systems do not reach other hosts
             return not ours
-    return bool(holder) and not (ours and _is_gone(holder["process"]))
+    return bool(holder) and not (ours and _has_ended(holder["process"]))
 
 
-def _is_gone(process: int) -> bool:
-    """Whether a process of this host has ended; where nobody can be asked, it has not."""
+def _has_ended(process: int) -> bool:
+    """Return whether a process of this host has ended; False where that cannot be found out."""
     if os.name != "posix" or process == os.getpid():
         return False
     try:

@@ -1,6 +1,6 @@
 """A sweep on disk: a Zarr store that is filled block by block, and goes on where it was stopped.
 
-Files are what a store is made of, so this room writes them, and nowhere but inside the store::
+The only module of this room that writes files, and only inside the store::
 
     map.zarr/zarr.json              last of all, by a rename: a store without it is not finished
     map.zarr/screw_torque/c/0/1     a chunk: the results of one block, one output
@@ -33,19 +33,23 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ballscrew.analyses.evaluation import Engine, Evaluation
-from ballscrew.analyses.outputs import attributes_of
-from ballscrew.analyses.plan import Plan
-from ballscrew.analyses.store_plan import Blocks, canonical, checksum, description, differences
-from ballscrew.analyses.store_rows import FALSE, OTHER, OWN, WHERE, crc, row
-from ballscrew.faults import Fault, InputError, raise_if_any
+from ballscrew.errors import (
+    Fault,
+    InputError,
+    raise_if_any,
+)
+from ballscrew.evaluation.evaluation import Engine, Evaluation
+from ballscrew.evaluation.outputs import attributes_of
+from ballscrew.evaluation.plan import Plan
+from ballscrew.sweeps.store_plan import Blocks, canonical_json, checksum, description_of, differences
+from ballscrew.sweeps.store_rows import FALSE, OTHER, OWN, WHERE, crc, row
 
 #: LZ4 with the bytes of equal weight side by side: a map of seven outputs takes 0.72 of its bytes, and
 #: a disk slower than a processor compresses has the less to do. Zstandard saves 0.02 more at most and
 #: takes up to twice as long; on numbers as they are it saves half as much
 #: (``benchmarks/out_of_core.py --codecs``).
 COMPRESSION: Mapping[str, Any] = {"cname": "lz4", "clevel": 1, "shuffle": "shuffle"}
-#: Endings of files that somebody meant who gave one.
+#: Suffixes that mean a file, not the folder of a store.
 _FILES = (".csv", ".xlsx", ".nc", ".json", ".toml")
 _ROOT = "zarr.json"
 _FOREIGN = "is there and is not the store of a sweep"
@@ -53,8 +57,8 @@ _FOREIGN = "is there and is not the store of a sweep"
 FULL = {errno.ENOSPC, errno.EDQUOT}
 
 
-class Unfinished(OSError):
-    """The disk or the cluster gave out; what is finished stays, and the same sweep goes on from there."""
+class UnfinishedSweepError(OSError):
+    """A full disk or a lost cluster; finished blocks stay, and the same sweep continues from there."""
 
     def __str__(self) -> str:
         return str(self.args[-1])
@@ -67,8 +71,8 @@ class Store:
     path: Path
     plan: Plan
     blocks: Blocks
-    #: What the store is known by.
-    told: Mapping[str, Any]
+    #: The document that identifies the store.
+    description: Mapping[str, Any]
 
     @classmethod
     def of(
@@ -83,7 +87,7 @@ class Store:
         """The store of a plan, new or begun, and its evaluation; nothing is written yet.
 
         A store that was begun keeps its engine. ``attributes`` go to the dataset with those of the plan.
-        Raises :class:`~ballscrew.faults.InputError` if something else lies there, and says what.
+        Raises :class:`~ballscrew.errors.InputError` if something else lies there, and says what.
         """
         folder = _checked(path, plan)
         stored = _stored(folder)
@@ -96,17 +100,22 @@ class Store:
                 raise InputError(begun, *error.faults) from None
             raise
         blocks = Blocks.of(plan, block_size)
-        all_attributes = {**plan.subject.attributes(list(plan.axes)), **(attributes or {})}
-        told = description(plan, blocks, all_attributes, engine=evaluation.engine, fingerprint=evaluation.fingerprint)
-        store = cls(folder, plan, blocks, told)
+        engine_of = evaluation.attributes
+        if stored is not None:  # the reason for the choice when the store was begun
+            engine_of |= {n: v for n, v in stored["attributes"].items() if n == "engine_reason"}
+        all_attributes = {**plan.subject.attributes(list(plan.axes)), **engine_of, **(attributes or {})}
+        document = description_of(
+            plan, blocks, all_attributes, engine=evaluation.engine, fingerprint=evaluation.fingerprint
+        )
+        store = cls(folder, plan, blocks, document)
         store.check(stored)
         return store, evaluation
 
     def check_from_worker(self) -> None:
-        """Raise :class:`~ballscrew.faults.InputError` where this process does not see the store that was begun."""
+        """Raise :class:`~ballscrew.errors.InputError` where this process does not see the store that was begun."""
         _checked(self.path, self.plan)
         try:
-            seen = _stored(self.path) == self.told
+            seen = _stored(self.path) == self.description
         except InputError:
             seen = False
         if not seen:
@@ -114,9 +123,9 @@ class Store:
             raise InputError(Fault(WHERE, "is not seen by a worker", host, "give a folder that all nodes share"))
 
     def check(self, stored: Mapping[str, Any] | None) -> None:
-        """Raise :class:`~ballscrew.faults.InputError` if another sweep is there, and say how it differs."""
+        """Raise :class:`~ballscrew.errors.InputError` if another sweep is there, and say how it differs."""
         remedy = f"choose another name, or remove {self.path}"
-        differing = [] if stored is None else differences(stored, self.told)
+        differing = [] if stored is None else differences(stored, self.description)
         raise_if_any([Fault(WHERE, "holds another sweep", words, remedy) for words in differing])
 
     @property
@@ -131,11 +140,11 @@ class Store:
 
     @property
     def is_complete(self) -> bool:
-        """Whether all blocks are finished and the store can be opened."""
+        """Return whether all blocks are finished and the store can be opened."""
         return (self.path / _ROOT).exists()
 
     def finished(self) -> set[int]:
-        """The numbers of the finished blocks of a store that is not complete; a marker that is not whole is none."""
+        """The numbers of the finished blocks of a store that is not complete; an incomplete marker is ignored."""
         found: set[int] = set()
         with contextlib.suppress(FileNotFoundError):
             for path in (self.own / "blocks").iterdir():
@@ -151,12 +160,14 @@ class Store:
     # -- from begin to end ------------------------------------------------------------------------
 
     def begin(self) -> None:
-        """Make the folder what blocks can be written into; what a killed process left over is removed."""
+        """Prepare the folder for blocks; remove what a killed process left behind."""
         self.check(_stored(self.path))
         shutil.rmtree(self.own / "temporary", ignore_errors=True)
         (self.own / "temporary").mkdir(exist_ok=True)
         if _stored(self.path) is None:
-            self._put(self.own / "plan.json", [canonical({"plan": self.told, "sha256": self.digest}).encode()])
+            self._put(
+                self.own / "plan.json", [canonical_json({"plan": self.description, "sha256": self.digest}).encode()]
+            )
         if not (self.own / _ROOT).exists() and not self.is_complete:
             self._lay_out()
         (self.own / "blocks").mkdir(exist_ok=True)
@@ -170,7 +181,7 @@ class Store:
         with warnings.catch_warnings():
             # labels that are text have no settled type in Zarr 3 yet; they are read back by the same library
             warnings.filterwarnings("ignore", message=".*does not have a Zarr V3 specification")
-            coordinates = xr.Dataset(coords=self.plan.coordinates(), attrs=dict(self.told["attributes"]))
+            coordinates = xr.Dataset(coords=self.plan.coordinates(), attrs=dict(self.description["attributes"]))
             coordinates.to_zarr(new, zarr_format=3, consolidated=False)
         aside = [str(name) for name in coordinates.coords if name not in coordinates.dims]
         for name in self.variables:
@@ -210,18 +221,18 @@ class Store:
         shutil.rmtree(self.own / "blocks", ignore_errors=True)
 
     def clear(self) -> None:
-        """Remove what is only there while blocks are written."""
+        """Remove temporary files."""
         shutil.rmtree(self.own / "temporary", ignore_errors=True)
 
     @property
     def is_tidy(self) -> bool:
-        """Whether nothing is left of the time when the store was filled."""
+        """Return whether no temporary file of the filling is left."""
         return {path.name for path in self.own.iterdir()} == {"plan.json", "blocks.csv"}
 
     @functools.cached_property
     def digest(self) -> str:
-        """The digest of what the store is known by."""
-        return checksum(self.told)
+        """The digest of the document."""
+        return checksum(self.description)
 
     # -- blocks -----------------------------------------------------------------------------------
 
@@ -240,7 +251,7 @@ class Store:
         return crc(values)
 
     def commit(self, number: int, results: Mapping[str, np.ndarray], checksums: Sequence[str]) -> None:
-        """Say that a block is finished, after all its outputs are written."""
+        """Mark a block as finished, after all its outputs are written."""
         false = [results[name].size - np.count_nonzero(results[name]) for name in self._truths]
         self._put(self.own / "blocks" / str(number), [row([number, *checksums, *false])])
 
@@ -254,14 +265,14 @@ class Store:
 
     @functools.cached_property
     def _metadata(self) -> dict[str, Any]:
-        """What Zarr needs to know of each output to make a chunk of it."""
+        """The metadata of each output from which Zarr makes a chunk."""
         from zarr.core.buffer import default_buffer_prototype
 
         buffer = default_buffer_prototype().buffer
         return {name: buffer.from_bytes((self.path / name / _ROOT).read_bytes()) for name in self.variables}
 
     def _put(self, path: Path, content: Iterable[Any]) -> None:
-        """A file that is whole and on the disk before it has its name."""
+        """Write a file that is complete and synced to disk before it gets its name."""
         temporary = self.own / "temporary" / uuid.uuid4().hex
         try:
             with temporary.open("xb") as file:
@@ -298,9 +309,9 @@ def _checked(path: str | os.PathLike[str], plan: Plan) -> Path:
 
 
 def _stored(folder: Path) -> dict[str, Any] | None:
-    """What the store in a folder is known by; None where there is no store yet.
+    """The document of the store in a folder; None where there is no store yet.
 
-    Raises :class:`~ballscrew.faults.InputError` where something else is: it is not touched.
+    Raises :class:`~ballscrew.errors.InputError` where something else is: it is not touched.
     """
     path = folder / OWN / "plan.json"
     try:
@@ -325,16 +336,16 @@ def _stored(folder: Path) -> dict[str, Any] | None:
 
 @contextlib.contextmanager
 def stopping_cleanly(store: Store) -> Generator[None]:
-    """Whatever stops the work, temporary files go, and it is said how much is finished.
+    """Remove temporary files when the work stops, and report how many blocks are finished.
 
-    A disk or a cluster that gives out raises :class:`Unfinished`; an interrupt carries the words as a note.
+    A full disk or a lost cluster raises :class:`UnfinishedSweepError`; an interrupt carries the text as a note.
     """
     try:
         yield
     except OSError as error:
         remedy = "make room and run the same again" if error.errno in FULL else "run the same again"
         why = error.strerror or str(error) or type(error).__name__
-        raise Unfinished(error.errno, _stopped(store, f" ({why})", remedy)) from error
+        raise UnfinishedSweepError(error.errno, _stopped(store, f" ({why})", remedy)) from error
     except KeyboardInterrupt as error:
         error.add_note(_stopped(store, "", "run the same again"))
         raise

@@ -1,4 +1,4 @@
-"""What a store on disk holds: its blocks, and a plan by which it is known again."""
+"""Description of a store: its blocks, and the JSON document that identifies its plan."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from typing import Any
 
 import numpy as np
 
-import ballscrew
-from ballscrew.analyses.plan import Plan, Subject
+from ballscrew._version import __version__
+from ballscrew.evaluation.plan import Configuration, Plan
 
-#: Changes when what lies in a store changes.
+#: Version of the layout of a store.
 FORMAT = 1
 #: The results of one block take at most so many bytes: a few blocks at a time fit any memory, and a
 #: file of each output still has some megabytes.
 BLOCK_BYTES = 32_000_000
-#: What differs because something else does, and is said only where nothing else does.
+#: Entries that differ as a consequence of others, and are reported only where no other differs.
 _CONSEQUENCES = ("chunks", "formulas")
 #: Digits of a digest that a message shows.
 _DIGITS_SHOWN = 12
@@ -67,7 +67,7 @@ class Blocks:
         return math.prod(self.chunk)
 
     def region(self, number: int) -> tuple[slice, ...]:
-        """Where a block lies in the grid."""
+        """The range of a block in the grid."""
         places = np.unravel_index(number, self.along) if self.shape else ()
         corners = [int(place) * part for place, part in zip(places, self.chunk, strict=True)]
         return tuple(
@@ -76,7 +76,7 @@ class Blocks:
         )
 
     def span(self, number: int) -> slice:
-        """Where a block lies in the flattened grid."""
+        """The range of a block in the flattened grid."""
         start, points = 0, 1
         for where, length in zip(self.region(number), self.shape, strict=True):
             start = start * length + where.start
@@ -89,10 +89,10 @@ class Blocks:
         return span.stop - span.start
 
 
-def description(
+def description_of(
     plan: Plan, blocks: Blocks, attributes: Mapping[str, Any], *, engine: str, fingerprint: str
 ) -> dict[str, Any]:
-    """All that decides the bytes of a store, as JSON knows it: equal if and only if the stores are."""
+    """All that determines the bytes of a store, as plain JSON values: equal if and only if the stores are."""
     coordinates = {
         name: _digest(axis.dims, axis.to_numpy()) if axis.dims else axis.to_numpy().item()
         for name, axis in plan.axes.items()
@@ -103,9 +103,9 @@ def description(
         for name, values in axis.coords.items()
         if name in axis.dims and name not in plan.axes
     }
-    told = {
+    document = {
         "format": FORMAT,
-        "version": ballscrew.__version__,
+        "version": __version__,
         "engine": engine,
         "formulas": fingerprint,
         "grid": " x ".join(f"{name} {size}" for name, size in plan.sizes.items()),  # their order counts
@@ -115,10 +115,10 @@ def description(
         "laws": _laws(plan.subject),
         "attributes": dict(attributes),
     }
-    return json.loads(_json(told))
+    return json.loads(_json(document))
 
 
-def _laws(subject: Subject) -> dict[str, str]:
+def _laws(subject: Configuration) -> dict[str, str]:
     """The laws of a model and a nut by name; their coefficients are among the attributes."""
     model = {field.name: getattr(subject.model, field.name) for field in dataclasses.fields(subject.model)}
     losses = {} if subject.nut is None else {f"losses {name}": law for name, law in subject.nut.losses.items()}
@@ -127,22 +127,22 @@ def _laws(subject: Subject) -> dict[str, str]:
     }
 
 
-def canonical(told: Mapping[str, Any]) -> str:
-    """JSON of one spelling."""
-    return _json(dict(told), sort_keys=True)
+def canonical_json(document: Mapping[str, Any]) -> str:
+    """JSON with sorted keys."""
+    return _json(dict(document), sort_keys=True)
 
 
-def _json(told: Mapping[str, Any], *, sort_keys: bool = False) -> str:
-    return json.dumps(told, sort_keys=sort_keys, ensure_ascii=False, separators=(",", ":"), default=_plain)
+def _json(document: Mapping[str, Any], *, sort_keys: bool = False) -> str:
+    return json.dumps(document, sort_keys=sort_keys, ensure_ascii=False, separators=(",", ":"), default=_plain)
 
 
-def checksum(told: Mapping[str, Any]) -> str:
+def checksum(document: Mapping[str, Any]) -> str:
     """The digest of a description."""
-    return hashlib.sha256(canonical(told).encode()).hexdigest()
+    return hashlib.sha256(canonical_json(document).encode()).hexdigest()
 
 
 def differences(stored: Mapping[str, Any], wanted: Mapping[str, Any]) -> list[str]:
-    """What is not the same in two descriptions, in words: ``screw_lead 0.005, not 0.01``."""
+    """The differences of two descriptions as text: ``screw_lead 0.005, not 0.01``."""
     found: dict[str, list[str]] = {}
     for name in (*wanted, *(name for name in stored if name not in wanted)):
         theirs, ours = stored.get(name), wanted.get(name)
@@ -163,7 +163,7 @@ def _shown(value: Any) -> str:
 
 
 def _digest(dimensions: Sequence[Any], values: np.ndarray) -> str:
-    """A digest of values along dimensions; what is no number counts by its text."""
+    """A digest of values along dimensions; values that are not numbers count by their text."""
     body = values.tobytes() if values.dtype.kind in "fiub" else json.dumps(values.tolist(), default=str).encode()
     return hashlib.sha256(f"{[*map(str, dimensions)]} {values.shape}\n".encode() + body).hexdigest()
 

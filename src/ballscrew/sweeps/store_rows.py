@@ -1,4 +1,4 @@
-"""What a store says of its blocks: checksums, and how often truth values are false; one row a block, as CSV."""
+"""The table of blocks of a store: checksums and counts of false truth values, one row per block, as CSV."""
 
 from __future__ import annotations
 
@@ -11,18 +11,21 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.faults import Fault, InputError
+from ballscrew.errors import (
+    Fault,
+    InputError,
+)
 
-#: How a person is told where a fault lies, and what to do about a store that is there already.
+#: The field that errors name, and the remedy for a store that exists already.
 WHERE = "sweep.to"
 OTHER = "choose another name, or remove it"
-#: The folder of our own in a store.
+#: The folder of metadata of this package in a store.
 OWN = ".ballscrew"
-#: Ends the heading of a column that counts how often a truth value is false.
+#: Suffix of the heading of a column that counts false truth values.
 FALSE = " false"
 
 
-def false_in(path: Path) -> dict[str, tuple[int, int]]:
+def count_false(path: Path) -> dict[str, tuple[int, int]]:
     """For each truth value of a complete store that is false somewhere: how often, and the first block with it."""
     found: dict[str, tuple[int, int]] = {}
     try:

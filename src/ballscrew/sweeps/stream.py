@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ballscrew.analyses.cluster import check, fill_on_cluster
-from ballscrew.analyses.engines import Engine
-from ballscrew.analyses.evaluation import Evaluation
-from ballscrew.analyses.lock import Lock
-from ballscrew.analyses.plan import Plan
-from ballscrew.analyses.store import Store, stopping_cleanly
-from ballscrew.analyses.store_rows import WHERE
-from ballscrew.faults import Fault, InputError
+from ballscrew.errors import Fault, InputError
+from ballscrew.evaluation.engines import Engine
+from ballscrew.evaluation.evaluation import Evaluation
+from ballscrew.evaluation.plan import Plan
+from ballscrew.sweeps.cluster import check_cluster, fill_on_cluster
+from ballscrew.sweeps.lock import Lock
+from ballscrew.sweeps.store import Store, stopping_cleanly
+from ballscrew.sweeps.store_rows import WHERE
 
 #: Outputs of a block that are compressed and written at a time.
 WRITERS = 4
@@ -38,12 +38,12 @@ def stream(
     """Evaluate a plan into the store ``to``, from where it was stopped if it was, and open it.
 
     ``block_size`` is the number of points of a block at most; ``attributes`` are kept beside those
-    of the plan. ``done(finished, total)`` is told points, first those finished before.
-    Raises :class:`~ballscrew.faults.InputError` if something else lies there or somebody else
-    writes it, and :class:`~ballscrew.analyses.store.Unfinished` if the disk or the cluster gives out.
+    of the plan. ``done(finished, total)`` reports points, first those finished before.
+    Raises :class:`~ballscrew.errors.InputError` if something else is there or another process
+    writes it, and :class:`~ballscrew.sweeps.store.UnfinishedSweepError` if the disk is full or the cluster is lost.
     """
     if cluster is not None:
-        check(cluster)
+        check_cluster(cluster)
     store, evaluation = Store.of(to, plan, engine=engine, block_size=block_size, attributes=attributes)
     if store.is_complete and store.is_tidy:
         return store.opened()
@@ -76,23 +76,23 @@ def _fill(
     done: Callable[[int, int], None] | None,
     cluster: Any,
 ) -> None:
-    """All blocks that are not finished, here or on a cluster."""
+    """Evaluate all blocks that are not finished, here or on a cluster."""
     finished = store.finished()
     pending = [number for number in range(store.blocks.count) if number not in finished]
     points = sum(map(store.blocks.points, finished))
 
-    def tell(more: int) -> None:
+    def report(more: int) -> None:
         if done is not None:
             done(points + more, store.plan.total)
 
-    tell(0)
+    report(0)
     try:
         if cluster is not None:
-            fill_on_cluster(store, cluster, pending, tell, threads=threads)
+            fill_on_cluster(store, cluster, pending, report, threads=threads)
         else:
-            fill(store, evaluation, pending, tell, threads=threads)
+            fill(store, evaluation, pending, report, threads=threads)
     except InputError:
-        if not store.finished():  # nothing is left of what never began
+        if not store.finished():  # no block was written: remove the empty store
             shutil.rmtree(store.path, ignore_errors=True)
         raise
 
@@ -101,19 +101,19 @@ def fill(
     store: Store,
     evaluation: Evaluation,
     pending: Sequence[int],
-    tell: Callable[[int], None],
+    report: Callable[[int], None],
     *,
     threads: int | None = None,
 ) -> None:
-    """Evaluate blocks and write them; two of them are in memory at a time. ``tell`` is told points."""
+    """Evaluate blocks and write them; two of them are in memory at a time. ``report`` gets points."""
     room = [evaluation.empty(store.blocks.largest) for _ in range(min(2, len(pending)))]
-    waiting: list[tuple[int, Mapping[str, np.ndarray], list[Future[str]]]] = []
+    being_written: list[tuple[int, Mapping[str, np.ndarray], list[Future[str]]]] = []
     points = 0
 
-    def settle() -> None:
-        """Say of the block being written that it is finished, once it is."""
-        while waiting:
-            number, results, writes = waiting.pop()
+    def commit_pending() -> None:
+        """Wait for the block being written and mark it as finished."""
+        while being_written:
+            number, results, writes = being_written.pop()
             wait(writes)
             store.commit(number, results, [write.result() for write in writes])
 
@@ -123,10 +123,12 @@ def fill(
                 span, before = store.blocks.span(number), points
                 size = span.stop - span.start
                 results = {name: values[:size] for name, values in room[turn % 2].items()}
-                evaluation.fill(results, span, threads=threads, done=lambda part, _, before=before: tell(before + part))
+                evaluation.fill(
+                    results, span, threads=threads, done=lambda part, _, before=before: report(before + part)
+                )
                 points += size
-                settle()
+                commit_pending()
                 writes = [pool.submit(store.write, number, name, results[name]) for name in store.variables]
-                waiting.append((number, results, writes))
+                being_written.append((number, results, writes))
         finally:
-            settle()
+            commit_pending()

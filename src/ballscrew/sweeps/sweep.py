@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
-from ballscrew.analyses.engines import SweepEngine
-from ballscrew.analyses.evaluation import Evaluation
-from ballscrew.analyses.nut_parts import NutParts
-from ballscrew.analyses.plan import Plan, Subject
-from ballscrew.analyses.stream import stream
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
-from ballscrew.faults import Fault, InputError, raise_if_any
-from ballscrew.model import FrictionModel
+from ballscrew.errors import Fault, InputError, raise_if_any
+from ballscrew.evaluation.engines import SweepEngine
+from ballscrew.evaluation.evaluation import Evaluation
+from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.nut_parts import NutParts
+from ballscrew.sweeps.stream import stream
 
 if TYPE_CHECKING:
     import distributed
@@ -45,26 +45,26 @@ def sweep(
     own name; ``xarray.DataArray`` values that share a dimension vary together along it, so random
     points are ``xr.DataArray(values, dims="point")``. The dataset has the dimensions in the order
     given. Only the ``outputs`` asked for are kept (see
-    :func:`~ballscrew.analyses.outputs.known_outputs`; a default handful otherwise). With a ``nut`` it
+    :func:`~ballscrew.evaluation.outputs.known_outputs`; a default handful otherwise). With a ``nut`` it
     is a whole nut whose friction is computed, and the fields of the nut can be varied.
 
     Work goes block by block on a few threads, of ``block_size`` points at most, and
-    ``done(finished, total)`` is told the points.
+    ``done(finished, total)`` reports the points.
     The ``engine`` is chosen by the size of the work: ``"numpy"``, or ``"compiled"``, which needs the extra ``fast``.
     ``"model"`` calls the model itself on all points: without the quarter of a second that recording it takes, which a
     few thousand points do not pay back. Engines differ by rounding.
 
     ``to`` names a folder for sweeps larger than the memory: a Zarr store that is filled block by
     block, two of which are in memory at a time. It needs the extra ``data``. The same call goes on
-    where a run was stopped, by whatever; a store that is complete is opened at once. The values of
+    where a run was stopped, for any reason; a store that is complete is opened at once. The values of
     the dataset are read from it when they are asked for.
-    With a ``cluster``, the client of a Dask scheduler, its workers evaluate the blocks and write
-    them; they must see the folder ``to`` under the same path. A worker that is lost costs the blocks
-    it was at. Each block takes one thread unless ``threads`` says otherwise. It needs the extra ``cluster``.
+    With a ``cluster``, the client of a Dask scheduler, its workers evaluate the blocks and write them; they must
+    see the folder ``to`` under the same path. The blocks of a lost worker are evaluated again. Each block takes
+    one thread unless ``threads`` says otherwise. It needs the extra ``cluster``.
 
-    Raises :class:`~ballscrew.faults.InputError` for unknown names and missing or bad values, and for
-    a folder that holds something else or that somebody else writes into; and
-    :class:`~ballscrew.analyses.store.Unfinished` when the disk or the cluster gives out.
+    Raises :class:`~ballscrew.errors.InputError` for unknown names and missing or bad values, and for
+    a folder that holds something else or that another process writes into; and
+    :class:`~ballscrew.sweeps.store.UnfinishedSweepError` when the disk is full or the cluster is lost.
     """
     counts = {"block_size": block_size, "threads": threads}
     raise_if_any(
@@ -73,7 +73,7 @@ def sweep(
     if cluster is not None and to is None:
         remedy = 'add to="map.zarr", in a folder that all workers share'
         raise InputError(Fault("sweep.cluster", "needs a store", "", remedy))
-    plan = Plan.of(Subject(model, screw, lubricant, nut), outputs, varied)
+    plan = Plan.of(Configuration(model, screw, lubricant, nut), outputs, varied)
     if to is not None:
         if engine == "model":
             raise InputError(Fault("sweep.engine", "fills no store", engine, 'take engine="numpy"'))
@@ -81,4 +81,4 @@ def sweep(
     evaluation = Evaluation.of(plan, engine)
     results = evaluation.empty(plan.total)
     evaluation.fill(results, slice(0, plan.total), block_size=block_size, threads=threads, done=done)
-    return plan.dataset(results)
+    return plan.dataset(results).assign_attrs(evaluation.attributes)

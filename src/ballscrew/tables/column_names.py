@@ -1,4 +1,4 @@
-"""What vendors call the columns of their tables, in English and German.
+"""Names of the columns of vendors' tables, in English and German.
 
 A name is enough by itself. A hint is a name of more than one thing ("load rating", "d"): it counts only beside a name.
 Capitals, blanks, hyphens and subscripts do not count; "dia." and "Ø" stand for "diameter", "No." for "number".

@@ -1,11 +1,11 @@
-"""What a comma and a point mean in the numbers of a table: a decimal mark, or a separator of thousands."""
+"""Commas and points in the numbers of a table: decimal marks, or separators of thousands."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable
 
-from ballscrew.faults import Fault
+from ballscrew.errors import Fault
 
 _NUMBER = re.compile(r"[-+]?[\d.,]*\d[\d.,]*")
 _THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(?:[.,]\d{3})+")

@@ -16,10 +16,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ballscrew.faults import Fault, InputError, raise_if_any
-from ballscrew.interfaces import units
-from ballscrew.interfaces.sheets import HEADINGS_WITHIN, Record
+from ballscrew import units
+from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.quantities import Quantity
+from ballscrew.tables.sheets import HEADINGS_WITHIN, Record
 
 #: What stands for nothing in a cell.
 NOTHING = ("", "-", "–", "—")
@@ -52,7 +52,7 @@ class Column:
     product: bool = False
 
     def answers_to(self, name: str) -> bool:
-        """Whether the column has this name."""
+        """Test whether the column has this name."""
         return bare(name) in self._names
 
     @functools.cached_property
@@ -60,7 +60,7 @@ class Column:
         return frozenset(map(bare, (self.name, *self.aliases)))
 
     def is_named(self, text: str) -> bool:
-        """Whether a text is a name of the column, or two of them, or one and a hint: "Dynamic load rating Ca"."""
+        """Test whether a text is a name of the column, or two of them, or one and a hint: "Dynamic load rating Ca"."""
         if self.answers_to(text):
             return True
         hints = frozenset(map(bare, self.hints))
@@ -133,7 +133,7 @@ def _unit_behind(written: str, column: Column) -> str:
 
 
 def fits(unit: str, column: Column) -> bool:
-    """Whether the numbers of a column may be in this unit."""
+    """Test whether the numbers of a column may be in this unit."""
     quantity = column.quantity
     return quantity is not None and quantity.unit != "1" and not isinstance(_scale("", spelt(unit), quantity), Fault)
 
@@ -157,7 +157,7 @@ def _scale(where: str, unit: str, quantity: Quantity) -> tuple[float, float] | F
 def headings_in(
     path: Path, found: Sequence[Record], columns: Sequence[Column], within: int = HEADINGS_WITHIN
 ) -> tuple[int, list[Heading]]:
-    """Which row has the headings, and those of columns that are known."""
+    """The row of the headings, and the headings of known columns."""
     best: tuple[int, list[Heading]] = (0, [])
     for number, record in enumerate(found[:within]):
         headings = [heading_of(cell, place, columns) for place, cell in enumerate(record.cells)]

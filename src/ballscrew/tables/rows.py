@@ -1,6 +1,6 @@
 """Tables people bring: CSV or spreadsheets in their own words and units, checked rows in SI out.
 
-As in case files, a dimensional value needs a unit: in its heading (:mod:`ballscrew.interfaces.headings`) or
+As in case files, a dimensional value needs a unit: in its heading (:mod:`ballscrew.tables.headings`) or
 behind the number, which comes first.
 
 Every row is either good or has a fault that names file, row, column and value: none is lost silently.
@@ -9,20 +9,18 @@ Every row is either good or has a fault that names file, row, column and value: 
 from __future__ import annotations
 
 import dataclasses
-import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
-from ballscrew.faults import Fault, InputError, as_float, fault_of, raise_if_any
-from ballscrew.interfaces import decimals, units
-from ballscrew.interfaces.headings import NOTHING, Column, Heading, checked, heading_of, headings_in, unused
-from ballscrew.interfaces.sheets import Record, records
+from ballscrew import units
+from ballscrew.errors import Fault, InputError, raise_if_any
+from ballscrew.tables import decimals
+from ballscrew.tables.cells import shown, value_of
+from ballscrew.tables.headings import NOTHING, Column, Heading, checked, heading_of, headings_in, unused
+from ballscrew.tables.sheets import Record, records
 
 T = TypeVar("T")
-
-_PRODUCT = re.compile(r"([\d.,]+)\s*[x×*]\s*([\d.,]+)", re.IGNORECASE)
-_NUMBER = re.compile(r"[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|nan|inf(?:inity)?)", re.IGNORECASE)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -44,7 +42,7 @@ class Table:
     faults: Sequence[tuple[int, Fault]]
     #: How many rows there are, good or not.
     count: int
-    #: Headings of columns that nobody asked for.
+    #: Headings of columns that are not used.
     unused: Sequence[str]
 
     def where(self, line: int, name: str) -> str:
@@ -58,12 +56,12 @@ class Table:
         heading = self.headings.get(name)
         given = row.written.get(name, fault.given)
         if heading is not None and heading.column.quantity is not None:
-            fault = units.in_people_units(fault, heading.column.quantity, given)
+            fault = units.in_display_units(fault, heading.column.quantity, given)
         return dataclasses.replace(fault, where=self.where(row.line, name), given=given)
 
 
 def read(path: Path, columns: Sequence[Column]) -> Table:
-    """The table of a file. Raises :class:`~ballscrew.faults.InputError` for faults of the table as a whole."""
+    """The table of a file. Raises :class:`~ballscrew.errors.InputError` for faults of the table as a whole."""
     found = records(path, lambda cell: heading_of(cell, 0, columns) is not None)
     start, matched = headings_in(path, found, columns)
     body = found[start + 1 :]
@@ -86,9 +84,9 @@ def read(path: Path, columns: Sequence[Column]) -> Table:
 
 
 def made(table: Table, make: Callable[[Row], T], keep_going: bool = False) -> tuple[list[T], list[str]]:
-    """What ``make`` makes of the good rows, and what is to be said of the others, one line each.
+    """The good rows as ``make`` converts them, and the faults of the others, one line each.
 
-    Faults that ``make`` raises are faults of the row. Raises :class:`~ballscrew.faults.InputError` if there
+    Faults that ``make`` raises are faults of the row. Raises :class:`~ballscrew.errors.InputError` if there
     is any fault; with ``keep_going`` only if no row is good.
     """
     found: list[T] = []
@@ -144,58 +142,3 @@ def _row(table: Table, record: Record, first: Sequence[Any], decimal: frozenset[
         else:
             values[name], written[name] = value, text
     return faults or Row(record.line, values, written)
-
-
-def shown(cell: Any) -> str:
-    """A cell as text, on one line and without what no terminal shows."""
-    if isinstance(cell, float):
-        return f"{cell:.12g}"
-    return " ".join("".join(c if c.isprintable() else " " for c in str(cell)).split())
-
-
-def value_of(where: str, cell: Any, text: str, heading: Heading, decimal: frozenset[str]) -> float | int | Fault:
-    """A number in SI and within the bounds of its quantity, or the fault in it."""
-    quantity = heading.column.quantity
-    assert quantity is not None
-    if isinstance(cell, float | int) and not isinstance(cell, bool):
-        value = _converted(where, as_float(cell), text, heading)
-    elif isinstance(cell, str):
-        value = _parsed(where, text.replace("−", "-"), heading, decimal)
-    else:
-        value = Fault(
-            where, "is not a number", text, "a spreadsheet makes dates of numbers: format the cell as a number"
-        )
-    fault = value if isinstance(value, Fault) else fault_of("", quantity, value)
-    if fault is not None:
-        fault = units.in_people_units(fault, quantity, fault.given if fault is value else text)
-        return dataclasses.replace(fault, where=where, given=text)
-    assert not isinstance(value, Fault)
-    return int(value) if quantity.info.whole else value
-
-
-def _parsed(where: str, text: str, heading: Heading, decimal: frozenset[str]) -> float | Fault:
-    """The number of a text; a unit of its own comes before that of the heading."""
-    quantity = heading.column.quantity
-    assert quantity is not None
-    product = _PRODUCT.fullmatch(text) if heading.column.product else None
-    if product is not None:
-        one, other = (_parsed(where, factor, heading, decimal) for factor in product.groups())
-        return one if isinstance(one, Fault) else other if isinstance(other, Fault) else one * other
-    plain = decimals.with_point(where, text, decimal)
-    if isinstance(plain, Fault):
-        return plain
-    if _NUMBER.fullmatch(plain):
-        return _converted(where, as_float(plain), text, heading)
-    if units.unit_in(plain):
-        return units.parse(where, plain, quantity)
-    remedy = (
-        "write a plain number" if quantity.unit == "1" else f"write a number in {heading.unit or quantity.shown_in}"
-    )
-    return Fault(where, "is not a number", text, remedy)
-
-
-def _converted(where: str, number: float, text: str, heading: Heading) -> float | Fault:
-    quantity = heading.column.quantity
-    if quantity is not None and quantity.unit != "1" and not heading.unit:
-        return Fault(where, "needs a unit", text, f'write "{text} {quantity.shown_in}", or the unit in the heading')
-    return heading.offset + heading.scale * number

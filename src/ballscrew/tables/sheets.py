@@ -14,7 +14,10 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ballscrew.faults import Fault, InputError
+from ballscrew.errors import (
+    Fault,
+    InputError,
+)
 
 #: Endings of files that are read as spreadsheets, and how such files begin whatever they are called.
 SPREADSHEETS = (".xlsx", ".xlsm", ".xlsb", ".xls", ".ods")
@@ -39,7 +42,7 @@ def records(path: Path, is_heading: Callable[[str], bool]) -> list[Record]:
     """The rows of a file that are neither blank nor comments.
 
     Of the delimiters, the one that makes most headings counts. Raises
-    :class:`~ballscrew.faults.InputError` for what is no table.
+    :class:`~ballscrew.errors.InputError` for what is no table.
     """
     data = _bytes(path)
     found = (
@@ -53,12 +56,12 @@ def records(path: Path, is_heading: Callable[[str], bool]) -> list[Record]:
 
 
 def is_spreadsheet(path: Path, begin: bytes) -> bool:
-    """Whether a file is a spreadsheet, by its name or by how it begins."""
+    """Test whether a file is a spreadsheet, by its name or its first bytes."""
     return path.suffix.lower() in SPREADSHEETS or begin.startswith(_MAGIC)
 
 
 def unreadable(path: Path, error: OSError | ValueError) -> InputError:
-    """What is said of a file that cannot be opened."""
+    """The error of a file that cannot be opened."""
     missing = isinstance(error, FileNotFoundError)
     reason = "" if missing else getattr(error, "strerror", None) or str(error)
     problem = "does not exist" if missing else "cannot be read"
@@ -73,7 +76,7 @@ def _bytes(path: Path) -> bytes:
 
 
 def encoding_of(path: Path, data: bytes, whole: bool = True) -> str:
-    """How bytes are text: UTF-8, UTF-16 if they begin so, or else the old encoding of Western spreadsheets.
+    """Encoding of a text: UTF-8, UTF-16 if they begin so, or else the old encoding of Western spreadsheets.
 
     Bytes that are not the ``whole`` of a file may end within a letter.
     """
@@ -112,14 +115,14 @@ def in_text(path: Path, text: str, is_heading: Callable[[str], bool], within: in
 
 
 def _counts(line: str) -> bool:
-    """Whether a line of text is one of the table."""
+    """Test whether a line of text belongs to the table."""
     start = line.strip()
     comment = start.startswith("#") and not is_error(start)
     return bool(start) and not comment and not start.lower().startswith(_DECLARATION)
 
 
 def is_error(cell: str) -> bool:
-    """Whether a cell begins with what spreadsheets write for one that went wrong."""
+    """Test whether a cell begins with an error of a spreadsheet."""
     return _ERROR.match(cell) is not None
 
 

@@ -1,17 +1,21 @@
-"""What of a log is fit to calibrate a model of steady motion. Each step is a function from a log to a log."""
+"""Cleaning of a log for a model of steady motion. Each step is a function from a log to a log."""
 
 from __future__ import annotations
 
 import dataclasses
 from collections.abc import Collection, Mapping
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses.log_motion import CLEAR, Floats, motion_of, runs_in
-from ballscrew.analyses.torque_log import INERTIA, REQUIRED, TorqueLog, quantities, random_keys
-from ballscrew.faults import Fault, InputError, fault_of
+from ballscrew.errors import Fault, InputError, fault_of
 from ballscrew.quantities import within_bounds
+from ballscrew.torque_logs.log_rows import INERTIA, REQUIRED, LogRows, quantities
+from ballscrew.torque_logs.motion import CLEAR, Floats, motion_of, runs_in
+
+#: Any kind of log: each step returns the kind that it was given.
+Log = TypeVar("Log", bound=LogRows)
 
 #: Reasons for leaving rows out.
 GAPS, REST, RAMPS, THINNED = "a value is missing", "at rest", "speed changes", "thinned"
@@ -41,8 +45,8 @@ _JUMP, _JUMPING = 0.1, 0.15
 _SAME = 0.02
 
 
-def cleaned(log: TorqueLog, inertia: float | None, most: int) -> TorqueLog:
-    """All steps in their order; see :meth:`~ballscrew.analyses.torque_log.TorqueLog.cleaned`."""
+def cleaned(log: Log, inertia: float | None, most: int) -> Log:
+    """All steps in their order; see :meth:`~ballscrew.torque_logs.torque_log.TorqueLog.cleaned`."""
     if inertia is not None and (fault := fault_of("log", INERTIA, inertia)) is not None:
         raise InputError(fault)
     log = log if log.keys is not None else dataclasses.replace(log, keys=random_keys(len(log)))
@@ -54,10 +58,15 @@ def cleaned(log: TorqueLog, inertia: float | None, most: int) -> TorqueLog:
         told = "; ".join(f"{reason}: {count}" for reason, count in log.left_out.items())
         remedy = f"a fit needs {LEAST_ROWS} rows or more at steady speed"
         raise InputError(Fault("log", f"has {len(log)} rows that can be used", told, remedy))
-    return dataclasses.replace(log.noted(*untold(log)), is_clean=True, keys=None, motion=None)
+    return dataclasses.replace(log.with_notes(*data_warnings(log)), is_clean=True, keys=None, motion=None)
 
 
-def without_gaps(log: TorqueLog, names: Collection[str]) -> TorqueLog:
+def random_keys(rows: int) -> Floats:
+    """The random numbers of the rows of a log, always the same."""
+    return np.random.default_rng(0).random(rows)
+
+
+def without_gaps(log: Log, names: Collection[str]) -> Log:
     """Without rows that lack a value of these columns; without those of them that lack every value."""
     columns = {name: values for name, values in log.columns.items() if name in names}
     empty = [name for name, values in columns.items() if not np.isfinite(values).any()]
@@ -66,12 +75,12 @@ def without_gaps(log: TorqueLog, names: Collection[str]) -> TorqueLog:
             remedy = "give a column with numbers in it"
             raise InputError(Fault("log", f"has no {name.replace('_', ' ')} in any row", "", remedy))
     log = dataclasses.replace(log, **dict.fromkeys(empty))
-    log = log.noted(*(f"no row has a {name}: the column is not used" for name in empty))
-    return log.taken(whole(columns, len(log)), GAPS)
+    log = log.with_notes(*(f"no row has a {name}: the column is not used" for name in empty))
+    return log.select(complete_rows(columns, len(log)), GAPS)
 
 
-def whole(columns: Mapping[str, Floats], rows: int) -> NDArray[np.bool_]:
-    """Where no value is missing or impossible; columns without any value do not count."""
+def complete_rows(columns: Mapping[str, Floats], rows: int) -> NDArray[np.bool_]:
+    """The rows without missing or impossible values; columns without any value do not count."""
     found = np.ones(rows, dtype=bool)
     for name, values in columns.items():
         if np.isfinite(values).any():
@@ -79,22 +88,22 @@ def whole(columns: Mapping[str, Floats], rows: int) -> NDArray[np.bool_]:
     return found
 
 
-def in_order(log: TorqueLog) -> TorqueLog:
+def in_order(log: Log) -> Log:
     """In the order of time, with its motion; a log without time is left as it is."""
     if log.time is None:
-        return log.noted("no time: rows under acceleration cannot be told from the others, and all stay")
+        return log.with_notes("no time: rows under acceleration cannot be told from the others, and all stay")
     if log.motion is not None or not len(log):
         return log
     runs = runs_in(log.time)
     if runs is None:
-        log = log.taken(np.argsort(log.time, kind="stable")).noted("rows were not in the order of time: sorted")
+        log = log.select(np.argsort(log.time, kind="stable")).with_notes("rows were not in the order of time: sorted")
     elif runs > 1:
-        log = log.noted(runs_told(runs))
+        log = log.with_notes(describe_runs(runs))
     time = np.asarray(log.time)
     return dataclasses.replace(log, motion=motion_of(time - time[0], log.screw_speed))
 
 
-def of_settings(log: TorqueLog) -> TorqueLog:
+def of_settings(log: Log) -> Log:
     """A log whose speed jumps from row to row has no motion: every row is a reading at rest or at a steady speed."""
     if log.motion is None or not len(log):
         return log
@@ -102,16 +111,16 @@ def of_settings(log: TorqueLog) -> TorqueLog:
     if np.mean(jumps) <= _JUMPING:
         return log
     told = "speeds jump from row to row: every row is taken as a reading at a steady speed"
-    return dataclasses.replace(log, motion=None).noted(told)
+    return dataclasses.replace(log, motion=None).with_notes(told)
 
 
-def runs_told(runs: int) -> str:
-    """What is said of a log whose time begins anew."""
+def describe_runs(runs: int) -> str:
+    """The note on a log whose time begins anew."""
     return f"time begins anew {runs - 1} times: read as {runs} logs, one after the other"
 
 
-def moving(log: TorqueLog) -> NDArray[np.bool_]:
-    """Where the screw turns."""
+def moving(log: LogRows) -> NDArray[np.bool_]:
+    """The rows at which the screw turns."""
     if not len(log):
         return np.zeros(0, dtype=bool)
     noise = 0.0 if log.motion is None else CLEAR * log.motion.noise()
@@ -119,17 +128,17 @@ def moving(log: TorqueLog) -> NDArray[np.bool_]:
     return np.abs(log.screw_speed) > max(_REST * largest, min(noise, _NOISY_REST * largest))
 
 
-def _largest_speed(log: TorqueLog) -> float:
+def _largest_speed(log: LogRows) -> float:
     """The largest speed, were it not for outliers."""
     return float(np.quantile(np.abs(log.screw_speed), _LARGEST))
 
 
-def without_rest(log: TorqueLog) -> TorqueLog:
+def without_rest(log: Log) -> Log:
     """Without rows at rest."""
-    return log.taken(moving(log), REST)
+    return log.select(moving(log), REST)
 
 
-def without_ramps(log: TorqueLog, inertia: float | None) -> TorqueLog:
+def without_ramps(log: Log, inertia: float | None) -> Log:
     """Without rows under acceleration, and of the others' torque without the share of the inertia.
 
     With an inertia J (kg m²), rows with J·|dω/dt| above a tenth of the typical torque are left out, and the torque of
@@ -139,7 +148,7 @@ def without_ramps(log: TorqueLog, inertia: float | None) -> TorqueLog:
     turns = moving(log)
     if log.motion is None or not turns.any():
         told = inertia is not None and log.motion is None
-        return log.noted("the inertia is not used, for it takes a trace of the speed over time" if told else "")
+        return log.with_notes("the inertia is not used, for it takes a trace of the speed over time" if told else "")
     used = inertia if inertia and log.kind != "friction" else None
     if used is not None:
         limit = least = _INERTIA_SHARE * float(np.median(np.abs(log.torque[turns]))) / used
@@ -161,28 +170,28 @@ def without_ramps(log: TorqueLog, inertia: float | None) -> TorqueLog:
         log = dataclasses.replace(log, torque=log.torque - taken_off)
         notes.append("the torque that accelerates the inertia is taken off")
     hides = (noise > _HIDING * np.median(noise[turns])) & (CLEAR * noise > least)
-    return log.taken(~(turns & (hides | (np.abs(change) > bound))), RAMPS).noted(*notes)
+    return log.select(~(turns & (hides | (np.abs(change) > bound))), RAMPS).with_notes(*notes)
 
 
 def _quarter(values: Floats) -> float:
     return float(np.quantile(values, 0.25))
 
 
-def thinned(log: TorqueLog, most: int) -> TorqueLog:
+def thinned(log: Log, most: int) -> Log:
     """At most so many rows, evenly at random and always the same ones."""
     if len(log) <= most or log.keys is None:
         return log
     keep = np.sort(np.argpartition(log.keys, most)[:most])
-    return log.taken(keep, THINNED).noted(thinned_told(most))
+    return log.select(keep, THINNED).with_notes(describe_thinning(most))
 
 
-def thinned_told(most: int) -> str:
-    """What is said of a log that is too long."""
+def describe_thinning(most: int) -> str:
+    """The note on a log that is too long."""
     return f"longer than {most} rows: thinned evenly at random"
 
 
-def untold(log: TorqueLog) -> list[str]:
-    """What a log cannot tell, in words."""
+def data_warnings(log: LogRows) -> list[str]:
+    """Warnings about effects that a log cannot identify."""
     found: list[str] = []
     if len(log) < FEW_ROWS:
         found.append(f"{len(log)} rows are few: expect wide intervals")

@@ -1,4 +1,4 @@
-"""What loggers call the columns of a log of torque, in English and German, and where they stand in a file.
+"""Columns of a log: their names in English and German, and their layout in a file.
 
 A column of the user's own name is given as ``--column torque="M_ist [N m]"``; what is the same in every row is given as
 ``--column axial_load="0 N"``.
@@ -13,12 +13,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ballscrew.analyses.torque_log import Kind, quantities
-from ballscrew.faults import Fault, InputError, nearest, raise_if_any
-from ballscrew.interfaces import decimals, units
-from ballscrew.interfaces.headings import Column, Heading, bare, checked, fits, heading_of, headings_in, spelt, unused
-from ballscrew.interfaces.sheets import Record
+from ballscrew import units
+from ballscrew.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.quantities import Info, Quantity
+from ballscrew.tables import decimals
+from ballscrew.tables.headings import Column, Heading, bare, checked, fits, heading_of, headings_in, spelt, unused
+from ballscrew.tables.sheets import Record
+from ballscrew.torque_logs.log_rows import Kind, quantities
 
 #: The headings stand within this many rows: loggers write about themselves first.
 WITHIN = 60
@@ -88,7 +89,7 @@ _BRACKETS = re.compile(r"(?P<name>.*?)[\s_]*[\[(](?P<unit>[^\[\]()]*)[\])]")
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Layout:
-    """Where the columns of a log are: headings by name, what is the same in every row (in SI), and how to read it."""
+    """The layout of a log: headings by name, constants (in SI), decimal mark and format of dates."""
 
     file: str
     headings: Mapping[str, Heading]
@@ -115,14 +116,14 @@ class Layout:
 
 
 def is_heading(cell: str) -> bool:
-    """Whether a cell is a heading that is known."""
+    """Test whether a cell is a known heading."""
     return heading_of(cell, 0, COLUMNS) is not None
 
 
 def layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Layout:
-    """Where the columns are, from the first rows of a file and what the user says of columns, by name.
+    """The layout of a file, from its first rows and the columns given by the user, by name.
 
-    Raises :class:`~ballscrew.faults.InputError` for columns that are missing, double or without a unit that fits.
+    Raises :class:`~ballscrew.errors.InputError` for columns that are missing, double or without a unit that fits.
     """
     asked = _asked(flags)
     rows, constants, named = _renamed(found, asked)
@@ -195,7 +196,7 @@ def _asked(flags: Mapping[str, str]) -> list[_Asked]:
 def _renamed(
     found: Sequence[Record], asked: Sequence[_Asked]
 ) -> tuple[list[Record], dict[str, float], dict[tuple[int, int], str]]:
-    """Rows in which the columns asked for have the names we give them, what is constant, and how cells were written."""
+    """Rows with the given columns under their standard names, the constants, and the cells as written."""
     rows = list(found)
     constants: dict[str, float] = {}
     written: dict[tuple[int, int], str] = {}
@@ -224,7 +225,7 @@ def _renamed(
 
 
 def _unlike(one: _Asked, cell: str) -> int:
-    """How little a heading is what the user wrote: to the letter, but for the unit, but for capitals and blanks."""
+    """Rank of a match: exact, but for the unit, or but for capitals and blanks."""
     parts = _BRACKETS.fullmatch(cell)
     return 0 if cell == one.written else 1 if one.name in {cell, parts["name"] if parts else cell} else 2
 
@@ -250,7 +251,7 @@ def _constant(one: _Asked, found: Sequence[Record]) -> float:
 
 
 def _wanted(asked: Sequence[_Asked]) -> tuple[Column, ...]:
-    """The columns to look for: of those that stand for each other, only the one that was asked for."""
+    """The columns to look for: of those that stand for each other, only the one given."""
     names = {one.column.name for one in asked}
     others = {other for family in (tuple(TORQUES), _SPEEDS) if names & {*family} for other in family} - names
     kept = (
@@ -284,7 +285,7 @@ def _bracketed(cell: Any) -> str:
 
 
 def _are_units(headings: Sequence[Heading], record: Record) -> bool:
-    """Whether a row has units and no numbers."""
+    """Test whether a row has units and no numbers."""
     cells = [(heading.column, record.cells[heading.place]) for heading in headings if heading.place < len(record.cells)]
     texts = all(isinstance(cell, str) and not re.match(r"\s*[-+]?[.,]?\d", _numberless(cell)) for _, cell in cells)
     return texts and any(cell and fits(_bracketed(cell), column) for column, cell in cells)
@@ -324,7 +325,7 @@ def _texts(headings: Sequence[Heading], body: Sequence[Record]) -> list[str]:
 
 
 def _advised(fault: Fault, headings: Sequence[Heading]) -> Fault:
-    """A fault of a heading, with what may be said on the command line instead."""
+    """A fault of a heading, with the option of the command line that mends it."""
     heading = next((one for one in headings if fault.where.endswith(f'column "{one.written}"')), None)
     remedy = fault.remedy
     if heading is not None and heading.column.quantity is not None:

@@ -1,4 +1,4 @@
-"""How the speed of a log changes: its derivative at each row, over windows of several widths, and how noisy it is.
+"""Motion of a log: derivatives of the speed at each row over windows of several widths, and the noise of the speed.
 
 All of it is local, so that a log read piece by piece, with an overlap, gives the same numbers as one read whole.
 """
@@ -37,7 +37,7 @@ class Motion:
     span: Floats
     bend: Floats
 
-    def taken(self, keep: NDArray[Any] | slice) -> Motion:
+    def select(self, keep: NDArray[Any] | slice) -> Motion:
         """The motion of some of the rows."""
         return Motion(self.slope[:, keep], self.span[:, keep], self.bend[keep])
 
@@ -75,7 +75,7 @@ def joined(parts: list[Motion]) -> Motion:
 
 
 def runs_in(time: Floats) -> int | None:
-    """How many runs a log is made of, each with a time that does not go back; None if its rows are out of order."""
+    """Number of runs in a log, each with a time that does not go back; None if its rows are out of order."""
     drops = np.flatnonzero(np.diff(time) < 0) + 1
     starts = np.concatenate([[0], drops])
     restarts = time[drops] <= time[starts[:-1]]
@@ -85,7 +85,7 @@ def runs_in(time: Floats) -> int | None:
 
 
 def motion_of(time: Floats, speed: Floats) -> Motion:
-    """How the speed changes at each row of a log in order; rows of the same time count as one, with their mean speed.
+    """Changes of the speed at each row of a log in order; rows of the same time count as one, with their mean speed.
 
     Across gaps, and where time goes back, nothing is differentiated.
     """
@@ -100,11 +100,11 @@ def motion_of(time: Floats, speed: Floats) -> Motion:
     slope, span = np.stack([one[0] for one in found]), np.stack([one[1] for one in found])
     _one_sided(t, w, left, right, slope[0], span[0])
     motion = Motion(slope, span, _bend(t, w, left, right))
-    return motion if first.size == time.size else motion.taken(np.cumsum(new) - 1)
+    return motion if first.size == time.size else motion.select(np.cumsum(new) - 1)
 
 
 def _room(t: Floats) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """How many rows there are to the left and to the right of each before a gap or an end."""
+    """Numbers of rows to the left and to the right of each before a gap or an end."""
     step = np.diff(t)
     known = np.maximum(step, 0.0)
     before, after = np.concatenate([[0.0], known[:-1]]), np.concatenate([known[1:], [0.0]])

@@ -1,4 +1,4 @@
-"""Cells of a log as numbers in SI: fast where they are plain numbers, one by one where they are not."""
+"""Numbers of a log in SI, piece by piece, from its cells: the columns at once, then the other cells one by one."""
 
 from __future__ import annotations
 
@@ -10,29 +10,21 @@ import numpy as np
 import pandas
 from numpy.typing import NDArray
 
-from ballscrew.analyses.log_motion import Floats
-from ballscrew.analyses.torque_log import seconds
-from ballscrew.faults import Fault, InputError
-from ballscrew.interfaces import decimals
-from ballscrew.interfaces.headings import NOTHING, Heading
-from ballscrew.interfaces.log_columns import CLOCK, Layout
-from ballscrew.interfaces.rows import shown, value_of
-from ballscrew.quantities import within_bounds
+from ballscrew.errors import Fault, InputError
+from ballscrew.tables.cells import shown, value_of
+from ballscrew.tables.number_columns import column_numbers, is_missing
+from ballscrew.torque_logs.columns import CLOCK, Layout
+from ballscrew.torque_logs.log_rows import seconds
+from ballscrew.torque_logs.motion import Floats
 
-#: The decimal marks of a file with decimal commas only.
-COMMA = frozenset(",")
 pd: Any = pandas  # its own types know little of what comes out
-#: What stands for a value that is missing.
-MISSING = (*NOTHING, "nan", "NaN", "NAN", "-nan", "-NaN")
-#: So many faults are enough to say that a file is not one of numbers.
-_ENOUGH = 1000
-#: So many cells are looked at for a decimal mark, if the top of the file has none.
-_LOOKED_AT = 10_000
+#: With this many faults a file is no log.
+_MAXIMUM_FAULTS = 1000
 
 
 @dataclasses.dataclass
-class Cells:
-    """Makes numbers of the cells of a log, piece by piece, and keeps what is wrong with them."""
+class NumberReader:
+    """Reads the numbers of a log piece by piece, and collects the faults of its cells."""
 
     layout: Layout
     keep_going: bool
@@ -46,7 +38,7 @@ class Cells:
     ) -> tuple[dict[str, Floats], NDArray[np.bool_]]:
         """The columns in SI, and which rows are good: without faults, headings or nothing at all in them.
 
-        Of a row ``at_end`` of a file that stops short, faults are not told: it was being written.
+        Of a row ``at_end`` of a file that stops short, faults do not count: it was being written.
         """
         found: dict[str, Floats] = {}
         bad = np.zeros(line.size, dtype=bool)
@@ -54,7 +46,11 @@ class Cells:
         faults: list[tuple[int, Fault]] = []
         for name, cells in columns.items():
             heading = self.layout.headings[name]
-            values, wrong = self._dates(cells) if heading.column.quantity is None else self._plain(cells, heading)
+            values, wrong = (
+                self._dates(cells)
+                if heading.column.quantity is None
+                else column_numbers(cells, heading, self.layout.decimal)
+            )
             texts = np.array([shown(cells[place]) in self.layout.words for place in wrong], dtype=bool)
             is_word = np.zeros(line.size, dtype=bool)
             is_word[wrong[texts]] = True
@@ -73,19 +69,9 @@ class Cells:
 
     def _keep(self, faults: list[tuple[int, Fault]]) -> None:
         ordered = sorted(faults, key=lambda placed: placed[0])
-        self.faults += [fault for _, fault in ordered][: _ENOUGH - len(self.faults)]
-        if len(self.faults) >= _ENOUGH and not self.keep_going:
+        self.faults += [fault for _, fault in ordered][: _MAXIMUM_FAULTS - len(self.faults)]
+        if len(self.faults) >= _MAXIMUM_FAULTS and not self.keep_going:
             raise InputError(*self.faults)
-
-    def _plain(self, cells: Any, heading: Heading) -> tuple[Floats, NDArray[np.int64]]:
-        """Numbers in SI, and the places of cells that are more than a plain number or out of bounds."""
-        quantity = heading.column.quantity
-        assert quantity is not None
-        array = np.asarray(cells)
-        values = array.astype(np.float64) if array.dtype.kind in "fiu" else _read(array, self.layout.decimal)
-        given = ~np.isnan(values) if array.dtype.kind in "fiu" else np.array([not _is_missing(cell) for cell in array])
-        values = heading.offset + heading.scale * values if heading.unit else np.full(values.shape, np.nan)
-        return values, np.flatnonzero(given & ~within_bounds(quantity.info, values))
 
     def _one_by_one(
         self, name: str, cells: Any, places: NDArray[np.int64], line: NDArray[np.int64], values: Floats
@@ -105,7 +91,7 @@ class Cells:
                     faults.append((place, value))
                 else:
                     values[place] = value
-            if len(faults) >= _ENOUGH and not self.keep_going:
+            if len(faults) >= _MAXIMUM_FAULTS and not self.keep_going:
                 break
         return faults
 
@@ -120,7 +106,7 @@ class Cells:
 
     def _dates(self, cells: Any) -> tuple[Floats, NDArray[np.int64]]:
         """Seconds from the first date of the file, and the places of cells that are no dates."""
-        texts = pd.Series([None if _is_missing(cell) else str(cell) for cell in cells], dtype=object)
+        texts = pd.Series([None if is_missing(cell) else str(cell) for cell in cells], dtype=object)
         given = texts.notna().to_numpy()
         texts = texts.str.replace(",", ".", regex=False)
         if self.layout.dates == CLOCK:
@@ -134,20 +120,3 @@ class Cells:
         if self._origin is None:
             return np.full(found.shape, np.nan), wrong
         return seconds(np.concatenate([self._origin, found]))[1:], wrong
-
-
-def _is_missing(cell: Any) -> bool:
-    return cell is None or (isinstance(cell, float) and np.isnan(cell)) or (isinstance(cell, str) and cell in MISSING)
-
-
-def _read(cells: NDArray[Any], decimal: frozenset[str]) -> Floats:
-    """The cells that are plain numbers, whatever their decimal mark is, as long as it can be no other; else NaN."""
-    texts = pd.Series([cell if isinstance(cell, str) else None for cell in cells], dtype=object)
-    decimal = decimal or decimals.evidence(cell for cell in cells[:_LOOKED_AT] if isinstance(cell, str))
-    if decimal == COMMA:
-        texts = texts.where(~texts.str.contains(".", regex=False, na=False)).str.replace(",", ".", regex=False)
-    values = pd.to_numeric(texts, errors="coerce").to_numpy(dtype=np.float64, copy=True)
-    for place, cell in enumerate(cells):
-        if isinstance(cell, int | float) and not isinstance(cell, bool):
-            values[place] = cell
-    return values

@@ -1,4 +1,4 @@
-"""Logs of torque that people bring: text, spreadsheets and files of MATLAB, in their own words and units.
+"""Torque logs read from files: bytes to records, layout of the columns, numbers in SI, rows of the log.
 
 As in all tables, a number needs a unit: in its heading, in a row of units below, behind the number, or in
 ``--column torque="M_ist [N m]"``. Every row is used, or counted with the reason why not.
@@ -7,24 +7,23 @@ As in all tables, a number needs a unit: in its heading, in a row of units below
 from __future__ import annotations
 
 import dataclasses
-import hashlib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import BinaryIO
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ballscrew.analyses.log_cleaning import HELD
-from ballscrew.analyses.log_gathering import Gathering
-from ballscrew.analyses.log_motion import Floats
-from ballscrew.analyses.torque_log import REQUIRED, TorqueLog
-from ballscrew.faults import LINES_AT_MOST, Fault, InputError, raise_if_any
-from ballscrew.interfaces.log_cells import Cells
-from ballscrew.interfaces.log_columns import TORQUES, Layout, is_heading, layout
-from ballscrew.interfaces.log_matlab import is_matlab, variables
-from ballscrew.interfaces.log_text import Piece, TextLog, size_of
-from ballscrew.interfaces.sheets import Record, is_spreadsheet, records, unreadable
+from ballscrew.errors import LINES_AT_MOST, Fault, InputError, raise_if_any
+from ballscrew.tables.sheets import unreadable
+from ballscrew.torque_logs.cleaning import HELD
+from ballscrew.torque_logs.columns import TORQUES, Layout, layout
+from ballscrew.torque_logs.log_rows import REQUIRED
+from ballscrew.torque_logs.motion import Floats
+from ballscrew.torque_logs.numbers import NumberReader
+from ballscrew.torque_logs.reservoir_sampler import ReservoirSampler
+from ballscrew.torque_logs.sources import source_of
+from ballscrew.torque_logs.text_files import Piece, size_of
+from ballscrew.torque_logs.torque_log import TorqueLog
 
 #: Rows of text that are read at a time.
 CHUNK = 200_000
@@ -42,14 +41,14 @@ def read(
     held: int = HELD,
     chunk: int = CHUNK,
 ) -> TorqueLog:
-    """The log of a file, in SI; :meth:`~ballscrew.analyses.torque_log.TorqueLog.cleaned` makes it fit for a fit.
+    """The log of a file, in SI; :meth:`~ballscrew.torque_logs.torque_log.TorqueLog.cleaned` makes it fit for a fit.
 
     ``columns`` says which heading a column has, and in which unit it is, where the file does not: ``"M_ist [N m]"``; or
     what it is in every row: ``"0 N"``. A current needs the ``torque_constant`` (N m/A), a feed rate the ``lead`` (m).
-    ``done`` is told the bytes read so far and those of the file. A log longer than ``held`` rows is thinned while it
+    ``done`` gets the bytes read so far and those of the file. A log longer than ``held`` rows is thinned while it
     is read, ``chunk`` rows at a time.
 
-    Raises :class:`~ballscrew.faults.InputError` for faults of the file as a whole, and for cells that are no numbers;
+    Raises :class:`~ballscrew.errors.InputError` for faults of the file as a whole, and for cells that are no numbers;
     with ``keep_going`` their rows are left out and counted.
     """
     path, columns = Path(path), columns or {}
@@ -72,66 +71,20 @@ def _read(
     held: int,
     chunk: int,
 ) -> TorqueLog:
-    begin, size = file.read(512), size_of(file)
-    file.seek(0)
-    if not begin:
+    source = source_of(path, file, done)
+    if not source.found:
         raise InputError(Fault(str(path), "is empty", "", "give a table with headings and rows"))
-    text = None
-    if is_matlab(path, begin) or is_spreadsheet(path, begin):
-        found, whole = _at_once(path, begin)
-    else:
-        text = TextLog(path, file, None if done is None else lambda read: done(read, size))
-        found, whole = text.found, None
-    if not found:
-        raise InputError(Fault(str(path), "is empty", "", "give a table with headings and rows"))
-    place = layout(path, found, columns)
+    place = layout(path, source.found, columns)
     _check_factors(place, *factors)
-    pieces = whole(place) if whole is not None else _pieces_of(text, place, chunk)
-    log, cells = _gathered(place, pieces, factors, keep_going, held)
-    digest = text.digest() if text is not None else hashlib.sha256(path.read_bytes()).hexdigest()
+    log, numbers = _gathered(place, source.pieces(place, chunk), factors, keep_going, held)
+    digest = source.digest()
     notes = [f"columns not used: {', '.join(place.unused)}"] if place.unused else []
-    if text is not None and text.empty_bytes:
-        notes.append(f"the file ends with {text.empty_bytes} empty bytes, which are left out")
+    if source.empty_bytes:
+        notes.append(f"the file ends with {source.empty_bytes} empty bytes, which are left out")
     if done is not None:
+        size = size_of(file)
         done(size, size)
-    return dataclasses.replace(log, source=(path.name, digest)).noted(*notes, *_told(cells))
-
-
-def _pieces_of(text: TextLog | None, place: Layout, chunk: int) -> Iterator[Piece]:
-    assert text is not None
-    return text.pieces(place, chunk)
-
-
-def _at_once(path: Path, begin: bytes) -> tuple[Sequence[Record], Callable[[Layout], Iterator[Piece]]]:
-    """The first rows of a spreadsheet or a file of MATLAB, and its only piece."""
-    if is_matlab(path, begin):
-        arrays = variables(path, begin)
-        sizes = {name: values.size for name, values in arrays.items()}
-        if len(set(sizes.values())) > 1:
-            told = ", ".join(f"{name} {size}" for name, size in sizes.items())
-            raise InputError(Fault(path.name, "has columns of different lengths", told, "give every column each row"))
-        lists = list(arrays.values())
-        top = [Record(1 + row, [values[row] for values in lists]) for row in range(min(5, lists[0].size))]
-
-        def of_arrays(place: Layout) -> Iterator[Piece]:
-            cells = {heading.place: lists[heading.place] for heading in place.headings.values()}
-            yield Piece(cells, np.arange(1, 1 + lists[0].size), False)
-
-        return [Record(0, list(arrays)), *top], of_arrays
-    rows = records(path, is_heading)
-
-    def of_rows(place: Layout) -> Iterator[Piece]:
-        body = [row for row in rows if row.line > place.line]
-        cells = {heading.place: _column(body, heading.place) for heading in place.headings.values()}
-        yield Piece(cells, np.array([row.line for row in body], dtype=np.int64), False)
-
-    return rows, of_rows
-
-
-def _column(body: Sequence[Record], place: int) -> NDArray[Any]:
-    cells = np.empty(len(body), dtype=object)
-    cells[:] = [row.cells[place] if place < len(row.cells) else "" for row in body]
-    return cells
+    return dataclasses.replace(log, source=(path.name, digest)).with_notes(*notes, *_describe_faults(numbers))
 
 
 def _check_factors(place: Layout, torque_constant: float | None, lead: float | None) -> None:
@@ -154,8 +107,8 @@ def _gathered(
     factors: tuple[float | None, float | None],
     keep_going: bool,
     held: int,
-) -> tuple[TorqueLog, Cells]:
-    cells, gathering, cut_off = Cells(place, keep_going), Gathering(held), 0
+) -> tuple[TorqueLog, NumberReader]:
+    cells, gathering, cut_off = NumberReader(place, keep_going), ReservoirSampler(held), 0
     for piece in pieces:
         raw = {name: piece.cells[heading.place] for name, heading in place.headings.items()}
         values, good = cells.numbers(raw, piece.line, piece.cut_off)
@@ -197,7 +150,7 @@ def _lacks(named: Mapping[str, Floats], row: int) -> bool:
     return any(bool(np.isnan(named[name][row])) for name in REQUIRED)
 
 
-def _check_filled(place: Layout, gathering: Gathering) -> None:
+def _check_filled(place: Layout, gathering: ReservoirSampler) -> None:
     """Raise for columns that are needed and empty."""
     ours = {"torque": place.torque, "screw_speed": "feed_rate" if "feed_rate" in place.headings else "screw_speed"}
     raise_if_any(
@@ -214,8 +167,8 @@ def _check_filled(place: Layout, gathering: Gathering) -> None:
     )
 
 
-def _told(cells: Cells) -> list[str]:
-    """What is said of the rows that were left out for their faults: ten lines at most."""
-    lines = InputError(*cells.faults).lines() if cells.faults else []
+def _describe_faults(numbers: NumberReader) -> list[str]:
+    """The faults of the rows that were left out: ten lines at most."""
+    lines = InputError(*numbers.faults).lines() if numbers.faults else []
     assert len(lines) <= LINES_AT_MOST
     return lines

@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses import log_cleaning
-from ballscrew.analyses.log_motion import SCALES, SHORTEST_RUN, Floats, Motion, joined, motion_of
-from ballscrew.analyses.torque_log import REQUIRED, Kind, TorqueLog
+from ballscrew.torque_logs import cleaning
+from ballscrew.torque_logs.log_rows import REQUIRED, Kind
+from ballscrew.torque_logs.motion import SCALES, SHORTEST_RUN, Floats, Motion, joined, motion_of
+from ballscrew.torque_logs.torque_log import TorqueLog
 
 #: Distinct times that a row must have on either side before its motion is final.
 _MARGIN = max(SCALES) + 4
@@ -35,8 +36,8 @@ class _Rows:
     def __len__(self) -> int:
         return self.columns["key"].size
 
-    def taken(self, keep: Any) -> _Rows:
-        motion = None if self.motion is None else self.motion.taken(keep)
+    def select(self, keep: Any) -> _Rows:
+        motion = None if self.motion is None else self.motion.select(keep)
         return _Rows({name: values[keep] for name, values in self.columns.items()}, motion)
 
 
@@ -49,10 +50,10 @@ def _joined(parts: list[_Rows]) -> _Rows:
     return _Rows(columns, joined(motions) if motions else None)
 
 
-class Gathering:
+class ReservoirSampler:
     """Rows of a log, as they come. At most ``held`` of them stay."""
 
-    def __init__(self, held: int = log_cleaning.HELD) -> None:
+    def __init__(self, held: int = cleaning.HELD) -> None:
         self._held = held
         self._random = np.random.default_rng(0)
         self._parts: list[_Rows] = []
@@ -83,13 +84,13 @@ class Gathering:
 
     @property
     def waiting(self) -> int:
-        """How many rows wait for those that follow them."""
+        """Number of rows that wait for those that follow them."""
         return 0 if self._pending is None else len(self._pending)
 
     def log(self, kind: Kind) -> TorqueLog:
         """The log; it is not clean yet."""
         if self._pending is not None:
-            self._settle(self._pending.taken(slice(None)), last=True)
+            self._settle(self._pending.select(slice(None)), last=True)
             self._pending = None
         found = _joined(self._parts)
         notes: list[str] = []
@@ -103,10 +104,10 @@ class Gathering:
             columns.pop("time")
             motion = None
         elif self._runs > 1:
-            notes.append(log_cleaning.runs_told(self._runs))
-        counts = {log_cleaning.GAPS: self.gaps, log_cleaning.THINNED: self.rows - self.gaps - line.size}
+            notes.append(cleaning.describe_runs(self._runs))
+        counts = {cleaning.GAPS: self.gaps, cleaning.THINNED: self.rows - self.gaps - line.size}
         left_out = {reason: count for reason, count in counts.items() if count}
-        notes += [log_cleaning.thinned_told(self._held)] if log_cleaning.THINNED in left_out else []
+        notes += [cleaning.describe_thinning(self._held)] if cleaning.THINNED in left_out else []
         return TorqueLog(
             **columns,
             line=line,
@@ -126,9 +127,9 @@ class Gathering:
 
     def _spill(self, part: _Rows) -> None:
         names = (*REQUIRED, "time") if self._timed else REQUIRED
-        whole = log_cleaning.whole({name: part.columns[name] for name in names}, len(part))
+        whole = cleaning.complete_rows({name: part.columns[name] for name in names}, len(part))
         self.gaps += int((~whole).sum())
-        part = part.taken(whole)
+        part = part.select(whole)
         if not len(part):
             return
         if not self._timed:
@@ -166,12 +167,12 @@ class Gathering:
         motion = motion_of(time - self._origin, rows.columns["screw_speed"])
         settled = slice(self._looked_back, end)
         columns = {name: values[settled] for name, values in rows.columns.items()}
-        self._parts.append(_Rows(columns, motion.taken(settled)))
+        self._parts.append(_Rows(columns, motion.select(settled)))
         back = int(begins[max(0, int(np.searchsorted(begins, end)) - _MARGIN)]) if enough else end - 1
-        self._pending = rows.taken(slice(back, None))
+        self._pending = rows.select(slice(back, None))
         self._looked_back = end - back
 
     def _thinned(self, rows: _Rows) -> _Rows:
         if len(rows) <= self._held:
             return rows
-        return rows.taken(np.sort(np.argpartition(rows.columns["key"], self._held)[: self._held]))
+        return rows.select(np.sort(np.argpartition(rows.columns["key"], self._held)[: self._held]))

@@ -14,10 +14,10 @@ import numpy as np
 import pandas
 from numpy.typing import NDArray
 
-from ballscrew.faults import Fault, InputError
-from ballscrew.interfaces.log_cells import COMMA, MISSING
-from ballscrew.interfaces.log_columns import WITHIN, Layout, is_heading
-from ballscrew.interfaces.sheets import Record, delimiter_of, encoding_of, in_text, is_error
+from ballscrew.errors import Fault, InputError
+from ballscrew.tables.number_columns import COMMA, MISSING
+from ballscrew.tables.sheets import Record, delimiter_of, encoding_of, in_text, is_error
+from ballscrew.torque_logs.columns import WITHIN, Layout, is_heading
 
 pd: Any = pandas  # its own types know little of what comes out
 #: The headings and what a number looks like are found in so many bytes at the top of a file, and so many of their rows.
@@ -32,8 +32,8 @@ class Piece(NamedTuple):
     cut_off: bool
 
 
-class Told(io.RawIOBase):
-    """A file that is told apart as it is read: its hash, how far it is, its last byte, and bytes that are no text."""
+class HashingReader(io.RawIOBase):
+    """A file that is hashed as it is read, with its position, its last byte, and bytes that are no text."""
 
     def __init__(self, file: BinaryIO, wide: bool, done: Callable[[int], None] | None) -> None:
         self._file, self._wide, self._done = file, wide, done
@@ -109,11 +109,11 @@ class TextLog:
         #: The first rows, in which the headings are.
         self.found: Sequence[Record] = in_text(path, shown, is_heading, WITHIN)
         file.seek(0)
-        self._told = Told(file, wide, done)
+        self._reader = HashingReader(file, wide, done)
 
     def pieces(self, layout: Layout, rows: int) -> Iterator[Piece]:
         """The rows below the headings, so many at a time."""
-        text = io.TextIOWrapper(io.BufferedReader(self._told, 1 << 20), self._encoding, "replace")
+        text = io.TextIOWrapper(io.BufferedReader(self._reader, 1 << 20), self._encoding, "replace")
         for _ in range(layout.line):
             text.readline()
         width = max(layout.width, 1 + max(heading.place for heading in layout.headings.values()))
@@ -134,23 +134,23 @@ class TextLog:
                     first += len(held)
                 held = frame
             if held is not None:
-                yield self._piece(held, first, width, layout, self._told.last not in (b"\n", b"\r"))
+                yield self._piece(held, first, width, layout, self._reader.last not in (b"\n", b"\r"))
         except pd.errors.ParserError as error:
             raise InputError(
                 Fault(str(self.path), "cannot be split into cells", str(error), "check its quotes")
             ) from None
-        if self._told.is_junk:
-            where = f"{self.path.name} from byte {self._told.empty_from}"
+        if self._reader.is_junk:
+            where = f"{self.path.name} from byte {self._reader.empty_from}"
             raise InputError(Fault(where, "is no text", "", "the file is damaged: cut it off there"))
 
     def digest(self) -> str:
         """SHA-256 of the file."""
-        return self._told.digest()
+        return self._reader.digest()
 
     @property
     def empty_bytes(self) -> int:
-        """How many empty bytes the file ends with."""
-        return 0 if self._told.empty_from is None else self._told.size - self._told.empty_from
+        """Number of empty bytes at the end of the file."""
+        return 0 if self._reader.empty_from is None else self._reader.size - self._reader.empty_from
 
     def _piece(self, frame: Any, first: int, width: int, layout: Layout, at_end: bool = False) -> Piece:
         line = np.arange(first, first + len(frame))
@@ -172,5 +172,5 @@ def _not_comments(cells: NDArray[Any]) -> NDArray[np.bool_]:
 
 
 def size_of(file: BinaryIO) -> int:
-    """How many bytes a file has."""
+    """Size of a file in bytes."""
     return os.fstat(file.fileno()).st_size

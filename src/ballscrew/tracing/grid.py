@@ -1,9 +1,9 @@
-"""Grids: what depends on one axis only is computed once for each of its values.
+"""Grids: steps that depend on one axis only are evaluated once for each of its values.
 
 A grid is cut into rows (the leading axes) and columns (the trailing ones). A program recorded with its
 inputs in these two groups falls into three: one over the rows, one over the columns, and the steps
 that need both, which are left for every point and read the results of the other two as tables.
-Powers of products are factors of one group each (:mod:`ballscrew.engine.tape`), so none is left.
+Powers of products are factors of one group each (:mod:`ballscrew.tracing.tape`), so none is left.
 """
 
 from __future__ import annotations
@@ -13,9 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ballscrew.engine.emission import Source
-from ballscrew.engine.program import Program, needed
-from ballscrew.engine.steps import Step
+from ballscrew.tracing.program import Program, Source, required_steps
+from ballscrew.tracing.steps import Step
 
 #: The groups of inputs.
 ROWS, COLUMNS = 1, 2
@@ -27,7 +26,7 @@ class Split(NamedTuple):
     rows: Program
     columns: Program
     points: Program
-    #: For each input of ``points``: which of the first two it comes from, and the name of the output there.
+    #: For each input of ``points``: its source among the first two programs, and the name of the output there.
     tables: tuple[tuple[Source, str], ...]
 
 
@@ -46,7 +45,7 @@ def split(program: Program, groups: Sequence[int]) -> Split:
 
     def tables(of: int) -> Program:
         chosen = {str(i): i for i in tabled if group[i] == of}
-        return Program(program.inputs, needed(steps, chosen.values()), chosen, {}, program.nonnegative)
+        return Program(program.inputs, required_steps(steps, chosen.values()), chosen, {}, program.nonnegative)
 
     number = {i: k for k, i in enumerate(tabled)}
     renumbered: list[tuple[int, Step]] = []
@@ -68,7 +67,7 @@ def split(program: Program, groups: Sequence[int]) -> Split:
 
 
 def inner_axes(shape: Sequence[int], fewest_columns: int) -> int:
-    """How many trailing axes make up the columns, so that there are enough of them."""
+    """The number of trailing axes that make up at least ``fewest_columns`` columns."""
     count, columns = 1, shape[-1]
     while columns < fewest_columns and count < len(shape) - 1:
         count += 1

@@ -3,25 +3,45 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
 
-from ballscrew.engine.steps import choose
-
-if TYPE_CHECKING:
-    from ballscrew.engine.tape import Tape
+from ballscrew.tracing.steps import Step, choose
 
 
-def goes_along(tape: Tape, index: int, power: float) -> bool:
-    """Whether a whole power is cheaper in an exponent that is there anyway: an exponential, or a divisor."""
+class Recorder(Protocol):
+    """The part of a tape (:class:`~ballscrew.tracing.tape.Tape`) that logarithms are recorded with."""
+
+    steps: list[Step | None]
+    nonnegative: list[bool]
+
+    def record(self, function: Any, *operands: Any, is_mask: bool = False) -> int:
+        """Record a step, or find an equal one."""
+        ...
+
+    def step(self, function: Any, *operands: Any) -> Any:
+        """Record a step and return its value; fold it where all operands are constants."""
+        ...
+
+    def is_recorded(self, function: Any, *operands: Any) -> bool:
+        """Return whether a step is recorded already."""
+        ...
+
+    def value(self, index: int) -> Any:
+        """Return the value of a step."""
+        ...
+
+
+def folds_into_exponent(tape: Recorder, index: int, power: float) -> bool:
+    """Return whether an integer power is cheaper as a term of the exponent: of an exponential, or a divisor."""
     step = tape.steps[index]
     if step is not None and step.function is np.exp:
         return True
-    return power < 0 and tape.nonnegative[index] and tape.is_known(np.log, tape.value(index))
+    return power < 0 and tape.nonnegative[index] and tape.is_recorded(np.log, tape.value(index))
 
 
-def sum_of_logarithms(tape: Tape, powers: Sequence[tuple[int, float]], scale: float = 1.0) -> Any:
+def sum_of_logarithms(tape: Recorder, powers: Sequence[tuple[int, float]], scale: float = 1.0) -> Any:
     """The logarithm of a product of powers."""
     result: Any = float(np.log(scale)) if scale != 1 else None
     for i, power in powers:
@@ -31,39 +51,43 @@ def sum_of_logarithms(tape: Tape, powers: Sequence[tuple[int, float]], scale: fl
     return result
 
 
-def logarithm(tape: Tape, index: int) -> Any:
-    """The logarithm of a step, from logarithms that are there already where that spares one."""
+def logarithm(tape: Recorder, index: int) -> Any:
+    """The logarithm of a step, from logarithms already recorded where that saves one."""
     step = tape.steps[index]
     value = tape.value(index)
-    if not tape.nonnegative[index] and tape.is_known(np.absolute, value) and not tape.is_known(np.log, value):
+    if not tape.nonnegative[index] and tape.is_recorded(np.absolute, value) and not tape.is_recorded(np.log, value):
         size = tape.value(tape.record(np.absolute, value))
         negative = tape.value(tape.record(np.less, value, 0.0, is_mask=True))
         return tape.step(choose, negative, np.nan, tape.value(tape.record(np.log, size)))
-    if step is None or tape.is_known(np.log, value):
+    if step is None or tape.is_recorded(np.log, value):
         return tape.value(tape.record(np.log, value))
     if step.function is np.exp:
         return tape.value(int(step.operands[0][1]))
     if step.function is choose and step.operands[1] == ("constant", 0.0) and step.operands[2][0] == "step":
         mask, kept = (tape.value(int(o)) for _, o in (step.operands[0], step.operands[2]))
         return tape.step(choose, mask, -np.inf, logarithm(tape, kept.index))
-    if step.function in (np.multiply, np.divide) and _is_spared(tape, index):
+    if step.function in (np.multiply, np.divide) and _is_sum_of_recorded(tape, index):
         terms = [logarithm(tape, int(o)) if kind == "step" else float(np.log(o)) for kind, o in step.operands]
         return tape.step(np.add if step.function is np.multiply else np.subtract, *terms)
     return tape.value(tape.record(np.log, tape.value(index)))
 
 
-def _is_spared(tape: Tape, index: int) -> bool:
-    """Whether the logarithm of a product is to be had from those of its factors, with one new logarithm at most.
+def _is_sum_of_recorded(tape: Recorder, index: int) -> bool:
+    """Return whether the logarithm of a product follows from those of its factors, with at most one new logarithm.
 
     At most one factor may be negative: a product of two is positive, but has no sum of logarithms.
     """
-    factors, waiting = set[int](), [index]
-    while waiting:
-        step = tape.steps[i := waiting.pop()]
-        if step is not None and step.function in (np.multiply, np.divide) and not tape.is_known(np.log, tape.value(i)):
+    factors, pending = set[int](), [index]
+    while pending:
+        step = tape.steps[i := pending.pop()]
+        if (
+            step is not None
+            and step.function in (np.multiply, np.divide)
+            and not tape.is_recorded(np.log, tape.value(i))
+        ):
             if any(kind == "constant" and not o > 0 for kind, o in step.operands):
                 return False
-            waiting += [int(o) for kind, o in step.operands if kind == "step"]
+            pending += [int(o) for kind, o in step.operands if kind == "step"]
         else:
             factors.add(i)
     if sum(not tape.nonnegative[i] for i in factors) > 1:
@@ -71,6 +95,6 @@ def _is_spared(tape: Tape, index: int) -> bool:
     return sum(not _has_logarithm(tape, i) for i in factors) <= 1
 
 
-def _has_logarithm(tape: Tape, index: int) -> bool:
+def _has_logarithm(tape: Recorder, index: int) -> bool:
     step = tape.steps[index]
-    return (step is not None and step.function is np.exp) or tape.is_known(np.log, tape.value(index))
+    return (step is not None and step.function is np.exp) or tape.is_recorded(np.log, tape.value(index))

@@ -1,8 +1,8 @@
-"""Logarithms that always go together are one: that of a product.
+"""Merging of logarithms: bases with the same weight in every sum become one logarithm of their product.
 
-A recorded model takes powers apart into sums of logarithms. Some of these come in every sum with the
-same weight, or the opposite one: load, number of balls and contact angle only as the load of a ball,
-speed and viscosity only as their product. One logarithm of a product then does the work of all.
+A recorded model splits powers into sums of logarithms. Some bases occur in every sum with the same or
+the opposite weight: load, number of balls and contact angle only as the load of a ball, speed and
+viscosity only as their product. One logarithm of a product then replaces those of its factors.
 """
 
 from __future__ import annotations
@@ -13,47 +13,47 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.engine.program import Program, needed
-from ballscrew.engine.steps import Step
-from ballscrew.engine.tape import Tape, Traced
+from ballscrew.tracing.program import Program, required_steps
+from ballscrew.tracing.steps import Step
+from ballscrew.tracing.tape import Tape, Traced
 
 
-class _Sum(NamedTuple):
+class _LogarithmSum(NamedTuple):
     """A sum of weighted logarithms (by the step whose logarithm it is), of other weighted steps, and a constant."""
 
     weights: Mapping[int, float]
     others: Mapping[int, float]
     constant: float
 
-    def times(self, factor: float) -> _Sum:
+    def times(self, factor: float) -> _LogarithmSum:
         """The sum times a number."""
         weights, others = ({i: factor * w for i, w in part.items()} for part in self[:2])
-        return _Sum(weights, others, factor * self.constant)
+        return _LogarithmSum(weights, others, factor * self.constant)
 
-    def plus(self, other: _Sum) -> _Sum:
-        """Two sums together."""
+    def plus(self, other: _LogarithmSum) -> _LogarithmSum:
+        """The sum of two sums."""
         weights, others = (
             {i: one.get(i, 0.0) + two.get(i, 0.0) for i in {**one, **two}}
             for one, two in ((self.weights, other.weights), (self.others, other.others))
         )
-        return _Sum(weights, others, self.constant + other.constant)
+        return _LogarithmSum(weights, others, self.constant + other.constant)
 
 
 def merged_program(tape: Tape, outputs: Mapping[str, Any]) -> Program:
-    """What of a tape the outputs need, with as few logarithms as that takes.
+    """The part of a tape that the outputs need, with logarithms merged.
 
-    What belongs to different groups of inputs is kept apart.
+    Logarithms that depend on different groups of inputs are not merged.
     """
     traced = {name: value.index for name, value in outputs.items() if isinstance(value, Traced)}
-    steps = needed({i: step for i, step in enumerate(tape.steps) if step is not None}, traced.values())
+    steps = required_steps({i: step for i, step in enumerate(tape.steps) if step is not None}, traced.values())
     sums = _sums(steps)
     roots = _roots(steps, set(traced.values()), sums)
-    together = _together({root: sums[root] for root in roots}, tape.groups)
+    members_of = _bases_by_weights({root: sums[root] for root in roots}, tape.groups)
     copy = Tape(tape.inputs, tape.groups[: tape.inputs], tape.nonnegative[: tape.inputs])
     place = {i: i for i in range(tape.inputs)}
     for i, step in steps:
         if i in roots:
-            place[i] = _written(copy, sums[i], together, place).index
+            place[i] = _record_sum(copy, sums[i], members_of, place).index
         elif i not in sums:
             operands = [copy.value(place[int(o)]) if kind == "step" else o for kind, o in step.operands]
             place[i] = copy.record(step.function, *operands, is_mask=step.is_mask)
@@ -61,19 +61,19 @@ def merged_program(tape: Tape, outputs: Mapping[str, Any]) -> Program:
     return Program.of(copy, moved)
 
 
-def _sums(steps: Sequence[tuple[int, Step]]) -> dict[int, _Sum]:
+def _sums(steps: Sequence[tuple[int, Step]]) -> dict[int, _LogarithmSum]:
     """The steps that are weighted sums with a logarithm in them."""
-    found: dict[int, _Sum] = {}
+    found: dict[int, _LogarithmSum] = {}
 
-    def of(kind: str, operand: Any) -> _Sum:
+    def of(kind: str, operand: Any) -> _LogarithmSum:
         if kind == "constant":
-            return _Sum({}, {}, float(operand))
-        return found.get(int(operand), _Sum({}, {int(operand): 1.0}, 0.0))
+            return _LogarithmSum({}, {}, float(operand))
+        return found.get(int(operand), _LogarithmSum({}, {int(operand): 1.0}, 0.0))
 
     for i, step in steps:
-        one: _Sum | None = None
+        one: _LogarithmSum | None = None
         if step.function is np.log and step.operands[0][0] == "step":
-            one = _Sum({int(step.operands[0][1]): 1.0}, {}, 0.0)
+            one = _LogarithmSum({int(step.operands[0][1]): 1.0}, {}, 0.0)
         elif step.function in (np.add, np.subtract):
             left, right = (of(*operand) for operand in step.operands)
             one = left.plus(right if step.function is np.add else right.times(-1.0))
@@ -86,15 +86,17 @@ def _sums(steps: Sequence[tuple[int, Step]]) -> dict[int, _Sum]:
     return found
 
 
-def _roots(steps: Sequence[tuple[int, Step]], outputs: set[int], sums: Mapping[int, _Sum]) -> set[int]:
-    """The sums that something else than a sum makes use of."""
+def _roots(steps: Sequence[tuple[int, Step]], outputs: set[int], sums: Mapping[int, _LogarithmSum]) -> set[int]:
+    """The sums that are used by anything but another sum."""
     used = {int(o) for i, step in steps if i not in sums for kind, o in step.operands if kind == "step"}
     used |= {i for one in sums.values() for i in one.others}
     return {i for i in sums if i in used or i in outputs}
 
 
-def _together(roots: Mapping[int, _Sum], groups: Sequence[int]) -> dict[int, tuple[tuple[int, float], ...]]:
-    """For each base, those that go with it wherever it goes, and whether as factors (1) or as divisors (−1)."""
+def _bases_by_weights(
+    roots: Mapping[int, _LogarithmSum], groups: Sequence[int]
+) -> dict[int, tuple[tuple[int, float], ...]]:
+    """For each base, the bases with proportional weights in every sum, as factors (1) or divisors (−1)."""
     column: dict[int, list[tuple[int, float]]] = {}
     for root, one in roots.items():
         for base, weight in one.weights.items():
@@ -107,19 +109,19 @@ def _together(roots: Mapping[int, _Sum], groups: Sequence[int]) -> dict[int, tup
     return {base: tuple(members) for members in alike.values() for base, _ in members}
 
 
-def _written(tape: Tape, one: _Sum, together: Mapping[int, Any], place: Mapping[int, int]) -> Traced:
-    """A sum of logarithms, each of a product of those that go together."""
+def _record_sum(tape: Tape, one: _LogarithmSum, members_of: Mapping[int, Any], place: Mapping[int, int]) -> Traced:
+    """Record a sum of logarithms, each of a product of merged bases."""
     result: Any = None
-    for members in dict.fromkeys(together[base] for base in sorted(one.weights)):
+    for members in dict.fromkeys(members_of[base] for base in sorted(one.weights)):
         first, sign = members[0]
         weight = sign * one.weights[first]
         factors = [tape.value(place[base]) for base, sign in members if sign > 0]
         divisors = [tape.value(place[base]) for base, sign in members if sign < 0]
         if not factors:
             factors, divisors, weight = divisors, [], -weight
-        product = _chain(tape, np.multiply, factors)
+        product = _reduce(tape, np.multiply, factors)
         if divisors:
-            product = tape.value(tape.record(np.divide, product, _chain(tape, np.multiply, divisors)))
+            product = tape.value(tape.record(np.divide, product, _reduce(tape, np.multiply, divisors)))
         term = tape.value(tape.record(np.log, product))
         term = term if weight == 1 else tape.value(tape.record(np.multiply, term, weight))
         result = term if result is None else tape.value(tape.record(np.add, result, term))
@@ -130,6 +132,6 @@ def _written(tape: Tape, one: _Sum, together: Mapping[int, Any], place: Mapping[
     return result if one.constant == 0 else tape.value(tape.record(np.add, result, one.constant))
 
 
-def _chain(tape: Tape, function: Any, values: Sequence[Traced]) -> Traced:
-    """Values taken together one after the other."""
+def _reduce(tape: Tape, function: Any, values: Sequence[Traced]) -> Traced:
+    """Values combined from left to right."""
     return functools.reduce(lambda left, right: tape.value(tape.record(function, left, right)), values)

@@ -1,6 +1,6 @@
-"""A program: the steps of a recording that the outputs asked for need, and how NumPy plays them.
+"""A program: the steps of a recording that some outputs need, and its interpreter on NumPy.
 
-NumPy plays a program block by block into a few buffers that stay in the cache. Results agree with plain
+NumPy runs a program block by block into a few buffers that stay in the cache. Results agree with plain
 arrays to about 1e-14 relative, do not depend on the size of the blocks, and keep the limits at zero
 load and at rest (the logarithm of zero is minus infinity).
 """
@@ -11,13 +11,16 @@ import dataclasses
 import functools
 import threading
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.engine.steps import Operand, Step
-from ballscrew.engine.tape import Tape, Traced
+from ballscrew.tracing.steps import Operand, Step
+from ballscrew.tracing.tape import Tape, Traced
+
+#: The origin of the values of an input: one for each point, column or row of a grid, or a random number.
+Source = Literal["points", "columns", "rows", "random"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -26,7 +29,7 @@ class Program:
 
     inputs: int
     steps: tuple[tuple[int, Step], ...]
-    #: Which step an output is, and the outputs that are the same everywhere.
+    #: The step of each output, and the outputs that are constant.
     outputs: Mapping[str, int]
     constants: Mapping[str, Any]
     #: The steps that are known to be positive, zero or NaN.
@@ -34,54 +37,54 @@ class Program:
 
     @classmethod
     def of(cls, tape: Tape, outputs: Mapping[str, Any]) -> Program:
-        """What of a tape the outputs need."""
+        """The part of a tape that the outputs need."""
         traced = {name: value.index for name, value in outputs.items() if isinstance(value, Traced)}
         constants = {name: value for name, value in outputs.items() if not isinstance(value, Traced)}
         steps = {i: step for i, step in enumerate(tape.steps) if step is not None}
-        chosen = needed(steps, traced.values())
+        chosen = required_steps(steps, traced.values())
         known = frozenset(i for i in (*range(tape.inputs), *(i for i, _ in chosen)) if tape.nonnegative[i])
         return cls(tape.inputs, chosen, traced, constants, known)
 
     @functools.cached_property
-    def player(self) -> Player:
-        """NumPy, ready to play the program."""
-        return Player(self)
+    def player(self) -> Interpreter:
+        """The interpreter of the program."""
+        return Interpreter(self)
 
     @property
     def text(self) -> str:
-        """The program as text: a line for each step, and where the outputs are."""
+        """The program as text: a line for each step, then the outputs."""
         lines = [f"inputs {self.inputs}"]
         lines += [f"{i} {step.function.__name__} {step.operands}" for i, step in self.steps]
         return "\n".join([*lines, f"{dict(self.outputs)} {dict(self.constants)}"])
 
 
-def needed(steps: Mapping[int, Step], wanted: Iterable[int]) -> tuple[tuple[int, Step], ...]:
-    """The steps that some of them depend on, each just before it is first used: few values are then held at a time."""
+def required_steps(steps: Mapping[int, Step], wanted: Iterable[int]) -> tuple[tuple[int, Step], ...]:
+    """The steps that some of them depend on, each just before its first use, which keeps the live set small."""
     found: dict[int, None] = {}
     for last in wanted:
-        waiting = [last]
-        while waiting:
-            index = waiting[-1]
+        stack = [last]
+        while stack:
+            index = stack[-1]
             missing = [
                 int(o)
                 for kind, o in (steps[index].operands if index in steps else ())
                 if kind == "step" and int(o) in steps and int(o) not in found
             ]
             if missing and index not in found:
-                waiting += reversed(missing)
+                stack += reversed(missing)
             else:
-                waiting.pop()
+                stack.pop()
                 if index in steps:
                     found[index] = None
     return tuple((i, steps[i]) for i in found)
 
 
-class Player:
-    """NumPy, ready to play a program on blocks.
+class Interpreter:
+    """Runs a program on blocks of points with NumPy.
 
     Everything a step touches (inputs, constants, buffers, results) sits in one list of slots, and a
-    step is a function and the positions of its operands and its result: little is left for the
-    interpreter to do between two operations of NumPy, which is what threads have to queue for.
+    step is a function and the positions of its operands and its result: little is left for
+    Python to do between two operations of NumPy, where threads wait for the interpreter lock.
     """
 
     def __init__(self, program: Program) -> None:
@@ -90,11 +93,11 @@ class Player:
         #: By slot, whether a buffer is for a mask.
         self.buffers: dict[int, bool] = {}
         self._results: dict[str, int] = {}
-        self._calls = self._arrange()
+        self._calls = self._assign_slots()
         self._local = threading.local()
 
-    def _arrange(self) -> list[tuple[Any, list[int], int]]:
-        """Give every step a slot: its result's, or a buffer that is given up after its last use."""
+    def _assign_slots(self) -> list[tuple[Any, list[int], int]]:
+        """Assign a slot to every step: that of its result, or a buffer that is free again after its last use."""
         steps, outputs = self.program.steps, self.program.outputs
         last_use = {o: i for i, step in steps for kind, o in step.operands if kind == "step"}
         position: dict[Operand, int] = {i: i for i in range(self.program.inputs)}

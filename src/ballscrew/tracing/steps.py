@@ -20,6 +20,6 @@ class Step(NamedTuple):
 
 
 def choose(mask: Any, yes: Any, no: Any, out: NDArray[Any]) -> None:
-    """``where`` into a buffer of its own."""
+    """Write ``where(mask, yes, no)`` into a buffer."""
     np.copyto(out, no)
     np.copyto(out, yes, where=mask)

@@ -1,11 +1,11 @@
-"""A model, recorded once to be evaluated many times.
+"""The tape: a model recorded once, to be evaluated many times.
 
-The model is called with :class:`Traced` values instead of arrays. What they go through is written
-down: constants fold as they go, equal steps are shared, steps no output needs are dropped, and
+The model is called with :class:`Traced` values instead of arrays, and every operation on them is recorded:
+constants are folded, equal steps are shared, steps that no output needs are dropped, and
 products of powers (film, rolling force, contact size, elastic moment) are kept as exponents until
-somebody needs a sum, so that one exponential of a weighted sum of logarithms does the work of
-several powers, for both contacts at once. The equations do not know: they see an array. Powers of one
-base are added up, so that x²/x is x, also where x is zero.
+a sum needs them, so that one exponential of a weighted sum of logarithms does the work of
+several powers, for both contacts at once. The equations see an array. Powers of one base are added
+up, so that x²/x is x, also where x is zero.
 
 Inputs may come in groups (the axes of a grid). A product of powers then becomes one factor for each
 group, so that a factor can be computed once for each value of its axis.
@@ -13,16 +13,33 @@ group, so that a factor can be computed once for each value of its axis.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from ballscrew.engine.logarithms import goes_along, logarithm, sum_of_logarithms
-from ballscrew.engine.steps import Step, choose
+from ballscrew.tracing.logarithms import folds_into_exponent, logarithm, sum_of_logarithms
+from ballscrew.tracing.steps import Step, choose
 
 #: Whole powers up to this one are multiplied out.
 HIGHEST_WHOLE_POWER = 8
+
+
+class CannotRecordError(TypeError):
+    """Asked of a traced value: what only numbers or plain arrays can do."""
+
+
+class _NoAttributeError(CannotRecordError, AttributeError):
+    """Asked of a traced value: a method or an attribute of plain arrays."""
+
+
+def why_not_recorded(error: BaseException) -> CannotRecordError | None:
+    """What could not be recorded, where that is at the bottom of an error."""
+    below: BaseException | None = error
+    while below is not None and not isinstance(below, CannotRecordError):
+        below = below.__cause__ or below.__context__
+    return below
 
 
 class Tape:
@@ -40,7 +57,7 @@ class Tape:
         self._known: dict[Step, int] = {}
 
     def record(self, function: Any, *operands: Any, is_mask: bool = False) -> int:
-        """Write down a step, or find it if it is written down already."""
+        """Record a step, or find the equal one already recorded; return its index."""
         coded = tuple(("step", o.index) if isinstance(o, Traced) else ("constant", o) for o in operands)
         step = Step(function, coded, is_mask)
         if step not in self._known:
@@ -66,8 +83,8 @@ class Tape:
             return float(function(*operands))
         return self.value(self.record(function, *operands))
 
-    def is_known(self, function: Any, *operands: Any) -> bool:
-        """Whether a step is written down already."""
+    def is_recorded(self, function: Any, *operands: Any) -> bool:
+        """Return whether a step is recorded already."""
         coded = tuple(("step", o.index) if isinstance(o, Traced) else ("constant", o) for o in operands)
         return Step(function, coded, False) in self._known
 
@@ -76,7 +93,7 @@ class Tape:
         return Traced(self, {index: 1.0}, 1.0)
 
     def is_mask(self, index: int) -> bool:
-        """Whether a step yields truth values."""
+        """Return whether a step yields truth values."""
         step = self.steps[index]
         return step is not None and step.is_mask
 
@@ -85,7 +102,7 @@ _MASKS = {
     np.equal, np.not_equal, np.less, np.less_equal, np.greater, np.greater_equal,
     np.isfinite, np.isnan, np.isinf, np.logical_and, np.logical_or, np.logical_xor, np.logical_not,
 }  # fmt: skip
-#: What makes positive numbers of positive numbers.
+#: Functions whose result is not negative where no operand is.
 _KEEP_SIGN = {np.add, np.multiply, np.divide, np.maximum, np.minimum, np.power, choose}
 _TRUTH = {np.bitwise_and, np.bitwise_or, np.bitwise_xor, np.invert}
 
@@ -125,19 +142,19 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **kwargs: Any) -> Any:
         """Products, quotients and constant powers stay exponents; all else becomes a step."""
         if method != "__call__" or kwargs or ufunc.nout != 1:
-            return NotImplemented
+            raise CannotRecordError(f"numpy.{ufunc.__name__} cannot be recorded as it is called here")
         if ufunc is np.positive:
             return self
         if ufunc is np.negative:
-            return _times(self, -1.0, 1.0)
+            return _multiply(self, -1.0, 1.0)
         if ufunc is np.square:
-            return self._raised(2.0)
+            return self._to_power(2.0)
         if ufunc is np.sqrt:
-            return self._raised(0.5)
+            return self._to_power(0.5)
         if ufunc is np.multiply and not any(map(_is_mask, inputs)):
-            return _times(inputs[0], inputs[1], 1.0)
+            return _multiply(inputs[0], inputs[1], 1.0)
         if ufunc is np.divide and not any(map(_is_mask, inputs)):
-            return _times(inputs[0], inputs[1], -1.0)
+            return _multiply(inputs[0], inputs[1], -1.0)
         if ufunc in (np.add, np.subtract) and _is_nothing(inputs[1]) and not _is_mask(inputs[0]):
             return inputs[0]
         if ufunc is np.add and _is_nothing(inputs[0]) and not _is_mask(inputs[1]):
@@ -151,6 +168,8 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
             and self.scale != 0
         ):
             inputs = (Traced(self.tape, self.powers, 1.0, self.zero), inputs[1])  # the scale does not matter
+        if not _takes_floats(ufunc, tuple(map(_is_mask, inputs))):
+            raise CannotRecordError(f"numpy.{ufunc.__name__} takes no real numbers")
         is_mask = ufunc in _MASKS or (ufunc in _TRUTH and all(map(_is_mask, inputs)))
         return self.tape.value(self.tape.record(ufunc, *map(_constant, inputs), is_mask=is_mask))
 
@@ -159,13 +178,13 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
     ) -> Any:  # fmt: skip
         """``where`` becomes a step; ``where(mask, 0.0, product)`` keeps the scale of the product."""
         if function is not np.where or len(args) != 3 or kwargs:
-            return NotImplemented
+            raise CannotRecordError(f"numpy.{function.__name__} cannot be recorded")
         mask, yes, no = args
         if not isinstance(mask, Traced):
             return yes if mask else no
         is_nothing = not isinstance(yes, Traced) and yes == 0
         if is_nothing and isinstance(no, Traced) and not _is_mask(no) and np.isfinite(no.scale):
-            no = no.settled
+            no = no.without_mask
             return Traced(self.tape, no.powers, no.scale, mask.index)
         choice = self.tape.record(choose, mask, _constant(yes), _constant(no), is_mask=_is_mask(yes) and _is_mask(no))
         return self.tape.value(choice)
@@ -173,32 +192,38 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
     def __getitem__(self, key: tuple[()]) -> Traced:
         """``x[()]``, which turns a NumPy array without axes into a number, is the value itself."""
         if key != ():
-            raise TypeError("a traced value has no axes to index")
+            raise CannotRecordError("a traced value has no axes to index")
         return self
 
-    def __array__(self, *_: Any, **__: Any) -> Any:
+    def __getattr__(self, name: str) -> Any:
+        """Operators and functions of NumPy are recorded, methods of arrays are not."""
+        raise _NoAttributeError(f"a traced value has no attribute {name!r}")
+
+    def _no_number(self, *_: Any, **__: Any) -> Any:
         """A traced value has no numbers yet; a law that needs them is evaluated on plain arrays."""
-        raise TypeError("a traced value cannot become an array")
+        raise CannotRecordError("a traced value cannot become a number or an array")
+
+    __array__ = __float__ = __int__ = __complex__ = __index__ = __len__ = __iter__ = __round__ = _no_number
 
     def __bool__(self) -> bool:
         """A traced value has no truth: what depends on it must be said with ``where``."""
-        raise TypeError("a traced value has no truth value; use where()")
+        raise CannotRecordError("a traced value has no truth value; use where()")
 
     @property
-    def settled(self) -> Traced:
-        """The same value, with nothing left to be said about where it is zero."""
+    def without_mask(self) -> Traced:
+        """The same value with its zero mask recorded as a step."""
         return self if self.zero is None else self.tape.value(self.index)
 
-    def tells_its_sign(self) -> bool:
-        """Whether the product is negative wherever a factor is, so that a broken power can be taken of each factor.
+    def has_definite_sign(self) -> bool:
+        """Return whether the product is negative wherever a factor is, so that a fractional power can be taken of each.
 
         Not for two factors of unknown sign, whose product may be positive all the same, nor for an even power.
         """
         unknown = [p for i, p in self.powers.items() if not self.tape.nonnegative[i] and p == int(p)]
         return len(unknown) < 2 and all(p % 2 == 1 for p in unknown)
 
-    def _with_sizes(self) -> Traced:
-        """The same value, with even powers as those of sizes, and several factors of unknown sign as one."""
+    def _with_absolute_values(self) -> Traced:
+        """The same value, with even powers as those of absolute values, and factors of unknown sign multiplied."""
         tape, nonnegative = self.tape, self.tape.nonnegative
         powers: dict[int, float] = {}
         for i, p in self.powers.items():
@@ -211,12 +236,12 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
             powers[together] = powers.get(together, 0.0) + 1.0
         return Traced(tape, powers, self.scale, self.zero)
 
-    def _raised(self, exponent: float) -> Traced:
-        """A power; what folding exponents would change (see :func:`_folds`) is a step of its own."""
+    def _to_power(self, exponent: float) -> Traced:
+        """A power; recorded as a step where folding of exponents would change it (see :func:`_folds`)."""
         if self.zero is not None and not (exponent > 0 and np.isfinite(self.scale) and self.scale > 0):
-            return self.settled._raised(exponent)
-        if np.isfinite(exponent) and exponent != int(exponent) and not self.tells_its_sign():
-            return self._with_sizes()._raised(exponent)
+            return self.without_mask._to_power(exponent)
+        if np.isfinite(exponent) and exponent != int(exponent) and not self.has_definite_sign():
+            return self._with_absolute_values()._to_power(exponent)
         folds = all(_folds(p, exponent) for p in self.powers.values())
         if not folds or (self.scale < 0 and exponent != int(exponent)):
             return self.tape.value(self.tape.record(np.power, self, exponent))
@@ -244,7 +269,7 @@ def _product(tape: Tape, powers: Sequence[tuple[int, float]]) -> int:
     roots = broken if all(abs(p) == 0.5 for _, p in broken) else []
     result: int | None = None
     if broken and not roots:
-        broken = [(i, p) for i, p in powers if p != int(p) or goes_along(tape, i, p)]
+        broken = [(i, p) for i, p in powers if p != int(p) or folds_into_exponent(tape, i, p)]
         powers = [(i, p) for i, p in powers if (i, p) not in broken]
         result = tape.record(np.exp, sum_of_logarithms(tape, broken))
     factors = [(i, p) for i, p in powers if p == int(p) for _ in range(int(abs(p)))]
@@ -265,13 +290,13 @@ def _power(base: Any, exponent: Any) -> Traced:
     A base that varies too is taken to be positive or zero, as if no exponent were whole.
     """
     if not isinstance(exponent, Traced):
-        return base._raised(float(exponent))
+        return base._to_power(float(exponent))
     tape = exponent.tape
     if not isinstance(base, Traced):
         if not _constant(base) > 0:
             return tape.value(tape.record(np.power, _constant(base), exponent))
         of_base: Any = float(np.log(_constant(base)))
-    elif base.scale > 0 and base.tells_its_sign():
+    elif base.scale > 0 and base.has_definite_sign():
         of_base = sum_of_logarithms(tape, sorted(base.powers.items(), reverse=True), base.scale)
         if base.zero is not None:
             of_base = tape.step(choose, tape.value(base.zero), -np.inf, of_base)
@@ -299,6 +324,17 @@ def _folds(power: float, exponent: float) -> bool:
     return whole[0] or total != int(total)
 
 
+@functools.cache
+def _takes_floats(ufunc: np.ufunc, masks: tuple[bool, ...]) -> bool:
+    """Whether a function takes real numbers, and truth values where it is given masks."""
+    try:
+        with np.errstate(all="ignore"):
+            ufunc(*(True if mask else 0.5 for mask in masks))
+    except TypeError:
+        return False
+    return True
+
+
 def _is_nothing(value: Any) -> bool:
     """Whether a constant is the number zero: what a law without an effect adds."""
     return isinstance(value, float | int | np.floating) and not isinstance(value, bool) and value == 0
@@ -316,19 +352,22 @@ def _constant(value: Any) -> Any:
     if isinstance(value, Traced):
         return value
     if np.ndim(value):
-        raise TypeError("a traced value meets an array of fixed size")
-    return bool(value) if isinstance(value, bool | np.bool_) else float(value)
+        raise CannotRecordError("a traced value meets an array of fixed size")
+    try:
+        return bool(value) if isinstance(value, bool | np.bool_) else float(value)
+    except (TypeError, ValueError):
+        raise CannotRecordError(f"a traced value meets a {type(value).__name__}") from None
 
 
-def _times(left: Any, right: Any, sign: float) -> Traced:
+def _multiply(left: Any, right: Any, sign: float) -> Traced:
     """``left * right**sign``, where at least one side is traced."""
     if not isinstance(left, Traced):
-        right = right if sign > 0 else right.settled
+        right = right if sign > 0 else right.without_mask
         scale = float(_constant(left)) * right.scale**sign
         return Traced(right.tape, {i: sign * p for i, p in right.powers.items()}, scale, right.zero)
     if not isinstance(right, Traced):
         return Traced(left.tape, left.powers, left.scale * np.float64(_constant(right)) ** sign, left.zero)
-    left, right = left.settled, right.settled
+    left, right = left.without_mask, right.without_mask
     powers = dict(left.powers)
     for index, power in right.powers.items():
         powers[index] = powers.get(index, 0.0) + sign * power

@@ -1,4 +1,4 @@
-"""What a band is made of: samples evaluated, the factors of other laws, what follows from a torque, and faults."""
+"""Parts of a band: evaluated samples, the factors of other laws, outputs derived from a torque, and faults."""
 
 from __future__ import annotations
 
@@ -9,14 +9,18 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses.comparison import Candidate
-from ballscrew.analyses.distributions import Distribution, distribution_fault, within
-from ballscrew.analyses.engines import Engine, engine_faults
-from ballscrew.analyses.outputs import OPERATION, known_outputs
-from ballscrew.analyses.plan import Subject
-from ballscrew.analyses.sampling import JointNormal, Sampler, evenly_spread
 from ballscrew.equations import transmission
-from ballscrew.faults import Fault, fault_of, nearest
+from ballscrew.errors import (
+    Fault,
+    fault_of,
+    nearest,
+)
+from ballscrew.evaluation.comparison import Candidate
+from ballscrew.evaluation.engines import Engine, engine_faults
+from ballscrew.evaluation.outputs import OPERATION, known_outputs
+from ballscrew.evaluation.plan import Configuration
+from ballscrew.uncertainty.distributions import Distribution, distribution_fault, within
+from ballscrew.uncertainty.sampling import JointNormal, Sampler, sobol_sequence
 
 #: How the outputs begin that say for which reason a sample is not valid.
 VALIDITY = "validity_"
@@ -25,8 +29,8 @@ _MOST_SAMPLES = 2**30
 Values = NDArray[np.float64]
 
 
-class Drawn(NamedTuple):
-    """What the engine computes of each sample, and what the laws make of it."""
+class Sample(NamedTuple):
+    """Outputs of the engine for each sample, and the factor of the laws drawn."""
 
     screw_torque: Values
     ideal_torque: Values
@@ -41,19 +45,19 @@ class Drawn(NamedTuple):
         return self.screw_torque * self.factor
 
 
-def _efficiency(drawn: Drawn) -> Values:
+def _efficiency(drawn: Sample) -> Values:
     still = drawn.ideal_torque + drawn.torque == 0
     return np.where(still, 0.0, transmission.efficiency(drawn.ideal_torque, np.where(still, 1.0, drawn.torque)))
 
 
-def _back_driving_efficiency(drawn: Drawn) -> Values:
+def _back_driving_efficiency(drawn: Sample) -> Values:
     eta = _efficiency(drawn)
     none = eta == 0
     return np.where(none, -np.inf, transmission.back_driving_efficiency(np.where(none, 1.0, eta)))
 
 
 #: What has a band: all of it follows from the friction torque.
-FOLLOWING: Mapping[str, Callable[[Drawn], Values]] = {
+DERIVED_OUTPUTS: Mapping[str, Callable[[Sample], Values]] = {
     "screw_torque": lambda drawn: drawn.torque,
     "drive_torque": lambda drawn: drawn.ideal_torque + drawn.torque,
     "holding_torque": lambda drawn: transmission.holding_torque(drawn.ideal_torque, drawn.torque),
@@ -62,7 +66,7 @@ FOLLOWING: Mapping[str, Callable[[Drawn], Values]] = {
     "back_driving_efficiency": _back_driving_efficiency,
 }
 #: The outputs that may have a band.
-BANDED = tuple(FOLLOWING)
+BAND_OUTPUTS = tuple(DERIVED_OUTPUTS)
 #: Those that are never negative: their spread is that of their logarithm.
 POSITIVE = frozenset({"screw_torque", "drive_torque", "friction_power"})
 
@@ -76,13 +80,13 @@ class Alternative:
     shift: float
 
 
-def computed_for(outputs: Sequence[str]) -> tuple[str, ...]:
-    """What the engine computes of each sample, besides validity."""
+def evaluated_outputs(outputs: Sequence[str]) -> tuple[str, ...]:
+    """Outputs that the engine evaluates for each sample, besides validity."""
     return ("screw_torque", "ideal_torque", *(["friction_power"] if "friction_power" in outputs else []))
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Work:
+class BandEvaluator:
     """Samples to evaluate, and the factors of the laws that may be drawn."""
 
     sampler: Sampler
@@ -94,14 +98,14 @@ class Work:
     @classmethod
     def of(
         cls,
-        subject: Subject,
+        subject: Configuration,
         uncertain: Mapping[str, Distribution],
         joint: JointNormal | None,
         point: Mapping[str, Any],
         alternatives: Sequence[Candidate],
         engine: Engine | None,
         computed: Sequence[str],
-    ) -> Work:
+    ) -> BandEvaluator:
         """Evaluate the model and the alternatives at the central values."""
         known = subject.inputs
         inputs = {name: within(distribution, known[name][1].info) for name, distribution in uncertain.items()}
@@ -126,7 +130,7 @@ class Work:
 
     @property
     def inputs(self) -> int:
-        """How many uncertain inputs there are."""
+        """Number of uncertain inputs."""
         return len(self.sampler.names)
 
     @property
@@ -134,10 +138,10 @@ class Work:
         """Of a sample: one for each input, and one for each slot."""
         return self.inputs + len(self.ratios)
 
-    def evaluated(self, shares: Values, done: Callable[[int, int], None] | None) -> dict[str, NDArray[Any]]:
+    def evaluate(self, shares: Values, done: Callable[[int, int], None] | None) -> dict[str, NDArray[Any]]:
         """The outputs of each sample; where no input is uncertain, all alike."""
         if self.inputs:
-            return self.sampler.evaluated(shares[: self.inputs], done)
+            return self.sampler.evaluate(shares[: self.inputs], done)
         wanted = known_outputs(self.sampler.subject.nut)
         central = {name: np.asarray(wanted[name].read(self.central)) for name in self.sampler.outputs}
         shape = np.shape(self.central.screw_torque)
@@ -146,12 +150,12 @@ class Work:
             for name, value in central.items()
         }
 
-    def laws_at(self, place: int) -> list[Values]:
+    def law_factors_at(self, place: int) -> list[Values]:
         """By slot the factors of the torque of the laws that are valid at one of the points; 1 is the model's own."""
         found = [np.array([np.ravel(ratio)[place] for _, ratio in laws]) for laws in self.ratios.values()]
         return [np.array([1.0, *ratios[np.isfinite(ratios)]]) for ratios in found]
 
-    def shifts_at(self, place: int) -> dict[str, list[Alternative]]:
+    def alternatives_at(self, place: int) -> dict[str, list[Alternative]]:
         """The laws that are valid at one of the points, by slot."""
         found = {
             slot: [
@@ -164,12 +168,12 @@ class Work:
         return {slot: laws for slot, laws in found.items() if laws}
 
 
-def shares_of(dimensions: int, count: int, seed: int) -> Values:
+def sample_probabilities(dimensions: int, count: int, seed: int) -> Values:
     """Shares of shape (dimensions, samples), evenly spread; none where nothing is drawn."""
-    return evenly_spread(dimensions, count, seed) if dimensions else np.empty((0, count))
+    return sobol_sequence(dimensions, count, seed) if dimensions else np.empty((0, count))
 
 
-def factor_of(laws: Sequence[Values], shares: Values) -> Values:
+def sample_law_factors(laws: Sequence[Values], shares: Values) -> Values:
     """The factor of the torque for each sample: one law of each slot, all equally likely."""
     factor = np.ones(shares.shape[1])
     for ratios, row in zip(laws, shares, strict=True):
@@ -181,11 +185,11 @@ def factor_of(laws: Sequence[Values], shares: Values) -> Values:
 
 
 def faults_of_options(outputs: Sequence[str], count: Any, seed: Any, level: Any, engine: Any) -> list[Fault]:
-    """What is wrong with the options of a band."""
+    """Faults of the options of a band."""
     faults = [
-        Fault("band.outputs", "has no band", str(name), nearest(str(name), BANDED))
+        Fault("band.outputs", "has no band", str(name), nearest(str(name), BAND_OUTPUTS))
         for name in outputs
-        if name not in BANDED
+        if name not in BAND_OUTPUTS
     ]
     if isinstance(count, bool) or not isinstance(count, int | np.integer) or not 2 <= count <= _MOST_SAMPLES:
         faults.append(Fault("band.samples", "must be a whole number from 2 to 2^30", str(count), "such as 2**14"))
@@ -205,8 +209,8 @@ def faults_of_point(point: Mapping[str, Any]) -> list[Fault]:
     ]
 
 
-def faults_of_inputs(subject: Subject, uncertain: Mapping[str, Any], joint: JointNormal | None) -> list[Fault]:
-    """What is wrong with the uncertain inputs."""
+def faults_of_inputs(subject: Configuration, uncertain: Mapping[str, Any], joint: JointNormal | None) -> list[Fault]:
+    """Faults of the uncertain inputs."""
     known, faults = subject.inputs, list[Fault]()
     for name, distribution in uncertain.items():
         where = f"band.uncertain.{name}"
@@ -214,7 +218,7 @@ def faults_of_inputs(subject: Subject, uncertain: Mapping[str, Any], joint: Join
             faults.append(fault)
         else:
             part, quantity = known[name]
-            ends = (fault_of(part, quantity, float(end)) for end in distribution.telling)
+            ends = (fault_of(part, quantity, float(end)) for end in distribution.characteristic_values)
             faults += list(dict.fromkeys(fault for fault in ends if fault is not None))
     for name in () if joint is None else joint.names:
         if name in uncertain:

@@ -12,33 +12,35 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.analyses.band_work import (
-    FOLLOWING,
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.screw import BallScrew
+from ballscrew.errors import Fault, nearest, raise_if_any
+from ballscrew.evaluation.comparison import Candidate
+from ballscrew.evaluation.engines import Engine
+from ballscrew.evaluation.plan import Configuration
+from ballscrew.friction.model import (
+    FrictionModel,
+)
+from ballscrew.friction.nut_parts import NutParts
+from ballscrew.uncertainty.band_evaluation import (
+    DERIVED_OUTPUTS,
     POSITIVE,
     VALIDITY,
     Alternative,
-    Drawn,
+    BandEvaluator,
+    Sample,
     Values,
-    Work,
-    computed_for,
-    factor_of,
+    evaluated_outputs,
     faults_of_inputs,
     faults_of_options,
     faults_of_point,
-    shares_of,
+    sample_law_factors,
+    sample_probabilities,
 )
-from ballscrew.analyses.comparison import Candidate
-from ballscrew.analyses.distributions import Distribution
-from ballscrew.analyses.engines import Engine
-from ballscrew.analyses.nut_parts import NutParts
-from ballscrew.analyses.plan import Subject
-from ballscrew.analyses.sampling import JointNormal
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.faults import Fault, nearest, raise_if_any
-from ballscrew.model import FrictionModel
+from ballscrew.uncertainty.distributions import Distribution
+from ballscrew.uncertainty.sampling import JointNormal
 
-#: How many samples are taken where nothing is said: of a screw, and of a whole nut, whose every ball is solved for.
+#: Default number of samples: for a screw, and for a whole nut, every ball of which is solved for.
 SAMPLES, NUT_SAMPLES = 2**14, 2**10
 
 
@@ -69,7 +71,7 @@ class OutputBand:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Band:
-    """What :func:`band` finds, by output."""
+    """Result of :func:`band`, by output."""
 
     level: float
     count: int
@@ -122,9 +124,9 @@ def band(
     keep_samples: bool = False,
     done: Callable[[int, int], None] | None = None,
 ) -> Band:
-    """Where outputs lie if inputs are uncertain and other laws could be the right ones.
+    """Intervals of outputs for uncertain inputs and alternative laws.
 
-    ``uncertain`` names inputs as :func:`~ballscrew.analyses.sweep.sweep` does; they are independent, but for those of
+    ``uncertain`` names inputs as :func:`~ballscrew.sweeps.sweep.sweep` does; they are independent, but for those of
     ``joint``. Each distribution is cut at the bounds of its quantity. The load in N and the speed in rad/s are the
     central ones; either may be among the uncertain.
 
@@ -132,16 +134,17 @@ def band(
     has as good a chance as the model's own law of the slot, slots are independent, and a law moves the torque by the
     same factor everywhere. Without alternatives the band is that of the inputs alone.
 
-    ``outputs`` are of :data:`~ballscrew.analyses.band_work.BANDED`: friction torque and what follows from it.
-    ``samples`` is 2^14, and 2^10 for a whole ``nut`` where nothing is said; a power of two is spread the most evenly.
+    ``outputs`` are of :data:`~ballscrew.uncertainty.band_evaluation.BAND_OUTPUTS`: the friction torque and quantities
+    that follow from it.
+    ``samples`` is 2^14, and 2^10 for a whole ``nut`` by default; a power of two is spread the most evenly.
     The same seed gives the same band.
 
-    Raises :class:`~ballscrew.faults.InputError` for unknown names, numbers out of bounds and an engine that cannot
+    Raises :class:`~ballscrew.errors.InputError` for unknown names, numbers out of bounds and an engine that cannot
     be had.
     """
     count = samples if samples is not None else SAMPLES if nut is None else NUT_SAMPLES
     outputs = (outputs,) if isinstance(outputs, str) else tuple(dict.fromkeys(outputs))
-    subject = Subject(model, screw, lubricant, nut)
+    subject = Configuration(model, screw, lubricant, nut)
     point = {"axial_load": axial_load, "screw_speed": screw_speed}
     raise_if_any(
         [
@@ -150,29 +153,36 @@ def band(
             *faults_of_inputs(subject, uncertain, joint),
         ]
     )
-    work = Work.of(subject, uncertain, joint, point, alternatives, engine, computed_for(outputs))
-    shares = shares_of(work.dimensions, count, seed)
-    found = work.evaluated(shares, done)
-    factor = factor_of(work.laws_at(0), shares[work.inputs :])
-    both = Drawn(**{name: found[name] for name in computed_for(outputs)}, factor=factor)
-    centre = Drawn(**{name: np.full(1, float(getattr(work.central, name))) for name in computed_for(outputs)})
+    evaluator = BandEvaluator.of(subject, uncertain, joint, point, alternatives, engine, evaluated_outputs(outputs))
+    shares = sample_probabilities(evaluator.dimensions, count, seed)
+    found = evaluator.evaluate(shares, done)
+    factor = sample_law_factors(evaluator.law_factors_at(0), shares[evaluator.inputs :])
+    both = Sample(**{name: found[name] for name in evaluated_outputs(outputs)}, factor=factor)
+    centre = Sample(
+        **{name: np.full(1, float(getattr(evaluator.central, name))) for name in evaluated_outputs(outputs)}
+    )
     parameters = both._replace(factor=np.ones(1))
     model_form = centre._replace(factor=factor)
-    values = {name: float(np.asarray(getattr(work.central, name))) for name in outputs}
+    values = {name: float(np.asarray(getattr(evaluator.central, name))) for name in outputs}
     bands = {
-        name: _band_of(name, values[name], [FOLLOWING[name](drawn) for drawn in (both, parameters, model_form)], level)
+        name: _band_of(
+            name, values[name], [DERIVED_OUTPUTS[name](drawn) for drawn in (both, parameters, model_form)], level
+        )
         for name in outputs
     }
     numbers = np.isfinite(both.torque)
-    locks = (both.ideal_torque > 0) & (FOLLOWING["holding_torque"](both) <= 0)
-    reasons = {name.removeprefix(VALIDITY): 1 - float(np.mean(found[name])) for name in work.masks}
-    kept = {**work.sampler.drawn(shares[: work.inputs]), **{name: FOLLOWING[name](both) for name in outputs}}
+    locks = (both.ideal_torque > 0) & (DERIVED_OUTPUTS["holding_torque"](both) <= 0)
+    reasons = {name.removeprefix(VALIDITY): 1 - float(np.mean(found[name])) for name in evaluator.masks}
+    kept = {
+        **evaluator.sampler.inputs_at(shares[: evaluator.inputs]),
+        **{name: DERIVED_OUTPUTS[name](both) for name in outputs},
+    }
     return Band(
         level=level,
         count=count,
         seed=seed,
         outputs=bands,
-        alternatives=work.shifts_at(0),
+        alternatives=evaluator.alternatives_at(0),
         self_locking_share=float(np.mean(locks[numbers])) if np.any(numbers) else float("nan"),
         invalid_share=1 - float(np.mean(found["valid"])),
         reasons={reason: share for reason, share in reasons.items() if share > 0},
@@ -202,26 +212,28 @@ def band_along(
     """The friction torque with its bands at points ``along`` the load ("axial_load") or the speed ("screw_speed").
 
     As :func:`band`, with the same samples at all points; what it goes along is exact there. ``samples`` is an eighth
-    of that of :func:`band` where nothing is said.
+    of that of :func:`band` by default.
 
-    Raises :class:`~ballscrew.faults.InputError` as :func:`band` does.
+    Raises :class:`~ballscrew.errors.InputError` as :func:`band` does.
     """
     count = samples if samples is not None else (SAMPLES if nut is None else NUT_SAMPLES) // 8
-    subject = Subject(model, screw, lubricant, nut)
+    subject = Configuration(model, screw, lubricant, nut)
     uncertain = {name: distribution for name, distribution in uncertain.items() if name != along}
     point: dict[str, Any] = {"axial_load": axial_load, "screw_speed": screw_speed}
     faults = [] if along in point else [Fault("band.along", "unknown", along, nearest(along, point))]
     faults += faults_of_options((), count, seed, level, engine) + faults_of_point(point)
     raise_if_any([*faults, *faults_of_inputs(subject, uncertain, joint)])
     point[along] = np.asarray(points, dtype=float)
-    work = Work.of(subject, uncertain, joint, point, alternatives, engine, ("screw_torque",))
-    shares = shares_of(work.dimensions, count, seed)
-    torque = work.evaluated(shares, done)["screw_torque"].reshape(len(points), -1)
-    factors = np.array([factor_of(work.laws_at(i), shares[work.inputs :]) for i in range(len(points))])
+    evaluator = BandEvaluator.of(subject, uncertain, joint, point, alternatives, engine, ("screw_torque",))
+    shares = sample_probabilities(evaluator.dimensions, count, seed)
+    torque = evaluator.evaluate(shares, done)["screw_torque"].reshape(len(points), -1)
+    factors = np.array(
+        [sample_law_factors(evaluator.law_factors_at(i), shares[evaluator.inputs :]) for i in range(len(points))]
+    )
     below, above = _tails(level)
     every = np.array([_quantiles(row, (below, 0.5, above)) for row in torque * factors]).T
     alone = np.array([_quantiles(row, (below, above)) for row in torque]).T
-    value = np.broadcast_to(np.asarray(work.central.screw_torque, dtype=float), (len(points),))
+    value = np.broadcast_to(np.asarray(evaluator.central.screw_torque, dtype=float), (len(points),))
     return BandCurve(along, point[along], value, every[1], (every[0], every[2]), (alone[0], alone[1]), count)
 
 

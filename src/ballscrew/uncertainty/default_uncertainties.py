@@ -1,4 +1,4 @@
-"""How far off the numbers are that users rarely know: ``data/uncertainties.toml``, about the values of a case."""
+"""Default uncertainties of inputs that are rarely known: ``data/uncertainties.toml``, about the values of a case."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from collections.abc import Collection, Mapping
 from importlib import resources
 from typing import Any
 
-from ballscrew.analyses.distributions import Distribution, LogNormal, Normal, Uniform, within
-from ballscrew.analyses.outputs import inputs_of
-from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew
-from ballscrew.model import FrictionModel
+from ballscrew.components.traits import traits_of
+from ballscrew.evaluation.outputs import inputs_of
+from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import Info
+from ballscrew.uncertainty.distributions import Distribution, LogNormal, Normal, Uniform, within
 
 #: Half the width of the interval that holds 95 % of a normal distribution, in standard deviations.
 NORMAL_95 = 1.959963984540054
@@ -28,8 +28,8 @@ _OF_GRADE = "viscosity_of_grade"
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class KnownUncertainty:
-    """How far off a number may be, in one of four ways, with its source and the reason in a sentence.
+class DefaultUncertainty:
+    """Default uncertainty of an input, in one of four forms, with its source and the reason in a sentence.
 
     ``half_width``, ``share``, ``limits`` and ``factor`` are as the head of the file says.
     """
@@ -61,30 +61,30 @@ class KnownUncertainty:
 
 
 @functools.cache
-def known_uncertainties() -> Mapping[str, KnownUncertainty]:
+def default_uncertainties() -> Mapping[str, DefaultUncertainty]:
     """Those shipped, by the name of the input."""
     text = resources.files("ballscrew").joinpath("data/uncertainties.toml").read_text(encoding="utf-8")
     tables: dict[str, dict[str, Any]] = tomllib.loads(text)
-    return {name: KnownUncertainty(name=name, **table) for name, table in tables.items()}
+    return {name: DefaultUncertainty(name=name, **table) for name, table in tables.items()}
 
 
-def usual_uncertainties(
+def default_distributions(
     model: FrictionModel,
     screw: BallScrew,
     lubricant: Lubricant,
     *,
     given: Collection[str] = (),
     exact: Collection[str] = (),
-) -> Mapping[str, tuple[Distribution, KnownUncertainty]]:
+) -> Mapping[str, tuple[Distribution, DefaultUncertainty]]:
     """The usual distributions of inputs, about the values they have, and where they are from.
 
     Left out are those whose distribution is ``given`` and those that are known exactly. Of an oil made from a grade
     the temperature is uncertain and the viscosity follows, or, where the temperature is exact, the viscosity is by
     what a grade leaves open: never both, as one would undo the other.
     """
-    inputs, known = inputs_of(model, screw, lubricant), known_uncertainties()
+    inputs, known = inputs_of(model, screw, lubricant), default_uncertainties()
     parts = {"screw": screw, "lubricant": lubricant, "model": model}
-    found: dict[str, tuple[Distribution, KnownUncertainty]] = {}
+    found: dict[str, tuple[Distribution, DefaultUncertainty]] = {}
     for name in known:
         if name not in inputs or name in given or name in exact or not _counts(name, model, lubricant, exact):
             continue
@@ -100,9 +100,9 @@ def usual_uncertainties(
 
 
 def _counts(name: str, model: FrictionModel, lubricant: Lubricant, exact: Collection[str]) -> bool:
-    """Whether an input has a part in the result."""
+    """Test whether an input affects the result."""
     if name == "ball_to_ball_force":
-        return not isinstance(model.ball_force, ProportionalBallForce)
+        return traits_of(model.ball_force).uses_imposed_force
     if name == "friction.full_film_friction_coefficient":
         return model.full_film is None
     if name == "viscosity" and lubricant.grade is not None:

@@ -13,7 +13,8 @@ from collections.abc import Mapping, Sequence
 from typing import TypeAlias, get_args
 
 from ballscrew._arrays import namespace
-from ballscrew.faults import Fault, as_float, is_concrete, nearest, raise_if_any
+from ballscrew._deprecated import RenamedAttribute
+from ballscrew.errors import Fault, as_float, is_concrete, nearest, raise_if_any
 from ballscrew.quantities import Array, Info, Quantity
 
 #: Wichura 1988, algorithm AS 241, PPND16: numerator and denominator by rising powers.
@@ -59,7 +60,7 @@ UNREACHED = 2.0**-64
 class Uniform:
     """Every value between two ends is as likely as any other.
 
-    Raises :class:`~ballscrew.faults.InputError` unless low < high.
+    Raises :class:`~ballscrew.errors.InputError` unless low < high.
     """
 
     low: float
@@ -72,12 +73,15 @@ class Uniform:
         """``low + (high − low) u`` for u in (0, 1), in the shape of u."""
         return self.low + (self.high - self.low) * u
 
+    telling = RenamedAttribute("telling", "characteristic_values")
+    words = RenamedAttribute("words", "describe")
+
     @property
-    def telling(self) -> tuple[float, ...]:
+    def characteristic_values(self) -> tuple[float, ...]:
         """The ends: what any bound must leave room for."""
         return self.low, self.high
 
-    def words(self, unit: str) -> str:
+    def describe(self, unit: str) -> str:
         """The distribution as a phrase."""
         return f"uniform from {_shown(self.low, unit)} to {_shown(self.high, unit)}"
 
@@ -87,7 +91,7 @@ class Normal:
     """The normal distribution by its mean and standard deviation, which may be cut off at ends.
 
     Without ends its tails go beyond the bounds of an input, where values are invalid; see :func:`within`.
-    Raises :class:`~ballscrew.faults.InputError` unless the deviation is positive and the mean between the ends.
+    Raises :class:`~ballscrew.errors.InputError` unless the deviation is positive and the mean between the ends.
     """
 
     mean: float
@@ -117,17 +121,20 @@ class Normal:
         return _not_beyond(self.mean + self.deviation * standard_normal_quantile(share), self.low, self.high)
 
     def in_deviations(self, *values: float) -> tuple[float, ...]:
-        """How many standard deviations values lie above the mean."""
+        """Standard scores of values: deviations from the mean in standard deviations."""
         return tuple((value - self.mean) / self.deviation for value in values)
 
+    telling = RenamedAttribute("telling", "characteristic_values")
+    words = RenamedAttribute("words", "describe")
+
     @property
-    def telling(self) -> tuple[float, ...]:
+    def characteristic_values(self) -> tuple[float, ...]:
         """The mean: what any bound must leave room for."""
         return (self.mean,)
 
-    def words(self, unit: str) -> str:
+    def describe(self, unit: str) -> str:
         """The distribution as a phrase."""
-        cut = _ends_in_words(self.low, self.high, unit)
+        cut = _describe_ends(self.low, self.high, unit)
         return f"normal, mean {_shown(self.mean, unit)}, standard deviation {_shown(self.deviation, unit)}{cut}"
 
 
@@ -136,7 +143,7 @@ class LogNormal:
     """The logarithm is normal: about two thirds of the values lie between median/factor and median·factor.
 
     The factor is exp of the standard deviation of the logarithm. It may be cut off at ends; the median is that
-    without them. Raises :class:`~ballscrew.faults.InputError` unless the median is positive and between the ends,
+    without them. Raises :class:`~ballscrew.errors.InputError` unless the median is positive and between the ends,
     and the factor above 1.
     """
 
@@ -164,7 +171,7 @@ class LogNormal:
         return _not_beyond(values, self.low, self.high)
 
     def in_deviations(self, *values: float) -> tuple[float, ...]:
-        """How many standard deviations the logarithms of values lie above that of the median."""
+        """Standard scores of the logarithms of values."""
         width = math.log(self.factor)
         return tuple(-math.inf if value <= 0 else self._log_ratio(value) / width for value in values)
 
@@ -174,14 +181,17 @@ class LogNormal:
             return math.log(ratio)
         return math.log(value) - math.log(self.median)  # the least number there is, over a large one
 
+    telling = RenamedAttribute("telling", "characteristic_values")
+    words = RenamedAttribute("words", "describe")
+
     @property
-    def telling(self) -> tuple[float, ...]:
+    def characteristic_values(self) -> tuple[float, ...]:
         """The median: what any bound must leave room for."""
         return (self.median,)
 
-    def words(self, unit: str) -> str:
+    def describe(self, unit: str) -> str:
         """The distribution as a phrase."""
-        cut = _ends_in_words(self.low, self.high, unit)
+        cut = _describe_ends(self.low, self.high, unit)
         return f"log-normal, median {_shown(self.median, unit)}, factor {_shown(self.factor, '1')}{cut}"
 
 
@@ -189,7 +199,7 @@ class LogNormal:
 class Triangular:
     """The density rises in a straight line from the low end to the mode, and falls to the high end.
 
-    Raises :class:`~ballscrew.faults.InputError` unless low ≤ mode ≤ high and low < high.
+    Raises :class:`~ballscrew.errors.InputError` unless low ≤ mode ≤ high and low < high.
     """
 
     low: float
@@ -215,12 +225,15 @@ class Triangular:
         falling = self.high - xp.sqrt(width * above * (1 - u))
         return xp.where(u < below / width, rising, falling)[()]
 
+    telling = RenamedAttribute("telling", "characteristic_values")
+    words = RenamedAttribute("words", "describe")
+
     @property
-    def telling(self) -> tuple[float, ...]:
+    def characteristic_values(self) -> tuple[float, ...]:
         """The ends: what any bound must leave room for."""
         return self.low, self.high
 
-    def words(self, unit: str) -> str:
+    def describe(self, unit: str) -> str:
         """The distribution as a phrase."""
         low, mode, high = (_shown(value, unit) for value in (self.low, self.mode, self.high))
         return f"triangular from {low} to {high}, mode {mode}"
@@ -233,7 +246,7 @@ Distribution: TypeAlias = Uniform | Normal | LogNormal | Triangular
 def within(distribution: Distribution, info: Info) -> Distribution:
     """The distribution, its tails cut off at the bounds of a quantity; those of others are left as they are.
 
-    Where no sample could be beyond a bound, there is no end. Raises :class:`~ballscrew.faults.InputError` where the
+    Where no sample could be beyond a bound, there is no end. Raises :class:`~ballscrew.errors.InputError` where the
     mean or the median is out of bounds.
     """
     if not isinstance(distribution, Normal | LogNormal):
@@ -251,7 +264,7 @@ def within(distribution: Distribution, info: Info) -> Distribution:
 def distribution_fault(
     where: str, name: str, given: object, known: Mapping[str, tuple[str, Quantity]], remedy: str
 ) -> Fault | None:
-    """What is wrong with the distribution of an input; ``remedy`` is for a whole number, which has none."""
+    """Fault of the distribution of an input; ``remedy`` is for a whole number, which has none."""
     if name not in known:
         return Fault(where, "unknown name", "", nearest(name, known))
     if not isinstance(given, Distribution):
@@ -288,6 +301,11 @@ def standard_normal_quantile(u: Array) -> Array:
     r = xp.sqrt(-xp.log(xp.minimum(u, 1 - u)))
     tail = xp.where(r <= FAR_TAIL_START, _ratio(TAIL, r - TAIL_START), _ratio(FAR_TAIL, r - FAR_TAIL_START))
     return xp.where(xp.abs(q) <= HALF_WIDTH, centre, xp.where(q < 0, -1.0, 1.0) * tail)[()]
+
+
+def normal_half_width(level: float) -> float:
+    """Half the width of the interval that holds a share of a standard normal distribution."""
+    return float(standard_normal_quantile(0.5 + level / 2))
 
 
 def _share_within(u: Array, low: float, high: float) -> Array:
@@ -342,8 +360,8 @@ def _faults_of_ends(section: str, middle: float, low: float, high: float) -> lis
     return [Fault(f"{section}.low", problem, f"{low:g} to {high:g}, middle {middle:g}", "leave the ends out")]
 
 
-def _ends_in_words(low: float, high: float, unit: str) -> str:
-    """Where it is cut; nothing where it is not."""
+def _describe_ends(low: float, high: float, unit: str) -> str:
+    """The ends as a phrase; empty without ends."""
     ends = {"below": low, "above": high}
     said = [f"{side} {_shown(end, unit)}" for side, end in ends.items() if math.isfinite(end)]
     return f", cut {' and '.join(said)}" if said else ""

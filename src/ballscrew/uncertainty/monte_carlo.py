@@ -1,7 +1,7 @@
 """Monte Carlo: what the uncertainty of the inputs makes of the results, without keeping a sample.
 
-The number of a sample is enough to know its random numbers (:mod:`ballscrew.engine.random`), and a
-sketch is enough to know how results are distributed (:mod:`ballscrew.engine.sketch`). So samples
+The number of a sample is enough to know its random numbers (:mod:`ballscrew.kernels.random`), and a
+sketch is enough to know how results are distributed (:mod:`ballscrew.kernels.sketch`). So samples
 are made, evaluated and counted a few thousand at a time, and nothing grows with their number.
 """
 
@@ -17,20 +17,30 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ballscrew._arrays import map_blocks
-from ballscrew.analyses.distributions import Distribution, distribution_fault
-from ballscrew.analyses.engines import Engine, engine_faults, may_be_compiled, worth_compiling
-from ballscrew.analyses.outputs import OPERATION, attributes_of
-from ballscrew.analyses.plan import Plan, Subject
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
-from ballscrew.engine import random
-from ballscrew.engine.emission import Source, UnknownOperationError, kernel_text
-from ballscrew.engine.kernel import Kernel
-from ballscrew.engine.program import Program
-from ballscrew.engine.sketch import UNIT, Moments, Sketch
-from ballscrew.engine.tape import Tape
-from ballscrew.faults import Fault, InputError, raise_if_any
-from ballscrew.model import FrictionModel
+from ballscrew.errors import Fault, InputError, raise_if_any
+from ballscrew.evaluation.engines import (
+    ASKED_FOR,
+    PAYS,
+    Engine,
+    engine_faults,
+    may_be_compiled,
+    why_numpy,
+    worth_compiling,
+)
+from ballscrew.evaluation.outputs import OPERATION, attributes_of
+from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.friction.model import (
+    FrictionModel,
+)
+from ballscrew.kernels import random
+from ballscrew.kernels.emission import UnknownOperationError, kernel_text
+from ballscrew.kernels.kernel import Kernel
+from ballscrew.kernels.sketch import UNIT, Moments, Sketch
+from ballscrew.tracing.program import Program, Source
+from ballscrew.tracing.tape import CannotRecordError, Tape
+from ballscrew.uncertainty.distributions import Distribution, distribution_fault
 
 #: Samples of a block, which is evaluated on one thread and whose sums are merged in the order of the
 #: blocks; and how many of them NumPy evaluates at a time. Whole units, for the sake of the sums.
@@ -60,7 +70,7 @@ def monte_carlo(
 ) -> xr.Dataset:
     """Evaluate a model over random samples of its inputs, and return how its results are distributed.
 
-    ``distributions`` names uncertain inputs as :func:`~ballscrew.analyses.sweep.sweep` names what it
+    ``distributions`` names uncertain inputs as :func:`~ballscrew.sweeps.sweep.sweep` names what it
     varies, ``fixed`` gives single numbers to others; between them they have ``axial_load`` and
     ``screw_speed``. Inputs are independent of each other. Sample i of input j, in the order of the
     mapping, is the quantile of a uniform number that depends on i, j and the ``seed`` alone: the
@@ -68,21 +78,21 @@ def monte_carlo(
 
     Of each output ``x`` that is a number the dataset has ``x_mean``, ``x_standard_deviation``,
     ``x_minimum``, ``x_maximum``, ``x_quantiles`` along ``quantile`` (to 0.05 %, see
-    :meth:`~ballscrew.engine.sketch.Sketch.quantile`) and ``x_missing_share``, that of samples which
+    :meth:`~ballscrew.kernels.sketch.Sketch.quantile`) and ``x_missing_share``, that of samples which
     are NaN and left out of the others; of each that is true or not, ``x_share``, where it is true.
     ``invalid_share`` is that of samples that are not valid; an input beyond its bounds is a reason
     too. They are counted in all the same, as a sweep returns them.
 
     The ``engine`` is chosen by the size of the work; ``done(finished, total)`` is told the progress.
 
-    Raises :class:`~ballscrew.faults.InputError` for unknown names, missing or bad values, and an
+    Raises :class:`~ballscrew.errors.InputError` for unknown names, missing or bad values, and an
     engine that cannot be had.
     """
-    subject = Subject(model, screw, lubricant)
+    subject = Configuration(model, screw, lubricant)
     faults = _faults_of_options(samples, seed, quantiles, engine, threads)
     raise_if_any(faults + _faults_of_inputs(subject, distributions, fixed))
     plan = _planned(subject, outputs, distributions, fixed)
-    work, step, compiled = _by_engine(plan, distributions, samples, seed, engine)
+    work, step, compiled, reason = _by_engine(plan, distributions, samples, seed, engine)
     tally = _Tally(plan, work, step, compiled=compiled)
     map_blocks(
         tally.take,
@@ -93,7 +103,7 @@ def monte_carlo(
     )
     known = subject.inputs
     words = {
-        f"distribution_{known[name][0]}_{name.replace('.', '_')}": distribution.words(known[name][1].unit)
+        f"distribution_{known[name][0]}_{name.replace('.', '_')}": distribution.describe(known[name][1].unit)
         for name, distribution in distributions.items()
     }
     of_quantile = {"long_name": "share of the samples that lies below", "units": "1"}
@@ -101,7 +111,9 @@ def monte_carlo(
     return xr.Dataset(
         tally.variables(quantiles, samples),
         {"quantile": ("quantile", np.asarray(quantiles, dtype=float), of_quantile), **coordinates},
-        subject.attributes(list(plan.axes)) | {"samples": samples, "seed": seed, **words},
+        subject.attributes(list(plan.axes))
+        | {"samples": samples, "seed": seed, **words}
+        | {"engine": "compiled" if compiled else "numpy", "engine_reason": reason},
     )
 
 
@@ -121,7 +133,9 @@ def _faults_of_options(samples: Any, seed: Any, quantiles: Any, engine: Any, thr
     return faults + engine_faults("monte_carlo", engine)
 
 
-def _faults_of_inputs(subject: Subject, distributions: Mapping[str, Any], fixed: Mapping[str, Any]) -> list[Fault]:
+def _faults_of_inputs(
+    subject: Configuration, distributions: Mapping[str, Any], fixed: Mapping[str, Any]
+) -> list[Fault]:
     """Faults that a sweep would not find, or would not put in these words."""
     known, parts = subject.inputs, subject.by_section
     given = {*distributions, *fixed}
@@ -151,7 +165,7 @@ def _faults_of_inputs(subject: Subject, distributions: Mapping[str, Any], fixed:
 
 
 def _planned(
-    subject: Subject,
+    subject: Configuration,
     outputs: Sequence[str] | None,
     distributions: Mapping[str, Distribution],
     fixed: Mapping[str, Any],
@@ -162,7 +176,9 @@ def _planned(
     """
     named = (outputs,) if isinstance(outputs, str) else outputs or ()
     samples = {
-        name: xr.DataArray([distribution.telling[0], distribution.telling[-1]], dims="sample")
+        name: xr.DataArray(
+            [distribution.characteristic_values[0], distribution.characteristic_values[-1]], dims="sample"
+        )
         for name, distribution in distributions.items()
     }
     return Plan.of(subject, [*named, "valid"] if named else None, {**samples, **fixed}, "monte_carlo")
@@ -170,28 +186,29 @@ def _planned(
 
 def _by_engine(
     plan: Plan, distributions: Mapping[str, Distribution], samples: int, seed: int, engine: Engine | None
-) -> tuple[_Work, int, bool]:
-    """What evaluates samples, how many at a time, and whether it is compiled."""
-    program = _recorded(plan, distributions)
-    by_numpy = _by_numpy(plan, distributions, program, seed), NUMPY_STEP, False
-    why = "a law of your own is evaluated by NumPy only"
-    if program is not None:
-        if not may_be_compiled(program, samples, engine):
-            return by_numpy
-        try:
+) -> tuple[_Work, int, bool, str]:
+    """What evaluates samples, how many at a time, whether it is compiled, and why."""
+    program: Program | None = None
+    try:
+        program = _recorded(plan, distributions)
+        why = why_numpy(engine)
+        if may_be_compiled(program, samples, engine):
             sources: list[Source] = ["random"] * program.inputs
             text = kernel_text(program, sources, {name: output.dtype is bool for name, output in plan.wanted.items()})
             if engine or worth_compiling(program, samples, text):
-                return _by_kernel(Kernel.of(text, sources), program, seed), UNIT, True
-        except UnknownOperationError as unknown:
-            why = f"{unknown} is not known to kernels"
+                chosen = ASKED_FOR if engine else PAYS
+                return _by_kernel(Kernel.of(text, sources), program, seed), UNIT, True, chosen
+    except CannotRecordError as error:
+        why = f"the model itself, on plain arrays: {error}"
+    except UnknownOperationError as unknown:
+        why = f"{unknown} is not known to kernels"
     if engine == "compiled":
-        raise InputError(Fault("monte_carlo.engine", why, engine, 'take engine="numpy"'))
-    return by_numpy
+        raise InputError(Fault("monte_carlo.engine", f"cannot be had: {why}", engine, 'take engine="numpy"'))
+    return _by_numpy(plan, distributions, program, seed), NUMPY_STEP, False, why
 
 
-def _recorded(plan: Plan, distributions: Mapping[str, Distribution]) -> Program | None:
-    """The model as a program of uniform numbers; None if a law of the user's wants plain arrays."""
+def _recorded(plan: Plan, distributions: Mapping[str, Distribution]) -> Program:
+    """The model as a program of uniform numbers."""
     tape = Tape(len(distributions))
     drawn = {name: distribution.quantile(tape.value(i)) for i, (name, distribution) in enumerate(distributions.items())}
     return plan.subject.recorded(tape, plan.fixed | drawn, plan.wanted)
@@ -244,7 +261,7 @@ class _Tally:
         self._work, self._step, self._compiled = work, step, compiled
         self._lock = threading.Lock()
         self._idle: list[Sketch] = []
-        self._moments = Moments.of_nothing(len(self.numbers))
+        self._moments = Moments.empty(len(self.numbers))
         self._waiting: dict[int, Moments] = {}
         self._next_start = 0
 
@@ -266,7 +283,7 @@ class _Tally:
         with self._lock:
             self._idle.append(sketch)
             self.true += true
-            self._waiting[block.start] = sketch.handed_over()
+            self._waiting[block.start] = sketch.take_moments()
             while self._next_start in self._waiting:
                 self._moments = self._moments.merged(self._waiting.pop(self._next_start))
                 self._next_start += BLOCK

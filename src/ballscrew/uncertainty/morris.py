@@ -1,6 +1,6 @@
-"""Which inputs matter at all: elementary effects of any function of independent inputs, for few evaluations.
+"""Morris screening: elementary effects of any function of independent inputs, for few evaluations.
 
-The function takes shares, as in :mod:`ballscrew.analyses.variance`.
+The function takes shares, as in :mod:`ballscrew.uncertainty.sobol`.
 """
 
 from __future__ import annotations
@@ -11,8 +11,13 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses.sampling import evenly_spread
-from ballscrew.analyses.variance import Estimate, Function, finite, resampled_means
+from ballscrew.uncertainty.sampling import sobol_sequence
+from ballscrew.uncertainty.sobol import (
+    Estimate,
+    Function,
+    finite,
+    resampled_means,
+)
 
 #: The levels of an input, in the middles of as many equal shares: an even number. A step is half of them.
 LEVELS = 8
@@ -20,7 +25,7 @@ LEVELS = 8
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Effects:
-    """What :func:`elementary_effects` finds; inputs in the order of the shares."""
+    """Result of :func:`elementary_effects`; inputs in the order of the shares."""
 
     #: µ*: the mean of the absolute effects. It ranks the inputs.
     mean_absolute: Sequence[Estimate]
@@ -54,10 +59,10 @@ def elementary_effects(
     a linear function are its slopes times the deviations.
 
     Intervals hold with probability ``level``, by a bootstrap of the trajectories. Trajectories without a
-    finite number are left out. Raises :class:`~ballscrew.faults.InputError` if they are more than a tenth.
+    finite number are left out. Raises :class:`~ballscrew.errors.InputError` if they are more than a tenth.
     """
     rng = np.random.default_rng([seed, inputs])
-    start = np.minimum((evenly_spread(inputs, trajectories, seed) * LEVELS).astype(int), LEVELS - 1)
+    start = np.minimum((sobol_sequence(inputs, trajectories, seed) * LEVELS).astype(int), LEVELS - 1)
     end = (start + LEVELS // 2) % LEVELS
     turn = rng.permuted(np.tile(np.arange(inputs)[:, np.newaxis], trajectories), axis=0)
     moved = turn[..., np.newaxis] < np.arange(inputs + 1)  # inputs, trajectories, points of each

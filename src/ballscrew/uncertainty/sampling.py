@@ -13,10 +13,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ballscrew.analyses.distributions import Distribution, allowed, standard_normal_quantile
-from ballscrew.analyses.engines import Engine
-from ballscrew.analyses.evaluation import Evaluation
-from ballscrew.analyses.plan import Plan, Subject
+from ballscrew.evaluation.engines import Engine
+from ballscrew.evaluation.evaluation import Evaluation
+from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.uncertainty.distributions import Distribution, allowed, standard_normal_quantile
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -42,10 +42,10 @@ class JointNormal:
 class Sampler:
     """A model on a screw, its uncertain inputs, the numbers given to others, and what is wanted of it.
 
-    Inputs are named as in :func:`~ballscrew.analyses.sweep.sweep`. Those of ``joint`` depend on each other.
+    Inputs are named as in :func:`~ballscrew.sweeps.sweep.sweep`. Those of ``joint`` depend on each other.
     """
 
-    subject: Subject
+    subject: Configuration
     inputs: Mapping[str, Distribution]
     fixed: Mapping[str, Any]
     outputs: Sequence[str]
@@ -57,7 +57,7 @@ class Sampler:
         """The uncertain inputs, in the order of the shares; those that depend on each other come last."""
         return (*self.inputs, *(() if self.joint is None else self.joint.names))
 
-    def drawn(self, shares: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+    def inputs_at(self, shares: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
         """The values of the inputs for shares of shape (inputs, samples), within the bounds of each."""
         alone = len(self.inputs)
         values = {
@@ -68,14 +68,14 @@ class Sampler:
         known = self.subject.inputs
         return {name: np.clip(drawn, *allowed(known[name][1].info)) for name, drawn in values.items()}
 
-    def evaluated(
+    def evaluate(
         self, shares: NDArray[np.float64], done: Callable[[int, int], None] | None = None
     ) -> dict[str, NDArray[Any]]:
         """The outputs for shares of shape (inputs, samples), by name.
 
-        Raises :class:`~ballscrew.faults.InputError` for unknown names and values that are refused.
+        Raises :class:`~ballscrew.errors.InputError` for unknown names and values that are refused.
         """
-        axes = {name: xr.DataArray(drawn, dims="sample") for name, drawn in self.drawn(shares).items()}
+        axes = {name: xr.DataArray(drawn, dims="sample") for name, drawn in self.inputs_at(shares).items()}
         plan = Plan.of(self.subject, self.outputs, {**self.fixed, **axes}, "samples")
         evaluation = Evaluation.of(plan, self.engine)
         results = evaluation.empty(plan.total)
@@ -83,7 +83,7 @@ class Sampler:
         return {name: np.asarray(values) for name, values in results.items()}
 
 
-def evenly_spread(inputs: int, samples: int, seed: int = 0) -> NDArray[np.float64]:
+def sobol_sequence(inputs: int, samples: int, seed: int = 0) -> NDArray[np.float64]:
     """Shares of shape (inputs, samples) from a scrambled Sobol' sequence, strictly between 0 and 1.
 
     A power of two of samples is spread the most evenly. The same seed gives the same shares.

@@ -1,4 +1,4 @@
-"""Which uncertain input a result owes its band to: by variance, by screening, and by derivatives."""
+"""Sensitivity of an output to its uncertain inputs: by variance, by screening, and by derivatives."""
 
 from __future__ import annotations
 
@@ -11,29 +11,30 @@ from typing import Any, Literal, NamedTuple, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses.derivatives import JAX_INSTEAD, derivatives
-from ballscrew.analyses.distributions import Distribution, distribution_fault
-from ballscrew.analyses.nut_parts import NutParts
-from ballscrew.analyses.outputs import known_outputs
-from ballscrew.analyses.plan import Subject
-from ballscrew.analyses.sampling import Sampler
-from ballscrew.analyses.screening import elementary_effects
-from ballscrew.analyses.variance import EXPLAINED, Estimate, sobol_indices
+from ballscrew._deprecated import RenamedAttribute
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
-from ballscrew.faults import Fault, InputError, nearest, raise_if_any
-from ballscrew.model import FrictionModel
+from ballscrew.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.evaluation.derivatives import JAX_INSTEAD, derivatives
+from ballscrew.evaluation.outputs import known_outputs
+from ballscrew.evaluation.plan import Configuration
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.nut_parts import NutParts
 from ballscrew.quantities import Quantity
+from ballscrew.uncertainty.distributions import Distribution, distribution_fault
+from ballscrew.uncertainty.morris import elementary_effects
+from ballscrew.uncertainty.sampling import Sampler
+from ballscrew.uncertainty.sobol import EXPLAINED, Estimate, sobol_indices
 
 #: How sensitivities can be had.
 Method = Literal["sobol", "morris", "local"]
 METHODS: tuple[Method, ...] = get_args(Method)
-#: Samples unless told otherwise: of each of the inputs + 2 sets, and trajectories. Whole nuts take their time.
+#: Default samples: of each of the inputs + 2 sets, and trajectories. Whole nuts take their time.
 SAMPLES: Mapping[Method, int] = {"sobol": 2**12, "morris": 2**6}
 NUT_SAMPLES: Mapping[Method, int] = {"sobol": 2**9, "morris": 2**5}
-FEWEST: Mapping[Method, int] = {"sobol": 2**4, "morris": 2**2}
+MINIMUM_SAMPLES: Mapping[Method, int] = {"sobol": 2**4, "morris": 2**2}
 #: All samples of all sets are in memory.
-MOST = 2**18
+MAXIMUM_SAMPLES = 2**18
 #: What each method says of an input; the first ranks the inputs.
 MEASURES: Mapping[Method, tuple[str, ...]] = {
     "sobol": ("total", "first_order"),
@@ -49,16 +50,18 @@ _REACH, _STEP = 7.5, 0.01
 ANOTHER_METHOD = 'take method="sobol" or "morris"'
 
 
-class Knowing(NamedTuple):
-    """Some inputs, and the share of the standard deviation of the output that is left if they are known."""
+class ExplainedVariance(NamedTuple):
+    """Some inputs, and the share of the standard deviation of the output that remains if they are known exactly."""
 
     inputs: tuple[str, ...]
-    left: float
+    remaining: float
+
+    left = RenamedAttribute("left", "remaining")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Sensitivity:
-    """What :func:`sensitivity` finds of one output. All numbers in SI."""
+    """Result of :func:`sensitivity` for one output, in SI."""
 
     method: Method
     output: str
@@ -72,13 +75,15 @@ class Sensitivity:
     #: Standard deviation of the output; with ``"local"`` that of the tangent; NaN with ``"morris"``.
     deviation: float
     #: The largest inputs by first-order index (share), one more each time. Nothing with ``"morris"``.
-    knowing: tuple[Knowing, ...]
+    explained_variance: tuple[ExplainedVariance, ...]
     level: float
     samples: int
     seed: int
     evaluations: int
     #: Samples (trajectories) that were left out, as they have no finite number somewhere.
     left_out: int = 0
+
+    knowing = RenamedAttribute("knowing", "explained_variance")
 
     @property
     def first_order(self) -> Mapping[str, Estimate]:
@@ -97,7 +102,7 @@ class Sensitivity:
 
     @property
     def is_constant(self) -> bool:
-        """Whether no input has any effect."""
+        """True where no input has any effect."""
         return all(estimate.value == 0 for estimate in self.measures[MEASURES[self.method][0]].values())
 
     def left_if_known(self, name: str) -> float:
@@ -110,12 +115,12 @@ class Sensitivity:
         return math.sqrt(min(max(1 - self.first_order[name].value, 0.0), 1.0))
 
     @property
-    def to_halve(self) -> Knowing | None:
+    def to_halve(self) -> ExplainedVariance | None:
         """The inputs to find out, from the largest, so that half of the standard deviation is left, or less.
 
         None with ``"morris"``, and where the output is constant.
         """
-        return next((known for known in self.knowing if known.left <= HALF), None)
+        return next((known for known in self.explained_variance if known.remaining <= HALF), None)
 
 
 def sensitivity(
@@ -133,19 +138,19 @@ def sensitivity(
     done: Callable[[int, int], None] | None = None,
     **fixed: Any,
 ) -> Sensitivity:
-    r"""Which of the ``uncertain`` inputs an ``output`` owes its uncertainty to.
+    r"""Sensitivity of an ``output`` to the ``uncertain`` inputs.
 
-    ``uncertain`` names inputs as :func:`~ballscrew.analyses.sweep.sweep` does, ``fixed`` gives numbers
+    ``uncertain`` names inputs as :func:`~ballscrew.sweeps.sweep.sweep` does, ``fixed`` gives numbers
     to others; between them they have ``axial_load`` and ``screw_speed``. Inputs are independent of each
     other and stay within their bounds. With a ``nut`` it is a whole nut whose friction is computed.
 
     * ``"sobol"``: shares of the variance of the output, first-order and total
-      (:func:`~ballscrew.analyses.variance.sobol_indices`), from ``samples`` (inputs + 2) evaluations and at
-      most as many again for ``knowing``; ``samples`` is a power of two.
+      (:func:`~ballscrew.uncertainty.sobol.sobol_indices`), from ``samples`` (inputs + 2) evaluations and at
+      most as many again for ``explained_variance``; ``samples`` is a power of two.
     * ``"morris"``: the mean absolute effect of an input along ``samples`` trajectories, and the
-      deviation of its effects (:func:`~ballscrew.analyses.screening.elementary_effects`), from ``samples``
+      deviation of its effects (:func:`~ballscrew.uncertainty.morris.elementary_effects`), from ``samples``
       (inputs + 1) evaluations.
-    * ``"local"``: exact derivatives (:func:`~ballscrew.analyses.derivatives.derivatives`) at the medians
+    * ``"local"``: exact derivatives (:func:`~ballscrew.evaluation.derivatives.derivatives`) at the medians
       of the inputs times their standard deviations, :math:`e_i = \sigma_i\,\partial y/\partial x_i`, and
       the shares :math:`e_i^2/\sum_j e_j^2` they would have if the output were its tangent.
 
@@ -153,10 +158,10 @@ def sensitivity(
     all methods say the same. The same ``seed`` gives the same numbers. Intervals hold with
     probability ``level``. ``done(finished, total)`` is told the evaluations.
 
-    Raises :class:`~ballscrew.faults.InputError` for unknown names, bad values, an output that is true or
+    Raises :class:`~ballscrew.errors.InputError` for unknown names, bad values, an output that is true or
     false or that has no finite value in more than a tenth of the samples, and where there are no derivatives.
     """
-    subject = Subject(model, screw, lubricant, nut)
+    subject = Configuration(model, screw, lubricant, nut)
     usual = SAMPLES if nut is None else NUT_SAMPLES
     count = usual.get(method, 1) if samples is None else samples
     raise_if_any(_faults(subject, uncertain, output, method, samples, seed, level))
@@ -165,7 +170,7 @@ def sensitivity(
         return _local(sampler, output, level, seed)
 
     def function(shares: NDArray[np.float64]) -> NDArray[np.float64]:
-        return sampler.evaluated(shares, done)[output]
+        return sampler.evaluate(shares, done)[output]
 
     names = sampler.names
     estimates: Sequence[Sequence[Estimate]]
@@ -173,12 +178,14 @@ def sensitivity(
         of_variance = sobol_indices(function, len(names), count, seed, level)
         estimates, found = (of_variance.total, of_variance.first_order), of_variance
         deviation = of_variance.deviation
-        knowing = tuple(Knowing(tuple(names[i] for i in known), left) for known, left in of_variance.known)
+        explained_variance = tuple(
+            ExplainedVariance(tuple(names[i] for i in known), left) for known, left in of_variance.known
+        )
     else:
         in_deviations = functools.partial(_in_deviations, sampler, _deviations(sampler))
         screened = elementary_effects(function, in_deviations, len(names), count, seed, level)
         estimates, found = (screened.mean_absolute, screened.deviation), screened
-        deviation, knowing = math.nan, ()
+        deviation, explained_variance = math.nan, ()
     by_name = [dict(zip(names, of_measure, strict=True)) for of_measure in estimates]
     return Sensitivity(
         method=method,
@@ -188,7 +195,7 @@ def sensitivity(
         measures=dict(zip(MEASURES[method], by_name, strict=True)),
         mean=found.mean,
         deviation=deviation,
-        knowing=knowing,
+        explained_variance=explained_variance,
         level=level,
         samples=count,
         seed=seed,
@@ -198,7 +205,7 @@ def sensitivity(
 
 
 def _faults(
-    subject: Subject,
+    subject: Configuration,
     uncertain: Mapping[str, Distribution],
     output: str,
     method: Any,
@@ -206,7 +213,7 @@ def _faults(
     seed: Any,
     level: Any,
 ) -> list[Fault]:
-    """What is wrong with what a person gives, but for the values of inputs."""
+    """Faults of the arguments, except for the values of inputs."""
     known, wanted = subject.inputs, known_outputs(subject.nut)
     found = (
         distribution_fault(f"sensitivity.uncertain.{name}", name, given, known, "leave it out")
@@ -237,10 +244,10 @@ def _faults_of_samples(samples: Any, method: Method) -> list[Fault]:
     where = "sensitivity.samples"
     if method == "local":
         return [Fault(where, "does not count with local, which takes no samples", str(samples), "leave it out")]
-    if not isinstance(samples, int | np.integer) or samples < FEWEST[method]:
-        return [Fault(where, f"must be a whole number, {FEWEST[method]} or more", str(samples))]
-    if samples > MOST:
-        return [Fault(where, f"must be at most {MOST}", str(samples), "all are in memory")]
+    if not isinstance(samples, int | np.integer) or samples < MINIMUM_SAMPLES[method]:
+        return [Fault(where, f"must be a whole number, {MINIMUM_SAMPLES[method]} or more", str(samples))]
+    if samples > MAXIMUM_SAMPLES:
+        return [Fault(where, f"must be at most {MAXIMUM_SAMPLES}", str(samples), "all are in memory")]
     if method == "sobol" and samples & (samples - 1):
         below = 2 ** (int(samples).bit_length() - 1)
         return [Fault(where, "must be a power of two", str(samples), f"take {below} or {2 * below}")]
@@ -249,7 +256,7 @@ def _faults_of_samples(samples: Any, method: Method) -> list[Fault]:
 
 def _local(sampler: Sampler, output: str, level: float, seed: int) -> Sensitivity:
     names, subject = sampler.names, sampler.subject
-    medians = {name: float(v[0]) for name, v in sampler.drawn(np.full((len(names), 1), 0.5)).items()}
+    medians = {name: float(v[0]) for name, v in sampler.inputs_at(np.full((len(names), 1), 0.5)).items()}
     points: dict[str, Any] = {**sampler.fixed, **medians}
     try:
         slopes = derivatives(subject.model, subject.screw, subject.lubricant, by=names, outputs=(output,), **points)
@@ -275,7 +282,9 @@ def _local(sampler: Sampler, output: str, level: float, seed: int) -> Sensitivit
     explained = np.cumsum([shares[name] for name in ranked])
     explained[effective - 1 :] = 1.0  # but for rounding it is
     enough = min(int(np.searchsorted(explained, EXPLAINED)) + 1, effective)
-    knowing = [Knowing(ranked[: k + 1], math.sqrt(max(1 - explained[k], 0.0))) for k in range(enough)]
+    explained_variance = [
+        ExplainedVariance(ranked[: k + 1], math.sqrt(max(1 - explained[k], 0.0))) for k in range(enough)
+    ]
     return Sensitivity(
         method="local",
         output=output,
@@ -284,7 +293,7 @@ def _local(sampler: Sampler, output: str, level: float, seed: int) -> Sensitivit
         measures=dict(zip(MEASURES["local"], by_name, strict=True)),
         mean=float(slopes[output]),
         deviation=deviation,
-        knowing=tuple(knowing),
+        explained_variance=tuple(explained_variance),
         level=level,
         samples=1,
         seed=seed,
@@ -304,7 +313,7 @@ def _deviations(sampler: Sampler) -> dict[str, float]:
     weights = np.exp(-(normal**2) / 2)
     weights /= np.sum(weights)
     shares = np.tile(ndtr(normal), (len(sampler.names), 1))
-    drawn = sampler.drawn(shares)
+    drawn = sampler.inputs_at(shares)
     return {n: math.sqrt(float(weights @ (v - weights @ v) ** 2)) for n, v in drawn.items()}
 
 
@@ -312,5 +321,5 @@ def _in_deviations(
     sampler: Sampler, deviations: Mapping[str, float], shares: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """The values of the inputs for shares, in standard deviations of each."""
-    drawn = sampler.drawn(shares)
+    drawn = sampler.inputs_at(shares)
     return np.array([drawn[name] / deviations[name] for name in sampler.names])

@@ -1,7 +1,7 @@
-"""Which input the variance of a result comes from: Sobol' indices of any function of independent inputs.
+"""Sobol' indices: shares of the variance of any function of independent inputs.
 
 The function takes shares, numbers between 0 and 1, of shape (inputs, samples), as
-:mod:`ballscrew.analyses.sampling` makes them, and returns one number for each sample.
+:mod:`ballscrew.uncertainty.sampling` makes them, and returns one number for each sample.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses.sampling import evenly_spread
-from ballscrew.faults import Fault, InputError
+from ballscrew.errors import Fault, InputError
+from ballscrew.uncertainty.sampling import sobol_sequence
 
 #: One number for each sample of shares of shape (inputs, samples).
 Function = Callable[[NDArray[np.float64]], NDArray[np.float64]]
@@ -25,10 +25,10 @@ _AT_A_TIME = 2**20
 #: A result that varies by less than this, relative to its mean, is constant: what is left is rounding.
 CONSTANT = 1e-12
 #: The largest share of samples without a number that may be left out.
-MOST_LEFT_OUT = 0.1
+MAXIMUM_EXCLUDED_SHARE = 0.1
 #: A first-order index S above this has the estimator that is better there. Of a sum of normal terms the variances of
 #: the two, 2S + S² and 2(1 − S)² over the samples, are the same at 3 − √7.
-LARGE = 0.354
+LARGE_INDEX = 0.354
 #: The inputs that are taken together explain at least this share of the variance, or are all there are.
 EXPLAINED = 0.9
 
@@ -41,7 +41,7 @@ class Estimate(NamedTuple):
     high: float
 
 
-class Known(NamedTuple):
+class KnownInputs(NamedTuple):
     """Some inputs by their places, and the share of the standard deviation that is left if they are known."""
 
     inputs: tuple[int, ...]
@@ -49,20 +49,20 @@ class Known(NamedTuple):
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Indices:
-    """What :func:`sobol_indices` finds; inputs in the order of the shares."""
+class SobolIndices:
+    """Result of :func:`sobol_indices`; inputs in the order of the shares."""
 
     first_order: Sequence[Estimate]
     total: Sequence[Estimate]
     mean: float
     deviation: float
-    known: Sequence[Known]
+    known: Sequence[KnownInputs]
     evaluations: int
     #: Samples that were left out, as they have no finite number somewhere.
     left_out: int
 
 
-def sobol_indices(function: Function, inputs: int, samples: int, seed: int = 0, level: float = 0.95) -> Indices:
+def sobol_indices(function: Function, inputs: int, samples: int, seed: int = 0, level: float = 0.95) -> SobolIndices:
     r"""First-order and total Sobol' indices, and what is left where the largest inputs are known.
 
     .. math::
@@ -83,10 +83,10 @@ def sobol_indices(function: Function, inputs: int, samples: int, seed: int = 0, 
     :math:`l_u^2 = E[(f(B) - f(A_B^u))^2]/2V` (Jansen 1999, Computer Physics Communications 117, 35–43), so
     that what inputs do together counts.
 
-    Samples without a finite number are left out. Raises :class:`~ballscrew.faults.InputError` if they are
+    Samples without a finite number are left out. Raises :class:`~ballscrew.errors.InputError` if they are
     more than a tenth.
     """
-    shares = evenly_spread(2 * inputs, samples, seed)
+    shares = sobol_sequence(2 * inputs, samples, seed)
     a, b = shares[:inputs], shares[inputs:]
     every = [_frozen(a, b, [i]) for i in range(inputs)]
     values = function(np.concatenate([a, b, *every], axis=1)).reshape(inputs + 2, samples)
@@ -95,11 +95,11 @@ def sobol_indices(function: Function, inputs: int, samples: int, seed: int = 0, 
     left_out = int(np.sum(~kept))
     if is_constant(mean, deviation):
         none = [Estimate(0.0, 0.0, 0.0)] * inputs
-        return Indices(none, none, mean, 0.0, (), values.size, left_out)
+        return SobolIndices(none, none, mean, 0.0, (), values.size, left_out)
     # the mean in place of what is left out counts for nothing in any sum about the mean
     centred = np.where(kept, values - mean, 0.0)
     found = _by_scipy(centred)
-    large = found[0] > LARGE
+    large = found[0] > LARGE_INDEX
     found[0, large] = 1 - np.mean((centred[1] - centred[2:][large]) ** 2, axis=-1) / (2 * np.var(centred[:2]))
     ends = np.quantile(_resampled(centred, large, seed), [(1 - level) / 2, (1 + level) / 2], axis=0)
     order = [int(i) for i in np.argsort(-found[0], kind="stable") if found[1][i] > 0]
@@ -118,12 +118,12 @@ def sobol_indices(function: Function, inputs: int, samples: int, seed: int = 0, 
         left.append(np.sqrt(np.mean((values[1, here] - row[here]) ** 2) / 2) / deviation)
     left += [0.0] * (len(sets) - len(left))  # nothing is left where all are known
     # to know more never leaves more, but for the noise of the estimates
-    known = [Known(tuple(w), float(share)) for w, share in zip(sets, np.minimum.accumulate(left), strict=True)]
-    return Indices(first_order, total, mean, deviation, known, values.size + frozen.size, left_out)
+    known = [KnownInputs(tuple(w), float(share)) for w, share in zip(sets, np.minimum.accumulate(left), strict=True)]
+    return SobolIndices(first_order, total, mean, deviation, known, values.size + frozen.size, left_out)
 
 
 def is_constant(mean: float, deviation: float) -> bool:
-    """Whether what varies is rounding."""
+    """Test whether a standard deviation is only rounding."""
     return deviation <= CONSTANT * abs(mean)
 
 
@@ -131,7 +131,7 @@ def finite(values: NDArray[np.float64]) -> NDArray[np.bool_]:
     """The samples that are finite in all rows; a fault if too many are not."""
     kept = np.all(np.isfinite(values), axis=0)
     lost = 1 - float(np.mean(kept))
-    if lost > MOST_LEFT_OUT:
+    if lost > MAXIMUM_EXCLUDED_SHARE:
         remedy = "narrow the distributions, or choose another output"
         raise InputError(Fault("sensitivity.output", "has no finite value", f"{lost:.0%} of the samples", remedy))
     return kept

@@ -1,47 +1,49 @@
-"""Distributions as people write them in a case file: a number, how far it may be off, and units.
+"""Uncertain values written as text: a number, its distribution, and units.
 
-``"0.54 ± 0.01"``, ``"uniform(0.52, 0.56)"``, ``"40 mm js6"``: the central value goes where a number went, and the
-distribution beside it.
+``"0.54 ± 0.01"``, ``"uniform(0.52, 0.56)"``, ``"40 mm js6"`` are parsed once, into an :class:`UncertainValue`.
 """
 
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
-from ballscrew.analyses.distributions import Distribution, LogNormal, Normal, Triangular, Uniform, within
-from ballscrew.analyses.known_uncertainties import NORMAL_95
+from ballscrew import units
 from ballscrew.components.tolerances import BALL_LOT_VARIATION, TRAVEL_VARIATION, standard_tolerance
-from ballscrew.faults import Fault, InputError, fault_of, nearest
-from ballscrew.interfaces import units
+from ballscrew.errors import Fault, InputError, fault_of, nearest
 from ballscrew.quantities import Quantity
+from ballscrew.uncertainty.default_uncertainties import NORMAL_95
+from ballscrew.uncertainty.distributions import Distribution, LogNormal, Normal, Triangular, Uniform, within
 
 
-class Written(NamedTuple):
-    """A number with its distribution; without one it is known exactly."""
+@dataclasses.dataclass(frozen=True)
+class UncertainValue:
+    """A central value with its distribution, in SI, and the text of both; without a distribution it is exact."""
 
     central: float
     distribution: Distribution | None
+    text: str
 
 
 class _Kind(NamedTuple):
-    """A distribution that is written by its name: what its numbers are called, and how it is made of them."""
+    """A distribution written by its name: the names of its parameters, and its constructor."""
 
     numbers: Sequence[str]
     make: Callable[..., Distribution]
 
 
-#: The names of the distributions stand here and nowhere else.
+#: The distributions by the names that they are written by.
 _KINDS: Mapping[str, _Kind] = {
     "uniform": _Kind(("low", "high"), Uniform),
     "normal": _Kind(("mean", "standard deviation"), Normal),
     "lognormal": _Kind(("median", "factor"), LogNormal),
     "triangular": _Kind(("low", "mode", "high"), Triangular),
 }
-#: What is a difference or a pure number, and no value of the quantity.
+#: Parameters that are a difference of two values, and those that are a plain number.
 _DIFFERENCES, _RATIOS = frozenset({"standard deviation"}), frozenset({"factor"})
 _PLUS_MINUS = re.compile(r"±|\+\s*(?:/\s*)?[-−–]")
 _BY_NAME = re.compile(r"\s*(?P<name>[A-Za-z][A-Za-z_\s-]*?)\s*\((?P<numbers>[^()]*)\)\s*(?P<unit>.*?)\s*")
@@ -52,17 +54,21 @@ _LEAD_CLASS = re.compile(r"(?P<value>.*\S)\s+(?:class\s*|[PT]\s?)(?P<grade>\d+)\
 _EXAMPLE = {True: "0.54 ± 0.01", False: "40 mm ± 0.1 mm"}
 
 
-def read(raw: object, quantity: Quantity) -> Written | Fault | None:
-    """The number and the distribution in a text, in SI; None where the text has none; or the fault in it.
+def parse_uncertain(raw: object, quantity: Quantity) -> UncertainValue | Fault | None:
+    """The uncertain value in a text; None where the text has no distribution; or the fault in it.
 
     The fault names no place. Tails are cut at the bounds of the quantity.
     """
-    if not isinstance(raw, str) or len(raw) > units.LONGEST_VALUE:
-        return None
+    return _parsed(raw, quantity) if isinstance(raw, str) and len(raw) <= units.LONGEST_VALUE else None
+
+
+@functools.lru_cache(maxsize=1024)
+def _parsed(raw: str, quantity: Quantity) -> UncertainValue | Fault | None:
+    """The same, once for each text: a case file and the uncertain inputs of its case both ask."""
     try:
-        written = _read(raw, quantity)
+        written = _by_pattern(raw, quantity)
     except InputError as error:
-        return _of_person(error.faults[0], raw)
+        return _as_written(error.faults[0], raw)
     if written is None or isinstance(written, Fault):
         return written
     fault = _fault_in(written, quantity, raw)
@@ -70,23 +76,23 @@ def read(raw: object, quantity: Quantity) -> Written | Fault | None:
         return fault or written
     if quantity.info.whole:
         return Fault("", "is a whole number, which has no distribution", raw, f'write "{written.central:g}"')
-    return Written(written.central, within(written.distribution, quantity.info))
+    return dataclasses.replace(written, distribution=within(written.distribution, quantity.info))
 
 
-def refused(raw: object, quantity: Quantity) -> Fault | None:
+def refuse_distribution(raw: object, quantity: Quantity) -> Fault | None:
     """The fault of a distribution where none can stand; None where the text has none."""
-    written = read(raw, quantity)
+    written = parse_uncertain(raw, quantity)
     if written is None or isinstance(written, Fault):
         return written
     remedy = f"write one number: {units.example_of(quantity, f'{units.from_si(written.central, quantity):.6g}')}"
     return Fault("", "takes no distribution", str(raw), remedy)
 
 
-def in_words(distribution: Distribution, quantity: Quantity) -> str:
-    """A distribution in the units people think in: ``0.54 ± 0.01``, ``uniform, 0.52 to 0.56``."""
+def describe_distribution(distribution: Distribution, quantity: Quantity) -> str:
+    """A distribution in display units: ``0.54 ± 0.01``, ``uniform, 0.52 to 0.56``."""
     match distribution:
         case Normal(mean, deviation):
-            return f"{units.shown(mean, quantity)} ± {difference_shown(NORMAL_95 * deviation, quantity)}"
+            return f"{units.shown(mean, quantity)} ± {format_difference(NORMAL_95 * deviation, quantity)}"
         case LogNormal(median, factor):
             return f"{_range(median / factor**NORMAL_95, median * factor**NORMAL_95, quantity)} (95 %), log-normal"
         case Uniform(low, high):
@@ -101,17 +107,17 @@ def _range(low: float, high: float, quantity: Quantity) -> str:
     return " to ".join(units.shown(end, quantity, max(4, digits)) for end in (low, high))
 
 
-def difference_shown(difference: float, quantity: Quantity) -> str:
+def format_difference(difference: float, quantity: Quantity) -> str:
     """A difference of two values with its unit, as people read it; of temperatures it is in kelvin."""
     if quantity.unit == "K":
         return f"{difference:.4g} K"
     return units.shown(difference, quantity)
 
 
-# -- the ways to write one ------------------------------------------------------------------------
+# -- the notations ------------------------------------------------------------------------
 
 
-def _read(raw: str, quantity: Quantity) -> Written | Fault | None:
+def _by_pattern(raw: str, quantity: Quantity) -> UncertainValue | Fault | None:
     if _PLUS_MINUS.search(raw):
         return _plus_minus(raw, quantity)
     by_name = _BY_NAME.fullmatch(raw)
@@ -128,7 +134,7 @@ def _read(raw: str, quantity: Quantity) -> Written | Fault | None:
     return None
 
 
-def _plus_minus(raw: str, quantity: Quantity) -> Written | Fault:
+def _plus_minus(raw: str, quantity: Quantity) -> UncertainValue | Fault:
     """``value ± half width``: the half width of the interval that holds 95 % of a normal distribution."""
     bracketed = _BRACKETS.fullmatch(raw)
     text, common = (bracketed["inside"], bracketed["unit"]) if bracketed else (raw, "")
@@ -149,10 +155,10 @@ def _plus_minus(raw: str, quantity: Quantity) -> Written | Fault:
         return half_width
     if not half_width >= 0 or math.isinf(half_width):
         return Fault("", "must have a number of 0 or more behind ±", raw, "0 means that it is known exactly")
-    return Written(central, Normal(central, half_width / NORMAL_95) if half_width else None)
+    return UncertainValue(central, Normal(central, half_width / NORMAL_95) if half_width else None, raw)
 
 
-def _by_name(raw: str, match: re.Match[str], quantity: Quantity) -> Written | Fault:
+def _by_name(raw: str, match: re.Match[str], quantity: Quantity) -> UncertainValue | Fault:
     """``uniform(low, high)`` and the others; a unit behind the bracket, or the last one, is that of all."""
     name = re.sub(r"[\s_-]", "", match["name"]).lower()
     if name not in _KINDS:
@@ -171,7 +177,7 @@ def _by_name(raw: str, match: re.Match[str], quantity: Quantity) -> Written | Fa
             return number
         numbers.append(number)
     distribution = make(*numbers)
-    return Written(float(distribution.quantile(0.5)), distribution)
+    return UncertainValue(float(distribution.quantile(0.5)), distribution, raw)
 
 
 def _number(what: str, text: str, unit: str, quantity: Quantity, raw: str, before: Sequence[float]) -> float | Fault:
@@ -186,7 +192,7 @@ def _number(what: str, text: str, unit: str, quantity: Quantity, raw: str, befor
     return _difference(text, unit, quantity, raw)
 
 
-def _tolerance(raw: str, match: re.Match[str], quantity: Quantity) -> Written | Fault | None:
+def _tolerance(raw: str, match: re.Match[str], quantity: Quantity) -> UncertainValue | Fault | None:
     """A tolerance class of ISO 286-1 whose zone is symmetric: uniform over the zone."""
     letters, grade = match["letters"], int(match["grade"])
     value = units.parse("", match["value"], quantity)
@@ -198,7 +204,7 @@ def _tolerance(raw: str, match: re.Match[str], quantity: Quantity) -> Written | 
     width = standard_tolerance(value, grade)
     if width is None:
         return Fault("", "has no standard tolerance", raw, "js and IT are known from 5 to 18, and up to 500 mm")
-    return _about(value, width / 2)
+    return _symmetric(value, width / 2, raw)
 
 
 def _of_grade(
@@ -208,7 +214,7 @@ def _of_grade(
     what: str,
     known: Mapping[int, float],
     half_width: Callable[[float, float], float],
-) -> Written | Fault:
+) -> UncertainValue | Fault:
     """A grade or class that a table knows: uniform about the value."""
     value = units.parse("", match["value"], quantity)
     if isinstance(value, Fault):
@@ -216,11 +222,12 @@ def _of_grade(
     grade = int(match["grade"])
     if grade not in known:
         return Fault("", f"unknown {what}", raw, f"known: {', '.join(map(str, known))}")
-    return _about(value, half_width(value, known[grade]))
+    return _symmetric(value, half_width(value, known[grade]), raw)
 
 
-def _about(value: float, half_width: float) -> Written:
-    return Written(value, Uniform(value - half_width, value + half_width))
+def _symmetric(value: float, half_width: float, raw: str) -> UncertainValue:
+    """A uniform distribution about a value."""
+    return UncertainValue(value, Uniform(value - half_width, value + half_width), raw)
 
 
 # -- numbers --------------------------------------------------------------------------------------
@@ -252,18 +259,18 @@ def _plain(text: str, raw: str) -> float | Fault:
 # -- faults ---------------------------------------------------------------------------------------
 
 
-def _fault_in(written: Written, quantity: Quantity, raw: str) -> Fault | None:
-    """What is out of the bounds of the quantity: the central value, or an end."""
-    ends = () if written.distribution is None else written.distribution.telling
+def _fault_in(written: UncertainValue, quantity: Quantity, raw: str) -> Fault | None:
+    """The fault of a central value or an end beyond the bounds of the quantity."""
+    ends = () if written.distribution is None else written.distribution.characteristic_values
     for value in (written.central, *ends):
         fault = fault_of("", quantity, float(value))
         if fault is not None:
-            return units.in_people_units(fault, quantity, raw)
+            return units.in_display_units(fault, quantity, raw)
     return None
 
 
-def _of_person(fault: Fault, raw: str) -> Fault:
-    """A fault of a distribution's numbers in the words of the person who wrote them."""
+def _as_written(fault: Fault, raw: str) -> Fault:
+    """A fault of the parameters of a distribution, with the text that has them."""
     section, _, field = fault.where.partition(".")
     what = f"{field} of the {section.replace('_', '-')} distribution "
     return Fault("", what + fault.problem, raw, fault.remedy)

@@ -1,6 +1,6 @@
 """A model against what vendors and laboratories state: row by row, and what the rows say together.
 
-A set of data (:mod:`ballscrew.analyses.validation_sets`) makes points of the rows of a table. A point has the value of
+A set of data (:mod:`ballscrew.validation.sets`) makes points of the rows of a table. A point has the value of
 the model and that of the table, most often the middle of a vendor's band.
 """
 
@@ -15,9 +15,10 @@ import numpy as np
 
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import Operation
-from ballscrew.faults import Fault, InputError
-from ballscrew.model import FrictionModel
+from ballscrew.errors import Fault, InputError
+from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import AngularSpeed, Info, Quantity, Temperature, Viscosity, fields_of
+from ballscrew.records import Record
 
 RPM = math.pi / 30
 #: Values of a row in SI (or text) by column.
@@ -25,9 +26,9 @@ Values: TypeAlias = Mapping[str, Any]
 
 
 class Descriptor(NamedTuple):
-    """What a row is like, to see which effect a model lacks."""
+    """A property of a row, to see which effect a model lacks."""
 
-    words: str
+    description: str
     quantity: Quantity
 
 
@@ -63,7 +64,7 @@ class Conditions:
     def of(self, values: Values) -> Conditions:
         """These conditions, but for those that a row has of its own.
 
-        Raises :class:`~ballscrew.faults.InputError` for a viscosity beside a grade or a temperature.
+        Raises :class:`~ballscrew.errors.InputError` for a viscosity beside a grade or a temperature.
         """
         own = {name: values[name] for name in CONDITIONS if name in values}
         if "viscosity" in own and ("grade" in own or "temperature" in own):
@@ -72,7 +73,7 @@ class Conditions:
 
     @property
     def lubricant(self) -> Lubricant:
-        """The oil. Raises :class:`~ballscrew.faults.InputError` for an unknown grade, or a temperature out of range."""
+        """The oil. Raises :class:`~ballscrew.errors.InputError` for an unknown grade, or a temperature out of range."""
         if self.viscosity is not None:
             return Lubricant(viscosity=self.viscosity)
         return Lubricant.from_grade(self.grade, self.temperature)
@@ -88,15 +89,15 @@ CONDITIONS: Mapping[str, Quantity | None] = {
 
 
 class Band(NamedTuple):
-    """What a row states: its middle, and the ends of the band where it has one."""
+    """The statement of a row: its middle, and the ends of the band where it has one."""
 
     middle: float
     low: float | None = None
     high: float | None = None
 
 
-class Apart(NamedTuple):
-    """A value of which a row states no more than a maximum: told, but in no mean."""
+class UpperLimitOnly(NamedTuple):
+    """A value of which a row states only a maximum: reported, but in no mean."""
 
     name: str
     value: float
@@ -120,8 +121,9 @@ class Point:
     #: Ratios to the same middle of other definitions and of other laws, by name.
     definitions: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
     laws: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
-    apart: Sequence[Apart] = ()
-    warnings: Sequence[str] = ()
+    upper_limits: Sequence[UpperLimitOnly] = ()
+    #: Conditions of the model that fail at the point.
+    warnings: Sequence[Record] = ()
 
     @property
     def ratio(self) -> float:
@@ -141,7 +143,7 @@ class Point:
 
     @property
     def in_band(self) -> bool | None:
-        """Whether the value lies in the band, ends included; None where there is no band or no value."""
+        """True where the value lies in the band, ends included; None where there is no band or no value."""
         low, high = self.band.low, self.band.high
         return None if low is None or high is None or not math.isfinite(self.value) else low <= self.value <= high
 
@@ -151,14 +153,15 @@ Evaluation: TypeAlias = Callable[[FrictionModel, Values, Conditions], list[Point
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class ValidationSet:
-    """A declared set of data: which columns its rows have, and what a model is asked for a row.
+    """A declared set of data: the columns of its rows, and the evaluation of a model for a row.
 
-    ``evaluate`` raises :class:`~ballscrew.faults.InputError` for rows that make no sense.
+    ``evaluate`` raises :class:`~ballscrew.errors.InputError` for rows that make no sense.
     """
 
     name: str
-    #: What is compared, and with what.
-    words: str
+    #: The quantity compared, and the values it is compared with.
+    title: str
+    reference: str
     source: str
     #: The file with the rows shipped, in ``data/validation``.
     file: str
@@ -171,6 +174,8 @@ class ValidationSet:
     evaluate: Evaluation
     #: Two names of DESCRIPTORS to draw the ratio against.
     axes: tuple[str, str]
+    #: Details of the quantity compared.
+    details: str = ""
     #: Whether rows are of screws of a catalogue.
     of_screws: bool = True
     #: Whether a friction coefficient or a ball-to-ball force moves the value.
@@ -179,6 +184,11 @@ class ValidationSet:
     conditioned: bool = False
     #: Whether the model must know balls with four contacts.
     four_contacts: bool = False
+
+    @property
+    def description(self) -> str:
+        """The quantity compared, its details, and the values it is compared with."""
+        return ", ".join(filter(None, (self.title, self.details, self.reference)))
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -223,14 +233,14 @@ class Entry:
         return _means([point.definitions for point in self.points])
 
     @property
-    def apart(self) -> Sequence[Apart]:
-        """What is told apart, of all points."""
-        return [apart for point in self.points for apart in point.apart]
+    def upper_limits(self) -> Sequence[UpperLimitOnly]:
+        """The values with a maximum only, of all points."""
+        return [apart for point in self.points for apart in point.upper_limits]
 
     @property
     def warnings(self) -> dict[str, int]:
         """The model's warnings, and for how many points each."""
-        every = [warning for point in self.points for warning in point.warnings]
+        every = [f"{record.name}: {record.text}" for point in self.points for record in point.warnings]
         return {warning: every.count(warning) for warning in dict.fromkeys(every)}
 
 
@@ -248,12 +258,12 @@ def _means(found: Sequence[Mapping[str, float]]) -> dict[str, float]:
 
 
 class Trend(NamedTuple):
-    """How the ratio goes with what the rows are like: ratio ∝ descriptor ^ exponent."""
+    """Dependence of the ratio on a property of the rows: ratio ∝ descriptor ^ exponent."""
 
     descriptor: str
     exponent: float
     #: Half width of the interval of two standard errors around the exponent.
-    doubt: float
+    half_width: float
     correlation: float
 
 

@@ -1,5 +1,5 @@
-"""What a model is asked for a row of each set of data, and what its row states."""
-# ruff: noqa: ARG001 - what is asked for rows has one signature, said once
+"""Evaluations of a model for the rows of each set of data, and the statements of the rows."""
+# ruff: noqa: ARG001 - evaluations of rows have one signature
 
 from __future__ import annotations
 
@@ -8,9 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.analyses.checks import ratings_of
-from ballscrew.analyses.validation import Apart, Band, Conditions, Point, Values
-from ballscrew.assembly import NutFriction, nut_friction
 from ballscrew.components.catalogue import CatalogueRow
 from ballscrew.components.conditions import ContactConditions, Motion
 from ballscrew.components.materials import Lubricant
@@ -18,10 +15,13 @@ from ballscrew.components.nut import Bodies, DoubleNut, Nut, OversizeBallNut, Si
 from ballscrew.components.nut_losses import OVERSIZE_BALL_DRAG, EfficiencyDrag, JISDrag, RexrothDrag
 from ballscrew.components.screw import STEEL, BallScrew
 from ballscrew.equations import geometry, hertz, rheology
-from ballscrew.faults import Fault, InputError
-from ballscrew.model import FrictionModel
+from ballscrew.errors import Fault, InputError
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.nut_friction import NutFriction, nut_friction
 from ballscrew.quantities import Torque, fields_of
+from ballscrew.sizing.checks import ratings_of
 from ballscrew.solvers.load_distribution import ball_loads
+from ballscrew.validation.entries import Band, Conditions, Point, UpperLimitOnly, Values
 
 #: The share of the dynamic load rating at which THK514E defines the rigidity of a nut without preload (as recalled).
 RIGIDITY_LOAD = 0.30
@@ -70,7 +70,7 @@ def _unloaded(
 def _drag_laws(
     model: FrictionModel, row: CatalogueRow, preload: float, conditions: Conditions, middle: float, two_contacts: bool
 ) -> dict[str, float]:
-    """What the rules of vendors and of first principles give, over the middle of the band."""
+    """Torques by the rules of vendors and of first principles, over the middle of the band."""
     laws: dict[str, Any] = {"jis": JISDrag(), "rexroth": RexrothDrag() if two_contacts else None}
     if two_contacts:
         half = model(row.screw(), conditions.lubricant, axial_load=preload, screw_speed=conditions.screw_speed)
@@ -99,7 +99,7 @@ def double_nut(model: FrictionModel, values: Values, conditions: Conditions) -> 
                 band=band,
                 descriptors={**descriptors, "preload_share": percent / 100},
                 laws=_drag_laws(model, row, preload, at, band.middle, two_contacts=True),
-                warnings=found.warnings,
+                warnings=found.warning_records,
             )
         )
     return points
@@ -110,10 +110,12 @@ def single_nut(model: FrictionModel, values: Values, conditions: Conditions) -> 
     row, at = screw_of(values), conditions.of(values)
     band, preload = _stated(values, "no_load_torque_5pct"), _preloaded(values, 5)
     found, descriptors = _unloaded(model, row, OversizeBallNut(preload=preload), at)
-    apart: list[Apart] = []
+    upper_limits: list[UpperLimitOnly] = []
     if "no_load_torque_2pct_max" in values:
         light, _ = _unloaded(model, row, OversizeBallNut(preload=_preloaded(values, 2)), at)
-        apart.append(Apart(f"{row.name} at 2 %", float(light.screw_torque), float(values["no_load_torque_2pct_max"])))
+        upper_limits.append(
+            UpperLimitOnly(f"{row.name} at 2 %", float(light.screw_torque), float(values["no_load_torque_2pct_max"]))
+        )
     return [
         Point(
             name=f"{row.name} at 5 %",
@@ -121,8 +123,8 @@ def single_nut(model: FrictionModel, values: Values, conditions: Conditions) -> 
             band=band,
             descriptors={**descriptors, "preload_share": 0.05},
             laws=_drag_laws(model, row, preload, at, band.middle, two_contacts=False),
-            apart=apart,
-            warnings=found.warnings,
+            upper_limits=upper_limits,
+            warnings=found.warning_records,
         )
     ]
 
@@ -141,7 +143,7 @@ def worked_example(model: FrictionModel, values: Values, conditions: Conditions)
             band=band,
             descriptors=descriptors,
             laws=laws,
-            warnings=found.warnings,
+            warnings=found.warning_records,
         )
     ]
 
@@ -248,6 +250,9 @@ def ring_torque(model: FrictionModel, ball_diameter: float, load: float, viscosi
         combined_roughness=math.hypot(0.06e-6, 0.03e-6),
         motion=Motion(v, 0.0, 0.0),
         lubricant=oil,
+        ball_diameter=ball_diameter,
+        ball_roughness=0.06e-6,
+        race_roughness=0.03e-6,
     )
     return _CONTACTS * RING_RADIUS * model.rolling(conditions)
 

@@ -1,12 +1,12 @@
-"""The declared sets of data: which columns their rows have, and what a model is asked for each."""
+"""The declared sets of data: the columns of their rows, and the evaluation of a model for each."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ballscrew.analyses import validation_rows as rows
-from ballscrew.analyses.validation import ValidationSet
 from ballscrew.quantities import Info, Quantity
+from ballscrew.validation import rows
+from ballscrew.validation.entries import ValidationSet
 
 
 def _positive(name: str, unit: str, words: str, shown_in: str = "") -> Quantity:
@@ -57,8 +57,9 @@ SETS: Mapping[str, ValidationSet] = {
     for found in (
         ValidationSet(
             name="rexroth-double-nut",
-            words="no-load torque of double nuts, two contacts a ball, preloads of 7 and 10 %, against the vendor's "
-            "band",
+            title="no-load torque of double nuts",
+            details="two contacts a ball, preloads of 7 and 10 %",
+            reference="against the vendor's band",
             source=_REXROTH,
             file="rexroth-double-nut.csv",
             quantity=_torque("N m"),
@@ -71,8 +72,9 @@ SETS: Mapping[str, ValidationSet] = {
         ),
         ValidationSet(
             name="rexroth-single-nut",
-            words="no-load torque of single nuts, oversize balls with four contacts, preload of 5 %, against the "
-            "vendor's band; at 2 % against the vendor's maximum, apart",
+            title="no-load torque of single nuts",
+            details="oversize balls with four contacts, preload of 5 %",
+            reference="against the vendor's band; at 2 % against the vendor's maximum, apart",
             source=_REXROTH,
             file="rexroth-single-nut.csv",
             quantity=_torque("N m"),
@@ -86,7 +88,8 @@ SETS: Mapping[str, ValidationSet] = {
         ),
         ValidationSet(
             name="thk-jis",
-            words="preload drag of a double nut, against a worked example by JIS B 1192 and its tolerance",
+            title="preload drag of a double nut",
+            reference="against a worked example by JIS B 1192 and its tolerance",
             source="THK catalogue",
             file="thk-jis.csv",
             quantity=_torque("N mm"),
@@ -99,7 +102,8 @@ SETS: Mapping[str, ValidationSet] = {
         ),
         ValidationSet(
             name="balan-2015",
-            words="torque of three balls between grooved rings, against a fit of measurements, at the start of a run",
+            title="torque of three balls between grooved rings",
+            reference="against a fit of measurements, at the start of a run",
             source="Lubricants 2015 3:222-243",
             file="balan-2015.csv",
             quantity=_torque("uN m"),
@@ -111,7 +115,8 @@ SETS: Mapping[str, ValidationSet] = {
         ),
         ValidationSet(
             name="hiwin-ratings",
-            words="dynamic load rating by geometry, against the catalogue; the static one beside it",
+            title="dynamic load rating by geometry",
+            reference="against the catalogue; the static one beside it",
             source=_HIWIN,
             file="hiwin.csv",
             quantity=Quantity("rating", "N", Info("C_a", "dynamic load rating", "kN")),
@@ -122,8 +127,8 @@ SETS: Mapping[str, ValidationSet] = {
         ),
         ValidationSet(
             name="hiwin-stiffness",
-            words="load over displacement of a rigid nut without preload at 30 % of its rating, against the catalogue, "
-            "whose definition is assumed",
+            title="load over displacement of a rigid nut without preload at 30 % of its rating",
+            reference="against the catalogue, whose definition is assumed",
             source=_HIWIN,
             file="hiwin.csv",
             quantity=_RIGIDITY,
@@ -134,8 +139,9 @@ SETS: Mapping[str, ValidationSet] = {
         ),
         ValidationSet(
             name="rexroth-rigidity",
-            words="rigidity of double nuts without load, screw and nut elastic, preloads of 7 and 10 %, against the "
-            "catalogue",
+            title="rigidity of double nuts without load",
+            details="screw and nut elastic, preloads of 7 and 10 %",
+            reference="against the catalogue",
             source=_REXROTH,
             file="rexroth-double-nut.csv",
             quantity=_RIGIDITY,

@@ -1,4 +1,4 @@
-"""The JSON API: each address does what the command of that name does, and says the same."""
+"""The JSON API: each address answers like the command of the same name."""
 
 from __future__ import annotations
 
@@ -10,31 +10,37 @@ from collections.abc import Callable, Mapping
 from typing import Annotated, Any
 
 import tomlkit
-import xarray as xr
 from fastapi import APIRouter, Depends, Query, Request
 from fastapi.routing import APIRoute
 from starlette.responses import Response
 
-from ballscrew import __version__
+from ballscrew import units
+from ballscrew.cases import case_file
+from ballscrew.cases import catalogue as rows
+from ballscrew.cases.schema import json_schema
 from ballscrew.components.catalogue import catalogue as shipped
-from ballscrew.faults import Fault, InputError, nearest, raise_if_any
-from ballscrew.interfaces import band as bands
-from ballscrew.interfaces import catalogue as rows
-from ballscrew.interfaces import comparison, config, export, validation
-from ballscrew.interfaces.answer import Answer, answer
-from ballscrew.interfaces.documents import plain
-from ballscrew.interfaces.schema import json_schema
-from ballscrew.interfaces.web import limits, openapi, vocabulary
-from ballscrew.interfaces.web.bodies import BandBody, CaseBody, SweepBody, case_of, read
-from ballscrew.interfaces.web.problems import Refused
-from ballscrew.interfaces.web.work import Deadline, Desk
+from ballscrew.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.output.documents import comparison as comparison_documents
+from ballscrew.output.documents import sweep as sweep_documents
+from ballscrew.output.documents import validation as validation_documents
+from ballscrew.output.json_text import plain
+from ballscrew.studies import band as bands
+from ballscrew.studies import run as runs
+from ballscrew.studies import sweep as sweeps
+from ballscrew.studies import validation
+from ballscrew.studies.comparison import comparison
+from ballscrew.web import answers, documents, limits, openapi, vocabulary
+from ballscrew.web.bodies import BandBody, CaseBody, SweepBody, case_of, read
+from ballscrew.web.problems import Refused
+from ballscrew.web.request_queue import Deadline, RequestQueue
+from ballscrew.web.templates import template
 
-#: The files that a report can be, by what ``kind`` calls them.
+#: Media types of a report, by its ``kind``.
 KINDS: Mapping[str, str] = {"pdf": "application/pdf", "html": "text/html; charset=utf-8"}
 
 
 def _known_query(request: Request) -> None:
-    """Refuse words behind the ``?`` that the address does not know; nothing is left out in silence."""
+    """Refuse query parameters that are unknown to the address or repeated."""
     route = request.scope["route"]
     assert isinstance(route, APIRoute)
     known = [field.alias for field in route.dependant.query_params]
@@ -50,12 +56,12 @@ def _known_query(request: Request) -> None:
     )
 
 
-_ONE_VALIDATES = threading.Lock()
+_VALIDATION_LOCK = threading.Lock()
 router = APIRouter(prefix="/api/v1", dependencies=[Depends(_known_query)])
 
 
 def _bytes(document: Any) -> bytes:
-    """A document as JSON, without numbers that JSON cannot say."""
+    """A document as JSON, with null for numbers that are not finite."""
     return json.dumps(plain(document), ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()
 
 
@@ -67,59 +73,56 @@ def _sent(document: bytes) -> Response:
     return Response(document, media_type="application/json")
 
 
-def _desk(request: Request) -> Desk:
-    desk: Desk = request.app.state.desk
-    return desk
+def _queue(request: Request) -> RequestQueue:
+    found: RequestQueue = request.app.state.requests
+    return found
 
 
 async def _heavy(request: Request, work: Callable[[Deadline], Any]) -> Any:
-    """Work at the desk, for as long as somebody waits for it: a page drops what was asked before the next key."""
-    task = asyncio.ensure_future(_desk(request).heavy(work))
-    left = asyncio.ensure_future(_left(request))
+    """Heavy work, cancelled when the client disconnects: the page cancels its requests at the next key."""
+    task = asyncio.ensure_future(_queue(request).heavy(work))
+    disconnected = asyncio.ensure_future(_disconnected(request))
     try:
-        await asyncio.wait((task, left), return_when=asyncio.FIRST_COMPLETED)
+        await asyncio.wait((task, disconnected), return_when=asyncio.FIRST_COMPLETED)
         if not task.done():
-            raise Refused(400, Fault("request", "broke off"))  # read by nobody
+            raise Refused(400, Fault("request", "was interrupted"))  # no client is left to read it
         return task.result()
     finally:
         task.cancel()
-        left.cancel()
+        disconnected.cancel()
 
 
-async def _left(request: Request) -> None:
-    """Comes to its end when the connection does; the body has been read."""
+async def _disconnected(request: Request) -> None:
+    """Wait until the client disconnects; the body has been read."""
     while (await request.receive())["type"] != "http.disconnect":
         pass
 
 
-async def _of_case(request: Request, work: Callable[[config.Case], Any]) -> Any:
-    """Quick work, but where very many balls are computed one by one."""
+async def _of_case(request: Request, work: Callable[[case_file.Case], Response]) -> Response:
+    """Quick work on a case; heavy work where many balls are computed one by one."""
     body: CaseBody = await read(request, CaseBody)
-    desk = _desk(request)
-    case = await desk.quick(lambda: case_of(body.case))
-    if limits.balls_of(case) > limits.MANY_BALLS:
-        return await _heavy(request, lambda _: work(case))
-    return await desk.quick(lambda: work(case))
+
+    def quick() -> case_file.Case | Response:
+        case = case_of(body.case)
+        return case if limits.balls_of(case) > limits.MANY_BALLS else work(case)
+
+    found = await _queue(request).quick(quick)
+    if isinstance(found, Response):
+        return found
+    return await _heavy(request, lambda _: work(found))
 
 
-@router.post("/run", openapi_extra=openapi.body(CaseBody), responses=openapi.answers("Run"))
+@router.post("/run", openapi_extra=openapi.body(CaseBody), response_model=answers.Run, responses=openapi.problems_of())
 async def run(request: Request) -> Response:
-    """Friction at the operating point of a case: what ``ballscrew run --json`` prints, and the words beside it."""
-
-    def work(case: config.Case) -> Response:
-        found = answer(case)
-        return _json({**found.document, "words": _words(found)})
-
-    return await _of_case(request, work)
+    """Friction at the operating point of a case: the document of ``ballscrew run --json``, with sentences."""
+    return await _of_case(request, lambda case: _json(documents.run(case)))
 
 
-def _words(found: Answer) -> dict[str, Any]:
-    return {"title": found.title, "verdicts": found.verdicts, "assumed": found.assumed}
-
-
-@router.post("/sweep", openapi_extra=openapi.body(SweepBody), responses=openapi.answers("Sweep"))
+@router.post(
+    "/sweep", openapi_extra=openapi.body(SweepBody), response_model=answers.Sweep, responses=openapi.problems_of()
+)
 async def sweep(request: Request) -> Response:
-    """Friction over ranges of load, speed or anything else, as ``ballscrew sweep`` computes it."""
+    """Friction over ranges of load, speed or any other field, as ``ballscrew sweep`` computes it."""
     body: SweepBody = await read(request, SweepBody)
     limits.check_size(body.vary, len(body.outputs))
 
@@ -127,63 +130,54 @@ async def sweep(request: Request) -> Response:
         case = case_of(body.case)
         if not body.vary:
             limits.check_size(case.sweep, len(body.outputs))
-        plan = export.plan(case, [f"{name}={text}" for name, text in body.vary.items()], body.outputs, None)
+        plan = sweeps.plan(case, [f"{name}={text}" for name, text in body.vary.items()], body.outputs, None)
         limits.check_sweep(case, plan)
-        return _json(_swept(case, plan, export.evaluate(case, plan, done)))
+        return _json(sweep_documents.document(case, plan, sweeps.sweep(case, plan, done)))
 
     return await _heavy(request, work)
 
 
-def _swept(case: config.Case, plan: export.Plan, dataset: xr.Dataset) -> dict[str, Any]:
-    def table(name: str, values: Any) -> dict[str, Any]:
-        quantity = plan.quantities[name]
-        return {"values": values, "unit": quantity.unit, "meaning": quantity.info.meaning}
-
-    return {
-        "axes": {name: table(name, values) for name, values in plan.axes.items()},
-        "outputs": {name: table(name, dataset[name].to_numpy()) for name in plan.columns},
-        "provenance": {"version": __version__, "model": case.model.label, "references": config.references(case)},
-    }
-
-
-@router.post("/compare", openapi_extra=openapi.body(CaseBody), responses=openapi.answers("Compare"))
+@router.post(
+    "/compare", openapi_extra=openapi.body(CaseBody), response_model=answers.Compare, responses=openapi.problems_of()
+)
 async def compare(request: Request) -> Response:
-    """All models and all laws side by side: what ``ballscrew compare --json`` prints."""
+    """All models and all laws side by side: the document of ``ballscrew compare --json``."""
     body: CaseBody = await read(request, CaseBody)
 
     def work(done: Deadline) -> Response:
         case = case_of(body.case)
-        return _json(comparison.document(case, comparison.compared(case, done)))
+        return _json(comparison_documents.document(case, comparison(case, done)))
 
     return await _heavy(request, work)
 
 
-@router.post("/band", openapi_extra=openapi.body(BandBody), responses=openapi.answers("Band"))
+@router.post(
+    "/band", openapi_extra=openapi.body(BandBody), response_model=answers.Band, responses=openapi.problems_of()
+)
 async def band(request: Request) -> Response:
-    """The band of a case and its causes: what ``ballscrew run --band --json`` prints, and the words beside it."""
+    """The band of a case and its causes: the document of ``ballscrew run --band --json``, with sentences."""
     body: BandBody = await read(request, BandBody)
 
     def work(done: Deadline) -> Response:
         case = case_of(body.case)
         samples = limits.samples_of(case, body.samples)
-        found = bands.computed(case, bands.Options(samples, body.level, body.only_given), done)
-        words = {"sentences": bands.sentences(case, found), "inputs": bands.assumed_in_words(found)}
-        return _json({**bands.document(answer(case), found), "words": words})
+        found = bands.band(case, bands.Options(samples, body.level, body.only_given), done)
+        return _json(documents.band(case, found))
 
     return await _heavy(request, work)
 
 
-@router.get("/catalogue", responses=openapi.answers("Catalogue"))
+@router.get("/catalogue", response_model=answers.Catalogue, responses=openapi.problems_of())
 async def catalogue(
     words: Annotated[str, Query(description="all of them must be in a row")] = "",
 ) -> Response:
-    """Rows of the catalogue with these words: what ``ballscrew catalogue list --json`` prints."""
+    """Rows of the catalogue with these words: the document of ``ballscrew catalogue list --json``."""
     return _json(rows.list_document(rows.chosen(shipped(), words)))
 
 
-@router.get("/catalogue/{name}", responses=openapi.answers("Row", 404))
+@router.get("/catalogue/{name}", response_model=answers.Row, responses=openapi.problems_of(404))
 async def row(name: openapi.RowName) -> Response:
-    """One row: what ``ballscrew catalogue show --json`` prints, and the case that ``--case`` writes, as tables."""
+    """One row: the document of ``ballscrew catalogue show --json``, and the case that ``--case`` writes, as tables."""
     try:
         found = rows.named(shipped(), name)
     except InputError as error:
@@ -191,32 +185,32 @@ async def row(name: openapi.RowName) -> Response:
     return _json({**rows.show_document(found), "case": tomlkit.parse(rows.case_text(found)).unwrap()})
 
 
-@router.get("/validate", responses=openapi.answers("Validation"))
+@router.get("/validate", response_model=list[answers.ValidationEntry], responses=openapi.problems_of())
 async def validate(
     request: Request,
     set: Annotated[str, Query(json_schema_extra={"enum": ["", *validation.SETS]}, description="one set alone")] = "",
 ) -> Response:
-    """The model against what vendors and laboratories state: what ``ballscrew validate --json`` prints."""
-    asked = validation.request([set] if set else [])
-    return await _heavy(request, lambda _: _sent(_validated(tuple(data.name for data in asked.sets))))
+    """The model against data of vendors and laboratories: the document of ``ballscrew validate --json``."""
+    requested = validation.request([set] if set else [])
+    return await _heavy(request, lambda _: _sent(_validated(tuple(data.name for data in requested.sets))))
 
 
 @functools.cache
-def _kept(names: tuple[str, ...]) -> bytes:
-    """The rows are shipped and do not change: computed once for each of the sets."""
+def _validation(names: tuple[str, ...]) -> bytes:
+    """The document of some sets; their data are shipped, so it is computed once."""
     found = validation.evaluate(validation.request(names))
-    return _bytes(validation.documents([entry for entries, _ in found for entry in entries]))
+    return _bytes(validation_documents.documents([entry for entries, _ in found for entry in entries]))
 
 
 def _validated(names: tuple[str, ...]) -> bytes:
-    """One at a time: those who come meanwhile find it computed."""
-    with _ONE_VALIDATES:
-        return _kept(names)
+    """The document of some sets; a second request waits for the first one and finds it computed."""
+    with _VALIDATION_LOCK:
+        return _validation(names)
 
 
-@router.get("/schema", responses=openapi.answers("Schema"))
+@router.get("/schema", response_model=answers.CaseSchema, responses=openapi.problems_of())
 async def schema() -> Response:
-    """JSON Schema of a case file: what ``ballscrew schema`` prints."""
+    """JSON Schema of a case file, as ``ballscrew schema`` prints it."""
     return _sent(_schema())
 
 
@@ -225,8 +219,8 @@ def _schema() -> bytes:
     return _bytes(json_schema())
 
 
-@router.get("/vocabulary", responses=openapi.answers("Vocabulary"))
-async def words() -> Response:
+@router.get("/vocabulary", response_model=vocabulary.Vocabulary, responses=openapi.problems_of())
+async def get_vocabulary() -> Response:
     """Units and their factors, results and mechanisms by name, models, and cases to start from."""
     return _sent(_vocabulary())
 
@@ -240,30 +234,49 @@ def _vocabulary() -> bytes:
 async def toml(request: Request) -> Response:
     """The case as a file, ready for ``ballscrew run``."""
     body: CaseBody = await read(request, CaseBody)
-    await _desk(request).quick(lambda: case_of(body.case))
+    await _queue(request).quick(lambda: case_of(body.case))
     return Response(tomlkit.dumps(body.case), media_type="application/toml")
 
 
 @router.post("/drawing", openapi_extra=openapi.body(CaseBody), responses=openapi.text("image/svg+xml"))
 async def drawing(request: Request) -> Response:
     """The ball between its grooves and the slip in its contact, to scale, as SVG."""
-    from ballscrew.interfaces.drawing import drawing as drawn
+    from ballscrew.report.drawing import drawing as drawn
 
-    return await _of_case(request, lambda case: Response(drawn(answer(case)), media_type="image/svg+xml"))
+    return await _of_case(request, lambda case: Response(drawn(runs.run(case)), media_type="image/svg+xml"))
+
+
+@router.post(
+    "/drawing/template",
+    openapi_extra=openapi.body(CaseBody),
+    response_model=answers.Template,
+    responses=openapi.problems_of(),
+)
+async def drawing_template(request: Request) -> Response:
+    """The same drawing as a template, to be shown in any units."""
+    from ballscrew.report.drawing import drawing as drawn
+
+    def work(case: case_file.Case) -> Response:
+        found = runs.run(case)
+        with units.placeholders() as quantities:
+            picture = drawn(found)
+        return _json(template(picture, quantities))
+
+    return await _of_case(request, work)
 
 
 @router.post("/report", openapi_extra=openapi.body(CaseBody), responses=openapi.text(*KINDS.values()))
 async def report(
     request: Request,
-    kind: Annotated[str, Query(json_schema_extra={"enum": [*KINDS]}, description="the file that it is to be")] = "pdf",
+    kind: Annotated[str, Query(json_schema_extra={"enum": [*KINDS]}, description="the kind of file")] = "pdf",
 ) -> Response:
-    """The report of a case to file: what ``ballscrew report`` writes."""
+    """The report of a case, as ``ballscrew report`` writes it."""
     body: CaseBody = await read(request, CaseBody)
     if kind not in KINDS:
         raise InputError(Fault("?kind", "unknown kind of file", kind, nearest(kind, KINDS)))
 
     def work(done: Deadline) -> Response:
-        from ballscrew.interfaces.report_content import report_bytes  # with its writers: only for those who ask
+        from ballscrew.report.contents import report_bytes  # slow to import
 
         case = case_of(body.case)
         found = report_bytes(case, "pdf" if kind == "pdf" else "html", done, samples=limits.samples_of(case))

@@ -1,6 +1,6 @@
-"""The body of a request, refused before it can cost anything.
+"""Bodies of requests, with limits that are checked before any work.
 
-What is here counts bytes and values. Whether a case makes sense, :mod:`ballscrew.interfaces.config` says, as for a
+Bytes, values and nesting are counted here. The case itself is checked by :mod:`ballscrew.cases.case_file`, as for a
 file.
 """
 
@@ -15,12 +15,12 @@ import anyio
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import ClientDisconnect, Request
 
+from ballscrew.cases import case_file
+from ballscrew.cases.case_file import Case
+from ballscrew.cases.schema import read_table
 from ballscrew.components.catalogue import catalogue
-from ballscrew.faults import Fault, InputError, raise_if_any
-from ballscrew.interfaces import config
-from ballscrew.interfaces.config import Case
-from ballscrew.interfaces.schema import read_table
-from ballscrew.interfaces.web.problems import Refused
+from ballscrew.errors import Fault, InputError, raise_if_any
+from ballscrew.web.problems import Refused
 
 #: A case file has one or two kilobytes.
 MOST_BYTES = 65_536
@@ -30,7 +30,7 @@ LONGEST_TEXT = 1_000
 #: Loaded balls that are computed one by one, where the bodies of a nut are elastic or its balls differ.
 MOST_BALLS = 500
 #: Seconds for a body to arrive.
-PATIENCE = 10.0
+READ_TIMEOUT = 10.0
 
 Tables = dict[str, Any]
 
@@ -46,14 +46,14 @@ class CaseBody(_Body):
 
 
 class SweepBody(CaseBody):
-    """A case, what to vary (as ``--vary``), and what to return."""
+    """A case, the axes to vary (as ``--vary``), and the outputs to return."""
 
     vary: dict[str, str] = Field(default_factory=dict)
     outputs: list[str] = Field(default_factory=list)
 
 
 class BandBody(CaseBody):
-    """A case, and how its band is found."""
+    """A case, and the options of its band."""
 
     samples: int | None = Field(default=None, strict=True)
     level: float | None = Field(default=None, strict=True)
@@ -61,7 +61,7 @@ class BandBody(CaseBody):
 
 
 async def read(request: Request, kind: type[_Body]) -> Any:
-    """The body of a request as one of the kinds above. Raises :class:`~ballscrew.interfaces.web.problems.Refused`."""
+    """The body of a request as one of the kinds above. Raises :class:`~ballscrew.web.problems.Refused`."""
     media = request.headers.get("content-type", "").partition(";")[0].strip().lower()
     if media != "application/json":
         raise Refused(415, Fault("Content-Type", "is not application/json", media, "send JSON"))
@@ -81,15 +81,15 @@ async def _bytes(request: Request) -> bytes:
         raise too_large
     found = bytearray()
     try:
-        with anyio.fail_after(PATIENCE):
+        with anyio.fail_after(READ_TIMEOUT):
             async for chunk in request.stream():
                 found += chunk
                 if len(found) > MOST_BYTES:
                     raise too_large
     except TimeoutError:
-        raise Refused(408, Fault("request", f"did not arrive within {PATIENCE:g} s")) from None
+        raise Refused(408, Fault("request", f"did not arrive within {READ_TIMEOUT:g} s")) from None
     except ClientDisconnect:
-        raise Refused(400, Fault("request", "broke off")) from None  # read by nobody
+        raise Refused(400, Fault("request", "was interrupted")) from None  # no client is left to read it
     return bytes(found)
 
 
@@ -109,14 +109,14 @@ def _no_number(name: str) -> NoReturn:
 
 
 def _number(text: str) -> float:
-    """A number that a computer has; JSON would make 1e999 infinite."""
+    """A finite number; JSON would make 1e999 infinite."""
     if not math.isfinite(found := float(text)):
-        raise ValueError(f"{text[:40]} is no number that a computer has")
+        raise ValueError(f"{text[:40]} is too large for a number")
     return found
 
 
 def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """A table in which each name stands once, as in a case file; JSON would let the last one win."""
+    """A table without repeated names, as in a case file; JSON would keep the last one."""
     found = dict(pairs)
     if len(found) < len(pairs):
         names = [name for name, _ in pairs]
@@ -125,7 +125,7 @@ def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _count(value: Any) -> None:
-    """Refuse what is nested too deeply, has too many values or too long texts, or letters that are none."""
+    """Refuse deep nesting, too many values, long texts and invalid Unicode."""
     level, seen = [value], 0
     for _ in range(DEEPEST + 1):
         seen += len(level)
@@ -134,10 +134,10 @@ def _count(value: Any) -> None:
         for item in level:
             for text in _texts(item):
                 if len(text) > LONGEST_TEXT:
-                    problem = f"has a text of more than {LONGEST_TEXT} letters"
+                    problem = f"has a text of more than {LONGEST_TEXT} characters"
                     raise Refused(413, Fault("request", problem, text[:40] + "…", "shorten it"))
                 if not text.isascii() and any("\ud800" <= letter <= "\udfff" for letter in text):
-                    raise Refused(400, Fault("request", "has half a letter in it", "", "send Unicode text"))
+                    raise Refused(400, Fault("request", "has an unpaired surrogate", "", "send Unicode text"))
         level = [inner for item in level for inner in _inside(item)]
         if not level:
             return
@@ -157,16 +157,16 @@ def _texts(value: Any) -> list[str]:
 
 
 def case_of(tables: Mapping[str, Any]) -> Case:
-    """The case that the tables of a request describe. Raises :class:`~ballscrew.faults.InputError`.
+    """The case that the tables of a request describe. Raises :class:`~ballscrew.errors.InputError`.
 
-    Nothing in them is taken for a path.
+    No value in them is read as a path.
     """
     screw = tables.get("screw")
     if isinstance(screw, Mapping) and "catalogue_file" in screw:
         remedy = "send the numbers of the screw, or name a row that is shipped"
         raise InputError(Fault("screw.catalogue_file", "is not taken from a request", "", remedy))
     raise_if_any([Fault(where, "must not be null", "", "leave it out") for where in _nulls("", tables)])
-    case = config.build(tables, rows=catalogue())
+    case = case_file.build(tables, rows=catalogue())
     if case.parts is not None and case.parts.one_by_one and case.screw.loaded_balls > MOST_BALLS:
         given, remedy = f"{case.screw.loaded_balls:g}", f"{MOST_BALLS} at most where balls differ or bodies are elastic"
         raise InputError(Fault("screw.loaded_balls", "too many to compute one by one", given, remedy))
@@ -174,7 +174,7 @@ def case_of(tables: Mapping[str, Any]) -> Case:
 
 
 def _nulls(where: str, value: Any) -> Iterator[str]:
-    """Where JSON has null, which no case file can hold."""
+    """Places where JSON has null, which a case file cannot have."""
     if value is None:
         yield where
     elif isinstance(value, dict):

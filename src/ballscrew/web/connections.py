@@ -1,4 +1,4 @@
-"""Listening: uvicorn, with patience that ends, and an end that nobody waits for."""
+"""Connections: uvicorn with timeouts for slow clients, and a shutdown that waits for nobody."""
 
 from __future__ import annotations
 
@@ -12,73 +12,70 @@ import uvicorn
 from fastapi import FastAPI
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from ballscrew.faults import Fault
-from ballscrew.interfaces.web import problems
-from ballscrew.interfaces.web.bodies import PATIENCE
-from ballscrew.interfaces.web.server import HEADERS
-from ballscrew.interfaces.web.work import Desk
+from ballscrew.errors import Fault
+from ballscrew.web import problems
+from ballscrew.web.bodies import READ_TIMEOUT
+from ballscrew.web.guard import HEADERS
+from ballscrew.web.request_queue import RequestQueue
 
 #: Bytes of the head of a request.
 LONGEST_HEAD = 65_536
-#: Seconds for what is sent to be taken, each time the line is full.
-_PATIENCE_TO_SEND = 60.0
-#: Seconds that answers have to go out when the server ends.
-_FAREWELL = 2
+#: Seconds for a client to read what was sent, each time the buffer is full.
+_WRITE_TIMEOUT = 60.0
+#: Seconds that responses have to be sent at shutdown.
+_SHUTDOWN_TIMEOUT = 2
 
 
-class _Patient(H11Protocol):
-    """A connection that is closed where the head of a request, or a body nobody reads, does not come to its end.
+class _TimeoutProtocol(H11Protocol):
+    """A connection with timeouts: for the head of a request, for a body that is not read, and for unread responses."""
 
-    It is broken off where the answer is not taken.
-    """
-
-    _waiting: asyncio.TimerHandle | None = None
-    _full: asyncio.TimerHandle | None = None
+    _read_timer: asyncio.TimerHandle | None = None
+    _write_timer: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: Any) -> None:
-        """Somebody has called."""
+        """Start the timeout of the first request."""
         super().connection_made(transport)
-        self._wait()
+        self._start_reading()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Somebody has left."""
-        self._stop_waiting()
-        self._empty()
+        """Stop all timeouts."""
+        self._stop_reading()
+        self._stop_writing()
         super().connection_lost(exc)
 
     def pause_writing(self) -> None:
-        """The line is full: closing it would wait for who does not read."""
+        """Start the timeout of a full buffer: closing the connection would wait for the client to read."""
         super().pause_writing()
-        self._empty()
-        self._full = self.loop.call_later(_PATIENCE_TO_SEND, self.transport.abort)
+        self._stop_writing()
+        self._write_timer = self.loop.call_later(_WRITE_TIMEOUT, self.transport.abort)
 
     def resume_writing(self) -> None:
-        """What was sent is being taken."""
+        """Stop the timeout: the client reads again."""
         super().resume_writing()
-        self._empty()
+        self._stop_writing()
 
     def data_received(self, data: bytes) -> None:
-        """Some bytes have come."""
+        """Stop or start the timeout of reading, by what is still expected."""
         super().data_received(data)
-        answered = self.conn.our_state is h11.DONE
-        if not (self.conn.their_state is h11.IDLE or (answered and self.reads_body)):
-            self._stop_waiting()
-        elif self._waiting is None:
-            self._wait()
+        responded = self.conn.our_state is h11.DONE
+        if not (self.conn.their_state is h11.IDLE or (responded and self.expects_body)):
+            self._stop_reading()
+        elif self._read_timer is None:
+            self._start_reading()
 
     def on_response_complete(self) -> None:
-        """The answer is out, perhaps before all of the request was in."""
+        """Start the timeout of a body that is still expected after its response."""
         super().on_response_complete()
-        if self.reads_body and self._waiting is None:
-            self._wait()
+        if self.expects_body and self._read_timer is None:
+            self._start_reading()
 
     @property
-    def reads_body(self) -> bool:
-        """Whether a request has begun and has not all come."""
+    def expects_body(self) -> bool:
+        """True while the body of a request is incomplete."""
         return self.conn.their_state is h11.SEND_BODY
 
     def send_400_response(self, msg: str) -> None:  # noqa: ARG002  (it only says that it is invalid)
-        """Refuse what is no HTTP, in our words."""
+        """Refuse what is not HTTP by a problem document."""
         if self.conn.our_state in (h11.IDLE, h11.SEND_RESPONSE):
             fault = Fault("request", "is not HTTP, or its head is too long", "", f"{LONGEST_HEAD} bytes at most")
             found = problems.response(400, [fault])
@@ -91,42 +88,42 @@ class _Patient(H11Protocol):
                 self.transport.write(self.conn.send(event) or b"")
         self.transport.close()
 
-    def _empty(self) -> None:
-        if self._full is not None:
-            self._full.cancel()
-            self._full = None
+    def _start_reading(self) -> None:
+        self._read_timer = self.loop.call_later(READ_TIMEOUT, self.transport.close)
 
-    def _wait(self) -> None:
-        self._waiting = self.loop.call_later(PATIENCE, self.transport.close)
+    def _stop_reading(self) -> None:
+        if self._read_timer is not None:
+            self._read_timer.cancel()
+            self._read_timer = None
 
-    def _stop_waiting(self) -> None:
-        if self._waiting is not None:
-            self._waiting.cancel()
-            self._waiting = None
+    def _stop_writing(self) -> None:
+        if self._write_timer is not None:
+            self._write_timer.cancel()
+            self._write_timer = None
 
 
 class _Server(uvicorn.Server):
-    """A server that tells its desk when it ends."""
+    """A server that closes its request queue at shutdown."""
 
-    def __init__(self, config: uvicorn.Config, desk: Desk) -> None:
+    def __init__(self, config: uvicorn.Config, requests: RequestQueue) -> None:
         super().__init__(config)
-        self._desk = desk
+        self._requests = requests
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """Take no more requests, and answer those that wait; what comes to no end is broken off."""
-        self._desk.close()
+        """Refuse the requests that wait, and close the connections whose requests are incomplete."""
+        self._requests.close()
         for connection in list(self.server_state.connections):
-            if isinstance(connection, _Patient) and connection.reads_body:
+            if isinstance(connection, _TimeoutProtocol) and connection.expects_body:
                 connection.transport.close()
-        logging.getLogger("uvicorn.error").setLevel(logging.CRITICAL)  # it would show where each was broken off
+        logging.getLogger("uvicorn.error").setLevel(logging.CRITICAL)  # it would log a traceback for each of them
         await super().shutdown(sockets)
 
 
-def run(application: FastAPI, listening: socket.socket) -> None:
+def serve(application: FastAPI, listening: socket.socket) -> None:
     """Serve until a signal ends it."""
     settings = uvicorn.Config(
-        application, http=_Patient, ws="none", lifespan="off", log_level="error", access_log=False,
-        proxy_headers=False, server_header=False, timeout_keep_alive=75, timeout_graceful_shutdown=_FAREWELL,
+        application, http=_TimeoutProtocol, ws="none", lifespan="off", log_level="error", access_log=False,
+        proxy_headers=False, server_header=False, timeout_keep_alive=75, timeout_graceful_shutdown=_SHUTDOWN_TIMEOUT,
         h11_max_incomplete_event_size=LONGEST_HEAD,
     )  # fmt: skip
-    _Server(settings, application.state.desk).run([listening])
+    _Server(settings, application.state.requests).run([listening])

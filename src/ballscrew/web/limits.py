@@ -1,4 +1,4 @@
-"""What one request may cost, known before it is begun; what its body may be stands in ``bodies``.
+"""Limits on the cost of a request, checked before its work starts; limits on its body are in ``bodies``.
 
 Each of these takes some seconds at most on two processors: ``benchmarks/serve.py --limits`` measures it.
 """
@@ -8,26 +8,28 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from ballscrew.analyses.uncertainty import NUT_SAMPLES, SAMPLES
+from ballscrew.cases.case_file import (
+    Case,
+)
 from ballscrew.components.nut import OversizeBallNut
-from ballscrew.faults import Fault, InputError, raise_if_any
-from ballscrew.interfaces import export
-from ballscrew.interfaces.config import Case
+from ballscrew.errors import Fault, InputError, raise_if_any
+from ballscrew.studies import sweep as sweeps
+from ballscrew.uncertainty.bands import NUT_SAMPLES, SAMPLES
 
-#: Axes of a sweep, its points, and the values that it returns; a whole nut takes a hundred times as long as a ball.
+#: Axes and points of a sweep, and the values that it returns; a nut takes a hundred times as long as one ball.
 MOST_AXES, MOST_POINTS, MOST_POINTS_OF_NUT, MOST_RETURNED = 8, 20_000, 2_000, 200_000
 #: Samples of a band.
 MOST_SAMPLES, MOST_SAMPLES_OF_NUT = 65_536, 1_024
-#: Balls that are computed one by one, over all points of a sweep or samples of a band.
+#: Balls that are computed one by one, in all points of a sweep or samples of a band.
 MOST_BALLS_IN_ALL = 250_000
-#: With more of them at one point, that is no quick work.
+#: With more balls than this, a single point is heavy work.
 MANY_BALLS = 300
-#: A ball with four contacts takes as long as so many with two.
+#: Balls with two contacts that take as long as one with four.
 _FOUR_CONTACTS = 3
 
 
 def check_size(vary: Mapping[str, str], outputs: int) -> None:
-    """Refuse a sweep that is too large for anything, before its axes are made."""
+    """Refuse a sweep that is too large for any case, before its axes are made."""
     points = _points(vary)
     faults: list[Fault] = []
     if len(vary) > MOST_AXES:
@@ -39,7 +41,7 @@ def check_size(vary: Mapping[str, str], outputs: int) -> None:
     raise_if_any(faults)
 
 
-def check_sweep(case: Case, plan: export.Plan) -> None:
+def check_sweep(case: Case, plan: sweeps.Plan) -> None:
     """Refuse a sweep that is too large for its case, before it is computed."""
     points = math.prod(len(values) for values in plan.axes.values())
     faults: list[Fault] = []
@@ -53,20 +55,20 @@ def check_sweep(case: Case, plan: export.Plan) -> None:
     raise_if_any(faults)
 
 
-def samples_of(case: Case, asked: int | None = None) -> int | None:
-    """The samples of a band: those asked for, or the usual number, or fewer where its balls are too many.
+def samples_of(case: Case, requested: int | None = None) -> int | None:
+    """The samples of a band: the requested number, or the default, or fewer where its balls are too many.
 
-    Raises :class:`~ballscrew.faults.InputError` where more are asked for than are computed here.
+    Raises :class:`~ballscrew.errors.InputError` where more are requested than are computed here.
     """
     most = _most_samples(case)
-    if asked is None:
-        return most if _usual_samples(case) > most else None
-    if asked > most:
-        raise InputError(Fault("--samples", "too many", f"{asked:,}", f"{most:,} at most here"))
-    return asked
+    if requested is None:
+        return most if _default_samples(case) > most else None
+    if requested > most:
+        raise InputError(Fault("--samples", "too many", f"{requested:,}", f"{most:,} at most here"))
+    return requested
 
 
-def _usual_samples(case: Case) -> int:
+def _default_samples(case: Case) -> int:
     return SAMPLES if case.parts is None else NUT_SAMPLES
 
 
@@ -77,7 +79,7 @@ def _most_samples(case: Case) -> int:
 
 
 def balls_of(case: Case) -> int:
-    """The balls that are computed one by one, by the time they take; none where all are alike."""
+    """The number of balls that are computed one by one, weighted by their time; zero where all balls are equal."""
     parts = case.parts
     if parts is None or not parts.one_by_one:
         return 0
@@ -86,8 +88,8 @@ def balls_of(case: Case) -> int:
 
 
 def _points(vary: Mapping[str, str]) -> int:
-    """The points of a grid; an axis of no values at all is refused with better words later."""
-    return math.prod(max(1, export.length_of(text)) for text in list(vary.values())[: MOST_AXES + 1])
+    """The points of a grid; an axis without values is refused later, with its own message."""
+    return math.prod(max(1, sweeps.length_of(text)) for text in list(vary.values())[: MOST_AXES + 1])
 
 
 def _too_many_points(points: int, most: int) -> Fault:

@@ -1,4 +1,4 @@
-"""The Content-Security-Policy: only what this server sends is run or shown."""
+"""The Content-Security-Policy: browsers run and show only files of this server."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ import hashlib
 import re
 from pathlib import Path
 
-#: What plotly.js writes into an element <style> when it is loaded.
+#: Texts that plotly.js writes into an element <style> when it is loaded.
 _STYLE = re.compile(r"textContent='((?:[^'\\]|\\.)*)'")
 
 
 def policy(plotly: Path) -> str:
-    """The policy of all answers.
+    """The policy of all responses.
 
-    plotly.js sets attributes of style, an empty <style> whose rules it adds by script, and the texts of
-    <style> that stand in its file: these are allowed by their hashes, and no others.
+    plotly.js sets style attributes, adds rules by script to an empty <style>, and adds <style> elements with the texts
+    in its file: these are allowed by their hashes, and no others.
     """
     texts = ["", *_STYLE.findall(plotly.read_text(encoding="utf-8"))]
     styles = " ".join(["'self'", *map(_hash, texts)])

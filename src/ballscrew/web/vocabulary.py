@@ -1,4 +1,4 @@
-"""What a page needs to know to speak with people: units, meanings, colours, and where to start."""
+"""Vocabulary of the page: units, meanings and colours of results, and cases to start from."""
 
 from __future__ import annotations
 
@@ -6,36 +6,96 @@ import functools
 from collections.abc import Mapping
 from typing import Any
 
-from ballscrew import __version__
-from ballscrew.analyses.effects import PAPER
-from ballscrew.analyses.nut_parts import Scatter
-from ballscrew.analyses.outputs import known_outputs
-from ballscrew.assembly import NUT_REASONS, NutFriction
+from pydantic import BaseModel, ConfigDict
+
+from ballscrew import units
+from ballscrew._version import __version__
+from ballscrew.cases.nut_kinds import LISTED, LOSSES, NUT_FIELDS
+from ballscrew.cases.schema import DEFAULT_MODEL, LAWS, MODELS
 from ballscrew.components.catalogue import catalogue
 from ballscrew.components.contact import RaceState
 from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.nut import Bodies
 from ballscrew.components.screw import BallScrew, Operation
-from ballscrew.interfaces import units
-from ballscrew.interfaces.figures.colours import MECHANISM_COLOURS
-from ballscrew.interfaces.nuts import LISTED, LOSSES, NUT_FIELDS
-from ballscrew.interfaces.schema import DEFAULT_MODEL, LAWS, MODELS
-from ballscrew.model import FrictionModel
+from ballscrew.evaluation.outputs import known_outputs
+from ballscrew.figures.colours import MECHANISM_COLOURS
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.nut_friction import NUT_REASONS, NutFriction
+from ballscrew.friction.nut_parts import Scatter
+from ballscrew.friction.result import MECHANISMS, FrictionResult
+from ballscrew.papers.olaru2005 import case as paper
 from ballscrew.quantities import Info, Quantity, fields_of, quantities_of
-from ballscrew.result import MECHANISMS, FrictionResult
 from ballscrew.solvers.load_distribution import BallLoads
 
-#: What inches and pounds show in place of the units people else think in; other units are the same in both.
+#: Units of inches and pounds, by the metric units that they replace; other units are the same in both.
 _INCHES: Mapping[str, str] = {
     "mm": "in", "um": "uin", "N": "lbf", "kN": "lbf", "N m": "lbf in", "N mm": "lbf in", "MPa": "psi", "GPa": "psi",
     "degC": "degF", "m": "in",
 }  # fmt: skip
 
 
+class _Table(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+
+
+class UnitChoice(_Table):
+    """A unit that people use: SI = number × factor + offset."""
+
+    unit: str
+    factor: float
+    offset: float
+
+
+class ResultQuantity(_Table):
+    """Meaning, symbol and units of a result."""
+
+    meaning: str
+    symbol: str
+    unit: str
+    shown_in: str
+
+
+class Mechanism(_Table):
+    """A part of the torque in words, and its colour."""
+
+    words: str
+    colour: str
+
+
+class Start(_Table):
+    """A case to start from."""
+
+    title: str
+    case: dict[str, Any]
+
+
+class StartRow(_Table):
+    """A row of the catalogue to start from."""
+
+    name: str
+    source: str
+    nut: str
+
+
+class Vocabulary(_Table):
+    """Units and their factors, results and mechanisms by name, models, and cases to start from."""
+
+    version: str
+    units: dict[str, list[UnitChoice]]
+    systems: dict[str, dict[str, str]]
+    results: dict[str, ResultQuantity]
+    mechanisms: dict[str, Mechanism]
+    reasons: dict[str, str]
+    models: list[str]
+    default_model: str
+    starts: dict[str, Start]
+    rows: list[StartRow]
+
+
 @functools.cache
 def vocabulary() -> dict[str, Any]:
-    """All of it, as one document."""
+    """The vocabulary as one document."""
     return {
         "version": __version__,
         "units": _units(),
@@ -96,7 +156,7 @@ def _known_results() -> dict[str, Quantity]:
 
 
 def _mechanisms() -> dict[str, Any]:
-    """The parts of the torque in words, and a colour for each; losses of the nut come after the balls."""
+    """The parts of the torque in words, and their colours; losses of the nut come after the balls."""
     more = ("#999999", "#8A6FB0", "#5B1A3A")
     parts = {name: {"words": words, "colour": MECHANISM_COLOURS[name]} for name, words in MECHANISMS.items()}
     return parts | {slot: {"words": slot, "colour": colour} for slot, colour in zip(LOSSES, more, strict=True)}
@@ -105,10 +165,11 @@ def _mechanisms() -> dict[str, Any]:
 def _paper() -> dict[str, Any]:
     """The paper's screw, oil and operating point as the tables of a case."""
     return {
-        "screw": _written(PAPER.screw, BallScrew),
-        "lubricant": _written(PAPER.oil, Lubricant),
+        "screw": _written(paper.SCREW, BallScrew),
+        "lubricant": _written(paper.OIL, Lubricant),
         "operation": {
-            name: units.written(getattr(PAPER, name), quantity) for name, quantity in fields_of(Operation).items()
+            name: units.written(value, fields_of(Operation)[name])
+            for name, value in (("axial_load", paper.AXIAL_LOAD), ("screw_speed", paper.SCREW_SPEED))
         },
         "model": {"name": DEFAULT_MODEL},
     }

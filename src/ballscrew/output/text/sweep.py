@@ -1,4 +1,4 @@
-"""Points of a sweep outside the model's validity, in words."""
+"""``ballscrew sweep``: the size of a sweep, and a warning of its points outside the model's validity."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from ballscrew.analyses.outputs import inputs_of
-from ballscrew.analyses.store_plan import Blocks
-from ballscrew.analyses.store_rows import false_in
-from ballscrew.faults import InputError
-from ballscrew.interfaces import units
-from ballscrew.interfaces.config import Case
-from ballscrew.interfaces.export import Plan, is_store, reasons_of
+from ballscrew import units
+from ballscrew.cases.case_file import Case
+from ballscrew.errors import InputError
+from ballscrew.evaluation.outputs import inputs_of
+from ballscrew.friction.validity import REASONS
 from ballscrew.quantities import fields_of
-from ballscrew.validity import REASONS
+from ballscrew.studies.sweep import Plan, is_store, reasons_of
+from ballscrew.sweeps.store_plan import Blocks
+from ballscrew.sweeps.store_rows import count_false
 
 
 @dataclasses.dataclass(frozen=True)
@@ -59,7 +59,7 @@ def _false_in_store(dataset: xr.Dataset, to: Path) -> dict[str, _False]:
     blocks = Blocks(tuple(sizes.values()), tuple(dataset["valid"].encoding["chunks"]))
     return {
         name: _False(count, dict(zip(map(str, sizes), blocks.region(first), strict=True)))
-        for name, (count, first) in false_in(to).items()
+        for name, (count, first) in count_false(to).items()
     }
 
 
@@ -87,6 +87,12 @@ def _reason(case: Case, point: Mapping[str, float]) -> str:
             quantity = sizes[fault.where.rpartition(".")[2]]
             given = units.shown(getattr(case.screw, quantity.name), quantity)
             given = units.shown(point[quantity.name], quantity) if quantity.name in point else given
-            found.append(str(units.in_people_units(fault, quantity, given)))
+            found.append(str(units.in_display_units(fault, quantity, given)))
         return "; ".join(found)
     return REASONS["inputs"]
+
+
+def size(dataset: xr.Dataset, plan: Plan) -> str:
+    """``14 x 11 points, 3 outputs``."""
+    points = " x ".join(str(size) for size in dataset.sizes.values()) or "1"
+    return f"{points} points, {len(plan.outputs)} output{'s' if len(plan.outputs) > 1 else ''}"

@@ -10,7 +10,9 @@ import numpy as np
 
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
-from ballscrew.model import FrictionModel
+from ballscrew.friction.model import (
+    FrictionModel,
+)
 
 #: The paper states its speeds in revolutions per minute; here they turn into rad/s once.
 RPM = math.pi / 30

@@ -9,9 +9,9 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping
 
-from ballscrew.analyses.olaru2005 import case, verdicts
-from ballscrew.analyses.olaru2005.observations import Observations, observe
-from ballscrew.analyses.olaru2005.verdicts import Finding
+from ballscrew.papers.olaru2005 import case, verdicts
+from ballscrew.papers.olaru2005.observations import Observations, observe
+from ballscrew.papers.olaru2005.verdicts import Finding
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -23,7 +23,7 @@ class Claim:
     claim: str
     paper: str
     criterion: str
-    words: str
+    remark: str
     findings: Mapping[str, Finding]
 
 
@@ -36,7 +36,7 @@ class _Check:
     claim: str
     paper: str
     criterion: str
-    words: str = ""
+    remark: str = ""
     find: Callable[[Observations], Finding]
 
 
@@ -54,7 +54,7 @@ def judged(observed: Mapping[str, Observations], keys: tuple[str, ...] | None = 
             claim=check.claim,
             paper=check.paper,
             criterion=check.criterion,
-            words=check.words,
+            remark=check.remark,
             findings={name: check.find(seen) for name, seen in observed.items()},
         )
         for check in _CHECKS
@@ -77,7 +77,7 @@ _CHECKS = (
         claim="the curvature moment integrates to (15)",
         paper="–",
         criterion="(15) against Gauss quadrature of (14) over the ellipse",
-        words="Exact without spin. Spin, which the paper leaves out, changes both sides.",
+        remark="Exact without spin. Spin, which the paper leaves out, changes both sides.",
         find=verdicts.closed_form,
     ),
     _Check(
@@ -86,7 +86,7 @@ _CHECKS = (
         claim="Y may be imposed",
         paper="0.34",
         criterion="the Y that the sliding forces ask for rounds to 0.34 from 0 to 1000 rpm at 4000 N",
-        words="The same integral that gives (15) gives F_S = µQ(1 − 3Y + Y³), so equilibrium settles Y; "
+        remark="The same integral that gives (15) gives F_S = µQ(1 − 3Y + Y³), so equilibrium settles Y; "
         "the corrected model solves for it.",
         find=verdicts.offset,
     ),
@@ -96,7 +96,7 @@ _CHECKS = (
         claim="the sliding force holds all listed effects",
         paper="five effects",
         criterion="each effect has a share in F_S at 4000 N and 600 rpm, and the shares make up the whole",
-        words="Complete as to the paper's list; spin, seals and the return path are not in it.",
+        remark="Complete as to the paper's list; spin, seals and the return path are not in it.",
         find=verdicts.effects,
     ),
     _Check(
@@ -105,7 +105,7 @@ _CHECKS = (
         claim="good agreement with published measurements",
         paper="no value printed",
         criterion="needs the measured values",
-        words="The sources are cited, but none of their values is printed.",
+        remark="The sources are cited, but none of their values is printed.",
         find=verdicts.agreement,
     ),
     _Check(
@@ -114,7 +114,7 @@ _CHECKS = (
         claim="at low speed the film's friction is negligible beside the asperities'",
         paper="below 0.01 to 0.02",
         criterion="0.02 is at most a tenth of µ_a up to the speed of least torque",
-        words="The film's own coefficient at low speed cannot be checked: no equation of the paper gives it.",
+        remark="The film's own coefficient at low speed cannot be checked: no equation of the paper gives it.",
         find=verdicts.film_friction,
     ),
     _Check(
@@ -123,7 +123,7 @@ _CHECKS = (
         claim="µ_a falls to 0.02 at a film parameter of 2.5 to 3",
         paper="λ = 2.5 to 3",
         criterion="λ where (23) of §5 gives 0.02, by formula and by bisection",
-        words="At 2.5 to 3 the coefficient is below 0.02 indeed, but the clamp takes over much earlier.",
+        remark="At 2.5 to 3 the coefficient is below 0.02 indeed, but the clamp takes over much earlier.",
         find=verdicts.threshold,
     ),
     _Check(
@@ -132,7 +132,7 @@ _CHECKS = (
         claim="at very small speed µ_a reaches µ0 (first branch)",
         paper="µ_a ≥ µ0",
         criterion="reached at some speed above zero",
-        words="The exponential is below one for every film, so the branch is dead but at rest.",
+        remark="The exponential is below one for every film, so the branch is dead but at rest.",
         find=verdicts.first_branch,
     ),
     _Check(
@@ -141,7 +141,7 @@ _CHECKS = (
         claim="lubrication goes from limited through mixed to full film",
         paper="three regimes",
         criterion="the full-film branch is reached within the paper's speeds and viscosities",
-        words="Of the three branches the first is the limit of rest (see the claim before); full film means the clamp "
+        remark="Of the three branches the first is the limit of rest (see the claim before); full film means the clamp "
         "at 0.02, which takes over at λ = 1.83.",
         find=verdicts.regimes,
     ),
@@ -151,7 +151,7 @@ _CHECKS = (
         claim="torques on screw and nut hardly differ at F_B = 1/z",
         paper="no important difference",
         criterion="mean |M_S − M_N|/M_S from 0 to 1000 rpm is at most 5 % (our reading of hardly)",
-        words="In the balanced form the difference is z F_B d_m/2 (and the chain's curvature), whatever the speed.",
+        remark="In the balanced form the difference is z F_B d_m/2 (and the chain's curvature), whatever the speed.",
         find=verdicts.split_one,
     ),
     _Check(
@@ -168,7 +168,7 @@ _CHECKS = (
         claim="M_S may stand for the friction in the efficiency",
         paper="–",
         criterion="M_N in its place moves η by at most 0.01, half the width of the paper's band",
-        words="M_S is right in any case: the power is supplied at the screw, and M_N is its reaction.",
+        remark="M_S is right in any case: the power is supplied at the screw, and M_N is its reaction.",
         find=verdicts.which_torque,
     ),
     _Check(
@@ -193,7 +193,7 @@ _CHECKS = (
         claim="it then rises because the hydrodynamic forces rise",
         paper="–",
         criterion="past the minimum only hydrodynamic rolling rises",
-        words="Curvature slip goes on falling past the minimum; hydrodynamic rolling outgrows it.",
+        remark="Curvature slip goes on falling past the minimum; hydrodynamic rolling outgrows it.",
         find=verdicts.rising,
     ),
     _Check(
@@ -226,7 +226,7 @@ _CHECKS = (
         claim="efficiency rises from zero while Q goes from 0 to 20 N",
         paper="0 to 0.9",
         criterion="rises all the way from zero, and lies within 0.01 of 0.9 at 20 N",
-        words="The start of the rise lies outside the validity of the equations (see the last claim on Fig. 9).",
+        remark="The start of the rise lies outside the validity of the equations (see the last claim on Fig. 9).",
         find=verdicts.first_zone,
     ),
     _Check(
@@ -243,7 +243,7 @@ _CHECKS = (
         claim="the efficiency starts at zero",
         paper="0 at Q = 0",
         criterion="zero at Q = 0, and the model is valid there",
-        words="The equations do give zero, but where F_S exceeds µQ the ball would skid and they no longer apply.",
+        remark="The equations do give zero, but where F_S exceeds µQ the ball would skid and they no longer apply.",
         find=verdicts.zero,
     ),
     _Check(

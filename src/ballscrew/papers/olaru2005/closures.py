@@ -10,14 +10,14 @@ import dataclasses
 import math
 from collections.abc import Mapping
 
-from ballscrew.analyses.olaru2005 import case
-from ballscrew.analyses.olaru2005.claims import judged
-from ballscrew.analyses.olaru2005.observations import observe
-from ballscrew.analyses.olaru2005.verdicts import Finding, Verdict
 from ballscrew.components.lubrication import HamrockDowson
 from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.screw import BallScrew
-from ballscrew.model import FrictionModel
+from ballscrew.friction.model import FrictionModel
+from ballscrew.papers.olaru2005 import case
+from ballscrew.papers.olaru2005.claims import judged
+from ballscrew.papers.olaru2005.observations import observe
+from ballscrew.papers.olaru2005.verdicts import Finding, Verdict
 
 #: The claims whose verdict depends on what is left unstated.
 KEYS = ("split_one", "split_two", "minimum", "falling", "rising", "efficiency", "first_zone", "second_zone")
@@ -29,7 +29,7 @@ class Reading:
     """One way to fill in what the paper does not say."""
 
     name: str
-    words: str
+    description: str
     model: FrictionModel
     screw: BallScrew
     oil: Lubricant
@@ -71,20 +71,26 @@ def readings() -> tuple[Reading, ...]:
     first = "bracket of Y in (15) dropped (as with Y = 0), α_p 1e-8 1/Pa"
     second = "Y = 0, E′ 2.1e11 Pa, α_p 2e-8 1/Pa, σ² = σ_b² + σ_s² + σ_n²"
     return (
-        Reading(name="as printed", words="the choices above", model=printed, screw=case.SCREW, oil=case.OIL),
-        Reading(name="exponent 0.68", words="the right exponent in (26)", model=right, screw=case.SCREW, oil=case.OIL),
-        Reading(name="set 1", words=f"{first}, exponent 0.68", model=without_offset(right), screw=case.SCREW, oil=thin),
+        Reading(name="as printed", description="the choices above", model=printed, screw=case.SCREW, oil=case.OIL),
+        Reading(
+            name="exponent 0.68", description="the right exponent in (26)", model=right, screw=case.SCREW, oil=case.OIL
+        ),
+        Reading(
+            name="set 1", description=f"{first}, exponent 0.68", model=without_offset(right), screw=case.SCREW, oil=thin
+        ),
         Reading(
             name="set 1, exponent 0.66",
-            words=f"{first}, exponent as printed",
+            description=f"{first}, exponent as printed",
             model=without_offset(printed),
             screw=case.SCREW,
             oil=thin,
         ),
-        Reading(name="set 2", words=f"{second}, exponent 0.68", model=without_offset(right), screw=rougher, oil=other),
+        Reading(
+            name="set 2", description=f"{second}, exponent 0.68", model=without_offset(right), screw=rougher, oil=other
+        ),
         Reading(
             name="set 2, exponent 0.66",
-            words=f"{second}, exponent as printed",
+            description=f"{second}, exponent as printed",
             model=without_offset(printed),
             screw=rougher,
             oil=other,

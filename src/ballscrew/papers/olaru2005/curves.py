@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ballscrew.analyses.olaru2005 import case
-from ballscrew.analyses.sweep import sweep
-from ballscrew.model import FrictionModel
-from ballscrew.result import MECHANISMS
-from ballscrew.validity import REASONS
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.result import MECHANISMS
+from ballscrew.friction.validity import REASONS
+from ballscrew.papers.olaru2005 import case
+from ballscrew.sweeps.sweep import sweep
 
 #: The models whose figures are drawn.
 DRAWN = ("olaru2005", "corrected")

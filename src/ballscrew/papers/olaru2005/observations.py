@@ -10,13 +10,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses.olaru2005 import case
 from ballscrew.components.contact import RaceState
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import equilibrium, friction
-from ballscrew.model import FrictionModel
-from ballscrew.result import MECHANISMS, FrictionResult
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.result import (
+    MECHANISMS,
+    FrictionResult,
+)
+from ballscrew.papers.olaru2005 import case
 
 #: Steps of 1 rpm, then of 0.05 rpm around the smallest torque found.
 _FINE_STEP = 0.05

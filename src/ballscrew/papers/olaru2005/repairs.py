@@ -5,8 +5,10 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 
-from ballscrew.analyses.olaru2005 import case
-from ballscrew.model import FrictionModel
+from ballscrew.friction.model import (
+    FrictionModel,
+)
+from ballscrew.papers.olaru2005 import case
 
 #: The fields of the model in which the two differ, and what each repair is.
 REPAIRS: Mapping[str, str] = {
@@ -24,7 +26,7 @@ REPAIRS: Mapping[str, str] = {
 class Repair:
     """Torque (N m) and efficiency at 4000 N and 600 rpm with this repair alone, and with all so far."""
 
-    words: str
+    description: str
     torque_alone: float
     efficiency_alone: float
     torque_so_far: float

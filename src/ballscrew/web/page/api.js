@@ -1,4 +1,4 @@
-// The viewer of the API, on what the API says of itself; nothing is asked from outside.
+// The viewer of the API, on its own OpenAPI description; nothing is requested from outside.
 
 globalThis.SwaggerUIBundle({
   url: "/api/v1/openapi.json",

@@ -1,0 +1,32 @@
+# The public names and their modules, for type checkers and for __init__.py, which loads each name at its first use.
+
+from ballscrew._version import __version__ as __version__
+from ballscrew.calibration.calibrated_model import CalibratedModel as CalibratedModel
+from ballscrew.calibration.fit import fit as fit
+from ballscrew.components.catalogue import catalogue as catalogue
+from ballscrew.components.lubrication import HamrockDowson as HamrockDowson
+from ballscrew.components.materials import Lubricant as Lubricant
+from ballscrew.components.materials import Material as Material
+from ballscrew.components.mixed_friction import ZhouHoeprich as ZhouHoeprich
+from ballscrew.components.nut import Bodies as Bodies
+from ballscrew.components.nut import Deviations as Deviations
+from ballscrew.components.nut import DoubleNut as DoubleNut
+from ballscrew.components.nut import OffsetLeadNut as OffsetLeadNut
+from ballscrew.components.nut import OversizeBallNut as OversizeBallNut
+from ballscrew.components.nut import SingleNut as SingleNut
+from ballscrew.components.nut_losses import Seals as Seals
+from ballscrew.components.screw import BallScrew as BallScrew
+from ballscrew.errors import InputError as InputError
+from ballscrew.evaluation.derivatives import derivatives as derivatives
+from ballscrew.friction.model import FrictionModel as FrictionModel
+from ballscrew.friction.nut_friction import nut_friction as nut_friction
+from ballscrew.friction.result import FrictionResult as FrictionResult
+from ballscrew.sweeps.sweep import sweep as sweep
+from ballscrew.torque_logs.torque_log import TorqueLog as TorqueLog
+from ballscrew.uncertainty.bands import band as band
+from ballscrew.uncertainty.distributions import LogNormal as LogNormal
+from ballscrew.uncertainty.distributions import Normal as Normal
+from ballscrew.uncertainty.distributions import Triangular as Triangular
+from ballscrew.uncertainty.distributions import Uniform as Uniform
+from ballscrew.uncertainty.monte_carlo import monte_carlo as monte_carlo
+from ballscrew.uncertainty.sensitivity import sensitivity as sensitivity

@@ -1,0 +1,92 @@
+"""A model calibrated to a log: the data of the fit, with predictions, intervals, the next test and the posterior."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from ballscrew.calibration.diagnostics import product_of_powers
+from ballscrew.calibration.fit_result import Band, FitResult
+from ballscrew.calibration.next_test import NextTest, next_test
+from ballscrew.calibration.posterior import Posterior, posterior
+from ballscrew.calibration.problem import CONSTANT_TORQUE
+from ballscrew.components.materials import TEMPERATURE
+from ballscrew.errors import Fault, InputError
+from ballscrew.quantities import AngularSpeed, Force, Temperature, Torque
+from ballscrew.uncertainty.distributions import normal_half_width
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class CalibratedModel(FitResult):
+    """The result of :func:`~ballscrew.calibration.fit.fit`."""
+
+    def predict(self, axial_load: Force, screw_speed: AngularSpeed, temperature: Temperature | None = None) -> Torque:
+        """Friction torque on the screw, N m, at loads (N), speeds (rad/s) and temperatures (K); arrays broadcast.
+
+        Without a temperature the oil is as it was given. Raises :class:`~ballscrew.errors.InputError` for a
+        temperature of an oil that was not made from a grade.
+        """
+        oil = self.lubricant if temperature is None else self.lubricant.at(temperature)
+        load, speed = np.abs(np.asarray(axial_load, dtype=float)), np.abs(np.asarray(screw_speed, dtype=float))
+        found = self.model(self.screw, oil, axial_load=load, screw_speed=speed)
+        return found.screw_torque + self.constant_torque
+
+    def band(
+        self,
+        axial_load: Force,
+        screw_speed: AngularSpeed,
+        temperature: Temperature | None = None,
+        *,
+        level: float = 0.95,
+        scatter: bool = False,
+    ) -> Band:
+        """The friction torque with the interval that the calibration leaves, N m; with ``scatter``, of one reading.
+
+        From the exact derivatives and the covariance: ``M ± z √(g C gᵀ)``, within what data and priors tell.
+        Where the torque depends on what they do not tell, the interval is NaN.
+        """
+        if not 0 < level < 1:
+            raise InputError(Fault("band.level", "must lie between 0 and 1", str(level), "0.95 is usual"))
+        oil_temperature = self.lubricant.temperature if temperature is None else temperature
+        given = [axial_load, screw_speed, *([] if oil_temperature is None else [oil_temperature])]
+        arrays = np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in given))
+        names = ("axial_load", "screw_speed", TEMPERATURE.name)
+        points = {name: np.abs(array).ravel() for name, array in zip(names, arrays, strict=False)}
+        values = self.solution.values
+        torques, slopes = self.response.at(points)(values[: len(self.response.names)])
+        friction = torques[1] + self.constant_torque
+        gradient = np.zeros((friction.size, values.size))
+        gradient[:, : slopes.shape[2]] = slopes[1]
+        if CONSTANT_TORQUE.name in self.estimates:
+            gradient[:, slopes.shape[2]] = 1.0
+        variance = self.uncertainty.variance_of(gradient) + (self.solution.noise.of(friction) ** 2 if scatter else 0.0)
+        half = normal_half_width(level) * np.sqrt(variance)
+        shape = arrays[0].shape
+        return Band(*(np.reshape(torque, shape)[()] for torque in (friction - half, friction, friction + half)))
+
+    def next_test(
+        self, limits: Mapping[str, tuple[float, float]] | None = None, readings: int | None = None
+    ) -> NextTest:
+        """The test that would teach most; see :func:`ballscrew.calibration.next_test.next_test`."""
+        return next_test(self, limits, readings)
+
+    def posterior(self, steps: int = 2000, seed: int = 0, done: Callable[[int, int], None] | None = None) -> Posterior:
+        """Samples of the fitted numbers; see :func:`ballscrew.calibration.posterior.posterior`."""
+        return posterior(self, steps, seed, done)
+
+    def report(self) -> str:
+        """The results in plain text and SI units."""
+        lines = ["number, value, standard error"]
+        for estimate in (*self.estimates.values(), *self.sensor.values()):
+            unit = "" if estimate.quantity.unit == "1" else f" {estimate.quantity.unit}"
+            error = "not identified" if estimate.std is None else f"± {estimate.std:.2g}{unit}"
+            lines.append(f"{estimate.name}: {estimate.value:.6g}{unit}, {error}")
+        combinations = self.identifiability.combinations
+        lines += [
+            f"known: {product_of_powers(c.powers)} to {c.relative_error:.2g}" for c in combinations if c.identified
+        ]
+        lines += [f"not known: {product_of_powers(c.powers)}" for c in combinations if not c.identified]
+        lines += [f"{s.description}: rms {s.fitted:.4g} N m, held out {s.held_out:.4g} N m" for s in self.scores]
+        return "\n".join([*lines, *(f"beware: {warning}" for warning in self.warnings)])

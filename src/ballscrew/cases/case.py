@@ -1,0 +1,67 @@
+"""The case: the model, the parts and the operating point that every command evaluates."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+from ballscrew import units
+from ballscrew.cases.nut_kinds import LISTED
+from ballscrew.components.catalogue import CatalogueRow
+from ballscrew.components.installation import Installation, Limits
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.friction.calibrations import Calibration
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.nut_parts import NutParts
+from ballscrew.uncertainty.distributions import Distribution
+
+#: The limits of the checks where a case gives none.
+USUAL_LIMITS = Limits()
+
+
+class PreloadNote(NamedTuple):
+    """A preload that was given as a share of the dynamic load rating."""
+
+    share: float
+    rating: float
+    source: str
+
+    def __str__(self) -> str:
+        """``preload 5.047 kN: 7 % of the dynamic load rating 72.1 kN, as listed``."""
+        quantity = LISTED["dynamic_load_rating"]
+        force, rated = (units.shown(value, quantity) for value in (self.share * self.rating, self.rating))
+        return f"preload {force}: {100 * self.share:.4g} % of the dynamic load rating {rated}, {self.source}"
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Case:
+    """The content of a case file: a model, a screw, a lubricant, an operating point, perhaps a sweep."""
+
+    model: FrictionModel
+    screw: BallScrew
+    lubricant: Lubricant
+    operation: Operation
+    sweep: Mapping[str, str]
+    #: Grade and temperature the oil was made from, where it was.
+    oil: Mapping[str, Any]
+    #: The catalogue row the screw was made from, where it was.
+    row: CatalogueRow | None = None
+    #: Load ratings and root diameter, where a catalogue or the case lists them.
+    listed: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
+    #: The nut with its preload, bodies and losses; without one the screw is only its loaded balls.
+    parts: NutParts | None = None
+    installation: Installation | None = None
+    limits: Limits = USUAL_LIMITS
+    #: Numbers that were derived from others.
+    notes: Sequence[PreloadNote] = ()
+    #: Distributions of inputs that the file gives, in SI, named as sweeps name inputs; the rest of the case has
+    #: their central values. :func:`~ballscrew.cases.uncertain_inputs.all_of` adds the defaults of the others.
+    uncertain: Mapping[str, Distribution] = dataclasses.field(default_factory=dict[str, Distribution])
+    #: Inputs that the file gives as exact (± 0).
+    exact: frozenset[str] = frozenset()
+    #: The named calibration that gave two numbers of the model.
+    calibration: Calibration | None = None
+    #: The table ``[calibration]`` that a fit wrote beside its numbers, as it stands in the file.
+    fit: Mapping[str, Any] = dataclasses.field(default_factory=dict[str, Any])

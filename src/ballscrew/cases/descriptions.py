@@ -1,0 +1,183 @@
+"""Descriptions of a case: operating point, screw, nut, model, assumptions and omissions, as text."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ballscrew import units
+from ballscrew.cases.case import Case
+from ballscrew.cases.nut_kinds import LOSSES, kind_of
+from ballscrew.cases.schema import LAWS, MODELS, name_of_law
+from ballscrew.components.contact import RaceState
+from ballscrew.components.materials import TEMPERATURE, Lubricant
+from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.components.traits import traits_of
+from ballscrew.friction.law_names import coefficients
+from ballscrew.friction.nut_parts import NutParts
+from ballscrew.friction.result import FrictionResult
+from ballscrew.quantities import fields_of, quantities_of
+
+#: Temperature of an oil of a grade where none is given, K.
+DEFAULT_TEMPERATURE = 313.15
+LEFT_OUT, NOT_COMPARED = "left out: seals, preload, return path, churning", "not compared with measurements"
+_OPERATION = fields_of(Operation)
+_BALL_FORCE = quantities_of(FrictionResult)["ball_to_ball_force"]
+_LOSSES = {"seals": "seals", "churning": "churning", "recirculation": "return path"}
+
+
+def title(case: Case) -> str:
+    """Load, speed, nut and model."""
+    return ", ".join([*_load_speed_and_nut(case), model_text(case)])
+
+
+def operating_point_and_nut(case: Case) -> str:
+    """Load, speed and nut."""
+    return ", ".join(_load_speed_and_nut(case))
+
+
+def _load_speed_and_nut(case: Case) -> list[str]:
+    return [operating_point(case), *([] if case.parts is None else [nut_text(case.parts)])]
+
+
+def operating_point(case: Case) -> str:
+    """``4000 N, 600 rpm``."""
+    return ", ".join(units.shown(getattr(case.operation, name), q) for name, q in _OPERATION.items())
+
+
+def nut_text(parts: NutParts) -> str:
+    """``double nut, preload 5047 N``."""
+    known = fields_of(parts.nut)
+    numbers = [
+        f", {name.replace('_', ' ')} {units.shown(getattr(parts.nut, name), known[name])}"
+        for name in known
+        if name == "preload" or getattr(parts.nut, name)
+    ]
+    return f"{kind_of(parts.nut)} nut{''.join(numbers)}"
+
+
+def model_text(case: Case) -> str:
+    """The model, and the laws and numbers that differ from its preset."""
+    changes = ", ".join(_change(case, name) for name in case.model.changes)
+    return f"model {case.model.name}" + (f", changed: {changes}" if changes else "")
+
+
+def _change(case: Case, name: str) -> str:
+    """A law with the coefficients that differ from the preset, or a number."""
+    value, label = getattr(case.model, name), name.replace("_", " ")
+    if name not in LAWS:
+        number = fields_of(case.model).get(name)
+        return label if number is None or value is None else f"{label} {units.shown(value, number)}"
+    law, preset = name_of_law(name, value), getattr(MODELS[case.model.name], name)
+    usual: Any = preset if type(preset) is type(value) else type(value)
+    numbers = [
+        f"{coefficient.replace('_', ' ')} {units.shown(getattr(value, coefficient), quantity)}"
+        for coefficient, quantity in coefficients(value).items()
+        if getattr(value, coefficient) != getattr(usual, coefficient, None)
+    ]
+    return f"{label} {law}" + (f" ({', '.join(numbers)})" if numbers else "")
+
+
+def design(case: Case, plain_text: bool = False) -> str:
+    """The screw in one line, for a caption or as plain text for the terminal."""
+    known = fields_of(BallScrew)
+    names = ("pitch_circle_diameter", "lead", "ball_diameter", "contact_angle")
+    symbols = ("pitch circle", "lead", "balls", "contact angle") if plain_text else ("d$_m$", "lead", "d$_w$", "α")
+    fields = dict(zip(symbols, names, strict=True))
+    sizes = [f"{symbol} {units.shown(getattr(case.screw, name), known[name])}" for symbol, name in fields.items()]
+    starts = f", {case.screw.starts:g} starts" if case.screw.starts > 1 else ""
+    conformities = f"conformity {case.screw.screw_conformity:g} and {case.screw.nut_conformity:g}"
+    return (
+        f"screw {', '.join(sizes)}, {case.screw.loaded_balls:g} {'loaded ' * plain_text}balls{starts}, {conformities}"
+    )
+
+
+# -- assumptions and omissions --------------------------------------------------------------------
+
+
+def assumptions(case: Case, ball_to_ball_force: float | None = None) -> list[str]:
+    """Inputs that are seldom given and on which the result depends."""
+    common = common_assumptions(case, ball_to_ball_force)
+    if case.parts is None:
+        return [*common, *without_preload(case)]
+    bodies = (
+        "screw and nut rigid between the balls"
+        if case.parts.bodies is None
+        else "screw and nut elastic" + ("" if case.parts.bodies else ", of a usual size")
+    )
+    return [*common, bodies, *map(str, case.notes), *_against_vendors(case, case.parts)]
+
+
+def common_assumptions(case: Case, ball_to_ball_force: float | None = None) -> list[str]:
+    """Oil, materials, roughness and the force between balls: that of a result, or else that of the model."""
+    known = {**fields_of(Lubricant), **fields_of(BallScrew)}
+    modulus_of = quantities_of(RaceState)["equivalent_modulus"]
+
+    def shown(part: Any, name: str) -> str:
+        return units.shown(getattr(part, name), known[name])
+
+    temperature = units.shown(case.oil.get("temperature", DEFAULT_TEMPERATURE), TEMPERATURE)
+    made_from = f"{case.oil['grade']} at {temperature}: " if "grade" in case.oil else ""
+    modulus = units.shown(case.screw.equivalent_modulus(case.screw.screw_raceway), modulus_of)
+    return [
+        f"oil {made_from}viscosity {shown(case.lubricant, 'viscosity')}, "
+        f"pressure–viscosity coefficient {shown(case.lubricant, 'pressure_viscosity_coefficient')}",
+        f"equivalent modulus {modulus}",
+        "roughness of balls, screw, nut "
+        + ", ".join(shown(case.screw, f"{part}_roughness") for part in ("ball", "screw", "nut")),
+        f"force between balls {_between_balls(case, ball_to_ball_force)}",
+    ]
+
+
+def _between_balls(case: Case, force: float | None) -> str:
+    """The force between balls; without that of a result, balls may have loads of their own, and a share of each."""
+    model = case.model
+    law: Any = model.ball_force
+    if force is None and not traits_of(law).uses_imposed_force:
+        share = getattr(law, "share_of_load", None)
+        return f"{share:.4g} of the load of each" if share is not None else f"by {name_of_law('ball_force', law)}"
+    return units.shown(model.imposed_ball_force(case.screw) if force is None else force, _BALL_FORCE)
+
+
+def without_preload(case: Case) -> list[str]:
+    """The nut that is missing where the row of a preloaded nut is computed without one."""
+    kind = "" if case.row is None else case.row.nut
+    if case.parts is not None or kind in ("", "single"):
+        return []
+    return [f'without preload: the row is a {kind} nut, and none is given; add type = "{kind}" and a preload to [nut]']
+
+
+def _against_vendors(case: Case, parts: NutParts) -> list[str]:
+    """The first result of ``ballscrew validate``, where it concerns the case."""
+    if not getattr(parts.nut, "preload", 0.0) or case.calibration is not None or case.fit:
+        return []
+    return [
+        "vendors state more torque of preloaded nuts without load than the model as it is (ballscrew validate), "
+        'model.calibration = "rexroth-2006" meets their tables'
+    ]
+
+
+def left_out(case: Case) -> str:
+    """Losses that are not in the torque; of a case without a fit also that it was not compared with measurements."""
+    losses = LEFT_OUT
+    if case.parts is not None:
+        missing = [_LOSSES[slot] for slot in LOSSES if slot not in case.parts.losses]
+        losses = f"left out: {', '.join(missing)}" if missing else ""
+    return "; ".join(filter(None, [losses, "" if case.fit.get("log") else NOT_COMPARED]))
+
+
+def of_fit(case: Case) -> list[str]:
+    """The log of a fitted case, and torque that no model of the balls has."""
+    return [*([f"calibrated to {case.fit['log']}"] if case.fit.get("log") else []), *constant_torque(case)]
+
+
+def constant_torque(case: Case) -> list[str]:
+    """Friction that a fit found and that no model of the balls has."""
+    constant = case.fit.get("constant_torque")
+    return (
+        [f"not in it: {constant} that the log has at all loads and speeds, of seals and bearings"] if constant else []
+    )
+
+
+def assumed(case: Case, ball_to_ball_force: float | None = None) -> list[str]:
+    """Assumptions, omissions and the origin of a fit, one text each."""
+    return [*filter(None, [*assumptions(case, ball_to_ball_force), left_out(case)]), *of_fit(case)]

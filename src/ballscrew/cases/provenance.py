@@ -1,0 +1,23 @@
+"""Provenance of results: version, model and sources."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ballscrew._version import __version__
+from ballscrew.cases.case import Case
+from ballscrew.components.materials import Lubricant
+from ballscrew.references import citations_of, keys_in
+
+
+def of_case(case: Case) -> dict[str, Any]:
+    """Version, model and sources of a case."""
+    return {"version": __version__, "model": case.model.label, "references": references(case)}
+
+
+def references(case: Case) -> list[str]:
+    """Keys of the sources of the model, and of the oil where it was made from a grade."""
+    of_oil = keys_in(Lubricant.from_grade.__doc__) if case.oil else ()
+    losses = {} if case.parts is None else case.parts.losses
+    of_nut = [key for law in losses.values() for key in keys_in(type(law).__doc__)]
+    return list(dict.fromkeys([*citations_of(case.model), *of_oil, *of_nut]))

@@ -1,0 +1,5 @@
+"""``python -m ballscrew.cli``."""
+
+from ballscrew.cli.main import main
+
+main()

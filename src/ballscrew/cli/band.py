@@ -1,0 +1,52 @@
+"""The command line of ``ballscrew run --band``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import typer
+
+from ballscrew.cases.case_file import Case
+from ballscrew.errors import Fault, raise_if_any
+from ballscrew.figures import files
+from ballscrew.output import json_text
+from ballscrew.output.documents import band as documents
+from ballscrew.output.text import band as text
+from ballscrew.studies import band
+from ballscrew.studies.run import run as run_case
+
+
+def check(wanted: bool, options: band.Options, to: Path | None) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` for options without a band, and a picture that cannot be."""
+    given = {
+        "--samples": options.samples,
+        "--level": options.level,
+        "--only-given": options.only_given or None,
+        "--to": to,
+    }
+    if not wanted:
+        raise_if_any(
+            [
+                Fault(name, "needs --band", str(value), "add --band")
+                for name, value in given.items()
+                if value is not None
+            ]
+        )
+    if to is not None:
+        files.check_picture(to)
+
+
+def run(case: Case, options: band.Options, to: Path | None, as_json: bool, done: Callable[[int, int], None]) -> None:
+    """Compute the band of a case, print it, and draw it where that is asked for."""
+    report = band.band(case, options, done)
+    if as_json:
+        typer.echo(json_text.as_json(documents.document(run_case(case), report)))
+    else:
+        text.print_band(case, report)
+    if to is not None:
+        from ballscrew.figures import band as figures  # matplotlib is slow to import
+
+        curve = band.curve(case, report, options, done)
+        files.draw(lambda: figures.picture(case, report, curve), to)
+        typer.echo(f"{to}: {report.band.count} samples of {len(report.inputs)} uncertain inputs", err=as_json)

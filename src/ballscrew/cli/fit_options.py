@@ -1,0 +1,112 @@
+"""The options of ``ballscrew fit``: text from the command line as numbers in SI."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, cast, get_args
+
+from ballscrew import units
+from ballscrew.cases.case import Case
+from ballscrew.errors import Fault, nearest, raise_if_any
+from ballscrew.evaluation.outputs import inputs_of
+from ballscrew.quantities import Quantity
+from ballscrew.studies.fit import CONDITIONS, Options, Range, free_quantities, refuse_nut
+from ballscrew.torque_logs.log_rows import INERTIA, TORQUE_CONSTANT, Kind
+
+#: The number that is fitted by default.
+DEFAULT_FREE = "boundary_friction_coefficient"
+
+
+def options(
+    case: Case,
+    *,
+    free: Sequence[str],
+    bounds: Sequence[str],
+    limits: Sequence[str],
+    columns: Sequence[str],
+    kind: str | None,
+    inertia: str | None,
+    torque_constant: str | None,
+    holdout: float,
+    seed: int,
+    keep_going: bool,
+) -> Options:
+    """The options as typed values. Raises :class:`~ballscrew.errors.InputError` with all faults in them."""
+    refuse_nut(case)
+    names = [name.strip() for given in free or [DEFAULT_FREE] for name in given.split(",") if name.strip()]
+    faults: list[Fault] = []
+    if not names:
+        faults.append(Fault("--free", "has no names", ", ".join(free), f"write --free {DEFAULT_FREE}"))
+    conditions = {name: q for name, (_, q) in inputs_of(case.model, case.screw, case.lubricant).items()}
+    found = Options(
+        free=names,
+        bounds=_ranges("--bounds", bounds, free_quantities(case, names), faults),
+        limits=_ranges("--limits", limits, {n: conditions[n] for n in CONDITIONS if n in conditions}, faults),
+        inertia=_number("--inertia", inertia, INERTIA, faults),
+        torque_constant=_number("--torque-constant", torque_constant, TORQUE_CONSTANT, faults),
+        columns=_columns(columns, faults),
+        kind=cast("Kind", kind or "unknown"),
+        holdout=holdout,
+        seed=seed,
+        keep_going=keep_going,
+    )
+    if kind is not None and kind not in get_args(Kind):
+        faults.append(Fault("--kind", "unknown kind of torque", kind, "friction or drive"))
+    raise_if_any(faults)
+    return found
+
+
+def _ranges(option: str, given: Sequence[str], known: Mapping[str, Quantity], faults: list[Fault]) -> dict[str, Range]:
+    """``name=low:high unit`` in SI."""
+    found: dict[str, Range] = {}
+    for text in given:
+        name, equals, values = text.partition("=")
+        name, (low, colon, high) = name.strip(), values.strip().partition(":")
+        if not equals or not colon:
+            faults.append(Fault(option, "is not name=low:high", text, f'write {option} name="low:high unit"'))
+        elif name not in known:
+            faults.append(Fault(f"{option} {name}", "unknown name", "", nearest(name, known)))
+        else:
+            unit = units.unit_in(high)
+            texts = (end.strip() if units.unit_in(end) else f"{end.strip()} {unit}".strip() for end in (low, high))
+            ends = [_value(f"{option} {name}", end, known[name]) for end in texts]
+            wrong = [end for end in ends if isinstance(end, Fault)]
+            faults += wrong
+            if not wrong:
+                found[name] = cast("Range", tuple(ends))
+                if found[name][0] >= found[name][1]:
+                    faults.append(Fault(f"{option} {name}", "leaves no room", values, "put the lower end first"))
+    return found
+
+
+def _value(where: str, text: str, quantity: Quantity) -> float | Fault:
+    plain: Any = text
+    if quantity.unit == "1":
+        try:
+            plain = float(text)
+        except ValueError:
+            plain = text
+    return units.parse(where, plain, quantity)
+
+
+def _number(option: str, text: str | None, quantity: Quantity, faults: list[Fault]) -> float | None:
+    if text is None:
+        return None
+    found = units.parse(option, text.replace("Nm", "N m"), quantity)
+    if isinstance(found, Fault):
+        faults.append(found)
+        return None
+    if found <= 0:
+        faults.append(Fault(option, "must be positive", text))
+    return found
+
+
+def _columns(given: Sequence[str], faults: list[Fault]) -> dict[str, str]:
+    """``torque="M_ist [N m]"`` as a mapping; the reader of logs checks the names."""
+    found: dict[str, str] = {}
+    for text in given:
+        name, equals, heading = text.partition("=")
+        if not equals or not name.strip() or not heading.strip():
+            faults.append(Fault("--column", "is not name=heading", text, 'write --column torque="M_ist [N m]"'))
+        found[name.strip()] = heading.strip()
+    return found

@@ -1,0 +1,127 @@
+"""Laws from outside: what they return is checked, and what they raise names them.
+
+The package's own laws are used as they are; their results are known, and a check would cost at every call.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from ballscrew.components.conditions import HertzShape
+from ballscrew.components.frame import Frame
+from ballscrew.components.laws import BallChain, InletFactors, RaceTorques
+from ballscrew.components.old_calls import of_conditions
+from ballscrew.errors import Fault, InputError
+
+#: What the law of a slot returns, where it is not one quantity.
+_RETURNS: Mapping[str, type] = {
+    "frame": Frame,
+    "hertz": HertzShape,
+    "inlet": InletFactors,
+    "ball_chain": BallChain,
+    "race_torques": RaceTorques,
+}
+_EQUATIONS = "ballscrew.equations."
+_CONTAINERS = (str, bytes, list, tuple, dict, set)
+
+
+def is_own(law: Any) -> bool:
+    """Whether a law is one of the package's own, or none."""
+    return law is None or (getattr(law, "__module__", None) or "").partition(".")[0] == "ballscrew"
+
+
+def name_of(law: Any) -> str:
+    """A law from outside as a case file names it: ``module:name``."""
+    named = law if hasattr(law, "__qualname__") else type(law)
+    return f"{named.__module__}:{named.__qualname__}"
+
+
+def usable(slot: str, law: Any, returns: type | None = None) -> Any:
+    """The law itself, or around one from outside a law that takes the conditions and checks what it returns."""
+    if is_own(law):
+        # an equation, put into a slot as 0.1 did, still takes the arguments of the slot
+        return of_conditions(slot, law) if (getattr(law, "__module__", None) or "").startswith(_EQUATIONS) else law
+    return _Checked(slot, law, of_conditions(slot, law), returns or _RETURNS.get(slot))
+
+
+@dataclasses.dataclass(frozen=True, eq=False, slots=True)
+class _Checked:
+    """A law from outside; ``call`` is the law as the model calls it."""
+
+    slot: str
+    law: Any
+    call: Any
+    returns: type | None
+
+    def __call__(self, *arguments: Any) -> Any:
+        try:
+            found = self.call(*arguments)
+        except Exception as error:  # named and raised again, whatever it is
+            error.add_note(f"raised by the law model.{self.slot} = {name_of(self.law)}")
+            error.raised_by_law = f"model.{self.slot}: {name_of(self.law)}"  # pyright: ignore[reportAttributeAccessIssue]
+            raise
+        problem = self._problem(found, arguments)
+        if problem is not None:
+            given = f"{name_of(self.law)} returned {_shown(found)}"
+            raise InputError(Fault(f"model.{self.slot}", problem, given, self._remedy))
+        return found
+
+    @property
+    def _remedy(self) -> str:
+        if self.returns is None:
+            return "return a number, or an array in the shape of what the law is given"
+        return f"return {self.returns.__module__}.{self.returns.__qualname__}"
+
+    def _problem(self, found: Any, arguments: tuple[Any, ...]) -> str | None:
+        """What is wrong with a result; None if nothing is."""
+        values = (found,)
+        if self.returns is not None:
+            if not isinstance(found, self.returns):
+                return f"must return a {self.returns.__name__}"
+            values = found if isinstance(found, tuple) else ()
+        for value in values:
+            if not _is_number(value):
+                return "must return numbers"
+        if any(isinstance(value, np.ndarray) and value.ndim for value in values):
+            allowed = np.broadcast_shapes(*_shapes((*arguments, self.law)))
+            for value in values:
+                if not _fits(np.shape(value) if isinstance(value, np.ndarray) else (), allowed):
+                    return "must return an array in the shape of what it is given"
+        return None
+
+
+def _is_number(value: Any) -> bool:
+    """Whether a value is a real number, an array of them, or what stands for one (symbols, what is being recorded)."""
+    if isinstance(value, (*_CONTAINERS, bool, complex, np.bool_, np.complexfloating)) or value is None:
+        return False
+    kind = getattr(getattr(value, "dtype", None), "kind", None)
+    return hasattr(value, "__truediv__") and hasattr(value, "__mul__") if kind is None else kind in "fiuV"
+
+
+def _fits(shape: tuple[int, ...], allowed: tuple[int, ...]) -> bool:
+    try:
+        return np.broadcast_shapes(shape, allowed) == allowed
+    except ValueError:
+        return False
+
+
+def _shapes(parts: Any) -> Iterator[tuple[int, ...]]:
+    """The shapes of all arrays in parts, and in the parts of those."""
+    yield ()
+    for part in parts:
+        if isinstance(part, np.ndarray):
+            yield part.shape
+        elif isinstance(part, tuple):
+            yield from _shapes(part)
+        elif dataclasses.is_dataclass(part):
+            yield from _shapes(getattr(part, field.name) for field in dataclasses.fields(part))
+
+
+def _shown(found: Any) -> str:
+    if isinstance(found, np.ndarray) and found.dtype.kind in "fiu":
+        return f"an array of shape {found.shape}"
+    return "None" if found is None else f"a {type(found).__name__}"

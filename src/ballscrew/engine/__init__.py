@@ -1,1 +1,0 @@
-"""The engine: formulas recorded once, and evaluated at the limit of the machine."""

@@ -1,0 +1,1 @@
+"""A model evaluated over many points: the plan, the outputs, the engine, derivatives, models side by side."""

@@ -1,0 +1,82 @@
+"""Names of laws, as case files and tables have them.
+
+A row here gives a law a name and no more. Whether the uncertainty band counts it as an alternative is declared beside
+the law (:mod:`ballscrew.components.traits`).
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any
+
+from ballscrew.components import frame, laws, lubrication, mixed_friction
+from ballscrew.errors import Fault, nearest
+from ballscrew.quantities import Quantity, fields_of
+from ballscrew.solvers.ellipse_slip import ellipse_slip
+from ballscrew.solvers.line_slip import line_slip
+from ballscrew.solvers.pure_rolling import curvature_slip
+
+#: The laws of each slot by name: functions, and classes where a law has coefficients.
+LAWS: Mapping[str, Mapping[str, Any]] = {
+    "frame": {"bearing": frame.bearing_frame, "helix": frame.helix_frame},
+    "hertz": {"houpert": laws.houpert_hertz, "exact": laws.exact_hertz, "brewe-hamrock": laws.brewe_hamrock_hertz},
+    "film": {
+        "hamrock-dowson": lubrication.HamrockDowson,
+        "hamrock-dowson-central": lubrication.hamrock_dowson_central,
+        "chittenden": lubrication.chittenden,
+    },
+    "film_parameter": {
+        "root-sum-square": lubrication.root_sum_square_film_parameter,
+        "literal": lubrication.literal_film_parameter,
+    },
+    "inlet": {"ideal": lubrication.ideal_inlet, "heated": lubrication.Inlet},
+    "friction": {
+        "zhou-hoeprich": mixed_friction.ZhouHoeprich,
+        "load-sharing": mixed_friction.LoadSharing,
+        "balan": mixed_friction.BalanSharing,
+        "greenwood-tripp": mixed_friction.GreenwoodTrippSharing,
+    },
+    "full_film": {
+        "none": None,
+        "eyring": mixed_friction.EyringTraction,
+        "limiting-shear": mixed_friction.LimitingShearTraction,
+    },
+    "rolling": {
+        "olaru": lubrication.olaru_rolling,
+        "biboulet-houpert": lubrication.biboulet_houpert_rolling,
+        "houpert": lubrication.houpert_rolling,
+        "aihara": lubrication.aihara_rolling,
+    },
+    "elastic_resistance": {"snare": laws.snare_resistance, "hysteresis": laws.Hysteresis},
+    "slip": {"curvature": curvature_slip, "line": line_slip, "ellipse": ellipse_slip},
+    "ball_chain": {"one-neighbour": laws.one_neighbour, "two-neighbours": laws.two_neighbours},
+    "ball_force": {"imposed": laws.imposed_ball_force, "proportional": laws.ProportionalBallForce},
+    "race_torques": {"printed": laws.printed_race_torques, "balanced": laws.balanced_race_torques},
+    "ideal_torque": {"printed": laws.printed_ideal_torque, "virtual-work": laws.virtual_work_torque},
+}
+
+
+def coefficients(law: Any) -> Mapping[str, Quantity]:
+    """The coefficients of a law by name; none for a law that is a function."""
+    return fields_of(law) if dataclasses.is_dataclass(law) else {}
+
+
+def fault_of_law(slot: str, law: Any) -> Fault | None:
+    """What is wrong with what is given for a law in Python; None if it can be called."""
+    if callable(law) and not isinstance(law, type):
+        return None
+    where, known = f"model.{slot}", LAWS.get(slot, {})
+    if law is None and None in known.values():
+        return None
+    if isinstance(law, type):
+        return Fault(where, "must be a law", f"the class {law.__name__}", f"make one of it: {law.__name__}(…)")
+    if not isinstance(law, str):
+        return Fault(where, "must be a law", repr(law), "give a function, or a frozen dataclass with __call__")
+    named = known.get(law)
+    if named is None:
+        remedy = f"{nearest(law, known)} in a case file; in Python give the law itself"
+    else:
+        made = f"{named.__name__}()" if isinstance(named, type) else named.__name__
+        remedy = f"from {named.__module__} import {named.__name__}, and give {slot}={made}"
+    return Fault(where, "must be a law, not its name", law, remedy)

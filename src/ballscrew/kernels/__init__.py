@@ -1,0 +1,1 @@
+"""Recorded formulas compiled by LLVM: emission, compilation, cache, random numbers, quantile sketches."""

@@ -1,0 +1,117 @@
+"""``ballscrew compare --json``: the document of a comparison; all in SI."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from ballscrew._version import __version__
+from ballscrew.cases import case_file
+from ballscrew.evaluation.comparison import Comparison, Row, Spread
+from ballscrew.friction.nut_friction import NUT_REASONS
+from ballscrew.records import Record, documents
+
+_TORQUE = "screw_torque"
+#: Components named in the verdict on what changes the torque most, and the least change that is shown.
+_MOST_SHOWN, LEAST_SHOWN = 3, 0.005
+
+
+def document(case: case_file.Case, found: Comparison) -> dict[str, Any]:
+    """Inputs, all rows in SI, the spread, provenance."""
+    failing = {reason for row in found.rows for reason in row.outside}
+    return {
+        "inputs": case_file.inputs(case),
+        "case": _row(found.case),
+        "models": [_row(row) for row in found.models],
+        "laws": [{"slot": row.candidate.slot, **_row(row), "counts": row.candidate.counts} for row in found.laws],
+        "spread": {
+            "models": _ends(found.spread_of_models),
+            "valid_laws": _ends(found.spread_of_laws),
+            "change_by_slot": {slot: list(span) for slot, span in found.spans.items()},
+        },
+        "units": {"screw_torque": "N m", "contributions": "N m", "holding_torque": "N m"},
+        "reasons": {reason: text for reason, text in NUT_REASONS.items() if reason in failing},
+        "verdicts": documents(verdicts(found)),
+        "checks": [],
+        "warnings": documents(found.case.result.warning_records),
+        "provenance": {"version": __version__, "model": case.model.label, "references": case_file.references(case)},
+    }
+
+
+def _row(row: Row) -> dict[str, Any]:
+    r = row.result
+    return {
+        "name": row.candidate.name,
+        "screw_torque": r.screw_torque,
+        "change": row.change,
+        "contributions": dict(r.contributions),
+        "efficiency": r.efficiency,
+        "back_driving_efficiency": r.back_driving_efficiency,
+        "holding_torque": float(row.result.holding_torque),
+        "self_locking": bool(row.result.self_locking),
+        "valid": not row.outside,
+        "not_valid_because": list(row.outside),
+    }
+
+
+def _ends(spread: Spread | None) -> dict[str, Any] | None:
+    if spread is None:
+        return None
+    return {
+        end: {"slot": row.candidate.slot or None, "name": row.candidate.name, "screw_torque": row.torque}
+        for end, row in zip(("least", "greatest"), spread, strict=True)
+    }
+
+
+def verdicts(found: Comparison) -> list[Record]:
+    """The spread over models, the spread over valid laws, and the components that change the torque most."""
+    records: list[Record] = []
+    if found.spread_of_models is not None:
+        outside = [row.candidate.name for row in found.models if row.outside]
+        invalid = f"; not valid here: {', '.join(outside)}" if outside else ""
+        text = _describe_spread(found.spread_of_models, found.models) + invalid
+        records.append(_spread_record("compare.models", text, found.spread_of_models))
+    if found.spread_of_laws is None:
+        records.append(Record(id="compare.laws", subject=_TORQUE, text="none is valid here", holds=False))
+    else:
+        valid = [row for row in (found.case, *found.laws) if row.candidate.counts and not row.outside]
+        text = _describe_spread(found.spread_of_laws, valid)
+        records.append(_spread_record("compare.laws", text, found.spread_of_laws, holds=True))
+    spans = {slot: span for slot, span in found.spans.items() if max(map(abs, span)) >= LEAST_SHOWN}
+    if spans:
+        most = list(spans.items())[:_MOST_SHOWN]
+        text = ", ".join(f"{slot.replace('_', ' ')} ({_describe_span(span)})" for slot, span in most)
+        slot, span = most[0]
+        records.append(Record(id="compare.largest_effect", subject=slot, text=text, value=max(span, key=abs)))
+    return records
+
+
+def _spread_record(name: str, text: str, spread: Spread, holds: bool | None = None) -> Record:
+    least, greatest = (row.torque for row in spread)
+    return Record(id=name, subject=_TORQUE, text=text, value=greatest - least, unit="N m", holds=holds)
+
+
+def _describe_spread(spread: Spread, rows: Sequence[Row]) -> str:
+    """``0.15 N m (one) to 0.23 N m (other); efficiency 0.934 to 0.952``."""
+    least, greatest = (f"{row.torque:.4g} N m ({_full_name(row)})" for row in spread)
+    efficiencies = [float(row.result.efficiency) for row in rows if math.isfinite(float(row.result.efficiency))]
+    ends = f"; efficiency {min(efficiencies):.3f} to {max(efficiencies):.3f}" if efficiencies else ""
+    return f"{least} to {greatest}{ends}"
+
+
+def _full_name(row: Row) -> str:
+    slot = row.candidate.slot
+    return f"{slot.replace('_', ' ')} {row.candidate.name}" if slot else row.candidate.name
+
+
+def _describe_span(span: tuple[float, float]) -> str:
+    return " to ".join(percent(end) for end in span if end)
+
+
+def percent(change: float) -> str:
+    """``+12.3%``; no sign before zero, a dash for what is not finite."""
+    if not math.isfinite(change):
+        return "–"
+    text = f"{change:+.1%}"
+    return "0.0%" if text in ("+0.0%", "-0.0%") else text

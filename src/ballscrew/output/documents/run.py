@@ -1,0 +1,96 @@
+"""The JSON document of a run: inputs, results and units in SI, verdicts, checks, warnings, provenance."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ballscrew.cases import case_file, provenance
+from ballscrew.components.contact import RaceState
+from ballscrew.components.screw import Operation
+from ballscrew.friction.result import QUADRANTS, FrictionResult
+from ballscrew.quantities import Quantity, fields_of, quantities_of
+from ballscrew.records import documents
+from ballscrew.solvers.load_distribution import BallLoads
+from ballscrew.studies.run import Flank, NutState, Run
+
+#: Fields of each ball; the other fields of the loads are of all balls together.
+_OF_BALLS = ("forward_load", "backward_load", "forward_angle", "backward_angle")
+_LOADS = quantities_of(BallLoads)
+#: The loads that all balls have in common.
+OF_LOADS: Mapping[str, Quantity] = {name: quantity for name, quantity in _LOADS.items() if name not in _OF_BALLS}
+_KNOWN = quantities_of(FrictionResult)
+#: Inputs, which are no results.
+_OPERATION = fields_of(Operation)
+#: The results that have the units of the fields of a quadrant.
+_OF_QUADRANT = {"shaft_torque": "drive_torque", "shaft_power": "friction_power", "efficiency": "efficiency"}
+_ENDS = ("least", "mean", "greatest")
+
+
+def document(run: Run) -> dict[str, Any]:
+    """The document of a run; with a nut it has the loads of the balls, too."""
+    return {
+        "inputs": case_file.inputs(run.case),
+        "results": results(run),
+        **({} if run.nut is None else {"loads": loads(run.nut)}),
+        "units": result_units(run),
+        "warnings": documents(run.warnings),
+        "verdicts": documents(run.verdicts),
+        "checks": [],
+        "provenance": provenance.of_case(run.case),
+    }
+
+
+def results(run: Run) -> dict[str, Any]:
+    """All results in SI, as plain numbers and nested tables."""
+    found = run.friction
+    return {
+        **{name: getattr(found, name) for name in run.quantities if name not in _OPERATION},
+        **({} if run.nut is None else {"preload_drag": run.nut.preload_drag}),
+        "contributions": dict(found.contributions),
+        **({"quadrants": {name: each._asdict() for name, each in run.quadrants.items()}} if run.quadrants else {}),
+        "validity": {reason: bool(mask) for reason, mask in found.validity.items()},
+        **run.contacts,
+    }
+
+
+def result_units(run: Run) -> dict[str, Any]:
+    """The units of :func:`results` and :func:`loads`, in the same places."""
+    own = {name: q.unit for name, q in run.quantities.items() if name not in (*_OPERATION, "valid")}
+    torque, of_contact = _KNOWN["screw_torque"].unit, quantities_of(RaceState)
+    quadrant = {name: _KNOWN[alike].unit for name, alike in _OF_QUADRANT.items()}
+    return {
+        **own,
+        **({} if run.nut is None else {"preload_drag": torque}),
+        "contributions": dict.fromkeys(run.friction.contributions, torque),
+        **({"quadrants": dict.fromkeys(QUADRANTS, quadrant)} if run.quadrants else {}),
+        **{side: {name: of_contact[name].unit for name in values} for side, values in run.contacts.items()},
+        **({} if run.nut is None else {"loads": _load_units()}),
+    }
+
+
+def loads(nut: NutState) -> dict[str, Any]:
+    """The loads of the balls in SI: least, mean and greatest on both flanks, then ball by ball."""
+    return {
+        **{name: getattr(nut.loads, name) for name in OF_LOADS},
+        "preload_is_lost": nut.preload_is_lost,
+        "loaded_flank": _flank(nut.loaded),
+        "relieved_flank": _flank(nut.relieved),
+        "balls": {"count": nut.loads.balls, **{name: getattr(nut.loads, name) for name in _OF_BALLS}},
+    }
+
+
+def _flank(flank: Flank | None) -> dict[str, Any] | None:
+    if flank is None:
+        return None
+    return {name: dict(zip(_ENDS, numbers, strict=True)) for name, numbers in flank._asdict().items()}
+
+
+def _load_units() -> dict[str, Any]:
+    flank = {"load": _LOADS["forward_load"].unit, "angle": _LOADS["forward_angle"].unit}
+    return {
+        **{name: quantity.unit for name, quantity in OF_LOADS.items()},
+        "loaded_flank": flank,
+        "relieved_flank": flank,
+        "balls": {name: _LOADS[name].unit for name in _OF_BALLS},
+    }

@@ -1,0 +1,105 @@
+"""``ballscrew sensitivity --json``: the document of a sensitivity analysis; all in SI."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+from ballscrew._version import __version__
+from ballscrew.cases import case_file
+from ballscrew.records import Record, documents
+from ballscrew.studies.sensitivity import SensitivityReport
+from ballscrew.uncertainty.sensitivity import HALF
+
+CORRELATED = "the numbers of the calibration vary one by one, too, though the fit left them correlated"
+
+
+def document(case: case_file.Case, report: SensitivityReport) -> dict[str, Any]:
+    """Inputs, indices, what to measure next, units and provenance."""
+    result = report.result
+    halve = result.to_halve
+    return {
+        "inputs": case_file.inputs(case),
+        "sensitivity": {
+            "output": result.output,
+            "method": result.method,
+            "mean": result.mean,
+            "standard_deviation": result.deviation,
+            "inputs": [_row(report, name) for name in result.inputs],
+            "knowing": [_left_if_known(inputs, left) for inputs, left in result.explained_variance],
+            "to_halve": None if halve is None else _left_if_known(*halve),
+            "level": result.level,
+            "samples": result.samples,
+            "left_out": result.left_out,
+            "evaluations": result.evaluations,
+            "seed": result.seed,
+        },
+        "units": {
+            result.output: result.quantity.unit,
+            **{name: report.known[name][1].unit for name in result.inputs},
+        },
+        "verdicts": documents(verdicts(report)),
+        "checks": [],
+        "warnings": documents(warnings(case, report)),
+        "provenance": {"version": __version__, "model": case.model.label, "references": case_file.references(case)},
+    }
+
+
+def _left_if_known(inputs: tuple[str, ...], left: float) -> dict[str, Any]:
+    return {"inputs": list(inputs), "left": left}
+
+
+def _row(report: SensitivityReport, name: str) -> dict[str, Any]:
+    result, uncertain = report.result, report.uncertain[name]
+    distribution = uncertain.distribution
+    return {
+        "name": name,
+        "distribution": {"kind": type(distribution).__name__.lower(), **dataclasses.asdict(distribution)},
+        "given": uncertain.given,
+        "source": uncertain.source,
+        **{measure: of_input[name]._asdict() for measure, of_input in result.measures.items()},
+        "left_if_known": result.left_if_known(name),
+    }
+
+
+def verdicts(report: SensitivityReport) -> list[Record]:
+    """The inputs to measure next in order to halve the band."""
+    result, meaning = report.result, report.result.quantity.info.meaning
+
+    def verdict(name: str, subject: str, text: str, value: float | None = None, holds: bool | None = None) -> Record:
+        limit = None if value is None else HALF
+        return Record(id=f"sensitivity.{name}", subject=subject, text=text, value=value, limit=limit, holds=holds)
+
+    if result.is_constant:
+        return [verdict("constant", result.output, f"the {meaning} does not depend on any of these inputs")]
+    if result.method == "morris":
+        text = "screening ranks the inputs; what to find out next: --method sobol"
+        return [verdict("screening", result.output, text)]
+    if result.to_halve is None:
+        text = f"to know all of these inputs would not halve the band of the {meaning}"
+        return [verdict("not_halved", result.output, text, holds=False)]
+    inputs, left = result.to_halve
+    names = [report.describe(name) for name in inputs]
+    text = f"to halve the band of the {meaning}, find out: {', '.join(names)} (leaves {left:.0%})"
+    records = [verdict("to_halve", ",".join(inputs), text, left, True)]
+    if len(names) > 1:
+        alone = result.explained_variance[0].remaining
+        records.append(verdict("first_input", inputs[0], f"{names[0]} alone leaves {alone:.0%}", alone, False))
+    return records
+
+
+def warnings(case: case_file.Case, report: SensitivityReport) -> list[Record]:
+    """Samples without a number, and the correlation of a calibration, which is not sampled."""
+    records: list[Record] = []
+    result = report.result
+    if result.left_out:
+        text = f"{result.left_out} samples or trajectories are left out as they have no number"
+        records.append(
+            Record(
+                id="sensitivity.left_out", subject=result.output, text=text, severity="warning", holds=False,
+                value=float(result.left_out), limit=0.0,
+            )
+        )  # fmt: skip
+    if case.calibration is not None:
+        records.append(Record(id="sensitivity.correlated", subject="calibration", text=CORRELATED, severity="warning"))
+    return records

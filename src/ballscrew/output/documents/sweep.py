@@ -1,0 +1,45 @@
+"""The document of a sweep: axes and outputs in SI, and the points outside the model's validity."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import xarray as xr
+
+from ballscrew._version import __version__
+from ballscrew.cases import case_file
+from ballscrew.cases.case import Case
+from ballscrew.records import Record, documents
+from ballscrew.studies.sweep import Plan
+
+
+def document(case: Case, plan: Plan, dataset: xr.Dataset) -> dict[str, Any]:
+    """Axes, outputs, verdicts, checks and warnings, provenance."""
+
+    def table(name: str, values: Any) -> dict[str, Any]:
+        quantity = plan.quantities[name]
+        return {"values": values, "unit": quantity.unit, "meaning": quantity.info.meaning}
+
+    return {
+        "axes": {name: table(name, values) for name, values in plan.axes.items()},
+        "outputs": {name: table(name, dataset[name].to_numpy()) for name in plan.columns},
+        "verdicts": [],
+        "checks": [],
+        "warnings": documents(warnings(dataset)),
+        "provenance": {"version": __version__, "model": case.model.label, "references": case_file.references(case)},
+    }
+
+
+def warnings(dataset: xr.Dataset) -> list[Record]:
+    """A warning where the model is not valid at some of the points."""
+    valid = dataset["valid"].to_numpy()
+    count = int(valid.size - valid.sum())
+    if not count:
+        return []
+    text = f"{count} of {valid.size} points lie outside the model's validity"
+    return [
+        Record(
+            id="validity.points", subject="valid", text=text, severity="warning", holds=False,
+            value=float(count), limit=0.0,
+        )
+    ]  # fmt: skip

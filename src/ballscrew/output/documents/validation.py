@@ -1,0 +1,90 @@
+"""``ballscrew validate --json``: the documents of a validation; all in SI."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from typing import Any
+
+from ballscrew.records import Record
+from ballscrew.records import documents as documents_of
+from ballscrew.validation.entries import Entry, Point
+
+
+def documents(entries: Sequence[Entry]) -> list[dict[str, Any]]:
+    """A document for each set and model, uncalibrated first."""
+    return [_document(entry) for entry in sorted(entries, key=lambda entry: entry.calibration is not None)]
+
+
+def _document(entry: Entry) -> dict[str, Any]:
+    return {
+        "set": entry.data.name,
+        "model": entry.model.name,
+        "calibration": entry.calibration,
+        "n": len(entry.counted),
+        "mean_ratio": entry.mean_ratio,
+        "std_ratio": entry.std_ratio,
+        "share_in_band": entry.share_in_band,
+        **({"static_mean_ratio": static} if (static := entry.mean_definitions.get("static")) is not None else {}),
+        "verdicts": [],
+        "checks": documents_of(checks(entry)),
+        "warnings": documents_of(warnings(entry)),
+        "rows": [_row(point, entry.data.quantity.unit) for point in entry.points],
+    }
+
+
+def _row(point: Point, unit: str) -> dict[str, Any]:
+    ratios = {
+        "definitions": dict(point.definitions),
+        "laws": dict(point.laws),
+        "apart": [{**apart._asdict(), "ratio": apart.ratio} for apart in point.upper_limits],
+    }
+    return {
+        "name": point.name,
+        "unit": unit,
+        "value": point.value,
+        **point.band._asdict(),
+        "ratio": point.ratio,
+        "in_band": point.in_band,
+        "residual": point.residual,
+        "residual_in_half_bands": point.deviation,
+        **({"static_ratio": point.definitions["static"]} if "static" in point.definitions else {}),
+        **{name: found for name, found in ratios.items() if found},
+        "descriptors": dict(point.descriptors),
+        "warnings": [f"{record.name}: {record.text}" for record in point.warnings],
+    }
+
+
+def checks(entry: Entry) -> list[Record]:
+    """The share of rows in the vendor's band; nothing where no row has a band."""
+    share = entry.share_in_band
+    if share is None:
+        return []
+    text = f"{share:.0%} of the rows lie in their band"
+    return [
+        Record(
+            id="validation.share_in_band", subject=entry.data.name, text=text,
+            severity="info" if share == 1 else "warning", holds=share == 1, value=share, limit=1.0,
+        )
+    ]  # fmt: skip
+
+
+def warnings(entry: Entry) -> list[Record]:
+    """The conditions of the model that fail, each with its number of rows; rows without a number."""
+    every = [record for point in entry.points for record in point.warnings]
+    rows = Counter(record.id for record in every)
+    first = {record.id: record for record in reversed(every)}
+    records = [
+        _rows_record(first[name].name, first[name].subject, first[name].text, count) for name, count in rows.items()
+    ]
+    missing = len(entry.points) - len(entry.counted)
+    if missing:
+        records.append(_rows_record("no_number", entry.data.name, "the model gives no number", missing))
+    return records
+
+
+def _rows_record(name: str, subject: str, text: str, rows: int) -> Record:
+    return Record(
+        id=f"validation.{name}", subject=subject, text=f"{rows} rows: {text}", severity="warning", holds=False,
+        value=float(rows), limit=0.0,
+    )  # fmt: skip

@@ -1,0 +1,25 @@
+"""Tables on the terminal and numbers in them."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from rich.table import Table
+
+from ballscrew import units
+from ballscrew.quantities import Quantity
+
+
+def table_of(title: str, *columns: str) -> Table:
+    """An empty table with a bold title, the first column aligned left and the others right."""
+    table = Table(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False)
+    table.add_column(columns[0])
+    for column in columns[1:]:
+        table.add_column(column, justify="right")
+    return table
+
+
+def shown_or_dash(value: Any, quantity: Quantity) -> str:
+    """A value with its unit; a dash where it is not finite."""
+    return units.shown(value + 0.0, quantity) if math.isfinite(value) else "–"  # adding zero: no "-0"

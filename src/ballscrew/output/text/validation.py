@@ -1,0 +1,152 @@
+"""``ballscrew validate``: the summary and the rows of a set as text, and the caption of the picture."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from ballscrew import units
+from ballscrew.output.wrapping import aligned, wrapped
+from ballscrew.quantities import Quantity
+from ballscrew.studies.validation import Request
+from ballscrew.validation.entries import CONDITIONS, Entry, Point, ValidationSet
+
+#: What laws and definitions beside the model are called.
+WORDS: Mapping[str, str] = {
+    "jis": "JIS B 1192",
+    "rexroth": "Rexroth's rule",
+    "efficiency": "from the model's efficiency under load",
+    "static": "static rating",
+    "one_ball_less": "with one ball less a turn",
+    "static_one_ball_less": "static rating with one ball less a turn",
+    "tangent_at_30": "tangent at 30 % of the rating",
+    "double_nut_at_10": "double nut at a preload of 10 %, rigid bodies",
+    "double_nut_at_10_elastic": "double nut at a preload of 10 %, elastic bodies",
+    "rigid_bodies": "rigid bodies",
+}
+
+
+def text_of(entries: Sequence[Entry], request: Request) -> str:
+    """The summary and the rows of one set."""
+    data = entries[0].data
+    lines = [
+        f"{data.name}: {data.description}",
+        f"  {'; '.join(filter(None, [source_of(data, request), conditions(data, request)]))}",
+    ]
+    lines += [f"  {_summary(entry)}" for entry in entries]
+    lines += [f"  {line}" for line in _other_means(entries[0])]
+    lines += ["", *(f"  {line}" for line in _table(entries))]
+    apart = _apart(entries)
+    if apart:
+        lines += ["", "  apart, with a maximum only, which is in no mean:", *(f"  {line}" for line in apart)]
+    for entry in entries:
+        lines += [f"  beware, {_label(entry)}, {n} rows: {warning}" for warning, n in entry.warnings.items()]
+    return "\n".join(map(wrapped, lines))
+
+
+def source_of(data: ValidationSet, request: Request) -> str:
+    """The source of the values."""
+    return data.source if request.rows is None else f"rows of {request.rows.name}"
+
+
+def conditions(data: ValidationSet, request: Request) -> str:
+    """``100 rpm, ISO VG 100 at 25 degC, no wipers``; nothing where they do not count."""
+    if not data.conditioned:
+        return ""
+    speed, temperature = (
+        units.shown(getattr(request.conditions, name), quantity)
+        for name in ("screw_speed", "temperature")
+        for quantity in (CONDITIONS[name],)
+        if quantity is not None
+    )
+    unless = " unless the row has its own" if request.rows is not None else ""
+    return f"{speed}, {request.conditions.grade} at {temperature}{unless}, no load, no wipers"
+
+
+def _label(entry: Entry) -> str:
+    return f"calibrated ({entry.calibration})" if entry.calibration else f"uncalibrated ({entry.model.name})"
+
+
+def _summary(entry: Entry) -> str:
+    share = "" if entry.share_in_band is None else f", {entry.share_in_band:.0%} of rows in their band"
+    scatter = f" ± {entry.std_ratio:.3f}" if math.isfinite(entry.std_ratio) else ""
+    missing = len(entry.points) - len(entry.counted)
+    lost = f", {missing} without a number" if missing else ""
+    return f"{_label(entry):<27} n = {len(entry.counted)}, mean ratio {entry.mean_ratio:.3f}{scatter}{share}{lost}"
+
+
+def _other_means(entry: Entry) -> list[str]:
+    """Mean ratios of other laws and definitions."""
+    found = {**entry.mean_laws, **entry.mean_definitions}
+    return [f"{WORDS[name]:<52} mean ratio {value:.3f}" for name, value in found.items()]
+
+
+def _table(entries: Sequence[Entry]) -> list[str]:
+    quantity = entries[0].data.quantity
+    banded = entries[0].share_in_band is not None
+    heading = ["row", f"stated [{quantity.shown_in}]", *(["band"] if banded else [])]
+    for entry in entries:
+        heading += ["calibrated" if entry.calibration else "model", "ratio"]
+        heading += [""] if banded else []
+    others = entries[0].mean_definitions
+    lines = [[*heading, *(name.replace("_", " ") for name in others)]]
+    for same in zip(*(entry.points for entry in entries), strict=True):
+        band = same[0].band
+        line = [same[0].name, _shown(band.middle, quantity)]
+        if banded:
+            line.append("–" if band.low is None else f"{_shown(band.low, quantity)} to {_shown(band.high, quantity)}")
+        for point in same:
+            line += [_shown(point.value, quantity), _number(point.ratio, ".3f")]
+            line += [_band_verdict(point)] if banded else []
+        lines.append([*line, *(_number(same[0].definitions[name], ".3f") for name in others)])
+    return aligned(lines)
+
+
+def _band_verdict(point: Point) -> str:
+    return {True: "", False: "outside", None: "no number" if point.band.low is not None else ""}[point.in_band]
+
+
+def _apart(entries: Sequence[Entry]) -> list[str]:
+    quantity = entries[0].data.quantity
+    heading = ["row", f"maximum [{quantity.shown_in}]"]
+    for entry in entries:
+        heading += ["calibrated" if entry.calibration else "model", "ratio"]
+    lines = [heading]
+    for same in zip(*(entry.upper_limits for entry in entries), strict=True):
+        line = [same[0].name, _shown(same[0].maximum, quantity)]
+        for apart in same:
+            line += [_shown(apart.value, quantity), _number(apart.ratio, ".3f")]
+        lines.append(line)
+    return aligned(lines) if len(lines) > 1 else []
+
+
+def _shown(value: float | None, quantity: Quantity) -> str:
+    return "–" if value is None or not math.isfinite(value) else f"{units.from_si(value, quantity):.4g}"
+
+
+def _number(value: float | None, form: str) -> str:
+    return "–" if value is None or not math.isfinite(value) else format(value, form)
+
+
+def source_and_fit(data: ValidationSet, request: Request) -> str:
+    """The source of the values of a set, and whether the calibration was fitted to them."""
+    fitted = request.calibration if data.calibratable and request.rows is None else None
+    words = f"fitted: {fitted.name}" if fitted is not None and data.file in fitted.data else "not fitted"
+    return f"{source_of(data, request)}; {words}"
+
+
+def caption(found: Sequence[Sequence[Entry]], request: Request) -> str:
+    """The caption of the picture."""
+    entries = [entry for one in found for entry in one]
+    words = ["Ratio of the model to what the table states (for a band its middle); grey: the vendor's bands."]
+    if any(entry.data.conditioned for entry in entries):
+        data = next(entry.data for entry in entries if entry.data.conditioned)
+        words.append(f"No-load torques: {conditions(data, request)}.")
+    words.append(f"Model {request.model.name}.")
+    if request.calibration is not None and any(entry.calibration for entry in entries):
+        fitted = request.calibration
+        mu, share = fitted.boundary_friction_coefficient, fitted.share_of_load
+        words.append(
+            f"Calibration {fitted.name}: boundary friction {mu:.3g}, force between balls {share:.2g} of the load."
+        )
+    return " ".join(words)

@@ -1,0 +1,1 @@
+"""The report to file, and the drawing of the ball between its grooves."""

@@ -1,0 +1,1 @@
+"""Ratings, life, and the checks of a ball screw."""

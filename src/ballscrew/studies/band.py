@@ -1,0 +1,139 @@
+"""The uncertainty band of a case: the results, how far off they may be, and which laws could replace the model's."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from ballscrew.cases import uncertain_inputs
+from ballscrew.cases.case_file import Case
+from ballscrew.cases.schema import LAWS
+from ballscrew.cases.uncertain_inputs import Uncertain
+from ballscrew.components.traits import traits_of
+from ballscrew.errors import InputError
+from ballscrew.evaluation.comparison import Candidate
+from ballscrew.friction.calibrations import PARAMETERS
+from ballscrew.overflow import overflow_as_input_error
+from ballscrew.studies import comparison
+from ballscrew.uncertainty import bands
+from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
+from ballscrew.uncertainty.bands import Band, BandCurve
+from ballscrew.uncertainty.default_uncertainties import JUDGEMENT
+
+#: Points of the curve, of a screw and of a whole nut, and how far it goes beyond the operating point.
+_POINTS, _NUT_POINTS, _BEYOND = 25, 9, 2.0
+#: Where a fault of the analysis stands on the command line.
+_OPTIONS = {"band.samples": "--samples", "band.level": "--level"}
+Done = Callable[[int, int], None]
+
+
+@dataclasses.dataclass(frozen=True)
+class Options:
+    """Settings of a band; None stands for the default."""
+
+    samples: int | None = None
+    level: float | None = None
+    only_given: bool = False
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class BandReport:
+    """The band of a case, and the inputs that were taken as uncertain."""
+
+    band: Band
+    inputs: Mapping[str, Uncertain]
+
+    @property
+    def given(self) -> int:
+        """Number of inputs whose distribution the case gives."""
+        return sum(one.given for one in self.inputs.values())
+
+    @property
+    def judged(self) -> int:
+        """Number of inputs whose distribution is assumed by judgement, with no source behind it."""
+        return sum(one.source == JUDGEMENT for one in self.inputs.values())
+
+    @property
+    def reasons_by_share(self) -> dict[str, float]:
+        """Share of the samples outside the model's validity by reason, the greatest first."""
+        return dict(sorted(self.band.reasons.items(), key=lambda item: -item[1]))
+
+
+def alternatives(case: Case) -> list[Candidate]:
+    """The case's model with each law whose traits declare it an alternative.
+
+    The other coefficients that a model has for a law of its own are not an alternative.
+
+    A named calibration holds for the laws that it was fitted with: those whose coefficients it sets are not exchanged.
+    With any other law a fit would have found other numbers: of a case that a fit wrote none is exchanged.
+    """
+    if case.fit:
+        return []
+    _, laws = comparison.candidates(case)
+    numbers = [] if case.calibration is None else PARAMETERS.values()
+    fitted = {name.partition(".")[0] for name in numbers}
+    return [
+        law
+        for law in laws
+        if law.name in LAWS[law.slot] and traits_of(getattr(law.model, law.slot)).alternative
+        if law.slot not in fitted
+    ]
+
+
+@overflow_as_input_error()
+def band(case: Case, options: Options, done: Done | None = None) -> BandReport:
+    """Band of a case. Raises :class:`~ballscrew.errors.InputError` that names options of the command line."""
+    inputs = uncertain_inputs.all_of(case, options.only_given)
+    try:
+        return BandReport(
+            bands.band(
+                **_arguments(case, inputs, options),
+                screw_speed=case.operation.screw_speed,
+                axial_load=case.operation.axial_load,
+                outputs=BAND_OUTPUTS,
+                samples=options.samples,
+                done=done,
+            ),
+            inputs,
+        )
+    except InputError as error:
+        faults = (dataclasses.replace(f, where=_OPTIONS.get(f.where, f.where)) for f in error.faults)
+        raise InputError(*faults) from None
+
+
+def axis_of_curve(case: Case) -> str:
+    """The operating condition along which the curve runs: the speed, or the load where the screw is at rest."""
+    return "axial_load" if float(case.operation.screw_speed) == 0 else "screw_speed"
+
+
+def curve(case: Case, report: BandReport, options: Options, done: Done | None = None) -> BandCurve:
+    """Band of the friction torque from rest, or no load, to twice the operating point."""
+    along = axis_of_curve(case)
+    here = float(getattr(case.operation, along)) or 1.0
+    return bands.band_along(
+        along=along,
+        points=np.linspace(0.0, _BEYOND * here, _POINTS if case.parts is None else _NUT_POINTS),
+        axial_load=case.operation.axial_load,
+        screw_speed=case.operation.screw_speed,
+        **_arguments(case, report.inputs, options),
+        done=done,
+    )
+
+
+def _arguments(case: Case, inputs: Mapping[str, Uncertain], options: Options) -> dict[str, Any]:
+    """Arguments that the band and the curve have in common."""
+    joint = uncertain_inputs.joint_of(case, inputs)
+    together = () if joint is None else joint.names
+    return {
+        "model": case.model,
+        "screw": case.screw,
+        "lubricant": case.lubricant,
+        "nut": case.parts,
+        "uncertain": {name: u.distribution for name, u in inputs.items() if name not in together},
+        "joint": joint,
+        "alternatives": alternatives(case),
+        "level": 0.95 if options.level is None else options.level,
+    }

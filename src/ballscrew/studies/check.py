@@ -1,0 +1,222 @@
+"""Checks of a screw: from a catalogue row or a case to friction, ratings, life and limits."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ballscrew import units
+from ballscrew.cases import case_file, catalogue, descriptions, nut_tables
+from ballscrew.cases.case import Case
+from ballscrew.cases.command_options import in_options
+from ballscrew.cases.nut_kinds import LISTED
+from ballscrew.components.catalogue import CatalogueRow
+from ballscrew.components.nut import SingleNut
+from ballscrew.errors import Fault, InputError, raise_if_any
+from ballscrew.friction.nut_parts import NutParts
+from ballscrew.records import Record
+from ballscrew.sizing.checks import Check, Ratings, checks, ratings_of
+from ballscrew.studies.run import NutState, Run, with_nut
+
+#: Defaults of what neither row nor options give.
+GRADE, TEMPERATURE, SPEED, SHARE_OF_RATING = "ISO VG 100", "40 degC", "600 rpm", 0.1
+#: The fields of the ratings, by the names of the case file.
+RATINGS: Mapping[str, str] = {"dynamic_load_rating": "dynamic", "static_load_rating": "static"}
+
+
+class Options(NamedTuple):
+    """Options of the command line: values by section.field, settings, and the name of a model."""
+
+    given: Mapping[str, str]
+    settings: Sequence[str]
+    model: str | None
+    allow_code: bool = False
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Checked:
+    """A screw, its friction, ratings and checks, and the assumptions made."""
+
+    name: str
+    #: The case as it is given; without a nut it is checked as a single one.
+    case: Case
+    run: Run
+    nut: NutState
+    #: Ratings by the geometry; None for a screw that no catalogue has.
+    computed: Ratings | None
+    checks: Sequence[Check]
+    assumed: Sequence[str]
+
+    @property
+    def verdict(self) -> str:
+        """All checks in a few words."""
+        failed = [check.name.replace("_", " ") for check in self.checks if check.holds is False]
+        not_judged = sum(check.holds is None for check in self.checks)
+        text = f"fails: {', '.join(failed)}" if failed else "passes"
+        text += f"; {not_judged} of {len(self.checks)} not judged" if not_judged else ""
+        return text if self.run.friction.valid else f"{text}; outside the model's validity"
+
+    @property
+    def verdicts(self) -> list[Record]:
+        """The verdict on all checks, then those on the operating point."""
+        failed = any(check.holds is False for check in self.checks)
+        whole = Record(
+            id="verdict.checks",
+            subject="checks",
+            text=self.verdict,
+            severity="error" if failed else "info",
+            holds=False if failed else None if any(check.holds is None for check in self.checks) else True,
+        )
+        return [whole, *self.run.verdicts]
+
+    def check(self, name: str) -> Check:
+        """The check of that name."""
+        return next(check for check in self.checks if check.name == name)
+
+
+def one(name: str, path: Path | None, options: Options, keep_going: bool) -> tuple[Checked, Sequence[str]]:
+    """The checks of a case file or of the row of that name, and notes on rows left out."""
+    if path is None and Path(name).suffix.lower() in (".csv", ".xlsx"):
+        raise InputError(Fault(name, "is a table, not a case", "", f"write --rows {name}"))
+    if path is None and (Path(name).suffix == ".toml" or "/" in name or Path(name).is_file()):
+        return _of_case(Path(name), options), ()
+    rows, notes = catalogue.load(path, keep_going)
+    return _of_row(catalogue.named(rows, name, file=path), options), notes
+
+
+def every_row(
+    name: str | None, path: Path | None, options: Options, keep_going: bool
+) -> tuple[Sequence[Checked], Sequence[str]]:
+    """The checks of all rows, or of those with these words, and notes on rows left out.
+
+    Raises :class:`~ballscrew.errors.InputError` if there is any fault; with ``keep_going`` only if no row is good.
+    """
+    rows, notes = catalogue.load(path, keep_going)
+    chosen = catalogue.chosen(rows, name or "", path)
+    found: list[Checked] = []
+    faults: dict[str, Sequence[Fault]] = {}
+    for row in chosen:
+        try:
+            found.append(_of_row(row, options))
+        except InputError as error:
+            faults[f"{row.name} ({row.source})"] = error.faults
+    if faults and not found and len({tuple(map(str, those)) for those in faults.values()}) == 1:
+        raise InputError(*next(iter(faults.values())))  # the options are at fault, not the rows
+    by_row = [dataclasses.replace(f, where=f"{where}, {f.where}") for where, those in faults.items() for f in those]
+    if not (keep_going and found):
+        raise_if_any(by_row)
+    left_out = [f"{len(faults)} of {len(chosen)} rows left out"] if faults else []
+    return found, [*notes, *map(str, by_row), *left_out]
+
+
+# -- tables ---------------------------------------------------------------------------------------
+
+
+def _of_case(path: Path, options: Options) -> Checked:
+    tables = case_file.read(path)
+    notes: list[str] = []
+    if "nut" not in tables:
+        of_row = isinstance(tables.get("screw"), dict) and "catalogue" in tables["screw"]
+        notes.append(
+            "no [nut] given: the nut of the row, without preload" if of_row else "no [nut] given: a single nut"
+        )
+        tables["nut"] = {} if of_row else {"type": "single"}
+    tables = _put(tables, options)
+    if notes and isinstance(tables["nut"], dict) and tables["nut"].get("type") != "single":
+        tables["nut"].setdefault("preload", "0 N")
+    return checked(path.name, _built(tables, options, path.parent), notes)
+
+
+def _of_row(row: CatalogueRow, options: Options) -> Checked:
+    """The row with the given options, and defaults elsewhere."""
+    tables: dict[str, Any] = {name: {} for name in ("nut", "bodies", "lubricant", "operation")}
+    tables = _put({"screw": {"catalogue": row.name}, **tables}, options)
+    notes = _filled(tables, row)
+    notes += [text for name, text in catalogue.assumed(row).items() if name != "loaded_turns"]
+    return checked(row.name, _built(tables, options, rows={row.name: row}), notes)
+
+
+def _built(
+    tables: dict[str, Any], options: Options, folder: Path = Path(), rows: Mapping[str, CatalogueRow] | None = None
+) -> Case:
+    """The case of tables; faults of fields that options gave name the options."""
+    try:
+        return case_file.build(tables, options.model, folder, rows, allow_code=options.allow_code)
+    except InputError as error:
+        model = () if options.model is None else ("model.name",)
+        raise InputError(*in_options(error.faults, (*options.given, *model))) from None
+
+
+def _put(tables: dict[str, Any], options: Options) -> dict[str, Any]:
+    """Tables with the options put in."""
+    for place, text in options.given.items():
+        section, _, field = place.partition(".")
+        table = tables.setdefault(section, {})
+        if isinstance(table, dict):
+            table[field] = text
+    return case_file.override(tables, options.settings)
+
+
+def _filled(tables: dict[str, Any], row: CatalogueRow) -> list[str]:
+    """Put defaults into tables where nothing is given; return a note on each."""
+    notes: list[str] = []
+
+    def fill(section: str, field: str, value: str, text: str) -> None:
+        if isinstance(tables[section], dict) and field not in tables[section]:
+            tables[section][field] = value
+            notes.append(text)
+
+    listed = row.dynamic_load_rating
+    load = SHARE_OF_RATING * (ratings_of(row).dynamic if listed is None else listed)
+    force = units.shown(load, LISTED["dynamic_load_rating"])
+    fill("operation", "axial_load", f"{load!r} N", f"axial load {force}: a tenth of C_a")
+    fill("operation", "screw_speed", SPEED, f"speed {SPEED}")
+    if isinstance(tables["lubricant"], dict) and "viscosity" not in tables["lubricant"]:
+        fill("lubricant", "grade", GRADE, f"oil {GRADE}: none was given")
+        fill("lubricant", "temperature", TEMPERATURE, f"oil at {TEMPERATURE}: no temperature was given")
+    kind = row.nut or "single"
+    fill("nut", "type", kind, f"{kind} nut, {'as listed' if row.nut else 'as the row lists none'}")
+    usual = catalogue.EXAMPLE_PRELOADS.get(str(tables["nut"].get("type")))
+    if usual is not None:
+        fill("nut", "preload", usual, f"preload {usual} of C_a, usual for such a nut: none was given")
+    return notes
+
+
+# -- evaluation -----------------------------------------------------------------------------------
+
+
+def checked(name: str, case: Case, notes: Sequence[str] = ()) -> Checked:
+    """The checks of a case; without a nut, of a single one. ``notes`` are further assumptions."""
+    parts = NutParts(nut=SingleNut()) if case.parts is None else case.parts
+    run = with_nut(case, parts)
+    assert run.nut is not None
+    computed = _computed(case)
+    rated = {name: case.listed.get(name) for name in RATINGS}
+    stand_ins = [name for name, value in rated.items() if value is None and computed is not None]
+    if computed is not None:
+        rated |= {name: getattr(computed, RATINGS[name]) for name in stand_ins}
+    load, left = float(case.operation.axial_load), float(run.nut.loads.remaining_preload)
+    found = checks(
+        case.screw,
+        axial_load=load,
+        screw_speed=float(case.operation.screw_speed),
+        nut=parts.nut,
+        **rated,
+        half_loads=(load + left, left) if left > 0 else (load,),
+        maximum_pressure=run.nut.maximum_pressure,
+        root_diameter=case.listed.get("root_diameter"),
+        installation=case.installation,
+        limits=case.limits,
+    )
+    of_ratings = [f"{name.replace('_', ' ')} computed from the geometry: none is listed" for name in stand_ins]
+    assumptions = [*notes, *descriptions.assumptions(run.case), *of_ratings, descriptions.left_out(run.case)]
+    return Checked(name, case, run, run.nut, computed, found, list(dict.fromkeys(filter(None, assumptions))))
+
+
+def _computed(case: case_file.Case) -> Ratings | None:
+    try:
+        return nut_tables.ratings(case.screw, case.row)
+    except InputError:
+        return None

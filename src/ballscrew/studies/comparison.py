@@ -1,0 +1,67 @@
+"""Models and laws side by side: all models, and the model of a case with each other law of each slot."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from typing import Any
+
+from ballscrew.cases import case_file
+from ballscrew.cases.schema import LAWS, MODELS, coefficients_of, name_of_law
+from ballscrew.components.traits import traits_of
+from ballscrew.evaluation.comparison import Candidate, Comparison, compare, same_law
+from ballscrew.overflow import overflow_as_input_error
+
+
+def candidates(case: case_file.Case) -> tuple[list[Candidate], list[Candidate]]:
+    """All models, and the case's model with each other law of each slot.
+
+    A law has its own coefficients, but keeps what the case has changed if it has that coefficient, too.
+    """
+    own = case.model
+    # a model changed by nothing is the preset: one row stands for both
+    models = [Candidate(name, own if own.label == name else model) for name, model in MODELS.items()]
+    laws: list[Candidate] = []
+    for slot in LAWS:
+        for name, law in _other_laws(slot, own):
+            counts = not traits_of(law).printed_form
+            laws.append(Candidate(name, case_file.changed(own, {slot: law}), slot, counts))
+    return models, laws
+
+
+def _other_laws(slot: str, own: Any) -> list[tuple[str, Any]]:
+    """The laws that a slot could have instead, by name; then other coefficients that a model has for them."""
+    present = getattr(own, slot)
+    named = name_of_law(slot, present)
+    kept = _coefficients(present)
+    found: list[tuple[str, Any]] = []
+    for name, law in LAWS[slot].items():
+        if name != named:
+            known = coefficients_of(slot, name)
+            values = {field: value for field, value in kept.items() if field in known}
+            found.append((name, law(**values) if isinstance(law, type) else law))
+    for name, model in MODELS.items():
+        law = getattr(model, slot)
+        if not any(same_law(law, other) for other in (present, *(other for _, other in found))):
+            found.append((f"as in {name}", law))
+    return found
+
+
+def _coefficients(law: Any) -> dict[str, Any]:
+    """The coefficients of a law; another law takes those it has too, so that only the law differs."""
+    if not dataclasses.is_dataclass(law):
+        return {}
+    return {field.name: getattr(law, field.name) for field in dataclasses.fields(law)}
+
+
+@overflow_as_input_error()
+def comparison(case: case_file.Case, done: Callable[[int, int], None] | None = None) -> Comparison:
+    """The comparison of a case; ``done(finished, total)`` reports the progress by rows."""
+    models, laws = candidates(case)
+    return compare(case.model, models, laws, case.screw, case.lubricant, case.operation, case.parts, done)
+
+
+def models_without_nut(case: case_file.Case) -> list[str]:
+    """Names of the models that cannot compute the nut of the case, and are left out."""
+    models, _ = candidates(case)
+    return [c.name for c in models if case.parts is not None and not case.parts.knows(c.model)]

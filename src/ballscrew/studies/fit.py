@@ -1,0 +1,131 @@
+"""The fit of a case to a log of torques, and the test that would teach most."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+from ballscrew.calibration.calibrated_model import CalibratedModel
+from ballscrew.calibration.fit import fit as fitted
+from ballscrew.calibration.next_test import NextTest
+from ballscrew.calibration.problem import CONSTANT_TORQUE
+from ballscrew.calibration.response import resolve_input
+from ballscrew.cases.case import Case
+from ballscrew.errors import Fault, InputError
+from ballscrew.evaluation.plan import Configuration
+from ballscrew.quantities import Quantity
+from ballscrew.records import Record
+from ballscrew.torque_logs import reading
+from ballscrew.torque_logs.log_rows import Kind
+from ballscrew.torque_logs.torque_log import TorqueLog
+
+#: The quantities that describe a test.
+CONDITIONS = ("axial_load", "screw_speed", "temperature")
+#: Options of the command line by the fields in which the fit finds faults.
+_OPTIONS: Mapping[str, str] = {f"fit.{name}": f"--{name}" for name in ("free", "holdout", "kind", "seed")}
+_LIMITS = "fit.limits."
+Range = tuple[float, float]
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Options:
+    """Settings of a fit; numbers in SI."""
+
+    free: Sequence[str]
+    bounds: Mapping[str, Range] = dataclasses.field(default_factory=dict[str, Range])
+    #: Ranges for the next test, by condition.
+    limits: Mapping[str, Range] = dataclasses.field(default_factory=dict[str, Range])
+    #: Headings of the log by column.
+    columns: Mapping[str, str] = dataclasses.field(default_factory=dict[str, str])
+    kind: Kind = "unknown"
+    inertia: float | None = None
+    torque_constant: float | None = None
+    holdout: float = 0.2
+    seed: int = 0
+    keep_going: bool = False
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class FitReport:
+    """A calibration, its log, and the test that would teach most."""
+
+    model: CalibratedModel
+    #: None where no point within the limits is valid.
+    next_test: NextTest | None
+    log: TorqueLog
+
+
+def refuse_nut(case: Case) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` for a case with a nut, which cannot be fitted yet."""
+    if case.parts is not None:
+        remedy = "leave out [nut] and what belongs to it, or fit a case without"
+        raise InputError(Fault("nut", "a whole nut cannot be fitted yet", "", remedy))
+
+
+def fit(case: Case, path: Path, options: Options, done: Callable[[int, int], None] | None = None) -> FitReport:
+    """Fit of a case to the log in a file. Raises ``InputError`` that names options of the command line.
+
+    A distribution that the case gives a free number is its prior.
+    """
+    refuse_nut(case)
+    log = reading.read(
+        path, options.columns, torque_constant=options.torque_constant, keep_going=options.keep_going, done=done
+    )
+    subject = Configuration(case.model, case.screw, case.lubricant)
+    known = free_quantities(case, options.free)
+    priors = {
+        name: case.uncertain[full]
+        for name in options.free
+        if name in known and (full := _full_name(subject, name)) is not None and full in case.uncertain
+    }
+    again = bool(priors) and log.source is not None and case.fit.get("sha256") == log.source[1]
+    if again:  # an estimate from this log is no further evidence beside the log
+        priors = {}
+    try:
+        model = fitted(
+            case.model, case.screw, case.lubricant, log, options.free, priors=priors, bounds=options.bounds,
+            kind=options.kind, inertia=options.inertia, holdout=options.holdout, seed=options.seed,
+        )  # fmt: skip
+    except InputError as error:
+        raise InputError(*(_with_option(fault) for fault in error.faults)) from None
+    warnings = [*model.warning_records]
+    if again:
+        text = "the case was fitted to this very log before: its errors are not taken as priors"
+        warnings.append(Record(id="fit.same_log", subject="priors", text=text, severity="warning", holds=False))
+    test: NextTest | None = None
+    try:
+        test = model.next_test(options.limits)
+    except InputError as error:  # the fit is valid without a next test
+        warnings += [
+            Record(
+                id="fit.no_next_test", subject="next_test", text=f"no next test: {_with_option(fault)}",
+                severity="warning", holds=False,
+            )
+            for fault in error.faults
+        ]  # fmt: skip
+    return FitReport(dataclasses.replace(model, warning_records=tuple(warnings)), test, log)
+
+
+def _with_option(fault: Fault) -> Fault:
+    """The fault, with the option of the command line that it is in."""
+    where = fault.where
+    if where.startswith(_LIMITS):
+        return dataclasses.replace(fault, where=f"--limits {where.removeprefix(_LIMITS)}")
+    return dataclasses.replace(fault, where=_OPTIONS.get(where, where))
+
+
+def _full_name(subject: Configuration, name: str) -> str | None:
+    """The full name of a free number; None for one that no model has."""
+    try:
+        return resolve_input(subject, name)
+    except InputError:
+        return None
+
+
+def free_quantities(case: Case, free: Sequence[str]) -> dict[str, Quantity]:
+    """Quantities of the free numbers that are known; the fit refuses the others."""
+    subject = Configuration(case.model, case.screw, case.lubricant)
+    full = {name: _full_name(subject, name) for name in free}
+    known = {name: subject.inputs[found][1] for name, found in full.items() if found is not None}
+    return known | ({CONSTANT_TORQUE.name: CONSTANT_TORQUE} if CONSTANT_TORQUE.name in free else {})

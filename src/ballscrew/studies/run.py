@@ -1,0 +1,275 @@
+"""Friction of a case at its operating point, with and without a nut.
+
+Both kinds of screw give the same fields. What only a nut has stands in :attr:`Run.nut`.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ballscrew import units
+from ballscrew.cases.case import Case
+from ballscrew.components.contact import RaceState
+from ballscrew.components.traits import traits_of
+from ballscrew.friction.nut_friction import NutFriction
+from ballscrew.friction.nut_parts import NutParts
+from ballscrew.friction.protocol import Friction
+from ballscrew.friction.result import FrictionResult, Quadrant
+from ballscrew.overflow import overflow_as_input_error
+from ballscrew.quantities import Quantity, quantities_of
+from ballscrew.records import Record
+from ballscrew.solvers.load_distribution import BallLoads
+
+_TORQUE, _SHARE = quantities_of(FrictionResult)["holding_torque"], quantities_of(FrictionResult)["rolling_share"]
+_LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
+
+
+class Touching(NamedTuple):
+    """A pair of flanks that a ball touches: 1 is the side that carries the load, -1 the other."""
+
+    side: int
+    angle: float
+    load: float
+
+
+class Flank(NamedTuple):
+    """Loads and contact angles of the balls on one flank: least, mean and greatest."""
+
+    load: tuple[float, float, float]
+    angle: tuple[float, float, float]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class NutState:
+    """The loads of the balls of a nut, and the torque of the nut without axial load."""
+
+    parts: NutParts
+    #: Preload of the nut, N.
+    preload: float
+    #: Torque of the nut without load: the sum of preload and losses.
+    preload_drag: float
+    loads: BallLoads
+    #: Greatest contact pressure of all balls, Pa.
+    maximum_pressure: float
+    #: The flank that carries the load, and the one that it relieves; None where no ball touches.
+    loaded: Flank | None
+    relieved: Flank | None
+
+    @property
+    def preload_is_lost(self) -> bool:
+        """The load has lifted the balls off the other flank."""
+        return self.preload > 0 and float(self.loads.remaining_preload) <= 0
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Run:
+    """Friction of a case at its operating point."""
+
+    case: Case
+    friction: Friction
+    #: The same at rest: the torque that a brake has to hold.
+    at_rest: Friction
+    #: The contacts with screw and nut of a ball, of a nut those of the most loaded one.
+    contacts: Mapping[str, Mapping[str, float]]
+    #: The flanks that this ball touches.
+    touching: Sequence[Touching]
+    #: Share of the resistances to rolling that friction carries; NaN where it is not known.
+    rolling_share: float
+    #: Force between neighbouring balls, N; None in a nut, whose balls have loads of their own.
+    ball_to_ball_force: float | None
+    #: The four combinations of load and rotation; empty with a nut.
+    quadrants: Mapping[str, Quadrant]
+    #: None without a nut.
+    nut: NutState | None = None
+
+    @property
+    def quantities(self) -> Mapping[str, Quantity]:
+        """The quantities of the result, by name."""
+        return quantities_of(type(self.friction))
+
+    @property
+    def curvature_alone(self) -> bool:
+        """Curvature is the only slip of the model."""
+        return traits_of(self.case.model.slip).curvature_alone
+
+    @property
+    def verdicts(self) -> list[Record]:
+        """Directions in which the load drives, in motion and at rest; skidding; loss of the preload."""
+        if float(self.friction.axial_load) == 0:
+            found = [
+                Record(id="verdict.no_load", subject="axial_load", text="no load: nothing to hold", value=0.0, unit="N")
+            ]
+            return [*found, *self._lost()]
+        moving = bool(self.friction.screw_speed)
+        found = _holding(self.friction, "") if moving else []
+        return [*found, *_holding(self.at_rest, "at_rest"), *self._skid(moving), *self._lost()]
+
+    @property
+    def warnings(self) -> list[Record]:
+        """The conditions of the model that fail, and the loss of the preload."""
+        return [*self.friction.warning_records, *self._lost()]
+
+    def _skid(self, moving: bool) -> list[Record]:
+        share = self.rolling_share
+        if not share < 1 or not math.isfinite(float(self.friction.screw_torque)):
+            return []
+        if moving:
+            found, text = (
+                "verdict.skid",
+                f"skids: friction carries only {share:.1%} of what resists the rolling of a ball",
+            )
+        else:
+            found = "verdict.skid.at_rest"
+            text = f"at rest: friction carries only {share:.1%} of what resists rolling"
+        return [
+            Record(
+                id=found, subject="rolling_share", text=text, severity="warning" if moving else "info", holds=False,
+                value=share, limit=1.0, unit=_SHARE.unit,
+            )
+        ]  # fmt: skip
+
+    def _lost(self) -> list[Record]:
+        if self.nut is None or not self.nut.preload_is_lost:
+            return []
+        limit = float(self.nut.loads.lift_off_load)
+        text = f"preload lost: the balls lift off the other flank at a load of about {units.shown(limit, _LIFT_OFF)}"
+        return [
+            Record(
+                id="verdict.preload_lost", subject="axial_load", text=text, severity="warning", holds=False,
+                value=float(self.friction.axial_load), limit=limit, unit=_LIFT_OFF.unit,
+            )
+        ]  # fmt: skip
+
+
+def _holding(friction: Friction, place: str) -> list[Record]:
+    """The direction in which the load drives, and the torque that holds or lowers it; empty where it is NaN."""
+    held = float(friction.holding_torque)
+    if math.isnan(held):
+        return []
+    torque, when = units.shown(abs(held), _TORQUE), "at rest" if place else "at this speed"
+    beware = "" if friction.valid else " (outside the model's validity)"
+    if held > 0:
+        name, text = (
+            "back_driving",
+            f"back-drives: the load turns the screw; {torque} on the shaft hold it {when}{beware}",
+        )
+    else:
+        name = "self_locking"
+        text = f"self-locking: the load alone does not turn the screw {when}; {torque} on the shaft lower it{beware}"
+    return [
+        Record(
+            id=".".join(filter(None, ["verdict", name, place])),
+            subject="holding_torque",
+            text=text,
+            severity="info" if held > 0 else "warning",
+            holds=True,
+            value=held,
+            unit=_TORQUE.unit,
+        )
+    ]
+
+
+# -- evaluation -----------------------------------------------------------------------------------
+
+
+@overflow_as_input_error()
+def run(case: Case) -> Run:
+    """Friction of a case at its operating point."""
+    return _of_balls(case) if case.parts is None else with_nut(case, case.parts)
+
+
+def _of_balls(case: Case) -> Run:
+    """The screw as its loaded balls alone."""
+    load, speed = case.operation.axial_load, case.operation.screw_speed
+
+    def friction(speed: float) -> FrictionResult:
+        return case.model(case.screw, case.lubricant, axial_load=load, screw_speed=speed)
+
+    found = friction(speed)
+    return Run(
+        case=case,
+        friction=found,
+        at_rest=friction(0.0) if float(speed) and float(load) else found,
+        contacts={
+            side: {name: float(getattr(state, name)) for name in quantities_of(RaceState)}
+            for side, state in (("screw", found.screw), ("nut", found.nut))
+        },
+        touching=[Touching(1, float(case.screw.contact_angle), float(found.contact_load))],
+        rolling_share=float(found.rolling_share),
+        ball_to_ball_force=float(found.ball_to_ball_force),
+        quadrants=found.quadrants,
+    )
+
+
+def with_nut(case: Case, parts: NutParts) -> Run:
+    """The case with this nut in place of its own."""
+    load, speed = case.operation.axial_load, case.operation.screw_speed
+
+    def friction(load: float, speed: float) -> NutFriction:
+        return parts.friction(case.model, case.screw, case.lubricant, axial_load=load, screw_speed=speed)
+
+    found = friction(load, speed)
+    loads, half = found.loads, np.shape(found.loads.balls)[-1] // parts.halves
+    return Run(
+        case=dataclasses.replace(case, parts=parts),
+        friction=found,
+        at_rest=friction(load, 0.0) if float(speed) and float(load) else found,
+        contacts=_most_loaded(found),
+        touching=_touching(found),
+        rolling_share=math.nan,
+        ball_to_ball_force=None,
+        quadrants={},
+        nut=NutState(
+            parts=parts,
+            preload=float(getattr(parts.nut, "preload", 0.0)),
+            preload_drag=float(friction(0.0, speed).screw_torque),
+            loads=loads,
+            maximum_pressure=float(found.maximum_pressure),
+            loaded=_flank(loads.forward_load[:half], loads.forward_angle[:half], loads.balls[:half]),
+            relieved=_flank(loads.backward_load[-half:], loads.backward_angle[-half:], loads.balls[-half:]),
+        ),
+    )
+
+
+def _flank(load: Any, angle: Any, balls: Any) -> Flank | None:
+    """Loads and angles of one flank; the angles are those of balls that touch."""
+    touches = load > 0
+    if not np.any(touches):
+        return None
+
+    def ends(values: Any, weights: Any) -> tuple[float, float, float]:
+        return float(np.min(values)), float(np.average(values, weights=weights)), float(np.max(values))
+
+    return Flank(ends(load, balls), ends(angle[touches], balls[touches]))
+
+
+def _most_loaded(found: NutFriction) -> dict[str, dict[str, float]]:
+    """The contacts of the most loaded ball, on screw and nut."""
+    pair = max(found.pairs, key=lambda pair: float(np.max(pair.load)))
+    ball = int(np.argmax(pair.load))
+    return {
+        side: {name: _of_ball(getattr(contact, name), ball) for name in quantities_of(type(contact))}
+        for side, contact in (("screw", pair.screw), ("nut", pair.nut))
+    }
+
+
+def _touching(found: NutFriction) -> list[Touching]:
+    """The flanks that the most loaded ball touches; without load the one that it would touch first."""
+    pair = max(found.pairs, key=lambda pair: float(np.max(pair.load)))
+    ball, loads = int(np.argmax(pair.load)), found.loads
+    sides = (
+        Touching(1, _of_ball(loads.forward_angle, ball), _of_ball(loads.forward_load, ball)),
+        Touching(-1, _of_ball(loads.backward_angle, ball), _of_ball(loads.backward_load, ball)),
+    )
+    touching = [flank for flank in sides if flank.load > 0 and math.isfinite(flank.angle)]
+    return touching or [Touching(1, float(found.ball_screw.contact_angle), 0.0)]
+
+
+def _of_ball(value: Any, ball: int) -> float:
+    array = np.asarray(value).reshape(-1)
+    return float(array[ball if len(array) > 1 else 0])

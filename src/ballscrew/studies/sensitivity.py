@@ -1,0 +1,79 @@
+"""The sensitivity of a case: how much of the uncertainty of a result each uncertain input explains."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping
+from typing import NamedTuple, cast
+
+from ballscrew.cases import case_file
+from ballscrew.cases.uncertain_inputs import Uncertain, all_of
+from ballscrew.components.materials import TEMPERATURE
+from ballscrew.errors import Fault, InputError
+from ballscrew.evaluation.plan import Configuration
+from ballscrew.quantities import Quantity, fields_of
+from ballscrew.uncertainty import sensitivity as analysis
+from ballscrew.uncertainty.sensitivity import ANOTHER_METHOD, Method, Sensitivity
+
+
+class Options(NamedTuple):
+    """Settings of a sensitivity analysis."""
+
+    output: str = "screw_torque"
+    method: str = "sobol"
+    samples: int | None = None
+    seed: int = 0
+    only_given: bool = False
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class SensitivityReport:
+    """The sensitivity of a case, its uncertain inputs, and the part and quantity of each input."""
+
+    result: Sensitivity
+    uncertain: Mapping[str, Uncertain]
+    known: Mapping[str, tuple[str, Quantity]]
+
+    def describe(self, name: str) -> str:
+        """The meaning of an input, short enough for a table."""
+        law, _, field = name.rpartition(".")
+        if name == TEMPERATURE.name or (law and "_" not in field):  # "decay" alone says little
+            return self.known[name][1].info.meaning
+        return field.replace("_", " ")
+
+
+def sensitivity(
+    case: case_file.Case, options: Options, done: Callable[[int, int], None] | None = None
+) -> SensitivityReport:
+    """Sensitivity of a case. Raises ``InputError`` that names options of the command line."""
+    uncertain = all_of(case, options.only_given)
+    if not uncertain:
+        remedy = 'write one, such as screw_conformity = "0.54 ± 0.01", or leave --only-given out'
+        raise InputError(Fault("--only-given", "the case gives no input a distribution", "", remedy))
+    point = {name: getattr(case.operation, name) for name in fields_of(case.operation)}
+    try:
+        result = analysis.sensitivity(
+            case.model,
+            case.screw,
+            case.lubricant,
+            uncertain={name: u.distribution for name, u in uncertain.items()},
+            nut=case.parts,
+            output=options.output.replace(".", "_"),
+            method=cast("Method", options.method),
+            samples=options.samples,
+            seed=options.seed,
+            done=done,
+            **point,
+        )
+    except InputError as error:
+        raise InputError(*(_of_command_line(fault) for fault in error.faults)) from None
+    known = Configuration(case.model, case.screw, case.lubricant, case.parts).inputs
+    return SensitivityReport(result, uncertain, known)
+
+
+def _of_command_line(fault: Fault) -> Fault:
+    """The fault of an argument, as one of the option that gives it."""
+    section, _, name = fault.where.partition(".")
+    where = f"--{name}" if section == "sensitivity" and "." not in name else fault.where
+    remedy = "add --method sobol or --method morris" if fault.remedy == ANOTHER_METHOD else fault.remedy
+    return dataclasses.replace(fault, where=where, remedy=remedy)

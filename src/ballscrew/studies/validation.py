@@ -1,0 +1,179 @@
+"""The model against sets of stated values: which sets, under which conditions, and the values row by row."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import hashlib
+from collections.abc import Iterator, Mapping, Sequence
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from ballscrew import units
+from ballscrew.cases.catalogue import COLUMNS
+from ballscrew.cases.schema import MODELS
+from ballscrew.components.traits import traits_of
+from ballscrew.errors import Fault, InputError, fault_of, nearest, raise_if_any
+from ballscrew.friction.calibrations import Calibration, calibrated, calibration
+from ballscrew.friction.model import FrictionModel
+from ballscrew.tables.headings import Column
+from ballscrew.tables.rows import made, read
+from ballscrew.validation.entries import CONDITIONS, Conditions, Entry, Point, ValidationSet, Values
+from ballscrew.validation.sets import SETS
+
+DEFAULT_CALIBRATION = "rexroth-2006"
+_ALIASES: Mapping[str, tuple[str, ...]] = {
+    "screw_speed": ("speed", "rpm", "rotational speed"),
+    "grade": ("oil", "oil grade"),
+    "temperature": ("oil temperature",),
+}
+
+# -- the request ---------------------------------------------------------------------------------
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class Request:
+    """Sets to evaluate, with the model, the calibration and the conditions."""
+
+    sets: Sequence[ValidationSet]
+    model: FrictionModel
+    calibration: Calibration | None
+    conditions: Conditions
+    rows: Path | None = None
+    keep_going: bool = False
+    #: What is left out of all sets, and why.
+    notes: Sequence[str] = ()
+
+
+def request(
+    names: Sequence[str] = (),
+    *,
+    model: str = "reference",
+    calibration_name: str | None = None,
+    rows: Path | None = None,
+    keep_going: bool = False,
+    grade: str | None = None,
+    temperature: str | None = None,
+    speed: str | None = None,
+) -> Request:
+    """The request that options mean. Raises :class:`~ballscrew.errors.InputError` with all faults found."""
+    faults = [Fault("validate", "unknown set", name, nearest(name, SETS)) for name in names if name not in SETS]
+    if model not in MODELS:
+        faults.append(Fault("--model", "unknown model", model, nearest(model, MODELS)))
+    if rows is not None and len(names) != 1:
+        given = ", ".join(names) or "none"
+        faults.append(Fault("--rows", "needs exactly one set", given, "name the set whose columns the file has"))
+    conditions = _conditions(grade, temperature, speed, faults)
+    raise_if_any(faults)
+    found, notes = _sets(names, MODELS[model])
+    has_conditions = grade is not None or temperature is not None or speed is not None
+    if has_conditions and not any(data.conditioned for data in found):
+        raise InputError(Fault("validate", "oil and speed do not move these sets", ", ".join(names), "leave them out"))
+    chosen = calibration(calibration_name or DEFAULT_CALIBRATION)
+    return Request(
+        sets=found,
+        model=MODELS[model],
+        # a calibration goes with its model, unless it is asked for
+        calibration=chosen if calibration_name or chosen.model == model else None,
+        conditions=conditions,
+        rows=rows,
+        keep_going=keep_going,
+        notes=notes,
+    )
+
+
+def _sets(names: Sequence[str], model: FrictionModel) -> tuple[list[ValidationSet], list[str]]:
+    """The sets asked for, or all those that the model can do."""
+    wanted = [SETS[name] for name in dict.fromkeys(names)] or list(SETS.values())
+    cannot = [data.name for data in wanted if data.four_contacts and 4 not in traits_of(model.slip).contacts_per_ball]
+    if names and cannot:
+        problem = f"model {model.name} knows no balls with four contacts"
+        raise InputError(*(Fault(name, problem, "", "take the model reference") for name in cannot))
+    notes = [f"{name}: left out, the model {model.name} knows no balls with four contacts" for name in cannot]
+    return [data for data in wanted if data.name not in cannot], notes
+
+
+def _conditions(grade: str | None, temperature: str | None, speed: str | None, faults: list[Fault]) -> Conditions:
+    """The conditions of the options; what is wrong with them goes to the list of faults."""
+    given: dict[str, Any] = {} if grade is None else {"grade": grade}
+    for option, name, text in (("--temperature", "temperature", temperature), ("--speed", "screw_speed", speed)):
+        quantity = CONDITIONS[name]
+        if text is None or quantity is None:
+            continue
+        value = units.parse(option, text, quantity)
+        fault = value if isinstance(value, Fault) else fault_of(option, quantity, value)
+        if fault is None:
+            given[name] = value
+        else:
+            people = fault if fault is value else units.in_display_units(fault, quantity, text)
+            faults.append(dataclasses.replace(people, where=option))
+    conditions = Conditions(**given)
+    try:
+        _ = conditions.lubricant
+    except InputError as error:
+        faults += [dataclasses.replace(fault, where="--grade") for fault in error.faults if "grade" in fault.where]
+    return conditions
+
+
+# -- rows -----------------------------------------------------------------------------------------
+
+
+def columns_of(data: ValidationSet) -> list[Column]:
+    """The columns that a table of a set may have."""
+    screw = list(COLUMNS) if data.of_screws else []
+    own = [Column(name, quantity) for name, quantity in data.columns.items()]
+    further = [] if not data.conditioned else list(CONDITIONS.items())
+    conditions = [Column(name, quantity, _ALIASES.get(name, ())) for name, quantity in further]
+    return [
+        dataclasses.replace(column, required=column.required or column.name in data.required)
+        for column in (*screw, *own, *conditions)
+    ]
+
+
+def evaluate(request: Request) -> Iterator[tuple[list[Entry], list[str]]]:
+    """Each set with its entries, uncalibrated first, and notes on rows left out."""
+    for data in request.sets:
+        models: list[tuple[FrictionModel, str | None]] = [(request.model, None)]
+        if data.calibratable and request.calibration is not None:
+            models.append((calibrated(request.model, request.calibration), request.calibration.name))
+        if request.rows is None:
+            with resources.as_file(_shipped(data.file)) as path:
+                points, notes = _points(path, data, models, request)
+        else:
+            points, notes = _points(request.rows, data, models, request)
+        yield (
+            [
+                Entry(data=data, model=model, calibration=name, points=[point for row in points for point in row[i]])
+                for i, (model, name) in enumerate(models)
+            ],
+            notes,
+        )
+
+
+def _points(
+    path: Path, data: ValidationSet, models: Sequence[tuple[FrictionModel, str | None]], request: Request
+) -> tuple[list[list[list[Point]]], list[str]]:
+    """The points of each row, model by model."""
+    return made(
+        read(path, columns_of(data)),
+        lambda row: [data.evaluate(model, row.values, request.conditions) for model, _ in models],
+        request.keep_going,
+    )
+
+
+@functools.cache
+def shipped_rows(data: ValidationSet) -> tuple[Values, ...]:
+    """The rows shipped with a set, SI."""
+    with resources.as_file(_shipped(data.file)) as path:
+        return tuple(made(read(path, columns_of(data)), lambda row: row.values)[0])
+
+
+def _shipped(file: str) -> Any:
+    return resources.files("ballscrew").joinpath("data/validation", file)
+
+
+def fingerprint(file: str) -> str:
+    """SHA-256 of a file of rows shipped, whatever its line ends."""
+    text = _shipped(file).read_text(encoding="utf-8")
+    return hashlib.sha256(text.encode()).hexdigest()

@@ -1,0 +1,1 @@
+"""Sweeps over grids of inputs, in memory, into stores on disk, and on a cluster."""

@@ -1,0 +1,1 @@
+"""Tables that people write: spreadsheets and CSV, headings, numbers, rows."""

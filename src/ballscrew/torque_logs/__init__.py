@@ -1,0 +1,1 @@
+"""Logs of measured torques: reading files, recognising columns, cleaning, motion."""

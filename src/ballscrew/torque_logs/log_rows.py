@@ -1,0 +1,127 @@
+"""Rows of a log of torque: the columns measured on a ball screw, in SI.
+
+Signs: a positive axial load is one that a positive speed works against. A torque that drives the screw has the sign of
+the speed where it does work; a friction torque has it everywhere.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal, Self, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew._deprecated import RenamedAttribute
+from ballscrew.errors import Fault, InputError
+from ballscrew.quantities import AngularSpeed, Force, Info, Quantity, Temperature, Torque, Unit, quantities_of
+from ballscrew.torque_logs.motion import Floats, Motion
+
+#: Kind of the torque of a log; unknown where the heading is only "torque".
+Kind: TypeAlias = Literal["friction", "drive", "unknown"]
+#: Names of the torque in data from Python, and its kind.
+TORQUES: Mapping[str, Kind] = {"torque": "unknown", "friction_torque": "friction", "drive_torque": "drive"}
+REQUIRED = ("axial_load", "screw_speed", "torque")
+OPTIONAL = ("temperature", "time")
+INERTIA = Quantity(
+    "inertia", "kg m^2", Info("J", "moment of inertia that the torque accelerates, seen at the screw", at_least=0)
+)
+TORQUE_CONSTANT = Quantity("torque_constant", "N m/A", Info("k_T", "torque of the motor for each ampere", above=0))
+
+Time = Annotated[Any, Unit("s")]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class LogRows:
+    """Rows of a log of torque in SI: arrays of equal length, one number for each row.
+
+    Raises :class:`~ballscrew.errors.InputError` if the lengths differ.
+    """
+
+    axial_load: Annotated[Force, Info("F", "axial load; positive where a positive speed works against it", "N")]
+    screw_speed: Annotated[AngularSpeed, Info(r"\omega", "speed of the screw, negative in reverse", "rpm")]
+    torque: Annotated[Torque, Info("M", "measured torque", "N m")]
+    temperature: Annotated[
+        Temperature | None, Info("T", "temperature of the oil", "degC", above=0, hint="not colder than absolute zero")
+    ] = None
+    time: Annotated[Time | None, Info("t", "time", "s")] = None
+    #: Numbers of the rows in the file, or in the arrays given, from 1.
+    line: Any = None
+    kind: Kind = "unknown"
+    #: How many rows there were before any was left out.
+    rows: int = 0
+    #: Rows left out, by reason.
+    left_out: Mapping[str, int] = dataclasses.field(default_factory=dict[str, int])
+    #: Remarks on the log, one line each.
+    notes: tuple[str, ...] = ()
+    #: Name and SHA-256 of the file it came from.
+    source: tuple[str, str] | None = None
+    #: Whether it is the result of cleaning.
+    is_clean: bool = False
+    #: Random numbers of the rows: those with the smallest are kept when a log is thinned.
+    keys: Floats | None = None
+    #: Derivatives of the speed, where they are known already.
+    motion: Motion | None = None
+
+    taken = RenamedAttribute("taken", "select")
+    noted = RenamedAttribute("noted", "with_notes")
+
+    def __post_init__(self) -> None:
+        for name, values in self.columns.items():
+            object.__setattr__(self, name, np.asarray(values, dtype=np.float64))
+        line = np.arange(1, len(self) + 1) if self.line is None else np.asarray(self.line)
+        object.__setattr__(self, "line", line)
+        object.__setattr__(self, "rows", self.rows or len(self))
+        sizes = {name: values.shape for name, values in {**self.columns, "line": line}.items()}
+        if len(set(sizes.values())) > 1 or self.torque.ndim != 1:
+            told = ", ".join(f"{name} {' x '.join(map(str, shape)) or 'one'}" for name, shape in sizes.items())
+            raise InputError(Fault("log", "has columns of different lengths", told, "give every column each row"))
+
+    def __len__(self) -> int:
+        return int(np.size(self.torque))
+
+    @property
+    def columns(self) -> dict[str, Any]:
+        """The columns that are there, by name."""
+        every = {name: getattr(self, name) for name in (*REQUIRED, *OPTIONAL)}
+        return {name: values for name, values in every.items() if values is not None}
+
+    @property
+    def forward(self) -> NDArray[np.bool_]:
+        """The rows at which the screw turns forward."""
+        return self.screw_speed > 0
+
+    @property
+    def backward(self) -> NDArray[np.bool_]:
+        """The rows at which the screw turns in reverse."""
+        return self.screw_speed < 0
+
+    def select(self, keep: NDArray[Any], reason: str = "") -> Self:
+        """The rows of a mask or of indices. The others are counted under ``reason``."""
+        columns = {name: values[keep] for name, values in self.columns.items()}
+        line = self.line[keep]
+        lost = len(self) - line.size
+        counts = {**self.left_out, reason: self.left_out.get(reason, 0) + lost} if reason and lost else self.left_out
+        keys = None if self.keys is None else self.keys[keep]
+        motion = None if self.motion is None else self.motion.select(keep)
+        return dataclasses.replace(self, **columns, line=line, left_out=counts, keys=keys, motion=motion)
+
+    def with_notes(self, *notes: str) -> Self:
+        """The same log with further notes, each once."""
+        return dataclasses.replace(self, notes=tuple(dict.fromkeys((*self.notes, *filter(None, notes)))))
+
+
+@functools.cache
+def quantities() -> Mapping[str, Quantity]:
+    """The columns of a log: their units and bounds."""
+    return {name: found for name, found in quantities_of(LogRows).items() if name in (*REQUIRED, *OPTIONAL)}
+
+
+def seconds(dates: NDArray[Any]) -> Floats:
+    """Dates and times (``datetime64`` or ``timedelta64``) as seconds from the first that is known."""
+    known = dates[~np.isnat(dates)]
+    if not known.size:
+        return np.full(dates.shape, np.nan)
+    return (dates - known[0]) / np.timedelta64(1, "s")

@@ -1,0 +1,1 @@
+"""Formulas recorded as steps on a tape, merged, differentiated, interpreted by NumPy; independent of ball screws."""

@@ -1,0 +1,1 @@
+"""The model against vendors' tables and measurements."""

@@ -1,0 +1,111 @@
+"""Parts of the response models that several answers share."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Literal, TypeAlias
+
+from pydantic import BaseModel, ConfigDict, Field, create_model
+
+from ballscrew.errors import LINES_AT_MOST
+from ballscrew.quantities import Quantity
+
+#: A number; null where it is not finite.
+Number: TypeAlias = float | None
+Tables: TypeAlias = dict[str, Any]
+Numbers: TypeAlias = dict[str, Number]
+#: Results that are true or false.
+MASKS = ("valid", "self_locking")
+
+
+class Closed(BaseModel):
+    """A table of these names and no others."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
+class Open(BaseModel):
+    """A table of at least these names."""
+
+    model_config = ConfigDict(extra="allow")
+
+
+def field(description: str = "", unit: str = "1", *, optional: bool = False) -> Any:
+    """A field with its SI unit; an optional one is left out of the answer, it has no default."""
+
+    def complete(schema: dict[str, Any]) -> None:
+        schema.pop("default", None)
+        if unit != "1":
+            schema["x-si-unit"] = unit
+
+    default: Any = None if optional else ...
+    return Field(default, description=description or None, json_schema_extra=complete)
+
+
+def quantities(quantities: Mapping[str, Quantity], *, optional: bool = False) -> dict[str, Any]:
+    """Fields of a model for quantities: meaning, SI unit, and a number or a truth value."""
+    return {
+        name: (bool if name in MASKS else Number, field(f"{q.info.meaning}, SI", q.unit, optional=optional))
+        for name, q in quantities.items()
+    }
+
+
+def model(name: str, meaning: str, base: type[BaseModel] = Closed, **fields: Any) -> type[BaseModel]:
+    """A model whose fields are known from annotations elsewhere."""
+    create: Any = create_model
+    return create(name, __doc__=meaning, __base__=base, **fields)
+
+
+class FaultLine(Closed):
+    """One fault, and the field that it names."""
+
+    where: str = Field(description="section.field")
+    text: str = Field(description="what is wrong, the value, the remedy")
+    line: str = Field(description="the field and the text, as the command line prints them")
+
+
+class Problem(Closed):
+    """The reason why a request is refused (RFC 9457)."""
+
+    type: Literal["about:blank"]
+    title: str
+    status: int = Field(ge=400, le=599)
+    lines: list[str] = Field(max_length=LINES_AT_MOST, description="what the command line prints on its error stream")
+    faults: list[FaultLine]
+
+
+class Provenance(Closed):
+    """Version, model and sources of an answer."""
+
+    version: str
+    model: str
+    references: list[str]
+
+
+class Record(Closed):
+    """A verdict, a check or a warning."""
+
+    id: str = Field(description="a stable name, such as validity.contact_pressure")
+    subject: str = Field(description="the field or part that it concerns")
+    value: Number = Field(description="SI")
+    unit: str = Field(description="of the value and the limit")
+    limit: Number = Field(description="SI")
+    holds: bool | None
+    severity: Literal["info", "warning", "error"]
+    text: str = Field(description="a sentence for people")
+
+
+class Shown(Closed):
+    """A quantity in a text for people."""
+
+    value: Number = Field(description="SI")
+    unit: str = Field(description="SI")
+    shown_in: str = Field(description="the unit in which the command line shows it")
+    digits: int
+
+
+class Template(Closed):
+    """A text in which ``{0}``, ``{1}`` and so on stand for its quantities, to be shown in any unit."""
+
+    text: str
+    quantities: list[Shown]

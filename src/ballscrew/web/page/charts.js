@@ -1,0 +1,230 @@
+// Charts of the torque and its parts, of the efficiency, and of several designs.
+
+import * as parts from "./chart_parts.js";
+import { element } from "./dom.js";
+import { draw, layout } from "./plot.js";
+import { data } from "./results.js";
+import * as units from "./units.js";
+
+// light enough everywhere for black numbers, also for people who do not see red or green
+const SCALE = [
+  [0, "#8296b5"],
+  [0.5, "#c3b98c"],
+  [1, "#ffe945"],
+];
+
+/**
+ * Torque against speed, its parts stacked, and the operating point.
+ *
+ * @param {Sweep} swept
+ * @param {Run} answer
+ * @param {Mechanisms} mechanisms
+ */
+export function torque(swept, answer, mechanisms) {
+  const speeds = parts.converted("screw_speed", swept.axes.screw_speed);
+  const { screw_torque: sum, contributions } = answer.results;
+  const names = Object.keys(contributions).filter((name) =>
+    swept.outputs[`contribution_${name}`]?.values.some((value) => value !== 0),
+  );
+  const byName = Object.fromEntries(
+    names.map((name) => [name, parts.converted("screw_torque", swept.outputs[`contribution_${name}`])]),
+  );
+  const total = parts.converted("screw_torque", swept.outputs.screw_torque);
+  const operation = parts.operationOf(answer);
+  const load = units.formatted("axial_load", operation.axial_load);
+  const speed = units.inDisplayUnit("screw_speed", operation.screw_speed);
+  const valid = parts.validAlong(swept);
+  /** @param {string} name */
+  const words = (name) => mechanisms[name]?.words ?? name;
+  const x = parts.titled("screw_speed", "speed of the screw");
+  const y = parts.titled("screw_torque", "friction torque");
+  /** @param {string} name */
+  const share = (name) => {
+    const part = contributions[name];
+    const percent = sum && sum > 0 && part !== null ? ` · ${units.digits((100 * part) / sum, 2)} %` : "";
+    return element("span", { class: "value" }, data("screw_torque", part), percent);
+  };
+  const totalText = units.formatted("screw_torque", sum);
+  return draw("torque-chart", {
+    name: "torque_over_speed",
+    caption: `friction torque and its parts at ${load}`,
+    description:
+      `Friction torque against speed at ${load}, stacked by mechanism. ` + `At the operating point ${totalText}.`,
+    figure: (colours) => ({
+      traces: [
+        ...names.map((name) => ({
+          x: speeds,
+          y: byName[name],
+          name: words(name),
+          stackgroup: "parts",
+          mode: "lines",
+          line: { width: 0.5, color: mechanisms[name]?.colour },
+          fillcolor: mechanisms[name]?.colour,
+          hovertemplate: "%{y:.4g}",
+        })),
+        {
+          x: speeds,
+          y: total,
+          name: "sum",
+          mode: "lines",
+          line: { color: colours.ink, width: 2 },
+          hovertemplate: "%{y:.4g}",
+        },
+        parts.pointAt(colours, speed, units.inDisplayUnit("screw_torque", sum)),
+      ],
+      layout: layout(colours, x, y, { shapes: parts.invalidRanges(speeds, valid) }),
+    }),
+    legend: (colours) => [
+      {
+        kind: "line",
+        name: "sum",
+        colour: colours.ink,
+        value: element("span", { class: "value" }, data("screw_torque", sum)),
+      },
+      ...names.toReversed().map((name) => ({
+        kind: "area",
+        name: words(name),
+        colour: mechanisms[name]?.colour,
+        value: share(name),
+      })),
+      parts.pointEntry(colours),
+      ...parts.invalidEntries(valid),
+    ],
+    numbers: () => [
+      [x, y, ...names.map((name) => parts.titled("screw_torque", words(name))), "valid"],
+      speeds.map((at, place) => [
+        at,
+        total[place],
+        ...names.map((name) => byName[name][place]),
+        parts.yesOrNo(valid[place]),
+      ]),
+    ],
+  });
+}
+
+/**
+ * Efficiency over load and speed.
+ *
+ * @param {Sweep} swept
+ * @param {Run} answer
+ */
+export function map(swept, answer) {
+  const speeds = parts.converted("screw_speed", swept.axes.screw_speed);
+  const loads = parts.converted("axial_load", swept.axes.axial_load);
+  const loadIsFirst = Object.keys(swept.axes)[0] === "axial_load";
+  /**
+   * Rows of one load each.
+   *
+   * @template Value
+   * @param {Value[][]} values
+   */
+  const byLoad = (values) => (loadIsFirst ? values : loads.map((_, i) => speeds.map((_, j) => values[j][i])));
+  const grid = byLoad(/** @type {number[][]} */ (swept.outputs.efficiency.values));
+  const valid = byLoad(/** @type {boolean[][]} */ (swept.outputs.valid.values));
+  const x = parts.titled("screw_speed", "speed of the screw");
+  const y = parts.titled("axial_load", "axial load");
+  const operation = parts.operationOf(answer);
+  const point = parts.pointAt(
+    { ink: "#000", panel: "#fff" },
+    units.inDisplayUnit("screw_speed", operation.screw_speed),
+    units.inDisplayUnit("axial_load", operation.axial_load),
+  );
+  const efficiency = units.digits(answer.results.efficiency);
+  return draw("map-chart", {
+    name: "efficiency_map",
+    caption: "efficiency over axial load (down) and speed (across)",
+    description: `Efficiency over axial load and speed; at the operating point ${efficiency}.`,
+    figure: (colours) => ({
+      traces: [
+        {
+          x: speeds,
+          y: loads,
+          z: grid,
+          type: "contour",
+          colorscale: SCALE,
+          ncontours: 12,
+          name: "efficiency",
+          contours: { coloring: "heatmap", showlabels: true, labelfont: { size: 11, color: "#000" } },
+          line: { width: 0.6, color: "#333" },
+          colorbar: { thickness: 12, outlinewidth: 0, tickformat: ".3~g", xpad: 6 },
+          hovertemplate: "%{x:.4g}, %{y:.4g}: efficiency %{z:.4f}<extra></extra>",
+          showlegend: false,
+        },
+        {
+          x: speeds,
+          y: loads,
+          z: valid.map((row) => row.map((holds) => (holds ? 0 : 1))),
+          type: "contour",
+          name: parts.OUTSIDE,
+          showlegend: false,
+          // plotly fills what the constraint excludes
+          contours: { type: "constraint", operation: "<", value: 0.5 },
+          fillcolor: parts.INVALID,
+          line: { width: 0 },
+          hoverinfo: "skip",
+        },
+        { ...point, hoverinfo: "skip", hovertemplate: undefined },
+      ],
+      layout: layout(colours, x, y, { hovermode: "closest", margin: { l: 72, r: 60, t: 8, b: 42 } }),
+    }),
+    legend: (colours) => [parts.pointEntry(colours), ...parts.invalidEntries(valid.flat())],
+    numbers: () => [
+      [`${y} \\ ${x}`, ...speeds.map((one) => String(Number(one.toPrecision(6))))],
+      loads.map((one, i) => [one, ...grid[i]]),
+    ],
+  });
+}
+
+/**
+ * Parts of the torque of several designs as bars.
+ *
+ * @param {Record<string, Run>} answers
+ * @param {Mechanisms} mechanisms
+ */
+export function designs(answers, mechanisms) {
+  const letters = Object.keys(answers);
+  /**
+   * @param {string} letter
+   * @param {string} name
+   */
+  const part = (letter, name) => answers[letter].results.contributions[name] ?? 0;
+  const names = [...new Set(letters.flatMap((letter) => Object.keys(answers[letter].results.contributions)))].filter(
+    (name) => letters.some((letter) => part(letter, name)),
+  );
+  /**
+   * @param {string} letter
+   * @param {string} name
+   */
+  const shown = (letter, name) => units.inDisplayUnit("screw_torque", part(letter, name));
+  /** @param {string} name */
+  const words = (name) => mechanisms[name]?.words ?? name;
+  const x = parts.titled("screw_torque", "friction torque");
+  return draw("compare-chart", {
+    name: "designs",
+    caption: "friction torque of the designs by mechanism",
+    description: "Friction torque of each design, by mechanism.",
+    figure: (colours) => ({
+      traces: names.map((name) => ({
+        type: "bar",
+        orientation: "h",
+        y: letters,
+        x: letters.map((letter) => shown(letter, name)),
+        name: words(name),
+        marker: { color: mechanisms[name]?.colour },
+        hovertemplate: "%{x:.4g}",
+      })),
+      layout: layout(colours, x, "design", {
+        barmode: "stack",
+        hovermode: "closest",
+        margin: { l: 48, r: 26, t: 8, b: 42 },
+        xaxis: { rangemode: "tozero" },
+        yaxis: { autorange: "reversed", type: "category", tickformat: undefined },
+      }),
+    }),
+    legend: () => names.map((name) => ({ kind: "area", name: words(name), colour: mechanisms[name]?.colour })),
+    numbers: () => [
+      ["design", ...names.map((name) => parts.titled("screw_torque", words(name)))],
+      letters.map((letter) => [letter, ...names.map((name) => shown(letter, name))]),
+    ],
+  });
+}

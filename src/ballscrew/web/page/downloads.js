@@ -1,0 +1,61 @@
+// Files to save: the case, the answer, the curve, the drawing, the report.
+
+import { byId, element, save } from "./dom.js";
+import { linesOf, send } from "./server.js";
+
+/** Kinds of files: what they are, and the address that makes them, if any. @type {Record<string, [string, string?]>} */
+const KINDS = {
+  TOML: ["case file for the command line", "toml"],
+  JSON: ["all results in SI"],
+  CSV: ["torque and its parts over speed"],
+  SVG: ["drawing of the ball", "drawing"],
+  PDF: ["report to file", "report?kind=pdf"],
+  HTML: ["report to read", "report?kind=html"],
+};
+
+/** @typedef {{ body?: object, answer?: Run, name: string, saveCsv: () => void }} Current */
+
+/**
+ * Buttons for all kinds; ``current`` gives the case, the answer and the name of the design.
+ *
+ * @param {() => Current} current
+ */
+export function build(current) {
+  const buttons = Object.entries(KINDS).map(([kind, [words]]) =>
+    element(
+      "button",
+      { type: "button", title: words, "aria-label": `${kind}: ${words}`, onclick: () => saveAs(kind, current()) },
+      kind,
+    ),
+  );
+  byId("downloads").replaceChildren(...buttons);
+}
+
+/** @param {string} text */
+function say(text) {
+  byId("download-words").textContent = text;
+}
+
+/**
+ * @param {string} kind
+ * @param {Current} current
+ */
+async function saveAs(kind, { body, answer, name, saveCsv }) {
+  if (!body || !answer || byId("results").classList.contains("stale")) {
+    say("The input is at fault: correct it first.");
+    return;
+  }
+  const [, address] = KINDS[kind];
+  try {
+    if (address) {
+      say(`making the ${kind} …`);
+      save(`${name}.${kind.toLowerCase()}`, await (await send(address, body)).blob());
+    } else if (kind === "JSON") {
+      const { words, display, ...document } = answer;
+      save(`${name}.json`, new Blob([JSON.stringify(document, null, 2)], { type: "application/json" }));
+    } else saveCsv();
+    say(`${kind} saved`);
+  } catch (error) {
+    say(linesOf(error).join("; "));
+  }
+}

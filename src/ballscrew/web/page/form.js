@@ -1,0 +1,223 @@
+// The form, made from the JSON Schema of the case file. It shows the texts of the state and reports what is typed.
+
+import { byId, element, within } from "./dom.js";
+import { choiceField, numberField, words } from "./fields.js";
+import { definition, fieldsOf, isLaw, LEFT_OUT, SECTIONS } from "./schema.js";
+
+/** @typedef {import("./schema.js").SchemaNode} SchemaNode */
+/** @typedef {import("./state.js").State} State */
+/** @typedef {import("./fields.js").Change} Change */
+/** @typedef {import("./fields.js").Source} Source */
+
+/** @type {Record<string, string>} */
+const HINTS = {
+  bodies:
+    "Screw and nut of a catalogue row are elastic; those of the paper are rigid, unless something is given here. " +
+    "Sizes left out are the usual ones.",
+  installation: "For the checks of the report.",
+  limits: "For the checks of the report.",
+};
+const OPEN = ["operation", "screw", "lubricant"];
+const OPEN_ON_PHONE = ["operation"];
+const NARROW = "(max-width: 46rem)";
+
+/** @type {(change: Change) => void} */
+let onChange;
+
+/** @param {(change: Change) => void} listener */
+export function setListener(listener) {
+  onChange = listener;
+}
+
+/**
+ * Build the whole form.
+ *
+ * @param {State} state
+ * @param {Vocabulary} vocabulary
+ * @param {Source["given"]} given
+ * @param {Source["lawOf"]} lawOf
+ */
+export function build(state, vocabulary, given, lawOf) {
+  const form = byId("form");
+  const sections = [...form.querySelectorAll("details")];
+  const open = new Set(sections.filter((one) => one.open).map((one) => one.dataset.section));
+  const isFirst = !form.children.length;
+  const openFirst = matchMedia(NARROW).matches ? OPEN_ON_PHONE : OPEN;
+  const source = { state, given, lawOf, onChange };
+  const parts = Object.entries(SECTIONS).map(([name, title]) =>
+    section(
+      name,
+      title,
+      { open: isFirst ? openFirst.includes(name) : open.has(name) },
+      HINTS[name] ? element("p", { class: "small" }, HINTS[name]) : null,
+      ...Object.entries(fieldsOf(name)).flatMap(([field, node]) => fields(`${name}.${field}`, node, source)),
+    ),
+  );
+  // the list of starts stays: typing the first letters of one is not interrupted
+  if (isFirst) form.append(startField(vocabulary));
+  while (form.children.length > 1) form.lastChild?.remove();
+  form.append(...parts);
+  const { start, changes } = state.designs[state.show];
+  /** @type {HTMLSelectElement} */ (byId("start")).value = start;
+  byId("reset").hidden = !Object.keys(changes).length;
+  for (const path of Object.keys(changes)) mark(path, true);
+}
+
+/**
+ * A part of the form that opens and closes.
+ *
+ * @param {string} name
+ * @param {string} title
+ * @param {import("./dom.js").Attributes} attributes
+ * @param {(Node | null)[]} children
+ */
+function section(name, title, attributes, ...children) {
+  return element(
+    "details",
+    { "data-section": name, ...attributes },
+    element("summary", { id: `s-${name}` }, title),
+    element("fieldset", {}, element("legend", { class: "hidden" }, title), ...children),
+  );
+}
+
+/**
+ * Mark a field that differs from the start.
+ *
+ * @param {string} path
+ * @param {boolean} differs
+ */
+export function mark(path, differs) {
+  const field = fieldAt(path);
+  if (!field) return;
+  field.classList.toggle("changed", differs);
+  within(field, ".differs").textContent = differs ? " changed" : "";
+}
+
+/**
+ * @param {string} path
+ * @returns {HTMLElement | undefined}
+ */
+function fieldAt(path) {
+  /** @type {NodeListOf<HTMLElement>} */
+  const fields = byId("form").querySelectorAll("[data-path]");
+  return [...fields].find((one) => one.dataset.path === path);
+}
+
+/** @param {Vocabulary} vocabulary */
+function startField({ starts, rows }) {
+  /** @type {Map<string, Vocabulary["rows"]>} */
+  const groups = new Map();
+  for (const row of rows) groups.set(row.source, [...(groups.get(row.source) ?? []), row]);
+  /**
+   * @param {string} name
+   * @param {string} text
+   */
+  const option = (name, text) => element("option", { value: name }, text);
+  const select = element(
+    "select",
+    { id: "start", onchange: () => onChange({ start: select.value }) },
+    element("optgroup", { label: "Papers" }, ...Object.entries(starts).map(([name, { title }]) => option(name, title))),
+    ...[...groups].map(([source, members]) =>
+      element("optgroup", { label: source }, ...members.map((row) => option(row.name, rowLabel(row)))),
+    ),
+  );
+  const reset = element(
+    "button",
+    {
+      type: "button",
+      id: "reset",
+      onclick: () => onChange({ start: select.value }),
+      title: "Undo all changes of this design",
+    },
+    "Reset",
+  );
+  return element(
+    "div",
+    { class: "field start given" },
+    element("label", { for: "start" }, "Start from"),
+    select,
+    reset,
+  );
+}
+
+/**
+ * A row without the kind of nut at the end of its name, which follows in parentheses.
+ *
+ * @param {Vocabulary["rows"][number]} row
+ */
+function rowLabel({ name, nut }) {
+  const end = `-${nut}`;
+  return `${name.endsWith(end) ? name.slice(0, -end.length) : name} (${nut} nut)`;
+}
+
+/**
+ * The fields of a node of the schema.
+ *
+ * @param {string} path
+ * @param {SchemaNode} unresolved
+ * @param {Source} source
+ * @returns {HTMLElement[]}
+ */
+function fields(path, unresolved, source) {
+  const node = definition(unresolved);
+  if (!node || LEFT_OUT.includes(path)) return [];
+  if (node.properties) {
+    const inner = Object.entries(node.properties);
+    const children = inner.flatMap(([name, one]) => fields(`${path}.${name}`, one, source));
+    return [section(path, words(path.split(".")[1]), { class: "inner" }, ...children)];
+  }
+  if (isLaw(node)) return lawFields(path, node, source);
+  if (node.enum || node.type === "boolean") return [choiceField(path, node, source.given(path), source.onChange)];
+  return [numberField(path, node, source)];
+}
+
+/**
+ * The choice of a law, and its coefficients.
+ *
+ * @param {string} path
+ * @param {SchemaNode} node
+ * @param {Source} source
+ */
+function lawFields(path, node, source) {
+  const options = node.anyOf ?? [];
+  const names = options.find((one) => one.enum)?.enum ?? [];
+  const present = source.lawOf(path);
+  const value = source.given(path);
+  const named = typeof value === "object" && value !== null ? value.law : value;
+  const chosen = named ?? present?.law;
+  const coefficients = options.find((one) => one.properties?.law?.const === chosen)?.properties ?? {};
+  return [
+    choiceField(path, { enum: names, description: node.description }, named, source.onChange, present?.law),
+    ...Object.entries(coefficients)
+      .filter(([name]) => name !== "law")
+      .map(([name, inner]) => {
+        const field = numberField(`${path}.${name}`, inner, source, present?.[name]);
+        field.classList.add("inner");
+        return field;
+      }),
+  ];
+}
+
+/**
+ * Show faults beside the fields that they name.
+ *
+ * @param {FaultLine[]} faults
+ */
+export function showFaults(faults) {
+  for (const field of byId("form").querySelectorAll(".field.wrong")) {
+    field.classList.remove("wrong");
+    within(field, ".fault").textContent = "";
+    field.querySelector("[aria-invalid]")?.removeAttribute("aria-invalid");
+  }
+  for (const { where, text } of faults) {
+    const field = fieldAt(where);
+    if (!field) continue;
+    field.classList.add("wrong");
+    within(field, ".fault").textContent = text;
+    within(field, "input, select").setAttribute("aria-invalid", "true");
+    for (let holder = field.closest("details"); holder; ) {
+      holder.open = true;
+      holder = holder.parentElement?.closest("details") ?? null;
+    }
+  }
+}

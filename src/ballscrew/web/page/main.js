@@ -1,0 +1,349 @@
+// The page: its state in the address, the form, and the answer that follows what is typed.
+
+import * as answers from "./answers.js";
+import { byId, element, within } from "./dom.js";
+import * as downloads from "./downloads.js";
+import * as form from "./form.js";
+import * as results from "./results.js";
+import * as schema from "./schema.js";
+import { get, linesOf } from "./server.js";
+import * as states from "./state.js";
+import * as units from "./units.js";
+
+/** Browsers stop a page that writes its address at each key. */
+const ADDRESS_DELAY = 300;
+const LONGEST_QUOTE = 40;
+/** Sections that belong to the use of a screw, not to the screw. */
+const OF_USE = ["operation", "lubricant", "model", "losses", "installation", "limits"];
+/** Fields of an oil that the others follow from. */
+const OF_OIL = ["viscosity", "grade", "temperature"];
+
+/** @type {Vocabulary} */
+let vocabulary;
+/** @type {states.State} */
+let state;
+/** Tables of the cases to start from, by name. @type {Map<string, states.Tables>} */
+const starts = new Map();
+/** Laws of the answer that the form was built with. @type {string | undefined} */
+let laws;
+/** @type {ReturnType<typeof setTimeout>} */
+let addressTimer;
+/** The address to be written. @type {string | undefined} */
+let address;
+
+// -- the case of a design ---------------------------------------------------------------------------
+
+/**
+ * @param {string} name
+ * @returns {Promise<states.Tables>}
+ */
+async function startOf(name) {
+  const known = starts.get(name);
+  if (known) return known;
+  /** @type {CatalogueRow | Vocabulary["starts"][string]} */
+  const found = Object.hasOwn(vocabulary.starts, name)
+    ? vocabulary.starts[name]
+    : await get(`catalogue/${encodeURIComponent(name)}`);
+  starts.set(name, found.case);
+  return found.case;
+}
+
+/** @param {states.Design} design */
+async function caseOf(design) {
+  return states.tables(await startOf(design.start), design.changes, schema.fieldOf);
+}
+
+function current() {
+  return state.designs[state.show];
+}
+
+// -- inputs -----------------------------------------------------------------------------------------
+
+/**
+ * Follow an input of the form: another start, another unit, or another text of a field.
+ *
+ * @param {import("./fields.js").Change} change
+ */
+function onChange({ path = "", text = "", unit, start, rebuild }) {
+  if (start !== undefined) {
+    writeAddress();
+    state.designs[state.show] = states.design(start, changesOfUse(current()));
+    follow({ rebuild: true, keep: true });
+    return;
+  }
+  if (unit !== undefined) {
+    state.fields[path] = unit;
+    follow({ rebuild: true, formOnly: true });
+    return;
+  }
+  const { changes } = current();
+  const before = states.valueAt(starts.get(current().start), path);
+  if (text === "" && before === undefined) delete changes[path];
+  else changes[path] = text;
+  if (text === "") {
+    for (const inner of Object.keys(changes)) if (inner.startsWith(`${path}.`)) delete changes[inner];
+  }
+  form.mark(path, path in changes);
+  byId("reset").hidden = !Object.keys(changes).length;
+  follow({ rebuild });
+}
+
+/**
+ * The changes that stay when another screw takes the place of the current one: an oil that was changed stays whole.
+ *
+ * @param {states.Design} design
+ */
+function changesOfUse({ start, changes }) {
+  const kept = Object.fromEntries(Object.entries(changes).filter(([path]) => OF_USE.includes(path.split(".")[0])));
+  if (Object.keys(kept).some((path) => path.startsWith("lubricant."))) {
+    const { lubricant } = states.tables(starts.get(start) ?? {}, changes, schema.fieldOf);
+    for (const name of OF_OIL) kept[`lubricant.${name}`] = String(lubricant[name] ?? "");
+  }
+  return kept;
+}
+
+/** The state of the address; a notice names what is unknown here and ignored. */
+function readAddress() {
+  const { state: found, unknown } = states.fromFragment(location.hash, schema.fieldOf, units.isUnit);
+  const known = new Set([...Object.keys(vocabulary.starts), ...vocabulary.rows.map((row) => row.name)]);
+  const unknownStarts = found.designs.filter((one) => !known.has(one.start)).map((one) => quoted(one.start));
+  found.designs = found.designs.map((one) => (known.has(one.start) ? one : states.design()));
+  const lines = [];
+  if (unknownStarts.length) {
+    const names = unknownStarts.join(" and ");
+    lines.push(`The link starts from ${names}, not known here: the paper's screw is shown in its place.`);
+  }
+  if (unknown.length) {
+    const names = unknown.slice(0, 3).map(quoted).join(", ") + (unknown.length > 3 ? ", …" : "");
+    lines.push(`The link has keys that are not known here and are left out: ${names}.`);
+  }
+  showNotice(lines.join(" "));
+  return found;
+}
+
+/** @param {string} text */
+function quoted(text) {
+  return text.length > LONGEST_QUOTE ? `${text.slice(0, LONGEST_QUOTE)}…` : text;
+}
+
+/** @param {string} text */
+function showNotice(text) {
+  byId("notice").textContent = text;
+  byId("notice").hidden = !text;
+}
+
+/** Write the pending address. */
+function writeAddress() {
+  clearTimeout(addressTimer);
+  if (address !== undefined && address !== location.hash) history.replaceState(null, "", address);
+  address = undefined;
+}
+
+/**
+ * Write the state into the address, and show it.
+ *
+ * @param {{ rebuild?: boolean, keep?: boolean, formOnly?: boolean }} options ``rebuild`` makes the form anew,
+ *   ``keep`` leaves the state before to the button Back, ``formOnly`` sends no request
+ */
+async function follow({ rebuild = false, keep = false, formOnly = false } = {}) {
+  if (!formOnly) byId("results").setAttribute("aria-busy", "true");
+  const fragment = states.toFragment(state);
+  if (keep) {
+    writeAddress();
+    if (fragment !== location.hash) history.pushState(null, "", fragment);
+    showNotice("");
+  } else {
+    address = fragment;
+    clearTimeout(addressTimer);
+    addressTimer = setTimeout(writeAddress, ADDRESS_DELAY);
+  }
+  try {
+    if (rebuild) await showForm();
+  } catch (error) {
+    results.fail(linesOf(error));
+    return;
+  }
+  if (!formOnly) await update();
+}
+
+async function update() {
+  answers.clearModels();
+  await answers.update(
+    () => Promise.all(state.designs.map(caseOf)),
+    state,
+    (faults) => {
+      // the laws of the model are known with its answer
+      const { answer } = answers.current();
+      const found = answer && JSON.stringify([answer.inputs.model, answer.inputs.losses]);
+      if (found !== laws && !faults.length) {
+        laws = found;
+        showForm();
+      }
+      form.showFaults(faults);
+    },
+  );
+}
+
+async function showForm() {
+  units.setSystem(state.system);
+  select("system").value = units.currentSystem();
+  checkbox("band").checked = state.band;
+  const design = current();
+  const start = await startOf(design.start);
+  if (design !== current()) return; // another one was chosen in the meantime
+  const tables = states.tables(start, design.changes, schema.fieldOf);
+  // a text stays as it was typed while typing goes on: 0.10 may become 0.107
+  /** @param {string} path */
+  const given = (path) => {
+    const changed = design.changes[path];
+    return changed ? changed : states.valueAt(tables, path);
+  };
+  /** @param {string} path */
+  const lawOf = (path) => {
+    const known = states.valueAt(answers.current().answer?.inputs, path);
+    return typeof known === "string" ? { law: known } : known;
+  };
+  keepFocus(() => {
+    form.build(state, vocabulary, given, lawOf);
+    showTabs();
+  });
+}
+
+/**
+ * Keep the focus and the cursor where they are while their element is made anew.
+ *
+ * @param {() => void} rebuild
+ */
+function keepFocus(rebuild) {
+  const focused = document.activeElement;
+  const id = focused?.id;
+  const selection = focused instanceof HTMLInputElement ? [focused.selectionStart, focused.selectionEnd] : [];
+  rebuild();
+  const again = id && document.activeElement?.id !== id ? document.getElementById(id) : null;
+  if (again instanceof HTMLButtonElement && again.disabled) byId(`design-${states.LETTERS[state.show]}`).focus();
+  else again?.focus({ preventScroll: true });
+  const [from, to] = selection;
+  if (again instanceof HTMLInputElement && typeof from === "number") again.setSelectionRange(from, to ?? from);
+}
+
+function showTabs() {
+  /** @param {() => void} action */
+  const turn = (action) => () => {
+    writeAddress();
+    action();
+    follow({ rebuild: true, keep: true });
+  };
+  const buttons = state.designs.map((_, place) =>
+    element(
+      "button",
+      {
+        type: "button",
+        class: "tab",
+        id: `design-${states.LETTERS[place]}`,
+        "aria-pressed": String(place === state.show),
+        onclick: turn(() => {
+          state.show = place;
+        }),
+      },
+      element("span", { class: "long" }, "Design "),
+      states.LETTERS[place],
+    ),
+  );
+  const add = turn(() => {
+    state.designs.push(states.design(current().start, current().changes));
+    state.show = state.designs.length - 1;
+  });
+  const remove = turn(() => {
+    state.designs.splice(state.show, 1);
+    state.show = Math.min(state.show, state.designs.length - 1);
+  });
+  const full = state.designs.length === states.LETTERS.length;
+  byId("designs").replaceChildren(
+    ...buttons,
+    element("button", { type: "button", id: "add", disabled: full, onclick: add }, "Add design"),
+    element(
+      "button",
+      { type: "button", id: "remove", disabled: state.designs.length === 1, onclick: remove },
+      "Remove",
+    ),
+  );
+}
+
+/** @param {string} id */
+function select(id) {
+  return /** @type {HTMLSelectElement} */ (byId(id));
+}
+
+/** @param {string} id */
+function checkbox(id) {
+  return /** @type {HTMLInputElement} */ (byId(id));
+}
+
+// -- the start --------------------------------------------------------------------------------------
+
+async function copyLink() {
+  const button = byId("share");
+  writeAddress();
+  try {
+    await navigator.clipboard.writeText(location.href);
+    button.textContent = "Link copied";
+  } catch {
+    button.textContent = "Copy it from the address bar";
+  }
+  setTimeout(() => {
+    button.textContent = "Copy link";
+  }, 2500);
+}
+
+async function changeSystem() {
+  state.system = select("system").value;
+  state.fields = {};
+  await follow({ rebuild: true, formOnly: true });
+  answers.redisplay();
+}
+
+function addListeners() {
+  byId("system").addEventListener("change", changeSystem);
+  byId("band").addEventListener("change", () => {
+    state.band = checkbox("band").checked;
+    follow({ formOnly: true });
+    answers.showBand(state.band);
+  });
+  byId("share").addEventListener("click", copyLink);
+  byId("models-button").addEventListener("click", answers.compareModels);
+  byId("form").addEventListener("submit", (event) => event.preventDefault());
+  // the fragment of the address is the state: the link to the results must not replace it
+  within(document.body, ".skip").addEventListener("click", (event) => {
+    event.preventDefault();
+    byId("results").focus();
+  });
+  addEventListener("popstate", () => {
+    clearTimeout(addressTimer);
+    address = undefined;
+    state = readAddress();
+    follow({ rebuild: true });
+  });
+  addEventListener("pagehide", writeAddress);
+  downloads.build(() => ({
+    ...answers.current(),
+    saveCsv: answers.saveTorqueCsv,
+    name: `ballscrew-${current().start}`,
+  }));
+}
+
+async function begin() {
+  const [words, document_] = await Promise.all([get("vocabulary"), get("schema")]);
+  vocabulary = words;
+  units.setVocabulary(words);
+  answers.setVocabulary(words);
+  schema.setSchema(document_);
+  form.setListener(onChange);
+  byId("version").textContent = `Version ${vocabulary.version}.`;
+  state = readAddress();
+  units.setSystem(state.system);
+  addListeners();
+  await follow({ rebuild: true });
+  document.documentElement.dataset.ready = "true";
+}
+
+begin().catch((error) => results.fail(linesOf(error)));

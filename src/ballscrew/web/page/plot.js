@@ -1,0 +1,249 @@
+// A chart in its place: the plot, its legend, its numbers as a table, and both as files.
+
+import { byId, csv, element, save, table, within } from "./dom.js";
+
+/** @typedef {{ ink: string, line: string, panel: string, accent: string, second: string }} Colours */
+/** @typedef {Record<string, any>} Layout */
+/** @typedef {{ traces: object[], layout: Layout }} Figure */
+/** @typedef {{ kind: string, name: string, colour: string | undefined, value?: Node }} LegendEntry */
+/**
+ * A chart: a name for its files, a description, a caption of its numbers, and, made when they are needed, its figure,
+ * its legend and its numbers.
+ *
+ * @typedef {object} Chart
+ * @property {string} name
+ * @property {string} description
+ * @property {string} caption
+ * @property {(colours: Colours) => Figure} figure
+ * @property {(colours: Colours) => LegendEntry[]} legend
+ * @property {() => [string[], import("./dom.js").Cell[][]]} numbers
+ */
+
+/** plotly.js is large: the numbers do not wait for it. @type {Promise<void>} */
+const loaded = new Promise((resolve) => {
+  if (globalThis.Plotly) resolve();
+  else byId("plotly").addEventListener("load", () => resolve());
+});
+const CONFIG = { responsive: true, displaylogo: false, displayModeBar: false };
+const FONT = 'system-ui, "DejaVu Sans", sans-serif';
+const WIDTH_OF_PAPER = 660;
+/** Colours of what is printed or saved: light, whatever the screen is. @type {Colours} */
+const PAPER = { ink: "#1c2127", line: "#d5dade", panel: "#ffffff", accent: "#0062a0", second: "#a34a00" };
+
+/** Charts of the page, by their place. @type {Map<string, Chart>} */
+const charts = new Map();
+/** Places in or near the viewport. @type {Set<string>} */
+const visible = new Set();
+/** Charts that are drawn when they come into the viewport. @type {Set<string>} */
+const pending = new Set();
+/** @type {Colours | undefined} */
+let screenColours;
+
+// charts outside the viewport are drawn when they come into it: that halves the time of a key press
+const observer = new IntersectionObserver(
+  (entries) => {
+    for (const { target, isIntersecting } of entries) {
+      if (isIntersecting) visible.add(target.id);
+      else visible.delete(target.id);
+      if (isIntersecting && pending.delete(target.id)) show(target.id, colours());
+    }
+  },
+  { rootMargin: "250px" },
+);
+for (const place of document.querySelectorAll(".chart")) observer.observe(place);
+
+function colours() {
+  if (!screenColours) {
+    const style = getComputedStyle(document.documentElement);
+    /** @param {string} name */
+    const colour = (name) => style.getPropertyValue(`--${name}`).trim();
+    screenColours = {
+      ink: colour("ink"),
+      line: colour("line"),
+      panel: colour("panel"),
+      accent: colour("accent"),
+      second: colour("second"),
+    };
+  }
+  return screenColours;
+}
+
+/**
+ * The layout that all charts share. Margins are fixed and the legend is ours: measuring them takes plotly half of its
+ * time.
+ *
+ * @param {Colours} colours
+ * @param {string} x
+ * @param {string} y
+ * @param {Layout} more
+ * @returns {Layout}
+ */
+export function layout({ ink, line, panel }, x, y, more = {}) {
+  /**
+   * @param {string} title
+   * @param {Layout} others
+   */
+  const axis = (title, others) => ({
+    title: { text: title, standoff: 6 },
+    gridcolor: line,
+    linecolor: line,
+    zerolinecolor: line,
+    tickformat: ".6~g",
+    hoverformat: ".4~g",
+    ticklabeloverflow: "allow",
+    nticks: 7,
+    ...others,
+  });
+  return {
+    paper_bgcolor: "rgba(0,0,0,0)",
+    plot_bgcolor: "rgba(0,0,0,0)",
+    font: { color: ink, family: FONT, size: 12.5 },
+    margin: { l: 72, r: 26, t: 8, b: 42 },
+    showlegend: false,
+    hovermode: "x unified",
+    hoverlabel: { bgcolor: panel, bordercolor: line, font: { color: ink } },
+    ...more,
+    xaxis: axis(x, more.xaxis),
+    yaxis: axis(y, { rangemode: "tozero", ...more.yaxis }),
+  };
+}
+
+/**
+ * Draw a chart in its place.
+ *
+ * @param {string} id
+ * @param {Chart} chart
+ */
+export async function draw(id, chart) {
+  await loaded;
+  charts.set(id, chart);
+  const holder = byId(id);
+  holder.hidden = false;
+  if (!holder.querySelector(".plot")) frame(id, chart, holder);
+  within(holder, ".plot").setAttribute("aria-label", chart.description);
+  within(holder, ".legend").replaceChildren(...chart.legend(colours()).map(legendItem));
+  showNumbers(id, holder);
+  if (visible.has(id)) await show(id, colours());
+  else pending.add(id);
+}
+
+/**
+ * @param {string} id
+ * @param {Colours} palette
+ * @param {Layout} more
+ */
+async function show(id, palette, more = {}) {
+  const chart = charts.get(id);
+  if (!chart) return;
+  const { traces, layout: own } = chart.figure(palette);
+  await globalThis.Plotly.react(within(byId(id), ".plot"), traces, { ...own, ...more }, CONFIG);
+}
+
+/**
+ * The reason in place of a chart that could not be computed.
+ *
+ * @param {string} id
+ * @param {string} reason
+ */
+export function showFailure(id, reason) {
+  charts.delete(id);
+  pending.delete(id);
+  byId(id).replaceChildren(element("p", { class: "warning" }, `This chart could not be computed: ${reason}`));
+}
+
+/**
+ * @param {string} id
+ * @param {Chart} chart
+ * @param {HTMLElement} holder
+ */
+function frame(id, { name }, holder) {
+  const words = name.replaceAll("_", " "); // five charts have the same buttons
+  const summary = element("summary", {}, "Numbers", element("span", { class: "hidden" }, `: ${words}`));
+  const details = element("details", {}, summary);
+  details.addEventListener("toggle", () => showNumbers(id, holder));
+  /**
+   * @param {string} kind
+   * @param {(chart: Chart) => void} action
+   */
+  const button = (kind, action) => {
+    const onclick = () => {
+      const chart = charts.get(id);
+      if (chart) action(chart);
+    };
+    return element("button", { type: "button", onclick, "aria-label": `${kind}: ${words}` }, kind);
+  };
+  holder.replaceChildren(
+    element("div", { class: "plot", role: "img" }),
+    element("ul", { class: "legend" }),
+    element("div", { class: "beside" }, details, button("CSV", saveCsv), button("SVG", saveSvg)),
+  );
+}
+
+/** @param {Chart} chart */
+function saveCsv(chart) {
+  save(`${chart.name}.csv`, new Blob([csv(...chart.numbers())], { type: "text/csv" }));
+}
+
+/**
+ * The table of numbers, where it is open.
+ *
+ * @param {string} id
+ * @param {HTMLElement} holder
+ */
+function showNumbers(id, holder) {
+  const details = holder.querySelector("details");
+  const chart = charts.get(id);
+  if (!details?.open || !chart) return;
+  const [headings, rows] = chart.numbers();
+  const rounded = rows.map((cells) =>
+    cells.map((cell) => (typeof cell === "number" ? Number(cell.toPrecision(5)) : String(cell ?? ""))),
+  );
+  const scroll = details.querySelector(".scroll") ?? element("div", { class: "scroll", tabindex: "0", role: "region" });
+  scroll.setAttribute("aria-label", chart.caption);
+  scroll.replaceChildren(table(chart.caption, headings, rounded));
+  details.append(scroll);
+}
+
+/**
+ * An entry of a legend: a key, a name and, where there is one, a value.
+ *
+ * @param {LegendEntry} entry
+ */
+function legendItem({ kind, name, colour, value }) {
+  const swatch = element("span", { class: `key ${kind}`, "aria-hidden": "true" });
+  swatch.style.color = colour ?? "";
+  return element("li", {}, swatch, element("span", {}, name), value);
+}
+
+/** @param {Chart} chart */
+async function saveSvg({ name, figure }) {
+  const { traces, layout: own } = figure(PAPER);
+  const legend = { orientation: "h", y: -0.18, yanchor: "top" };
+  const more = { showlegend: true, legend, paper_bgcolor: PAPER.panel, margin: { ...own.margin, b: 110 } };
+  const found = await globalThis.Plotly.toImage(
+    { data: traces, layout: { ...own, ...more } },
+    { format: "svg", width: 900, height: 520 },
+  );
+  save(`${name}.svg`, new Blob([decodeURIComponent(found.slice(found.indexOf(",") + 1))], { type: "image/svg+xml" }));
+}
+
+/**
+ * Draw all charts again, for paper or for the screen.
+ *
+ * @param {Colours} palette
+ * @param {Layout} [more]
+ */
+function redraw(palette, more) {
+  for (const [id, chart] of charts) {
+    pending.delete(id);
+    within(byId(id), ".legend").replaceChildren(...chart.legend(palette).map(legendItem));
+    show(id, palette, more);
+  }
+}
+
+addEventListener("beforeprint", () => redraw(PAPER, { width: WIDTH_OF_PAPER }));
+addEventListener("afterprint", () => redraw(colours(), { autosize: true }));
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+  screenColours = undefined;
+  redraw(colours());
+});

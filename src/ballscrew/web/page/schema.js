@@ -1,0 +1,91 @@
+// The JSON Schema of the case file, and the fields of the form that it describes.
+
+/**
+ * @typedef {object} SchemaNode
+ * @property {string} [type]
+ * @property {string} [description]
+ * @property {string} [$ref]
+ * @property {string[]} [enum]
+ * @property {string} [const]
+ * @property {string | number | boolean} [default]
+ * @property {(string | number)[]} [examples]
+ * @property {SchemaNode[]} [anyOf]
+ * @property {Record<string, SchemaNode>} [properties]
+ * @property {string} [x-si-unit]
+ * @property {string} [x-unit]
+ */
+
+/** Headings of the sections of the form, in their order. @type {Record<string, string>} */
+export const SECTIONS = {
+  operation: "Operating point",
+  screw: "Screw",
+  lubricant: "Oil",
+  nut: "Nut",
+  model: "Model",
+  losses: "Seals and other losses",
+  installation: "Installation",
+  limits: "Limits",
+  bodies: "Elastic bodies",
+  deviations: "Balls that differ",
+};
+/** Fields that the form does not have. */
+export const LEFT_OUT = ["screw.catalogue", "screw.catalogue_file"];
+
+/** @type {{ $defs: Record<string, SchemaNode>, properties: Record<string, SchemaNode> }} */
+let schema;
+
+/** @param {typeof schema} document */
+export function setSchema(document) {
+  schema = document;
+}
+
+/**
+ * @template Value
+ * @param {Record<string, Value> | undefined} table
+ * @param {string} name
+ * @returns {Value | undefined}
+ */
+function own(table, name) {
+  return table && Object.hasOwn(table, name) ? table[name] : undefined;
+}
+
+/**
+ * A node with its reference resolved.
+ *
+ * @param {SchemaNode | undefined} node
+ */
+export function definition(node) {
+  const name = node?.$ref?.split("/").pop();
+  return name ? schema.$defs[name] : node;
+}
+
+/**
+ * The fields of a section.
+ *
+ * @param {string} name
+ * @returns {Record<string, SchemaNode>}
+ */
+export function fieldsOf(name) {
+  const node = own(schema.properties, name);
+  return definition(node?.anyOf ? node.anyOf[0] : node)?.properties ?? {};
+}
+
+/**
+ * The schema of a field of the form by its path, such as ``model.friction.boundary_friction_coefficient``.
+ *
+ * @param {string} path
+ * @returns {SchemaNode | undefined}
+ */
+export function fieldOf(path) {
+  const [name, field, inner, ...others] = path.split(".");
+  if (!own(SECTIONS, name) || LEFT_OUT.includes(`${name}.${field}`) || others.length) return undefined;
+  const node = definition(own(fieldsOf(name), field));
+  if (inner === undefined || !node) return node;
+  if (node.properties) return definition(own(node.properties, inner));
+  return node.anyOf?.map((one) => own(one.properties, inner)).find((one) => one);
+}
+
+/** @param {SchemaNode} node */
+export function isLaw(node) {
+  return node.anyOf?.some((one) => one.properties?.law) ?? false;
+}

@@ -1,0 +1,71 @@
+// Requests to the server. A refusal comes as a problem with its faults.
+
+export class Problem extends Error {
+  /** @param {{ title: string, lines?: string[], faults?: FaultLine[] }} document */
+  constructor(document) {
+    super(document.title);
+    this.faults = document.faults ?? [];
+    this.lines = document.lines?.length ? document.lines : [document.title];
+  }
+}
+
+/**
+ * The lines to show for whatever went wrong with a request.
+ *
+ * @param {unknown} error
+ * @returns {string[]}
+ */
+export function linesOf(error) {
+  if (error instanceof Problem) return error.lines;
+  const reason = error instanceof Error ? error.message : String(error);
+  return [`The server does not answer (${reason}). Is it still running? The next change sends a new request.`];
+}
+
+/** @param {Response} response */
+async function checked(response) {
+  if (response.ok) return response;
+  let document = { title: `The server answered ${response.status}` };
+  try {
+    document = await response.json();
+  } catch {
+    // no JSON: the status says it
+  }
+  throw new Problem(document);
+}
+
+/**
+ * The JSON document at an address.
+ *
+ * @param {string} address
+ */
+export async function get(address) {
+  return (await checked(await fetch(`/api/v1/${address}`))).json();
+}
+
+/**
+ * The answer to a body.
+ *
+ * @param {string} address
+ * @param {object} body
+ * @param {AbortSignal} [signal]
+ */
+export async function send(address, body, signal) {
+  const response = await fetch(`/api/v1/${address}`, {
+    method: "POST",
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify(body),
+    signal,
+  });
+  return checked(response);
+}
+
+/**
+ * The JSON document that answers a body.
+ *
+ * @param {string} address
+ * @param {object} body
+ * @param {AbortSignal} [signal]
+ */
+export async function sendJson(address, body, signal) {
+  return (await send(address, body, signal)).json();
+}

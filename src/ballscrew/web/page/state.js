@@ -1,0 +1,154 @@
+// State of the page: up to four designs, each with its start and its changes. All of it is in the address.
+
+export const LETTERS = ["A", "B", "C", "D"];
+const OTHER_KEYS = ["show", "units", "band"];
+
+/** @typedef {import("./schema.js").SchemaNode} SchemaNode */
+/** @typedef {(path: string) => SchemaNode | undefined} Schema */
+/** @typedef {Record<string, any>} Tables */
+/**
+ * A design: its start (``paper`` or a catalogue row), and the changed texts by ``section.field``.
+ *
+ * @typedef {{ start: string, changes: Record<string, string> }} Design
+ */
+/**
+ * ``show`` is the place of the current design, ``fields`` has units chosen for single fields.
+ *
+ * @typedef {object} State
+ * @property {Design[]} designs
+ * @property {number} show
+ * @property {string} system
+ * @property {boolean} band
+ * @property {Record<string, string>} fields
+ */
+
+/**
+ * @param {string} start
+ * @param {Record<string, string>} changes
+ * @returns {Design}
+ */
+export function design(start = "paper", changes = {}) {
+  return { start, changes: { ...changes } };
+}
+
+/** @returns {State} */
+function initial() {
+  return { designs: [design()], show: 0, system: "metric", band: false, fields: {} };
+}
+
+/**
+ * The state as the fragment of an address.
+ *
+ * @param {State} state
+ */
+export function toFragment(state) {
+  const parameters = new URLSearchParams();
+  state.designs.forEach((one, place) => {
+    parameters.set(LETTERS[place], one.start);
+    for (const [path, text] of Object.entries(one.changes)) parameters.set(`${LETTERS[place]}.${path}`, text);
+  });
+  if (state.show) parameters.set("show", LETTERS[state.show]);
+  if (state.system !== "metric") parameters.set("units", state.system);
+  for (const [path, unit] of Object.entries(state.fields)) parameters.set(`unit.${path}`, unit);
+  if (state.band) parameters.set("band", "1");
+  return `#${parameters}`;
+}
+
+/**
+ * The state that a fragment describes, and its ``unknown`` keys, which are ignored.
+ *
+ * @param {string} fragment
+ * @param {Schema} schema
+ * @param {(unit: string, field: SchemaNode | undefined) => boolean} isUnit
+ */
+export function fromFragment(fragment, schema, isUnit) {
+  const parameters = new URLSearchParams(fragment.replace(/^#/, ""));
+  const state = initial();
+  const letters = LETTERS.filter((letter) => parameters.has(letter));
+  if (letters.length) state.designs = letters.map((letter) => design(parameters.get(letter) ?? ""));
+  /** @type {string[]} */
+  const unknown = [];
+  for (const [key, text] of parameters) {
+    const [first, ...others] = key.split(".");
+    const path = others.join(".");
+    const place = letters.indexOf(first);
+    if (place >= 0 && schema(path)) state.designs[place].changes[path] = text;
+    else if (first === "unit" && isUnit(text, schema(path))) state.fields[path] = text;
+    else if (!OTHER_KEYS.includes(key) && !letters.includes(key)) unknown.push(key);
+  }
+  state.show = Math.max(0, letters.indexOf(parameters.get("show") ?? ""));
+  state.system = parameters.get("units") ?? "metric";
+  state.band = parameters.get("band") === "1";
+  return { state, unknown };
+}
+
+/**
+ * The value at a path of nested tables.
+ *
+ * @param {Tables | undefined} tables
+ * @param {string} path
+ * @returns {any}
+ */
+export function valueAt(tables, path) {
+  /** @type {any} */
+  let found = tables;
+  for (const name of path.split(".")) {
+    found = found && typeof found === "object" && Object.hasOwn(found, name) ? found[name] : undefined;
+  }
+  return found;
+}
+
+/**
+ * The tables of a case: those of its start with the changes applied.
+ *
+ * @param {Tables} start
+ * @param {Record<string, string>} changes
+ * @param {Schema} schema
+ */
+export function tables(start, changes, schema) {
+  const found = structuredClone(start);
+  for (const [path, text] of Object.entries(changes)) {
+    put(found, path.split("."), text === "" ? undefined : typed(schema, path, text));
+  }
+  for (const [name, table] of Object.entries(found)) {
+    if (!(name in start) && !Object.keys(table).length) delete found[name];
+  }
+  return found;
+}
+
+/**
+ * @param {Tables} table
+ * @param {string[]} path
+ * @param {string | number | boolean | undefined} value
+ */
+function put(table, [name, ...others], value) {
+  if (!others.length) {
+    // a law by its name keeps the coefficients that were set beside it
+    if (value === undefined) delete table[name];
+    else if (typeof table[name] === "object" && typeof value === "string") table[name] = { ...table[name], law: value };
+    else table[name] = value;
+    return;
+  }
+  if (typeof table[name] === "string") table[name] = { law: table[name] };
+  if (table[name] === undefined) {
+    if (value === undefined) return;
+    table[name] = {};
+  }
+  put(table[name], others, value);
+  if (!Object.keys(table[name]).length && others.length === 1 && name !== "nut") delete table[name];
+}
+
+/**
+ * Text in the type of the case file: a plain number where the schema has one, else as it is.
+ *
+ * @param {Schema} schema
+ * @param {string} path
+ * @param {string} text
+ */
+function typed(schema, path, text) {
+  const field = schema(path);
+  if (field?.type === "boolean") return text === "true";
+  const types = [field?.type, ...(field?.anyOf ?? []).map((one) => one.type)];
+  const plain = field && !field["x-si-unit"] && (types.includes("number") || field.type === "integer");
+  return plain && /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(text.trim()) ? Number(text) : text;
+}

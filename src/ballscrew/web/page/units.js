@@ -1,0 +1,232 @@
+// Units. Inputs are kept as text with a unit, as they were typed; only what is displayed is converted.
+
+const NUMBER = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i;
+/** @type {Record<string, string>} */
+const SYMBOLS = {
+  um: "µm",
+  uin: "µin",
+  degC: "°C",
+  degF: "°F",
+  deg: "°",
+  "N m": "N·m",
+  "N mm": "N·mm",
+  "lbf in": "lbf·in",
+  "mPa s": "mPa·s",
+  "Pa s": "Pa·s",
+  "N/um": "N/µm",
+  "kg/m^3": "kg/m³",
+  "W/(m K)": "W/(m·K)",
+  "J/(kg K)": "J/(kg·K)",
+  "1/m^2": "1/m²",
+  "mm rpm": "mm·rpm",
+  "m rad/s": "m·rad/s",
+};
+/** Results that have the units of another one. @type {Record<string, string>} */
+const SAME_UNIT = { preload_drag: "screw_torque" };
+const PLACEHOLDER = /\{(\d{1,4})\}/g;
+
+/** @typedef {import("./schema.js").SchemaNode} SchemaNode */
+
+/** @type {Vocabulary} */
+let vocabulary;
+let system = "metric";
+
+/** @param {Vocabulary} document */
+export function setVocabulary(document) {
+  vocabulary = document;
+}
+
+/** @param {string} name */
+export function setSystem(name) {
+  system = Object.hasOwn(vocabulary.systems, name) ? name : "metric";
+}
+
+export function currentSystem() {
+  return system;
+}
+
+/**
+ * A unit in its usual symbols.
+ *
+ * @param {string} unit
+ */
+export function symbol(unit) {
+  return SYMBOLS[unit] ?? unit;
+}
+
+/**
+ * The unit that replaces another one in the current system.
+ *
+ * @param {string} unit
+ */
+export function inSystem(unit) {
+  return vocabulary.systems[system][unit] ?? unit;
+}
+
+/**
+ * The units to choose from for a quantity, by its SI unit.
+ *
+ * @param {string | undefined} si
+ * @returns {UnitChoice[]}
+ */
+export function choices(si) {
+  return (si && vocabulary.units[si]) || [];
+}
+
+/**
+ * True where a field, as the schema has it, can be displayed in a unit.
+ *
+ * @param {string} unit
+ * @param {SchemaNode | undefined} field
+ */
+export function isUnit(unit, field) {
+  return Boolean(field?.["x-si-unit"] && conversion(unit, field["x-si-unit"]));
+}
+
+/**
+ * @param {string} unit
+ * @param {string | undefined} si
+ */
+function conversion(unit, si) {
+  return choices(si).find((one) => one.unit === unit);
+}
+
+/**
+ * @param {number} number
+ * @param {string} unit
+ * @param {string | undefined} si
+ */
+export function toSI(number, unit, si) {
+  const one = conversion(unit, si);
+  return one ? number * one.factor + one.offset : number;
+}
+
+/**
+ * @param {number} value
+ * @param {string} unit
+ * @param {string | undefined} si
+ */
+export function fromSI(value, unit, si) {
+  const one = conversion(unit, si);
+  return one ? (value - one.offset) / one.factor : value;
+}
+
+/**
+ * The number and the unit of an input; null where it is something else, such as a distribution.
+ *
+ * @param {unknown} text
+ * @param {string | undefined} si
+ */
+export function parse(text, si) {
+  const match = NUMBER.exec(String(text));
+  if (!match) return null;
+  const unit = match[2]
+    .replace("µ", "u")
+    .replace("°C", "degC")
+    .replace("°F", "degF")
+    .replace(/^°$/, "deg")
+    .replace("·", " ");
+  return conversion(unit, si) ? { number: Number(match[1]), digits: match[1], unit } : null;
+}
+
+/**
+ * The digits of an input in another unit; as they were typed where it is the unit they were typed in.
+ *
+ * @param {unknown} text
+ * @param {string} unit
+ * @param {string | undefined} si
+ */
+export function digitsIn(text, unit, si) {
+  const found = parse(text, si);
+  if (!found) return null;
+  if (found.unit === unit) return found.digits;
+  return String(Number(fromSI(toSI(found.number, found.unit, si), unit, si).toPrecision(10)));
+}
+
+/**
+ * A number to some significant digits, without trailing zeros.
+ *
+ * @param {number | null | undefined} value
+ */
+export function digits(value, count = 4) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  const rounded = Number(value.toPrecision(count));
+  return Math.abs(rounded) >= 1e6 || (rounded !== 0 && Math.abs(rounded) < 1e-4)
+    ? rounded.toExponential().replace("e+", "e")
+    : String(rounded);
+}
+
+/** @param {string} name */
+function resultOf(name) {
+  return vocabulary.results[SAME_UNIT[name] ?? name];
+}
+
+/**
+ * The unit in which a result is displayed; none for a plain number.
+ *
+ * @param {string} name
+ */
+export function unitOf(name) {
+  const known = resultOf(name);
+  return known && known.unit !== "1" ? inSystem(known.shown_in) : "";
+}
+
+/**
+ * The value of a result in the unit in which it is displayed.
+ *
+ * @template {number | null | undefined} Value
+ * @param {string} name
+ * @param {Value} value
+ * @returns {Value | number}
+ */
+export function inDisplayUnit(name, value) {
+  const known = resultOf(name);
+  if (!known || known.unit === "1" || value === null || value === undefined) return value;
+  return fromSI(value, inSystem(known.shown_in), known.unit);
+}
+
+/**
+ * @param {number | null | undefined} value
+ * @param {string} unit
+ * @param {number} count
+ */
+function withUnit(value, unit, count) {
+  const text = digits(value, count);
+  return unit && text !== "–" ? `${text} ${symbol(unit)}` : text;
+}
+
+/**
+ * A result as text with its unit.
+ *
+ * @param {string} name
+ * @param {number | null | undefined} value
+ */
+export function formatted(name, value, count = 4) {
+  return withUnit(inDisplayUnit(name, value), unitOf(name), count);
+}
+
+/**
+ * A text of the server with its quantities in the current units.
+ *
+ * @param {Template} template
+ */
+export function filled({ text, quantities }) {
+  return text.replace(PLACEHOLDER, (placeholder, place) => {
+    const one = quantities[Number(place)];
+    if (!one) return placeholder;
+    if (one.unit === "1") return digits(one.value, one.digits);
+    const unit = inSystem(one.shown_in);
+    return withUnit(one.value === null ? null : fromSI(one.value, unit, one.unit), unit, one.digits);
+  });
+}
+
+/**
+ * A heading of an axis or a column: a name and its unit.
+ *
+ * @param {string} name
+ * @param {string} words
+ */
+export function heading(name, words) {
+  const unit = unitOf(name);
+  return unit ? `${words} (${symbol(unit)})` : words;
+}

@@ -1,0 +1,54 @@
+"""Refusals as ``application/problem+json`` (RFC 9457), in the words of the command line."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from starlette.responses import Response
+
+from ballscrew.errors import LINES_AT_MOST, Fault, InputError
+
+MEDIA_TYPE = "application/problem+json"
+#: Titles of the problems, by status.
+TITLES: Mapping[int, str] = {
+    400: "The request is not JSON",
+    404: "Not found",
+    405: "Method not allowed",
+    408: "Timeout",
+    413: "The request is too large",
+    415: "The content type is not JSON",
+    421: "Not a name of this server",
+    422: "Invalid input",
+    429: "Too many requests are waiting",
+    500: "Defect of ballscrew",
+    503: "The server is shutting down",
+}
+
+
+class Refused(Exception):
+    """A refused request: the status and the faults."""
+
+    def __init__(self, status: int, *faults: Fault) -> None:
+        super().__init__(status)
+        self.status = status
+        self.faults = faults
+
+
+def response(status: int, faults: Sequence[Fault] = ()) -> Response:
+    """The problem as a response: the lines that the command line prints, and each fault by its parts."""
+    content: dict[str, Any] = {
+        "type": "about:blank",
+        "title": TITLES.get(status, "The request is refused"),
+        "status": status,
+        "lines": InputError(*faults).lines(),
+        "faults": [_parts(fault) for fault in faults[: 10 * LINES_AT_MOST]],
+    }
+    headers = {"Retry-After": "1"} if status == 429 else None
+    return Response(json.dumps(content), status, headers, MEDIA_TYPE)
+
+
+def _parts(fault: Fault) -> dict[str, str]:
+    """The field, the text without it, and the whole line; all are cut to a length that people read."""
+    return {"where": fault.field, "text": fault.text, "line": str(fault)}

@@ -1,0 +1,83 @@
+"""The server: the API, the page, and the problems that requests are refused with."""
+
+from __future__ import annotations
+
+import functools
+import json
+from collections.abc import Mapping, Sequence
+
+from fastapi import FastAPI, Request
+from starlette.exceptions import HTTPException
+from starlette.responses import Response
+from starlette.types import ASGIApp
+
+from ballscrew._version import __version__
+from ballscrew.errors import Fault, InputError
+from ballscrew.studies.run import run
+from ballscrew.web import api, files, openapi, problems, vocabulary
+from ballscrew.web.bodies import case_of
+from ballscrew.web.guard import HEADERS, LOOPBACK, Guard
+from ballscrew.web.policy import policy
+from ballscrew.web.problems import Refused
+from ballscrew.web.request_queue import RequestQueue
+
+
+class _Application(FastAPI):
+    """The routes, and around all of them the guard."""
+
+    #: The names it answers to, and the headers of each response.
+    hosts: Sequence[str] = LOOPBACK
+    headers: Mapping[str, str] = HEADERS
+
+    def build_middleware_stack(self) -> ASGIApp:
+        """The middleware of FastAPI inside the guard: the response to a defect goes through it, too."""
+        return Guard(super().build_middleware_stack(), self.hosts, self.headers)
+
+
+def application(hosts: Sequence[str] = LOOPBACK, requests: RequestQueue | None = None) -> FastAPI:
+    """The application. ``hosts`` are the names it answers to, ``("*",)`` for any."""
+    app = _Application(
+        title="ballscrew", version=__version__, docs_url=None, redoc_url=None, openapi_url=None, redirect_slashes=False
+    )
+    app.hosts, app.headers = hosts, {**HEADERS, "Content-Security-Policy": policy(files.plotly_path())}
+    app.state.requests = requests or RequestQueue()
+    app.include_router(api.router)
+    description = functools.cache(lambda: json.dumps(openapi.document(app)).encode())
+
+    async def send_description() -> Response:
+        return Response(description(), media_type="application/json")
+
+    app.add_api_route("/api/v1/openapi.json", send_description, include_in_schema=False)
+    files.add_to(app)
+    app.add_exception_handler(Refused, _refused)
+    app.add_exception_handler(InputError, _input_error)
+    app.add_exception_handler(HTTPException, _http_error)
+    app.add_exception_handler(Exception, _defect)
+    return app
+
+
+async def _refused(_: Request, error: Exception) -> Response:
+    assert isinstance(error, Refused)
+    return problems.response(error.status, error.faults)
+
+
+async def _input_error(_: Request, error: Exception) -> Response:
+    assert isinstance(error, InputError)
+    return problems.response(422, error.faults)
+
+
+async def _http_error(request: Request, error: Exception) -> Response:
+    assert isinstance(error, HTTPException)
+    found = problems.response(error.status_code, [Fault(request.url.path, str(error.detail))])
+    found.headers.update(error.headers or {})
+    return found
+
+
+async def _defect(_: Request, __: Exception) -> Response:
+    """A problem without details; the server logs them."""
+    return problems.response(500, [Fault("server", "has a defect", "", "please report your request")])
+
+
+def warm_up() -> None:
+    """Load and compute what the first request would otherwise wait for."""
+    run(case_of(vocabulary.vocabulary()["starts"]["paper"]["case"]))
