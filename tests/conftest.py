@@ -2,16 +2,23 @@
 
 import importlib.util
 import math
+import os
+import subprocess
+from pathlib import Path
 
 import pytest
 from hypothesis import settings
 
 import ballscrew as bs
+from support.commands import Commands, new_process
+
+ROOT = Path(__file__).parents[1]
 
 # The same examples every time, so that a red test is the fault of a change. To search for new ones:
 # pytest --hypothesis-profile=search tests/properties
 settings.register_profile("ci", deadline=None, derandomize=True, max_examples=100)
 settings.register_profile("search", deadline=None, derandomize=False, max_examples=2000)
+settings.register_profile("long", deadline=None, derandomize=True, max_examples=500)
 settings.load_profile("ci")
 
 MODELS = {
@@ -20,6 +27,42 @@ MODELS = {
     "corrected": bs.FrictionModel.corrected,
     "reference": bs.FrictionModel.reference,
 }
+
+
+@pytest.fixture(scope="session", autouse=True)
+def kernel_cache(tmp_path_factory):
+    """One folder of compiled kernels for all tests of a run, on all workers: never the user's own."""
+    folder = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        folder = folder.parent  # that of this worker lies in that of the run
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("BALLSCREW_CACHE", str(folder / "kernels"))
+        yield
+
+
+@pytest.fixture(scope="session")
+def commands(kernel_cache):
+    """Runs commands of the program in processes that have their libraries at once."""
+    found = Commands()
+    yield found
+    found.close()
+
+
+@pytest.fixture
+def example() -> Path:
+    return ROOT / "examples" / "olaru2005.toml"
+
+
+@pytest.fixture
+def ballscrew(commands, tmp_path):
+    """Run the command line in a process of its own, in an empty folder."""
+
+    def command(*arguments: object, environment: dict[str, str] | None = None) -> subprocess.CompletedProcess[str]:
+        if any(name.startswith("PYTHON") for name in environment or {}):  # the interpreter reads it when it starts
+            return new_process(arguments, folder=tmp_path, environment=environment)
+        return commands.run(arguments, folder=tmp_path, environment=environment)
+
+    return command
 
 
 @pytest.fixture(scope="session")

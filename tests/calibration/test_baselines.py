@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ballscrew.analyses.baselines import STRIBECK_SHARES, Conditions, efficiency_pair, robust_linear, stribeck
+from ballscrew.calibration.baselines import STRIBECK_SHARES, Conditions, efficiency_pair, robust_linear, stribeck
 
 ROWS, ZERO_ERROR = 2000, 0.02
 

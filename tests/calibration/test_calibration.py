@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ballscrew.analyses.validation_sets import SETS
-from ballscrew.calibrations import PARAMETERS, calibrated, calibration, calibrations, with_parameters
 from ballscrew.components.laws import ProportionalBallForce
-from ballscrew.faults import InputError
-from ballscrew.interfaces import validation
-from ballscrew.model import FrictionModel
+from ballscrew.errors import InputError
+from ballscrew.friction.calibrations import PARAMETERS, calibrated, calibration, calibrations, with_parameters
+from ballscrew.friction.model import FrictionModel
+from ballscrew.studies import validation
+from ballscrew.validation.sets import SETS
 
 SCRIPT = Path(__file__).parents[2] / "benchmarks" / "fit_calibration.py"
 STORED = calibration("rexroth-2006")

@@ -3,9 +3,15 @@
 import numpy as np
 import pytest
 
-from ballscrew.analyses import robust
-from ballscrew.analyses.identifiability import LIMIT, Identifiability, Told, Uncertainty, weighted
-from ballscrew.analyses.robust import Noise, Solution, scatter_of
+from ballscrew.calibration import robust
+from ballscrew.calibration.identifiability import (
+    MAXIMUM_RELATIVE_ERROR,
+    Identifiability,
+    IdentifiableDirections,
+    Uncertainty,
+    weighted_derivatives,
+)
+from ballscrew.calibration.robust import Noise, Solution, scatter_of
 
 NOTHING = np.empty((0, 3))
 
@@ -32,7 +38,7 @@ def by_the_loss(slopes, noise):
 
 @pytest.fixture
 def no_bend(monkeypatch):
-    for name in ("BEND", "END"):
+    for name in ("PSEUDO_HUBER_SCALE", "BIWEIGHT_CUTOFF"):
         monkeypatch.setattr(robust, name, 1e6)
 
 
@@ -175,14 +181,14 @@ def test_a_prior_adds_its_information():
 
 
 def test_directions_are_told_down_to_half_the_scale():
-    root = np.diag([100.0, 1.01 / LIMIT, 0.99 / LIMIT, 0.0])
-    found = Told.of(root)
-    assert found.told.tolist() == [True, True, False, False]
-    assert found.numbers_told.tolist() == [True, True, False, False]
-    np.testing.assert_allclose(np.abs(found.open), np.eye(4)[:, 2:])
+    root = np.diag([100.0, 1.01 / MAXIMUM_RELATIVE_ERROR, 0.99 / MAXIMUM_RELATIVE_ERROR, 0.0])
+    found = IdentifiableDirections.of(root)
+    assert found.identifiable.tolist() == [True, True, False, False]
+    assert found.identifiable_parameters.tolist() == [True, True, False, False]
+    np.testing.assert_allclose(np.abs(found.unidentifiable_directions), np.eye(4)[:, 2:])
     # what is lost in rounding is not told, whatever the scatter
-    assert Told.of(np.diag([1e12, 1e3])).told.tolist() == [True, False]
-    assert not Told.of(np.zeros((0, 2))).told.any()
+    assert IdentifiableDirections.of(np.diag([1e12, 1e3])).identifiable.tolist() == [True, False]
+    assert not IdentifiableDirections.of(np.zeros((0, 2))).identifiable.any()
 
 
 def twins():
@@ -209,7 +215,7 @@ def test_of_two_that_act_as_one_the_product_is_told():
 def test_the_error_of_a_combination_is_that_of_the_data():
     solution = twins()
     found = Identifiability.of(solution, ("one", "other", "third"), np.ones(4))
-    root = weighted(solution)
+    root = weighted_derivatives(solution)
     information = root.T @ root
     # taking the sensor out is the complement of Schur
     rest = information[:3, :3] - np.outer(information[:3, 3], information[3, :3]) / information[3, 3]
@@ -242,16 +248,16 @@ def test_what_is_not_told_well_still_leaks_into_other_numbers():
     slopes = np.stack([drawn[:, 0], drawn[:, 0] + 0.17 * drawn[:, 1]], axis=1)
     solution = by_the_loss(slopes, np.random.default_rng(1).normal(0, 0.1, 500))
     open_to_much = Uncertainty.of(solution, np.array([0.03, 1.0]), np.empty((0, 2)))
-    assert open_to_much.told.told.tolist() == [True, False]
+    assert open_to_much.directions.identifiable.tolist() == [True, False]
     classical = 0.1**2 * np.linalg.inv(slopes.T @ slopes)
     np.testing.assert_allclose(np.diagonal(open_to_much.covariance), np.diagonal(classical), rtol=0.25)
     assert classical[1, 1] > 25 * 0.1**2 / (slopes[:, 1] @ slopes[:, 1])
 
 
 def test_directions_that_are_only_rounding_are_not_measured():
-    found = Told.of(np.diag([100.0, 0.1, 1e-9, 0.0]))
-    assert found.told.tolist() == [True, False, False, False]
-    np.testing.assert_array_equal(np.abs(found.measured), np.eye(4)[:, :2])
+    found = IdentifiableDirections.of(np.diag([100.0, 0.1, 1e-9, 0.0]))
+    assert found.identifiable.tolist() == [True, False, False, False]
+    np.testing.assert_array_equal(np.abs(found.measured_directions), np.eye(4)[:, :2])
     # a part that rounding leaves in what is not told is no part
     turned = np.array([[100.0, 0, 0], [0, 0.1, 1e-7]])
-    assert np.count_nonzero(Told.of(turned).measured) == 2
+    assert np.count_nonzero(IdentifiableDirections.of(turned).measured_directions) == 2

@@ -8,13 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from synthetic import OIL, RPM, log, truth
 
 import ballscrew as bs
-from ballscrew.analyses.calibration import fit
-from ballscrew.analyses.next_test import BEYOND, BEYOND_KELVIN, next_test
-from ballscrew.analyses.olaru2005.case import SCREW
-from ballscrew.faults import InputError
+from ballscrew.calibration.fit import fit
+from ballscrew.calibration.next_test import RANGE_FACTOR, TEMPERATURE_MARGIN, next_test
+from ballscrew.errors import InputError
+from ballscrew.papers.olaru2005.case import SCREW
+from support.synthetic_logs import OIL, RPM, log, truth
 
 PAPER = bs.FrictionModel.olaru2005()
 FRICTION, SEALS = "boundary_friction_coefficient", "constant_torque"
@@ -96,8 +96,8 @@ def test_limits_are_kept_and_without_any_the_log_is_taken_twice_as_far(both):
         assert np.all((values >= low * (1 - 1e-12)) & (values <= high * (1 + 1e-12)))
     load = both.rows.log.axial_load
     values = both.next_test().tests["axial_load"]
-    assert values.min() == pytest.approx(load.min() / BEYOND)
-    assert values.max() == pytest.approx(load.max() * BEYOND)
+    assert values.min() == pytest.approx(load.min() / RANGE_FACTOR)
+    assert values.max() == pytest.approx(load.max() * RANGE_FACTOR)
 
 
 def test_temperatures_are_conditions_of_an_oil_by_its_grade():
@@ -105,8 +105,8 @@ def test_temperatures_are_conditions_of_an_oil_by_its_grade():
     found = fit(PAPER, SCREW, oil, log(truth(), oil=oil, temperatures=(300, 330)), [FRICTION])
     temperatures = found.next_test().tests["temperature"]
     measured = found.rows.log.temperature
-    assert temperatures.min() == pytest.approx(measured.min() - BEYOND_KELVIN)
-    assert temperatures.max() == pytest.approx(measured.max() + BEYOND_KELVIN)
+    assert temperatures.min() == pytest.approx(measured.min() - TEMPERATURE_MARGIN)
+    assert temperatures.max() == pytest.approx(measured.max() + TEMPERATURE_MARGIN)
     with pytest.raises(InputError, match=r"fit\.limits\.oil: is no condition"):
         found.next_test({"oil": (0, 1)})
 

@@ -5,12 +5,12 @@ import sys
 
 import numpy as np
 import pytest
-from synthetic import OIL, log, truth
 
 import ballscrew as bs
-from ballscrew.analyses.calibration import fit
-from ballscrew.analyses.olaru2005.case import SCREW
-from ballscrew.faults import InputError
+from ballscrew.calibration.fit import fit
+from ballscrew.errors import InputError
+from ballscrew.papers.olaru2005.case import SCREW
+from support.synthetic_logs import OIL, log, truth
 
 pytest.importorskip("emcee", reason="emcee is not installed (the extra calibrate)")
 PAPER = bs.FrictionModel.olaru2005()
@@ -38,7 +38,7 @@ def test_where_the_model_is_nearly_a_straight_line_the_errors_are_those_of_the_c
     g = solution.slopes / solution.scatter[:, np.newaxis]
     deviation = np.sqrt(np.linalg.inv(bend.sum() / (pull @ pull) * (g.T * bend) @ g)[0, 0])
     drawn = samples.samples[FRICTION]
-    effective = drawn.size / samples.forgetting
+    effective = drawn.size / samples.autocorrelation_time
     assert effective > 100
     assert abs(drawn.mean() - solution.values[0]) < 4 * deviation / np.sqrt(effective)
     assert drawn.std() == pytest.approx(deviation, rel=4 / np.sqrt(2 * effective))
@@ -47,7 +47,7 @@ def test_where_the_model_is_nearly_a_straight_line_the_errors_are_those_of_the_c
 
 
 def test_the_run_says_how_far_it_can_be_trusted(samples):
-    assert 1 < samples.forgetting < 100
+    assert 1 < samples.autocorrelation_time < 100
     assert 0.2 < samples.acceptance < 0.95
     narrow, wide = samples.interval(FRICTION, 0.5), samples.interval(FRICTION, 0.99)
     assert wide[0] < narrow[0] < narrow[1] < wide[1]
@@ -74,7 +74,7 @@ def test_a_prior_alone_is_sampled_where_the_log_says_nothing():
     columns = log(truth(), rows=30, both=False, outliers=0, drift=0)
     given = fit(PAPER, SCREW, OIL, columns, [FRICTION, name], priors={name: bs.Normal(2000.0, 30.0)}, holdout=0)
     drawn = given.posterior(steps=600, seed=2)
-    effective = drawn.samples[name].size / drawn.forgetting
+    effective = drawn.samples[name].size / drawn.autocorrelation_time
     assert drawn.samples[name].mean() == pytest.approx(2000, abs=4 * 30 / np.sqrt(effective))
     assert drawn.samples[name].std() == pytest.approx(30, rel=4 / np.sqrt(2 * effective))
 

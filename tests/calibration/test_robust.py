@@ -4,18 +4,18 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from ballscrew.analyses.robust import (
-    BEND,
-    END,
-    MEDIAN_TO_DEVIATION,
+from ballscrew.calibration.robust import (
+    BIWEIGHT_CUTOFF,
+    MAD_TO_STANDARD_DEVIATION,
+    PSEUDO_HUBER_SCALE,
     Noise,
     Prior,
     Solution,
+    autocorrelation_lag,
     biweight,
-    line,
     loss_of,
-    memory,
     noise_of,
+    pseudo_huber,
     scatter_of,
     solve,
 )
@@ -24,14 +24,18 @@ RESIDUALS = np.array([-300.0, -5.0, -4.6, -1.35, -0.3, 0.0, 1e-3, 0.5, 1.0, 3.0,
 NO_PRIOR = Prior(lambda x: np.empty(0), lambda x: np.empty((0, x.size)))
 
 
-def pseudo_huber(r):
+def published_pseudo_huber(r):
     """The first loss, as books have it."""
-    return 2 * BEND**2 * (np.sqrt(1 + (r / BEND) ** 2) - 1)
+    return 2 * PSEUDO_HUBER_SCALE**2 * (np.sqrt(1 + (r / PSEUDO_HUBER_SCALE) ** 2) - 1)
 
 
 def tukey(r):
     """The second, as books have it, twice over: near zero it is r²."""
-    return np.where(np.abs(r) < END, END**2 / 3 * (1 - (1 - (r / END) ** 2) ** 3), END**2 / 3)
+    return np.where(
+        np.abs(r) < BIWEIGHT_CUTOFF,
+        BIWEIGHT_CUTOFF**2 / 3 * (1 - (1 - (r / BIWEIGHT_CUTOFF) ** 2) ** 3),
+        BIWEIGHT_CUTOFF**2 / 3,
+    )
 
 
 def resting(residuals, noise, torques=None):
@@ -52,7 +56,7 @@ def fitted(columns, measured, prior=NO_PRIOR, start=None, bounds=None):
 # -- the losses -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("loss", "closed"), [(line, pseudo_huber), (biweight, tukey)])
+@pytest.mark.parametrize(("loss", "closed"), [(pseudo_huber, published_pseudo_huber), (biweight, tukey)])
 def test_losses_are_those_of_books_with_their_derivatives(loss, closed):
     value, first, second = loss(RESIDUALS**2)
     # the difference of two numbers near one has their rounding
@@ -67,11 +71,11 @@ def test_losses_are_those_of_books_with_their_derivatives(loss, closed):
 
 def test_near_zero_both_are_squares_far_out_one_is_a_line_and_the_other_flat():
     small, far = np.array([1e-8]), np.array([1e6, 4e6]) ** 2
-    for loss in (line, biweight):
+    for loss in (pseudo_huber, biweight):
         assert [float(found[0]) for found in loss(small)[:2]] == pytest.approx([1e-8, 1.0], rel=1e-6)
     # a line of slope 2 c, and nothing more to gain
-    assert np.diff(line(far)[0])[0] == pytest.approx(2 * BEND * 3e6, rel=1e-5)
-    assert biweight(far)[0].tolist() == [END**2 / 3] * 2
+    assert np.diff(pseudo_huber(far)[0])[0] == pytest.approx(2 * PSEUDO_HUBER_SCALE * 3e6, rel=1e-5)
+    assert biweight(far)[0].tolist() == [BIWEIGHT_CUTOFF**2 / 3] * 2
     assert biweight(far)[1].tolist() == [0, 0]
 
 
@@ -80,9 +84,9 @@ def test_the_pull_is_half_the_derivative_of_the_biweight_and_the_curvature_its_o
     step = 1e-5
     found = resting(0.02 * RESIDUALS, noise)
     pull = (tukey(RESIDUALS + step) - tukey(RESIDUALS - step)) / (4 * step)
-    np.testing.assert_allclose(found.pull, pull, atol=1e-8)
-    above, below = (resting(0.02 * (RESIDUALS + sign * step), noise).pull for sign in (1, -1))
-    inside = np.abs(RESIDUALS) < END
+    np.testing.assert_allclose(found.influence, pull, atol=1e-8)
+    above, below = (resting(0.02 * (RESIDUALS + sign * step), noise).influence for sign in (1, -1))
+    inside = np.abs(RESIDUALS) < BIWEIGHT_CUTOFF
     assert found.outlying.tolist() == (~inside).tolist()
     assert found.curvature == pytest.approx(float(np.mean(((above - below) / (2 * step))[inside])), rel=1e-6)
 
@@ -92,20 +96,22 @@ def test_a_solution_has_the_scatter_of_its_torques():
     found = resting(np.array([0.03, -0.4, 9.0]), Noise(0.03, 0.1), torques)
     np.testing.assert_allclose(found.scatter, [0.03, np.sqrt(0.03**2 + 0.1**2), np.sqrt(0.03**2 + 2.0**2)])
     r = found.residuals / found.scatter
-    np.testing.assert_allclose(found.pull, r * (1 - (r / END) ** 2) ** 2)
+    np.testing.assert_allclose(found.influence, r * (1 - (r / BIWEIGHT_CUTOFF) ** 2) ** 2)
     assert loss_of(found.residuals, found.scatter) == pytest.approx(float(np.sum(tukey(r))))
-    assert loss_of(np.array([2.0, -600.0]), 2.0) == pytest.approx(float(tukey(np.array([1.0]))[0]) + END**2 / 3)
+    assert loss_of(np.array([2.0, -600.0]), 2.0) == pytest.approx(
+        float(tukey(np.array([1.0]))[0]) + BIWEIGHT_CUTOFF**2 / 3
+    )
 
 
-@pytest.mark.parametrize("closed", [pseudo_huber, tukey])
+@pytest.mark.parametrize("closed", [published_pseudo_huber, tukey])
 def test_the_losses_are_as_efficient_as_they_say(closed):
     """Variance of the plain mean over that of a mean by the loss, for normal noise: E[ψ']²/E[ψ²], 0.95."""
 
     def mean_of(function):
         density = lambda r: function(r) * np.exp(-(r**2) / 2) / np.sqrt(2 * np.pi)  # noqa: E731  (as short as the formula)
-        return integrate.quad(density, -12, 12, points=[-END, END], limit=200)[0]
+        return integrate.quad(density, -12, 12, points=[-BIWEIGHT_CUTOFF, BIWEIGHT_CUTOFF], limit=200)[0]
 
-    loss = {pseudo_huber: line, tukey: biweight}[closed]
+    loss = {published_pseudo_huber: pseudo_huber, tukey: biweight}[closed]
 
     def pull(r):
         return r * float(loss(np.array([r * r]))[1][0])
@@ -124,7 +130,7 @@ def test_the_scatter_of_normal_noise_is_its_standard_deviation(deviation):
     assert scatter_of(noise, np.ones(1)) == pytest.approx(deviation, rel=0.01)
     noise[:20_000] *= 1000
     # a tenth far out: the median moves from the 50 % to the 55.6 % quantile of the others
-    assert scatter_of(noise, np.ones(1)) == pytest.approx(deviation * MEDIAN_TO_DEVIATION * 0.7647, rel=0.01)
+    assert scatter_of(noise, np.ones(1)) == pytest.approx(deviation * MAD_TO_STANDARD_DEVIATION * 0.7647, rel=0.01)
 
 
 def test_the_scatter_is_never_zero():
@@ -207,7 +213,7 @@ def test_where_the_fit_rests_the_pulls_are_in_balance():
     measured = columns @ [1.0, 2.0] + random.normal(0, 0.1, 400)
     measured[::20] += 50
     found = fitted(columns, measured)
-    psi = found.pull / found.scatter
+    psi = found.influence / found.scatter
     # by far less than the pulls would change by chance
     by_chance = np.linalg.norm(columns, axis=0) * np.linalg.norm(psi) / np.sqrt(400)
     assert np.all(np.abs(columns.T @ psi) < 1e-3 * by_chance)
@@ -248,7 +254,7 @@ def test_bounds_are_kept():
     assert found.values[0] <= 2.0
 
 
-# -- memory ---------------------------------------------------------------------------------------
+# -- autocorrelation_lag ---------------------------------------------------------------------------------------
 
 
 def autoregressive(rows, correlation, seed=0):
@@ -261,7 +267,7 @@ def autoregressive(rows, correlation, seed=0):
 
 def test_white_noise_is_forgotten_at_once():
     """The first correlation is above two of its errors in one of 44 series; in those the reach is short."""
-    reaches = [memory(np.random.default_rng(seed).standard_normal(2000)) for seed in range(400)]
+    reaches = [autocorrelation_lag(np.random.default_rng(seed).standard_normal(2000)) for seed in range(400)]
     assert np.mean(np.array(reaches) == 0) == pytest.approx(0.977, abs=0.025)
     assert max(reaches) <= 6
 
@@ -271,11 +277,11 @@ def test_noise_that_follows_itself_is_remembered_until_it_is_lost_in_the_noise(c
     """φ^lag falls below 2/√n at lag ln(2/√n)/ln φ."""
     rows = 4000
     lost = np.log(2 / np.sqrt(rows)) / np.log(correlation)
-    found = np.median([memory(autoregressive(rows, correlation, seed)) for seed in range(40)])
+    found = np.median([autocorrelation_lag(autoregressive(rows, correlation, seed)) for seed in range(40)])
     assert found == pytest.approx(2 * lost, rel=0.35)
 
 
 def test_alternating_noise_and_few_rows_have_no_memory():
-    assert memory((-1.0) ** np.arange(100)) == 0
-    assert memory(np.ones(100)) == 0
-    assert memory(autoregressive(19, 0.9)) == 0
+    assert autocorrelation_lag((-1.0) ** np.arange(100)) == 0
+    assert autocorrelation_lag(np.ones(100)) == 0
+    assert autocorrelation_lag(autoregressive(19, 0.9)) == 0

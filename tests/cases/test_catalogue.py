@@ -10,11 +10,11 @@ import openpyxl
 import pytest
 
 import ballscrew as bs
+from ballscrew.cases import case_file
+from ballscrew.cases import catalogue as people
+from ballscrew.cases.nut_kinds import NUTS, kind_in
 from ballscrew.components.catalogue import SMALLEST_BALL, CatalogueRow, catalogue
-from ballscrew.faults import InputError
-from ballscrew.interfaces import catalogue as people
-from ballscrew.interfaces import config
-from ballscrew.interfaces.nuts import NUTS, kind_in
+from ballscrew.errors import InputError
 
 DATA = Path(__file__).parents[1] / "data"
 ROWS = catalogue()
@@ -151,7 +151,7 @@ def test_names_that_are_not_there(ballscrew):
 def test_a_case_is_the_screw_of_the_row(row, tmp_path):
     path = tmp_path / "my.toml"
     path.write_text(people.case_text(row), encoding="ascii")
-    case = config.load(path)
+    case = case_file.load(path)
     for field in dataclasses.fields(case.screw):
         expected, found = getattr(row.screw(), field.name), getattr(case.screw, field.name)
         if isinstance(expected, bs.Material):
@@ -214,7 +214,7 @@ def test_rows_of_ones_own(ballscrew, tmp_path):
         "catalogue", "show", "größe 1", "--rows", "own.csv", "--case", environment={"PYTHONIOENCODING": "cp1252"}
     )
     (tmp_path / "my.toml").write_text(case.stdout, encoding="utf-8")
-    screw = config.load(tmp_path / "my.toml").screw
+    screw = case_file.load(tmp_path / "my.toml").screw
     assert (screw.screw_conformity, screw.nut_conformity, screw.starts) == (0.52, 0.52, 2)
     assert "# Gr\\xf6\\xdfe 1: own.csv row 2" in case.stdout
     assert "Nut: double." in case.stdout

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from ballscrew import units
+from ballscrew.cases.catalogue import COLUMNS
 from ballscrew.components.screw import MATERIALS
-from ballscrew.faults import Fault
-from ballscrew.interfaces import units
-from ballscrew.interfaces.catalogue import COLUMNS
+from ballscrew.errors import Fault
 from ballscrew.quantities import within_bounds
 
 ROOT = Path(__file__).parents[2]

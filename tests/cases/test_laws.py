@@ -4,16 +4,17 @@ import copy
 import dataclasses
 import json
 import math
+import re
 import tomllib
 
 import pytest
 
 import ballscrew as bs
-from ballscrew.analyses.comparison import same_law
+from ballscrew.cases import case_file, schema
 from ballscrew.components import laws, lubrication, mixed_friction
-from ballscrew.faults import InputError
-from ballscrew.interfaces import config, schema
-from ballscrew.model import presets
+from ballscrew.errors import InputError
+from ballscrew.evaluation.comparison import same_law
+from ballscrew.friction.model import presets
 from ballscrew.solvers.ellipse_slip import ellipse_slip
 from ballscrew.solvers.pure_rolling import curvature_slip
 
@@ -29,7 +30,7 @@ def tables(example):
 def model_of(tables, /, **model):
     changed = copy.deepcopy(tables)
     changed["model"] = {"name": "reference", **model}
-    return config.build(changed).model
+    return case_file.build(changed).model
 
 
 def faults_of(tables, /, **model):
@@ -62,7 +63,7 @@ def test_each_law_by_name(slot, name, tables):
     assert type(getattr(model_of(tables, **{slot: {"law": name}}), slot)) is type(law)
     assert schema.name_of_law(slot, law) == name
     tables["model"] = {"name": "reference", slot: name}
-    assert math.isfinite(torque(config.build(tables)))
+    assert math.isfinite(torque(case_file.build(tables)))
 
 
 @pytest.mark.parametrize(("slot", "name"), WITH_COEFFICIENTS)
@@ -75,7 +76,7 @@ def test_each_coefficient(slot, name, tables):
     law = getattr(model_of(tables, **{slot: {"law": name, **written}}), slot)
     assert vars(law) == pytest.approx(values)
     tables["model"] = {"name": "reference", slot: {"law": name, **written}}
-    shown = config.inputs(config.build(tables))["model"][slot]
+    shown = case_file.inputs(case_file.build(tables))["model"][slot]
     assert shown.pop("law") == name
     assert shown == pytest.approx(values)
 
@@ -83,7 +84,7 @@ def test_each_coefficient(slot, name, tables):
 @pytest.mark.parametrize("name", presets())
 def test_a_coefficient_alone_belongs_to_the_law_of_the_model(name, tables):
     tables["model"] = {"name": name, "friction": {"boundary_friction_coefficient": 0.15}, "film": {}}
-    model = config.build(tables).model
+    model = case_file.build(tables).model
     present = presets()[name]
     assert type(model.friction) is type(present.friction)
     assert model.friction.boundary_friction_coefficient == 0.15
@@ -94,7 +95,7 @@ def test_a_coefficient_alone_belongs_to_the_law_of_the_model(name, tables):
 
 def test_a_name_brings_its_own_coefficients(tables):
     tables["model"] = {"name": "olaru2005", "film": "hamrock-dowson"}
-    assert config.build(tables).model.film.speed_exponent == 0.68
+    assert case_file.build(tables).model.film.speed_exponent == 0.68
     model = model_of(tables, friction={"law": "load-sharing", "decay": 1.9})
     assert model.friction.decay == 1.9
     assert model.friction.boundary_friction_coefficient == mixed_friction.LoadSharing().boundary_friction_coefficient
@@ -174,13 +175,13 @@ def test_all_faults_at_once(tables):
 
 def test_the_papers_offset_goes_with_its_slip_law(tables):
     tables["model"] = {"name": "olaru2005", "slip": "ellipse"}
-    model = config.build(tables).model
+    model = case_file.build(tables).model
     assert model.slip is ellipse_slip
     assert model.pure_rolling_offset is None
     assert model.label == "olaru2005, changed: slip, pure_rolling_offset"
     tables["model"]["pure_rolling_offset"] = 0.34
     with pytest.raises(InputError, match=r"pure_rolling_offset: can only be imposed"):
-        config.build(tables)
+        case_file.build(tables)
 
 
 # -- on the command line --------------------------------------------------------------------------
@@ -254,8 +255,11 @@ def accepts(rule, value):
         known = rule["properties"]
         return isinstance(value, dict) and all(k in known and accepts(known[k], v) for k, v in value.items())
     kinds = {"string": str, "number": (int, float), "integer": int}
-    within = rule.get("minimum", -math.inf) <= value if rule["type"] == "number" else True
-    return isinstance(value, kinds[rule["type"]]) and within
+    if not isinstance(value, kinds[rule["type"]]):
+        return False
+    if rule["type"] == "string":
+        return re.search(rule.get("pattern", ""), value) is not None
+    return rule.get("minimum", -math.inf) <= value if rule["type"] == "number" else True
 
 
 @pytest.fixture(scope="module")

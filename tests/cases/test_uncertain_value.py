@@ -7,14 +7,14 @@ import re
 import pytest
 
 import ballscrew as bs
-from ballscrew.analyses.distributions import LogNormal, Normal, Triangular, Uniform
+from ballscrew.cases import case_file, schema, uncertain_inputs
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.components.mixed_friction import LoadSharing
 from ballscrew.components.screw import Operation
-from ballscrew.faults import Fault, InputError
-from ballscrew.interfaces import config, schema, uncertain
-from ballscrew.interfaces.distribution_text import Written, in_words, read
+from ballscrew.errors import Fault, InputError
 from ballscrew.quantities import fields_of
+from ballscrew.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
+from ballscrew.uncertainty.uncertain_value import UncertainValue, describe_distribution, parse_uncertain
 
 SCREW, OIL = fields_of(bs.BallScrew), fields_of(bs.Lubricant)
 Z = 1.959963984540054
@@ -66,8 +66,8 @@ MEANT = [
 @pytest.mark.parametrize(("text", "quantity", "meant"), MEANT, ids=[text for text, *_ in MEANT])
 def test_what_is_written(text, quantity, meant):
     central, distribution = meant
-    found = read(text, quantity)
-    assert isinstance(found, Written), found
+    found = parse_uncertain(text, quantity)
+    assert isinstance(found, UncertainValue), found
     assert found.central == pytest.approx(central, rel=1e-12)
     assert type(found.distribution) is type(distribution)
     given = {field.name: getattr(distribution, field.name) for field in dataclasses.fields(distribution)}
@@ -77,7 +77,7 @@ def test_what_is_written(text, quantity, meant):
 
 @pytest.mark.parametrize("text", ["0.54 ± 0", "0.54 +- 0.0", "0.54 ± 0 %"])
 def test_plus_minus_nothing_is_exact(text):
-    assert read(text, SCREW["screw_conformity"]) == (0.54, None)
+    assert parse_uncertain(text, SCREW["screw_conformity"]) == UncertainValue(0.54, None, text)
 
 
 @pytest.mark.parametrize(
@@ -85,11 +85,11 @@ def test_plus_minus_nothing_is_exact(text):
                        ("2e-3 m", "lead"), (True, "lead"), (["40 mm"], "lead")]
 )  # fmt: skip
 def test_no_distribution(text, name):
-    assert read(text, SCREW[name]) is None
+    assert parse_uncertain(text, SCREW[name]) is None
 
 
 def test_tails_are_cut_at_the_bounds():
-    found = read("0.51 ± 0.02", SCREW["screw_conformity"]).distribution
+    found = parse_uncertain("0.51 ± 0.02", SCREW["screw_conformity"]).distribution
     assert found.low == math.nextafter(0.5, 1)
     assert found.high == math.inf
 
@@ -125,7 +125,7 @@ REFUSED = [
 @pytest.mark.parametrize(("setting", "expected"), REFUSED, ids=[setting for setting, _ in REFUSED])
 def test_faults(setting, expected, example):
     with pytest.raises(InputError, match=re.escape(expected)) as caught:
-        config.load(example, [setting])
+        case_file.load(example, [setting])
     assert len(caught.value.faults) == 1
 
 
@@ -137,53 +137,55 @@ def test_a_case_keeps_central_values_and_distributions(example):
         "model.ball_to_ball_force=0.02 N ± 50 %",
         "screw.nut_conformity=0.515 ± 0",
     ]
-    case = config.load(example, settings)
+    case = case_file.load(example, settings)
     assert case.screw.screw_conformity == 0.515
     assert case.operation.axial_load == 4000
     assert case.model.friction.decay == 1.42
     assert set(case.uncertain) == {"screw_conformity", "axial_load", "friction.decay", "ball_to_ball_force"}
     assert case.exact == {"nut_conformity"}
-    everything = uncertain.all_of(case)
+    everything = uncertain_inputs.all_of(case)
     assert "nut_conformity" not in everything
     assert everything["friction.decay"].given
     assert everything["friction.exponent"].source == "judgement"
-    assert set(uncertain.all_of(case, only_given=True)) == set(case.uncertain)
+    assert set(uncertain_inputs.all_of(case, only_given=True)) == set(case.uncertain)
 
 
 def test_a_temperature_beside_a_grade(example):
     oil = ["lubricant.temperature=40 degC ± 5 K"]
     drive = example.with_name("feed_drive.toml")
-    case = config.load(drive, oil)
+    case = case_file.load(drive, oil)
     assert case.uncertain == {"temperature": Normal(313.15, 5 / Z)}
-    assert "viscosity" not in uncertain.all_of(case)
-    exact = config.load(drive, ["lubricant.temperature=40 degC ± 0 K"])
-    assert uncertain.all_of(exact)["viscosity"].source == "ISO3448"
+    assert "viscosity" not in uncertain_inputs.all_of(case)
+    exact = case_file.load(drive, ["lubricant.temperature=40 degC ± 0 K"])
+    assert uncertain_inputs.all_of(exact)["viscosity"].source == "ISO3448"
     with pytest.raises(InputError, match=r"lubricant.temperature: must be at least -20 degC"):
-        config.load(drive, ["lubricant.temperature=-30 ± 5 degC"])
+        case_file.load(drive, ["lubricant.temperature=-30 ± 5 degC"])
 
 
 def test_a_named_calibration_brings_its_errors(example):
-    case = config.load(example, ["model.calibration=rexroth-2006"], model="reference")
-    found = uncertain.all_of(case, only_given=True)
+    case = case_file.load(example, ["model.calibration=rexroth-2006"], model="reference")
+    found = uncertain_inputs.all_of(case, only_given=True)
     assert set(found) == {"friction.boundary_friction_coefficient", "ball_force.share_of_load"}
     assert {one.source for one in found.values()} == {"rexroth-2006"}
-    assert "ball_to_ball_force" not in uncertain.all_of(case)
+    assert "ball_to_ball_force" not in uncertain_inputs.all_of(case)
 
 
 def test_a_case_without_distributions_has_none(example):
-    case = config.load(example)
+    case = case_file.load(example)
     assert case.uncertain == {}
     assert case.exact == frozenset()
 
 
 def test_words():
     conformity, lead = SCREW["screw_conformity"], SCREW["lead"]
-    assert in_words(Normal(0.54, 0.01 / Z), conformity) == "0.54 ± 0.01"
-    assert in_words(Uniform(0.52, 0.56), conformity) == "0.52 to 0.56, uniform"
-    assert in_words(Uniform(9.9992e-3, 10.0008e-3), lead) == "9.9992 mm to 10.0008 mm, uniform"
-    assert in_words(Triangular(0.52, 0.53, 0.56), conformity) == "0.52 to 0.56, triangular about 0.53"
-    assert in_words(Normal(313.15, 5 / Z), TEMPERATURE) == "40 degC ± 5 K"
-    assert in_words(LogNormal(0.1, math.exp(math.log(2) / Z)), conformity) == "0.05 to 0.2 (95 %), log-normal"
+    assert describe_distribution(Normal(0.54, 0.01 / Z), conformity) == "0.54 ± 0.01"
+    assert describe_distribution(Uniform(0.52, 0.56), conformity) == "0.52 to 0.56, uniform"
+    assert describe_distribution(Uniform(9.9992e-3, 10.0008e-3), lead) == "9.9992 mm to 10.0008 mm, uniform"
+    assert describe_distribution(Triangular(0.52, 0.53, 0.56), conformity) == "0.52 to 0.56, triangular about 0.53"
+    assert describe_distribution(Normal(313.15, 5 / Z), TEMPERATURE) == "40 degC ± 5 K"
+    assert (
+        describe_distribution(LogNormal(0.1, math.exp(math.log(2) / Z)), conformity) == "0.05 to 0.2 (95 %), log-normal"
+    )
 
 
 def test_the_schema_allows_them():
@@ -192,7 +194,7 @@ def test_the_schema_allows_them():
     assert number["exclusiveMinimum"] == 0.5
     for written in ("0.54 ± 0.01", "0.54 +/- 0.01", "0.54 +- 2 %", "uniform(0.52, 0.56)"):
         assert re.search(text["pattern"], written)
-        assert not isinstance(read(written, SCREW["screw_conformity"]), Fault | None)
+        assert not isinstance(parse_uncertain(written, SCREW["screw_conformity"]), Fault | None)
     assert not re.search(text["pattern"], "0.54")
     assert properties["loaded_balls"]["type"] == "integer"
     assert properties["lead"]["type"] == "string"

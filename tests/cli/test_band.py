@@ -6,9 +6,14 @@ import math
 import pytest
 from matplotlib.text import Text
 
-from ballscrew.interfaces import band, comparison, config
-from ballscrew.interfaces.figures import style
-from ballscrew.interfaces.uncertain import all_of, joint_of
+from ballscrew.cases import case_file
+from ballscrew.cases.uncertain_inputs import all_of, joint_of
+from ballscrew.components.lubrication import biboulet_houpert_rolling as reference_rolling
+from ballscrew.components.traits import LawTraits, traits_of
+from ballscrew.figures import band as figures
+from ballscrew.figures import style
+from ballscrew.friction.law_names import LAWS
+from ballscrew.studies import band, comparison
 
 
 @pytest.fixture
@@ -25,7 +30,12 @@ def test_json(drive, ballscrew):
     with_band = document_of(ballscrew("run", drive, "--band", "--json", "--samples", "512"))
     without = document_of(ballscrew("run", drive, "--json"))
     found = with_band.pop("band")
-    assert {**with_band, "warnings": without["warnings"]} == without
+    for kind in ("verdicts", "warnings"):  # those of the band stand after those of the run
+        own = with_band[kind][len(without[kind]) :]
+        assert with_band[kind] == [*without[kind], *own]
+        assert all(record["id"].startswith("band.") for record in own)
+        with_band[kind] = without[kind]
+    assert with_band == without
     assert (found["level"], found["samples"], found["seed"]) == (0.95, 512, 0)
     torque = found["screw_torque"]
     assert torque["value"] == without["results"]["screw_torque"]
@@ -123,7 +133,9 @@ def test_bad_input(options, expected, drive, ballscrew, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("kind", ["png", "svg", "pdf"])
+@pytest.mark.parametrize(
+    "kind", ["svg", pytest.param("png", marks=pytest.mark.long), pytest.param("pdf", marks=pytest.mark.long)]
+)
 def test_pictures(kind, drive, ballscrew, tmp_path):
     process = ballscrew("run", drive, "--band", "--samples", "64", "--to", f"band.{kind}")
     assert process.returncode == 0, process.stderr
@@ -141,10 +153,11 @@ def test_pictures(kind, drive, ballscrew, tmp_path):
     ],
 )
 def test_what_a_picture_says(settings, axis, drive):
-    case = config.load(drive, settings)
+    case = case_file.load(drive, settings)
     options = band.Options(samples=64)
     with style.house_style():
-        figure = band.picture(case, band.computed(case, options), options)
+        report = band.band(case, options)
+        figure = figures.picture(case, report, band.curve(case, report, options))
         figure.draw_without_rendering()
     left, right = figure.axes
     assert left.get_xlabel() == axis
@@ -159,26 +172,59 @@ def test_what_a_picture_says(settings, axis, drive):
     assert all(math.isfinite(x) for x in (*left.get_xlim(), *left.get_ylim(), *right.get_xlim()))
 
 
+#: The laws that every default band of the reference model exchanges; the numbers of the documentation rest on them.
+ENSEMBLE = {
+    ("film", "hamrock-dowson-central"),
+    ("friction", "zhou-hoeprich"),
+    ("friction", "balan"),
+    ("friction", "greenwood-tripp"),
+    ("full_film", "eyring"),
+    ("full_film", "limiting-shear"),
+    ("rolling", "olaru"),
+    ("rolling", "houpert"),
+    ("rolling", "aihara"),
+    ("elastic_resistance", "hysteresis"),
+    ("ball_force", "proportional"),
+}
+
+
+def a_new_law(conditions):
+    return 2 * reference_rolling(conditions)
+
+
+def test_a_name_for_a_law_moves_no_default_band(drive, monkeypatch):
+    """The table of names is no ensemble: a law is an alternative where it says so itself."""
+    case = case_file.load(drive)
+    before = band.alternatives(case)
+    monkeypatch.setitem(LAWS["rolling"], "new", a_new_law)
+    assert ("rolling", "new") in {(law.slot, law.name) for law in comparison.candidates(case)[1]}
+    assert [(law.slot, law.name) for law in band.alternatives(case)] == [(law.slot, law.name) for law in before]
+    monkeypatch.setattr(a_new_law, "traits", LawTraits(alternative=True), raising=False)
+    assert ("rolling", "new") in {(law.slot, law.name) for law in band.alternatives(case)}
+
+
 def test_laws_that_only_leave_something_out_are_no_alternatives(drive):
-    case = config.load(drive)
+    case = case_file.load(drive)
     names = {(law.slot, law.name) for law in band.alternatives(case)}
-    assert not names & band.LEAVE_OUT
-    assert ("rolling", "houpert") in names
+    assert names == ENSEMBLE
     everything = {(law.slot, law.name) for law in comparison.candidates(case)[1]}
     assert everything >= {("slip", "curvature"), ("frame", "bearing")}
-    with_the_papers = config.load(drive, ["model.slip=curvature"])
+    for named in LAWS.values():
+        for name, law in named.items():
+            assert bool(traits_of(law).excluded) != traits_of(law).alternative, name
+    with_the_papers = case_file.load(drive, ["model.slip=curvature"])
     assert ("slip", "ellipse") in {(law.slot, law.name) for law in band.alternatives(with_the_papers)}
 
 
 def test_a_calibration_is_drawn_with_its_correlation(drive):
-    case = config.load(drive, ["model.calibration=rexroth-2006"])
+    case = case_file.load(drive, ["model.calibration=rexroth-2006"])
     joint = joint_of(case, all_of(case))
     assert joint is not None
     assert joint.covariance[0, 1] < 0
     slots = {law.slot for law in band.alternatives(case)}
     assert "rolling" in slots
     assert not slots & {"friction", "ball_force"}
-    plain = config.load(drive)
+    plain = case_file.load(drive)
     assert joint_of(plain, all_of(plain)) is None
 
 
@@ -203,22 +249,20 @@ def fitted(example, tmp_path, text=FIT):
 def test_a_fit_is_drawn_with_its_correlation(example, tmp_path, ballscrew):
     """Opposite errors of two numbers that both raise the torque: the band is narrower than without the table."""
     path = fitted(example, tmp_path)
-    joint = joint_of(config.load(path), all_of(config.load(path)))
+    joint = joint_of(case_file.load(path), all_of(case_file.load(path)))
     assert joint.names == ("friction.boundary_friction_coefficient", "viscosity")
     alone = fitted(example, tmp_path, FIT.partition("[calibration]")[0])
-    case = config.load(alone)
-    independent = band.computed(case, band.Options(samples=1024, only_given=True)).band["screw_torque"].parameters
+    case = case_file.load(alone)
+    independent = band.band(case, band.Options(samples=1024, only_given=True)).band["screw_torque"].parameters
     path = fitted(example, tmp_path)
-    found = (
-        band.computed(config.load(path), band.Options(samples=1024, only_given=True)).band["screw_torque"].parameters
-    )
+    found = band.band(case_file.load(path), band.Options(samples=1024, only_given=True)).band["screw_torque"].parameters
     assert found.high - found.low < 0.9 * (independent.high - independent.low)
-    assert "friction" not in {law.slot for law in band.alternatives(config.load(path))}
+    assert "friction" not in {law.slot for law in band.alternatives(case_file.load(path))}
     assert ballscrew("run", path).returncode == 0
 
 
 def test_a_number_changed_after_the_fit_is_no_part_of_it(example, tmp_path):
-    case = config.load(fitted(example, tmp_path), ["lubricant.viscosity=0.2 Pa s ± 10 %"])
+    case = case_file.load(fitted(example, tmp_path), ["lubricant.viscosity=0.2 Pa s ± 10 %"])
     assert joint_of(case, all_of(case)).names == ("friction.boundary_friction_coefficient",)
 
 

@@ -8,11 +8,11 @@ import openpyxl
 import pytest
 
 import ballscrew as bs
-from ballscrew.analyses.checks import ratings_of
+from ballscrew.cases import case_file
 from ballscrew.components.nut import Bodies
-from ballscrew.interfaces import check as work
-from ballscrew.interfaces import config
-from ballscrew.interfaces.wrapping import WIDTH
+from ballscrew.output.wrapping import WIDTH
+from ballscrew.sizing.checks import ratings_of
+from ballscrew.studies import check as work
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "catalogue_screw.toml"
@@ -20,7 +20,7 @@ SCREWS = ROOT / "examples" / "screws.csv"
 NAME = "rexroth-40x10x6-6-double"
 ROW = bs.catalogue()[NAME]
 RPM = 2 * math.pi / 60
-NOTHING = work.Asked({}, [], None)
+NOTHING = work.Options({}, [], None)
 
 #: The same screw with other headings, a decimal comma and semicolons.
 OWN = """\
@@ -41,9 +41,9 @@ def refused(process, *expected):
 
 
 def checked(name=NAME, **given):
-    return work.one(str(name), None, work.Asked({k.replace("__", "."): v for k, v in given.items()}, [], None), False)[
-        0
-    ]
+    return work.one(
+        str(name), None, work.Options({k.replace("__", "."): v for k, v in given.items()}, [], None), False
+    )[0]
 
 
 # -- a row ----------------------------------------------------------------------------------------
@@ -95,14 +95,14 @@ def test_every_row_shipped(row):
     """With its usual preload, at a tenth of its rating: all is finite, and a preload costs life."""
     found = checked(row.name)
     # the relieved flank of small oversize balls carries so little that its film is an estimate, and says so
-    outside = {reason for reason, holds in found.result.found.validity.items() if not holds}
+    outside = {reason for reason, holds in found.run.friction.validity.items() if not holds}
     assert outside <= ({"elastic_regime"} if row.nut == "oversize-balls" else set())
-    assert 0.7 < float(found.result.found.efficiency) < 1
-    without = found.check("life").value if not found.result.preload else 1e9
+    assert 0.7 < float(found.run.friction.efficiency) < 1
+    without = found.check("life").value if not found.nut.preload else 1e9
     assert without == pytest.approx(1e9)
-    assert (found.check("life").value < 0.9e9) == (found.result.preload > 0)
-    assert found.check("contact_pressure").passes
-    assert all(check.passes is not False or check.name == "diameter_speed_product" for check in found.checks)
+    assert (found.check("life").value < 0.9e9) == (found.nut.preload > 0)
+    assert found.check("contact_pressure").holds
+    assert all(check.holds is not False or check.name == "diameter_speed_product" for check in found.checks)
 
 
 def test_what_is_given_counts():
@@ -112,9 +112,9 @@ def test_what_is_given_counts():
     )  # fmt: skip
     case = found.case
     assert (case.operation.axial_load, case.operation.screw_speed) == (10_000, pytest.approx(1000 * RPM))
-    assert isinstance(found.parts.nut, bs.SingleNut)
+    assert isinstance(found.nut.parts.nut, bs.SingleNut)
     assert case.oil["temperature"] == pytest.approx(323.15)
-    assert found.check("critical_speed").passes is False
+    assert found.check("critical_speed").holds is False
     assert "fails: buckling, critical speed" in found.verdict
     assumed = " ".join(found.assumed)
     for words in ("axial load", "speed 600", "as listed", "none was given"):
@@ -156,10 +156,10 @@ def test_a_case_is_checked_as_run_has_it(ballscrew):
 def test_a_case_without_a_nut(ballscrew):
     drive = ROOT / "examples" / "feed_drive.toml"
     found = checked(drive)
-    case = config.load(drive)
+    case = case_file.load(drive)
     alone = case.model(case.screw, case.lubricant, axial_load=5000.0, screw_speed=600 * RPM)
     # the contact angle opens under load, which the single ball does not know
-    assert float(found.result.found.screw_torque) == pytest.approx(float(alone.screw_torque), rel=0.02)
+    assert float(found.run.friction.screw_torque) == pytest.approx(float(alone.screw_torque), rel=0.02)
     assert "no [nut] given: a single nut" in found.assumed
     assert ballscrew("check", drive, "--nut", "double", "--preload", "5 kN").returncode == 0
 
@@ -168,8 +168,8 @@ def test_a_case_of_a_row_without_a_nut(tmp_path):
     text = EXAMPLE.read_text(encoding="utf-8")
     (tmp_path / "case.toml").write_text(text.replace("[nut]", "[lib]").replace("[lib]\npreload", "#"), encoding="utf-8")
     found = checked(tmp_path / "case.toml")
-    assert isinstance(found.parts.nut, bs.DoubleNut)
-    assert found.parts.nut.preload == 0
+    assert isinstance(found.nut.parts.nut, bs.DoubleNut)
+    assert found.nut.parts.nut.preload == 0
     assert "no [nut] given: the nut of the row, without preload" in found.assumed
 
 

@@ -15,7 +15,7 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.result import MECHANISMS
+from ballscrew.friction.result import MECHANISMS
 
 ROOT = Path(__file__).parents[2]
 LEFT_OUT = "left out: seals, preload, return path, churning; not compared with measurements"
@@ -44,7 +44,7 @@ def test_json_is_the_python_result(name, model, example, ballscrew):
     process = ballscrew("run", example, "--model", name, "--json")
     assert process.returncode == 0, process.stderr
     document = json.loads(process.stdout)
-    assert list(document) == ["inputs", "results", "units", "warnings", "provenance"]
+    assert list(document) == ["inputs", "results", "units", "warnings", "verdicts", "checks", "provenance"]
     expected, found = paper_result(model), document["results"]
     for key in ("screw_torque", "nut_torque", "ideal_torque", "drive_torque", "efficiency", "friction_power"):
         assert found[key] == pytest.approx(float(getattr(expected, key)), rel=1e-12)
@@ -75,7 +75,7 @@ def test_no_load_is_legal_and_not_finite_is_null(example, ballscrew):
     assert process.returncode == 0
     assert document["results"]["efficiency"] == 0.0
     assert document["results"]["back_driving_efficiency"] is None
-    assert any(warning.startswith("skid") for warning in document["warnings"])
+    assert "validity.skid" in {record["id"] for record in document["warnings"]}
 
 
 def test_tables_for_people(example, ballscrew):
@@ -271,7 +271,11 @@ def test_too_much_pressure_is_said(example, ballscrew):
     process = ballscrew("run", example, "--json", "--set", "operation.axial_load=5 MN")
     document = json.loads(process.stdout)
     assert not document["results"]["valid"]
-    assert any(warning.startswith("contact_pressure: ") for warning in document["warnings"])
+    (found,) = [record for record in document["warnings"] if record["id"] == "validity.contact_pressure"]
+    assert (found["subject"], found["unit"], found["limit"]) == ("maximum_pressure", "Pa", 4.2e9)
+    assert found["value"] == max(document["results"][side]["maximum_pressure"] for side in ("screw", "nut"))
+    assert found["value"] > found["limit"]
+    assert found["holds"] is False
 
 
 def test_axes_from_the_case_file(example, tmp_path, ballscrew):
@@ -345,7 +349,7 @@ def test_schema_describes_the_example(example, ballscrew):
 def test_run_loads_nothing_heavy(example, ballscrew):
     """A single point must not wait for xarray, pandas, matplotlib or a compiler."""
     code = (
-        "import sys; from ballscrew.interfaces import cli; sys.argv = ['ballscrew', 'run', sys.argv[1], '--json']\n"
+        "import sys; from ballscrew.cli import main as cli; sys.argv = ['ballscrew', 'run', sys.argv[1], '--json']\n"
         "try: cli.main()\n"
         "except SystemExit: pass\n"
         # pint loads scipy itself where it is, and none of its parts
@@ -369,7 +373,7 @@ def test_version_and_help(ballscrew):
 def test_help_loads_nothing():
     """Help is instant: not even NumPy is loaded."""
     code = (
-        "import sys; from ballscrew.interfaces import cli; sys.argv = ['ballscrew', '--help']\n"
+        "import sys; from ballscrew.cli import main as cli; sys.argv = ['ballscrew', '--help']\n"
         "try: cli.main()\n"
         "except SystemExit: pass\n"
         "sys.exit(sorted({'numpy', 'pydantic', 'pint', 'rich.console'} & set(sys.modules)) or 0)"

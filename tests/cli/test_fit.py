@@ -1,135 +1,30 @@
 """``ballscrew fit``: what it prints, writes and draws, and what it says of logs that are not as they should be."""
 
-import csv
 import dataclasses
 import hashlib
-import io
 import json
 import subprocess
 import sys
 import tomllib
-from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-import ballscrew as bs
 from ballscrew import __version__
-from ballscrew.interfaces import cli, config
-
-ROOT = Path(__file__).parents[2]
-EXAMPLES = ROOT / "examples"
-RPM = 2 * np.pi / 60
-FRICTION, OFFSET = "boundary_friction_coefficient", "pure_rolling_offset"
-TRUE_FRICTION, NOISE = 0.11, 0.004
-HEADINGS = {"time": "time [s]", "speed": "speed [rpm]", "load": "axial load [N]", "torque": "torque [N m]"}
-PAPER = """
-[screw]
-pitch_circle_diameter = "40 mm"
-lead = "5 mm"
-ball_diameter = "3.175 mm"
-loaded_balls = 56
-contact_angle = "45 deg"
-screw_conformity = 0.515
-nut_conformity = 0.515
-
-[lubricant]
-viscosity = "0.1 Pa s"
-
-[operation]
-axial_load = "2 kN"
-screw_speed = "100 rpm"
-
-[model]
-name = "olaru2005"
-"""
-
-
-@pytest.fixture(scope="module")
-def case(tmp_path_factory):
-    path = tmp_path_factory.mktemp("case") / "paper.toml"
-    path.write_text(PAPER, encoding="utf-8")
-    return path
-
-
-def columns(rows=120, seed=0, loads=(200, 4000), speeds=(10, 1000), noise=NOISE, against=False):
-    """A drive torque in both directions, in the units of people, at single settings in random order.
-
-    The load has one direction, or is always against the motion.
-    """
-    random = np.random.default_rng(seed)
-    made = config.build(tomllib.loads(PAPER), None, EXAMPLES)
-    friction = dataclasses.replace(made.model.friction, boundary_friction_coefficient=TRUE_FRICTION)
-    true = dataclasses.replace(made.model, friction=friction)
-    load = random.uniform(*loads, rows)
-    speed = np.exp(random.uniform(*np.log(speeds), rows))
-    sign = np.where(random.random(rows) < 0.5, -1.0, 1.0)
-    result = true(made.screw, made.lubricant, axial_load=load, screw_speed=speed * RPM)
-    torque = (
-        (sign if against else 1.0) * result.ideal_torque + sign * result.screw_torque + random.normal(0, noise, rows)
-    )
-    return {"speed": sign * speed, "load": load, "torque": torque}
-
-
-def text_of(data, **headings):
-    """The columns as CSV; ``headings`` of some of them."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow([{**HEADINGS, **headings}[name] for name in data])
-    for row in zip(*data.values(), strict=True):
-        writer.writerow([x if isinstance(x, str) else "" if np.isnan(x) else repr(float(x)) for x in row])
-    return out.getvalue()
-
-
-@pytest.fixture
-def log(tmp_path):
-    """Write columns as a file; without any, a good log."""
-
-    def write(data=None, name="log.csv", **headings):
-        path = tmp_path / name
-        path.write_text(text_of(columns() if data is None else data, **headings), encoding="utf-8")
-        return path
-
-    return write
-
-
-@pytest.fixture
-def fit(case, tmp_path, monkeypatch, capfd):
-    """The command as it is typed, in an empty folder of its own; in this process."""
-    place = tmp_path / "here"
-    place.mkdir()
-
-    def command(path, *options, case=case):
-        monkeypatch.chdir(place)
-        monkeypatch.setenv("COLUMNS", "160")
-        monkeypatch.setattr(sys, "argv", ["ballscrew", "fit", str(path), "--case", str(case), *map(str, options)])
-        capfd.readouterr()
-        try:
-            cli.main()
-            code = 0
-        except SystemExit as leaving:
-            code = leaving.code or 0
-        said = capfd.readouterr()
-        return SimpleNamespace(returncode=code, stdout=said.out, stderr=said.err, place=place)
-
-    return command
-
-
-def document_of(done):
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout, parse_constant=lambda constant: pytest.fail(f"{constant} in JSON"))
-
-
-def refused(done, words):
-    """Bad input: exit code 2, one line a fault, nothing else, nothing written."""
-    assert done.returncode == 2, done.stdout
-    assert done.stdout == ""
-    assert words in done.stderr
-    assert "Traceback" not in done.stderr
-    assert list(done.place.iterdir()) == []
-    return done.stderr.strip().splitlines()
-
+from ballscrew.cases import case_file
+from support.fit_logs import (
+    EXAMPLES,
+    FRICTION,
+    NOISE,
+    OFFSET,
+    PAPER,
+    RPM,
+    TRUE_FRICTION,
+    changed,
+    columns,
+    document_of,
+    refused,
+)
 
 # -- what it says ---------------------------------------------------------------------------------
 
@@ -161,7 +56,7 @@ def test_json_has_no_error_for_what_is_not_identified(fit, log):
         assert estimate["identified"] is False
         assert np.isfinite(estimate["value"])
     assert found["covariance"]["matrix"] == [[None, None], [None, None]]
-    assert any("cannot be told apart" in warning for warning in found["warnings"])
+    assert any("cannot be told apart" in warning["text"] for warning in found["warnings"])
     known, unknown = found["identifiability"]["combinations"]
     assert known["identified"]
     assert not unknown["identified"]
@@ -213,7 +108,7 @@ def test_names_may_come_with_commas_or_one_by_one(fit, log):
 
 def test_as_a_program(case, log):
     """The real command in a process of its own, as programs call it."""
-    program = [sys.executable, "-m", "ballscrew.interfaces.cli", "fit", str(log()), "--case", str(case), "--json"]
+    program = [sys.executable, "-m", "ballscrew.cli", "fit", str(log()), "--case", str(case), "--json"]
     done = subprocess.run(program, capture_output=True, encoding="utf-8", check=False)
     assert done.returncode == 0, done.stderr
     assert FRICTION in json.loads(done.stdout)["estimates"]
@@ -255,7 +150,7 @@ def test_a_case_file_is_written_whole(fit, log):
 def test_a_fit_is_not_lost_for_want_of_a_next_test(fit, log):
     found = document_of(fit(log(), "--limits", "axial_load=1:2 GN", "--json"))
     assert found["next_test"] is None
-    assert any("no next test" in warning for warning in found["warnings"])
+    assert any("no next test" in warning["text"] for warning in found["warnings"])
     assert found["estimates"][FRICTION]["identified"]
 
 
@@ -326,7 +221,7 @@ def test_bounds_are_kept(fit, log):
     assert estimate["value"] >= 0.15
     assert estimate["at_bound"] is True
     assert estimate["std"] is None
-    assert any("bound" in warning for warning in found["warnings"])
+    assert any("bound" in warning["text"] for warning in found["warnings"])
 
 
 def test_limits_of_the_next_test(fit, log):
@@ -397,7 +292,7 @@ def test_without_any_load_nothing_is_told_of_the_balls(fit, log):
     assert found["estimates"][FRICTION]["std"] is None
     assert found["next_test"] is None
     for words in ("hardly depend on it", "signs, units and conditions", "no next test"):
-        assert any(words in warning for warning in found["warnings"])
+        assert any(words in warning["text"] for warning in found["warnings"])
     assert any("one axial load only" in note for note in found["rows"]["notes"])
     assert "Traceback" not in done.stderr
 
@@ -416,7 +311,7 @@ def test_the_inertia_takes_its_share_of_the_torque(fit, log):
     data = columns(600)
     time = 0.5 * np.arange(600)
     speed = 300 + 250 * np.sin(2 * np.pi * time / 60)
-    made = config.build(tomllib.loads(PAPER), None, EXAMPLES)
+    made = case_file.build(tomllib.loads(PAPER), None, EXAMPLES)
     friction = dataclasses.replace(made.model.friction, boundary_friction_coefficient=TRUE_FRICTION)
     result = dataclasses.replace(made.model, friction=friction)(
         made.screw, made.lubricant, axial_load=data["load"], screw_speed=speed * RPM
@@ -471,172 +366,3 @@ def test_a_whole_nut_is_refused(fit, log):
     lines = refused(fit(log(), case=EXAMPLES / "catalogue_screw.toml"), "a whole nut cannot be fitted yet")
     assert len(lines) == 1
     assert "leave out [nut]" in lines[0]
-
-
-# -- logs that are not as they should be ----------------------------------------------------------
-
-
-def changed(**new):
-    return {**columns(), **new}
-
-
-def gaps(data, share=0.1):
-    """The same with cells without a value."""
-    random = np.random.default_rng(5)
-    return {name: np.where(random.random(values.size) < share, np.nan, values) for name, values in data.items()}
-
-
-NOTHING = np.full(120, np.nan)
-REFUSED = {
-    "an empty column": (changed(torque=NOTHING), {}, ['log.csv column "torque [N m]": is empty']),
-    "no unit": (columns(), {"torque": "torque"}, ["torque", "unit"]),
-    "a unit of something else": (columns(), {"torque": "torque [N]"}, ["torque [N]"]),
-    "text in a number": (
-        changed(load=[*columns()["load"][:118], "high", "low"]), {}, ["log.csv row 120", "log.csv row 121"],
-    ),
-    "two rows": ({name: values[:2] for name, values in columns().items()}, {}, ["has 2 rows that can be used"]),
-    "no load": (
-        {name: values for name, values in columns().items() if name != "load"}, {}, ['has no column "axial_load [N]"'],
-    ),
-    "always at rest": (changed(speed=np.zeros(120)), {}, ["at rest: 120"]),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("name", REFUSED)
-def test_a_log_that_cannot_be_used_is_refused_with_the_reason(name, fit, log):
-    data, headings, words = REFUSED[name]
-    lines = refused(fit(log(data, **headings), "-o", "fitted.toml", "--picture", "fit.svg"), words[0])
-    for word in words:
-        assert any(word in line for line in lines)
-
-
-def test_faulty_cells_are_left_out_if_asked(fit, log):
-    data = changed(load=[*columns()["load"][:118], "high", "low"])
-    found = document_of(fit(log(data), "--json", "--keep-going"))
-    assert found["rows"]["used"] == 118
-    assert found["rows"]["left_out"] == {"a value cannot be read": 2}
-    assert any("row 120" in note for note in found["rows"]["notes"])
-    without = {name: values[:118] for name, values in columns().items()}
-    expected = document_of(fit(log(without), "--json"))
-    assert found["estimates"] == expected["estimates"]
-
-
-def test_gaps_are_left_out_and_counted(fit, log):
-    data = gaps(columns())
-    whole = np.all([np.isfinite(values) for values in data.values()], axis=0)
-    done = fit(log(data), "--json")
-    found = document_of(done)
-    assert found["rows"]["left_out"] == {"a value is missing": int((~whole).sum())}
-    assert found["rows"]["used"] == int(whole.sum())
-    assert found["estimates"][FRICTION]["value"] == pytest.approx(TRUE_FRICTION, abs=0.01)
-    assert "a value is missing" in fit(log(data)).stdout
-
-
-def test_an_empty_column_that_is_not_needed_does_not_harm(fit, log):
-    found = document_of(fit(log(changed(temperature=NOTHING), temperature="temperature [degC]"), "--json"))
-    assert found["rows"]["used"] == 120
-    assert any("no row has a temperature" in note for note in found["rows"]["notes"])
-
-
-def test_rows_out_of_order_are_sorted(fit, log):
-    data = {"time": np.arange(120.0), **columns()}
-    order = np.random.default_rng(0).permutation(120)
-    found = document_of(fit(log({name: values[order] for name, values in data.items()}), "--json"))
-    assert any("sorted" in note for note in found["rows"]["notes"])
-    assert found["estimates"][FRICTION]["value"] == pytest.approx(TRUE_FRICTION, abs=0.01)
-
-
-TOLD = {
-    "one load": (columns(loads=(1000, 1000.001)), "one axial load only"),
-    "one speed": (columns(speeds=(100, 100.001)), "one speed only"),
-    "one direction": (
-        {name: values[columns()["speed"] > 0] for name, values in columns().items()}, "one direction only",
-    ),
-    "ten rows": (columns(10), "10 rows are few"),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("name", TOLD)
-def test_what_a_log_cannot_tell_is_said_and_the_rest_is_fitted(name, fit, log):
-    data, words = TOLD[name]
-    found = document_of(fit(log(data), "--json"))
-    assert any(words in note for note in found["rows"]["notes"])
-    estimate = found["estimates"][FRICTION]
-    assert abs(estimate["value"] - TRUE_FRICTION) < 5 * estimate["std"]
-    assert words in fit(log(data)).stdout
-
-
-def test_with_one_load_friction_and_seals_cannot_be_told_apart(fit, log):
-    path = log(columns(loads=(1000, 1000.001), speeds=(100, 100.001)))
-    found = document_of(fit(path, "--json", "--free", f"{FRICTION},constant_torque"))
-    assert all(estimate["std"] is None for estimate in found["estimates"].values())
-    assert any("cannot be told apart" in warning for warning in found["warnings"])
-
-
-def half_turned(name, factor):
-    """From the middle on, a column as it would be with another sign or in another unit."""
-    data = columns()
-    return {**data, name: np.where(np.arange(120) < 60, data[name], factor * data[name])}
-
-
-@pytest.mark.parametrize(("name", "factor"), [("torque", -1), ("load", 1e-3)])
-def test_signs_and_units_that_change_halfway_are_not_passed_over_in_silence(name, factor, fit, log):
-    """No model follows half of the rows, and it says so."""
-    found = document_of(fit(log(half_turned(name, factor)), "--json"))
-    assert any("signs, units" in warning for warning in found["warnings"])
-
-
-def test_the_sensor_has_an_error_or_is_not_identified(fit, log):
-    found = document_of(fit(log(half_turned("load", 1e-3)), "--json"))
-    assert all(estimate["std"] is None or estimate["std"] > 0 for estimate in found["sensor"].values())
-
-
-def test_units_may_stand_behind_each_number(fit, log):
-    data = columns()
-    expected = document_of(fit(log(data), "--json"))["estimates"][FRICTION]
-    mixed = [f"{load / 1000!r} kN" if i % 2 else f"{load!r} N" for i, load in enumerate(data["load"].tolist())]
-    found = document_of(fit(log({**data, "load": mixed}, load="axial load"), "--json"))["estimates"][FRICTION]
-    assert found["value"] == pytest.approx(expected["value"], rel=1e-9)
-
-
-def test_a_log_in_other_units_is_no_other_log(fit, log):
-    data = columns()
-    expected = document_of(fit(log(data), "--json"))["estimates"][FRICTION]
-    other = {"speed": data["speed"] * RPM, "load": data["load"] / 1000, "torque": 1000 * data["torque"]}
-    path = log(other, speed="speed [rad/s]", load="axial load [kN]", torque="torque [N mm]")
-    assert document_of(fit(path, "--json"))["estimates"][FRICTION]["value"] == pytest.approx(
-        expected["value"], rel=1e-9
-    )
-
-
-# -- the example ----------------------------------------------------------------------------------
-
-
-def test_the_example_log_is_what_its_script_makes():
-    script = [sys.executable, str(EXAMPLES / "make_rig_log.py")]
-    done = subprocess.run(script, capture_output=True, encoding="utf-8", check=False)
-    assert done.returncode == 0, done.stderr
-
-
-def test_the_example_log_says_that_it_is_synthetic_and_is_small():
-    log = EXAMPLES / "rig_log.csv"
-    first, second, *rows = log.read_text(encoding="utf-8").splitlines()
-    assert first.startswith("# SYNTHETIC")
-    assert second == "time [s],speed [rpm],axial load [N],torque [N m],temperature [degC]"
-    assert 2500 < len(rows) < 3500
-    assert log.stat().st_size < 250_000
-    assert sum(row.count(",,") or row.endswith(",") for row in rows) == 12
-
-
-def test_the_example_is_found_out(fit):
-    """The truth is that of the script; without the torque of the seals the residuals give it away."""
-    log, case = EXAMPLES / "rig_log.csv", EXAMPLES / "rig.toml"
-    first = document_of(fit(log, "--json", case=case))
-    assert any("lowest fifth of the axial load" in warning for warning in first["warnings"])
-    second = document_of(fit(log, "--json", "--free", f"{FRICTION},constant_torque", case=case))
-    assert not any("misses something" in warning for warning in second["warnings"])
-    for name, true in ((FRICTION, 0.105), ("constant_torque", 0.08)):
-        estimate = second["estimates"][name]
-        assert abs(estimate["value"] - true) < 3 * estimate["std"] < 0.02 * true
-    assert second["residual_rms"] == pytest.approx(0.015, rel=0.05)
-    assert bs.__version__ == second["provenance"]["version"]

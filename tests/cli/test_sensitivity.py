@@ -8,10 +8,15 @@ from pathlib import Path
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from ballscrew.faults import InputError
-from ballscrew.interfaces import config, uncertain
-from ballscrew.interfaces import sensitivity as work
-from ballscrew.interfaces.figures import style
+from ballscrew.cases import case_file, uncertain_inputs
+from ballscrew.errors import InputError
+from ballscrew.evaluation.plan import Configuration
+from ballscrew.figures import files, style
+from ballscrew.figures import sensitivity as figures
+from ballscrew.output.documents import sensitivity as documents
+from ballscrew.output.json_text import as_json
+from ballscrew.output.text import sensitivity as text_of
+from ballscrew.studies import sensitivity as studies
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 #: Two inputs that the case gives a distribution, one of them without any effect on the torque of this model.
@@ -26,16 +31,16 @@ FEW = ("--model", "corrected", "--samples", "64")
 
 @pytest.fixture(scope="module")
 def case():
-    return config.load(EXAMPLES / "olaru2005.toml", GIVEN, "corrected")
+    return case_file.load(EXAMPLES / "olaru2005.toml", GIVEN, "corrected")
 
 
 @pytest.fixture(scope="module", params=["sobol", "morris", "local"])
 def found(request, case):
-    return work.found(case, work.Asked(method=request.param))
+    return studies.sensitivity(case, studies.Options(method=request.param))
 
 
 def of_method(case, method, **asked):
-    return work.found(case, work.Asked(method=method, **asked))
+    return studies.sensitivity(case, studies.Options(method=method, **asked))
 
 
 # -- what is varied -------------------------------------------------------------------------------
@@ -43,7 +48,7 @@ def of_method(case, method, **asked):
 
 def test_what_is_given_and_what_is_usual(case):
     every = of_method(case, "local")
-    assert set(every.result.inputs) == set(uncertain.all_of(case))
+    assert set(every.result.inputs) == set(uncertain_inputs.all_of(case))
     given = of_method(case, "local", only_given=True)
     assert set(given.result.inputs) == {"screw_conformity", "axial_load", "density"}
     assert given.result.inputs[-1] == "density"
@@ -51,10 +56,10 @@ def test_what_is_given_and_what_is_usual(case):
 
 
 def test_inputs_have_words_of_their_own(case):
-    reference = config.load(EXAMPLES / "feed_drive.toml")
-    for one in (case, reference, config.load(EXAMPLES / "catalogue_screw.toml")):
-        names = work.Subject(one.model, one.screw, one.lubricant, one.parts).inputs
-        words = [work.Found(None, {}, names).words(name) for name in names]
+    reference = case_file.load(EXAMPLES / "feed_drive.toml")
+    for one in (case, reference, case_file.load(EXAMPLES / "catalogue_screw.toml")):
+        names = Configuration(one.model, one.screw, one.lubricant, one.parts).inputs
+        words = [studies.SensitivityReport(None, {}, names).describe(name) for name in names]
         assert len(set(words)) == len(words)
     assert "oil temperature" in words
     assert "decay of the asperities' share" in words
@@ -73,11 +78,11 @@ def test_the_table(ballscrew, example, case):
     assert text.startswith("4000 N, 600 rpm, model corrected\n")
     assert "friction torque on the screw: mean " in text
     rows = [line for line in text.splitlines() if re.search(r"\(-?\d\.\d\d to \d\.\d\d\)", line)]
-    assert [row.split("  ")[0] for row in rows] == [found.words(name) for name in found.result.inputs]
+    assert [row.split("  ")[0] for row in rows] == [found.describe(name) for name in found.result.inputs]
     first = found.result.inputs[0]
     assert f"{found.result.first_order[first].value:.2f} (" in rows[0]
     assert f"{found.result.left_if_known(first):.0%}" in rows[0]
-    assert rows[0].endswith(found.uncertain[first].words)
+    assert rows[0].endswith(found.uncertain[first].description)
     assert "* not in the case" not in text
     assert "192 evaluations" not in text
     assert f"{found.result.evaluations} evaluations, seed 0, intervals of 95%" in text
@@ -89,40 +94,44 @@ def test_the_table(ballscrew, example, case):
 def test_what_to_find_out_in_words(case):
     sobol = of_method(case, "sobol")
     halved = sobol.result.to_halve
-    first, second = work.measure_next(sobol)
-    names = ", ".join(sobol.words(name) for name in halved.inputs)
+    first, second = (verdict.text for verdict in documents.verdicts(sobol))
+    names = ", ".join(sobol.describe(name) for name in halved.inputs)
     assert first == (
-        f"to halve the band of the friction torque on the screw, find out: {names} (leaves {halved.left:.0%})"
+        f"to halve the band of the friction torque on the screw, find out: {names} (leaves {halved.remaining:.0%})"
     )
-    assert second == f"{sobol.words(halved.inputs[0])} alone leaves {sobol.result.knowing[0].left:.0%}"
-    only = config.load(EXAMPLES / "olaru2005.toml", GIVEN[:1], "corrected")
-    assert work.measure_next(of_method(only, "sobol", only_given=True))[0].endswith("screw conformity (leaves 0%)")
-    assert work.measure_next(of_method(case, "morris")) == [
+    assert (
+        second == f"{sobol.describe(halved.inputs[0])} alone leaves {sobol.result.explained_variance[0].remaining:.0%}"
+    )
+    only = case_file.load(EXAMPLES / "olaru2005.toml", GIVEN[:1], "corrected")
+    assert documents.verdicts(of_method(only, "sobol", only_given=True))[0].text.endswith(
+        "screw conformity (leaves 0%)"
+    )
+    assert [one.text for one in documents.verdicts(of_method(case, "morris"))] == [
         "screening ranks the inputs; what to find out next: --method sobol"
     ]
     constant = of_method(only, "local", only_given=True, output="ideal_torque")
-    assert work.measure_next(constant)[0].endswith("does not depend on any of these inputs")
+    assert documents.verdicts(constant)[0].text.endswith("does not depend on any of these inputs")
 
 
 def test_what_was_assumed_is_said(found, case):
-    told = "\n".join(work.remarks(case, found))
-    assert work.LAWS_STAY in told
+    told = "\n".join(text_of.remarks(case, found))
+    assert text_of.LAWS_STAY in told
     assert "* not in the case, taken as usual: " in told
     assert "by judgement" in told
     for name, one in found.uncertain.items():
         if not one.given and one.source != "judgement":
-            assert f"{found.words(name)} ({one.source})" in told
-    rows = work._table(found)
+            assert f"{found.describe(name)} ({one.source})" in told
+    rows = text_of.table(found)
     assert sum(row.endswith(" *") for row in rows) == sum(not one.given for one in found.uncertain.values())
 
 
 def test_a_calibration_is_said_to_be_correlated(case):
     import dataclasses
 
-    calibrated = config.load(EXAMPLES / "olaru2005.toml", ["model.calibration=rexroth-2006"], "reference")
+    calibrated = case_file.load(EXAMPLES / "olaru2005.toml", ["model.calibration=rexroth-2006"], "reference")
     found = of_method(calibrated, "morris", samples=4)
-    assert work.CORRELATED in work.remarks(calibrated, found)
-    assert work.CORRELATED not in work.remarks(dataclasses.replace(calibrated, calibration=None), found)
+    assert documents.CORRELATED in text_of.remarks(calibrated, found)
+    assert documents.CORRELATED not in text_of.remarks(dataclasses.replace(calibrated, calibration=None), found)
 
 
 # -- programs -------------------------------------------------------------------------------------
@@ -132,7 +141,7 @@ def test_json(ballscrew, example, case):
     process = ballscrew("sensitivity", example, *FEW, "--json", "--output", "efficiency", *SETTINGS)
     assert process.returncode == 0, process.stderr
     document = json.loads(process.stdout)
-    assert list(document) == ["inputs", "sensitivity", "units", "provenance"]
+    assert list(document) == ["inputs", "sensitivity", "units", "verdicts", "checks", "warnings", "provenance"]
     shown, found = document["sensitivity"], of_method(case, "sobol", samples=64, output="efficiency")
     assert [row["name"] for row in shown["inputs"]] == list(found.result.inputs)
     for row in shown["inputs"]:
@@ -145,14 +154,14 @@ def test_json(ballscrew, example, case):
     assert by_name["axial_load"]["kind"] == "normal"
     assert by_name["axial_load"]["mean"] == 4000
     assert by_name["axial_load"]["high"] is None
-    assert shown["to_halve"] == {"inputs": list(found.result.to_halve.inputs), "left": found.result.to_halve.left}
+    assert shown["to_halve"] == {"inputs": list(found.result.to_halve.inputs), "left": found.result.to_halve.remaining}
     assert shown["method"] == "sobol"
     assert document["units"]["axial_load"] == "N"
     assert document["units"]["efficiency"] == "1"
 
 
 def test_json_of_what_has_no_number(case):
-    document = json.loads(work.json_text(case, of_method(case, "morris", samples=4)))["sensitivity"]
+    document = json.loads(as_json(documents.document(case, of_method(case, "morris", samples=4))))["sensitivity"]
     assert document["standard_deviation"] is None
     assert document["to_halve"] is None
     assert document["knowing"] == []
@@ -162,14 +171,16 @@ def test_json_of_what_has_no_number(case):
 # -- the picture ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("suffix", ["png", "svg", "pdf"])
+@pytest.mark.parametrize(
+    "suffix", ["pdf", pytest.param("png", marks=pytest.mark.long), pytest.param("svg", marks=pytest.mark.long)]
+)
 def test_picture_file(suffix, tmp_path, case):
     found = of_method(case, "local")
     path = tmp_path / f"bars.{suffix}"
-    work.draw(case, found, path)
+    files.draw(lambda: figures.picture(case, found), path)
     first = path.read_bytes()
     assert first.startswith({"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}[suffix])
-    work.draw(case, found, path)
+    files.draw(lambda: figures.picture(case, found), path)
     assert path.read_bytes() == first
     assert list(tmp_path.iterdir()) == [path]
 
@@ -186,7 +197,7 @@ def test_picture_by_the_command(ballscrew, example, tmp_path):
 @pytest.fixture
 def figure(found, case):
     with style.house_style():
-        drawn = work.picture(case, found)
+        drawn = figures.picture(case, found)
         FigureCanvasAgg(drawn)
         drawn.draw_without_rendering()
     return drawn
@@ -199,8 +210,8 @@ def test_picture_has_axes_units_and_case(figure, found):
     expected = "share of the variance" if result.method == "sobol" else "change by one deviation of the input (N m)"
     assert panel.get_xlabel() == expected
     labels = [tick.get_text().split("\n") for tick in panel.get_yticklabels()]
-    assert [words for words, _ in labels] == [found.words(name) for name in result.inputs]
-    assert [words.removesuffix(" *") for _, words in labels] == [found.uncertain[n].words for n in result.inputs]
+    assert [words for words, _ in labels] == [found.describe(name) for name in result.inputs]
+    assert [words.removesuffix(" *") for _, words in labels] == [found.uncertain[n].description for n in result.inputs]
     assert len(figure.axes) == (1 if result.method == "morris" else 2)
     caption = " ".join(figure.texts[0].get_text().split())
     assert "56 balls" in caption
@@ -213,9 +224,9 @@ def test_bars_are_the_numbers(figure, found):
     measures = {"sobol": ("first_order", "total"), "morris": ("effect", "effect_deviation"), "local": ("effect",)}
     expected = [result.measures[m][name].value for m in measures[result.method] for name in result.inputs]
     assert widths == pytest.approx(expected)
-    if result.knowing:
+    if result.explained_variance:
         left = [bar.get_width() for bar in figure.axes[1].patches]
-        assert left == pytest.approx([100, *(100 * known.left for known in result.knowing)])
+        assert left == pytest.approx([100, *(100 * known.remaining for known in result.explained_variance)])
 
 
 def test_nothing_is_clipped(figure):
@@ -269,7 +280,7 @@ def test_bad_input(options, line, ballscrew, example, tmp_path):
 )
 def test_faults_name_the_option(asked, line, case):
     with pytest.raises(InputError) as caught:
-        work.found(case, work.Asked(**asked))
+        studies.sensitivity(case, studies.Options(**asked))
     assert caught.value.lines() == [line]
 
 
@@ -288,4 +299,4 @@ def test_a_nut_has_no_derivatives_but_samples(ballscrew):
 
 def test_no_number_says_so(case):
     assert math.isnan(of_method(case, "morris", samples=4).result.deviation)
-    assert "standard deviation 0" not in work.band(of_method(case, "morris", samples=4).result)
+    assert "standard deviation 0" not in text_of.mean_and_deviation(of_method(case, "morris", samples=4).result)

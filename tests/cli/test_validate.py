@@ -8,15 +8,18 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
-from ballscrew.analyses.validation_sets import SETS
-from ballscrew.calibrations import calibration
-from ballscrew.faults import InputError
-from ballscrew.interfaces import config, validation
-from ballscrew.interfaces.documents import plain
-from ballscrew.interfaces.figures import style
-from ballscrew.interfaces.figures import validation as figures
-from ballscrew.interfaces.wrapping import WIDTH
-from ballscrew.model import FrictionModel
+from ballscrew.cases import case_file
+from ballscrew.errors import InputError
+from ballscrew.figures import style
+from ballscrew.figures import validation as figures
+from ballscrew.friction.calibrations import calibration
+from ballscrew.friction.model import FrictionModel
+from ballscrew.output.documents import validation as validation_documents
+from ballscrew.output.json_text import plain
+from ballscrew.output.text import validation as validation_text
+from ballscrew.output.wrapping import WIDTH
+from ballscrew.studies import validation
+from ballscrew.validation.sets import SETS
 
 HEADINGS = (
     "nominal_diameter_mm,lead_mm,ball_diameter_mm,circuits,dynamic_load_rating_N,static_load_rating_N,"
@@ -59,7 +62,7 @@ def own(tmp_path):
 @pytest.fixture(scope="module")
 def every():
     asked = validation.request()
-    return plain(validation.documents([e for entries, _ in validation.evaluate(asked) for e in entries]))
+    return plain(validation_documents.documents([e for entries, _ in validation.evaluate(asked) for e in entries]))
 
 
 def test_a_list_uncalibrated_first_calibrated_last(every):
@@ -242,7 +245,9 @@ def test_picture_shows_axes_case_and_all_ratios():
     found = [entries for entries, _ in validation.evaluate(asked)]
     with style.house_style():
         figure = figures.ratios(
-            found, validation.caption(found, asked), [validation.in_brief(data, asked) for data in asked.sets]
+            found,
+            validation_text.caption(found, asked),
+            [validation_text.source_and_fit(data, asked) for data in asked.sets],
         )
         canvas = FigureCanvasAgg(figure)
         figure.draw_without_rendering()
@@ -258,7 +263,7 @@ def test_picture_shows_axes_case_and_all_ratios():
         for panel, entries in zip(figure.axes, drawn, strict=True):
             data, legend = entries[0].data, panel.get_legend()
             assert panel.get_ylabel() == "model / stated"
-            assert panel.get_title(loc="left").replace("\n", " ") == data.words.partition(",")[0]
+            assert panel.get_title(loc="left").replace("\n", " ") == data.title
             fitted = "fitted: rexroth-2006" if data.name in FITTED else "not fitted"
             assert legend.get_title().get_text() == f"{data.source}; {fitted}"
             assert not legend.get_window_extent().overlaps(panel.get_window_extent())
@@ -287,7 +292,7 @@ def test_own_rows_are_not_the_vendors(ballscrew, own):
     assert process.stdout.splitlines()[2].startswith("  rows of own.csv; 100 rpm")
     assert "Rexroth R310" not in process.stdout
     asked = validation.request(["rexroth-single-nut"], rows=Path("own.csv"))
-    assert validation.in_brief(asked.sets[0], asked) == "rows of own.csv; not fitted"
+    assert validation_text.source_and_fit(asked.sets[0], asked) == "rows of own.csv; not fitted"
 
 
 def test_no_line_is_wider_than_the_widest(ballscrew):
@@ -329,7 +334,7 @@ CASE = {
 
 
 def test_a_case_with_a_calibration():
-    model = config.build({**CASE, "model": {"calibration": "rexroth-2006"}}).model
+    model = case_file.build({**CASE, "model": {"calibration": "rexroth-2006"}}).model
     stored = calibration("rexroth-2006")
     assert model.friction.boundary_friction_coefficient == stored.boundary_friction_coefficient
     assert model.ball_force.share_of_load == stored.share_of_load
@@ -351,4 +356,4 @@ def test_a_case_with_a_calibration():
 )
 def test_a_case_that_contradicts_its_calibration(table, expected):
     with pytest.raises(InputError, match=expected):
-        config.build({**CASE, "model": table})
+        case_file.build({**CASE, "model": table})

@@ -1,11 +1,11 @@
-"""Every command of the README and the documentation, typed as it stands there, in a copy of what people have.
+"""Every command of the README and the documentation, as it stands there, in a copy of what people have.
 
 The commands of a page run one after the other, so that a later one finds what an earlier one wrote.
 """
 
-import importlib.util
 import os
 import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 
-from .pages import DOCS, ROOT, blocks, commands, name, pages
+from .pages import ROOT, blocks, commands, name, pages
 
 #: Run by ``.ci/run`` itself, which is what keeps them true.
 RUN_BY_CI = ("make demo", "make test")
@@ -26,7 +26,7 @@ EXCEPTIONS = {
     '.venv/bin/pip install ".[fast]"': "a test must not change what is installed, nor need a network",
     ".venv/bin/python benchmarks/reference.py": "it takes minutes; the page has the tables of the same script",
     ".venv/bin/ballscrew sweep examples/feed_drive.toml --to /shared/map.zarr --scheduler tcp://head:8786": (
-        "it needs a scheduler and a disk that machines share; tests/analyses/test_cluster.py has its own"
+        "it needs a scheduler and a disk that machines share; tests/sweeps/test_cluster.py has its own"
     ),
 }
 
@@ -61,6 +61,18 @@ def place(tmp_path):
 def environment():
     here = str(Path(sys.executable).parent)
     return {**os.environ, "PATH": f"{here}{os.pathsep}{os.environ['PATH']}", "COLUMNS": "110", "NO_COLOR": "1"}
+
+
+#: What only a shell understands.
+SHELL = re.compile(r"[|&;<>$`*?~\n]")
+PROGRAM = re.compile(r"^(?:\.venv/bin/)?ballscrew ")
+
+
+def run(command, place, commands):
+    """Run a command: in a process that has its libraries at once if that says the same, else in a shell."""
+    if PROGRAM.match(command) and not SHELL.search(command):
+        return commands.run(shlex.split(command)[1:], folder=place, environment=environment())
+    return typed(command, place)
 
 
 def typed(command, place):
@@ -105,49 +117,38 @@ def _page_of(server, log):
 DONE = {}
 
 
-@pytest.fixture(scope="module")
-def directive():
-    """The directive that runs commands while the pages are built, as a module."""
-    spec = importlib.util.spec_from_file_location("command_directive", DOCS / "_ext" / "command.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-def done_while_built(page, directive):
-    """Whether all commands of a page are such as the build of the pages runs, and it did so with this very program."""
-    found = blocks(page)
-    if any(block.info == "console" for block in found):
-        return False
-    causes = directive.causes([command for _, command in EVERY[page]])
-    return all((directive.KEPT / f"{cause}.txt").is_file() for cause in causes)
-
-
-def done_once(command, place):
+def done_once(command, place, commands):
     """What a command does, which is not done again if it leaves nothing behind and stood on another page."""
     if WRITES.search(command):
-        return typed(command, place)
+        return run(command, place, commands)
     if command not in DONE:
-        DONE[command] = typed(command, place)
+        DONE[command] = run(command, place, commands)
     return DONE[command]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name)
-def test_the_commands_of_a_page_do_what_it_says(page, place, directive):
-    if done_while_built(page, directive):
-        return  # a command that fails there is an error of the build
+def test_the_commands_of_a_page_do_what_it_says(page, place, commands):
     for line, command in EVERY[page]:
         if left_out(command):
             continue
         if SERVES.match(command):
             served(command, place)
             continue
-        done = done_once(command, place)
+        done = done_once(command, place, commands)
         expected = EXIT_CODES.get(command, 0)
         assert done.returncode == expected, (
             f"{name(page)}:{line}: {command}\nends with {done.returncode}\n{done.stderr}"
         )
         assert "Traceback" not in done.stderr, done.stderr
+
+
+def test_a_command_does_the_same_when_it_is_typed(place, commands):
+    """The other tests of commands do without a shell, and without the script that the installation made."""
+    command = '.venv/bin/ballscrew run examples/feed_drive.toml --set operation.axial_load="2 kN"'
+    assert command in {typed for _, typed in EVERY[ROOT / "README.md"]}
+    asked, expected = run(command, place, commands), typed(command, place)
+    assert expected.returncode == 0, expected.stderr
+    assert (asked.returncode, asked.stdout) == (0, expected.stdout)
 
 
 def test_ci_runs_what_is_left_to_it():

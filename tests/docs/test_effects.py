@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ballscrew.analyses import effect_curves as curves
-from ballscrew.analyses.effects import CASES, CATALOGUE, PAPER, RPM, doubts, effects, steps
-from ballscrew.interfaces import config
-from ballscrew.model import FrictionModel
-from ballscrew.solvers.contact_integral import contact_integral
-from ballscrew.solvers.free_ball import BallResistances
-from ballscrew.solvers.tractions import Coulomb
+from ballscrew.cases import case_file
+from ballscrew.friction.model import FrictionModel
+from effect_study import curves
+from effect_study.cases import CASES, CATALOGUE, PAPER, RPM, effects, sensitivities, steps
+from oracles.contact_integral import contact_integral
+from oracles.free_ball import BallResistances
+from oracles.tractions import Coulomb
 
 BY_NAME = pytest.mark.parametrize("case", CASES.values(), ids=CASES)
 
@@ -98,15 +98,15 @@ def test_spin_and_helix_matter_more_with_open_grooves_and_a_steep_lead():
 
 
 @BY_NAME
-def test_doubts_are_sorted_and_bracket_the_reference(case):
-    found = doubts(case)
+def test_sensitivities_are_sorted_and_bracket_the_reference(case):
+    found = sensitivities(case)
     reference = float(case.result(FrictionModel.reference()).screw_torque)
-    widths = [doubt.highest - doubt.lowest for doubt in found]
+    widths = [one.highest - one.lowest for one in found]
     assert widths == sorted(widths, reverse=True)
-    for doubt in found:
-        assert doubt.reference == reference
-        assert doubt.lowest <= 0 <= doubt.highest
-        assert doubt.highest - doubt.lowest > 0.01
+    for one in found:
+        assert one.reference == reference
+        assert one.lowest <= 0 <= one.highest
+        assert one.highest - one.lowest > 0.01
 
 
 def test_the_catalogue_screw_is_what_it_is_said_to_be():
@@ -124,7 +124,7 @@ def test_the_catalogue_screw_is_what_it_is_said_to_be():
 
 
 def test_the_catalogue_screw_is_the_example_file():
-    example = config.load(Path(__file__).parents[2] / "examples" / "feed_drive.toml")
+    example = case_file.load(Path(__file__).parents[2] / "examples" / "feed_drive.toml")
     assert example.model.label == "reference"
     mine = CATALOGUE.result(FrictionModel.reference())
     theirs = example.model(example.screw, example.lubricant, **vars(example.operation))

@@ -10,9 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
-from ballscrew.interfaces.figures import effect_laws, effects, style
+from ballscrew.figures import style
+from effect_study import effect_figures, law_figures
 
-PLOTS = {plot.name: plot for plot in (*effects.PLOTS, *effect_laws.PLOTS)}
+PLOTS = {plot.name: plot for plot in (*effect_figures.PLOTS, *law_figures.PLOTS)}
 ROOT = Path(__file__).parents[2]
 
 
@@ -25,7 +26,7 @@ def plot(request):
 def figure(plot):
     """Laid out as for a PNG."""
     with style.house_style():
-        drawn = plot.draw(effects.drawn_cases())
+        drawn = plot.draw(effect_figures.drawn_cases())
         FigureCanvasAgg(drawn)
         drawn.draw_without_rendering()
     return drawn
@@ -54,7 +55,7 @@ def test_caption_leaves_out_what_varies():
         ("effects_light_load", "F =", "n ="),
     ):
         with style.house_style():
-            caption = PLOTS[name].draw(effects.drawn_cases()).texts[-1].get_text()
+            caption = PLOTS[name].draw(effect_figures.drawn_cases()).texts[-1].get_text()
         assert varied not in caption.replace("\N{NO-BREAK SPACE}", " ")
         assert stated in caption.replace("\N{NO-BREAK SPACE}", " ")
 
@@ -82,7 +83,7 @@ def test_nothing_is_clipped(figure):
 
 
 def test_table_holds_the_numbers(plot):
-    table = plot.table(effects.drawn_cases())
+    table = plot.table(effect_figures.drawn_cases())
     assert len({len(column) for column in table.values()}) == 1
     for heading, column in table.items():
         values = [value for value in column if value != ""]
@@ -93,23 +94,23 @@ def test_table_holds_the_numbers(plot):
 
 def test_the_bars_end_at_the_torque():
     with style.house_style():
-        figure = PLOTS["effects_steps"].draw(effects.drawn_cases())
-    table = PLOTS["effects_steps"].table(effects.drawn_cases())
-    for panel, case in zip(figure.axes, effects.drawn_cases().values(), strict=True):
+        figure = PLOTS["effects_steps"].draw(effect_figures.drawn_cases())
+    table = PLOTS["effects_steps"].table(effect_figures.drawn_cases())
+    for panel, case in zip(figure.axes, effect_figures.drawn_cases().values(), strict=True):
         ends = [bar.get_x() + bar.get_width() for bar in panel.containers[-1]]
         assert ends == pytest.approx(table[f"friction torque, {case.title} (N m)"])
 
 
 def test_skid_is_shaded():
     with style.house_style():
-        figure = PLOTS["effects_light_load"].draw(effects.drawn_cases())
+        figure = PLOTS["effects_light_load"].draw(effect_figures.drawn_cases())
     for panel in figure.axes:
         assert "the ball skids" in panel.get_legend_handles_labels()[1]
 
 
 def test_the_slip_fields_fill_their_ellipses():
     with style.house_style():
-        figure = PLOTS["effects_slip_fields"].draw(effects.drawn_cases())
+        figure = PLOTS["effects_slip_fields"].draw(effect_figures.drawn_cases())
     panels = [panel for panel in figure.axes if panel.images]
     assert len(panels) == 4
     for panel in panels:
@@ -121,7 +122,7 @@ def test_the_slip_fields_fill_their_ellipses():
 def test_two_runs_give_the_same_bytes(tmp_path):
     for name in ("one", "two"):
         with style.house_style():
-            style.save(PLOTS["effects_slip_fields"].draw(effects.drawn_cases()), tmp_path, name)
+            style.save(PLOTS["effects_slip_fields"].draw(effect_figures.drawn_cases()), tmp_path, name)
     for kind in ("svg", "png"):
         assert (tmp_path / f"one.{kind}").read_bytes() == (tmp_path / f"two.{kind}").read_bytes()
 
@@ -135,8 +136,13 @@ def page():
     return module
 
 
-def test_all_the_page_shows_is_written(page, tmp_path):
+def test_all_the_page_shows_is_written(page, tmp_path, monkeypatch):
+    """By their names: how each is drawn and saved is what the other tests are about."""
+    saved = []
+    monkeypatch.setattr(page.style, "save", lambda figure, folder, name: saved.append(folder / f"{name}.svg"))
     page.write(tmp_path)
+    for path in saved:
+        path.touch()
     text = (ROOT / "docs" / "effects.md").read_text(encoding="utf-8")
     shown = set(re.findall(r"generated/effects/([\w.]+)", text))
     assert {f"{name}.svg" for name in PLOTS} <= shown

@@ -6,22 +6,23 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ballscrew.analyses import nut_curves as curves
-from ballscrew.interfaces.figures import nut, style
-from ballscrew.model import FrictionModel
+from ballscrew.figures import style
+from ballscrew.friction.model import FrictionModel
+from effect_study import nut_curves as curves
+from effect_study import nut_figures
 
 ROOT = Path(__file__).parents[2]
 
 
 def test_the_page_shows_all():
     text = (ROOT / "docs" / "nuts.md").read_text(encoding="utf-8")
-    assert set(re.findall(r"generated/nuts/(\w+)\.svg", text)) == set(nut.DRAWN)
+    assert set(re.findall(r"generated/nuts/(\w+)\.svg", text)) == set(nut_figures.DRAWN)
 
 
-@pytest.mark.parametrize("name", nut.DRAWN)
+@pytest.mark.parametrize("name", nut_figures.DRAWN)
 def test_axes_have_words_and_units(name):
     with style.house_style():
-        figure = nut.DRAWN[name]()
+        figure = nut_figures.DRAWN[name]()
     for panel in figure.axes:
         assert panel.get_xlabel()
         assert panel.get_ylabel()
@@ -32,7 +33,7 @@ def test_axes_have_words_and_units(name):
 def test_two_runs_give_the_same_bytes(tmp_path):
     for name in ("one", "two"):
         with style.house_style():
-            style.save(nut.distribution(), tmp_path, name)
+            style.save(nut_figures.distribution(), tmp_path, name)
     assert (tmp_path / "one.svg").read_bytes() == (tmp_path / "two.svg").read_bytes()
 
 

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ballscrew.equations import film
+from ballscrew.equations import film, hertz
 
 from .numbers import BALL_ROUGHNESS, RACE_ROUGHNESS, ROLLING_RADIUS
 
@@ -37,6 +37,31 @@ def test_central_film_of_hamrock_and_dowson(U, G, W, kappa, H):
     assert film.central_film_thickness(1.0, U, G, W, kappa) == pytest.approx(H, rel=1e-6)
     assert film.central_film_thickness(1.5e-3, U, G, W, kappa) == pytest.approx(1.5e-3 * H, rel=1e-6)
     assert film.central_film_thickness(1.5e-3, 0.0, G, W, kappa) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("U", "G", "W", "k", "H"),
+    # Chittenden1985 worked out by logarithms: U^0.68 = 10^-7.48 or 10^-6.8, W^-0.073 = 10^0.438 or 10^0.292; k^(2/3)
+    # is 1, 4 and 9 for a k of 1, 8 and 27
+    [
+        (1e-11, 4500, 1e-6, 1, 3.68 * 10**-7.042 * 4500**0.49 * (1 - math.exp(-0.67))),
+        (1e-11, 4500, 1e-6, 8, 3.68 * 10**-7.042 * 4500**0.49 * (1 - math.exp(-2.68))),
+        (1e-10, 5000, 1e-4, 27, 3.68 * 10**-6.508 * 5000**0.49 * (1 - math.exp(-6.03))),
+    ],
+)
+def test_minimum_film_of_chittenden(U, G, W, k, H):
+    assert film.minimum_film_thickness_chittenden(1.0, U, G, W, k) == pytest.approx(H, rel=1e-12)
+    assert film.minimum_film_thickness_chittenden(1.5e-3, U, G, W, k) == pytest.approx(1.5e-3 * H, rel=1e-12)
+    assert film.minimum_film_thickness_chittenden(1.5e-3, 0.0, G, W, k) == 0.0
+
+
+@pytest.mark.parametrize("k", [1.0, 2.0, 5.0, 10.0, 36.0, 100.0])
+def test_both_minimum_films_are_close_where_the_ball_rolls_along_the_minor_axis(k):
+    """Chittenden1985 extends HamrockDowson1977: the other direction of k gives a quarter of the film at k = 5."""
+    U, G, W = 1e-11, 4500, 1e-6
+    of_radii = film.minimum_film_thickness_chittenden(1.0, U, G, W, k)
+    of_ellipse = film.minimum_film_thickness(1.0, U, G, W, hertz.ellipticity(k), 0.68)
+    assert of_radii == pytest.approx(of_ellipse, rel=0.02)
 
 
 def test_slide_to_roll_ratio_counts_in_mean_speeds():

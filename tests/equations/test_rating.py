@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from ballscrew.analyses.checks import RATING_CONFORMITY, ratings_of
 from ballscrew.components.catalogue import CatalogueRow
 from ballscrew.equations import geometry, life, rating
+from ballscrew.sizing.checks import RATING_CONFORMITY, ratings_of
 
 RELATIVE = 1e-13
 KGF = 9.80665

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from ballscrew.equations import friction, slip
-from ballscrew.solvers.contact_patch import ContactPatch, Ellipse
-from ballscrew.solvers.tractions import Coulomb
+from oracles.contact_patch import ContactPatch, Ellipse
+from oracles.tractions import Coulomb
 
 RELATIVE = 1e-13
 

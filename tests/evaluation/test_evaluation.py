@@ -12,12 +12,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import ballscrew as bs
-from ballscrew.analyses.evaluation import Evaluation, rectangles
-from ballscrew.analyses.olaru2005 import OIL, SCREW
-from ballscrew.analyses.outputs import known_outputs
-from ballscrew.analyses.plan import Plan, Subject
 from ballscrew.components import laws
-from ballscrew.engine import kernel as kernels
+from ballscrew.evaluation.evaluation import Evaluation, rectangles
+from ballscrew.evaluation.outputs import known_outputs
+from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.kernels import kernel as kernels
+from ballscrew.papers.olaru2005 import OIL, SCREW
 
 MODELS = {
     "olaru2005": bs.FrictionModel.olaru2005(),
@@ -56,14 +56,6 @@ DIFFERENCES = {
 SETTLED = ("creep_speed", "pure_rolling_offset", "lateral_slip_speed")
 
 
-@pytest.fixture(autouse=True, scope="module")
-def own_cache(tmp_path_factory):
-    """Kernels of these tests are kept where only they see them."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("BALLSCREW_CACHE", str(tmp_path_factory.mktemp("kernels")))
-        yield
-
-
 def random_points(count, seed=0):
     rng = np.random.default_rng(seed)
     values = {name: rng.uniform(low, high, count) for name, (low, high) in RANGES.items()}
@@ -83,7 +75,7 @@ def filled(plan, engine, **how):
 @pytest.mark.parametrize("name", MODELS)
 def test_kernels_are_the_model_on_plain_arrays(name):
     """A hundred thousand random points, no load and rest among them, all outputs."""
-    subject = Subject(MODELS[name], SCREW, OIL)
+    subject = Configuration(MODELS[name], SCREW, OIL)
     plan = Plan.of(subject, list(known_outputs()), random_points(100_000))
     found = filled(plan, "compiled")
     result = subject.at(plan.points(slice(0, plan.total)))
@@ -112,7 +104,7 @@ def test_kernels_are_the_model_on_plain_arrays(name):
 @pytest.mark.parametrize("name", ["olaru2005", "reference"])
 @pytest.mark.parametrize("how", [{"block_size": 7}, {"block_size": 37}, {"block_size": 1000, "threads": 3}])
 def test_any_blocks_and_threads_give_the_same_bits(name, how, engine):
-    plan = Plan.of(Subject(MODELS[name], SCREW, OIL), None, random_points(1003))
+    plan = Plan.of(Configuration(MODELS[name], SCREW, OIL), None, random_points(1003))
     whole = filled(plan, engine, threads=1)
     for output, values in filled(plan, engine, **how).items():
         assert np.array_equal(values, whole[output], equal_nan=True), output
@@ -128,7 +120,7 @@ def grid(*sizes):
 @pytest.mark.parametrize("name", MODELS)
 def test_grids_are_the_points_they_are_made_of(name):
     """No load and rest are among the values of the axes."""
-    plan = Plan.of(Subject(MODELS[name], SCREW, OIL), None, grid(11, 13, 19))
+    plan = Plan.of(Configuration(MODELS[name], SCREW, OIL), None, grid(11, 13, 19))
     cut = Evaluation.of(plan, "compiled")
     assert cut._row_length == 13 * 19
     found, expected = filled(plan, "compiled"), filled(plan, "numpy")
@@ -147,7 +139,7 @@ def test_grids_are_the_points_they_are_made_of(name):
 @pytest.mark.compiles
 @pytest.mark.parametrize("how", [{"block_size": 1}, {"block_size": 100}, {"block_size": 5000, "threads": 2}])
 def test_any_blocks_of_a_grid_give_the_same_bits(how):
-    plan = Plan.of(Subject(MODELS["olaru2005"], SCREW, OIL), None, grid(7, 11, 30))
+    plan = Plan.of(Configuration(MODELS["olaru2005"], SCREW, OIL), None, grid(7, 11, 30))
     whole = filled(plan, "compiled", threads=1)
     for output, values in filled(plan, "compiled", **how).items():
         assert np.array_equal(values, whole[output], equal_nan=True), output
@@ -155,7 +147,7 @@ def test_any_blocks_of_a_grid_give_the_same_bits(how):
 
 @pytest.mark.compiles
 def test_parts_are_what_the_whole_has_there():
-    plan = Plan.of(Subject(MODELS["corrected"], SCREW, OIL), None, grid(7, 11, 30))
+    plan = Plan.of(Configuration(MODELS["corrected"], SCREW, OIL), None, grid(7, 11, 30))
     evaluation, whole = Evaluation.of(plan, "compiled"), filled(plan, "compiled")
     for start, stop in ((0, 1), (5, 340), (329, 331), (660, 2310), (2309, 2310)):
         results = evaluation.empty(stop - start)
@@ -181,7 +173,7 @@ def test_rectangles_cover_a_part_once(start, size, row_length):
 @pytest.mark.parametrize("engine", ["numpy", "compiled"])
 def test_no_load_and_rest_as_numbers(name, engine):
     """A load of zero that is the same at all points folds into the constants."""
-    subject = Subject(MODELS[name], SCREW, OIL)
+    subject = Configuration(MODELS[name], SCREW, OIL)
     for axes in (
         {"axial_load": 0.0, "screw_speed": [0.0, 0.1, 60.0]},
         {"axial_load": [0.0, 100.0], "screw_speed": 0.0},
@@ -198,7 +190,9 @@ def test_no_load_and_rest_as_numbers(name, engine):
 def test_a_tall_grid_has_no_tables():
     """Tables of many rows would need more memory than the blocks they serve."""
     axes = {"axial_load": np.linspace(1, 4000, 1_000_000), "screw_speed": np.linspace(1, 100, 20)}
-    assert Evaluation.of(Plan.of(Subject(MODELS["reference"], SCREW, OIL), None, axes), "compiled")._row_length == 1
+    assert (
+        Evaluation.of(Plan.of(Configuration(MODELS["reference"], SCREW, OIL), None, axes), "compiled")._row_length == 1
+    )
 
 
 @pytest.mark.compiles
@@ -206,20 +200,20 @@ def test_a_law_of_the_same_name_has_another_fingerprint():
     """On a grid, what is different may be in a table only; and a law may not be recorded at all."""
 
     def resistance(share):
-        def snare_resistance(*args):
-            return share * laws.snare_resistance(*args)
+        def snare_resistance(conditions):
+            return share * laws.snare_resistance(conditions)
 
         return snare_resistance
 
     def blind(share):
-        def printed(*args):
-            return np.vectorize(lambda load: share * load)(args[0])
+        def printed(conditions):
+            return np.vectorize(lambda film: share * film)(conditions.film_parameter)
 
         return printed
 
     def fingerprint(**changed):
         model = dataclasses.replace(MODELS["olaru2005"], **changed)
-        return Evaluation.of(Plan.of(Subject(model, SCREW, OIL), None, grid(20, 20, 30))).fingerprint
+        return Evaluation.of(Plan.of(Configuration(model, SCREW, OIL), None, grid(20, 20, 30))).fingerprint
 
     assert fingerprint(elastic_resistance=resistance(1)) != fingerprint(elastic_resistance=resistance(3))
     assert fingerprint(friction=blind(0.1)) != fingerprint(friction=blind(0.2))
@@ -227,7 +221,7 @@ def test_a_law_of_the_same_name_has_another_fingerprint():
 
 @pytest.mark.compiles
 def test_the_number_of_balls_can_be_varied():
-    plan = Plan.of(Subject(MODELS["reference"], SCREW, OIL), None, {**grid(5, 7, 9), "loaded_balls": [50, 56]})
+    plan = Plan.of(Configuration(MODELS["reference"], SCREW, OIL), None, {**grid(5, 7, 9), "loaded_balls": [50, 56]})
     found, expected = filled(plan, "compiled"), filled(plan, "numpy")
     assert np.array_equal(found["valid"], expected["valid"])
     assert np.allclose(found["screw_torque"], expected["screw_torque"], rtol=1e-12, equal_nan=True)
@@ -247,13 +241,13 @@ def test_labels_that_disagree_are_refused():
 
 
 def test_small_work_is_left_to_numpy():
-    plan = Plan.of(Subject(MODELS["reference"], SCREW, OIL), None, grid(5, 5, 5))
+    plan = Plan.of(Configuration(MODELS["reference"], SCREW, OIL), None, grid(5, 5, 5))
     assert Evaluation.of(plan).engine == "numpy"
 
 
 @pytest.mark.compiles
 def test_large_work_is_compiled_and_what_is_compiled_is_used():
-    subject = Subject(dataclasses.replace(MODELS["reference"], ball_friction_coefficient=0.0987), SCREW, OIL)
+    subject = Configuration(dataclasses.replace(MODELS["reference"], ball_friction_coefficient=0.0987), SCREW, OIL)
     assert Evaluation.of(Plan.of(subject, None, random_points(3_000_000))).engine == "compiled"
     middling = Plan.of(subject, None, random_points(100_000))
     assert Evaluation.of(middling).engine == "compiled"  # as it is compiled by now, for other points
@@ -263,7 +257,7 @@ def test_large_work_is_compiled_and_what_is_compiled_is_used():
 
 def test_without_a_compiler(monkeypatch):
     monkeypatch.setattr(kernels, "available", lambda: False)
-    plan = Plan.of(Subject(MODELS["olaru2005"], SCREW, OIL), None, grid(3, 3, 3))
+    plan = Plan.of(Configuration(MODELS["olaru2005"], SCREW, OIL), None, grid(3, 3, 3))
     assert Evaluation.of(plan).engine == "numpy"
     with pytest.raises(bs.InputError, match=r'sweep.engine: .* · pip install "ballscrew\[fast\]"'):
         Evaluation.of(plan, "compiled")
@@ -295,12 +289,12 @@ def test_the_model_itself_fills_no_store(tmp_path):
 def test_a_law_that_kernels_do_not_know():
     """It is evaluated by NumPy, unless a kernel is asked for."""
 
-    def odd_film(*args):
-        return 1e-7 * np.cosh(1e-9 * sum(args))
+    def odd_film(conditions):
+        return 1e-7 * np.cosh(1e-9 * (conditions.speed_parameter + conditions.load_parameter))
 
     model = dataclasses.replace(MODELS["corrected"], film=odd_film)
     axes = grid(3, 3, 3)
-    assert Evaluation.of(Plan.of(Subject(model, SCREW, OIL), None, axes)).engine == "numpy"
+    assert Evaluation.of(Plan.of(Configuration(model, SCREW, OIL), None, axes)).engine == "numpy"
     with pytest.raises(bs.InputError, match=r"sweep\.engine: "):
         bs.sweep(model, SCREW, OIL, engine="compiled", **axes)
 
@@ -309,7 +303,7 @@ def test_a_single_run_loads_no_compiler():
     """Nor anything else that takes long to load."""
     program = (
         "import sys\n"
-        "from ballscrew.interfaces.cli import main\n"
+        "from ballscrew.cli.main import main\n"
         f"sys.argv = ['ballscrew', 'run', {str(EXAMPLE)!r}]\n"
         "try:\n    main()\nexcept SystemExit as end:\n    assert not end.code\n"
         "heavy = {'llvmlite', 'numba', 'jax', 'dask', 'distributed', 'pandas', 'matplotlib', 'zarr', 'scipy'}\n"

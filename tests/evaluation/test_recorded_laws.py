@@ -6,19 +6,20 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.analyses.outputs import known_outputs
+from ballscrew.components.traits import law_traits
+from ballscrew.evaluation.outputs import known_outputs
 
 LAWS = {
-    "the root of a square": lambda lam, conditions, full_film: 0.1 * np.sqrt((lam - 1) ** 2),
-    "the fourth root of a fourth power": lambda lam, conditions, full_film: ((lam - 1) ** 4) ** 0.25,
-    "the square of a root": lambda lam, conditions, full_film: 0.02 + 0.1 * np.sqrt(lam) ** 2,
-    "either or": lambda lam, conditions, full_film: np.where(np.logical_xor(lam > 0.5, lam > 0.8), 0.1, 0.2),
-    "not of a choice": lambda lam, conditions, full_film: np.where(~np.where(lam > 0.5, lam > 0.8, False), 0.1, 0.2),
-    "a ufunc for whole numbers": lambda lam, conditions, full_film: np.ldexp(lam, 2),
-    "a method of arrays": lambda lam, conditions, full_film: lam.clip(0.02, 0.2),
-    "a table": lambda lam, conditions, full_film: np.interp(lam, [0.0, 3.0], [0.2, 0.02]),
-    "a high power": lambda lam, conditions, full_film: 0.2 / (1 + (lam - 1) ** 12),
-    "a negative power": lambda lam, conditions, full_film: 0.01 * lam**-2.0,
+    "the root of a square": lambda c: 0.1 * np.sqrt((c.film_parameter - 1) ** 2),
+    "the fourth root of a fourth power": lambda c: ((c.film_parameter - 1) ** 4) ** 0.25,
+    "the square of a root": lambda c: 0.02 + 0.1 * np.sqrt(c.film_parameter) ** 2,
+    "either or": lambda c: np.where(np.logical_xor(c.film_parameter > 0.5, c.film_parameter > 0.8), 0.1, 0.2),
+    "not of a choice": lambda c: np.where(~np.where(c.film_parameter > 0.5, c.film_parameter > 0.8, False), 0.1, 0.2),
+    "a ufunc for whole numbers": lambda c: np.ldexp(c.film_parameter, 2),
+    "a method of arrays": lambda c: c.film_parameter.clip(0.02, 0.2),
+    "a table": lambda c: np.interp(c.film_parameter, [0.0, 3.0], [0.2, 0.02]),
+    "a high power": lambda c: 0.2 / (1 + (c.film_parameter - 1) ** 12),
+    "a negative power": lambda c: 0.01 * c.film_parameter**-2.0,
 }
 
 
@@ -35,7 +36,7 @@ def test_the_same_as_plain_arrays(name, model, seed_screw, seed_oil):
 
 
 def test_a_law_that_fails_says_so_itself(model, seed_screw, seed_oil):
-    def broken(film_parameter, conditions, full_film):
+    def broken(conditions):
         raise RuntimeError("no such film")
 
     with pytest.raises(RuntimeError, match="no such film"):
@@ -58,3 +59,39 @@ def test_the_dataset_names_its_laws(model, seed_screw, seed_oil):
     assert ds.attrs["title"].endswith(f"model {model.name}, changed: ball_friction_coefficient")
     assert ds.attrs["model_hertz"] == model.hertz.__name__
     assert ds.attrs["screw_ball_material_young_modulus"] == seed_screw.ball_material.young_modulus
+
+
+def swept(model, seed_screw, seed_oil, **options):
+    return bs.sweep(model, seed_screw, seed_oil, axial_load=[1.0, 2.0], screw_speed=[1.0, 2.0], **options).attrs
+
+
+def test_the_dataset_says_what_evaluated_it_and_why(model, seed_screw, seed_oil):
+    assert swept(model, seed_screw, seed_oil)["engine"] == "numpy"
+    assert swept(model, seed_screw, seed_oil, engine="numpy")["engine_reason"] == "it was asked for"
+    by_table = swept(dataclasses.replace(model, friction=LAWS["a table"]), seed_screw, seed_oil)
+    assert (
+        "plain arrays: numpy.interp cannot be recorded; raised by the law model.friction" in by_table["engine_reason"]
+    )
+
+
+def test_a_law_may_declare_that_it_wants_plain_arrays(model, seed_screw, seed_oil):
+    @law_traits(recordable=False)
+    def of_a_library(conditions):
+        assert isinstance(conditions.film_parameter, np.ndarray | np.floating)
+        return 0.1 + 0 * conditions.film_parameter
+
+    changed = dataclasses.replace(model, friction=of_a_library)
+    assert "model.friction declares" in swept(changed, seed_screw, seed_oil)["engine_reason"]
+
+
+def test_only_what_cannot_be_recorded_falls_back(model, seed_screw, seed_oil):
+    """What a law raises on a recording for a reason of its own is not silenced."""
+
+    def broken_on_recordings(conditions):
+        if not isinstance(conditions.film_parameter, np.ndarray | np.floating):
+            raise KeyError("mine")
+        return 0.1 + 0 * conditions.film_parameter
+
+    with pytest.raises(KeyError, match="mine") as caught:
+        swept(dataclasses.replace(model, friction=broken_on_recordings), seed_screw, seed_oil)
+    assert caught.value.__notes__[0].startswith("raised by the law model.friction")

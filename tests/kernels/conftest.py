@@ -1,11 +1,6 @@
 """Kernels for tests: compiled in a folder of their own, never in the user's."""
 
-import sys
-from pathlib import Path
-
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parent))
 
 
 @pytest.fixture(autouse=True)

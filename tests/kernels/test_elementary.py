@@ -3,9 +3,9 @@
 import mpmath
 import numpy as np
 import pytest
-from kernels import recorded, run
 
-from ballscrew.engine import elementary
+from ballscrew.kernels import elementary
+from support.small_kernels import recorded, run
 
 pytestmark = pytest.mark.compiles
 EPSILON = 2.0**-52

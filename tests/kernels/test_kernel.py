@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kernels import compiled, played, recorded, run, text_of
-from test_tape import EXPRESSIONS
 
-from ballscrew.engine import kernel as kernels
-from ballscrew.engine.emission import UnknownOperationError, kernel_text
-from ballscrew.engine.kernel import Kernel, room
-from ballscrew.engine.program import Program
-from ballscrew.engine.tape import Tape
+from ballscrew.kernels import kernel as kernels
+from ballscrew.kernels.emission import UnknownOperationError, kernel_text
+from ballscrew.kernels.kernel import Kernel, aligned_array
+from ballscrew.tracing.program import Program
+from ballscrew.tracing.tape import Tape
+from support.expressions import EXPRESSIONS
+from support.small_kernels import compiled, played, recorded, run, text_of
 
 pytestmark = pytest.mark.compiles
 X = np.array([0.0, 0.25, 1.0, 2.0, 7.0, 0.5, np.inf, np.nan, 3.0, 1e-30, 1e30])
@@ -73,7 +73,7 @@ def test_any_part_gives_the_same_bits_and_touches_nothing_else(start, size, lane
     x, y = rng.uniform(0, 2, 200), rng.uniform(0, 2, 200)
     program = recorded(busy, 2)
     kernel = compiled(program, lanes=lanes)
-    whole, part = room(200, float), room(202, float)[0 if aligned else 1 :][:200]
+    whole, part = aligned_array(200, float), aligned_array(202, float)[0 if aligned else 1 :][:200]
     kernel(slice(0, 1), slice(0, 200), 200, [x, y], [whole])
     part[:] = -1.0
     kernel(slice(0, 1), slice(start, start + size), 200, [x, y], [part])
@@ -87,7 +87,7 @@ def test_results_that_leave_the_cache_are_the_same():
     count = kernels.LARGEST_CACHED // 8 + 13
     x = np.linspace(0, 2, count)
     program = recorded(busy, 2)
-    kernel, large, small = compiled(program), room(count, float), room(100, float)
+    kernel, large, small = compiled(program), aligned_array(count, float), aligned_array(100, float)
     kernel(slice(0, 1), slice(0, count), count, [x, x], [large])
     kernel(slice(0, 1), slice(0, 100), 100, [x, x], [small])
     assert np.array_equal(large[:100], small)
@@ -101,7 +101,7 @@ def test_rows_and_columns():
     sources = ["rows", "columns"]
     kernel = Kernel.of(kernel_text(program, sources, {"out": False}, lanes=8), sources)
     rows, columns = np.linspace(0, 2, 7), np.linspace(0.1, 3, 1301)
-    out = room(7 * 1301, float)
+    out = aligned_array(7 * 1301, float)
     kernel(slice(0, 7), slice(0, 1301), 1301, [rows, columns], [out])
     grid = [np.ascontiguousarray(a).ravel() for a in np.broadcast_arrays(rows[:, None], columns)]
     assert np.allclose(out, played(recorded(busy, 2), *grid), rtol=1e-14)
@@ -113,7 +113,7 @@ def test_several_outputs_and_the_inputs_themselves():
     program = Program.of(tape, {"sum": x + y, "input": x, "mask": x > y, "mask as number": x > y})
     masks = {"sum": False, "input": False, "mask": True, "mask as number": False}
     kernel = Kernel.of(kernel_text(program, ["points"] * 2, masks), ["points"] * 2)
-    results = [room(5, bool if masks[name] else float) for name in program.outputs]
+    results = [aligned_array(5, bool if masks[name] else float) for name in program.outputs]
     kernel(slice(0, 1), slice(0, 5), 5, [X[:5].copy(), Y[:5].copy()], results)
     assert np.array_equal(results[0], X[:5] + Y[:5])
     assert np.array_equal(results[1], X[:5])
@@ -128,7 +128,7 @@ def test_unknown_operation():
 
 def test_arrays_must_be_contiguous():
     with pytest.raises(ValueError, match="contiguous"):
-        compiled(recorded(busy, 2))(slice(0, 1), slice(0, 5), 5, [X[::2], Y[::2]], [room(5, float)])
+        compiled(recorded(busy, 2))(slice(0, 1), slice(0, 5), 5, [X[::2], Y[::2]], [aligned_array(5, float)])
 
 
 # on disk
@@ -139,18 +139,18 @@ def forget():
 
 
 def kept():
-    return sorted(p for p in kernels.folder().iterdir()) if kernels.folder().exists() else []
+    return sorted(p for p in kernels.cache_folder().iterdir()) if kernels.cache_folder().exists() else []
 
 
 def test_kernels_are_found_on_disk_again():
     forget()
     program = recorded(busy, 2)
-    assert not kernels.is_kept(text_of(program))
+    assert not kernels.is_cached(text_of(program))
     first = run(program, X, Y)
     (file,) = kept()
     written = file.read_bytes()
     forget()
-    assert kernels.is_kept(text_of(program))
+    assert kernels.is_cached(text_of(program))
     assert np.array_equal(run(program, X, Y), first, equal_nan=True)
     assert file.read_bytes() == written
     run(recorded(lambda x, y: x - y, 2), X, Y)
@@ -180,7 +180,7 @@ def test_no_place_to_keep_kernels(tmp_path, monkeypatch):
 
 
 def test_only_so_many_are_kept(monkeypatch):
-    monkeypatch.setattr(kernels, "KEPT_ON_DISK", 2)
+    monkeypatch.setattr(kernels, "MOST_ON_DISK", 2)
     forget()
     for shift in (1.0, 2.0, 3.0):
         run(recorded(lambda x, y, s=shift: x + s * y, 2), X, Y)
@@ -190,7 +190,7 @@ def test_only_so_many_are_kept(monkeypatch):
 def test_others_cannot_write_to_the_folder():
     forget()
     run(recorded(busy, 2), X, Y)
-    assert stat.S_IMODE(kernels.folder().stat().st_mode) & 0o077 == 0
+    assert stat.S_IMODE(kernels.cache_folder().stat().st_mode) & 0o077 == 0
 
 
 def test_a_folder_that_others_can_write_to_is_not_trusted():
@@ -199,9 +199,9 @@ def test_a_folder_that_others_can_write_to_is_not_trusted():
     program = recorded(busy, 2)
     run(program, X, Y)
     (file,) = kept()
-    kernels.folder().chmod(0o777)
+    kernels.cache_folder().chmod(0o777)
     assert kernels._load(file.name) is None
-    kernels.folder().chmod(0o700)
+    kernels.cache_folder().chmod(0o700)
     file.chmod(0o666)
     assert kernels._load(file.name) is None
     file.chmod(0o600)
@@ -214,7 +214,7 @@ def test_a_folder_that_others_can_write_to_is_not_trusted():
 def test_no_function_is_called_for_one_lane_at_a_time():
     """A kernel calls nothing but the copying of the last points; a mathematical library would go lane by lane."""
     program = recorded(lambda x, y: busy(x, y) + np.log(x) + np.arctan(y) + np.cos(x) + np.power(x, y), 2)
-    machine, module = kernels._optimised(text_of(program))
+    machine, module = kernels._optimise(text_of(program))
     assembly = machine.emit_assembly(module)
     called = set(re.findall(r"\b(?:callq?|bl|movabsq)\s+\$?([A-Za-z_]\w*)", assembly))
     assert called == {"memcpy"}
@@ -222,7 +222,7 @@ def test_no_function_is_called_for_one_lane_at_a_time():
 
 def test_vectors_are_vectors():
     """Most arithmetic on x86 is on packed numbers; elsewhere the calls above must do."""
-    machine, module = kernels._optimised(text_of(recorded(busy, 2)))
+    machine, module = kernels._optimise(text_of(recorded(busy, 2)))
     assembly = machine.emit_assembly(module)
     packed, single = (len(re.findall(rf"\bv?f?m?(?:add|mul|sub|div)\w*{kind}\b", assembly)) for kind in ("pd", "sd"))
     if not packed + single:

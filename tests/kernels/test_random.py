@@ -3,11 +3,13 @@
 import numpy as np
 import pytest
 
-from ballscrew.engine import random
-from ballscrew.engine.emission import kernel_text
-from ballscrew.engine.kernel import Kernel
-from ballscrew.engine.program import Program
-from ballscrew.engine.tape import Tape
+from ballscrew.kernels import random
+from ballscrew.kernels.emission import kernel_text
+from ballscrew.kernels.kernel import Kernel
+from ballscrew.tracing.program import Program
+from ballscrew.tracing.tape import (
+    Tape,
+)
 
 #: Known answers of Philox4x32-10, published with Salmon, Moraes, Dror & Shaw 2011: counter, key, words.
 ANSWERS = {

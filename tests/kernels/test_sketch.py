@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ballscrew.engine.sketch import RELATIVE_ERROR, UNIT, Sketch
+from ballscrew.kernels.sketch import RELATIVE_ERROR, UNIT, Sketch
 
 TINY = 2.2250738585072014e-308
 SHARES = (0.0, 0.025, 0.3, 0.5, 0.975, 1.0)
@@ -178,7 +178,7 @@ def test_sums_handed_over_in_order(compiled):
     sketch, total = Sketch(compiled=compiled), Sketch()
     for part in np.split(values, 4):
         sketch.add(part)
-        total.moments = total.moments.merged(sketch.handed_over())
+        total.moments = total.moments.merged(sketch.take_moments())
     total.merge(sketch)
     assert np.array_equal(told(total), told(sketch_of(values, compiled=compiled)))
 

@@ -10,9 +10,9 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.equations import geometry
-from ballscrew.solvers.contact_integral import contact_integral
-from ballscrew.solvers.contact_patch import ContactPatch, hertz_ellipse
-from ballscrew.solvers.tractions import Coulomb
+from oracles.contact_integral import contact_integral
+from oracles.contact_patch import ContactPatch, hertz_ellipse
+from oracles.tractions import Coulomb
 
 DATA = json.loads((Path(__file__).parents[1] / "data/contact_integral.json").read_text(encoding="utf-8"))
 POINTS = DATA["slip_power_of_one_contact"]["rows"]

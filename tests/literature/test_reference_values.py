@@ -5,6 +5,7 @@ import dataclasses
 import json
 import math
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -223,7 +224,8 @@ def zhou_share(i):
         middle = (low + high) / 2
         if middle in (low, high):
             break
-        low, high = (middle, high) if law(middle) > 0.02 else (low, middle)
+        at_film = SimpleNamespace(film_parameter=middle, full_film_friction_coefficient=None)
+        low, high = (middle, high) if law(at_film) > 0.02 else (low, middle)
     w = mixed_lubrication.asperity_load_share_zhou_hoeprich(i["lam"], i["B"], i["C"])
     assert friction.asperity_friction_coefficient(i["lam"], 1.0, i["B"], i["C"]) == w
     return {"w": w, "lam_at_mu_002": high}

@@ -9,9 +9,9 @@ import math
 import numpy as np
 import pytest
 
-from ballscrew.analyses import variance
-from ballscrew.analyses.screening import LEVELS, elementary_effects
-from ballscrew.analyses.variance import sobol_indices
+from ballscrew.uncertainty import sobol
+from ballscrew.uncertainty.morris import LEVELS, elementary_effects
+from ballscrew.uncertainty.sobol import sobol_indices
 
 
 class Ishigami:
@@ -114,7 +114,7 @@ def test_intervals_cover_the_closed_form_as_often_as_they_say(monkeypatch):
 
     Of 200 seeds 95 % are 190 ± 3 (one standard deviation). Percentiles of few samples hold a little less often.
     """
-    monkeypatch.setattr(variance, "evenly_spread", lambda d, n, seed: np.random.default_rng(seed).random((d, n)))
+    monkeypatch.setattr(sobol, "sobol_sequence", lambda d, n, seed: np.random.default_rng(seed).random((d, n)))
     found = coverage(FUNCTIONS["ishigami"], 512, 200)
     assert np.mean(found) == pytest.approx(0.945, abs=0.025)
     assert np.min(found) > 0.88

@@ -1,6 +1,6 @@
 r"""The friction of one ball by integrating the slip over its contacts: the judge of the closed laws.
 
-Unknown are the rotation of the ball and its orbital rotation (:mod:`ballscrew.solvers.free_ball`); the
+Unknown are the rotation of the ball and its orbital rotation (:mod:`oracles.free_ball`); the
 three moments on the ball and the force along its path must vanish. As every local law of traction has
 a convex potential :math:`\psi(p, s)`, that balance is the minimum of one convex function,
 
@@ -10,7 +10,7 @@ over all contacts i, with P the power of what else resists the ball. So there is
 none: where the resistances exceed what friction can carry, :math:`\Phi` falls for ever and the ball
 skids.
 
-Model: each contact is a patch (:mod:`ballscrew.solvers.contact_patch`) with a circle of radius
+Model: each contact is a patch (:mod:`oracles.contact_patch`) with a circle of radius
 :math:`R_d = 2 d_w f/(2f + 1)` as common surface, local normals, and Hertz pressure on the exact
 ellipse; its middle lies one ball radius from the centre of the ball. The helix enters exactly, in its
 Frenet frame: the rotation of the screw leans against the path, and the two contacts share a lateral
@@ -39,11 +39,15 @@ import numpy as np
 from ballscrew.components.frame import Frame, helix_frame
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import geometry
-from ballscrew.faults import Fault, fault_of, is_concrete, raise_if_any, shown
+from ballscrew.errors import Fault, fault_of, is_concrete, raise_if_any, shown
 from ballscrew.quantities import AngularSpeed, Force, Info, Power, Quantity, Ratio, Speed, Torque, fields_of
-from ballscrew.solvers.contact_patch import ContactPatch, Ellipse, SlipField, hertz_ellipse
-from ballscrew.solvers.free_ball import ALONG, LATERAL, SPIN, BallResistances, FreeBall, Imbalance
-from ballscrew.solvers.tractions import Field, TractionLaw, on_both_races
+from oracles.contact_patch import ContactPatch, Ellipse, SlipField, hertz_ellipse
+from oracles.free_ball import ALONG, LATERAL, SPIN, BallResistances, FreeBall, Imbalance
+from oracles.tractions import (
+    Field,
+    TractionLaw,
+    on_both_races,
+)
 
 #: Blurs of the sliding speed in units of the slip of the rolling ball: a round of steps for each.
 BLURS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
@@ -159,7 +163,7 @@ def contact_integral(
     ``resolution`` counts points across and along the path; ``check_resolution`` solves again on a
     finer grid.
 
-    Raises :class:`~ballscrew.faults.InputError` for input that is not one number within its bounds.
+    Raises :class:`~ballscrew.errors.InputError` for input that is not one number within its bounds.
     Physics never raises: where the ball skids or outgrows its groove, the outcome says so.
     """
     laws = on_both_races(traction)

@@ -32,7 +32,7 @@ import numpy as np
 
 from ballscrew.equations import geometry, hertz, rheology
 from ballscrew.quantities import Force, Length, Pressure, Ratio
-from ballscrew.solvers.tractions import Field, TractionLaw
+from oracles.tractions import Field, TractionLaw
 
 
 class Ellipse(NamedTuple):

@@ -29,8 +29,10 @@ from ballscrew.components.frame import Frame
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import kinematics
 from ballscrew.quantities import AngularSpeed, Force, Length, Speed, Torque
-from ballscrew.solvers.contact_patch import ContactPatch
-from ballscrew.solvers.tractions import Field
+from oracles.contact_patch import ContactPatch
+from oracles.tractions import (
+    Field,
+)
 
 #: Components of twists and wrenches: along and across the path, and about the normal.
 ALONG, LATERAL, SPIN = 0, 1, 4

@@ -5,9 +5,9 @@ import math
 import ballscrew as bs
 from ballscrew.components.frame import helix_frame
 from ballscrew.equations import geometry
-from ballscrew.solvers.contact_patch import ContactPatch, hertz_ellipse
-from ballscrew.solvers.free_ball import BallResistances, FreeBall
-from ballscrew.solvers.tractions import Coulomb, Eyring, LimitingShear
+from oracles.contact_patch import ContactPatch, hertz_ellipse
+from oracles.free_ball import BallResistances, FreeBall
+from oracles.tractions import Coulomb, Eyring, LimitingShear
 
 OIL = {"viscosity": 0.1, "pressure_viscosity_coefficient": 2.2e-8, "film_thickness": 2e-7}
 LAWS = {

@@ -5,17 +5,21 @@ import math
 
 import numpy as np
 import pytest
-from judged import LAWS, OIL, RESISTANCES, ball, screw
 from scipy import integrate, optimize
 
 import ballscrew as bs
 from ballscrew.components.frame import bearing_frame, helix_frame
 from ballscrew.equations import friction
-from ballscrew.solvers import contact_integral as solver
-from ballscrew.solvers.contact_integral import contact_integral
-from ballscrew.solvers.contact_patch import ContactPatch, Ellipse, hertz_ellipse
-from ballscrew.solvers.free_ball import BallResistances
-from ballscrew.solvers.tractions import STIFFEST, Coulomb, Eyring
+from oracles import contact_integral as solver
+from oracles.contact_integral import contact_integral
+from oracles.contact_patch import ContactPatch, Ellipse, hertz_ellipse
+from oracles.free_ball import BallResistances
+from oracles.judged import LAWS, OIL, RESISTANCES, ball, screw
+from oracles.tractions import (
+    STIFFEST,
+    Coulomb,
+    Eyring,
+)
 
 # -- local laws -----------------------------------------------------------------------------------
 

@@ -4,15 +4,19 @@ import math
 
 import numpy as np
 import pytest
-from judged import HIGHEST_PRESSURE, screw
 
 import ballscrew as bs
 from ballscrew.components.frame import helix_frame
-from ballscrew.solvers import contact_integral as solver
-from ballscrew.solvers.contact_integral import contact_integral
-from ballscrew.solvers.contact_patch import hertz_ellipse
-from ballscrew.solvers.free_ball import BallResistances
-from ballscrew.solvers.tractions import Coulomb, Eyring, LimitingShear
+from oracles import contact_integral as solver
+from oracles.contact_integral import contact_integral
+from oracles.contact_patch import hertz_ellipse
+from oracles.free_ball import BallResistances
+from oracles.judged import HIGHEST_PRESSURE, screw
+from oracles.tractions import (
+    Coulomb,
+    Eyring,
+    LimitingShear,
+)
 
 # -- everywhere -----------------------------------------------------------------------------------
 

@@ -48,9 +48,9 @@ def test_the_picture_is_a_figure_of_the_program(make_readme, text):
     assert (make_readme.IMAGES / "parts_over_speed.png").is_file()
 
 
-def test_the_widest_doubts_are_up_to_date(make_readme, text):
+def test_the_largest_sensitivities_are_up_to_date(make_readme, text):
     """If this fails, run ``make readme``."""
-    assert make_readme.with_doubts(text) == text
+    assert make_readme.with_sensitivities(text) == text
 
 
 def test_the_loads_of_skidding_are_up_to_date(make_readme, text):

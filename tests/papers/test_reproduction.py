@@ -10,14 +10,14 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.analyses import olaru2005 as paper
-from ballscrew.analyses.olaru2005 import case
-from ballscrew.analyses.olaru2005.claims import judged
-from ballscrew.analyses.olaru2005.observations import observe
-from ballscrew.interfaces import reproduce
-from ballscrew.interfaces.figures import ball
-from ballscrew.interfaces.figures import olaru2005 as figures
-from ballscrew.interfaces.figures.style import Plot
+from ballscrew.cli import reproduction
+from ballscrew.figures import ball
+from ballscrew.figures import olaru2005 as figures
+from ballscrew.figures.style import Plot
+from ballscrew.papers import olaru2005 as paper
+from ballscrew.papers.olaru2005 import case
+from ballscrew.papers.olaru2005.claims import judged
+from ballscrew.papers.olaru2005.observations import observe
 
 HOLDS, FAILS, OPEN = paper.Verdict.HOLDS, paper.Verdict.FAILS, paper.Verdict.OPEN
 NAMES = [plot.name for plot in (*ball.PLOTS, *figures.PLOTS)]
@@ -43,7 +43,7 @@ def written(tmp_path_factory):
     """The whole folder, and the steps that were reported."""
     out = tmp_path_factory.mktemp("reproduction") / "new" / "olaru2005"
     steps = []
-    files = reproduce.reproduce_olaru2005(out, lambda *step: steps.append(step))
+    files = reproduction.reproduce_olaru2005(out, lambda *step: steps.append(step))
     return out, files, steps
 
 
@@ -149,10 +149,10 @@ def test_readings_consistent_with_the_text(checks):
 
 
 def test_short_table(claims):
-    table = reproduce.claims_table(list(claims.values()))
+    table = reproduction.claims_table(list(claims.values()))
     lines = table.splitlines()
     assert lines[0] == "| claim | paper | as printed | corrected | holds? |"
-    assert len(lines) == 2 + len(reproduce.SHORT_TABLE)
+    assert len(lines) == 2 + len(reproduction.SHORT_TABLE)
     assert "281 rpm" in table
     assert "λ = 1.83" in table
     assert all(line.count("|") == 6 for line in lines)
@@ -228,7 +228,7 @@ def test_same_bytes_on_every_run(monkeypatch, written, tmp_path):
     """A second time, with one figure of each kind."""
     monkeypatch.setattr(ball, "PLOTS", ball.PLOTS[:1])
     monkeypatch.setattr(figures, "PLOTS", figures.PLOTS[4:6])
-    again = reproduce.reproduce_olaru2005(tmp_path)
+    again = reproduction.reproduce_olaru2005(tmp_path)
     assert len(again) == 3 * 3 + 2
     for path in again:
         here, there = path.read_bytes(), (written[0] / path.name).read_bytes()
@@ -251,7 +251,7 @@ def test_nothing_half_written(monkeypatch, tmp_path, interruption, existing):
         (out / "claims.md").write_text("mine")
     before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
     with pytest.raises(interruption):
-        reproduce.reproduce_olaru2005(out)
+        reproduction.reproduce_olaru2005(out)
     assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == before
     assert out.exists() == existing
 
@@ -266,7 +266,7 @@ def test_folder_that_cannot_be_written(monkeypatch, tmp_path):
     occupied.write_text("mine")
     for out in (occupied, occupied / "below"):
         with pytest.raises(bs.InputError, match=r"^reproduce\.out: cannot be written \(.*file"):
-            reproduce.reproduce_olaru2005(out)
+            reproduction.reproduce_olaru2005(out)
     assert occupied.read_text() == "mine"
     assert list(tmp_path.iterdir()) == [occupied]
 
@@ -278,24 +278,24 @@ def test_no_permission(monkeypatch, tmp_path):
         raise PermissionError(13, "Permission denied", str(tmp_path))
 
     monkeypatch.setattr(paper, "curves", no_work)
-    monkeypatch.setattr(reproduce.tempfile, "mkdtemp", refuse)
+    monkeypatch.setattr(reproduction.tempfile, "mkdtemp", refuse)
     with pytest.raises(bs.InputError, match="Permission denied"):
-        reproduce.reproduce_olaru2005(tmp_path / "out")
+        reproduction.reproduce_olaru2005(tmp_path / "out")
 
 
 def test_netcdf_libraries_missing(monkeypatch, tmp_path):
     monkeypatch.setattr(paper, "curves", no_work)
-    monkeypatch.setattr(reproduce.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(reproduction.importlib.util, "find_spec", lambda name: None)
     with pytest.raises(bs.InputError, match=r'pip install "ballscrew\[data\]"'):
-        reproduce.reproduce_olaru2005(tmp_path / "out")
+        reproduction.reproduce_olaru2005(tmp_path / "out")
     assert not Path(tmp_path / "out").exists()
 
 
 def test_a_folder_in_the_place_of_a_file(monkeypatch, tmp_path):
-    monkeypatch.setattr(reproduce, "_write", lambda folder, report: (folder.path / "data.nc").write_text("new"))
+    monkeypatch.setattr(reproduction, "_write", lambda folder, report: (folder.path / "data.nc").write_text("new"))
     (tmp_path / "out" / "data.nc").mkdir(parents=True)
     with pytest.raises(bs.InputError, match=r"data\.nc is a folder"):
-        reproduce.reproduce_olaru2005(tmp_path / "out")
+        reproduction.reproduce_olaru2005(tmp_path / "out")
     assert [path.name for path in tmp_path.rglob("*")] == ["out", "data.nc"]
 
 

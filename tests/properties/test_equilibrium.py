@@ -5,7 +5,10 @@ import math
 
 import numpy as np
 from hypothesis import given
-from strategies import (
+
+from ballscrew.components.frame import bearing_frame, helix_frame
+from ballscrew.equations import equilibrium, kinematics
+from support.strategies import (
     all_models,
     balanced_models,
     both_models,
@@ -21,10 +24,7 @@ from strategies import (
     torque_scale,
     without_losses_of_rolling,
 )
-from strategies import ball_forces as braking
-
-from ballscrew.components.frame import bearing_frame, helix_frame
-from ballscrew.equations import equilibrium, kinematics
+from support.strategies import ball_forces as braking
 
 
 def with_braking(model, ball_to_ball_force):

@@ -2,15 +2,18 @@
 
 import dataclasses
 import math
+from types import SimpleNamespace
 
 import numpy as np
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from strategies import both_models, cases, close, constant_friction, fitting_cases, floats, powers
 
 import ballscrew as bs
 from ballscrew.equations import friction, hertz, kinematics
-from ballscrew.validity import LARGEST_PURE_ROLLING_OFFSET
+from ballscrew.friction.validity import (
+    LARGEST_PURE_ROLLING_OFFSET,
+)
+from support.strategies import both_models, cases, close, constant_friction, fitting_cases, floats, powers
 
 #: Where the asperities' share has fallen to 0.02, with the paper's coefficients.
 THRESHOLD = 1.8298234138683820
@@ -20,6 +23,13 @@ PARTS = ("ball", "screw", "nut")
 def stays_boundary(r):
     """Both contacts rub their asperities: the clamp at 0.02 is inactive."""
     return all(np.all(side.friction_coefficient > 0.0201) for side in (r.screw, r.nut))
+
+
+def at_film(law):
+    """A friction law as a function of the film parameter alone."""
+    return lambda film_parameter: law(
+        SimpleNamespace(film_parameter=film_parameter, full_film_friction_coefficient=None)
+    )
 
 
 # -- the coefficient ------------------------------------------------------------------------------
@@ -36,7 +46,7 @@ def test_friction_coefficient_is_bounded(case, model):
 @given(powers(0.05, 0.3), powers(0.5, 4.0), floats(0.5, 1.5), floats(0.05, 0.9), powers(1e-12, 1e-3))
 def test_clamp_is_continuous(mu_0, decay, exponent, share, step):
     """The branches of §5 meet: no jump where the asperities' share reaches the full-film value, nor at rest."""
-    law = bs.ZhouHoeprich(mu_0, decay, exponent, full_film_friction_coefficient=share * mu_0)
+    law = at_film(bs.ZhouHoeprich(mu_0, decay, exponent, full_film_friction_coefficient=share * mu_0))
     threshold = (-math.log(share) / decay) ** (1 / exponent)
     steepest = 10 * mu_0 * decay * exponent * max(1.0, threshold ** (exponent - 1))
     around = law(threshold * np.array([1 - step, 1.0, 1 + step]))
@@ -48,7 +58,7 @@ def test_clamp_is_continuous(mu_0, decay, exponent, share, step):
 @given(floats(0.0, 10.0))
 def test_threshold_of_the_paper(film_parameter):
     """µ leaves its full-film value of 0.02 below λ = 1.82982, not at 2.5 to 3."""
-    mu = bs.ZhouHoeprich()(film_parameter)
+    mu = at_film(bs.ZhouHoeprich())(film_parameter)
     assert (mu > 0.02) == (film_parameter < THRESHOLD)
 
 
@@ -56,7 +66,8 @@ def test_threshold_of_the_paper(film_parameter):
 def test_thicker_films_never_rub_more(first, second):
     """µ does not rise with the film parameter."""
     thin, thick = sorted((first, second))
-    assert bs.ZhouHoeprich()(thick) <= bs.ZhouHoeprich()(thin)
+    law = at_film(bs.ZhouHoeprich())
+    assert law(thick) <= law(thin)
 
 
 # -- slip in the ellipse --------------------------------------------------------------------------

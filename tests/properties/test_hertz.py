@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 from hypothesis import given
-from strategies import both_models, cases, close, floats, powers, screws
 
 from ballscrew.components.frame import bearing_frame, helix_frame
 from ballscrew.components.laws import exact_hertz
 from ballscrew.equations import geometry, hertz
+from support.strategies import both_models, cases, close, floats, powers, screws
 
 ratios = powers(1e-3, 1e3)
 

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.analyses import jax_derivatives
-from ballscrew.analyses.jax_derivatives import jax_value_and_partials
-from ballscrew.analyses.outputs import known_outputs
-from ballscrew.analyses.plan import Subject
 from ballscrew.components import laws, lubrication, mixed_friction
-from ballscrew.faults import InputError
+from ballscrew.errors import InputError
+from ballscrew.evaluation import jax_derivatives
+from ballscrew.evaluation.jax_derivatives import jax_value_and_partials
+from ballscrew.evaluation.outputs import known_outputs
+from ballscrew.evaluation.plan import Configuration
 from ballscrew.solvers.line_slip import line_slip
 
 PRESETS = {
@@ -59,7 +59,7 @@ NUMBER = 40
 def subject_of(model):
     """A model on the paper's screw."""
     screw = bs.BallScrew(0.040, 0.005, 3.175e-3, 56, np.pi / 4, 0.515, 0.515)
-    return Subject(model, screw, bs.Lubricant(viscosity=0.1))
+    return Configuration(model, screw, bs.Lubricant(viscosity=0.1))
 
 
 def inputs_of(subject):
@@ -159,7 +159,11 @@ def test_derivatives_are_those_of_differences(name):
         assert (off < 1e-6 * seen).all(), (output, dict(zip(points, np.max(off / seen, axis=1), strict=True)))
 
 
-@pytest.mark.parametrize("name", PRESETS | OTHERS)
+#: The others have the laws of these and a few more; the two are long to trace.
+TRACED = ["olaru2005", *OTHERS, *(pytest.param(name, marks=pytest.mark.long) for name in ("corrected", "reference"))]
+
+
+@pytest.mark.parametrize("name", TRACED)
 def test_each_input_alone_may_come_from_jax(name, monkeypatch):
     monkeypatch.setattr(sys.modules[line_slip.__module__], "STEPS", 2)  # the others are the same again
     subject = subject_of((PRESETS | OTHERS)[name])
@@ -256,7 +260,7 @@ def test_nothing_else_loads_jax():
     code = f"""
 import sys
 import ballscrew
-from ballscrew.interfaces.cli import app
+from ballscrew.cli.main import app
 app(["run", {str(case)!r}], standalone_mode=False)
 assert "jax" not in sys.modules
 """

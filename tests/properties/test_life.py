@@ -2,9 +2,9 @@
 
 import pytest
 from hypothesis import given
-from strategies import floats, powers
 
 from ballscrew.equations import life
+from support.strategies import floats, powers
 
 forces = powers(1.0, 1e6)
 lives = powers(1e3, 1e12)

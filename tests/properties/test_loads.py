@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 import pytest
-from nut_cases import KINDS, nut_case
 
 from ballscrew.components.nut import Deviations, DoubleNut, OversizeBallNut, SingleNut
 from ballscrew.solvers.load_distribution import TOLERANCE, ball_loads
+from support.nut_cases import KINDS, nut_case
 
 #: 4 kinds × elastic or not × scatter or not × side, and this many points of each: ten thousand and more.
 POINTS = 330

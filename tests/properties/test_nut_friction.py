@@ -5,17 +5,17 @@ import math
 
 import numpy as np
 import pytest
-from nut_cases import KINDS, nut_case
-from strategies import MODELS, RPM, constant_friction, reference, without_losses_of_rolling
 
 import ballscrew as bs
-from ballscrew.assembly import NUT_REASONS, nut_friction
 from ballscrew.components.mixed_friction import LoadSharing
 from ballscrew.components.nut import Bodies, Deviations, DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
 from ballscrew.components.nut_losses import Recirculation, Seals
-from ballscrew.faults import InputError
-from ballscrew.result import MECHANISMS
+from ballscrew.errors import InputError
+from ballscrew.friction.nut_friction import NUT_REASONS, nut_friction
+from ballscrew.friction.result import MECHANISMS
 from ballscrew.solvers.load_distribution import ball_loads
+from support.nut_cases import KINDS, nut_case
+from support.strategies import MODELS, RPM, constant_friction, reference, without_losses_of_rolling
 
 OIL = bs.Lubricant(viscosity=0.1, pressure_viscosity_coefficient=2e-8)
 PRELOADED = {"double": DoubleNut(1500.0, 0.01), "offset": OffsetLeadNut(1500.0), "oversize": OversizeBallNut(1500.0)}

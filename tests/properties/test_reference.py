@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 import pytest
-from strategies import box, constant_friction, reference, without_losses_of_rolling
 
 import ballscrew as bs
 from ballscrew.components.mixed_friction import LoadSharing
 from ballscrew.equations import equilibrium, kinematics, slip
+from ballscrew.friction.validity import REASONS
 from ballscrew.solvers import ellipse_slip
-from ballscrew.validity import REASONS
+from support.strategies import box, constant_friction, reference, without_losses_of_rolling
 
 SIZE = 10_000
 #: Torque, force and power close to this; rounding leaves 3e-15.

@@ -5,13 +5,13 @@ import math
 
 import numpy as np
 import pytest
-from strategies import RPM, Case, box, constant_friction, reference, torque_scale
 
 import ballscrew as bs
-from ballscrew.analyses.olaru2005 import OIL, SCREW
 from ballscrew.components.frame import bearing_frame
 from ballscrew.components.lubrication import Inlet, ideal_inlet
-from ballscrew.result import MECHANISMS
+from ballscrew.friction.result import MECHANISMS
+from ballscrew.papers.olaru2005 import OIL, SCREW
+from support.strategies import RPM, Case, box, constant_friction, reference, torque_scale
 
 SIZE = 4000
 

@@ -6,11 +6,11 @@ import math
 import pytest
 
 import ballscrew as bs
-from ballscrew.analyses.checks import HOUR, checks, loads_of_halves, mean_load, ratings_of
 from ballscrew.components.catalogue import CatalogueRow
 from ballscrew.components.installation import Ends, Installation, Limits
 from ballscrew.components.nut import DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
 from ballscrew.equations import life, shaft
+from ballscrew.sizing.checks import HOUR, checks, loads_of_halves, mean_load, ratings_of
 
 RPM = math.tau / 60
 NAMES = (
@@ -64,9 +64,9 @@ def test_a_line_without_its_inputs_says_what_to_give():
         "buckling": "installation",
         "critical_speed": "installation",
     }
-    assert {name for name, check in missing.items() if check.passes is None} == set(wanted)
+    assert {name for name, check in missing.items() if check.holds is None} == set(wanted)
     for name, give in wanted.items():
-        assert missing[name].words == f"not checked: give {give}"
+        assert missing[name].text == f"not checked: give {give}"
         assert missing[name][1:3] == (None, None)
         assert missing[name].utilisation is None
         assert missing[name].unit == table()[name].unit
@@ -74,13 +74,13 @@ def test_a_line_without_its_inputs_says_what_to_give():
 
 def test_utilisation_decides():
     for check in table(limits=Limits(running_time=1e3 * HOUR)).values():
-        assert check.passes is (check.utilisation <= 1)
+        assert check.holds is (check.utilisation <= 1)
         assert isinstance(check.value, float)
-        assert check.words
+        assert check.text
 
 
 def test_a_good_screw_passes():
-    assert all(check.passes for check in table(limits=Limits(running_time=1e3 * HOUR)).values())
+    assert all(check.holds for check in table(limits=Limits(running_time=1e3 * HOUR)).values())
 
 
 @pytest.mark.parametrize(
@@ -98,7 +98,7 @@ def test_a_good_screw_passes():
     ],
 )
 def test_each_line_can_fail(name, changes):
-    assert table(**changes)[name].passes is False
+    assert table(**changes)[name].holds is False
 
 
 def test_life_is_that_of_the_equations():
@@ -106,8 +106,8 @@ def test_life_is_that_of_the_equations():
     revolutions = 1e6 * (RATINGS.dynamic / 5000.0) ** 3
     assert found["life"].value == pytest.approx(revolutions, rel=1e-12)
     assert found["running_time"].value == pytest.approx(revolutions / 1000 * 60, rel=1e-12)
-    assert found["life"].passes is None
-    assert "give limits.running_time" in found["life"].words
+    assert found["life"].holds is None
+    assert "give limits.running_time" in found["life"].text
 
 
 def test_life_and_time_say_the_same():
@@ -158,12 +158,12 @@ def test_a_heavy_load_makes_the_preload_forgotten():
 def test_at_rest_without_load():
     found = table(axial_load=0.0, screw_speed=0.0, limits=Limits(running_time=HOUR))
     assert found["life"].value == found["running_time"].value == found["static_safety"].value == math.inf
-    assert all(check.passes for check in found.values())
+    assert all(check.holds for check in found.values())
     loaded = table(screw_speed=0.0, limits=Limits(running_time=HOUR))
     assert loaded["running_time"].value == math.inf
-    assert [loaded[name].passes for name in ("life", "running_time")] == [None, None]
-    assert loaded["running_time"].words == "no turn tires it; not judged: at rest"
-    assert [found[name].words for name in ("life", "running_time")] == ["no load tires it"] * 2
+    assert [loaded[name].holds for name in ("life", "running_time")] == [None, None]
+    assert loaded["running_time"].text == "no turn tires it; not judged: at rest"
+    assert [found[name].text for name in ("life", "running_time")] == ["no load tires it"] * 2
 
 
 def test_the_largest_load_breaks_and_the_mean_load_tires():
@@ -180,7 +180,7 @@ def test_shaft_lines_are_those_of_the_equations():
     assert found["buckling"].limit == pytest.approx(euler / 2, rel=1e-12)
     whirl = shaft.critical_speed(Ends.FIXED_SUPPORTED.whirling_root, E, 7850.0, 0.030, 1.2)
     assert found["critical_speed"].limit == pytest.approx(0.8 * whirl, rel=1e-12)
-    assert "fixed–supported" in found["buckling"].words
+    assert "fixed–supported" in found["buckling"].text
 
 
 def test_the_root_of_the_groove_stands_in_for_one_not_given():

@@ -16,8 +16,8 @@ import pytest
 import ballscrew as bs
 from ballscrew.components.frame import bearing_frame
 from ballscrew.components.mixed_friction import ZhouHoeprich
-from ballscrew.solvers.contact_integral import contact_integral
-from ballscrew.solvers.tractions import Coulomb
+from oracles.contact_integral import contact_integral
+from oracles.tractions import Coulomb
 
 ROOT = Path(__file__).parents[2]
 CASES = 360
@@ -74,7 +74,7 @@ def test_without_a_helix_it_is_the_bearing_of_the_integral():
         frame=bearing_frame,
         friction=dry,
         rolling=lambda conditions: 0 * conditions.contact_load,
-        elastic_resistance=lambda d_w, Q, k, b: 0 * Q,
+        elastic_resistance=lambda conditions: 0 * conditions.contact_load,
         ball_to_ball_force=0.0,
     )
     rng, errors = np.random.default_rng(12), []

@@ -7,15 +7,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from judged import screw
 
 import ballscrew as bs
 from ballscrew.components.conditions import Motion
 from ballscrew.components.frame import helix_frame
-from ballscrew.solvers.contact_integral import contact_integral
 from ballscrew.solvers.four_point_slip import PARTS, FlankPair, FourPointBall, four_point_slip
-from ballscrew.solvers.free_ball import BallResistances
-from ballscrew.solvers.tractions import Coulomb
+from oracles.contact_integral import contact_integral
+from oracles.free_ball import BallResistances
+from oracles.judged import screw
+from oracles.tractions import Coulomb
 
 FRICTION = 0.1
 OIL = bs.Lubricant(0.1, 2.2e-8)
@@ -31,9 +31,9 @@ def dry(friction=FRICTION):
     """A model in which nothing resists but dry friction."""
     return dataclasses.replace(
         bs.FrictionModel.reference(),
-        friction=lambda film_parameter, conditions, full_film: friction + 0 * conditions.contact_load,
+        friction=lambda c: friction + 0 * c.contact_load,
         rolling=lambda conditions: 0 * conditions.contact_load,
-        elastic_resistance=lambda d_w, Q, k, b: 0 * Q,
+        elastic_resistance=lambda c: 0 * c.contact_load,
         contact_load=lambda axial_load, *_: axial_load,
         ball_to_ball_force=0.0,
     )

@@ -11,7 +11,7 @@ import ballscrew as bs
 from ballscrew.components.frame import helix_frame
 from ballscrew.components.nut import Bodies, Deviations, DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
 from ballscrew.equations import geometry, hertz, preload
-from ballscrew.faults import InputError
+from ballscrew.errors import InputError
 from ballscrew.solvers import load_distribution
 from ballscrew.solvers.load_distribution import ball_loads
 

@@ -3,10 +3,10 @@
 import dataclasses
 
 import numpy as np
-from strategies import HEAVIEST, box
 
 import ballscrew as bs
 from ballscrew.components.nut import Bodies, Deviations, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut, SingleNut
+from support.strategies import HEAVIEST, box
 
 KINDS = ("single", "oversize", "double", "offset")
 

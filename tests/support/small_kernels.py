@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from ballscrew.engine.emission import kernel_text
-from ballscrew.engine.kernel import Kernel, room
-from ballscrew.engine.program import Player, Program
-from ballscrew.engine.tape import Tape
+from ballscrew.kernels.emission import kernel_text
+from ballscrew.kernels.kernel import Kernel, aligned_array
+from ballscrew.tracing.program import Interpreter, Program
+from ballscrew.tracing.tape import Tape
 
 
 def recorded(function, inputs):
@@ -25,7 +25,7 @@ def compiled(program, *, lanes=None, mask=False):
 
 def run(program, *arrays, lanes=None, mask=False):
     """The output of a kernel for whole arrays."""
-    out = room(len(arrays[0]), bool if mask else float)
+    out = aligned_array(len(arrays[0]), bool if mask else float)
     compiled(program, lanes=lanes, mask=mask)(slice(0, 1), slice(0, len(out)), len(out), arrays, [out])
     return out
 
@@ -34,5 +34,5 @@ def played(program, *arrays, mask=False):
     """The same by NumPy."""
     out = np.empty(len(arrays[0]), dtype=bool if mask else float)
     with np.errstate(all="ignore"):
-        Player(program).play(arrays, {"out": out})
+        Interpreter(program).play(arrays, {"out": out})
     return out

@@ -7,7 +7,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 import ballscrew as bs
-from ballscrew.result import FrictionResult
+from ballscrew.friction.result import FrictionResult
 
 RPM = math.pi / 30
 
@@ -166,14 +166,14 @@ def no_rolling_resistance(conditions):
     return 0 * conditions.contact_load
 
 
-def no_elastic_resistance(d_w, Q, k, b):
+def no_elastic_resistance(conditions):
     """Elastic resistance: none."""
-    return 0 * Q
+    return 0 * conditions.contact_load
 
 
 def constant_friction(coefficient):
     """Friction law: the same coefficient, whatever the film."""
-    return lambda film_parameter, conditions, full_film: coefficient + 0 * film_parameter
+    return lambda c: coefficient + 0 * c.film_parameter
 
 
 def without_losses_of_rolling(model: bs.FrictionModel) -> bs.FrictionModel:

@@ -1,4 +1,4 @@
-"""The benchmark runs, its two sides agree, and the speed of sweeps has not been lost."""
+"""The benchmarks run, their sides agree, and on a quiet machine the speed of sweeps has not been lost."""
 
 import json
 import subprocess
@@ -17,6 +17,22 @@ def figures_of(name, *options):
     return json.loads(outcome.stdout)
 
 
+def test_the_sides_of_the_sweep_agree():
+    figures = figures_of("sweep.py", "--points", "20000", "--no-cold")
+    assert figures["agreement"] < 1e-10
+    assert figures["points"] == 20_000
+
+
+@pytest.mark.long
+@pytest.mark.compiles
+def test_the_sides_of_the_engine_agree():
+    figures = figures_of("engine.py", "--points", "20000")
+    for name in ("A", "B", "cartesian", "reference"):
+        (by_points,) = figures[name]["by_points"].values()
+        assert by_points["agreement"] < 1e-12, name
+
+
+@pytest.mark.long
 def test_benchmark():
     """The ratio asked for is 3, on a quiet machine; here the other tests are running.
 
@@ -28,6 +44,7 @@ def test_benchmark():
     assert figures["points"] == 1_000_000
 
 
+@pytest.mark.long
 @pytest.mark.compiles
 def test_engine():
     """What is asked for on a quiet machine is 20, 12, 30 and 10; other tests are running, and ratios are what is left.

@@ -8,8 +8,8 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.analyses.outputs import DEFAULT_OUTPUTS, inputs_of, known_outputs
-from ballscrew.result import MECHANISMS
+from ballscrew.evaluation.outputs import DEFAULT_OUTPUTS, inputs_of, known_outputs
+from ballscrew.friction.result import MECHANISMS
 from ballscrew.solvers.pure_rolling import curvature_slip
 
 RPM = math.pi / 30
@@ -213,32 +213,32 @@ def test_the_default_force_between_balls_can_be_swept(model, seed_screw, seed_oi
     assert ds["screw_torque"].to_numpy()[1] == pytest.approx(r.screw_torque, rel=1e-12)
 
 
-def user_law_of_a_table(film_parameter, conditions, full_film):
+def user_law_of_a_table(conditions):
     """A friction curve somebody measured."""
-    return np.interp(film_parameter, [0.0, 0.5, 1.0, 2.0], [0.2, 0.1, 0.05, 0.02])
+    return np.interp(conditions.film_parameter, [0.0, 0.5, 1.0, 2.0], [0.2, 0.1, 0.05, 0.02])
 
 
-def user_law_with_clip(film_parameter, conditions, full_film):
-    return np.clip(0.2 - 0.1 * film_parameter, 0.02, 0.2)
+def user_law_with_clip(conditions):
+    return np.clip(0.2 - 0.1 * conditions.film_parameter, 0.02, 0.2)
 
 
-def user_law_with_an_assignment(film_parameter, conditions, full_film):
-    mu = np.full(np.shape(film_parameter), 0.2)
-    mu[film_parameter > 1] = 0.02
+def user_law_with_an_assignment(conditions):
+    mu = np.full(np.shape(conditions.film_parameter), 0.2)
+    mu[conditions.film_parameter > 1] = 0.02
     return mu
 
 
-def user_law_in_the_house_style(film_parameter, conditions, full_film):
-    return 0.02 + 0.18 / (1 + film_parameter**2) ** 0.5
+def user_law_in_the_house_style(conditions):
+    return 0.02 + 0.18 / (1 + conditions.film_parameter**2) ** 0.5
 
 
-def user_law_of_logarithms(film_parameter, conditions, full_film):
+def user_law_of_logarithms(conditions):
     """Powers of what may be negative."""
-    x = np.log(film_parameter + 0.1)
+    x = np.log(conditions.film_parameter + 0.1)
     return 0.1 - 0.01 * x + 0.002 * x**2 - 0.001 * x**3
 
 
-def constant_user_law(film_parameter, conditions, full_film):
+def constant_user_law(conditions):
     return 0.1
 
 
@@ -265,14 +265,14 @@ def test_laws_of_the_user(law, model, seed_screw, seed_oil):
         assert_same(ds[name].to_numpy(), EVERYTHING[name].read(r), sizes_of(r).get(name))
 
 
-def user_law_with_a_method(film_parameter, conditions, full_film):
+def user_law_with_a_method(conditions):
     """Methods of arrays are not operators: nothing to record."""
-    return (0.2 - 0.1 * film_parameter).clip(0.02, 0.2)
+    return (0.2 - 0.1 * conditions.film_parameter).clip(0.02, 0.2)
 
 
-def user_law_with_the_root_of_a_square(film_parameter, conditions, full_film):
+def user_law_with_the_root_of_a_square(conditions):
     """The root of a square is an absolute value."""
-    return 0.1 + 0.01 * np.sqrt(np.log(film_parameter + 0.1) ** 2)
+    return 0.1 + 0.01 * np.sqrt(np.log(conditions.film_parameter + 0.1) ** 2)
 
 
 @pytest.mark.parametrize(
@@ -287,7 +287,7 @@ def test_more_laws_of_the_user(law, model, seed_screw, seed_oil):
 
 
 def test_a_fault_in_a_law_of_the_user_is_raised(seed_screw, seed_oil):
-    def faulty(film_parameter, conditions, full_film):
+    def faulty(conditions):
         raise ZeroDivisionError("mine")
 
     mine = dataclasses.replace(bs.FrictionModel.olaru2005(), friction=faulty)

@@ -10,15 +10,16 @@ import openpyxl
 import pytest
 import xlsxwriter
 
-from ballscrew.analyses.validation_sets import SETS
+from ballscrew import units
+from ballscrew.cases.catalogue import COLUMNS
 from ballscrew.components.catalogue import CatalogueRow
 from ballscrew.components.materials import TEMPERATURE
-from ballscrew.faults import Fault, InputError
-from ballscrew.interfaces import decimals, rows, units
-from ballscrew.interfaces.catalogue import COLUMNS
-from ballscrew.interfaces.headings import Column, heading_of
-from ballscrew.interfaces.validation import columns_of
+from ballscrew.errors import Fault, InputError
 from ballscrew.quantities import fields_of
+from ballscrew.studies.validation import columns_of
+from ballscrew.tables import decimals, rows
+from ballscrew.tables.headings import Column, heading_of
+from ballscrew.validation.sets import SETS
 
 FIELDS = fields_of(CatalogueRow)
 LEAD, BALL = Column("lead", FIELDS["lead"], ("Ph", "P"), True), Column("ball_diameter", FIELDS["ball_diameter"])

@@ -9,11 +9,11 @@ import xarray as xr
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ballscrew.analyses import log_cleaning
-from ballscrew.analyses.log_gathering import Gathering
-from ballscrew.analyses.log_motion import SCALES, motion_of, runs_in
-from ballscrew.analyses.torque_log import TorqueLog
-from ballscrew.faults import InputError
+from ballscrew.errors import InputError
+from ballscrew.torque_logs import cleaning
+from ballscrew.torque_logs.motion import SCALES, motion_of, runs_in
+from ballscrew.torque_logs.reservoir_sampler import ReservoirSampler
+from ballscrew.torque_logs.torque_log import TorqueLog
 
 LEAD, FRICTION, INERTIA = 0.01, 0.3, 0.01
 #: A cycle: times, speeds at them, and the acceleration between them.
@@ -398,7 +398,7 @@ def test_what_a_log_cannot_tell():
 
 
 def gathered(data, pieces, held):
-    gathering = Gathering(held)
+    gathering = ReservoirSampler(held)
     line = np.arange(1, data["axial_load"].size + 1)
     for places in np.array_split(np.arange(line.size), pieces):
         columns = {name.replace("drive_", ""): values[places] for name, values in data.items()}
@@ -423,7 +423,7 @@ def test_a_log_read_in_pieces_is_the_log_read_whole(monkeypatch, pieces, clock):
     data["temperature"][::13] = np.nan
     if clock:
         data["time"] = np.floor(data["time"] / clock) * clock
-    monkeypatch.setattr(log_cleaning, "HELD", 1500)
+    monkeypatch.setattr(cleaning, "HELD", 1500)
     whole = TorqueLog.of(data).cleaned(inertia=INERTIA, most=600)
     same(gathered(data, pieces, 1500).cleaned(inertia=INERTIA, most=600), whole)
     assert whole.left_out["thinned"] > 4000
@@ -433,7 +433,7 @@ def test_a_log_read_in_pieces_is_the_log_read_whole(monkeypatch, pieces, clock):
 def test_motion_is_found_before_rows_go():
     data, _ = cycle(5000, 0.002, 0.1)
     log = gathered(data, 50, 700)
-    whole = motion_of(data["time"] - data["time"][0], data["screw_speed"]).taken(log.line - 1)
+    whole = motion_of(data["time"] - data["time"][0], data["screw_speed"]).select(log.line - 1)
     np.testing.assert_array_equal(log.motion.slope, whole.slope)
     np.testing.assert_array_equal(log.motion.span, whole.span)
     np.testing.assert_array_equal(log.motion.bend, whole.bend)
@@ -465,7 +465,7 @@ def test_long_logs_with_an_empty_time_or_none():
 
 
 def test_a_time_that_stands_still_does_not_pile_up():
-    gathering = Gathering(500)
+    gathering = ReservoirSampler(500)
     for piece in range(30):
         columns = {name: np.ones(200) for name in ("axial_load", "screw_speed", "torque", "time")}
         gathering.add(columns, np.arange(200 * piece, 200 * (piece + 1)))

@@ -3,11 +3,11 @@
 import mpmath
 import numpy as np
 import pytest
-from kernels import played
 
-from ballscrew.engine.gradient import UnknownSlopeError, partials
-from ballscrew.engine.program import Program
-from ballscrew.engine.tape import Tape
+from ballscrew.tracing.gradient import UnknownDerivativeError, partials
+from ballscrew.tracing.program import Program
+from ballscrew.tracing.tape import Tape
+from support.small_kernels import played
 
 
 def slopes(function, *arrays):
@@ -100,7 +100,7 @@ def test_the_slope_of_a_root_at_zero_is_infinite():
 
 def test_unknown_operation():
     tape = Tape(1)
-    with pytest.raises(UnknownSlopeError, match="sinh"):
+    with pytest.raises(UnknownDerivativeError, match="sinh"):
         partials(tape, np.sinh(tape.value(0)), [0])
 
 

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from kernels import played
 
-from ballscrew.engine.merging import merged_program
-from ballscrew.engine.program import Program
-from ballscrew.engine.tape import Tape
+from ballscrew.tracing.merging import merged_program
+from ballscrew.tracing.program import Program
+from ballscrew.tracing.tape import Tape
+from support.small_kernels import played
 
 RNG = np.random.default_rng(4)
 X, Y, Z = (RNG.uniform(0.1, 5, 50) for _ in range(3))

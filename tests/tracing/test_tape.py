@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.engine.program import Player, Program
-from ballscrew.engine.tape import Tape, Traced
+from ballscrew.tracing.program import Interpreter, Program
+from ballscrew.tracing.tape import Tape, Traced
+from support.expressions import EXPRESSIONS
 
 X = np.array([0.0, 0.25, 1.0, 2.0, 7.0])
 Y = np.array([3.0, 0.0, 1.0, 0.5, 2.0])
@@ -23,46 +24,12 @@ def play(program, *values):
     values = values or (X, Y)
     out = np.full(len(values[0]), 99.0)
     with np.errstate(all="ignore"):
-        Player(program).play(values, {"out": out})
+        Interpreter(program).play(values, {"out": out})
     return out
 
 
 def functions_of(program):
     return [step.function for _, step in program.steps]
-
-
-EXPRESSIONS = {
-    "product": lambda x, y: 3 * x * y / 7,
-    "broken powers": lambda x, y: 2.5 * x**0.66 * y**0.47,
-    "negative power": lambda x, y: x * y**-0.073,
-    "quotient": lambda x, y: x / (1 + y),
-    "reflected quotient": lambda x, y: 2 / (1 + x),
-    "sum of products": lambda x, y: x * y + x**2 - y / 3,
-    "square root": lambda x, y: np.sqrt(x) * np.sqrt(y + 1),
-    "square": lambda x, y: np.square(x) - np.square(y),
-    "whole power of a difference": lambda x, y: (x - y) ** 3,
-    "high power": lambda x, y: (x - y) ** 11,
-    "inverse square": lambda x, y: (1 + x) ** -2,
-    "zeroth power": lambda x, y: x**0 + y,
-    "power of a negative multiple": lambda x, y: (-2 * x) ** 2,
-    "negative": lambda x, y: -x + +y,
-    "exponential": lambda x, y: np.exp(-1.42 * x**0.8),
-    "trigonometry": lambda x, y: np.sin(np.arcsin((1 - x / 7) / 2) / 3),
-    "extremes": lambda x, y: np.minimum(np.maximum(x, 0.3), y),
-    "absolute": lambda x, y: np.abs(x - y),
-    "where": lambda x, y: np.where(x > y, x, 2 * y),
-    "where of a constant and a product": lambda x, y: np.where(x == 0, 0.0, 5 * y / x),
-    "where of two constants": lambda x, y: np.where(x < 1, 3.0, -3.0),
-    "where that is divided": lambda x, y: y / np.where(x > 0, x, 1.0),
-    "mask as a number": lambda x, y: (x + (x == 0)) / (y + (y == 0)),
-    "masks together": lambda x, y: 1.0 * ((x > 0) & ~(y > 1) | (x >= 7)),
-    "mask times a value": lambda x, y: (x > 1) * y,
-    "finite": lambda x, y: np.where(np.isfinite(y / x), 1.0, 0.0),
-    "powers of powers": lambda x, y: (x**0.5 * y) ** (1 / 3) * x ** (2 / 3),
-    "cancelling powers": lambda x, y: x**2 * y / x,
-    "a value by itself": lambda x, y: x / x,
-    "an empty index": lambda x, y: np.where(x > 1, x, y)[()],
-}
 
 
 @pytest.mark.parametrize("name", EXPRESSIONS)
@@ -147,7 +114,7 @@ def test_buffers_are_used_again():
 
     program = record(chain)
     assert len(program.steps) == 40
-    assert len(Player(program).buffers) <= 3
+    assert len(Interpreter(program).buffers) <= 3
     expected = X
     for _ in range(20):
         expected = np.sin(expected + Y)
@@ -173,7 +140,7 @@ def test_constant_and_input_outputs():
     tape = Tape(1)
     program = Program.of(tape, {"constant": 4.5, "input": tape.value(0), "mask": tape.value(0) > 1})
     results = {"constant": np.empty(5), "input": np.empty(5), "mask": np.empty(5, dtype=bool)}
-    Player(program).play([X], results)
+    Interpreter(program).play([X], results)
     assert np.array_equal(results["constant"], np.full(5, 4.5))
     assert np.array_equal(results["input"], X)
     assert np.array_equal(results["mask"], X > 1)

@@ -12,19 +12,19 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.analyses.comparison import Candidate
-from ballscrew.analyses.distributions import LogNormal, Normal, Uniform
-from ballscrew.analyses.known_uncertainties import JUDGEMENT, known_uncertainties, usual_uncertainties
-from ballscrew.analyses.nut_parts import NutParts
-from ballscrew.analyses.sampling import JointNormal
-from ballscrew.analyses.uncertainty import band, band_along
+from ballscrew.cases import case_file, uncertain_inputs
 from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.components.lubrication import houpert_rolling
 from ballscrew.components.mixed_friction import BalanSharing
-from ballscrew.faults import InputError
-from ballscrew.interfaces import band as interface
-from ballscrew.interfaces import config, uncertain
+from ballscrew.errors import InputError
+from ballscrew.evaluation.comparison import Candidate
+from ballscrew.friction.nut_parts import NutParts
 from ballscrew.references import bibliography
+from ballscrew.studies import band as interface
+from ballscrew.uncertainty.bands import band, band_along
+from ballscrew.uncertainty.default_uncertainties import JUDGEMENT, default_distributions, default_uncertainties
+from ballscrew.uncertainty.distributions import LogNormal, Normal, Uniform
+from ballscrew.uncertainty.sampling import JointNormal
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 POINT = {"axial_load": 4000.0, "screw_speed": 60.0}
@@ -34,7 +34,7 @@ ERRORS = 5
 
 @pytest.fixture(scope="module")
 def drive():
-    return config.load(EXAMPLES / "feed_drive.toml")
+    return case_file.load(EXAMPLES / "feed_drive.toml")
 
 
 @pytest.fixture
@@ -74,21 +74,26 @@ def test_small_deviations_propagate_as_derivatives_say(of_seed, seed_screw, seed
     assert found.model_form == (found.value, found.value)
 
 
-@pytest.mark.parametrize("output", ["screw_torque", "efficiency", "holding_torque", "friction_power"])
-def test_wide_distributions_against_random_samples(output, drive):
-    """The ends of the band lie where the random sampler has the shares that they should have."""
-    inputs = {name: one.distribution for name, one in uncertain.all_of(drive).items()}
+def test_wide_distributions_against_random_samples(drive):
+    """The ends of the bands lie where the random sampler has the shares that they should have."""
+    outputs = ["screw_torque", "efficiency", "holding_torque", "friction_power"]
+    inputs = {name: one.distribution for name, one in uncertain_inputs.all_of(drive).items()}
     point = {name: getattr(drive.operation, name) for name in ("axial_load", "screw_speed")}
     subject = (drive.model, drive.screw, drive.lubricant)
     count, random = 2**13, 2**16
-    found = band(*subject, uncertain=inputs, **point, outputs=[output], samples=count)[output].parameters
-    for end, share in zip(found, (0.025, 0.975), strict=True):
+    found = band(*subject, uncertain=inputs, **point, outputs=outputs, samples=count)
+    around = []
+    for share in (0.025, 0.975):
         error = ERRORS * math.sqrt(share * (1 - share) * (1 / count + 1 / random))
-        around = [share - error, share + error]
-        others = bs.monte_carlo(
-            *subject, distributions=inputs, samples=random, seed=3, outputs=[output], quantiles=around, **point
-        )[f"{output}_quantiles"].to_numpy()
-        assert others[0] < end < others[1]
+        around += [share - error, share + error]
+    sampled = bs.monte_carlo(
+        *subject, distributions=inputs, samples=random, seed=3, outputs=outputs, quantiles=around, **point
+    )
+    for output in outputs:
+        low, high = found[output].parameters
+        others = sampled[f"{output}_quantiles"].to_numpy()
+        assert others[0] < low < others[1], output
+        assert others[2] < high < others[3], output
 
 
 def test_correlated_inputs(of_seed, seed_screw, seed_oil):
@@ -185,7 +190,7 @@ def test_laws_that_do_not_count_or_are_not_valid_are_not_drawn(of_seed):
 @pytest.mark.parametrize("example", ["feed_drive", "olaru2005"])
 def test_independent_slots_against_all_combinations(example):
     """docs/uncertainty.md: factors multiply within 10 %, and the ends of the interval are within 5 %."""
-    case = config.load(EXAMPLES / f"{example}.toml", model="reference")
+    case = case_file.load(EXAMPLES / f"{example}.toml", model="reference")
     point = {name: getattr(case.operation, name) for name in ("axial_load", "screw_speed")}
 
     def torque(model):
@@ -213,7 +218,7 @@ def test_independent_slots_against_all_combinations(example):
 
 
 def test_a_curve_goes_through_the_band(drive):
-    inputs = {name: one.distribution for name, one in uncertain.all_of(drive).items()}
+    inputs = {name: one.distribution for name, one in uncertain_inputs.all_of(drive).items()}
     options = {
         "uncertain": inputs, "alternatives": interface.alternatives(drive), "samples": 256, "axial_load": 5000.0,
         "screw_speed": 60.0,
@@ -260,7 +265,7 @@ def test_no_load_and_rest(of_seed):
 
 
 def test_every_source_is_known_and_every_reason_said():
-    for name, one in known_uncertainties().items():
+    for name, one in default_uncertainties().items():
         assert one.source == JUDGEMENT or one.source in bibliography(), name
         assert len(one.reason.split()) >= 4
         assert sum(x is not None for x in (one.half_width, one.share, one.limits, one.factor)) == 1
@@ -268,8 +273,8 @@ def test_every_source_is_known_and_every_reason_said():
 
 def test_every_input_in_the_file_exists(seed_screw):
     """Each is an input of some model, so that no name is misspelt."""
-    from ballscrew.analyses.outputs import inputs_of
-    from ballscrew.interfaces.schema import LAWS
+    from ballscrew.cases.schema import LAWS
+    from ballscrew.evaluation.outputs import inputs_of
 
     model = bs.FrictionModel.reference()
     oil = bs.Lubricant.from_grade("ISO VG 100")
@@ -281,12 +286,12 @@ def test_every_input_in_the_file_exists(seed_screw):
             dataclasses.replace(model, **{slot: law() if isinstance(law, type) else law}), seed_screw, oil
         )
     }
-    assert set(known_uncertainties()) - names == {"viscosity_of_grade"}
+    assert set(default_uncertainties()) - names == {"viscosity_of_grade"}
 
 
 def test_usual_distributions_are_about_the_values_of_the_case(seed_screw, seed_oil):
     model = dataclasses.replace(bs.FrictionModel.reference(), friction=bs.ZhouHoeprich())
-    usual = usual_uncertainties(model, seed_screw, seed_oil)
+    usual = default_distributions(model, seed_screw, seed_oil)
     centres = {name: float(distribution.quantile(0.5)) for name, (distribution, _) in usual.items()}
     assert centres["friction.boundary_friction_coefficient"] == pytest.approx(0.2, rel=1e-6)
     assert centres["ball_to_ball_force"] == pytest.approx(1 / 56)
@@ -294,9 +299,9 @@ def test_usual_distributions_are_about_the_values_of_the_case(seed_screw, seed_o
     assert centres["viscosity"] == pytest.approx(0.1)
     assert "temperature" not in usual
     without = dataclasses.replace(model, ball_to_ball_force=0.0)
-    assert "ball_to_ball_force" not in usual_uncertainties(without, seed_screw, seed_oil)
+    assert "ball_to_ball_force" not in default_distributions(without, seed_screw, seed_oil)
     proportional = dataclasses.replace(model, ball_force=ProportionalBallForce())
-    names = usual_uncertainties(proportional, seed_screw, seed_oil)
+    names = default_distributions(proportional, seed_screw, seed_oil)
     assert "ball_force.share_of_load" in names
     assert "ball_to_ball_force" not in names
 
@@ -304,12 +309,12 @@ def test_usual_distributions_are_about_the_values_of_the_case(seed_screw, seed_o
 def test_an_oil_of_a_grade(seed_screw):
     oil = bs.Lubricant.from_grade("ISO VG 100", 313.15)
     model = bs.FrictionModel.reference()
-    usual = usual_uncertainties(model, seed_screw, oil)
+    usual = default_distributions(model, seed_screw, oil)
     assert "temperature" in usual
     assert "viscosity" not in usual
-    given = usual_uncertainties(model, seed_screw, oil, given={"temperature"})
+    given = default_distributions(model, seed_screw, oil, given={"temperature"})
     assert not {"temperature", "viscosity"} & set(given)
-    distribution, why = usual_uncertainties(model, seed_screw, oil, exact={"temperature"})["viscosity"]
+    distribution, why = default_distributions(model, seed_screw, oil, exact={"temperature"})["viscosity"]
     assert why.source == "ISO3448"
     assert distribution == Uniform(0.9 * oil.viscosity, 1.1 * oil.viscosity)
 

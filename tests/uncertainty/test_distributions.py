@@ -6,11 +6,18 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from ballscrew.analyses.distributions import LogNormal, Normal, Triangular, Uniform, standard_normal_quantile, within
-from ballscrew.engine.program import Player, Program
-from ballscrew.engine.tape import Tape, Traced
-from ballscrew.faults import InputError
+from ballscrew.errors import InputError
 from ballscrew.quantities import Info
+from ballscrew.tracing.program import Interpreter, Program
+from ballscrew.tracing.tape import Tape, Traced
+from ballscrew.uncertainty.distributions import (
+    LogNormal,
+    Normal,
+    Triangular,
+    Uniform,
+    standard_normal_quantile,
+    within,
+)
 
 #: From the smallest to the largest random number there is, close to where the approximations change.
 LEVELS = np.unique(
@@ -84,7 +91,7 @@ def test_on_all_kinds_of_value(name):
     assert isinstance(recorded, Traced)
     played = {"out": np.empty_like(LEVELS)}
     with np.errstate(all="ignore"):
-        Player(Program.of(tape, {"out": recorded})).play([LEVELS], played)
+        Interpreter(Program.of(tape, {"out": recorded})).play([LEVELS], played)
     assert played["out"] == pytest.approx(expected, rel=1e-14, abs=1e-14)
 
 
@@ -110,10 +117,10 @@ def test_bad_numbers(make, message):
 
 
 def test_words():
-    assert Uniform(1000, 4000).words("N") == "uniform from 1000.0 N to 4000.0 N"
-    assert Normal(np.float64(0.1), 0.02).words("1") == "normal, mean 0.1, standard deviation 0.02"
-    assert LogNormal(0.1, 1.3).words("Pa s") == "log-normal, median 0.1 Pa s, factor 1.3"
-    assert Triangular(0, 1, 3).words("m") == "triangular from 0.0 m to 3.0 m, mode 1.0 m"
+    assert Uniform(1000, 4000).describe("N") == "uniform from 1000.0 N to 4000.0 N"
+    assert Normal(np.float64(0.1), 0.02).describe("1") == "normal, mean 0.1, standard deviation 0.02"
+    assert LogNormal(0.1, 1.3).describe("Pa s") == "log-normal, median 0.1 Pa s, factor 1.3"
+    assert Triangular(0, 1, 3).describe("m") == "triangular from 0.0 m to 3.0 m, mode 1.0 m"
 
 
 # -- cut at ends ----------------------------------------------------------------------------------
@@ -179,10 +186,10 @@ def test_cut_on_values_that_are_recorded():
         recorded = distribution.quantile(tape.value(0))
         played = {"out": np.empty_like(LEVELS)}
         with np.errstate(all="ignore"):
-            Player(Program.of(tape, {"out": recorded})).play([LEVELS], played)
+            Interpreter(Program.of(tape, {"out": recorded})).play([LEVELS], played)
         assert played["out"] == pytest.approx(distribution.quantile(LEVELS), rel=1e-14)
 
 
 def test_words_of_ends():
-    assert Normal(0.1, 0.02, low=0.0).words("m") == "normal, mean 0.1 m, standard deviation 0.02 m, cut below 0.0 m"
-    assert LogNormal(0.1, 1.3, 0.05, 0.5).words("1").endswith("factor 1.3, cut below 0.05 and above 0.5")
+    assert Normal(0.1, 0.02, low=0.0).describe("m") == "normal, mean 0.1 m, standard deviation 0.02 m, cut below 0.0 m"
+    assert LogNormal(0.1, 1.3, 0.05, 0.5).describe("1").endswith("factor 1.3, cut below 0.05 and above 0.5")

@@ -14,10 +14,10 @@ import xarray as xr
 from scipy import stats
 
 import ballscrew as bs
-from ballscrew.analyses.distributions import LogNormal, Normal, Triangular, Uniform
-from ballscrew.analyses.monte_carlo import BLOCK, monte_carlo
-from ballscrew.engine import random
-from ballscrew.engine.sketch import RELATIVE_ERROR
+from ballscrew.kernels import random
+from ballscrew.kernels.sketch import RELATIVE_ERROR
+from ballscrew.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
+from ballscrew.uncertainty.monte_carlo import BLOCK, monte_carlo
 
 ERRORS = 5
 INPUTS = {
@@ -158,11 +158,11 @@ def test_memory_is_bounded(sampled, engine, samples):
 def test_a_law_that_cannot_be_recorded(sampled):
     """Is evaluated on plain arrays, on the same samples; a kernel of it cannot be had."""
 
-    def table(film_parameter, conditions, full_film):
-        return np.interp(film_parameter, [0.0, 3.0], [0.2, 0.02])
+    def table(conditions):
+        return np.interp(conditions.film_parameter, [0.0, 3.0], [0.2, 0.02])
 
-    def line(film_parameter, conditions, full_film):
-        return np.maximum(0.2 - 0.06 * film_parameter, 0.02)
+    def line(conditions):
+        return np.maximum(0.2 - 0.06 * conditions.film_parameter, 0.02)
 
     options = {"distributions": INPUTS, "samples": 5000, "outputs": ["screw_torque", "valid"]}
     by_table, by_line = (
@@ -174,11 +174,11 @@ def test_a_law_that_cannot_be_recorded(sampled):
 
 @pytest.mark.compiles
 def test_a_law_that_cannot_be_recorded_has_no_kernel(sampled):
-    def table(film_parameter, conditions, full_film):
-        return np.interp(film_parameter, [0.0, 3.0], [0.2, 0.02])
+    def table(conditions):
+        return np.interp(conditions.film_parameter, [0.0, 3.0], [0.2, 0.02])
 
     model = dataclasses.replace(bs.FrictionModel.corrected(), friction=table)
-    with pytest.raises(bs.InputError, match=r"monte_carlo\.engine: a law of your own"):
+    with pytest.raises(bs.InputError, match=r"monte_carlo\.engine: cannot be had: .*numpy\.interp cannot be recorded"):
         sampled(model, distributions=INPUTS, samples=10, engine="compiled")
 
 

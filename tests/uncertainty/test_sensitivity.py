@@ -8,15 +8,17 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.analyses import variance
-from ballscrew.analyses.distributions import LogNormal, Normal, Triangular, Uniform
-from ballscrew.analyses.effects import CATALOGUE
-from ballscrew.analyses.nut_parts import NutParts
-from ballscrew.analyses.plan import Subject
-from ballscrew.analyses.sensitivity import METHODS, sensitivity
-from ballscrew.analyses.variance import sobol_indices
-from ballscrew.faults import InputError
-from ballscrew.model import FrictionModel
+from ballscrew.errors import InputError
+from ballscrew.evaluation.plan import Configuration
+from ballscrew.friction.model import (
+    FrictionModel,
+)
+from ballscrew.friction.nut_parts import NutParts
+from ballscrew.uncertainty import sobol
+from ballscrew.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
+from ballscrew.uncertainty.sensitivity import METHODS, sensitivity
+from ballscrew.uncertainty.sobol import sobol_indices
+from effect_study.cases import CATALOGUE
 
 #: The corrected model is recorded the faster; the reference model is for what people see.
 MODEL, REFERENCE = FrictionModel.corrected(), FrictionModel.reference()
@@ -55,7 +57,7 @@ def wide(e):
 # -- a second opinion -----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("output", ["screw_torque", "efficiency"])
+@pytest.mark.parametrize("output", ["screw_torque", pytest.param("efficiency", marks=pytest.mark.long)])
 def test_indices_agree_with_salib(output):
     """Its own samples, its own estimator and intervals; and the model itself in place of the engine."""
     with warnings.catch_warnings():
@@ -70,7 +72,7 @@ def test_indices_agree_with_salib(output):
             "bounds": [numbers for _, numbers in OF_SALIB.values()],
         }
         points = sample.sample(problem, 2**12, calc_second_order=False, seed=5)
-        result = Subject(REFERENCE, CATALOGUE.screw, CATALOGUE.oil).at(
+        result = Configuration(REFERENCE, CATALOGUE.screw, CATALOGUE.oil).at(
             POINT | dict(zip(OF_SALIB, points.T, strict=True))
         )
         theirs = analyze.analyze(problem, getattr(result, output), calc_second_order=False, seed=5)
@@ -81,7 +83,7 @@ def test_indices_agree_with_salib(output):
             (ours.total[name], theirs["ST"][i], theirs["ST_conf"][i]),
         ):
             assert abs(mine.value - value) < math.hypot(wide(mine), half), name
-            if mine.value < variance.LARGE or mine is ours.total[name]:  # the same estimators
+            if mine.value < sobol.LARGE_INDEX or mine is ours.total[name]:  # the same estimators
                 assert wide(mine) == pytest.approx(half, rel=0.3, abs=1e-4), name
     assert list(ours.inputs) == [list(OF_SALIB)[i] for i in np.argsort(-theirs["ST"])]
 
@@ -93,14 +95,14 @@ def product(shares):
 def test_bootstrap_is_as_wide_as_that_of_scipy():
     from scipy import stats
 
-    shares = variance.evenly_spread(6, 256, 0)
+    shares = sobol.sobol_sequence(6, 256, 0)
     a, b = shares[:3], shares[3:]
     mixed = np.array([[product(np.where(np.arange(3)[:, None] == i, b, a))] for i in range(3)])
     values = {"f_A": product(a)[None], "f_B": product(b)[None], "f_AB": mixed}
     theirs = stats.sobol_indices(func=values, n=256)
     resampled = theirs.bootstrap()
     ours = sobol_indices(product, 3, 256)
-    small = theirs.first_order < variance.LARGE
+    small = theirs.first_order < sobol.LARGE_INDEX
     assert list(small) == [False, True, True]
     for mine, value, spread, shared in (
         (ours.first_order, theirs.first_order, resampled.first_order, small),
@@ -126,7 +128,7 @@ def test_samples_without_a_number_are_left_out():
         return values
 
     found = sobol_indices(function, 3, 256)
-    shares = variance.evenly_spread(6, 256, 0)[:, ~lost]
+    shares = sobol.sobol_sequence(6, 256, 0)[:, ~lost]
     a, b = shares[:3], shares[3:]
     middle = np.mean([product(a), product(b)])
     f_a, f_b = product(a) - middle, product(b) - middle
@@ -162,19 +164,19 @@ def test_all_methods_rank_the_same_inputs(method):
 
 def test_what_to_find_out():
     found = found_of()
-    names = [known.inputs for known in found.knowing]
+    names = [known.inputs for known in found.explained_variance]
     assert all(longer[:-1] == shorter for shorter, longer in itertools.pairwise(names))
     by_first_order = sorted(UNCERTAIN, key=lambda name: -found.first_order[name].value)
     assert list(names[-1]) == by_first_order[: len(names[-1])]
     halved = found.to_halve
-    before = found.knowing[len(halved.inputs) - 2]
-    assert before.left > 0.5 >= halved.left
+    before = found.explained_variance[len(halved.inputs) - 2]
+    assert before.remaining > 0.5 >= halved.remaining
     # known indeed: these inputs at one value along each row, the others at many
     rng = np.random.default_rng(1)
     shape = {True: (200, 1), False: (200, 200)}
     drawn = {n: d.quantile(rng.random(shape[n in halved.inputs])) for n, d in UNCERTAIN.items()}
-    torques = Subject(MODEL, CATALOGUE.screw, CATALOGUE.oil).at(POINT | drawn).screw_torque
-    assert math.sqrt(np.mean(np.var(torques, axis=1))) / np.std(torques) == pytest.approx(halved.left, abs=0.02)
+    torques = Configuration(MODEL, CATALOGUE.screw, CATALOGUE.oil).at(POINT | drawn).screw_torque
+    assert math.sqrt(np.mean(np.var(torques, axis=1))) / np.std(torques) == pytest.approx(halved.remaining, abs=0.02)
 
 
 def test_one_input_has_it_all():
@@ -196,7 +198,7 @@ def test_an_input_without_effect_has_none(method):
     for measure in found.measures.values():
         assert measure["viscosity"] == (0, 0, 0)
     if method != "morris":
-        assert [known.inputs for known in found.knowing] == [("lead",)]
+        assert [known.inputs for known in found.explained_variance] == [("lead",)]
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -206,7 +208,7 @@ def test_a_constant_output_owes_nothing_to_any(method):
     )
     assert found.is_constant
     assert found.to_halve is None
-    assert found.knowing == ()
+    assert found.explained_variance == ()
     assert math.isnan(found.left_if_known("viscosity"))
     assert all(e.value == 0 for measure in found.measures.values() for e in measure.values())
 
@@ -216,14 +218,14 @@ def test_the_same_seed_gives_the_same_numbers():
         one, again, other = (found_of(method=method, samples=64, seed=seed) for seed in (1, 1, 2))
         assert one.measures == again.measures
         assert one.measures != other.measures
-        assert one.knowing == again.knowing
+        assert one.explained_variance == again.explained_variance
 
 
 def test_evaluations_are_told():
     told = []
     found = found_of(samples=64, done=lambda finished, total: told.append((finished, total)))
     assert sum(total for finished, total in told if finished == total) == found.evaluations
-    assert found.evaluations == 64 * (len(UNCERTAIN) + 2 + len(found.knowing) - 1)
+    assert found.evaluations == 64 * (len(UNCERTAIN) + 2 + len(found.explained_variance) - 1)
     assert found_of(samples=64, method="morris").evaluations == 64 * (len(UNCERTAIN) + 1)
 
 

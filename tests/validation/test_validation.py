@@ -8,18 +8,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ballscrew.analyses import validation as base
-from ballscrew.analyses.validation import Band, Conditions, Entry, Point, trends
-from ballscrew.analyses.validation_rows import screw_of
-from ballscrew.analyses.validation_sets import SETS
-from ballscrew.assembly import nut_friction
-from ballscrew.calibrations import calibrated, calibration
 from ballscrew.components.catalogue import catalogue
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import DoubleNut, OversizeBallNut
-from ballscrew.faults import InputError
-from ballscrew.interfaces import validation
-from ballscrew.model import FrictionModel
+from ballscrew.errors import InputError
+from ballscrew.friction.calibrations import calibrated, calibration
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.nut_friction import nut_friction
+from ballscrew.studies import validation
+from ballscrew.validation import entries as base
+from ballscrew.validation.entries import Band, Conditions, Entry, Point, trends
+from ballscrew.validation.rows import screw_of
+from ballscrew.validation.sets import SETS
 
 DATA = Path(__file__).parents[1] / "data"
 RPM = math.pi / 30
@@ -96,7 +96,7 @@ def test_a_row_is_the_nut_at_its_preload(found):
     assert double.band == pytest.approx((1.155, 0.87, 1.44))
     single = {point.name: point for point in found["rexroth-single-nut", None].points}["40x40x6-3 at 5 %"]
     assert single.value == pytest.approx(torque("rexroth-40x40x6-3-single", OversizeBallNut, 0.05), rel=1e-12)
-    (apart,) = single.apart
+    (apart,) = single.upper_limits
     assert apart.value == pytest.approx(torque("rexroth-40x40x6-3-single", OversizeBallNut, 0.02), rel=1e-12)
     assert (apart.name, apart.maximum) == ("40x40x6-3 at 2 %", 0.30)
 
@@ -136,7 +136,7 @@ def test_the_calibration_reaches_both_kinds_of_nut_with_the_same_numbers(found):
 
 def test_two_per_cent_rows_are_in_no_mean(found):
     entry = found["rexroth-single-nut", None]
-    assert len(entry.apart) == 18
+    assert len(entry.upper_limits) == 18
     assert all(point.name.endswith("at 5 %") for point in entry.points)
     without = [
         point for values in validation.shipped_rows(entry.data)
@@ -145,7 +145,7 @@ def test_two_per_cent_rows_are_in_no_mean(found):
         )
     ]  # fmt: skip
     assert [point.ratio for point in without] == [point.ratio for point in entry.points]
-    assert not any(point.apart for point in without)
+    assert not any(point.upper_limits for point in without)
 
 
 def test_rexroths_rule_is_behind_its_bands(found):
@@ -210,7 +210,7 @@ def test_trends_find_the_exponent_and_its_doubt():
     ]
     first, second = trends(points)
     assert (first.descriptor, second.descriptor) == ("size", "ball")
-    assert abs(first.exponent + 0.3) < first.doubt < 0.05
+    assert abs(first.exponent + 0.3) < first.half_width < 0.05
     assert first.correlation < -0.95
     assert abs(second.correlation) < 0.5
     assert trends(points[:2]) == []

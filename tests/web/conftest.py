@@ -8,8 +8,6 @@ import os
 import re
 import shutil
 import signal
-import subprocess
-import sys
 import tempfile
 import tomllib
 from pathlib import Path
@@ -20,28 +18,41 @@ import psutil
 import pytest
 from playwright.sync_api import ConsoleMessage, Error, Page, Request, sync_playwright
 
+from support.commands import Commands
+
 ROOT = Path(__file__).parents[2]
 #: A warning of NumPy in the server is a defect: nobody would see it.
-PYTHON = [sys.executable, "-W", "error::RuntimeWarning", "-m", "ballscrew.interfaces.cli"]
+ERRORS = ["RuntimeWarning"]
 
 
 class Server:
     """``ballscrew serve`` in a process."""
 
-    def __init__(self, *arguments: str, environment: dict[str, str] | None = None) -> None:
+    def __init__(
+        self,
+        commands: Commands,
+        *arguments: str,
+        environment: dict[str, str] | None = None,
+        module: str = "ballscrew.cli",
+    ) -> None:
         self.errors = tempfile.TemporaryFile("w+", encoding="utf-8")  # noqa: SIM115  (a pipe would fill up)
-        self.process = subprocess.Popen(
-            [*PYTHON, "serve", "--port", "0", *arguments],
-            stdout=subprocess.PIPE,
-            stderr=self.errors,
-            encoding="utf-8",
-            env={**os.environ, **(environment or {})},
-        )
-        self.first_line = self.process.stdout.readline()
+        reading, writing = os.pipe()
+        self._output = os.fdopen(reading, encoding="utf-8")
+        with Path(os.devnull).open() as nothing:
+            self.process = commands.start(
+                ["serve", "--port", "0", *arguments],
+                folder=Path.cwd(),
+                streams=[nothing.fileno(), writing, self.errors.fileno()],
+                environment=environment,
+                module=module,
+                errors=ERRORS,
+            )
+        os.close(writing)
+        self.first_line = self._output.readline()
         found = re.search(r"http://\S+", self.first_line)
         assert found, self.said()
         self.address = found[0]
-        self.client = httpx.Client(base_url=self.address, timeout=30, trust_env=False)
+        self.client = httpx.Client(base_url=self.address, timeout=120, trust_env=False)
 
     @property
     def port(self) -> int:
@@ -63,12 +74,12 @@ class Server:
     def end(self) -> tuple[int, str]:
         """End it as Ctrl-C does: its exit code and what it said of errors."""
         self.client.close()
-        if self.process.poll() is None:
-            self.process.send_signal(signal.SIGINT)
-        self.process.communicate(timeout=20)
+        self.process.send_signal(signal.SIGINT)
+        code = self.process.wait(60)
         said = self.said()
         self.errors.close()
-        return self.process.returncode, said
+        self._output.close()
+        return code, said
 
     def said(self) -> str:
         """What it has written of errors."""
@@ -77,20 +88,20 @@ class Server:
 
 
 @pytest.fixture(scope="module")
-def server():
-    found = Server()
+def server(commands):
+    found = Server(commands)
     yield found
     code, errors = found.end()
     assert (code, errors) == (0, "")  # no request left a traceback
 
 
 @pytest.fixture
-def start():
+def start(commands):
     """Start a server with options; it is ended whatever happens."""
     started: list[Server] = []
 
     def one(*arguments, **options):
-        started.append(Server(*arguments, **options))
+        started.append(Server(commands, *arguments, **options))
         return started[-1]
 
     yield one
@@ -154,6 +165,11 @@ class Visit:
     def settle(self) -> Visit:
         """Wait until all that was asked for is shown."""
         self.page.wait_for_selector('#results[aria-busy="false"]')
+        return self
+
+    def rest(self, milliseconds: int) -> Visit:
+        """Wait in the page itself: its timers that are due before have run then, however slow the machine is."""
+        self.page.evaluate("(time) => new Promise((done) => setTimeout(done, time))", milliseconds)
         return self
 
     def type(self, field: str, text: str) -> Visit:
@@ -228,6 +244,13 @@ def pages(browser):
     return collections.defaultdict(list)
 
 
+def new_page(browser, options: dict[str, Any]) -> Page:
+    """A page that waits as long as a slow machine with other work takes."""
+    page = browser.new_context(**options).new_page()
+    page.set_default_timeout(180_000)
+    return page
+
+
 @pytest.fixture
 def visit(browser, pages, server):
     """Visitors of the page; afterwards nothing was complained of, and nothing was asked from elsewhere."""
@@ -236,7 +259,7 @@ def visit(browser, pages, server):
     def one(address: str = server.address, **options: Any) -> Visit:
         settings = {"viewport": {"width": 1360, "height": 900}, **options}
         free = pages[repr(settings)]
-        page = free.pop() if free else browser.new_context(**settings).new_page()
+        page = free.pop() if free else new_page(browser, settings)
         visits.append((repr(settings), Visit(page, address)))
         return visits[-1][1]
 
@@ -252,10 +275,10 @@ def visit(browser, pages, server):
 
 
 @pytest.fixture
-def ballscrew():
+def ballscrew(commands, tmp_path):
     """Run a command that ends by itself."""
 
     def command(*arguments):
-        return subprocess.run([*PYTHON, *arguments], capture_output=True, encoding="utf-8", check=False, timeout=60)
+        return commands.run(arguments, folder=tmp_path, errors=ERRORS)
 
     return command

@@ -34,6 +34,14 @@ def test_files_are_sent_once(server, path):
     assert server.client.get(path, headers={"If-None-Match": '"another"'}).status_code == 200
 
 
+@pytest.mark.parametrize("path", ["/", "/plotly.js", "/page/main.js"])
+def test_head_of_files(server, path):
+    found, whole = server.client.head(path), server.client.get(path)
+    assert (found.status_code, found.content) == (200, b"")
+    assert found.headers["etag"] == whole.headers["etag"]
+    assert found.headers["content-security-policy"]
+
+
 def test_a_defect_is_said(monkeypatch):
     """Of the server, with the same headers; the server writes where it was, and the answer does not."""
     import asyncio
@@ -41,8 +49,8 @@ def test_a_defect_is_said(monkeypatch):
 
     import httpx
 
-    from ballscrew.interfaces.web import api
-    from ballscrew.interfaces.web.server import application
+    from ballscrew.web import api
+    from ballscrew.web.server import application
 
     def wrong():
         raise ArithmeticError("secret")

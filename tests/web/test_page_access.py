@@ -20,8 +20,16 @@ def violations(here):
     return [(one["id"], one["impact"], [node["target"] for node in one["nodes"]][:3]) for one in found]
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("size", SIZES)
+#: The short run has each size and each scheme once.
+PROFILES = [
+    pytest.param("desktop", "dark"),
+    pytest.param("phone", "light"),
+    pytest.param("desktop", "light", marks=pytest.mark.long),
+    pytest.param("phone", "dark", marks=pytest.mark.long),
+]
+
+
+@pytest.mark.parametrize(("size", "scheme"), PROFILES)
 def test_axe_finds_nothing(visit, size, scheme):
     here = visit(viewport=SIZES[size], color_scheme=scheme)
     here.expected = ("status of 422",)
@@ -30,7 +38,7 @@ def test_axe_finds_nothing(visit, size, scheme):
     here.page.locator("#models-button").click()
     here.page.wait_for_selector("#models table")
     here.page.evaluate(OPEN_ALL)
-    here.page.wait_for_timeout(200)
+    here.rest(200)
     assert violations(here) == []
     here.type("operation.axial_load", "nonsense")
     here.page.wait_for_selector(".field.wrong")
@@ -40,7 +48,7 @@ def test_axe_finds_nothing(visit, size, scheme):
 def test_everything_is_reached_by_tab_and_is_seen_to_be(visit):
     here = visit().open(f"#A={DOUBLE}&B=paper")
     here.page.evaluate(OPEN_ALL)
-    here.page.wait_for_timeout(200)
+    here.rest(200)
     reached, hidden = [], []
     count = here.page.evaluate(
         """[...document.querySelectorAll("a[href], button:enabled, input, select, summary, [tabindex='0']")]
@@ -123,7 +131,8 @@ def test_results_and_faults_are_said(visit):
     here.page.locator("#f-operation-axial_load").focus()
     for _ in range(8):
         here.page.keyboard.press("ArrowUp")
-    here.page.wait_for_timeout(1500)
+    here.page.wait_for_function("() => heard.length")
+    here.rest(1500)
     heard = here.page.evaluate("heard")
     assert 1 <= len(heard) <= 2  # not at every key
     assert heard[-1] == here.text("#summary")
@@ -131,7 +140,7 @@ def test_results_and_faults_are_said(visit):
     here.page.locator("#f-operation-axial_load").select_text()
     for letter in "nonsense":
         here.page.keyboard.type(letter)
-        here.page.wait_for_timeout(100)
+        here.rest(100)
     here.page.wait_for_function("() => heard.length")
     assert "operation.axial_load" in here.text("#faults")
     heard = here.page.evaluate("heard")
@@ -165,7 +174,11 @@ def test_headings_tables_and_labels(visit):
         assert field.evaluate("one => one.labels.length === 1 || Boolean(one.ariaLabel)")
 
 
-@pytest.mark.parametrize("width", [320, 390, 680, 768, 1024])  # 680: a screen of 1360 with letters of 200 %
+#: The narrowest and the widest; 680 is a screen of 1360 with letters of 200 %.
+WIDTHS = [320, 1024, *(pytest.param(width, marks=pytest.mark.long) for width in (390, 680, 768))]
+
+
+@pytest.mark.parametrize("width", WIDTHS)
 def test_no_scrolling_to_the_side(visit, width):
     here = visit(viewport={"width": width, "height": 800})
     here.open(f"#A={DOUBLE}&B=paper&C=hiwin-40-16k5&D=paper&band=1")
@@ -207,7 +220,7 @@ def contrast(one, other):
     return (bright + 0.05) / (dark + 0.05)
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scheme", ["dark", pytest.param("light", marks=pytest.mark.long)])
 def test_letters_of_charts_and_drawing_can_be_read(visit, scheme):
     here = visit(color_scheme=scheme, viewport={"width": 1360, "height": 4000}).open()
     here.page.wait_for_selector("#pressure-chart .xtick text")
@@ -226,7 +239,7 @@ def test_changing_to_dark_redraws(visit):
     ink = "getComputedStyle(document.querySelector('#torque-chart .xtick text')).fill"
     before = here.page.evaluate(ink)
     here.page.emulate_media(color_scheme="dark")
-    here.page.wait_for_timeout(300)
+    here.page.wait_for_function(f"(before) => {ink} !== before", arg=before)
     after = here.page.evaluate(ink)
     here.page.emulate_media(color_scheme="light")
     assert before != after
@@ -236,7 +249,7 @@ def test_on_paper_it_is_a_sheet(visit):
     here = visit(color_scheme="dark").open(f"#A={DOUBLE}&A.operation.axial_load=7+kN")
     here.page.emulate_media(media="print", color_scheme="dark")
     here.page.evaluate("dispatchEvent(new Event('beforeprint'))")
-    here.page.wait_for_timeout(300)
+    here.rest(300)
     visible = "[...document.querySelectorAll(`{}`)].filter((one) => one.checkVisibility()).length"
     assert here.page.evaluate(visible.format("button, nav, .tools, #band")) == 0
     assert here.page.evaluate(visible.format("[data-path='operation.axial_load'] input")) == 1

@@ -11,7 +11,7 @@ import pypdf
 import pytest
 from typer.testing import CliRunner
 
-from ballscrew.interfaces.cli import app
+from ballscrew.cli.main import app
 
 DOUBLE = "rexroth-40x10x6-6-double"
 STARTS = {"paper": "#A=paper&A.operation.axial_load=3+kN", "double nut": f"#A={DOUBLE}&A.operation.axial_load=7+kN"}
@@ -77,9 +77,13 @@ def test_drawing_as_svg(here):
 CHARTS = {"torque-chart": 41, "map-chart": (21, 11), "film-chart": 41, "pressure-chart": (41, 15), "compare-chart": 2}
 
 
-@pytest.mark.parametrize("chart", CHARTS)
-def test_csv_and_svg_of_each_chart(visit, chart):
+def test_csv_and_svg_of_each_chart(visit):
     here = visit(color_scheme="dark").open(f"#A=paper&B={DOUBLE}")
+    for chart in CHARTS:
+        files_are_the_chart(here, chart)
+
+
+def files_are_the_chart(here, chart):
     content = here.download(f"#{chart} button[aria-label^=CSV]").decode("utf-8")
     headings, *rows = csv.reader(io.StringIO(content))
     assert len(rows) in (CHARTS[chart] if isinstance(CHARTS[chart], tuple) else (CHARTS[chart],))

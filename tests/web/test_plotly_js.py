@@ -3,7 +3,7 @@
 import importlib.util
 from pathlib import Path
 
-from ballscrew.interfaces.web.plotly_js import eager
+from ballscrew.web.plotly_js import eager
 
 
 def installed() -> str:

@@ -1,0 +1,27 @@
+"""Every file and every name of the page "Where is …?" exists."""
+
+import re
+
+import pytest
+
+from .pages import DOCS, ROOT
+
+ROW = re.compile(r"^\| (?P<question>.+\?) \| `(?P<path>[^`]+)` \| (?:`(?P<name>\w+)`)? ?\|$", re.MULTILINE)
+ROWS = [*ROW.finditer((DOCS / "where.md").read_text(encoding="utf-8"))]
+
+
+def test_the_page_has_at_least_twenty_questions():
+    assert len(ROWS) >= 20
+    lines = (DOCS / "where.md").read_text(encoding="utf-8").splitlines()
+    assert len(ROWS) == sum(line.startswith("|") for line in lines) - 2  # the heading and the rule below it
+
+
+@pytest.mark.parametrize("row", ROWS, ids=[row["path"] for row in ROWS])
+def test_the_answer_exists(row):
+    path = ROOT / row["path"]
+    assert path.is_dir() if row["path"].endswith("/") else path.is_file()
+    if row["name"]:
+        defined = rf"^\s*(?:async )?(?:def|class) {row['name']}\b|^{row['name']}\b.*="
+        assert re.search(defined, path.read_text(encoding="utf-8"), re.MULTILINE), (
+            f"update docs/where.md: {row['name']} is not in {path}"
+        )

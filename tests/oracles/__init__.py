@@ -1,0 +1,1 @@
+"""Independent solutions that tests compare the package with."""

@@ -1,0 +1,36 @@
+"""Expressions of two values that a tape records, by name."""
+
+import numpy as np
+
+EXPRESSIONS = {
+    "product": lambda x, y: 3 * x * y / 7,
+    "broken powers": lambda x, y: 2.5 * x**0.66 * y**0.47,
+    "negative power": lambda x, y: x * y**-0.073,
+    "quotient": lambda x, y: x / (1 + y),
+    "reflected quotient": lambda x, y: 2 / (1 + x),
+    "sum of products": lambda x, y: x * y + x**2 - y / 3,
+    "square root": lambda x, y: np.sqrt(x) * np.sqrt(y + 1),
+    "square": lambda x, y: np.square(x) - np.square(y),
+    "whole power of a difference": lambda x, y: (x - y) ** 3,
+    "high power": lambda x, y: (x - y) ** 11,
+    "inverse square": lambda x, y: (1 + x) ** -2,
+    "zeroth power": lambda x, y: x**0 + y,
+    "power of a negative multiple": lambda x, y: (-2 * x) ** 2,
+    "negative": lambda x, y: -x + +y,
+    "exponential": lambda x, y: np.exp(-1.42 * x**0.8),
+    "trigonometry": lambda x, y: np.sin(np.arcsin((1 - x / 7) / 2) / 3),
+    "extremes": lambda x, y: np.minimum(np.maximum(x, 0.3), y),
+    "absolute": lambda x, y: np.abs(x - y),
+    "where": lambda x, y: np.where(x > y, x, 2 * y),
+    "where of a constant and a product": lambda x, y: np.where(x == 0, 0.0, 5 * y / x),
+    "where of two constants": lambda x, y: np.where(x < 1, 3.0, -3.0),
+    "where that is divided": lambda x, y: y / np.where(x > 0, x, 1.0),
+    "mask as a number": lambda x, y: (x + (x == 0)) / (y + (y == 0)),
+    "masks together": lambda x, y: 1.0 * ((x > 0) & ~(y > 1) | (x >= 7)),
+    "mask times a value": lambda x, y: (x > 1) * y,
+    "finite": lambda x, y: np.where(np.isfinite(y / x), 1.0, 0.0),
+    "powers of powers": lambda x, y: (x**0.5 * y) ** (1 / 3) * x ** (2 / 3),
+    "cancelling powers": lambda x, y: x**2 * y / x,
+    "a value by itself": lambda x, y: x / x,
+    "an empty index": lambda x, y: np.where(x > 1, x, y)[()],
+}

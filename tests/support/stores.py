@@ -1,0 +1,70 @@
+"""A small sweep for tests of stores, and the files that it leaves."""
+
+import math
+import subprocess
+import sys
+
+import numpy as np
+
+import ballscrew as bs
+from ballscrew.sweeps.store import Store
+
+RPM = math.pi / 30
+
+
+MODEL = bs.FrictionModel.olaru2005()
+
+
+AXES = {
+    "axial_load": np.linspace(10, 4000, 7),
+    "screw_speed": np.linspace(1, 100, 9),
+    "viscosity": [0.05, 0.1, 0.3],
+}
+
+
+SMALL = {"outputs": ["screw_torque", "efficiency", "valid"], "block_size": 12, **AXES}
+
+
+def files(folder):
+    """All that lies in a folder, byte for byte."""
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def times(folder, names):
+    return {name: (folder / name).stat().st_mtime_ns for name in names}
+
+
+KILLED = """
+import sys, time
+import numpy as np
+import ballscrew as bs
+from ballscrew.papers.olaru2005 import OIL, SCREW
+bs.sweep(
+    bs.FrictionModel.olaru2005(), SCREW, OIL, outputs=["screw_torque", "efficiency", "valid"], to=sys.argv[1],
+    block_size=20_000, done=lambda finished, total: time.sleep(float(sys.argv[2])),
+    axial_load=np.linspace(10, 4000, 100), screw_speed=np.linspace(1, 100, 200), viscosity=np.linspace(0.05, 0.5, 100),
+)
+"""
+
+
+KILLED_BLOCKS = 100
+
+
+def started(path, pause):
+    return subprocess.Popen([sys.executable, "-c", KILLED, str(path), str(pause)], stderr=subprocess.PIPE)
+
+
+def blocks_of(path):
+    return list((path / ".ballscrew" / "blocks").glob("*"))
+
+
+def stop_at(number, error, monkeypatch):
+    """Let the commit of a block end otherwise."""
+    commit = Store.commit
+
+    def committed(self, block, *others):
+        if block == number:
+            raise error
+        commit(self, block, *others)
+
+    monkeypatch.setattr(Store, "commit", committed)
