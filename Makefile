@@ -1,5 +1,6 @@
-# make demo: set up and reproduce the paper.  make test: set up and run the tests.  make app: the page in the browser.
-.PHONY: app demo test lint types layers docs bench readme screenshots clean
+# make demo: set up and reproduce the paper.  make test: set up and run the tests (make test-all: the long ones too).
+# make app: the page in the browser.
+.PHONY: app demo test test-all lint types layers js docs bench readme rooms screenshots clean
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -25,6 +26,9 @@ app: $(READY)
 test: $(READY)
 	$(BIN)/pytest
 
+test-all: $(READY)
+	$(BIN)/pytest -m "long or not long" --hypothesis-profile=long
+
 lint: $(READY)
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
@@ -35,12 +39,26 @@ types: $(READY)
 layers: $(READY)
 	$(BIN)/lint-imports
 
+# the page in the browser: types, against the API as it describes itself, and lint
+NODE_READY := tools/page/node_modules/.ready
+
+$(NODE_READY): tools/page/package.json tools/page/package-lock.json
+	cd tools/page && npm install --silent --no-save
+	@touch $@
+
+js: $(READY) $(NODE_READY)
+	$(BIN)/python tools/page/openapi.py tools/page/api.json
+	cd tools/page && npm run --silent check
+
 docs: $(READY)
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs out/docs
 
 readme: $(READY)
 	$(BIN)/python docs/make_readme.py
 	$(BIN)/python docs/make_equation_table.py
+
+rooms: $(READY)
+	$(BIN)/python docs/make_rooms.py
 
 screenshots: $(READY)
 	$(BIN)/python docs/make_screenshots.py

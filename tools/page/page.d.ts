@@ -1,0 +1,27 @@
+// Types of the page: the documents that the server sends are those of its OpenAPI description.
+
+import type { components } from "./api";
+
+type Schemas = components["schemas"];
+
+declare global {
+  type Run = Schemas["Run"];
+  type Sweep = Schemas["Sweep"];
+  type Compare = Schemas["Compare"];
+  type BandAnswer = Schemas["Band"];
+  type Vocabulary = Schemas["Vocabulary"];
+  type UnitChoice = Schemas["UnitChoice"];
+  type Mechanisms = Vocabulary["mechanisms"];
+  type VerdictRecord = Schemas["Record"];
+  type Template = Schemas["Template"];
+  type ShownQuantity = Schemas["Shown"];
+  type ProblemDocument = Schemas["Problem"];
+  type FaultLine = Schemas["FaultLine"];
+  type CatalogueRow = Schemas["Row"];
+
+  var Plotly: {
+    react(place: Element, traces: object[], layout: object, config: object): Promise<void>;
+    toImage(figure: object, options: object): Promise<string>;
+  };
+  var SwaggerUIBundle: (options: object) => void;
+}
