@@ -21,11 +21,11 @@ from typing import Any
 import distributed
 
 import ballscrew as bs
-from ballscrew.analyses import cluster
-from ballscrew.analyses.olaru2005 import OIL, SCREW
-from ballscrew.analyses.plan import Plan, Subject
-from ballscrew.analyses.store import Store
-from ballscrew.analyses.store_plan import Blocks
+from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.papers.olaru2005 import OIL, SCREW
+from ballscrew.sweeps import cluster
+from ballscrew.sweeps.store import Store
+from ballscrew.sweeps.store_plan import Blocks
 
 sys.path.insert(0, str(Path(__file__).parent))
 from out_of_core import OUTPUTS, axes
@@ -89,7 +89,7 @@ def main() -> None:
     options = parser.parse_args()
     points = int(options.points)
     model = bs.FrictionModel.olaru2005()
-    plan = Plan.of(Subject(model, SCREW, OIL), OUTPUTS, axes(points))
+    plan = Plan.of(Configuration(model, SCREW, OIL), OUTPUTS, axes(points))
     given = {"processes": True, "n_workers": 2, "threads_per_worker": 1, "dashboard_address": ":0"}
     with (
         tempfile.TemporaryDirectory(prefix="ballscrew-", dir=options.folder) as name,

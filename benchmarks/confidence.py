@@ -27,8 +27,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import ballscrew as bs
-from ballscrew.analyses.olaru2005 import SCREW
-from ballscrew.interfaces import band, config
+from ballscrew.cases import case_file
+from ballscrew.papers.olaru2005 import SCREW
+from ballscrew.studies import band
 
 CASE = Path(__file__).parents[1] / "examples" / "olaru2005.toml"
 MODELS: dict[str, Callable[[], bs.FrictionModel]] = {
@@ -80,9 +81,9 @@ def seconds(work: Callable[[], Any]) -> tuple[float, float]:
 def measured(name: str, samples: int, rows: int, seeds: int) -> dict[str, Any]:
     """The figures of a model."""
     model = MODELS[name]()
-    case = config.build(config.read(CASE), name, CASE.parent)
+    case = case_file.build(case_file.read(CASE), name, CASE.parent)
     columns = log(model, rows, 0)
-    first_band, warm_band = seconds(lambda: band.computed(case, band.Options(samples=samples)))
+    first_band, warm_band = seconds(lambda: band.band(case, band.Options(samples=samples)))
     first_fit, warm_fit = seconds(lambda: bs.fit(model, SCREW, OIL, columns, list(TRUE)))
     return {
         "band": {"first_s": first_band, "s": warm_band},

@@ -31,14 +31,14 @@ from numpy.typing import NDArray
 
 import ballscrew as bs
 from ballscrew._arrays import map_blocks, processors
-from ballscrew.analyses.derivatives import slopes_of
-from ballscrew.analyses.evaluation import Evaluation
-from ballscrew.analyses.olaru2005 import OIL, SCREW
-from ballscrew.analyses.plan import Plan, Subject
-from ballscrew.engine.emission import Source, kernel_text
-from ballscrew.engine.kernel import Kernel, room
-from ballscrew.engine.program import Program
-from ballscrew.engine.tape import Tape
+from ballscrew.evaluation.derivatives import slopes_of
+from ballscrew.evaluation.evaluation import Evaluation
+from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.kernels.emission import kernel_text
+from ballscrew.kernels.kernel import Kernel, aligned_array
+from ballscrew.papers.olaru2005 import OIL, SCREW
+from ballscrew.tracing.program import Program, Source
+from ballscrew.tracing.tape import Tape
 from script import OUTPUTS, formulas_on_arrays
 
 SIZES = (1_000_000, 10_000_000)
@@ -128,7 +128,7 @@ def moving(inputs: int, outputs: int, points: int) -> Callable[[], None]:
     sources: list[Source] = ["points"] * inputs
     kernel = Kernel.of(kernel_text(program, sources, dict.fromkeys(names, False)), sources)
     arrays = [np.ones(points) for _ in range(inputs)]
-    results = [room(points, float) for _ in range(outputs)]
+    results = [aligned_array(points, float) for _ in range(outputs)]
     block = math.ceil(points / (BLOCKS_PER_THREAD * processors()) / 64) * 64
     return lambda: map_blocks(lambda part: kernel(slice(0, 1), part, points, arrays, results), points, block_size=block)
 
@@ -145,7 +145,7 @@ def difference(found: Mapping[str, NDArray[Any]], expected: Mapping[str, NDArray
 def points_case(names: tuple[str, ...], points: int) -> Case:
     """Cases A and B."""
     values = drawn(names, points)
-    subject = Subject(bs.FrictionModel.olaru2005(), SCREW, OIL)
+    subject = Configuration(bs.FrictionModel.olaru2005(), SCREW, OIL)
     plan = Plan.of(subject, OUTPUTS, {name: xr.DataArray(v, dims="point") for name, v in values.items()})
     evaluation, results = ready(plan)
     letters = in_letters(values)
@@ -162,7 +162,7 @@ def grid_case(points: int) -> Case:
     """Case A on a grid of about so many points."""
     side = round(points ** (1 / 3))
     axes = {name: np.linspace(*RANGES[name][1:], side) for name in OPERATION}
-    evaluation, results = ready(Plan.of(Subject(bs.FrictionModel.olaru2005(), SCREW, OIL), OUTPUTS, axes))
+    evaluation, results = ready(Plan.of(Configuration(bs.FrictionModel.olaru2005(), SCREW, OIL), OUTPUTS, axes))
     grid = in_letters(dict(zip(OPERATION, np.meshgrid(*axes.values(), indexing="ij"), strict=True)))
     broad = in_letters(dict(zip(OPERATION, np.meshgrid(*axes.values(), indexing="ij", sparse=True), strict=True)))
     shape = (side,) * 3
@@ -182,7 +182,7 @@ def grid_case(points: int) -> Case:
 def reference_case(points: int) -> Case:
     """The reference model against its own form on whole arrays."""
     values = drawn(OPERATION, points)
-    subject = Subject(bs.FrictionModel.reference(), SCREW, OIL)
+    subject = Configuration(bs.FrictionModel.reference(), SCREW, OIL)
     plan = Plan.of(subject, OUTPUTS, {name: xr.DataArray(v, dims="point") for name, v in values.items()})
     evaluation, results = ready(plan)
     fewer = points // 5
@@ -206,7 +206,7 @@ def reference_case(points: int) -> Case:
 def gradient_case(points: int) -> Case:
     """The torque and its twelve derivatives."""
     values = drawn(BY, points)
-    subject = Subject(bs.FrictionModel.olaru2005(), SCREW, OIL)
+    subject = Configuration(bs.FrictionModel.olaru2005(), SCREW, OIL)
     varied = {name: xr.DataArray(v, dims="point") for name, v in values.items()}
     alone, value = ready(Plan.of(subject, ["screw_torque"], varied))
     both, results = ready(slopes_of(subject, ["screw_torque"], BY, varied))

@@ -21,11 +21,11 @@ import numpy as np
 from scipy.optimize import least_squares
 
 import ballscrew
-from ballscrew.analyses.validation import Conditions, Entry, Point
-from ballscrew.analyses.validation_sets import SETS
-from ballscrew.calibrations import PARAMETERS, with_parameters
-from ballscrew.interfaces import validation
-from ballscrew.model import FrictionModel
+from ballscrew.friction.calibrations import PARAMETERS, with_parameters
+from ballscrew.friction.model import FrictionModel
+from ballscrew.studies import validation
+from ballscrew.validation.entries import Conditions, Entry, Point
+from ballscrew.validation.sets import SETS
 
 NAME = "rexroth-2006"
 FITTED = ("rexroth-double-nut", "rexroth-single-nut")

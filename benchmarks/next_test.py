@@ -24,8 +24,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import ballscrew as bs
-from ballscrew.analyses.identifiability import weighted
-from ballscrew.analyses.olaru2005 import SCREW
+from ballscrew.calibration.identifiability import weighted_derivatives
+from ballscrew.papers.olaru2005 import SCREW
 
 RPM = 2 * math.pi / 60
 CELSIUS = 273.15
@@ -161,7 +161,7 @@ class Rig:
 
 def volume(found: bs.CalibratedModel) -> float:
     """The square root of the determinant of the covariance of the free numbers; see the module."""
-    root = weighted(found.solution)
+    root = weighted_derivatives(found.solution)
     own = np.diag(1 / found.uncertainty.scale**2)
     count = len(found.estimates)
     covariance = np.linalg.inv(root.T @ root + own)[:count, :count]

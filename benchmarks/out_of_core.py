@@ -26,10 +26,10 @@ from typing import Any
 import numpy as np
 
 import ballscrew as bs
-from ballscrew.analyses.evaluation import Evaluation
-from ballscrew.analyses.olaru2005 import OIL, SCREW
-from ballscrew.analyses.plan import Plan, Subject
-from ballscrew.analyses.store_plan import Blocks
+from ballscrew.evaluation.evaluation import Evaluation
+from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.papers.olaru2005 import OIL, SCREW
+from ballscrew.sweeps.store_plan import Blocks
 from script import OUTPUTS
 
 #: At which parts of the way the process is killed.
@@ -51,7 +51,7 @@ def axes(points: int) -> dict[str, Any]:
 
 def plan_of(points: int, outputs: int) -> Plan:
     """What is swept."""
-    return Plan.of(Subject(bs.FrictionModel.olaru2005(), SCREW, OIL), OUTPUTS[:outputs], axes(points))
+    return Plan.of(Configuration(bs.FrictionModel.olaru2005(), SCREW, OIL), OUTPUTS[:outputs], axes(points))
 
 
 def fill(path: str, points: int, outputs: int) -> None:

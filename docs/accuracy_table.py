@@ -1,4 +1,4 @@
-"""The models against the contact integral, as the benchmarks print it."""
+"""Comparison of the models with the contact integral, as printed by the benchmarks."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
 
 
 def printed(benchmark: str, *options: str) -> str:
-    """What a benchmark prints."""
+    """Output of a benchmark."""
     command = [sys.executable, str(BENCHMARKS / benchmark), *options]
     return subprocess.run(command, check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout
 
 
 def page() -> str:
-    """All tables, for the documentation."""
+    """All tables of the page on accuracy."""
     return printed("reference.py", "--markdown")
 
 

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import httpx
 
-from ballscrew.interfaces.web import bodies, limits, listen, problems, work
-from ballscrew.interfaces.web.server import application
+from ballscrew.web import bodies, connections, limits, problems, request_queue
+from ballscrew.web.server import application
 
-#: What is asked in the examples, as Python writes it.
+#: The case of the examples, as Python source.
 CASE = """\
 case = {
     "screw": {"catalogue": "rexroth-40x10x6-6-double"},
@@ -33,34 +33,34 @@ print("\\n".join(answer.json()["lines"]))
 """
 
 
-def _played(*parts: str) -> str:
-    """What a program prints that asks the server; it asks one in this process."""
-    said: list[str] = []
+def _output_of(*parts: str) -> str:
+    """The output of a client program; its requests go to a server in this process."""
+    printed: list[str] = []
     app = application()
 
-    class Asked:
+    class Client:
         @staticmethod
         def post(address, json):
-            async def ask():
+            async def post():
                 async with httpx.AsyncClient(transport=httpx.ASGITransport(app)) as client:
                     return await client.post(address, json=json)
 
-            return asyncio.run(ask())
+            return asyncio.run(post())
 
-    names = {"httpx": Asked, "print": lambda *words: said.append(" ".join(map(str, words)))}
+    names = {"httpx": Client, "print": lambda *words: printed.append(" ".join(map(str, words)))}
     for part in parts:
-        said.clear()
+        printed.clear()
         exec(part, names)
-    return "\n".join(said)
+    return "\n".join(printed)
 
 
-def _example(shown: str, said: str) -> str:
-    return f"```python\n{shown}```\n\n```text\n{textwrap.fill(said, 110) if len(said) > 400 else said}\n```\n"
+def _example(shown: str, printed: str) -> str:
+    return f"```python\n{shown}```\n\n```text\n{textwrap.fill(printed, 110) if len(printed) > 400 else printed}\n```\n"
 
 
 def addresses() -> str:
-    """Each address, what it takes, and what it does."""
-    rows = ["| address | what it answers |", "|---|---|"]
+    """Each address, its query parameters, and its description."""
+    rows = ["| address | answer |", "|---|---|"]
     described = json.loads(_get("/api/v1/openapi.json"))
     for path, methods in described["paths"].items():
         for method, operation in methods.items():
@@ -81,44 +81,44 @@ def _get(path: str) -> bytes:
 
 
 def statuses() -> str:
-    """What a refusal is called."""
+    """Title of each error status."""
     rows = [f"| {status} | {title} |" for status, title in problems.TITLES.items()]
     return "\n".join(["| status | title |", "|---|---|", *rows]) + "\n"
 
 
-def most() -> str:
-    """The limits, from where they stand."""
+def limits_table() -> str:
+    """The limits, read from the modules that enforce them."""
     rows = {
         "bytes of a body": bodies.MOST_BYTES,
-        "bytes of the head of a request": listen.LONGEST_HEAD,
+        "bytes of the head of a request": connections.LONGEST_HEAD,
         "values in a body": bodies.MOST_VALUES,
-        "letters of a text": bodies.LONGEST_TEXT,
-        "tables within tables": bodies.DEEPEST,
-        "seconds for a body to arrive": bodies.PATIENCE,
-        "loaded balls of a nut whose balls are computed one by one": bodies.MOST_BALLS,
+        "characters of a text": bodies.LONGEST_TEXT,
+        "depth of nested tables": bodies.DEEPEST,
+        "seconds until a body has arrived": bodies.READ_TIMEOUT,
+        "loaded balls of a nut, if each has its own load": bodies.MOST_BALLS,
         "axes of a sweep": limits.MOST_AXES,
         "points of a sweep": limits.MOST_POINTS,
         "points of a sweep of a whole nut": limits.MOST_POINTS_OF_NUT,
         "values that a sweep returns": limits.MOST_RETURNED,
         "samples of a band": limits.MOST_SAMPLES,
         "samples of a band of a whole nut": limits.MOST_SAMPLES_OF_NUT,
-        "balls one by one over all points or samples; one with four contacts counts as three": limits.MOST_BALLS_IN_ALL,
-        "seconds that a request computes": work.LONGEST,
-        "heavy requests at a time": work.HEAVY,
-        "heavy requests that wait": work.MOST_WAITING,
+        "balls over all points or samples (a ball with four contacts counts as three)": limits.MOST_BALLS_IN_ALL,
+        "seconds of computing for a request": request_queue.TIME_LIMIT,
+        "heavy requests computed at a time": request_queue.HEAVY,
+        "heavy requests in the queue": request_queue.MOST_WAITING,
     }
     return "\n".join(["| at most | |", "|---|--:|", *(f"| {words} | {n:,.0f} |" for words, n in rows.items())]) + "\n"
 
 
 def write(folder: Path) -> None:
-    """Everything that the page includes."""
+    """All parts that the page includes."""
     folder.mkdir(parents=True, exist_ok=True)
     pages = {
         "addresses": addresses(),
         "statuses": statuses(),
-        "limits": most(),
-        "run": _example("import httpx\n\n" + CASE + RUN, _played(CASE + RUN)),
-        "wrong": _example(WRONG, _played(CASE, WRONG)),
+        "limits": limits_table(),
+        "run": _example("import httpx\n\n" + CASE + RUN, _output_of(CASE + RUN)),
+        "wrong": _example(WRONG, _output_of(CASE, WRONG)),
     }
     for name, text in pages.items():
         (folder / f"{name}.md").write_text(text, encoding="utf-8")

@@ -5,10 +5,11 @@ from pathlib import Path
 import numpy as np
 
 import ballscrew as bs
-from ballscrew.interfaces import config, logs
+from ballscrew.cases import case_file
+from ballscrew.torque_logs import reading
 
-case = config.load(Path("examples/rig.toml"))
-log = logs.read(Path("examples/rig_log.csv"))  # or arrays by name in SI: {"axial_load": ..., "torque": ...}
+case = case_file.load(Path("examples/rig.toml"))
+log = reading.read(Path("examples/rig_log.csv"))  # or arrays by name in SI: {"axial_load": ..., "torque": ...}
 free = ["boundary_friction_coefficient", "constant_torque"]
 found = bs.fit(case.model, case.screw, case.lubricant, log, free)
 
@@ -24,4 +25,6 @@ test = found.next_test({"axial_load": (500, 12_000)})
 print("next test", test.best, "leaves", test.best_volume, "of the volume", end="\n\n")
 
 samples = found.posterior(steps=300)  # needs the extra "calibrate"
-print("posterior", samples.interval("boundary_friction_coefficient"), "forgets in", samples.forgetting, "steps")
+print(
+    "posterior", samples.interval("boundary_friction_coefficient"), "forgets in", samples.autocorrelation_time, "steps"
+)

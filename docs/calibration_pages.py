@@ -1,4 +1,4 @@
-"""What the page on calibration shows: its commands, what they print, draw and write; run as people run them."""
+"""Commands of the page on calibration with their output, figures and files, run as on a command line."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ LIMITS = [
     "--limits", "axial_load=0.5:12 kN", "--limits", "screw_speed=5:1000 rpm", "--limits", "temperature=20:60 degC",
 ]  # fmt: skip
 ROUGH = [*FIT, "--free", f"{BOTH},screw_roughness,nut_roughness", *LIMITS]
-#: By name; in this order, for the later ones read what the earlier ones write.
+#: Commands by name, in order: later ones read files that earlier ones write.
 COMMANDS = {
     "first": [*FIT, "--picture", "first.png"],
     "second": [*FIT, "--free", BOTH, *LIMITS, "--picture", "second.png", "-o", "rig-calibrated.toml"],
@@ -27,7 +27,7 @@ COMMANDS = {
     "band": ["run", "rig-calibrated.toml", "--band"],
     "sweep": ["sweep", "rig-calibrated.toml", "--output", "screw_torque"],
 }
-#: Of these the page shows the numbers and the next test.
+#: Commands of which the page shows only the fitted numbers and the next test.
 SHORTENED = "rough", "prior"
 WRITTEN = "first.png", "second.png", "rig-calibrated.toml"
 WIDTH = "110"
@@ -42,16 +42,16 @@ def write(folder: Path) -> None:
         for example in EXAMPLES:
             shutil.copy(ROOT / "examples" / example, place / "examples")
         for name, arguments in COMMANDS.items():
-            said = _said(["-m", "ballscrew.interfaces.cli", *arguments], place)
-            said = _shortened(said) if name in SHORTENED else said
-            (folder / f"{name}.txt").write_text(f"$ {_typed(arguments)}\n{said}", encoding="utf-8")
+            output = _output_of(["-m", "ballscrew.cli", *arguments], place)
+            output = _shortened(output) if name in SHORTENED else output
+            (folder / f"{name}.txt").write_text(f"$ {_typed(arguments)}\n{output}", encoding="utf-8")
         for name in WRITTEN:
             shutil.copy(place / name, folder)
-        said = _said([str(ROOT / "docs" / "calibration_example.py")], place)
-        (folder / "python.txt").write_text(said, encoding="utf-8")
+        output = _output_of([str(ROOT / "docs" / "calibration_example.py")], place)
+        (folder / "python.txt").write_text(output, encoding="utf-8")
 
 
-def _said(arguments: list[str], place: Path) -> str:
+def _output_of(arguments: list[str], place: Path) -> str:
     done = subprocess.run(
         [sys.executable, *arguments],
         cwd=place,
@@ -65,16 +65,16 @@ def _said(arguments: list[str], place: Path) -> str:
     return "\n".join(line.rstrip() for line in done.stdout.splitlines()) + "\n"
 
 
-def _shortened(said: str) -> str:
-    before, scores, _ = said.partition("How far off")
-    _, next_test, after = said.partition("next test:")
+def _shortened(output: str) -> str:
+    before, scores, _ = output.partition("How far off")
+    _, next_test, after = output.partition("next test:")
     assert scores
     assert next_test
     return f"{before}[…]\n\n{next_test}{after}"
 
 
 def _typed(arguments: list[str]) -> str:
-    """The command as it is typed, options with values on lines of their own."""
+    """The command line, with long options on lines of their own."""
     words: list[str] = []
     for argument in arguments:
         name, equals, value = argument.partition("=")

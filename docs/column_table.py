@@ -1,17 +1,17 @@
-"""The names of the columns that a table of one's own may have, from the declarations of the columns."""
+"""Column names that tables of screws may use, from the declarations of the columns."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ballscrew.interfaces.catalogue import COLUMNS
-from ballscrew.interfaces.headings import Column
-from ballscrew.interfaces.units import example_of
+from ballscrew.cases.catalogue import COLUMNS
 from ballscrew.quantities import Quantity
+from ballscrew.tables.headings import Column
+from ballscrew.units import example_of
 
 
 def column_table() -> str:
-    """One line a column."""
+    """One row for each column."""
     return "\n".join(_lines()) + "\n"
 
 

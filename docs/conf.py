@@ -1,10 +1,10 @@
-"""The documentation builds offline, and runs the program for every figure, table and claim it shows."""
+"""Sphinx configuration: builds offline; the program computes every figure, table and claim."""
 
 import sys
 from pathlib import Path
 
 HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE / "_ext"), str(HERE)]
+sys.path[:0] = [str(HERE / "_ext"), str(HERE), str(HERE.parent / "tests")]
 
 import ballscrew  # noqa: E402  (after the path of the extension)
 import effect_tables  # noqa: E402  (likewise)
@@ -42,7 +42,7 @@ suppress_warnings = ["myst.header"]  # the included claims start with a heading 
 
 
 def generate(_app):
-    """What the pages include: claims and figures of the paper, effects, laws, fields, accuracy, bands, fits."""
+    """Write included parts: claims and figures of the paper, effects, laws, fields, accuracy, bands, fits."""
     import accuracy_table
     import api_tables
     import calibration_pages
@@ -52,7 +52,7 @@ def generate(_app):
     import sensitivity_figures
     import theory_figures
     import uncertainty_tables
-    from ballscrew.interfaces.reproduce import reproduce_olaru2005
+    from ballscrew.cli.reproduction import reproduce_olaru2005
     from column_table import column_table
     from field_table import field_table
 

@@ -1,16 +1,16 @@
-"""What the page on the effects shows: its figures, its tables, and the numbers in its text."""
+"""Figures, tables and numbers of the page on the effects."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
 
-from ballscrew.analyses import effect_curves as curves
-from ballscrew.analyses.effects import CASES, RPM, doubts, effects
-from ballscrew.interfaces.figures import effect_laws, style
-from ballscrew.interfaces.figures import effects as figures
-from ballscrew.model import FrictionModel
-from ballscrew.result import MECHANISMS
+from ballscrew.figures import style
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.result import MECHANISMS
+from effect_study import curves, law_figures
+from effect_study import effect_figures as figures
+from effect_study.cases import CASES, RPM, effects, sensitivities
 
 
 def write(folder: Path) -> None:
@@ -18,19 +18,19 @@ def write(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     cases = figures.drawn_cases()
     with style.house_style():
-        for plot in (*figures.PLOTS, *effect_laws.PLOTS):
+        for plot in (*figures.PLOTS, *law_figures.PLOTS):
             style.save(plot.draw(cases), folder, plot.name)
     for case in cases.values():
         (folder / f"steps_{case.name}.md").write_text(steps_table(case), encoding="utf-8")
-    (folder / "doubts.md").write_text(doubts_table(), encoding="utf-8")
+    (folder / "sensitivities.md").write_text(sensitivity_table(), encoding="utf-8")
 
 
 def steps_table(case) -> str:
     """The torque, its parts and the efficiency after each effect."""
-    heading = ["with", "M_S (N m)", "added", *MECHANISMS.values(), "η", "µ_m at the screw"]
+    heading = ["with", "M_S (N m)", "change", *MECHANISMS.values(), "η", "µ_m at the screw"]
     rows = [
         [
-            effect.words,
+            effect.description,
             f"{effect.torque:.4f}",
             _signed(effect.added) if i else "",
             *(f"{effect.parts[mechanism]:.4f}" for mechanism in MECHANISMS),
@@ -42,20 +42,25 @@ def steps_table(case) -> str:
     return _table([heading, ["---", *["---:"] * (len(heading) - 1)], *rows])
 
 
-def doubts_table(rows: int | None = None) -> str:
-    """What the reference model takes for granted, and how far the torque moves with it: all, or the widest."""
-    every = {name: doubts(case) for name, case in CASES.items()}
-    by_words = {name: {doubt.words: doubt for doubt in found} for name, found in every.items()}
-    heading = ["what", "taken", "tried", *(case.title for case in CASES.values())]
+def sensitivity_table(rows: int | None = None) -> str:
+    """Assumptions of the reference model, and the change of the torque with each: all, or the largest."""
+    every = {name: sensitivities(case) for name, case in CASES.items()}
+    by_name = {name: {one.description: one for one in found} for name, found in every.items()}
+    heading = ["assumption", "default", "alternatives", *(case.title for case in CASES.values())]
     rows = [
-        [first.words, first.taken, first.tried, *(_span(found[first.words]) for found in by_words.values())]
+        [
+            first.description,
+            first.default,
+            first.alternatives,
+            *(_span(found[first.description]) for found in by_name.values()),
+        ]
         for first in every["catalogue"][:rows]
     ]
     return _table([heading, ["---"] * len(heading), *rows])
 
 
 def numbers() -> dict[str, str]:
-    """What stands in the text between double braces."""
+    """Numbers that replace the names in double braces in the pages."""
     found: dict[str, str] = {}
     steps = {name: effects(case) for name, case in CASES.items()}
     for i, key in enumerate(("rolling", "inlet", "sharing", "boundary", "spin", "ellipse", "helix"), start=1):
@@ -66,7 +71,7 @@ def numbers() -> dict[str, str]:
         found[f"{name}_torque"] = f"{float(r.screw_torque):.3f}"
         found[f"{name}_corrected"] = f"{float(c.screw_torque):.3f}"
         found[f"{name}_efficiency"] = f"{float(r.efficiency):.3f}"
-        found[f"{name}_spin_parameter"] = f"{effect_laws.half_spin_parameter(case):.2f}"
+        found[f"{name}_spin_parameter"] = f"{law_figures.half_spin_parameter(case):.2f}"
         found[f"{name}_spin_screw"] = f"{float(r.screw.spin_parameter):.2f}"
         found[f"{name}_spin_nut"] = f"{float(r.nut.spin_parameter):.2f}"
         before = steps[name][4].parts["curvature"]
@@ -85,7 +90,7 @@ def numbers() -> dict[str, str]:
     return found
 
 
-#: Skidding is told at the speed of the case and at this one.
+#: Speed (rpm) of the second load at which skidding starts.
 FAST = 3000
 
 
@@ -96,12 +101,12 @@ def light_loads(case) -> tuple[float, float, float]:
 
 
 def light_load_words(case) -> str:
-    """The same in a sentence or two."""
+    """The same loads in two sentences."""
     film, skid, fast = light_loads(case)
     a_ball = float(case.result(FrictionModel.reference()).contact_load) / case.axial_load
     return (
-        f"At {case.title} and {case.screw_speed / RPM:.0f} rpm the film leaves the regime its law was made for below"
-        f" {film:.0f} N on the nut ({film * a_ball:.1f} N a ball), and the ball skids below {skid:.0f} N"
+        f"At {case.title} and {case.screw_speed / RPM:.0f} rpm the contact leaves the elastic regime of the film law"
+        f" below {film:.0f} N on the nut ({film * a_ball:.1f} N a ball), and the ball skids below {skid:.0f} N"
         f" ({skid * a_ball:.1f} N a ball). Both loads grow with speed: at {FAST} rpm it skids below {fast:.0f} N."
     )
 
@@ -115,9 +120,9 @@ def _signed(value: float) -> str:
     return f"{value:+.4f}".replace("-", "−")
 
 
-def _span(doubt) -> str:
-    low, high = (f"{100 * bound:+.0f}".replace("-", "−") for bound in (doubt.lowest, doubt.highest))
-    return f"{low if doubt.lowest else '0'} to {high if doubt.highest else '0'} %"
+def _span(sensitivity) -> str:
+    low, high = (f"{100 * bound:+.0f}".replace("-", "−") for bound in (sensitivity.lowest, sensitivity.highest))
+    return f"{low if sensitivity.lowest else '0'} to {high if sensitivity.highest else '0'} %"
 
 
 def _table(lines) -> str:

@@ -1,4 +1,4 @@
-"""The errata of the paper, for the page on them: printed and right form, why, what it does in numbers, the test.
+"""Page of the errata of the paper: printed form, correct form, reason, effect in numbers, test.
 
 Which equations these are, and the verdict in words, comes from the data of the package; the formulas from the
 docstrings of the functions; the tests from their markers; and every number from the program. Here stands only why.
@@ -12,11 +12,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import make_equation_table
-from ballscrew.analyses.effects import PAPER, RPM
-from ballscrew.analyses.olaru2005.repairs import REPAIRS, Repair, repairs
 from ballscrew.equations import friction, hertz, rolling
-from ballscrew.model import PAPER_FRICTION, FrictionModel
+from ballscrew.friction.model import PAPER_FRICTION, FrictionModel
+from ballscrew.papers.olaru2005.repairs import REPAIRS, Repair, repairs
 from ballscrew.references import PaperEquation, paper_equations
+from effect_study.cases import PAPER, RPM
 
 PRINTED, CORRECTED = FrictionModel.olaru2005(), FrictionModel.corrected()
 ERRATA_TESTS = "papers/test_errata.py::"
@@ -24,11 +24,11 @@ ERRATA_TESTS = "papers/test_errata.py::"
 
 @dataclasses.dataclass(frozen=True)
 class Erratum:
-    """What is wrong in one equation, or in some that go together."""
+    """One error, in one equation or in several that belong together."""
 
     title: str
     addresses: tuple[str, ...]
-    #: Functions whose formula is the printed one, and the right one.
+    #: Functions with the printed formula, and with the correct one.
     printed: tuple[str, ...]
     right: tuple[str, ...]
     said: str
@@ -37,7 +37,7 @@ class Erratum:
 
 
 def percent(ratio: float, digits: int = 1) -> str:
-    """A ratio as a signed change."""
+    """A ratio as a signed change in per cent."""
     return f"{100 * (ratio - 1):+.{digits}f} %".replace("-", "−")
 
 
@@ -47,7 +47,7 @@ def _repairs() -> tuple[Repair, ...]:
 
 
 def repaired(field: str) -> str:
-    """What this repair alone does to the torque of the paper's case."""
+    """Change of the torque of the paper's case by this correction alone."""
     found = dict(zip(REPAIRS, _repairs()[1:], strict=True))[field]
     before = _repairs()[0]
     return (
@@ -56,7 +56,7 @@ def repaired(field: str) -> str:
     )
 
 
-# -- what each does -------------------------------------------------------------------------------
+# -- effects in numbers ----------------------------------------------------------------------------
 
 
 def film_exponent() -> str:
@@ -173,8 +173,8 @@ ERRATA = (
         (),
         (E + "film.minimum_film_thickness",),
         "The exponent m of the speed parameter U is printed as 0.66.",
-        "The source that the paper cites has 0.68. The 0.66 stands in (1), the rolling force, and seems to have"
-        " been copied from"
+        "The source that the paper cites has 0.68. The 0.66 is the exponent in (1), the rolling force, and seems to"
+        " have been copied from"
         " there. The print also has two points in the exponent of W.",
         film_exponent,
     ),
@@ -183,7 +183,7 @@ ERRATA = (
         ("Olaru2005 §4 (22)",),
         (E + "film.literal_film_parameter",),
         (E + "film.film_parameter",),
-        "The root over the sum of squares is missing.",
+        "The square root of the sum of squares is missing.",
         "A length over a length squared is no ratio: measured in micrometres it is another number. Roughness of"
         " two surfaces adds"
         " by squares, as independent heights do, and the gap has the root of the sum.",
@@ -201,12 +201,12 @@ ERRATA = (
         two_neighbours,
     ),
     Erratum(
-        "The races feel the moments of the contact, too: the conservation error",
+        "The moments of the contact act on the races, too: the conservation error",
         ("Olaru2005 §6 (28)", "Olaru2005 §6 (31)"),
         (E + "equilibrium.race_torque",),
         (E + "equilibrium.balanced_screw_torque", E + "equilibrium.balanced_nut_torque"),
-        "The torque on a race is its tangential force times its radius, and no more.",
-        "A moment in a contact turns the ball, and with the opposite sign the race: action and reaction."
+        "The torque on a race is its tangential force times its radius only.",
+        "A moment in a contact acts on the ball, and with the opposite sign on the race: action = reaction."
         " Curvature and elastic"
         " resistance are such moments, and a part of each, the cosine of the contact angle, turns about the"
         " screw axis. Left out,"
@@ -231,8 +231,8 @@ ERRATA = (
         ("Olaru2005 §2.2 (18)", "Olaru2005 §2.2 (19)"),
         (E + "hertz.semi_major_axis_coefficient_houpert", E + "hertz.semi_minor_axis_coefficient_houpert"),
         (E + "hertz.semi_major_axis_coefficient",),
-        "No misprint: fits, used beyond the radii ratios they are good for.",
-        "They are good for open grooves. Grooves as close as the paper's make a slender ellipse, where they are not.",
+        "No misprint: fits, used outside their range of radii ratios.",
+        "They are accurate for open grooves. The paper's close grooves make a slender ellipse, where they are not.",
         power_laws,
     ),
     Erratum(
@@ -251,7 +251,7 @@ ERRATA = (
         ("Olaru2005 §2.2 (20)",),
         (E + "rolling.elastic_resistance_moment",),
         (E + "rolling.hysteresis_moment",),
-        "The exponents do not make a moment of a load and a length.",
+        "The exponents of load and length do not give the unit of a moment.",
         "It is a fit to measured steel bearings, and right in newtons and metres only. The loss of elastic work"
         " has no such"
         " trouble; the models of the paper keep the fit.",
@@ -262,15 +262,15 @@ ERRATA = (
         ("Olaru2005 §5 (24)",),
         (E + "friction.clamped_friction_coefficient",),
         (E + "mixed_lubrication.load_sharing_friction_coefficient",),
-        "At very small speed the friction of the asperities is said to exceed µ_0, and to be cut there.",
-        "The exponential is below one for every film there is.",
+        "At very small speed the friction of the asperities is stated to exceed µ_0, and is clamped there.",
+        "The exponential is below one for every film thickness above zero.",
         dead_branch,
     ),
 )
 
 
 def page() -> str:
-    """The errata, one section each, and what else the verdicts say."""
+    """The errata, one section each, and the other remarks of the verdicts."""
     return "\n".join([*(_section(erratum) for erratum in ERRATA), _rest()])
 
 
@@ -331,14 +331,14 @@ def _numbering() -> str:
     numbers = [equation.number for equation in paper_equations()]
     twice = sorted({number for number in numbers if numbers.count(number) > 1})
     return (
-        f"The numbers ({twice[0]}) to ({twice[-1]}) stand at two equations each, so an equation is named by"
+        f"The numbers ({twice[0]}) to ({twice[-1]}) are used for two equations each, so an equation is named by"
         f" section and number"
         " everywhere in this package."
     )
 
 
 def without_a_section() -> list[str]:
-    """Addresses whose verdict says that something is wrong, and that no section tells of."""
+    """Addresses whose verdict reports an error that no section describes."""
     told = {address for erratum in ERRATA for address in erratum.addresses}
     fine = ("right", "exact")
     return [e.address for e in paper_equations() if not e.verdict.startswith(fine) and e.address not in told]

@@ -8,20 +8,20 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from ballscrew.analyses.nut_parts import Scatter
+from ballscrew import units
+from ballscrew.cases.fields import example_of
+from ballscrew.cases.nut_kinds import ENDS, LISTED, LOSSES, NUTS
 from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.materials import Lubricant, Material, grades
 from ballscrew.components.nut import Bodies
 from ballscrew.components.screw import MATERIALS, BallScrew, Operation
-from ballscrew.interfaces import units
-from ballscrew.interfaces.fields import example_of
-from ballscrew.interfaces.nuts import ENDS, LISTED, LOSSES, NUTS
-from ballscrew.model import FrictionModel
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.nut_parts import Scatter
 from ballscrew.quantities import Quantity, fields_of
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "feed_drive.toml"
 
-#: Each section by its name in the file, with the part whose fields it holds.
+#: Sections of the file, with the class that holds their fields.
 PARTS = {
     "[screw]": BallScrew,
     ", ".join(f"[screw.{name}]" for name in MATERIALS): Material,
@@ -35,7 +35,7 @@ PARTS = {
     "[installation]": Installation,
     "[limits]": Limits,
 }
-#: Examples of fields that are not in the example file.
+#: Example values of fields that the example file does not have.
 OTHERS: dict[str, Any] = {"viscosity": "0.1 Pa s", "ball_to_ball_force": "0.02 N"}
 
 
@@ -45,7 +45,7 @@ def field_table() -> str:
 
 
 def examples() -> Iterator[tuple[str, Quantity, Any]]:
-    """For every field its section, its quantity, and a value as one could write it."""
+    """Every field: section, quantity, and an example value."""
     for title, cls in PARTS.items():
         for quantity in fields_of(cls).values():
             yield title, quantity, _example(title, cls, quantity)

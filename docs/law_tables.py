@@ -1,4 +1,4 @@
-"""The laws of a model as tables: what each slot can hold, and what each named model has there."""
+"""Tables of laws: the laws of each slot, and the law of each named model."""
 
 from __future__ import annotations
 
@@ -6,36 +6,36 @@ import dataclasses
 from collections.abc import Iterator
 from typing import Any
 
-from ballscrew.interfaces.schema import LAWS, MODELS, coefficients_of, name_of_law
-from ballscrew.interfaces.units import shown
+from ballscrew.cases.schema import LAWS, MODELS, coefficients_of, name_of_law
 from ballscrew.quantities import fields_of
+from ballscrew.units import shown
 
-#: What each slot decides.
+#: Purpose of each slot.
 SLOTS = {
-    "frame": "where the balls roll",
+    "frame": "geometry of the ball path",
     "hertz": "contact ellipse",
     "film": "film thickness",
     "film_parameter": "film over roughness",
     "inlet": "heat and oil supply of the inlet",
     "friction": "friction coefficient of a contact",
-    "full_film": "friction of the film alone",
+    "full_film": "friction of the full film",
     "rolling": "hydrodynamic rolling force",
     "elastic_resistance": "elastic resistance to rolling",
-    "slip": "how the contacts slip",
-    "ball_chain": "what the neighbouring balls do",
-    "ball_force": "force between balls",
-    "race_torques": "from forces to torques",
+    "slip": "slip of the contacts",
+    "ball_chain": "friction between neighbouring balls",
+    "ball_force": "ball-to-ball force",
+    "race_torques": "torques from contact forces and moments",
     "ideal_torque": "torque without friction",
 }
 _NAMED = ("olaru2005", "corrected", "reference")
 
 
 def slots_table() -> str:
-    """What each named model has in each slot, by the names of the case file."""
-    lines = [["slot", "what it decides", *(f"`{name}`" for name in _NAMED)], ["---"] * (len(_NAMED) + 2)]
+    """Laws of each named model by slot, with the names of the case file."""
+    lines = [["slot", "purpose", *(f"`{name}`" for name in _NAMED)], ["---"] * (len(_NAMED) + 2)]
     for slot in LAWS:
         names = [_in_slot(slot, getattr(MODELS[name], slot)) for name in _NAMED]
-        # bold where it is not what the model before has
+        # bold where it differs from the model before
         marked = [n if i == 0 or n == names[i - 1] else f"**{n}**" for i, n in enumerate(names)]
         lines.append([f"`{slot}`", SLOTS[slot], *marked])
     return _table(lines)
@@ -55,8 +55,8 @@ def _in_slot(slot: str, law: Any) -> str:
 
 
 def laws_table() -> str:
-    """Every law by slot and name, with what its docstring says first and its coefficients."""
-    lines = [["slot", "name", "what it is", "coefficients and their defaults"], ["---"] * 4]
+    """Every law by slot and name, with the first sentence of its docstring and its coefficients."""
+    lines = [["slot", "name", "description", "coefficients and their defaults"], ["---"] * 4]
     for slot, known in LAWS.items():
         for name, law in known.items():
             lines.append([f"`{slot}`", f"`{name}`", _says(law), ", ".join(_coefficients(slot, name, law))])

@@ -1,4 +1,4 @@
-"""Writes docs/equations.md: each equation of the paper, the function that is it, the tests that check it.
+"""Write docs/equations.md: each equation of the paper, the function that implements it, the tests that check it.
 
 Nothing is written by hand: what an equation is and the verdict on it come from the package's data,
 the functions from the addresses in their docstrings, the tests from their ``equation`` markers.
@@ -49,7 +49,7 @@ def functions() -> dict[str, list[str]]:
 
 
 def is_marker(node: ast.AST) -> bool:
-    """Whether this is ``pytest.mark.equation``."""
+    """True for ``pytest.mark.equation``."""
     return (
         isinstance(node, ast.Attribute)
         and node.attr == "equation"
@@ -83,7 +83,7 @@ def tests() -> dict[str, list[str]]:
 
 
 def page() -> str:
-    """The page as it should be."""
+    """Text of the page."""
     by_function, by_test = functions(), tests()
 
     def code(names: list[str]) -> str:

@@ -1,4 +1,4 @@
-"""Write what the README shows and the program produces: tables, numbers, what the example prints, and the picture.
+"""Write the parts of the README that the program produces: tables, numbers, the output of the example, the picture.
 
 ``python docs/make_readme.py`` (or ``make readme``) rewrites them in place.
 """
@@ -9,16 +9,16 @@ import sys
 import textwrap
 from pathlib import Path
 
-from ballscrew.analyses.effects import PAPER
-from ballscrew.interfaces.figures import effects as figures
-from ballscrew.interfaces.figures import style
-from ballscrew.interfaces.reproduce import claims_table
+from ballscrew.cli.reproduction import claims_table
+from ballscrew.figures import style
 
 HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE))
+sys.path[:0] = [str(HERE), str(HERE.parent / "tests")]
 
 from accuracy_table import short_table  # noqa: E402  (after the path of its folder)
-from effect_tables import doubts_table, light_load_words  # noqa: E402  (likewise)
+from effect_study import effect_figures as figures  # noqa: E402  (likewise)
+from effect_study.cases import PAPER  # noqa: E402  (likewise)
+from effect_tables import light_load_words, sensitivity_table  # noqa: E402  (likewise)
 from validation_tables import vendors_table  # noqa: E402  (likewise)
 
 README = HERE.parent / "README.md"
@@ -27,7 +27,7 @@ PICTURE = "effects_parts_over_speed"
 
 
 def with_block(text: str, name: str, block: str) -> str:
-    """The README with another block between the marks of a name."""
+    """The README with another block between the markers of a name."""
     begin, end = f"<!-- {name}: begin -->", f"<!-- {name}: end -->"
     before, rest = text.split(begin)
     _, after = rest.split(end)
@@ -35,27 +35,27 @@ def with_block(text: str, name: str, block: str) -> str:
 
 
 def with_claims(text: str) -> str:
-    """The README with the table of the paper's claims as it is now."""
+    """The README with the current table of the paper's claims."""
     return with_block(text, "claims", claims_table())
 
 
 def with_accuracy(text: str) -> str:
-    """The README with the table of the reference model against the integral as it is now; takes some seconds."""
+    """The README with the current table of the reference model against the contact integral; takes some seconds."""
     return with_block(text, "accuracy", short_table())
 
 
 def with_vendors(text: str) -> str:
-    """The README with the model against what vendors state as it is now; takes a few seconds."""
+    """The README with the current comparison with vendors; takes a few seconds."""
     return with_block(text, "vendors", vendors_table())
 
 
-def with_doubts(text: str) -> str:
-    """The README with the three widest doubts as they are now."""
-    return with_block(text, "doubts", doubts_table(rows=3))
+def with_sensitivities(text: str) -> str:
+    """The README with the three inputs that move the torque most as computed now."""
+    return with_block(text, "sensitivities", sensitivity_table(rows=3))
 
 
 def with_light_load(text: str) -> str:
-    """The README with the loads at which the paper's screw skids as they are now."""
+    """The README with the loads at which the paper's screw skids as computed now."""
     return with_block(text, "light load", textwrap.fill(light_load_words(PAPER), 130) + "\n")
 
 
@@ -65,7 +65,7 @@ def example(text: str) -> str:
 
 
 def with_example(text: str) -> str:
-    """The README with what its example prints now."""
+    """The README with the current output of its example."""
     shown = io.StringIO()
     with contextlib.redirect_stdout(shown):
         exec(compile(example(text), "README.md", "exec"), {})
@@ -74,7 +74,7 @@ def with_example(text: str) -> str:
 
 def main() -> None:
     text = README.read_text(encoding="utf-8")
-    for part in (with_claims, with_accuracy, with_vendors, with_doubts, with_light_load, with_example):
+    for part in (with_claims, with_accuracy, with_vendors, with_sensitivities, with_light_load, with_example):
         text = part(text)
     README.write_text(text, encoding="utf-8")
     IMAGES.mkdir(exist_ok=True)

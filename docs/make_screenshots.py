@@ -1,4 +1,4 @@
-"""Pictures of the page, of a report and of the pages of the documentation: ``make screenshots``."""
+"""Write screenshots of the web page, of a report and of the documentation: ``make screenshots``."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ CASE = ROOT / "examples" / "catalogue_screw.toml"
 START = ROOT / "out" / "docs" / "index.html"
 DOUBLE = "rexroth-40x10x6-6-double"
 LARGEST = 300_000  # bytes of a picture
-COMMAND = [sys.executable, "-m", "ballscrew.interfaces.cli"]
+COMMAND = [sys.executable, "-m", "ballscrew.cli"]
 
 DESKTOP, PHONE = {"width": 1360, "height": 1000}, {"width": 390, "height": 844}
 OF_PAGE = {
@@ -31,7 +31,7 @@ OF_PAGE = {
 
 
 def save(name: str, png: bytes) -> None:
-    """Write a picture with a palette: these are drawings, not photographs."""
+    """Write a picture with a palette: drawings need few colours."""
     path = IMAGES / name
     Image.open(io.BytesIO(png)).convert("RGB").quantize(128, dither=Image.Dither.NONE).save(path, optimize=True)
     size = path.stat().st_size
@@ -41,7 +41,7 @@ def save(name: str, png: bytes) -> None:
 
 
 def of_page(browser: Browser, address: str) -> None:
-    """The page, light, dark and on a phone."""
+    """Screenshots of the web page: light, dark, and on a phone."""
     for name, (scheme, size, fragment) in OF_PAGE.items():
         page = browser.new_page(color_scheme=scheme, viewport=size, device_scale_factor=2 if size is PHONE else 1)
         page.goto(f"{address}/{fragment}")
@@ -58,7 +58,7 @@ def of_page(browser: Browser, address: str) -> None:
 
 
 def of_report() -> None:
-    """The first page of a report as it is on paper."""
+    """Picture of the first page of a PDF report."""
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([*COMMAND, "report", CASE, "--to", Path(folder) / "report.pdf"], check=True, capture_output=True)
         page = Path(folder) / "page.typ"
@@ -67,7 +67,7 @@ def of_report() -> None:
 
 
 def of_docs(browser: Browser) -> None:
-    """Where the documentation starts."""
+    """Screenshot of the start page of the documentation."""
     if not START.exists():
         print("docs_start.png is left as it is: make docs first")
         return
@@ -78,7 +78,7 @@ def of_docs(browser: Browser) -> None:
 
 
 def main() -> None:
-    """All of them."""
+    """Write all pictures."""
     IMAGES.mkdir(exist_ok=True)
     chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
     server = subprocess.Popen([*COMMAND, "serve", "--port", "0"], stdout=subprocess.PIPE, encoding="utf-8")

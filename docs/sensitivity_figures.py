@@ -1,23 +1,26 @@
-"""What the page on sensitivity shows: the output of the command, and its picture."""
+"""Output and figure of the page on sensitivity."""
 
 import contextlib
 import io
 from pathlib import Path
 
-from ballscrew.interfaces import config, sensitivity
-from ballscrew.interfaces.figures import style
+from ballscrew.cases import case_file
+from ballscrew.figures import sensitivity as figures
+from ballscrew.figures import style
+from ballscrew.output.text import sensitivity as text
+from ballscrew.studies import sensitivity
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "feed_drive.toml"
 
 
 def write(folder: Path) -> None:
-    """What ``ballscrew sensitivity examples/feed_drive.toml`` says, and draws with ``--to``."""
+    """Output of ``ballscrew sensitivity examples/feed_drive.toml``, and its figure with ``--to``."""
     folder.mkdir(parents=True, exist_ok=True)
-    case = config.load(EXAMPLE)
-    found = sensitivity.found(case, sensitivity.Asked())
+    case = case_file.load(EXAMPLE)
+    report = sensitivity.sensitivity(case, sensitivity.Options())
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
-        sensitivity.print_found(case, found)
+        text.print_sensitivity(case, report)
     (folder / "feed_drive.txt").write_text(said.getvalue(), encoding="utf-8")
     with style.house_style():
-        style.save(sensitivity.picture(case, found), folder, "feed_drive")
+        style.save(figures.picture(case, report), folder, "feed_drive")

@@ -12,20 +12,20 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Circle, Ellipse
 
 import theory_screw_figures
-from ballscrew.analyses.effects import CASES, CATALOGUE, PAPER, RPM, Case
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.mixed_friction import LoadSharing
 from ballscrew.equations import film, geometry, hertz, kinematics, rheology, rolling
-from ballscrew.interfaces.figures import style
-from ballscrew.interfaces.figures.effects import SPEED, case_caption, mathtext, titled
-from ballscrew.model import PAPER_FRICTION, FrictionModel
+from ballscrew.figures import style
+from ballscrew.friction.model import PAPER_FRICTION, FrictionModel
+from effect_study.cases import CASES, CATALOGUE, PAPER, RPM, Case
+from effect_study.effect_figures import SPEED, case_caption, mathtext, titled
 
 REFERENCE = FrictionModel.reference()
 GIGA, MICRO, MILLI = 1e9, 1e-6, 1e-3
 
 
 def write(folder: Path) -> None:
-    """All of them, as SVG and PNG."""
+    """Write all figures as SVG and PNG."""
     folder.mkdir(parents=True, exist_ok=True)
     with style.house_style():
         for name, draw in {**FIGURES, **theory_screw_figures.FIGURES}.items():
@@ -112,7 +112,7 @@ def _grooves(panel: Axes, diameter: float, conformity: float, angle: float) -> N
 
 
 def speeds() -> Figure:
-    """Speeds across the ball, and what the lead changes."""
+    """Speeds across the ball, and the effect of the lead."""
     case = PAPER
     figure, (profile, leads) = style.new_figure(
         case_caption(
@@ -259,7 +259,7 @@ def films() -> Figure:
     figure, (speed_panel, heat_panel) = style.new_figure(
         mathtext(
             "Minimum film and film parameter at the screw. Left: the paper's screw; dotted: the combined roughness. "
-            f"{PAPER.told('screw_speed')} Right: a catalogue screw. {CATALOGUE.told('oil')}"
+            f"{PAPER.caption('screw_speed')} Right: a catalogue screw. {CATALOGUE.caption('oil')}"
         )
     )
     speed = np.geomspace(1, 3000, 121)

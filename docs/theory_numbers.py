@@ -1,20 +1,20 @@
-"""The numbers in the text of the pages on theory."""
+"""Numbers in the text of the pages on theory."""
 
 from __future__ import annotations
 
 import dataclasses
 import math
 
-from ballscrew.analyses.effects import CASES, CATALOGUE
 from ballscrew.components.materials import Lubricant
 from ballscrew.equations import friction, hertz, kinematics, preload, transmission
-from ballscrew.model import FrictionModel
+from ballscrew.friction.model import FrictionModel
+from effect_study.cases import CASES, CATALOGUE
 
 REFERENCE = FrictionModel.reference()
 
 
 def numbers() -> dict[str, str]:
-    """By name, as they stand in the text."""
+    """The numbers by name, formatted for the text."""
     found: dict[str, str] = {}
     for name, case in CASES.items():
         result = case.result(REFERENCE)

@@ -8,23 +8,23 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew.analyses.effect_curves import over_lead
-from ballscrew.analyses.effects import CASES, CATALOGUE, PAPER, RPM
-from ballscrew.analyses.olaru2005.repairs import repairs
 from ballscrew.components.materials import Lubricant
 from ballscrew.equations import life, preload, slip, transmission
-from ballscrew.interfaces.figures import style
-from ballscrew.interfaces.figures.effects import case_caption, mathtext
-from ballscrew.model import FrictionModel
-from ballscrew.result import MECHANISMS
+from ballscrew.figures import style
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.result import MECHANISMS
+from ballscrew.papers.olaru2005.repairs import repairs
 from ballscrew.solvers.line_slip import creep_of_lines, pure_rolling_lines
+from effect_study.cases import CASES, CATALOGUE, PAPER, RPM
+from effect_study.curves import over_lead
+from effect_study.effect_figures import case_caption, mathtext
 
 REFERENCE = FrictionModel.reference()
 CELSIUS = 273.15
 
 
 def slip_lines() -> Figure:
-    """Slip across the contact with more and more spin, and the lines of pure rolling."""
+    """Slip across the contact for increasing spin, and the lines of pure rolling."""
     figure, (profile, lines) = style.new_figure(
         mathtext(
             "Slip on the line across the contact, from curvature (C at the rim) and spin (E_s times as much), with the "
@@ -63,7 +63,7 @@ def slip_lines() -> Figure:
 
 
 def power() -> Figure:
-    """Power that goes in against power that is dissipated, by model."""
+    """Input power against dissipated power, by model."""
     figure, panels = style.new_figure(
         case_caption(
             CASES,
@@ -269,7 +269,7 @@ def repair_steps() -> Figure:
         panel.set_xlabel(mathtext("friction torque M_S (N m)"))
         panel.set_xlim(0, 1.22 * max(torques))
         panel.grid(visible=False, axis="y")
-    alone.set_yticks(range(len(found)), [mathtext(step.words) for step in found], fontsize=8.5)
+    alone.set_yticks(range(len(found)), [mathtext(step.description) for step in found], fontsize=8.5)
     alone.invert_yaxis()
     return figure
 

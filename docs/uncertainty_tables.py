@@ -1,22 +1,24 @@
-"""What the page on uncertainty shows: what is assumed, a picture, and how often vendors' rows lie in the band."""
+"""Parts of the page on uncertainty: default uncertainties, a figure, and the coverage of vendors' rows."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from ballscrew.analyses.known_uncertainties import JUDGEMENT, KnownUncertainty, known_uncertainties
-from ballscrew.analyses.nut_parts import NutParts
-from ballscrew.analyses.validation import Conditions, Values
-from ballscrew.analyses.validation_rows import screw_of
-from ballscrew.analyses.validation_sets import SETS
-from ballscrew.calibrations import calibrated, calibration
+from ballscrew.cases import case_file
 from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.components.nut import DoubleNut, Nut, OversizeBallNut
 from ballscrew.components.screw import Operation
-from ballscrew.interfaces import band, config
-from ballscrew.interfaces.figures import style
-from ballscrew.interfaces.validation import shipped_rows
-from ballscrew.model import FrictionModel
+from ballscrew.figures import band as figures
+from ballscrew.figures import style
+from ballscrew.friction.calibrations import calibrated, calibration
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.nut_parts import NutParts
+from ballscrew.studies import band
+from ballscrew.studies.validation import shipped_rows
+from ballscrew.uncertainty.default_uncertainties import JUDGEMENT, DefaultUncertainty, default_uncertainties
+from ballscrew.validation.entries import Conditions, Values
+from ballscrew.validation.rows import screw_of
+from ballscrew.validation.sets import SETS
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 #: Kinds of nut by set, and preloads in per cent of the dynamic load rating for which a band of torques is stated.
@@ -27,23 +29,25 @@ _SAMPLES = 2**8
 def write(folder: Path) -> None:
     """The picture as SVG and PNG, tables as Markdown."""
     folder.mkdir(parents=True, exist_ok=True)
-    case = config.load(EXAMPLES / "feed_drive.toml")
+    case = case_file.load(EXAMPLES / "feed_drive.toml")
     with style.house_style():
         options = band.Options()
-        style.save(band.picture(case, band.computed(case, options), options), folder, "band")
+        report = band.band(case, options)
+        style.save(figures.picture(case, report, band.curve(case, report, options)), folder, "band")
     (folder / "assumed.md").write_text(assumed_table(), encoding="utf-8")
     (folder / "coverage.md").write_text(coverage_table(), encoding="utf-8")
 
 
 def assumed_table() -> str:
-    """What is assumed of numbers that users rarely know."""
+    """Default uncertainties of numbers that users rarely know."""
     rows = [
-        f"| `{name}` | {_spread(one)} | {_source(one)} | {one.reason} |" for name, one in known_uncertainties().items()
+        f"| `{name}` | {_spread(one)} | {_source(one)} | {one.reason} |"
+        for name, one in default_uncertainties().items()
     ]
     return "\n".join(["| input | 95 % lie | source | reason |", "|---|---|---|---|", *rows]) + "\n"
 
 
-def _spread(one: KnownUncertainty) -> str:
+def _spread(one: DefaultUncertainty) -> str:
     if one.half_width is not None:
         return f"within {one.half_width:g} K"
     if one.share is not None:
@@ -54,12 +58,12 @@ def _spread(one: KnownUncertainty) -> str:
     return f"within a factor of {one.factor:g}, log-normal"
 
 
-def _source(one: KnownUncertainty) -> str:
+def _source(one: DefaultUncertainty) -> str:
     return one.source if one.source == JUDGEMENT else f"{{cite:t}}`{one.source}`"
 
 
 def coverage_table() -> str:
-    """How many rows of vendors have the middle of their band within the model's 95 %, and where the others lie."""
+    """Number of vendors' rows with the middle of their band inside, below and above the model's 95 % interval."""
     lines = ["| rows | model | in the band | below it | above it |", "|---|---|---:|---:|---:|"]
     for model in (FrictionModel.reference(), calibrated(FrictionModel.reference(), calibration("rexroth-2006"))):
         for name in _SETS:
@@ -71,21 +75,21 @@ def coverage_table() -> str:
 
 
 def coverage(model: FrictionModel, name: str):
-    """For each row and preload whether the vendor's middle is "in" the band of the model, "below" or "above"."""
+    """Middle of the vendor's band for each row and preload: "in" the model's band, "below" or "above"."""
     nut, preloads = _SETS[name]
     for values in shipped_rows(SETS[name]):
         for percent in preloads:
-            found = band.computed(_case(model, values, nut, percent), band.Options(samples=_SAMPLES)).band
+            found = band.band(_case(model, values, nut, percent), band.Options(samples=_SAMPLES)).band
             column = f"no_load_torque_{percent}pct"
             middle = (values[f"{column}_min"] + values[f"{column}_max"]) / 2
             low, high = found["screw_torque"].both
             yield "below" if middle < low else "above" if middle > high else "in"
 
 
-def _case(model: FrictionModel, values: Values, nut: type[Nut], percent: int) -> config.Case:
-    """A row as a case without load, at the conditions of the vendor."""
+def _case(model: FrictionModel, values: Values, nut: type[Nut], percent: int) -> case_file.Case:
+    """Case of a row without load, at the conditions of the vendor."""
     at = Conditions().of(values)
-    return config.Case(
+    return case_file.Case(
         model=model,
         screw=screw_of(values).screw(),
         lubricant=at.lubricant,

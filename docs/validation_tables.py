@@ -1,4 +1,4 @@
-"""What the page on validation shows: the command's own output, its figure, the calibration and the residuals."""
+"""Parts of the page on validation: output of the command, figure, calibration and residuals."""
 
 from __future__ import annotations
 
@@ -7,13 +7,16 @@ import subprocess
 import sys
 from pathlib import Path
 
-from ballscrew.analyses.validation import DESCRIPTORS, Conditions, trends
-from ballscrew.assembly import nut_friction
-from ballscrew.calibrations import PARAMETERS, calibrated, calibration
 from ballscrew.components.catalogue import catalogue
 from ballscrew.components.nut import DoubleNut, OversizeBallNut
-from ballscrew.interfaces import validation
-from ballscrew.model import FrictionModel
+from ballscrew.figures import files
+from ballscrew.figures import validation as figures
+from ballscrew.friction.calibrations import PARAMETERS, calibrated, calibration
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.nut_friction import nut_friction
+from ballscrew.output.text import validation as text_of
+from ballscrew.studies import validation
+from ballscrew.validation.entries import DESCRIPTORS, Conditions, trends
 
 SCRIPT = Path(__file__).parents[1] / "benchmarks" / "fit_calibration.py"
 SYMBOLS = {"boundary_friction_coefficient": "µ₀", "share_of_load": "F_B/Q"}
@@ -42,27 +45,27 @@ def write(folder: Path) -> None:
         "trends.md": trends_table(),
         "definitions.md": definitions_table(),
         "oil.md": oil_table(),
-        "rows.txt": "\n\n".join(validation.text_of(entries, asked) for entries in sets) + "\n",
+        "rows.txt": "\n\n".join(text_of.text_of(entries, asked) for entries in sets) + "\n",
     }
     for name, text in pages.items():
         (folder / name).write_text(text, encoding="utf-8")
-    validation.draw(sets, asked, folder / "validation.svg")
+    files.draw(lambda: figures.picture(sets, asked), folder / "validation.svg")
 
 
 def summary() -> str:
-    """One line for each set and model."""
+    """One row for each set and model."""
     lines = [["set", "model", "n", "mean ratio", "scatter", "in the vendor's band", "other laws, mean ratio"]]
     lines.append(["---"] * len(lines[0]))
     for entry in _entries():
-        laws = ", ".join(f"{validation.WORDS[name]} {value:.2f}" for name, value in entry.mean_laws.items())
+        laws = ", ".join(f"{text_of.WORDS[name]} {value:.2f}" for name, value in entry.mean_laws.items())
         share = "no band" if entry.share_in_band is None else _percent(entry.share_in_band)
         scatter = f"{entry.std_ratio:.3f}" if len(entry.counted) > 1 else "–"
-        who = entry.calibration or "as it is"
+        who = entry.calibration or "uncalibrated"
         lines.append([entry.data.name, who, str(len(entry.counted)), f"{entry.mean_ratio:.3f}", scatter, share, laws])
     return _table(lines)
 
 
-#: What the sets are called in a short table.
+#: Names of the sets in a short table.
 SHORT = {
     "rexroth-double-nut": "Rexroth: no-load torque of double nuts",
     "rexroth-single-nut": "Rexroth: no-load torque of single nuts, oversize balls",
@@ -75,9 +78,9 @@ SHORT = {
 
 
 def vendors_table() -> str:
-    """What vendors and a laboratory state, one line for each set, for the README."""
+    """Comparison with vendors and a laboratory, one row for each set, for the README."""
     lines = [
-        ["what is stated", "values", "as it is", "calibrated", "in the vendor's band, before and after"],
+        ["stated value", "number", "uncalibrated", "calibrated", "within the vendor's band, before and after"],
         ["---"] * 5,
     ]
     for entries in found()[1]:
@@ -97,9 +100,9 @@ def vendors_table() -> str:
 
 
 def oil_table() -> str:
-    """What another temperature of the oil, which the vendor does not state, makes of the no-load torques."""
+    """No-load torques at other oil temperatures, which the vendor does not state."""
     names = ("rexroth-double-nut", "rexroth-single-nut")
-    lines = [["oil", *(f"{name}, {who}" for name in names for who in ("as it is", "calibrated"))], ["---"] * 5]
+    lines = [["oil", *(f"{name}, {who}" for name in names for who in ("uncalibrated", "calibrated"))], ["---"] * 5]
     for temperature in ("15 degC", "25 degC", "40 degC"):
         asked = validation.request(names, temperature=temperature)
         entries = [entry for entries, _ in validation.evaluate(asked) for entry in entries]
@@ -111,17 +114,23 @@ def oil_table() -> str:
 
 
 def definitions_table() -> str:
-    """What other definitions of the same value would give."""
+    """Results of other definitions of the same value."""
     lines = [["set", "definition", "mean ratio"], ["---"] * 3]
     for entry in _entries():
         if entry.mean_definitions and entry.data.name != "hiwin-ratings":
-            lines.append([entry.data.name, f"as compared: {entry.data.words.partition(', against')[0]}", _mean(entry)])
-            lines += [["", validation.WORDS[name], f"{value:.3f}"] for name, value in entry.mean_definitions.items()]
+            lines.append(
+                [
+                    entry.data.name,
+                    f"as compared: {', '.join(filter(None, (entry.data.title, entry.data.details)))}",
+                    _mean(entry),
+                ]
+            )
+            lines += [["", text_of.WORDS[name], f"{value:.3f}"] for name, value in entry.mean_definitions.items()]
     return _table(lines)
 
 
 def calibration_table() -> str:
-    """The two numbers, their errors, and what is left."""
+    """The two calibrated numbers, their errors, and the residuals."""
     stored = calibration(validation.DEFAULT_CALIBRATION)
     lines = [["number", "where", "value", "standard error"], ["---"] * 4]
     for (name, where), error in zip(PARAMETERS.items(), stored.standard_errors, strict=True):
@@ -136,21 +145,21 @@ def calibration_table() -> str:
 
 
 def trends_table() -> str:
-    """How the ratio goes with what the rows are like."""
+    """Trends of the ratio over properties of the rows."""
     lines = [["set", "model", "against", "exponent", "correlation"], ["---"] * 5]
     for entry in _entries():
         if not (entry.data.calibratable or entry.data.name == "balan-2015"):
             continue
         for trend in trends(entry.counted):
-            words = DESCRIPTORS[trend.descriptor].words
-            exponent = f"{trend.exponent:+.2f} ± {trend.doubt:.2f}".replace("-", "−")
+            words = DESCRIPTORS[trend.descriptor].description
+            exponent = f"{trend.exponent:+.2f} ± {trend.half_width:.2f}".replace("-", "−")
             correlation = f"{trend.correlation:+.2f}".replace("-", "−")
-            lines.append([entry.data.name, entry.calibration or "as it is", words, exponent, correlation])
+            lines.append([entry.data.name, entry.calibration or "uncalibrated", words, exponent, correlation])
     return _table(lines)
 
 
 def numbers() -> dict[str, str]:
-    """What stands in the text between double braces."""
+    """Numbers that replace the names in double braces in the page."""
     by_key = {(entry.data.name, entry.calibration is not None): entry for entry in _entries()}
     values: dict[str, str] = {}
     for key, name in (("double", "rexroth-double-nut"), ("single", "rexroth-single-nut"), ("thk", "thk-jis")):
@@ -162,8 +171,8 @@ def numbers() -> dict[str, str]:
             values[f"{prefix}_outside"] = ", ".join(
                 f"{point.name} ({point.ratio:.2f})" for point in entry.points if point.in_band is False
             )
-            above = [apart for apart in entry.apart if apart.ratio > 1]
-            values[f"{prefix}_above"] = f"{len(above)} of {len(entry.apart)}"
+            above = [apart for apart in entry.upper_limits if apart.ratio > 1]
+            values[f"{prefix}_above"] = f"{len(above)} of {len(entry.upper_limits)}"
     steep, fine = _steep_and_fine(by_key["rexroth-single-nut", True])
     values |= {"single_steep": f"{steep:.2f}", "single_fine": f"{fine:.2f}"}
     balan = by_key["balan-2015", False]

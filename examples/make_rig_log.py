@@ -25,7 +25,7 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.interfaces import config
+from ballscrew.cases import case_file
 
 HERE = Path(__file__).parent
 LOG = HERE / "rig_log.csv"
@@ -80,7 +80,7 @@ def columns() -> dict[str, Any]:
 
 def _torque(load: Any, speed: Any, temperature: Any) -> Any:
     """The torque on the shaft, N m: with the friction where the screw turns, and without where it does not."""
-    case = config.load(HERE / "rig.toml")
+    case = case_file.load(HERE / "rig.toml")
     friction: Any = case.model.friction
     friction = dataclasses.replace(friction, boundary_friction_coefficient=BOUNDARY_FRICTION)
     true = dataclasses.replace(case.model, friction=friction)

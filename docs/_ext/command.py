@@ -1,4 +1,4 @@
-"""``{command} .venv/bin/ballscrew run case.toml``: a command and what it prints, run while the page is built.
+"""Directive ``{command} .venv/bin/ballscrew run case.toml``: a command and its output, run while the page is built.
 
 The commands of a page run in one folder, one after the other, with the examples in it: a later one finds what an
 earlier one wrote. What they print is kept under ``generated/commands`` by its cause: the program, the examples, the
@@ -46,7 +46,7 @@ class Command(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         typed = " ".join(self.arguments[0].split())
         if self.env.docname in _begun:
-            wait([_begun.pop(self.env.docname)])  # what went wrong there goes wrong again here, and is told here
+            wait([_begun.pop(self.env.docname)])  # an error there occurs again here, and is reported here
         page = self.env.temp_data.setdefault("commands", Page(self.env.docname))
         keep = _words(self.options.get("keep", ""))
         try:
@@ -67,7 +67,7 @@ class Page:
         self.folder = KEPT / name.replace("/", "-")
         self.place: Path | None = None
         self.cause = program()
-        #: Not run yet, as what they print was at hand; a later one may need what they write.
+        #: Commands whose output was cached; they run only if a later command needs their files.
         self.waiting: list[str] = []
 
     def said(self, typed: str, keep: list[str]) -> str:
@@ -122,12 +122,14 @@ def _next_cause(before: str, typed: str) -> str:
 
 
 def causes(commands: list[str]) -> list[str]:
-    """By what the output of the commands of a page is kept, one after the other."""
+    """Cache keys of the output of the commands of a page, in order."""
     return list(itertools.accumulate(commands, _next_cause, initial=program()))[1:]
 
 
 def _chosen(said: str, show: str) -> str:
-    """The parts ``FROM .. TO | FROM .. TO``, from a line with one text to the next with the other.
+    """Select parts of an output: ``FROM .. TO | FROM .. TO``, from one line to another.
+
+    Each part starts at the first line with FROM and ends at the next line with TO.
 
     Either text may be left out: from the first line, to the last.
     """
@@ -153,7 +155,7 @@ def _line_with(words: str, lines: list[str], first: int) -> int:
 
 
 def _displayed(typed: str) -> str:
-    """A long command with its options on lines of their own, as it may be typed, too."""
+    """A long command with its options on lines of their own."""
     lines = [""]
     for word in re.split(r" (?=-)", typed):
         if lines[-1] and len(f"{lines[-1]} {word}") > WIDEST:
@@ -166,7 +168,7 @@ def _displayed(typed: str) -> str:
 
 @functools.cache
 def program() -> str:
-    """A digest of all that the output may depend on."""
+    """Digest of everything that the output may depend on."""
     found = hashlib.sha256(f"{WIDTH} {sys.version}".encode())
     for folder in (ROOT / "src" / "ballscrew", ROOT / "examples"):
         for path in sorted(folder.rglob("*")):
@@ -182,7 +184,7 @@ _FENCE = re.compile(r"^```\{command\} (?P<typed>.+)\n(?P<options>(?::\w+:.*\n)*)
 
 
 def _begin(_app: Any) -> None:
-    """Start on the commands of all pages: a machine with a second processor does not wait for them."""
+    """Start the commands of all pages in the background, to use a second processor."""
     pool = ThreadPoolExecutor(1)
     for path in sorted(DOCS.rglob("*.md")):
         text = path.read_text(encoding="utf-8")
@@ -204,7 +206,7 @@ def _words(listed: str) -> list[str]:
 
 
 def _of(env: Any) -> dict[str, str]:
-    """By page with commands, the program that its output is of."""
+    """Version of the program by page, for pages with commands."""
     if not hasattr(env, "ballscrew_commands"):
         env.ballscrew_commands = {}
     return env.ballscrew_commands

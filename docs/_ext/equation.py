@@ -1,4 +1,4 @@
-"""``{equation} ballscrew.equations.film.film_parameter``: a formula as the code has it, with all that belongs to it.
+"""Directive ``{equation} ballscrew.equations.film.film_parameter``: a formula with symbols, units, sources.
 
 Formula, letters, units, source and range come from the function itself: its docstring, the line that binds the letters,
 and its annotations. So a page of theory cannot say anything else than the program does.
@@ -61,7 +61,7 @@ class Equation(SphinxDirective):
         return "../" * self.env.docname.count("/")
 
     def _parsed(self, text: str, module_name: str) -> list[nodes.Node]:
-        """The text, which is reStructuredText as docstrings are, on a page that is Markdown."""
+        """Parse the text as reStructuredText, the format of docstrings, on a Markdown page."""
         document = make_document()
         document["source"] = self.state.document["source"]
         document.settings = self.state.document.settings
@@ -107,7 +107,7 @@ def _cited(text: str) -> str:
 
 
 def _legend(function: Callable[..., Any], formula: str) -> str:
-    """Each letter with what it stands for and its unit, as the function binds and annotates them."""
+    """Each symbol with its meaning and unit, from the bindings and annotations of the function."""
     hints = get_type_hints(function, include_extras=True)
     letters = _letters(function)
     missing = set(inspect.signature(function).parameters) - set(letters)
@@ -128,7 +128,7 @@ def _unit(annotation: object) -> str:
 
 
 def _letters(function: Callable[..., Any]) -> dict[str, str]:
-    """Letters by parameter, from the lines ``a, b = first, second`` of the function."""
+    """Symbols by parameter, from the lines ``a, b = first, second`` of the function."""
     tree = ast.parse(textwrap.dedent(inspect.getsource(function)))
     found: dict[str, str] = {}
     parameters = set(inspect.signature(function).parameters)
@@ -147,7 +147,7 @@ def _letters(function: Callable[..., Any]) -> dict[str, str]:
 
 
 def tex(letter: str, formula: str) -> str:
-    """A letter of the code as the formula writes it: ``sigma_b`` as ``\\sigma_b``."""
+    """A symbol of the code in the notation of the formula: ``sigma_b`` as ``\\sigma_b``."""
     base, _, index = letter.partition("_")
     written = _symbol(base, formula)
     if not index:

@@ -1,4 +1,4 @@
-"""Formulas as MathML: every current browser draws it, and no page asks another host for a script."""
+"""Formulas as MathML: every current browser renders it, and no page loads a script from another host."""
 
 from docutils.nodes import SkipNode
 from latex2mathml.converter import convert

@@ -1,8 +1,8 @@
-"""What each effect adds: from the corrected paper to the reference model, one effect at a time.
+"""Contribution of each effect: from the corrected paper to the reference model, one effect at a time.
 
-Two screws, each at one operating point: the paper's, with its close grooves and its small lead, and
-one of a catalogue, with open grooves and a steep lead. Curves of the effects by themselves are in
-:mod:`ballscrew.analyses.effect_curves`.
+Two screws, each at one operating point: the paper's, with close grooves and a small lead, and a
+catalogue screw, with open grooves and a larger lead. Curves of single effects are in
+:mod:`effect_study.curves`.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from ballscrew.analyses.olaru2005 import case as paper
 from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.components.lubrication import Inlet, houpert_rolling
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.mixed_friction import LoadSharing
 from ballscrew.components.screw import BallScrew
-from ballscrew.model import PAPER_FRICTION, FrictionModel
-from ballscrew.result import MECHANISMS, FrictionResult
+from ballscrew.friction.model import PAPER_FRICTION, FrictionModel
+from ballscrew.friction.result import MECHANISMS, FrictionResult
+from ballscrew.papers.olaru2005 import case as paper
 from ballscrew.solvers.ellipse_slip import ellipse_slip
 from ballscrew.solvers.line_slip import line_slip
 from ballscrew.solvers.slip import BallProblem, Slip
@@ -32,20 +32,20 @@ DECAYS = ((1.42, 0.8), (2.32, 0.97), (1.90, 0.99), (2.1, 0.85))
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Case:
-    """A screw, its oil, and the operating point at which the effects are sized."""
+    """A screw, its oil, and the operating point at which the effects are computed."""
 
     name: str
     title: str
-    #: What a caption says of it, by what it is about: screw, axial_load, screw_speed, oil, assumed.
-    words: Mapping[str, str]
+    #: Parts of its caption by subject: screw, axial_load, screw_speed, oil, assumed.
+    caption_parts: Mapping[str, str]
     screw: BallScrew
     oil: Lubricant
     axial_load: float
     screw_speed: float
 
-    def told(self, *varied: str) -> str:
-        """The case in words, without the load or the speed where they vary."""
-        kept = {about: words for about, words in self.words.items() if about not in varied}
+    def caption(self, *varied: str) -> str:
+        """The case as a caption, without the load or the speed where they vary."""
+        kept = {about: text for about, text in self.caption_parts.items() if about not in varied}
         point = ", ".join(kept[about] for about in ("axial_load", "screw_speed", "oil") if about in kept)
         return f"{kept['screw']}; {point}. Assumed: {kept['assumed']}."
 
@@ -58,7 +58,7 @@ class Case:
 PAPER = Case(
     name="paper",
     title="the paper's screw",
-    words={
+    caption_parts={
         "screw": "40 × 5, d_w 3.175 mm, f 0.515, 45°, 56 balls",
         "axial_load": "F = 4000 N",
         "screw_speed": "n = 600 rpm",
@@ -76,7 +76,7 @@ PAPER = Case(
 CATALOGUE = Case(
     name="catalogue",
     title="a catalogue screw",
-    words={
+    caption_parts={
         "screw": "40 × 10, d_m 41.4 mm, d_w 6.35 mm, f 0.54, 45°, 75 balls (four turns)",
         "axial_load": "F = 5000 N, a tenth of C_a",
         "screw_speed": "n = 600 rpm",
@@ -100,16 +100,16 @@ CASES: Mapping[str, Case] = {case.name: case for case in (PAPER, CATALOGUE)}
 
 
 def spin_over_ellipse(ball: BallProblem) -> Slip:
-    """The slip of the reference model on a path without a lead angle: nothing is dragged sideways."""
+    """The slip of the reference model on a path without a lead angle: no lateral slip."""
     return ellipse_slip(ball._replace(frame=dataclasses.replace(ball.frame, lead_angle=0.0)))
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Step:
-    """One effect: in a word, in words, and the model with all effects so far."""
+    """One effect: short name, description, and the model with all effects up to it."""
 
     short: str
-    words: str
+    description: str
     model: FrictionModel
 
 
@@ -120,17 +120,17 @@ def steps() -> tuple[Step, ...]:
     paper_boundary = LoadSharing(boundary_friction_coefficient=PAPER_FRICTION.boundary_friction_coefficient)
     changes: tuple[tuple[str, str, dict[str, Any]], ...] = (
         ("rolling", "rolling force in all regimes, fully flooded", {"rolling": reference.rolling}),
-        ("inlet heat", "the inlet heats itself", {"inlet": reference.inlet}),
-        ("load sharing", "asperities and film share the load, µ_0 0.2 as before", {"friction": paper_boundary}),
-        ("µ_0 0.12", "boundary friction 0.12 for 0.2", {"friction": reference.friction}),
-        ("spin", "spin, on the line across the contact", {"slip": line_slip}),
-        ("ellipse", "the whole ellipse for the line", {"slip": spin_over_ellipse}),
-        ("helix", "the helix drags the balls sideways", {"slip": reference.slip, "name": reference.name}),
+        ("inlet heat", "heating of the inlet", {"inlet": reference.inlet}),
+        ("load sharing", "asperities and film share the load, µ_0 still 0.2", {"friction": paper_boundary}),
+        ("µ_0 0.12", "boundary friction 0.12 instead of 0.2", {"friction": reference.friction}),
+        ("spin", "spin, on a line across the contact", {"slip": line_slip}),
+        ("ellipse", "the whole ellipse instead of the line", {"slip": spin_over_ellipse}),
+        ("helix", "lateral slip of the helix", {"slip": reference.slip, "name": reference.name}),
     )
     found = [Step("corrected", "the paper, corrected", so_far)]
-    for short, words, change in changes:
+    for short, description, change in changes:
         so_far = dataclasses.replace(so_far, **change)
-        found.append(Step(short, words, so_far))
+        found.append(Step(short, description, so_far))
     return tuple(found)
 
 
@@ -139,7 +139,7 @@ class Effect:
     """Friction torque (N m), its parts, and the efficiency, with an effect and all before it."""
 
     short: str
-    words: str
+    description: str
     torque: float
     added: float
     parts: Mapping[str, float]
@@ -156,7 +156,7 @@ def effects(case: Case) -> tuple[Effect, ...]:
         found.append(
             Effect(
                 short=step.short,
-                words=step.words,
+                description=step.description,
                 torque=torque,
                 added=torque - found[-1].torque if found else 0.0,
                 parts={mechanism: float(result.contributions[mechanism]) for mechanism in MECHANISMS},
@@ -167,16 +167,16 @@ def effects(case: Case) -> tuple[Effect, ...]:
     return tuple(found)
 
 
-# -- what is not known ----------------------------------------------------------------------------
+# -- assumptions ---------------------------------------------------------------------------------
 
 
 @dataclasses.dataclass(frozen=True)
-class Doubt:
-    """One thing that a sheet of a screw does not say, and the torques (N m) that it leaves open."""
+class Sensitivity:
+    """One assumption that a data sheet does not settle, and the torques (N m) with its alternatives."""
 
-    words: str
-    taken: str
-    tried: str
+    description: str
+    default: str
+    alternatives: str
     torques: tuple[float, ...]
     reference: float
 
@@ -191,8 +191,8 @@ class Doubt:
         return max(*self.torques, self.reference) / self.reference - 1
 
 
-def doubts(case: Case) -> tuple[Doubt, ...]:
-    """What the reference model takes for granted, the widest doubt first."""
+def sensitivities(case: Case) -> tuple[Sensitivity, ...]:
+    """Assumptions of the reference model, the one that moves the torque most first."""
     reference = FrictionModel.reference()
     at_reference = float(case.result(reference).screw_torque)
 
@@ -221,26 +221,26 @@ def doubts(case: Case) -> tuple[Doubt, ...]:
             torques(*(friction(boundary_friction_coefficient=mu) for mu in (0.08, 0.2))),
         ),
         (
-            "the asperities' share: B, C",
+            "load share of the asperities: B, C",
             "1.42, 0.80",
             "the other three published pairs",
             torques(*(friction(decay=B, exponent=C) for B, C in DECAYS[1:])),
         ),
         (
-            "temperature of the oil",
+            "oil temperature",
             "as stated",
-            "half and twice the viscosity",
+            "half and double the viscosity",
             tuple(float(thinner(factor).result(reference).screw_torque) for factor in (0.5, 2.0)),
         ),
         ("roughness of the races", "0.3 µm", "0.15, 0.5 µm", rough(0.15e-6, 0.5e-6)),
         (
-            "friction of the film alone",
+            "friction of the full film",
             "0.02",
             "0.05 (SKF2018)",
             torques(friction(full_film_friction_coefficient=0.05)),
         ),
         (
-            "oil in the inlet",
+            "oil supply of the inlet",
             "flooded",
             "S = 10, and the law of Houpert1987",
             torques(
@@ -249,7 +249,7 @@ def doubts(case: Case) -> tuple[Doubt, ...]:
             ),
         ),
         (
-            "force between the balls",
+            "ball-to-ball force",
             "1/z N",
             "0, 5/z N, Q/500",
             torques(
@@ -258,5 +258,5 @@ def doubts(case: Case) -> tuple[Doubt, ...]:
             ),
         ),
     )
-    rows = [Doubt(*row, reference=at_reference) for row in found]
+    rows = [Sensitivity(*row, reference=at_reference) for row in found]
     return tuple(sorted(rows, key=lambda row: row.lowest - row.highest))

@@ -1,4 +1,4 @@
-"""The effects by themselves: slip over spin, slip over the contact, rolling laws, load shares, sweeps."""
+"""Curves of single effects: slip over spin, slip over the contact, rolling laws, load shares, sweeps."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses.effects import DECAYS, PAPER, RPM, Case
 from ballscrew.components.laws import RollingLaw
 from ballscrew.components.lubrication import aihara_rolling, biboulet_houpert_rolling, houpert_rolling, olaru_rolling
 from ballscrew.components.mixed_friction import GreenwoodTrippSharing, LoadSharing
 from ballscrew.equations import mixed_lubrication, slip
-from ballscrew.model import PAPER_FRICTION, FrictionModel
-from ballscrew.result import FrictionResult
+from ballscrew.friction.model import PAPER_FRICTION, FrictionModel
+from ballscrew.friction.result import FrictionResult
+from ballscrew.friction.validity import SMALLEST_ELASTIC_REGIME_PARAMETER
 from ballscrew.solvers.line_slip import pure_rolling_lines
-from ballscrew.validity import SMALLEST_ELASTIC_REGIME_PARAMETER
+from effect_study.cases import DECAYS, PAPER, RPM, Case
 
 Values = NDArray[np.float64]
 
-#: The three models that are drawn against each other.
+#: The three models to compare.
 MODELS: Mapping[str, FrictionModel] = {
     model.name: model for model in (FrictionModel.olaru2005(), FrictionModel.corrected(), FrictionModel.reference())
 }
@@ -34,7 +34,7 @@ LARGEST_SPIN_OF_POLYNOMIALS = 1.0
 
 
 class SpinCurves(NamedTuple):
-    """Slip on the line without a net force, over the spin parameter; moments in units of their greatest."""
+    """Slip on the line without a net force, over the spin parameter; moments relative to their maximum."""
 
     spin_parameter: Values
     curvature: Values
@@ -94,7 +94,7 @@ def slip_picture(result: FrictionResult, on_screw: bool, across: Values, along: 
     return SlipPicture(a * across, b * along, path + 0 * along, -ahead * contact.lateral_slip_speed - turned)
 
 
-# -- laws against each other ----------------------------------------------------------------------
+# -- comparison of laws ---------------------------------------------------------------------------
 
 ROLLING_LAWS: Mapping[str, RollingLaw] = {
     "Biboulet and Houpert 2010": biboulet_houpert_rolling,
@@ -102,7 +102,7 @@ ROLLING_LAWS: Mapping[str, RollingLaw] = {
     "Olaru (1)": olaru_rolling,
     "Aihara 1987, rollers": aihara_rolling,
 }
-#: Made for elastic contacts only.
+#: Laws for elastic contacts only.
 ELASTIC_ONLY = ("Houpert 1987", "Olaru (1)", "Aihara 1987, rollers")
 
 
@@ -135,7 +135,7 @@ def _rolling(abscissa: Values, result: FrictionResult) -> RollingCurves:
 
 
 class ShareCurves(NamedTuple):
-    """The asperities' share of the load by law, and friction coefficients, over the film parameter."""
+    """Load share of the asperities by law, and friction coefficients, over the film parameter."""
 
     film_parameter: Values
     shares: Mapping[str, Values]
@@ -149,17 +149,17 @@ def share_curves() -> ShareCurves:
         f"Zhou and Hoeprich, B {B:g}, C {C:g}": mixed_lubrication.asperity_load_share_zhou_hoeprich(lam, B, C)
         for B, C in DECAYS
     }
-    contact = PAPER.result(MODELS["reference"]).screw
+    at_film = dataclasses.replace(PAPER.result(MODELS["reference"]).screw, film_parameter=lam)
     tripp = GreenwoodTrippSharing(boundary_friction_coefficient=1.0, full_film_friction_coefficient=0.0)
     shares["Bălan 2015, cut at 2"] = mixed_lubrication.asperity_load_share_balan(lam)
     # with one for the asperities and nothing for the film, the coefficient is the share
-    shares["Greenwood and Tripp, 1.92 GPa"] = np.asarray(tripp(lam, contact))
+    shares["Greenwood and Tripp, 1.92 GPa"] = np.asarray(tripp(at_film))
     sharing, printed = LoadSharing(), PAPER_FRICTION
     high = dataclasses.replace(sharing, boundary_friction_coefficient=printed.boundary_friction_coefficient)
     coefficients = {
-        "clamped, µ_0 0.2 (the paper)": printed(lam),
-        "shared, µ_0 0.2": high(lam),
-        "shared, µ_0 0.12 (reference)": sharing(lam),
+        "clamped, µ_0 0.2 (the paper)": printed(at_film),
+        "shared, µ_0 0.2": high(at_film),
+        "shared, µ_0 0.12 (reference)": sharing(at_film),
     }
     return ShareCurves(lam, shares, coefficients)
 

@@ -1,4 +1,4 @@
-"""What each effect adds, drawn for two screws: steps to the reference model, parts over speed, lead and load."""
+"""Figures of the effects for two screws: steps to the reference model, parts over speed, lead and load."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew.analyses import effect_curves as curves
-from ballscrew.analyses.effects import CASES, Case, Effect, effects
-from ballscrew.analyses.effects import steps as reference_steps
-from ballscrew.interfaces.figures import style
-from ballscrew.interfaces.figures.style import Columns, Plot
-from ballscrew.result import MECHANISMS, FrictionResult
+from ballscrew.figures import style
+from ballscrew.figures.style import Columns, Plot
+from ballscrew.friction.result import MECHANISMS, FrictionResult
+from effect_study import curves
+from effect_study.cases import CASES, Case, Effect, effects
+from effect_study.cases import steps as reference_steps
 
 Cases = Mapping[str, Case]
 
 SPEED, TORQUE = "screw speed n (rpm)", "friction torque M$_S$ (N m)"
 LOAD, LEAD = "axial load F (N)", "lead P$_h$ (mm)"
-#: From the bottom of a stack to its top.
+#: Parts of the torque, from bottom to top of a stack.
 STACK: Mapping[str, str] = {
     mechanism: style.MECHANISM_COLOURS[mechanism]
     for mechanism in ("ball_to_ball", "elastic_hysteresis", "hydrodynamic_rolling", "curvature", "spin", "helix")
@@ -34,11 +34,11 @@ MODEL_LINES: Mapping[str, tuple[str, Any, str]] = {
 
 
 def mathtext(words: str) -> str:
-    """Plain words with their symbols' indices set low: ``d_m`` and the like."""
+    """Plain text with the indices of symbols as subscripts: ``d_m`` and the like."""
     return re.sub(r"(\w)_(\w+)", r"\1$_{\2}$", words)
 
 
-#: Blanks at which a line of a caption must not end: in "F = 4000 N", "40 × 10", "1/z N".
+#: Spaces at which a caption must not break: in "F = 4000 N", "40 × 10", "1/z N".
 _TIED = re.compile(
     r"(?<=[=×]) | (?=[=×])|(?<=\d) (?=(?:mm|N|rpm|GPa|Pa|1/GPa|balls)\b|°C)|(?<=1/z) |(?<=\bPa) (?=s\b)"
     r"|(?<=_\w) (?=\d)|(?<=\bf) (?=\d)|(?<=E′) "
@@ -46,9 +46,9 @@ _TIED = re.compile(
 
 
 def case_caption(cases: Cases, words: str, varied: Sequence[str] = ()) -> str:
-    """What is to be said of the figure, and the cases of the panels, without what varies in them."""
-    told = " ".join(f"{case.title[0].upper()}{case.title[1:]}: {case.told(*varied)}" for case in cases.values())
-    return mathtext(_TIED.sub("\N{NO-BREAK SPACE}", f"{words} {told}"))
+    """Caption of a figure: its description and the cases of the panels, without the quantities that vary."""
+    captions = " ".join(f"{case.title[0].upper()}{case.title[1:]}: {case.caption(*varied)}" for case in cases.values())
+    return mathtext(_TIED.sub("\N{NO-BREAK SPACE}", f"{words} {captions}"))
 
 
 def drawn_cases() -> Cases:
@@ -139,7 +139,7 @@ def _steps_table(cases: Cases) -> Columns:
     columns: dict[str, Any] = {}
     for case in cases.values():
         found = effects(case)
-        columns.setdefault("with all effects down to", [effect.words for effect in found])
+        columns.setdefault("with all effects down to", [effect.description for effect in found])
         columns[f"friction torque, {case.title} (N m)"] = [effect.torque for effect in found]
         columns[f"efficiency, {case.title} (1)"] = [effect.efficiency for effect in found]
         for mechanism, words in MECHANISMS.items():
@@ -212,7 +212,7 @@ def _padded(values: Any, length: int = 200) -> list[Any]:
 
 
 def parts_over_lead(cases: Cases) -> Figure:
-    """The parts of the torque over the lead, reference model: the helix takes over."""
+    """The parts of the torque over the lead, reference model: the helix dominates at large leads."""
     words = (
         "Reference model; the lead varies from a twentieth of d_m, or where the balls have room, to d_m. Dotted: the "
         "screw's own lead."

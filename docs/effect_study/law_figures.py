@@ -1,4 +1,4 @@
-"""The laws behind the effects, drawn: slip over spin, slip in the contacts, rolling forces, load shares."""
+"""Figures of the laws behind the effects: slip over spin, slip in the contacts, rolling forces, load shares."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse
 
-from ballscrew.analyses import effect_curves as curves
-from ballscrew.analyses.effects import PAPER, RPM, Case
-from ballscrew.interfaces.figures import style
-from ballscrew.interfaces.figures.effects import Cases, case_caption, mathtext
-from ballscrew.interfaces.figures.style import Columns, Plot
-from ballscrew.result import FrictionResult
+from ballscrew.figures import style
+from ballscrew.figures.style import Columns, Plot
+from ballscrew.friction.result import (
+    FrictionResult,
+)
+from effect_study import curves
+from effect_study.cases import PAPER, RPM, Case
+from effect_study.effect_figures import Cases, case_caption, mathtext
 
 # -- slip over spin -------------------------------------------------------------------------------
 
@@ -91,7 +93,7 @@ def _spin_table(_cases: Cases) -> Columns:
 
 
 def slip_fields(cases: Cases) -> Figure:
-    """The slip over both contacts of both screws: its size, its direction, and where the ball rolls purely."""
+    """Slip over both contacts of both screws: size, direction, and lines of pure rolling."""
     words = (
         "Reference model; slip of race against ball. Colour: its size; arrows: its direction and size; dashed: no "
         "slip along the path. The ellipses are drawn wider along the path than they are."
@@ -187,7 +189,7 @@ _LAW_LINES = (("-", style.BLUE), ("-.", style.GREEN), ("--", style.ORANGE), (":"
 
 
 def rolling_laws(cases: Cases) -> Figure:
-    """Rolling forces by law, in units of the reference's, over load and speed; faint beyond their range."""
+    """Rolling forces by law, relative to the reference law, over load and speed; faint outside their range."""
     words = (
         "Rolling force at the screw contact of the paper's screw, inlet cool, in units of the force by Biboulet and "
         "Houpert. Faint: the contact is nearer rigid than elastic (M < 6.6), where these laws were not made. "
@@ -236,7 +238,7 @@ def _rolling_table(_cases: Cases) -> Columns:
 
 
 def load_shares(cases: Cases) -> Figure:
-    """The asperities' share of the load, and the friction coefficient that follows, over the film parameter."""
+    """Load share of the asperities, and the friction coefficient, over the film parameter."""
     words = (
         "Left, laws for the share of the load that asperities carry, Greenwood and Tripp's at the pressure of the "
         "paper's screw. Right, friction coefficients with B 1.42, C 0.8; the film alone has 0.02. Dotted: λ at the "
@@ -254,7 +256,7 @@ def load_shares(cases: Cases) -> Figure:
         panels[1].plot(found.film_parameter, mu, ls=line, color=colour, label=mathtext(name))
     at = float(PAPER.result(curves.MODELS["reference"]).screw.film_parameter)
     for panel, title, y in zip(
-        panels, ("who carries the load", "what friction follows"),
+        panels, ("load share of the asperities", "friction coefficient"),
         ("share of the asperities w (1)", "friction coefficient µ$_m$ (1)"), strict=True,
     ):  # fmt: skip
         panel.axvline(at, color=style.GREY, linestyle=":", linewidth=1.2)

@@ -1,4 +1,4 @@
-"""What a nut does with its load and its preload: loads of all balls, deflection, torque, and drag, as curves."""
+"""Curves of a nut under load and preload: loads of all balls, deflection, torque, and drag."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.analyses.effects import RPM
-from ballscrew.assembly import NutFriction, nut_friction
 from ballscrew.components.catalogue import CatalogueRow, catalogue
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Bodies, Deviations, DoubleNut, Nut, OversizeBallNut, SingleNut
 from ballscrew.components.nut_losses import DOUBLE_NUT_DRAG, OVERSIZE_BALL_DRAG, JISDrag, RexrothDrag
 from ballscrew.components.screw import BallScrew
-from ballscrew.model import FrictionModel
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.nut_friction import NutFriction, nut_friction
 from ballscrew.solvers.load_distribution import BallLoads, ball_loads
+from effect_study.cases import RPM
 
 Values = NDArray[np.float64]
 
-#: The screw of the curves, its preload as a share of its rating, and how its balls scatter.
+#: The screw of the curves, its preload as a share of its rating, and the scatter of its balls.
 ROW, PRELOAD_SHARE, SCATTER, SEED = "rexroth-40x10x6-6-double", 0.07, 0.5e-6, 1
 #: Its oil and its speed; the drag of preloads is that of vendors' tables, slow and cold.
 GRADE, TEMPERATURE, SPEED = "ISO VG 100", 313.15, 600 * RPM
@@ -44,13 +44,13 @@ class DistributionCurves(NamedTuple):
 
     axial_load: float
     rigid: float
-    #: By where screw and nut are held.
+    #: By the ends at which screw and nut are held.
     elastic: Mapping[str, Values]
     scattered: Values
 
 
 def distribution_curves() -> DistributionCurves:
-    """At a load of a quarter of the dynamic load rating."""
+    """Load distribution at a quarter of the dynamic load rating."""
     screw, load = row().screw(), 0.25 * float(row().dynamic_load_rating or 0.0)
 
     def loads(bodies: Bodies | None, deviations: Deviations | None = None) -> Values:
@@ -69,7 +69,7 @@ def distribution_curves() -> DistributionCurves:
 
 
 def nuts() -> Mapping[str, Nut]:
-    """The nuts that are compared, by what they are called."""
+    """Nuts to compare, by name."""
     return {
         "single nut, no preload": SingleNut(),
         "double nut": DoubleNut(preload=preload()),
@@ -87,7 +87,7 @@ class PreloadCurves(NamedTuple):
 
 @functools.cache
 def preload_curves() -> PreloadCurves:
-    """From no load to well beyond what lifts the second half off."""
+    """Curves from no load to well beyond lift-off of the second half."""
     load = np.linspace(0.0, 4.0, 81) * preload()
     oil = Lubricant.from_grade(GRADE, temperature=TEMPERATURE)
     friction = {
@@ -101,7 +101,7 @@ class DragCurves(NamedTuple):
     """Drag torque of the preload over preload and nominal diameter, over lead over diameter."""
 
     lead_ratio: Values
-    #: By kind of nut: model, and what the rules of vendors say.
+    #: By kind of nut: the model, and the rules of vendors.
     model: Mapping[str, Values]
     rexroth: Mapping[str, float]
     jis: Values

@@ -1,4 +1,4 @@
-"""What a nut does with its load and its preload, drawn for one catalogue screw."""
+"""Figures of a nut under load and preload, for one catalogue screw."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from ballscrew.analyses import nut_curves as curves
-from ballscrew.analyses.effects import RPM
-from ballscrew.calibrations import calibrated, calibrations
-from ballscrew.interfaces.figures import style
-from ballscrew.interfaces.figures.effects import mathtext
-from ballscrew.model import FrictionModel
+from ballscrew.figures import style
+from ballscrew.friction.calibrations import calibrated, calibrations
+from ballscrew.friction.model import FrictionModel
+from effect_study import nut_curves as curves
+from effect_study.cases import RPM
+from effect_study.effect_figures import mathtext
 
 KILO, MICRO = 1e3, 1e-6
 NUT_STYLES: Mapping[str, tuple[str, Any]] = {
@@ -25,7 +25,7 @@ LOAD = "axial load F (kN)"
 
 
 def _case(words: str, *, preloaded: bool = True) -> str:
-    """What is to be said of a figure: its subject, the screw, and its preload."""
+    """Caption of a figure: its subject, the screw, and its preload."""
     row = curves.row()
     screw = row.screw()
     return mathtext(
@@ -62,7 +62,7 @@ def distribution() -> Figure:
 
 
 def preload() -> Figure:
-    """What the halves of a double nut carry, and how far nuts give way."""
+    """Loads of the halves of a double nut, and deflection of nuts."""
     data = curves.preload_curves()
     figure, (flanks, moves) = style.new_figure(
         _case(
