@@ -3,10 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
+#: Stands for the names of the models in help texts; replaced when the help is shown.
+MODEL_NAMES = "{models}"
+CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML), for example examples/olaru2005.toml.")]
+ModelName = Annotated[
+    str | None,
+    typer.Option("--model", metavar="NAME", help=f"{MODEL_NAMES}; wins over the file."),
+]
+Settings = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set operation.axial_load="4 kN".'),
+]
 AllowCode = Annotated[
     bool, typer.Option("--allow-code", help='Let the case name laws of your own, "module:name", and run their code.')
 ]
@@ -17,3 +29,11 @@ def say_engine(attributes: Mapping[str, Any]) -> None:
     """The engine that evaluated, and why it was that one, on the error stream."""
     reason = attributes.get("engine_reason")
     typer.echo(f"evaluated by {attributes['engine']}" + (f": {reason}" if reason else ""), err=True)
+
+
+def say_constant_torque(case: Any) -> None:
+    """Print the constant torque of a calibrated case, beside that of the balls, on the error stream."""
+    from ballscrew.cases.descriptions import constant_torque
+
+    for line in constant_torque(case):
+        typer.echo(line, err=True)

@@ -1,0 +1,49 @@
+"""``ballscrew compare``: all models and laws side by side."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ballscrew.cli.common_options import AllowCode, CaseFile, ModelName, Settings, say_constant_torque
+
+
+def compare(
+    case: CaseFile,
+    model: ModelName = None,
+    settings: Settings = None,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    to: Annotated[
+        Path | None,
+        typer.Option("--to", "-o", metavar="FILE", help="Also draw a picture of the spread: .png, .svg or .pdf."),
+    ] = None,
+    allow_code: AllowCode = False,
+) -> None:
+    """All models and all laws side by side at the operating point of a case file.
+
+    First the models as they are, then the model of the case with one law at a time in place of its
+    own: torque, its parts, efficiency in both directions, and what lies outside its validity.
+    """
+    from ballscrew.cases import case_file
+    from ballscrew.figures import files
+    from ballscrew.output import json_text
+    from ballscrew.output.documents import comparison as documents
+    from ballscrew.output.text import comparison as text
+    from ballscrew.studies.comparison import comparison
+
+    loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
+    if to is not None:
+        files.check_picture(to)
+    compared = comparison(loaded)
+    if as_json:
+        typer.echo(json_text.as_json(documents.document(loaded, compared)))
+    else:
+        text.print_comparison(loaded, compared)
+    if to is not None:
+        from ballscrew.figures import comparison as figures  # matplotlib is slow to import
+
+        files.draw(lambda: figures.picture(loaded, compared), to)
+        typer.echo(f"{to}: {len(compared.rows)} models and laws", err=as_json)
+    say_constant_torque(loaded)

@@ -1,0 +1,28 @@
+"""``ballscrew reproduce``: the figures, data and claims of a paper."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def reproduce(
+    paper: Annotated[str, typer.Argument(help="Which paper: olaru2005.")],
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder for figures, data and claims.")],
+) -> None:
+    """The figures, the data and the claims of a paper, from its equations."""
+    from ballscrew.errors import Fault, InputError, nearest
+
+    if paper != "olaru2005":
+        raise InputError(Fault("reproduce", "unknown paper", paper, nearest(paper, ["olaru2005"])))
+    from ballscrew.cli.reproduction import reproduce_olaru2005
+
+    written = reproduce_olaru2005(out, _step)
+    typer.echo(f"{out}: {len(written)} files; read {out / 'claims.md'} first")
+
+
+def _step(what: str, done: int, total: int) -> None:
+    """One line a step on the error stream."""
+    typer.echo(f"[{done}/{total}] {what}", err=True)

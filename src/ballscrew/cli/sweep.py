@@ -1,0 +1,97 @@
+"""``ballscrew sweep``: friction over ranges of inputs."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+from collections.abc import Generator
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ballscrew.cli.common_options import (
+    AllowCode,
+    CaseFile,
+    ModelName,
+    Settings,
+    Verbose,
+    say_constant_torque,
+    say_engine,
+)
+
+
+def sweep(
+    case: CaseFile,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option("--vary", metavar="FIELD=VALUES", help='Axis: axial_load="100:4000:14 N" or "100, 200 N".'),
+    ] = None,
+    output: Annotated[
+        list[str] | None,
+        typer.Option("--output", metavar="NAME", help="What to return, for example efficiency; may be repeated."),
+    ] = None,
+    to: Annotated[
+        Path | None,
+        typer.Option(
+            "--to",
+            "-o",
+            metavar="FILE",
+            help="Write .csv, .xlsx or .nc, or a folder .zarr of any size; without it, CSV on the terminal.",
+        ),
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option("--scheduler", metavar="ADDRESS", help="Fill a .zarr by the workers of a Dask scheduler."),
+    ] = None,
+    model: ModelName = None,
+    settings: Settings = None,
+    allow_code: AllowCode = False,
+    verbose: Verbose = False,
+) -> None:
+    """Friction over ranges of load, speed or anything else.
+
+    Without --vary, the axes come from the [sweep] table of the case file, or else are ten loads and
+    ten speeds up to those of the case. One output over two axes comes as a table, load down and
+    speed across, ready to paste; otherwise one row a point. A .zarr is filled block by block: stopped
+    by whatever, the same command goes on where it was.
+    """
+    from ballscrew.cases import case_file
+    from ballscrew.cli.progress import progress
+    from ballscrew.output import sweep_files
+    from ballscrew.output.text import sweep as text
+    from ballscrew.studies import sweep as studies
+
+    loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
+    plan = studies.plan(loaded, vary or [], output or [], to)
+    with _report_interruption(), studies.workers(scheduler, to) as cluster, progress("sweep") as done:
+        dataset = studies.sweep(loaded, plan, done, to, cluster)
+    if verbose:
+        say_engine(dataset.attrs)
+    if to is None:
+        sweep_files.write_csv(sys.stdout, dataset, plan)
+    else:
+        if not studies.is_store(to):
+            sweep_files.write(dataset, plan, to)
+        typer.echo(f"{to}: {text.size(dataset, plan)}, model {loaded.model.label}")
+    if beware := text.warning(loaded, plan, dataset, to):
+        typer.echo(beware, err=True)
+    say_constant_torque(loaded)
+
+
+@contextlib.contextmanager
+def _report_interruption() -> Generator[None]:
+    """Print how far an interrupted sweep into a store came, and that it resumes from there."""
+    try:
+        yield
+    except KeyboardInterrupt as error:
+        for line in getattr(error, "__notes__", ()):
+            typer.echo(line, err=True)
+        raise  # the exit code is that of an interrupt
+    except OSError as error:
+        from ballscrew.sweeps.store import UnfinishedSweepError
+
+        if not isinstance(error, UnfinishedSweepError):
+            raise
+        typer.echo(str(error), err=True)
+        raise typer.Exit(1) from None
