@@ -1,4 +1,4 @@
-"""What a result says of itself, as fields: verdicts, checks and warnings of every document.
+"""Records of a result: verdicts, checks and warnings of every document.
 
 Terminal, page, report and API read the fields; the text is for people to read and for no program to parse.
 """

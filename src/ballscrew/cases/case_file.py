@@ -72,7 +72,7 @@ def read(path: Path) -> dict[str, Any]:
 
 
 def _toml_remedy(error: str, text: str) -> str:
-    """What to write instead: most often a law is given by name and with coefficients."""
+    """Remedy: most often a law is given by name and with coefficients."""
     line = re.search(r"Cannot overwrite a value \(at line (\d+)", error)
     if line is None:
         return _START

@@ -141,7 +141,7 @@ def _number(row: CatalogueRow, name: str) -> str:
 
 
 def show_text(row: CatalogueRow) -> str:
-    """What a catalogue lists of a screw, what follows from it, and what was assumed."""
+    """Catalogue row of a screw, the values that follow from it, and the assumptions."""
     kind = f", nut: {row.nut}" if row.nut else ""
     lines = [f"{row.name} ({row.source}){kind}", "", "Listed"]
     unlisted = assumed(row)
@@ -162,7 +162,7 @@ def _line(quantity: Quantity, value: Any) -> str:
 
 
 def _root_doubt(row: CatalogueRow) -> str:
-    """How far the root diameter moves with the conformity, and what the catalogue has."""
+    """Change of the root diameter with the conformity, and the value of the catalogue."""
     quantity = _DERIVED["groove_root_diameter"]
     around = [
         dataclasses.replace(row, conformity=row.conformity + doubt).groove_root_diameter

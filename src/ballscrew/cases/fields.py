@@ -94,12 +94,12 @@ def read_preload(raw: object) -> float:
 
 
 def example_of(quantity: Quantity) -> str | float | None:
-    """What stands for a field as an example, by its symbol or its name."""
+    """Example value of a field, by its symbol or its name."""
     return EXAMPLES.get(quantity.info.symbol, EXAMPLES.get(quantity.name))
 
 
 def _example(quantity: Quantity, default: Any) -> str | float:
-    """What a field may hold: that of the feed drive in the examples, or else the default."""
+    """Possible value of a field: that of the feed drive in the examples, or else the default."""
     written = example_of(quantity)
     if written is not None:
         return written
@@ -110,7 +110,7 @@ def _example(quantity: Quantity, default: Any) -> str | float:
 
 
 def json_of(quantity: Quantity, default: Any, may_vary: bool = False) -> dict[str, Any]:
-    """What a field looks like in the file: text with a unit, or a plain number within its bounds.
+    """Form of a field in the file: text with a unit, or a plain number within its bounds.
 
     A plain number that may be uncertain may be the text of a distribution, too.
     """

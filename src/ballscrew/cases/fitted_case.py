@@ -89,7 +89,7 @@ def provenance_of(case: Case, found: CalibratedModel) -> dict[str, Any]:
 
 
 def calibration_of(case: Case, found: CalibratedModel) -> dict[str, Any]:
-    """What ``[calibration]`` says, in SI."""
+    """Values of ``[calibration]``, in SI."""
     estimates = list(found.estimates.values())[: len(found.response.names)]
     told = [estimate.identified for estimate in estimates]
     names = [name for name, known in zip(found.response.names, told, strict=True) if known]

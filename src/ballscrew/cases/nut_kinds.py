@@ -60,5 +60,5 @@ def kind_in(words: str) -> str:
 
 
 def kind_of(nut: Nut) -> str:
-    """What a nut is called."""
+    """Name of a kind of nut."""
     return next(name for name, cls in NUTS.items() if type(nut) is cls)

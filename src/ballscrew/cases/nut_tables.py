@@ -178,7 +178,7 @@ def _losses(sections: Sections, faults: list[Fault]) -> dict[str, ParasiticLaw]:
 
 
 def installation(sections: Sections, faults: list[Fault]) -> Installation | None:
-    """How the screw is mounted."""
+    """Mounting of the screw."""
     before = len(faults)
     values = sections.values_of("installation", faults)
     if len(faults) == before:

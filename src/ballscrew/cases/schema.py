@@ -57,7 +57,7 @@ def coefficients_of(slot: str, name: str) -> Mapping[str, Quantity]:
 
 
 def name_of_law(slot: str, law: Any) -> str:
-    """What a law is called in the case file: one from outside ``module:name``."""
+    """Name of a law in the case file: one from outside ``module:name``."""
     named = (name for name, known in _SLOTS[slot].items() if known is law or known is type(law))
     return next(named, None) or outside_name(law)
 
@@ -257,7 +257,7 @@ def _no_coefficient(slot: str, name: str, field: str) -> Fault:
 
 
 def _place(slot: str) -> str:
-    """Where a slot stands in the file."""
+    """Key of a slot in the file."""
     return f"{'losses' if slot in LOSSES else 'model'}.{slot}"
 
 

@@ -64,6 +64,6 @@ def show(
 
 
 def _say(notes: Sequence[str]) -> None:
-    """What is left out, on the error stream."""
+    """Print omitted rows on the error stream."""
     for note in notes:
         typer.echo(note, err=True)

@@ -23,7 +23,7 @@ class HertzShape(NamedTuple):
 
 
 class Motion(NamedTuple):
-    """How a contact moves: it rolls, and takes half of the spin and of the lateral slip of its ball."""
+    """Motion of a contact: rolling, and half of the spin and of the lateral slip of its ball."""
 
     entrainment_speed: Speed
     spin: AngularSpeed

@@ -1,4 +1,4 @@
-"""How a screw is mounted, and how near to its limits it may come."""
+"""Mounting of a screw, and its permissible limits."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ballscrew.quantities import Array, Density, DiameterSpeed, Info, Length, Pr
 
 
 class Ends(enum.Enum):
-    """How the ends of the shaft are held, and what follows for buckling and for whirling.
+    """End fixity of the shaft, with its coefficients of buckling and critical speed.
 
     The numbers are the least roots x of a uniform beam (TimoshenkoGere1961, Timoshenko1974). Buckling: sin(x/2) = 0,
     tan x = x, sin x = 0, cos x = 0. Whirling: cos x cosh x = 1, tan x = tanh x, sin x = 0, cos x cosh x = -1.
@@ -59,7 +59,7 @@ class Installation:
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class Limits:
-    """How near to its limits a screw may come, and how long it has to run.
+    """Permissible shares of the limits, and the required life.
 
     Defaults, all of THK514E: a static safety of 2, its least for loads without shocks (5 with them); a stress of
     147 MPa; half of the buckling load; 0.8 of the critical speed; a DN value of 70000 mm · rpm, that of standard nuts

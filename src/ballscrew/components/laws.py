@@ -23,7 +23,7 @@ from ballscrew.quantities import Angle, Count, Force, Info, Length, Ratio, Torqu
 
 
 class FrameLaw(Protocol):
-    """Where the balls roll."""
+    """Law of the frame in which the balls roll."""
 
     def __call__(self, screw: BallScrew, /) -> Frame: ...
 
@@ -53,7 +53,7 @@ class FilmParameterLaw(Protocol):
 
 
 class InletFactors(NamedTuple):
-    """What the state of the inlet makes of the film thickness and of the rolling force."""
+    """Factors of the inlet on film thickness and rolling force."""
 
     film: Ratio
     rolling: Ratio
@@ -96,7 +96,7 @@ class BallForceLaw(Protocol):
 
 
 class BallChainLaw(Protocol):
-    """What the neighbouring balls do to a ball."""
+    """Law of the contact of a ball with its neighbours."""
 
     def __call__(
         self,
@@ -188,7 +188,7 @@ class Hysteresis:
 
 
 class BallChain(NamedTuple):
-    """What its neighbours do to a ball: a moment, and a force along the path."""
+    """Moment and force along the path that its neighbours exert on a ball."""
 
     moment: Torque
     braking_force: Force

@@ -122,7 +122,7 @@ class Bodies:
 
 
 class Deviations(NamedTuple):
-    """How each ball and its place on the lead differ from the drawing, the ball axis last.
+    """Deviations of each ball and of the lead at its place from the nominal ones, the ball axis last.
 
     Of a double nut both halves in a row, the one that carries the load first.
     """

@@ -1,4 +1,4 @@
-"""What a nut loses without load: vendors' laws of the preload's drag, and the terms beside the loaded contacts.
+"""Losses of a nut without load: vendors' laws of preload drag, and terms beside the loaded contacts.
 
 The drag laws are whole torques of a preloaded nut without load, to hold against a computed one. The
 parasitic laws are terms to add to the friction of the loaded balls, each on its own. By default each of
@@ -113,7 +113,7 @@ class SealRow(NamedTuple):
     torque: float
 
     def distance(self, nominal_diameter: float, lead: float) -> tuple[float, float]:
-        """How far a screw is from the row, in diameter and in lead."""
+        """Distance of a screw from the row, in diameter and in lead."""
         outside = max(self.smallest_lead - lead, lead - self.largest_lead, 0.0)
         return abs(nominal_diameter - self.nominal_diameter), outside
 

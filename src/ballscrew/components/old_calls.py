@@ -63,7 +63,7 @@ class _OldLaw:
 
 
 def _takes_old_arguments(law: Any, names: tuple[str, ...]) -> bool:
-    """Whether a law takes as many arguments as its slot had, under any names but ``conditions`` first."""
+    """True for a law with as many arguments as its slot had, the first not named ``conditions``."""
     try:
         signature = inspect.signature(law)
         signature.bind(*names)
@@ -75,7 +75,7 @@ def _takes_old_arguments(law: Any, names: tuple[str, ...]) -> bool:
 
 
 def _conditions(slot: str, given: tuple[Any, ...], named: Mapping[str, Any]) -> Any:
-    """What an old call tells, in the place of conditions."""
+    """Arguments of an old call, in the place of conditions."""
     names = ARGUMENTS[slot]
     values = {**_OPTIONAL, **dict(zip(names[: len(given)], given, strict=True)), **named}
     conditions = values.pop("conditions")

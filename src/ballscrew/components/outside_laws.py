@@ -30,7 +30,7 @@ _CONTAINERS = (str, bytes, list, tuple, dict, set)
 
 
 def is_own(law: Any) -> bool:
-    """Whether a law is one of the package's own, or none."""
+    """True for laws of the package, and for no law."""
     return law is None or (getattr(law, "__module__", None) or "").partition(".")[0] == "ballscrew"
 
 
@@ -77,7 +77,7 @@ class _Checked:
         return f"return {self.returns.__module__}.{self.returns.__qualname__}"
 
     def _problem(self, found: Any, arguments: tuple[Any, ...]) -> str | None:
-        """What is wrong with a result; None if nothing is."""
+        """Defect of a returned value; None if there is none."""
         values = (found,)
         if self.returns is not None:
             if not isinstance(found, self.returns):
@@ -95,7 +95,7 @@ class _Checked:
 
 
 def _is_number(value: Any) -> bool:
-    """Whether a value is a real number, an array of them, or what stands for one (symbols, what is being recorded)."""
+    """True for real numbers, arrays of them, symbols and recorded values."""
     if isinstance(value, (*_CONTAINERS, bool, complex, np.bool_, np.complexfloating)) or value is None:
         return False
     kind = getattr(getattr(value, "dtype", None), "kind", None)

@@ -110,7 +110,7 @@ class BallScrew:
 
     @property
     def fits(self) -> Mask:
-        """Whether the balls have room in the pitch circle and between neighbouring turns."""
+        """Faults of balls without room in the pitch circle or between neighbouring turns."""
         return (self.ball_diameter < self._room_in_the_circle) & (self.ball_diameter < self._room_in_the_lead)
 
     @property
@@ -144,7 +144,7 @@ class BallScrew:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Operation:
-    """What the screw does: the load it moves and the speed it turns at.
+    """Operating point: axial load and speed of the screw.
 
     Zero load and zero speed are legal and give limits. Raises
     :class:`~ballscrew.errors.InputError` for negative or non-finite numbers.

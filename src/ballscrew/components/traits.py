@@ -18,7 +18,7 @@ _TWO = frozenset({2})
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class LawTraits:
-    """What a law declares; each trait has a meaning in some slots only."""
+    """Traits that a law declares; each has a meaning in some slots only."""
 
     #: Whether the law could as well be the right one, so that the uncertainty band takes it for an alternative.
     alternative: bool = False

@@ -1,4 +1,4 @@
-"""How far screw and nut give way under load: at the balls, whose contact angle changes with it, and in their bodies."""
+"""Deflection of screw and nut under load: at the balls, whose contact angle changes with it, and in their bodies."""
 
 from __future__ import annotations
 

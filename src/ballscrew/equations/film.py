@@ -86,7 +86,7 @@ def inlet_heating_factor(
     thermal_loading_parameter: Ratio,
     slide_to_roll_ratio: Ratio,
 ) -> Ratio:
-    r"""What is left of the film when the shear in the inlet heats the oil.
+    r"""Reduction factor of the film by shear heating in the inlet.
 
     .. math:: \phi_T = \frac{\max\left(0, 1 - 13.2 \frac{p_0}{E'} L^{0.42}\right)}
         {1 + 0.213 (1 + 2.23 S^{0.83}) L^{0.64}}

@@ -1,4 +1,4 @@
-"""How long a ball screw lasts, with preload and without, and how far it is from a dent.
+"""Life of a ball screw, with preload and without, and static safety.
 
 The formulas of ISO3408-5 are as recalled: the standard itself was not read.
 """
@@ -73,7 +73,7 @@ def running_time(life: Ratio, screw_speed: AngularSpeed) -> Duration:
 
 
 def static_safety(static_load_rating: Force, axial_load: Force) -> Ratio:
-    r"""How many times the greatest axial load the static rating is.
+    r"""Static safety: the static rating over the greatest axial load.
 
     .. math:: S_0 = \frac{C_{0a}}{F}
 

@@ -1,4 +1,4 @@
-"""What a nut loses beside its loaded contacts: seals, oil in the way of the balls, the return of the balls."""
+"""Losses of a nut beside its loaded contacts: seals, churning, return of the balls."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a preload costs: drag torque of a nut without load, and how its halves share a load."""
+"""Preload: drag torque of a nut without load, and the load on its halves."""
 
 from __future__ import annotations
 

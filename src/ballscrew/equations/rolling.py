@@ -77,7 +77,7 @@ def elastic_resistance_moment(ball_diameter: Length, contact_load: Force, radii_
 
 
 def elastic_regime_parameter(radii_ratio: Ratio, load_parameter: Ratio, speed_parameter: Ratio) -> Ratio:
-    r"""How far a contact is on the elastic side of the lubrication regimes.
+    r"""Parameter of the elastic side of the lubrication regimes.
 
     .. math:: M = \frac{0.5549 k^{-0.6029} W}{U^{3/4}}
 
@@ -125,7 +125,7 @@ def elastic_rolling_force(
 
 
 def rigid_regime_share(radii_ratio: Ratio, load_parameter: Ratio, speed_parameter: Ratio) -> Ratio:
-    r"""How much of the rolling force follows the isoviscous-rigid asymptote.
+    r"""Share of the rolling force that follows the isoviscous-rigid asymptote.
 
     .. math:: s = \frac{6.6 U^{3/4}}{6.6 U^{3/4} + 0.5549 k^{-0.6029} W}
 
@@ -150,7 +150,7 @@ def blended_rolling_force(rigid_rolling_force: Force, elastic_rolling_force: For
 
 
 def ellipse_shape_parameter(major_coefficient: Ratio, minor_coefficient: Ratio) -> Ratio:
-    r"""How far a contact is from a circle, as the rolling force sees it.
+    r"""Shape parameter of the contact ellipse in the rolling force.
 
     .. math:: \beta = \frac{2 c_a c_b^2}{3}
 
@@ -201,7 +201,7 @@ def elastic_rolling_force_ellipse(
 def rigid_regime_share_ellipse(
     ellipse_shape_parameter: Ratio, ellipticity: Ratio, load_parameter: Ratio, speed_parameter: Ratio
 ) -> Ratio:
-    r"""How much of the rolling force follows the isoviscous-rigid asymptote, by the Hertz ellipse.
+    r"""Share of the rolling force that follows the isoviscous-rigid asymptote, by the Hertz ellipse.
 
     .. math:: s = \frac{6.6 \kappa (2 U)^{3/4}}{6.6 \kappa (2 U)^{3/4} + \beta^{1/4} W}
 
@@ -268,7 +268,7 @@ def rolling_force_aihara(
 
 
 def rolling_starvation_factor(inlet_film_ratio: Ratio) -> Ratio:
-    r"""What is left of the rolling force when the inlet is not full.
+    r"""Reduction factor of the rolling force by starvation of the inlet.
 
     .. math:: \phi_S = \frac{S^2 + 162.8 S}{S^2 + 193.1 S + 1257}
 

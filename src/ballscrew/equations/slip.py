@@ -112,7 +112,7 @@ def pure_spin_moment(traction_limit: Force, semi_major_axis: Length) -> Torque:
 
 
 def curvature_factor_polynomial(spin_parameter: Ratio) -> Ratio:
-    r"""What spin leaves of the curvature moment, as a polynomial.
+    r"""Reduction factor of the curvature moment by spin, as a polynomial.
 
     .. math:: f_C = 1.0026 - 0.1653 E_s - 0.2638 E_s^2 - 2.5521 E_s^3 + 1.9749 E_s^4
 

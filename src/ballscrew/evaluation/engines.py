@@ -27,7 +27,7 @@ SHORT_SECONDS = 0.1
 
 
 def engine_faults(section: str, engine: str | None, engines: Sequence[str] = ENGINES) -> list[Fault]:
-    """What is wrong with an engine that is asked for."""
+    """Faults of a requested engine."""
     if engine is not None and engine not in engines:
         return [Fault(f"{section}.engine", "unknown engine", str(engine), f"one of {', '.join(engines)}")]
     if engine == "compiled" and not kernels.available():
@@ -42,7 +42,7 @@ PAYS = "that is sooner done than by NumPy, compiling included"
 
 
 def why_numpy(engine: Engine | None) -> str:
-    """Why there is no kernel where one could be recorded."""
+    """Reason for NumPy where a kernel could be recorded."""
     if engine == "numpy":
         return ASKED_FOR
     if not kernels.available():
@@ -51,14 +51,14 @@ def why_numpy(engine: Engine | None) -> str:
 
 
 def may_be_compiled(program: Program, points: int, engine: Engine | None) -> bool:
-    """Whether to look for a kernel at all: asked for, or the work is not short."""
+    """True where a kernel is requested or the work is long enough."""
     if engine == "numpy" or not kernels.available():
         return False
     return engine == "compiled" or _numpy_seconds(program, points) > SHORT_SECONDS
 
 
 def worth_compiling(program: Program, points: int, text: str) -> bool:
-    """Whether a kernel is sooner done than NumPy: it is compiled already, or that is paid back."""
+    """True where a kernel is faster than NumPy: already compiled, or worth its compile time."""
     if kernels.is_cached(text):
         return True
     return _numpy_seconds(program, points) > COMPILING_SECONDS + COMPILING_STEP_SECONDS * len(program.steps)

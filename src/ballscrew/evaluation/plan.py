@@ -39,7 +39,7 @@ from ballscrew.tracing.tape import CannotRecordError, Tape, why_not_recorded
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Configuration:
-    """What is evaluated: a model on a screw with its lubricant, and the nut where there is one."""
+    """Configuration to evaluate: a model, a screw, its lubricant, and the nut if there is one."""
 
     model: FrictionModel
     screw: BallScrew
@@ -59,7 +59,7 @@ class Configuration:
 
     @property
     def balls(self) -> int:
-        """How many balls are solved for at each point."""
+        """Number of balls solved for at each point."""
         if self.nut is None or not self.nut.one_by_one:
             return 1
         return self.nut.halves * int(np.max(self.screw.loaded_balls))
@@ -94,7 +94,7 @@ class Configuration:
         return _read(self.by_section[self.inputs[name][0]], name)
 
     def is_nonnegative(self, name: str) -> bool:
-        """Whether an input is refused where it is below zero."""
+        """True for an input that may not be negative."""
         info = self.inputs[name][1].info
         lowest = info.at_least if info.above is None else info.above
         return lowest is not None and lowest >= 0
@@ -129,7 +129,7 @@ class Configuration:
             raise CannotRecordError("; ".join([str(why), *getattr(error, "__notes__", ())])) from error
 
     def attributes(self, varied: Sequence[str] = ()) -> dict[str, Any]:
-        """What is the same at all points, the sources, and the version: attributes of a dataset."""
+        """Attributes of a dataset: constant inputs, sources, and the version."""
         fixed: dict[str, Any] = {
             f"{part}_{name.replace('.', '_')}": value
             for name, (part, _) in self.inputs.items()
@@ -172,7 +172,7 @@ class Plan:
         return cls(subject, axes, _sizes(section, axes, names), names)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """What other processes need to know."""
+        """Fields that other processes need."""
         return Plan, (self.subject, dict(self.axes), dict(self.sizes), self.outputs)
 
     @functools.cached_property

@@ -145,7 +145,7 @@ def _budget(panel: Axes, arrows: Sequence[Arrow], furthest: float, xlabel: str, 
 
 
 def _furthest(every: Mapping[str, Sequence[Arrow]]) -> float:
-    """How far the bars reach, over all panels, so that these share one scale."""
+    """Reach of the bars over all panels, which share one scale."""
     return max(float(np.max(np.cumsum([a.value for a in arrows]))) for arrows in every.values())
 
 

@@ -1,4 +1,4 @@
-"""What a result owes its band to: bars of all inputs, and what is left of the band the more of them are known."""
+"""Sources of a band: bars of all inputs, and the band that remains as inputs become known."""
 
 from __future__ import annotations
 

@@ -118,7 +118,7 @@ def _label(panel: Axes, entry: Entry, axis: str) -> None:
 
 
 def _top(point: Point) -> float:
-    """Where the band ends, in units of its middle."""
+    """Ends of the band, in units of its middle."""
     return 1.0 if point.band.high is None else point.band.high / point.band.middle
 
 

@@ -63,7 +63,7 @@ def coefficients(law: Any) -> Mapping[str, Quantity]:
 
 
 def fault_of_law(slot: str, law: Any) -> Fault | None:
-    """What is wrong with what is given for a law in Python; None if it can be called."""
+    """Fault of a value given for a law in Python; None if it can be called."""
     if callable(law) and not isinstance(law, type):
         return None
     where, known = f"model.{slot}", LAWS.get(slot, {})

@@ -347,7 +347,7 @@ SLOTS = tuple(
 
 
 def _misfits(operation: Operation) -> list[Fault]:
-    """Whether NumPy arrays of loads and speeds fit together."""
+    """Fault of arrays of loads and speeds that do not broadcast."""
     shapes = [np.shape(value) for value in vars(operation).values() if isinstance(value, np.ndarray)]
     try:
         np.broadcast_shapes(*shapes)
@@ -371,7 +371,7 @@ def presets() -> Mapping[str, FrictionModel]:
 
 
 def _same(one: Any, other: Any) -> bool:
-    """Whether two entries of a slot are the same law with the same coefficients, or the same number."""
+    """True for two entries of a slot that are the same law with the same coefficients, or the same number."""
     if dataclasses.is_dataclass(one) and type(one) is type(other):
         return all(_same(value, vars(other)[name]) for name, value in vars(one).items())
     return one is other or (is_concrete(one) and is_concrete(other) and bool(one == other))

@@ -116,7 +116,7 @@ class NutFriction:
 
     @lazy
     def self_locking(self) -> Annotated[Mask, Info("self-locking", "the load alone cannot turn the screw")]:
-        """Whether there is a load, and it alone cannot turn the screw at this speed, that is with this friction."""
+        """True where there is a load that cannot drive the screw back at this speed, that is with this friction."""
         return (self.ideal_torque > 0) & (self.holding_torque <= 0)
 
     @lazy
@@ -144,7 +144,7 @@ class NutFriction:
 
     @lazy
     def valid(self) -> Annotated[Mask, Info("valid", "all conditions of the model hold")]:
-        """Where all conditions of the model hold."""
+        """Mask: all conditions of the model hold."""
         return np.all(np.stack(np.broadcast_arrays(*self.validity.values())), axis=0)
 
     @property
@@ -224,7 +224,7 @@ def nut_friction(
 
 
 class _Ball(NamedTuple):
-    """What a model is asked about each ball; a last axis for the balls wherever there are arrays."""
+    """Input of the model for each ball; arrays have a last axis for the balls."""
 
     model: FrictionModel
     screw: BallScrew
@@ -233,14 +233,14 @@ class _Ball(NamedTuple):
 
 
 class _Condition(NamedTuple):
-    """Where a condition holds for each ball, and the load of what it is asked of."""
+    """Mask of a condition for each ball, with the load of the contact it belongs to."""
 
     holds: Mask
     load: Force
 
 
 class _Balls(NamedTuple):
-    """What each ball answers."""
+    """Result of the model for each ball."""
 
     contributions: Mapping[str, Torque]
     nut_torque: Torque
@@ -249,7 +249,7 @@ class _Balls(NamedTuple):
 
 
 def _holds_for_most(conditions: Sequence[_Condition], balls: Any) -> Mask:
-    """Whether the contacts for which a condition fails carry next to nothing of the load.
+    """True where the contacts for which a condition fails carry a negligible share of the load.
 
     A half that is about to lift off, or balls that hardly touch, say nothing about the torque.
     """

@@ -19,7 +19,7 @@ from ballscrew.quantities import AngularSpeed, Count, Force, Info, Length, field
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Scatter:
-    """How much balls and lead scatter, as standard deviations; one seed gives the same balls every time.
+    """Scatter of balls and lead as standard deviations; one seed gives the same balls every time.
 
     Raises :class:`~ballscrew.errors.InputError` for negative numbers.
     """
@@ -57,7 +57,7 @@ class NutParts:
 
     @property
     def one_by_one(self) -> bool:
-        """Whether the balls differ, so that each is solved by itself."""
+        """True where the balls differ, so that each is solved by itself."""
         return self.bodies is not None or self.scatter is not None
 
     @property
@@ -66,7 +66,7 @@ class NutParts:
         return 2 if isinstance(self.nut, DoubleNut | OffsetLeadNut) else 1
 
     def knows(self, model: FrictionModel) -> bool:
-        """Whether a model can be evaluated on this nut: not every one knows balls with four contacts."""
+        """True for a model that can be evaluated on this nut: not every one knows balls with four contacts."""
         return not isinstance(self.nut, OversizeBallNut) or 4 in traits_of(model.slip).contacts_per_ball
 
     def bodies_of(self, screw: BallScrew) -> Bodies | None:

@@ -1,4 +1,4 @@
-"""What a friction model returns: torques, their parts, both contacts, and where to trust them."""
+"""Result of a friction model: torques, their parts, both contacts, and their validity."""
 
 from __future__ import annotations
 
@@ -142,7 +142,7 @@ class FrictionResult:
 
     @lazy
     def self_locking(self) -> Annotated[Mask, Info("self-locking", "the load alone cannot turn the screw")]:
-        """Whether there is a load, and it alone cannot turn the screw at this speed, that is with this friction."""
+        """True where there is a load that cannot drive the screw back at this speed, that is with this friction."""
         return (self.ideal_torque > 0) & (self.holding_torque <= 0)
 
     def shaft_torque(self, load_sign: int, speed_sign: int) -> Torque:
@@ -264,7 +264,7 @@ class FrictionResult:
 
     @lazy
     def validity(self) -> Mapping[str, Mask]:
-        """Where each condition of the model holds, by reason; see :data:`ballscrew.friction.validity.REASONS`."""
+        """Masks of the conditions of the model, by reason; see :data:`ballscrew.friction.validity.REASONS`."""
         return validity_masks(
             self.parts,
             self.screw,
@@ -277,7 +277,7 @@ class FrictionResult:
 
     @lazy
     def valid(self) -> Annotated[Mask, Info("valid", "all conditions of the model hold")]:
-        """Where all conditions of the model hold."""
+        """Mask: all conditions of the model hold."""
         masks = list(self.validity.values())
         holds = masks[0]
         for mask in masks[1:]:

@@ -148,7 +148,7 @@ def validity_masks(
 
 
 def input_mask(parts: Sequence[Any], torque: Torque) -> Mask:
-    """Where all arrays of the parts are within their bounds, balls fit their screw, and a torque is finite."""
+    """Mask: all arrays of the parts are within their bounds, balls fit their screw, and the torque is finite."""
     inputs = namespace(torque).isfinite(torque)
     for part in parts:
         for name, quantity in fields_of(part).items():

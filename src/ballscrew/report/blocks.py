@@ -1,4 +1,4 @@
-"""What a report is made of, as plain data: sections of paragraphs, lists, tables and pictures.
+"""Blocks of a report as plain data: sections of paragraphs, lists, tables and pictures.
 
 Texts are texts: whoever writes a report to a file escapes them there.
 """

@@ -1,4 +1,4 @@
-"""What is drawn in :mod:`~ballscrew.report.drawing`: a ball, its flanks, the slip at the screw."""
+"""Geometry of the drawing (:mod:`~ballscrew.report.drawing`): a ball, its flanks, the slip at the screw."""
 
 from __future__ import annotations
 

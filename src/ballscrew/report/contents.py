@@ -52,7 +52,7 @@ def _tell(done: Done | None, finished: int) -> None:
 
 
 def content(case: case_file.Case, done: Done | None = None, samples: int | None = None) -> Report:
-    """What is in the report of a case."""
+    """Contents of the report of a case."""
     found = run(case)
     _tell(done, _ANSWERED)
 

@@ -24,7 +24,7 @@ _KNOWN = fields_of(Operation)
 
 
 class Curves(NamedTuple):
-    """What is drawn, in the units people think in: rpm, N, N m, GPa."""
+    """Curves of the report, in display units: rpm, N, N m, GPa."""
 
     here: tuple[float, float]
     speeds: Numbers

@@ -47,7 +47,7 @@ def contact(ball: DrawnBall) -> Panel:
 
 
 class Place(NamedTuple):
-    """Where the ellipse is drawn, its semi-axes in drawing units, and how much it is stretched along the path."""
+    """Position of the ellipse, its semi-axes in drawing units, and its stretch along the path."""
 
     middle: Point
     across: float
@@ -160,7 +160,7 @@ def _paragraph(words: str, y: float) -> Panel:
 
 
 def in_words(ball: DrawnBall) -> Sequence[str]:
-    """What the picture of the contact shows, with its numbers."""
+    """Alternative text of the picture of the contact, with its numbers."""
     contact = ball.contact
     if contact is None:
         return [ball.missing]

@@ -38,12 +38,12 @@ class Groove:
 
     @property
     def bottom(self) -> Point:
-        """Where the two flanks of the groove meet."""
+        """Point where the two flanks of the groove meet."""
         off = BALL[0] - self.middle[0]
         return BALL[0], self.middle[1] + self.down * math.sqrt(self.radius**2 - off**2)
 
     def edge(self, land: float) -> Point:
-        """Where the groove ends, at a height over the middle of the ball."""
+        """End of the groove, at a height over the middle of the ball."""
         y = BALL[1] + self.down * land
         half = math.sqrt(max(self.radius**2 - (y - self.middle[1]) ** 2, 0.0))
         return self.middle[0] + math.copysign(half, self.normal[0]), y
@@ -195,7 +195,7 @@ def _loads_in_words(ball: DrawnBall) -> list[str]:
 
 
 def in_words(ball: DrawnBall) -> list[str]:
-    """What the section shows, with its numbers."""
+    """Alternative text of the section, with its numbers."""
     angles = " and ".join(units.shown(flank.angle, _ANGLE) for flank in ball.flanks)
     return [
         "Left: section across the path of the balls, to scale, the screw below and the nut above; how far the grooves "

@@ -47,7 +47,7 @@ def tables(case: Case) -> list[Table]:
 
 
 def sources_in_words(case: Case, found: list[Table]) -> str:
-    """What the words in the last column stand for, of those that occur."""
+    """Legend of the words in the last column, of those that occur."""
     used = {str(row[-1]) for table in found for row in table.rows}
     words = [f"{name}: {text}" for name, text in FROM_IN_WORDS.items() if name in used]
     row = [] if case.row is None else [f'the row is "{case.row.name}" ({case.row.source})']

@@ -105,7 +105,7 @@ def parts(run: Run) -> list[Block]:
 
 
 def band_blocks(case: case_file.Case, report: BandReport) -> list[Block]:
-    """How far off the results may be, because of what, and what was taken as uncertain."""
+    """Band of the results, its causes, and the uncertain inputs."""
     summary = [
         Paragraph(
             f"{'. '.join(map(sentence, (verdict.text for verdict in band.verdicts(case, report))))}.", strong=True
@@ -168,7 +168,7 @@ def _followers(case: case_file.Case, report: BandReport) -> Table:
 
 
 def checks(found: Checked) -> list[Block]:
-    """Whether the screw does, line by line."""
+    """Checks, line by line."""
     without_nut = found.case.parts is None
     said = [found.verdict]
     if without_nut:
@@ -211,7 +211,7 @@ def _check(one: Check) -> tuple[str, ...]:
 
 
 def beware(run: Run) -> list[Block]:
-    """Where the result is not to be trusted, what was assumed and what is left out."""
+    """Limits of validity, assumptions, and neglected effects."""
     valid: Block = (
         Bullets([f"Beware: {_warning(record)}." for record in run.warnings])
         if run.warnings

@@ -57,7 +57,7 @@ class BallSprings(NamedTuple):
     flanks: tuple[Flanks, ...]
 
     def loads(self, flanks: Flanks, displacement: Field) -> FlankLoads:
-        """What flank pairs carry where the screw has an axial displacement."""
+        """Loads of the flank pairs at an axial displacement of the screw."""
         A, alpha, c_phi = self.centre_distance, self.contact_angle, self.lead_cosine
         xi = flanks.facing * displacement * c_phi + flanks.offset
         if self.constant_angle:

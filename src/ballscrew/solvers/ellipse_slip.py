@@ -53,7 +53,7 @@ STEPS_OF_SHARE = 4
 
 
 class _Freedoms(NamedTuple):
-    """What the balance decides: creep at both contacts, and the nut's share of spin and lateral slip."""
+    """Unknowns of the balance: creep at both contacts, and the nut's share of spin and lateral slip."""
 
     screw_creep: Speed
     nut_creep: Speed
@@ -132,7 +132,7 @@ class _Transmitted(NamedTuple):
 
 
 class _Forced(NamedTuple):
-    """What screw and nut force on the two contacts together: spin and lateral slip."""
+    """Spin and lateral slip that screw and nut impose on the two contacts together."""
 
     spin: AngularSpeed
     lateral: Speed
@@ -214,7 +214,7 @@ def _curvature_moment(side: Side, forces: Forces) -> Torque:
 
 
 class _Imbalance(NamedTuple):
-    """What the forces lack to be in balance, in units of friction times load (and semi-axis)."""
+    """Residuals of the balance, in units of friction times load (and semi-axis)."""
 
     screw_path: Ratio
     nut_path: Ratio

@@ -29,7 +29,7 @@ class Freedoms(NamedTuple):
 
 
 class Ball(NamedTuple):
-    """What the four contacts have in common."""
+    """Quantities common to the four contacts."""
 
     friction_moment: Torque
     chain_force: Force
@@ -127,7 +127,7 @@ def plus(total: Any, *factors: Any) -> Any:
 
 
 def is_zero(number: Any) -> bool:
-    """Whether a slope is none at all, and not an array that happens to be zero."""
+    """True for a slope that is absent, not for an array of zeros."""
     return isinstance(number, int) and number == 0
 
 
@@ -203,6 +203,6 @@ def carried_share(contacts: Sequence[SlippingContact], ball: Ball) -> Ratio:
 
 
 def _over(needed: Any, there: Any) -> Ratio:
-    """How many times what is there is needed; nothing where there is nothing."""
+    """Ratio of required to present; zero where nothing is present."""
     xp = namespace(needed, there)
     return xp.where(there > 0, needed / xp.where(there > 0, there, 1.0), 0.0)

@@ -90,17 +90,17 @@ class FourPointSlip:
 
     @property
     def converged(self) -> Mask:
-        """Where the forces of the slip meet those of the balance."""
+        """Mask: the slip balance converged."""
         return self.residual <= TOLERANCE
 
     @property
     def advice(self) -> str:
-        """What to do where it did not converge."""
+        """Remedy where the balance did not converge."""
         return "one pair of flanks carries next to nothing: treat the ball as one with two contacts"
 
 
 def four_point_slip(ball: FourPointBall) -> FourPointSlip:
-    """How a ball slips on four contacts, and the torque it puts on the screw."""
+    """Slip of a ball on four contacts, and its torque on the screw."""
     inputs: list[Any] = []
     for pair in (ball.forward, ball.backward):
         for contact in (pair.screw, pair.nut):

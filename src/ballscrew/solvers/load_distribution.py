@@ -62,12 +62,12 @@ class BallLoads:
 
     @property
     def converged(self) -> Mask:
-        """Where the balls balance the load."""
+        """Mask: the balls balance the load."""
         return self.residual <= TOLERANCE
 
     @property
     def advice(self) -> str:
-        """What to do where it did not converge."""
+        """Remedy where the balance did not converge."""
         return (
             "the balls outgrow their grooves: check load, preload and deviations against ball_diameter and conformity"
         )

@@ -32,7 +32,7 @@ PICOMETRE = 1e-12
 
 
 class NutCase(NamedTuple):
-    """What all operating points have in common."""
+    """Parameters common to all operating points."""
 
     balls: int
     one_by_one: bool
@@ -47,7 +47,7 @@ class NutCase(NamedTuple):
 
 
 class NutPoint(NamedTuple):
-    """What differs between operating points."""
+    """State of each operating point."""
 
     load: Field
     preload: Field
@@ -224,7 +224,7 @@ def _compliance(case: NutCase, point: NutPoint, bars: Bars, slope: Field) -> Rat
 
 
 def _parallel_compliance(case: NutCase, point: NutPoint, bars: Bars) -> Ratio:
-    """What the bodies give way by themselves between opposite ends, if the balls held them together there."""
+    """Difference of elongation of the free bodies between opposite ends."""
     if not case.elastic:
         return 0 * point.load
     return bars.first_share * (1 - bars.first_share) * np.sum(1 / bars.stiffness, axis=0)

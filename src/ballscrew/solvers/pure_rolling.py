@@ -1,4 +1,4 @@
-r"""Where the lines of pure rolling lie: the offset Y at both contacts from the ball's equilibrium.
+r"""Position of the lines of pure rolling: the offset Y at both contacts from the ball's equilibrium.
 
 The curvature moments enter the sliding forces, (24) and (25); each sliding force fixes its offset,
 :math:`F_S = \mu Q (1 - 3Y + Y^3)`; each offset fixes its curvature moment, (15). One unknown is

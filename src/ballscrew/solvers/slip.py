@@ -1,4 +1,4 @@
-"""What a slip law is asked, and what it answers: how the contacts of a ball slip so that it is in balance."""
+"""Protocol of slip laws: contact input, and the slip at which the ball is in balance."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class BallProblem(NamedTuple):
 
 
 class ContactSlip(NamedTuple):
-    """How one contact slips, and the moment about the ball that its curvature gives rise to."""
+    """Slip of one contact, and the moment about the ball that its curvature causes."""
 
     pure_rolling_offset: Ratio
     curvature_moment: Torque
@@ -52,12 +52,12 @@ class Slip:
 
     @property
     def converged(self) -> Mask:
-        """Where the forces of the slip meet those of the balance."""
+        """Mask: the slip balance converged."""
         return self.residual <= self.tolerance
 
     @property
     def advice(self) -> str:
-        """What to do where it did not converge."""
+        """Remedy where the balance did not converge."""
         return (
             "the contact is too large for its groove (check contact_load, ball_diameter and conformity), "
             "or the ball is about to skid (more load or less speed)"
@@ -65,7 +65,7 @@ class Slip:
 
 
 class SlipLaw(Protocol):
-    """How the contacts of a ball slip."""
+    """Slip of the contacts of a ball."""
 
     def __call__(self, ball: BallProblem, /) -> Slip:
         """The slip with which the ball is in balance."""

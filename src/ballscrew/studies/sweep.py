@@ -154,7 +154,7 @@ def _texts(vary: Sequence[str], faults: list[Fault]) -> dict[str, str]:
 
 
 def is_store(to: Path | None) -> bool:
-    """Whether a sweep goes to a store on disk block by block."""
+    """True for a sweep that goes to a store on disk block by block."""
     return to is not None and to.suffix.lower() == STORE
 
 

@@ -35,7 +35,7 @@ class _NoAttributeError(CannotRecordError, AttributeError):
 
 
 def why_not_recorded(error: BaseException) -> CannotRecordError | None:
-    """What could not be recorded, where that is at the bottom of an error."""
+    """Cause of an error that is an operation that cannot be recorded."""
     below: BaseException | None = error
     while below is not None and not isinstance(below, CannotRecordError):
         below = below.__cause__ or below.__context__
@@ -308,7 +308,7 @@ def _power(base: Any, exponent: Any) -> Traced:
 
 
 def _folds(power: float, exponent: float) -> bool:
-    """Whether ``(x**power)**exponent`` is ``x**(power*exponent)``, where x is not negative if the result is broken.
+    """True if ``(x**power)**exponent`` is ``x**(power*exponent)``, where x is not negative if the result is broken.
 
     Not for the root of a square, not for the square of a root, not for the power 0; and high whole
     powers are better left as they are.
@@ -326,7 +326,7 @@ def _folds(power: float, exponent: float) -> bool:
 
 @functools.cache
 def _takes_floats(ufunc: np.ufunc, masks: tuple[bool, ...]) -> bool:
-    """Whether a function takes real numbers, and truth values where it is given masks."""
+    """True for a function of real numbers that may also take masks."""
     try:
         with np.errstate(all="ignore"):
             ufunc(*(True if mask else 0.5 for mask in masks))
@@ -336,7 +336,7 @@ def _takes_floats(ufunc: np.ufunc, masks: tuple[bool, ...]) -> bool:
 
 
 def _is_nothing(value: Any) -> bool:
-    """Whether a constant is the number zero: what a law without an effect adds."""
+    """True for the constant zero, which a law without an effect adds."""
     return isinstance(value, float | int | np.floating) and not isinstance(value, bool) and value == 0
 
 

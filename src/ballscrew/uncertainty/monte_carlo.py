@@ -170,7 +170,7 @@ def _planned(
     distributions: Mapping[str, Distribution],
     fixed: Mapping[str, Any],
 ) -> Plan:
-    """What is evaluated, as a plan of a sweep over the ends or the middles of the distributions.
+    """Plan of a sweep over the ends or the middles of the distributions.
 
     So names, bounds and outputs are checked as they are there; whether samples are valid is always asked for.
     """
@@ -187,7 +187,7 @@ def _planned(
 def _by_engine(
     plan: Plan, distributions: Mapping[str, Distribution], samples: int, seed: int, engine: Engine | None
 ) -> tuple[_Work, int, bool, str]:
-    """What evaluates samples, how many at a time, whether it is compiled, and why."""
+    """Evaluator of samples, its batch size, whether it is compiled, and the reason."""
     program: Program | None = None
     try:
         program = _recorded(plan, distributions)
@@ -289,7 +289,7 @@ class _Tally:
                 self._next_start += BLOCK
 
     def variables(self, quantiles: Sequence[float], samples: int) -> dict[str, Any]:
-        """What the dataset says of each output, in the order asked for."""
+        """Statistics of each output, in the order of the outputs."""
         sketch = Sketch(len(self.numbers))
         for part in self._idle:
             sketch.merge(part)

@@ -35,7 +35,7 @@ _LABELS = {"compare.models": "models", "compare.laws": "valid laws", "compare.la
 
 
 def name_of(row: Row) -> str:
-    """What a row is called, with a mark where it does not count."""
+    """Label of a row, with a mark where it is outside its validity."""
     return _law_in_words(row.candidate.slot, row.candidate.name) + ("" if row.candidate.counts else f" {PRINTED_MARK}")
 
 

@@ -113,7 +113,7 @@ def _residuals(model: CalibratedModel) -> Table:
 
 
 def describe_next_test(test: NextTest, model: CalibratedModel) -> list[str]:
-    """Where to measure next and what that would teach, of which numbers."""
+    """Recommended next test, and the reduction of uncertainty it would give."""
     known: Mapping[str, Quantity] = {name: quantity for name, (_, quantity) in model.subject.inputs.items()}
     where = ", ".join(units.shown(value, known[name], 3) for name, value in test.best.items())
     both = ", half of them in each direction" if model.rows.log.forward.any() and model.rows.log.backward.any() else ""

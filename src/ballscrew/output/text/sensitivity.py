@@ -78,14 +78,14 @@ def method_and_effort(result: Sensitivity) -> str:
 
 
 def remarks(case: case_file.Case, report: SensitivityReport) -> list[str]:
-    """What the numbers mean, what was assumed, and how they were report."""
+    """Meaning of the numbers, assumptions, and method."""
     meaning = MEANING[report.result.method] + (f"; {LEFT}" if report.result.first_order else "")
     correlated = [one.text for one in warnings(case, report) if one.id == "sensitivity.correlated"]
     return [meaning, *_assumed_inputs(report), method_and_effort(report.result), LAWS_STAY, *correlated]
 
 
 def _assumed_inputs(report: SensitivityReport) -> list[str]:
-    """What the case does not say, and who does."""
+    """Defaults used where the case gives no uncertainty, with their sources."""
     taken = {name: u.source for name, u in report.uncertain.items() if not u.given}
     if not taken:
         return []

@@ -22,14 +22,14 @@ from ballscrew.sweeps.store_rows import count_false
 
 @dataclasses.dataclass(frozen=True)
 class _False:
-    """How often a mask is false, and the part of the grid with the first time."""
+    """Count of false values of a mask, and the first block that has one."""
 
     count: int
     region: Mapping[str, slice]
 
 
 def warning(case: Case, plan: Plan, dataset: xr.Dataset, to: Path | None = None) -> str:
-    """How many points lie outside the model's validity and why, in words; nothing if none does.
+    """Number of points outside the model's validity with the reasons, as text; empty if none is.
 
     Of the points that cannot be computed at all, the first is named, with what ``run`` says of it.
     A store ``to`` knows the numbers block by block, so that it need not be read.
@@ -75,7 +75,7 @@ def _first_impossible(case: Case, plan: Plan, possible: xr.DataArray, impossible
 
 
 def _reason(case: Case, point: Mapping[str, float]) -> str:
-    """What a screw of these numbers is refused for."""
+    """Faults of a screw of these numbers."""
     known = inputs_of(case.model, case.screw, case.lubricant)
     changes = {name: value for name, value in point.items() if name in known and known[name][0] == "screw"}
     try:

@@ -1,4 +1,4 @@
-"""What the paper leaves unstated decides some of its claims: readings that bring them out, and how far.
+"""Readings of what the paper leaves unstated, and the claims that they reproduce.
 
 A reading that meets the claims is consistent with the text. It is not thereby verified: the figures
 carry no values that could be read off.
@@ -44,7 +44,7 @@ class ClosureCheck:
 
     @property
     def consistent(self) -> bool:
-        """Whether all claims about torque minimum, efficiency and split hold."""
+        """True where all claims about torque minimum, efficiency and split hold."""
         return all(finding.verdict is Verdict.HOLDS for finding in self.findings.values())
 
 

@@ -1,4 +1,4 @@
-"""What a model says about the paper's case: the numbers its claims are held against."""
+"""Numbers of a model for the paper's case, against which its claims are checked."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class Minimum:
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Split:
-    """How far the torques on screw and nut are apart, as a share of the torque on the screw."""
+    """Difference of the torques on screw and nut, as a share of the torque on the screw."""
 
     mean: float
     most: float
@@ -350,7 +350,7 @@ def _coefficient(
 
 
 def _bisected(function: Callable[[float], float], low: float, high: float) -> float:
-    """Where a falling function crosses zero."""
+    """Zero of a falling function."""
     for _ in range(60):
         middle = (low + high) / 2
         low, high = (middle, high) if function(middle) > 0 else (low, middle)

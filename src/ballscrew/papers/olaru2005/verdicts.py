@@ -21,7 +21,7 @@ _FULL_FILM = Range(2.5, 3.0)
 
 
 class Verdict(enum.StrEnum):
-    """What becomes of a claim."""
+    """Verdict on a claim."""
 
     HOLDS = "holds"
     FAILS = "does not hold"
@@ -30,7 +30,7 @@ class Verdict(enum.StrEnum):
 
 @dataclasses.dataclass(frozen=True)
 class Finding:
-    """What one model gives for a claim, in full and in short."""
+    """Finding of one model for a claim, in full and in short."""
 
     text: str
     verdict: Verdict
@@ -58,7 +58,7 @@ def _band(band: Range, digits: int = 3) -> str:
 
 
 def _rounds_into(band: Range) -> bool:
-    """Whether a band of efficiencies, rounded to the paper's two digits, lies in the paper's."""
+    """True for a band of efficiencies that lies in the paper's, rounded to its two digits."""
     return _EFFICIENCY.least - 0.005 <= band.least and band.most < _EFFICIENCY.most + 0.005
 
 
