@@ -9,6 +9,7 @@ import dataclasses
 import difflib
 import math
 import numbers
+import re
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -20,6 +21,8 @@ from ballscrew.quantities import Quantity, fields_of, out_of_bounds
 LINES_AT_MOST = 10
 #: Most characters of a given value in a message.
 LONGEST_VALUE = 200
+#: Stands for setting a field, in a remedy.
+_SETTING = re.compile(r"\{\w+\.(\w+)\}")
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -27,7 +30,7 @@ class Fault:
     """One error in one field.
 
     ``{bound}`` in the problem or the remedy stands for a bound in SI, which the faces show in the
-    display unit.
+    display unit; ``{section.field}`` in the remedy stands for setting that field, ``field = `` in a file.
     """
 
     where: str
@@ -52,7 +55,7 @@ class Fault:
         """The problem, the value given, and the remedy."""
         bound = "" if self.bound is None else shown(self.bound, self.unit)
         given = f" ({_cut(self.given)})" if self.given else ""
-        remedy = f" · {self.remedy}" if self.remedy else ""
+        remedy = " · " + _SETTING.sub(r"\1 = ", self.remedy) if self.remedy else ""
         return _one_line(f"{self.problem}{given}{remedy}".replace("{bound}", bound))
 
 

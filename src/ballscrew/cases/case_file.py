@@ -212,7 +212,7 @@ def _lubricant(sections: Sections, faults: list[Fault]) -> tuple[Lubricant | Non
             faults.append(Fault("lubricant.viscosity", "contradicts the grade", given, "give one of the two"))
         if "grade" not in table and "temperature" in table:
             given = str(table["temperature"])
-            faults.append(Fault("lubricant.temperature", "needs a grade", given, 'add grade = "ISO VG 100"'))
+            faults.append(Fault("lubricant.temperature", "needs a grade", given, 'add {lubricant.grade}"ISO VG 100"'))
         if "grade" not in table and "viscosity" not in table and "temperature" not in table:
             remedy = 'add viscosity = "… mPa s", or grade = "ISO VG 100" and a temperature'
             faults.append(Fault("lubricant.viscosity", "missing", "", remedy))

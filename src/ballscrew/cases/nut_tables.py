@@ -121,13 +121,13 @@ def _nut(
         return None, ()
     kind = values.pop("type", (row.nut or "single") if row is not None else None)
     if kind is None:
-        faults.append(Fault("nut.type", "missing", "", f"add type = {_either(NUTS)}"))
+        faults.append(Fault("nut.type", "missing", "", "add {nut.type}" + _either(NUTS)))
     elif kind not in NUTS:
         faults.append(Fault("nut.type", "unknown kind of nut", kind, nearest(kind, NUTS)))
     else:
         faults += _misplaced(kind, table)
         if "preload" in fields_of(NUTS[kind]) and "preload" not in values:
-            remedy = 'add preload = "3 kN", or "7 %" of the dynamic load rating'
+            remedy = 'add {nut.preload}"3 kN", or "7 %" of the dynamic load rating'
             faults.append(Fault("nut.preload", "missing", "", remedy))
     if len(faults) > before or kind is None:
         return None, ()
@@ -154,7 +154,7 @@ def _misplaced(kind: str, table: Mapping[str, Any]) -> list[Fault]:
             f"nut.{name}",
             f'a nut of type "{kind}" has none',
             str(table[name]),
-            f"leave it out, or take type = {_either(n for n, cls in NUTS.items() if name in fields_of(cls))}",
+            "leave it out, or take {nut.type}" + _either(n for n, cls in NUTS.items() if name in fields_of(cls)),
         )
         for name in NUT_FIELDS
         if name in table and name not in own
@@ -183,10 +183,12 @@ def installation(sections: Sections, faults: list[Fault]) -> Installation | None
     values = sections.values_of("installation", faults)
     if len(faults) == before:
         if "unsupported_length" not in values:
-            faults.append(Fault("installation.unsupported_length", "missing", "", 'add unsupported_length = "1 m"'))
+            faults.append(
+                Fault("installation.unsupported_length", "missing", "", 'add {installation.unsupported_length}"1 m"')
+            )
         ends = values.get("ends")
         if ends is None:
-            faults.append(Fault("installation.ends", "missing", "", f"add ends = {_either(ENDS)}"))
+            faults.append(Fault("installation.ends", "missing", "", "add {installation.ends}" + _either(ENDS)))
         elif ends not in ENDS:
             faults.append(Fault("installation.ends", "unknown kind of ends", ends, nearest(ends, ENDS)))
     return Installation(**{**values, "ends": ENDS[values["ends"]]}) if len(faults) == before else None

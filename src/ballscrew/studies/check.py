@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 from ballscrew import units
 from ballscrew.cases import case_file, catalogue, descriptions, nut_tables
 from ballscrew.cases.case import Case
-from ballscrew.cases.command_options import in_options
 from ballscrew.cases.nut_kinds import LISTED
+from ballscrew.cases.option_faults import in_options
 from ballscrew.components.catalogue import CatalogueRow
 from ballscrew.components.nut import SingleNut
 from ballscrew.errors import Fault, InputError, raise_if_any

@@ -1,9 +1,8 @@
-"""Options of the command line that stand for fields of a case, and faults in the words of those who gave them."""
+"""Options of the command line that set fields of a case; faults of such fields name the option."""
 
 from __future__ import annotations
 
 import dataclasses
-import re
 from collections.abc import Collection, Iterable, Mapping
 
 from ballscrew.errors import Fault
@@ -34,9 +33,7 @@ def _in_options(fault: Fault, given: Collection[str], sections: Collection[str])
     if option is None or not (fault.where in given or (fault.problem == "missing" and section in sections)):
         return fault
 
-    def as_option(match: re.Match[str]) -> str:
-        other = OPTIONS.get(f"{section}.{match['field']}")
-        return match[0] if other is None else f"{match['verb']} {other} "
-
-    remedy = re.sub(r"(?P<verb>\b(?:add|take|write)) (?P<field>\w+) = ", as_option, fault.remedy)
+    remedy = fault.remedy
+    for field, name in OPTIONS.items():
+        remedy = remedy.replace(f"{{{field}}}", f"{name} ")
     return dataclasses.replace(fault, where=option, remedy=remedy)
