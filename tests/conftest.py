@@ -6,6 +6,9 @@ import os
 import subprocess
 from pathlib import Path
 
+# One thread of BLAS a worker, set before NumPy is loaded: with a worker on each processor, more would compete.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 import pytest
 from hypothesis import settings
 

@@ -20,7 +20,7 @@ from ballscrew.web.server import (
 SLOW = 300
 #: Responses by address and status: not all may be refusals.
 answered: Counter[tuple[str, int]] = Counter()
-FEW = settings(max_examples=12, derandomize=True, deadline=None, suppress_health_check=list(HealthCheck))
+FEW = settings(max_examples=6, derandomize=True, deadline=None, suppress_health_check=list(HealthCheck))
 
 
 def described(*phases):
