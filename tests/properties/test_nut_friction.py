@@ -199,11 +199,42 @@ def interference(force):
     return float(x) * math.sin(SCREW.contact_angle) * math.cos(SCREW.lead_angle)
 
 
+def random_screw(rng):
+    """A screw in the range of catalogues and somewhat beyond; None where its balls have no room."""
+    d_m = 10 ** rng.uniform(-2.1, -0.9)
+    d_w = d_m * rng.uniform(0.08, 0.17)
+    try:
+        return bs.BallScrew(
+            pitch_circle_diameter=d_m,
+            lead=d_w * rng.uniform(1.3, 3),
+            ball_diameter=d_w,
+            loaded_balls=int(rng.integers(20, 150)),
+            contact_angle=math.radians(rng.uniform(30, 60)),
+            screw_conformity=rng.uniform(0.505, 0.56),
+            nut_conformity=rng.uniform(0.505, 0.56),
+        )
+    except InputError:
+        return None
+
+
 def test_lift_off_is_no_jump():
-    nut = PRELOADED["oversize"]
-    lift = float(friction(nut, 0.0).loads.lift_off_load)
-    below, above = friction(nut, lift * np.array([1 - 1e-7, 1 + 1e-7])).screw_torque
-    assert below == pytest.approx(above, rel=5e-3)
+    """The torque is continuous where the ball leaves a flank pair, on both sides of it and where both are valid.
+
+    Its slope grows without bound there, as the rolling force of the relieved contacts goes with a small power of their
+    load: at a millionth of the load to either side 0.1 % is left.
+    """
+    rng, jumps = np.random.default_rng(4), []
+    while len(jumps) < 40:
+        part, oil = random_screw(rng), bs.Lubricant(viscosity=10 ** rng.uniform(-2, -0.5))
+        nut, speed = OversizeBallNut(10 ** rng.uniform(0, 4.3)), 10 ** rng.uniform(-2, 2.5)
+        if part is None:
+            continue
+        lift = float(ball_loads(part, nut, 0.0).lift_off_load)
+        found = friction(nut, lift * np.array([1 - 1e-6, 1 + 1e-6]), speed, part=part, oil=oil)
+        if np.all(found.valid):
+            below, above = found.screw_torque
+            jumps.append(below / above - 1)
+    assert np.max(np.abs(jumps)) < 2e-3
 
 
 def test_four_contacts_cost_more_than_two(seed_screw, seed_oil):

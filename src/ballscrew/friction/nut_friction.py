@@ -282,17 +282,21 @@ def _on_four_contacts(ball: _Ball, loads: BallLoads) -> _Balls:
     sides = ((loads.forward_load, loads.forward_angle), (loads.backward_load, loads.backward_angle))
     pairs: list[LoadedPair] = []
     validity: dict[str, list[_Condition]] = {}
+    both = loads.forward_load + loads.backward_load
     for load, angle in sides:
         at_angle = dataclasses.replace(screw, contact_angle=np.where(load > 0, angle, screw.contact_angle))
         frame = model.laws.frame(at_angle)
         lateral = kinematics.torsion_speed(omega, screw.ball_diameter, frame.lead_angle) / 2
         v = frame.entrainment_speed(omega)
-        # the ball turns about the binormal; what of its rotation does not roll spins, at the screw more than at the nut
-        at_nut = kinematics.ball_rotation(v, screw.ball_diameter) * np.tan(at_angle.contact_angle)
-        at_screw = at_nut + kinematics.relative_spin(omega, frame.rolling_plane_sine)
-        contacts = model.contacts(
-            at_angle, ball.lubricant, frame, load, (Motion(v, at_screw, lateral), Motion(v, at_nut, lateral))
-        )
+        # between equally loaded flanks the ball turns about the binormal; what of its rotation does not roll spins, at
+        # the screw more than at the nut. The more one pair carries, the nearer its contacts are to those of a ball that
+        # touches no other, which halves the relative spin between screw and nut.
+        spin = kinematics.relative_spin(omega, frame.rolling_plane_sine)
+        about_binormal = kinematics.ball_rotation(v, screw.ball_diameter) * np.tan(at_angle.contact_angle)
+        leaning = np.where(both > 0, np.maximum(2 * load - both, 0.0) / np.where(both > 0, both, 1.0), 0.0)
+        at_nut = (1 - leaning) * about_binormal - leaning * spin / 2
+        motions = (Motion(v, at_nut + spin, lateral), Motion(v, np.abs(at_nut), lateral))
+        contacts = model.contacts(at_angle, ball.lubricant, frame, load, motions)
         pairs.append(LoadedPair(load, *contacts))
         for contact in contacts:
             for reason, mask in contact_masks(contact).items():
@@ -307,7 +311,6 @@ def _on_four_contacts(ball: _Ball, loads: BallLoads) -> _Balls:
     slip = four_point_slip(
         FourPointBall(forward, backward, moment, F_B, screw.ball_diameter, frame.lead_angle, frame.path_radius)
     )
-    both = loads.forward_load + loads.backward_load
     contributions, nut_torque, skids, settled = (
         slip.contributions,
         slip.nut_torque,
