@@ -1,6 +1,6 @@
 # make demo: set up and reproduce the paper.  make test: set up and run the tests (make test-all: the long ones too).
 # make app: the page in the browser.
-.PHONY: app demo test test-all lint types layers js docs bench readme rooms screenshots clean
+.PHONY: app demo test test-all lint types layers js docs bench constraints floors readme rooms screenshots clean
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -10,12 +10,34 @@ $(READY): pyproject.toml constraints.txt
 	@echo "setting up .venv (a minute or two)"
 	@if command -v uv >/dev/null 2>&1; then \
 		uv venv --quiet --allow-existing --python $(PYTHON) .venv && \
-		uv pip install --quiet --python $(BIN)/python --constraint constraints.txt --editable '.[dev]'; \
+		uv pip install --quiet --python $(BIN)/python --require-hashes --requirement constraints.txt && \
+		uv pip install --quiet --python $(BIN)/python --no-deps --no-build-isolation --editable .; \
 	else \
 		$(PYTHON) -m venv .venv && \
-		$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev]'; \
+		$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes --requirement constraints.txt && \
+		$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .; \
 	fi
 	@touch $@
+
+# all versions with their hashes: constraints.txt, and floors.txt with the oldest that pyproject.toml allows; new
+# versions by UPGRADE=--upgrade
+UV := out/uv/bin/uv
+COMPILE := $(UV) pip compile --quiet --universal --python-version 3.11.5 --generate-hashes --no-emit-index-url --no-annotate \
+	--custom-compile-command "make constraints"
+
+$(UV):
+	@$(PYTHON) -m venv out/uv && out/uv/bin/python -m pip install --quiet --disable-pip-version-check uv
+
+constraints: $(UV)
+	$(COMPILE) $(UPGRADE) --extra dev pyproject.toml --output-file constraints.txt
+	$(COMPILE) $(UPGRADE) --extra calibrate --extra cluster --extra data --extra fast --extra test --extra web --resolution lowest-direct pyproject.toml --output-file floors.txt
+
+# the tests of what leans on other packages most, with the oldest of them
+floors: $(UV)
+	@$(UV) venv --quiet --clear --python $(PYTHON) out/floors
+	@$(UV) pip install --quiet --python out/floors/bin/python --require-hashes --requirement floors.txt
+	@$(UV) pip install --quiet --python out/floors/bin/python --no-deps --no-build-isolation --editable .
+	out/floors/bin/python -m pytest tests/golden tests/kernels tests/cases tests/cli/test_cli.py tests/sweeps/test_store.py
 
 demo: $(READY)
 	$(BIN)/ballscrew reproduce olaru2005 --out out/olaru2005
