@@ -132,7 +132,9 @@ class Evaluation:
         axes = {**self.plan.axes, **{name: xr.DataArray(value) for name, value in values.items()}}
         sizes = {str(d): size for axis in axes.values() for d, size in zip(axis.dims, axis.shape, strict=True)}
         plan = dataclasses.replace(self.plan, axes=axes, sizes=sizes)
-        return Evaluation(plan, self.engine, self.reason, self._identify, self._works, self._block_size, self._row_length)
+        return Evaluation(
+            plan, self.engine, self.reason, self._identify, self._works, self._block_size, self._row_length
+        )
 
     def empty(self, count: int) -> dict[str, NDArray[Any]]:
         """Room for the results of so many points."""

@@ -282,7 +282,9 @@ class _Visit:
         for name in sorted(vars(kind).keys() - _ASIDE):
             value = vars(kind)[name]
             code = getattr(value, "__code__", None)
-            if (generated and code is not None and code.co_filename == "<string>" and name != "__call__") or _is_slot(value):
+            if (generated and code is not None and code.co_filename == "<string>" and name != "__call__") or _is_slot(
+                value
+            ):
                 continue
             parts.append(name.encode() + self._digest(value))
         return b"".join(parts)
@@ -307,7 +309,9 @@ def _constant(value: Any, names: set[str]) -> Any:
 
 def _imported(code: types.CodeType) -> list[str]:
     """The modules that code imports when it runs."""
-    found = [name for constant in code.co_consts if isinstance(constant, types.CodeType) for name in _imported(constant)]
+    found = [
+        name for constant in code.co_consts if isinstance(constant, types.CodeType) for name in _imported(constant)
+    ]
     if opmap["IMPORT_NAME"] in code.co_code[::2]:
         found += [str(step.argval) for step in get_instructions(code) if step.opname == "IMPORT_NAME"]
     return found
