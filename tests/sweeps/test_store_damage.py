@@ -52,21 +52,31 @@ DAMAGES = {
 }
 
 
-@pytest.fixture
-def unfinished(swept, tmp_path):
-    """A store with 12 of 21 blocks."""
-    path = tmp_path / "map.zarr"
+@pytest.fixture(scope="module")
+def stores(seed_screw, seed_oil, tmp_path_factory):
+    """A finished store, and one with 12 of its 21 blocks."""
+    folder = tmp_path_factory.mktemp("stores")
+    bs.sweep(MODEL, seed_screw, seed_oil, to=folder / "complete.zarr", **SMALL)
     with pytest.MonkeyPatch.context() as patch:
         stop_at(12, KeyboardInterrupt(), patch)
         with pytest.raises(KeyboardInterrupt):
-            swept(path)
-    return path
+            bs.sweep(MODEL, seed_screw, seed_oil, to=folder / "unfinished.zarr", **SMALL)
+    return folder
 
 
 @pytest.fixture
-def complete(whole, tmp_path):
-    shutil.copytree(tmp_path / "whole.zarr", tmp_path / "map.zarr")
-    return tmp_path / "map.zarr"
+def whole(stores):
+    return files(stores / "complete.zarr")
+
+
+@pytest.fixture
+def complete(stores, tmp_path):
+    return shutil.copytree(stores / "complete.zarr", tmp_path / "map.zarr")
+
+
+@pytest.fixture
+def unfinished(stores, tmp_path):
+    return shutil.copytree(stores / "unfinished.zarr", tmp_path / "map.zarr")
 
 
 @pytest.mark.parametrize("kind", DAMAGES)
@@ -75,9 +85,9 @@ def test_a_damaged_block_is_computed_again_on_resume(kind, unfinished, swept, wh
     damage(unfinished / CHUNK)
     told = []
     swept(unfinished, done=lambda finished, total: told.append(finished))
-    bad = 2 if kind == "swapped" else 1
+    bad, words = (2, "2 blocks are") if kind == "swapped" else (1, "1 block is")
     assert told[0] == (12 - bad) * 9
-    assert f"{bad} blocks are computed again: " in caplog.text
+    assert f"{words} computed again: " in caplog.text
     assert said in caplog.text
     assert files(unfinished) == whole
 
@@ -124,22 +134,15 @@ def test_a_kill_while_a_finished_store_is_repaired(complete, swept, whole, monke
     assert files(complete) == whole
 
 
-def test_a_file_where_there_should_be_none(seed_screw, seed_oil, tmp_path):
-    """A chunk of nothing but NaN has no file; one that appears there is damage, too."""
-    points = {"axial_load": [0.0, 1000.0], "screw_speed": [10.0, 20.0], "outputs": ["efficiency", "valid"]}
-
-    def swept(to):
-        return bs.sweep(MODEL, seed_screw, seed_oil, **points, lead=[-1.0, 0.005], to=to, block_size=1)
-
-    path = tmp_path / "map.zarr"
-    swept(path)
-    before = files(path)
-    empty = path / "efficiency/c/1/1/0"
-    assert not empty.exists()
-    shutil.copy(path / "efficiency/c/1/1/1", empty)
-    assert [damage.path for damage in bs.verify(path).damaged] == ["efficiency/c/1/1/0"]
-    swept(path)
-    assert files(path) == before
+def test_a_file_where_there_should_be_none(complete, swept, whole):
+    """A chunk of nothing but the fill value has no file; one that appears there is damage, too."""
+    blocks = [f"valid/c/{row}/{column}/0" for row in range(7) for column in range(3)]
+    empty = next(name for name in blocks if name not in whole)
+    (complete / empty).parent.mkdir(exist_ok=True)
+    shutil.copy(complete / next(name for name in blocks if name in whole), complete / empty)
+    assert [damage.path for damage in bs.verify(complete).damaged] == [empty]
+    swept(complete)
+    assert files(complete) == whole
 
 
 # -- metadata -------------------------------------------------------------------------------------
@@ -244,6 +247,8 @@ def test_a_model_that_cannot_be_compared_is_never_gone_on_with(seed_screw, seed_
     bs.sweep(mine, seed_screw, seed_oil, to=path, **SMALL)
     plan = json.loads((path / ".ballscrew" / "plan.json").read_text(encoding="utf-8"))["document"]
     assert len(plan["formulas"]) == 64
-    with pytest.raises(bs.InputError, match=r"it cannot be known whether the model is the same \(.*lock\) · choose") as e:
+    with pytest.raises(
+        bs.InputError, match=r"it cannot be known whether the model is the same \(.*lock\) · choose"
+    ) as e:
         bs.sweep(mine, seed_screw, seed_oil, to=path, **SMALL)
     assert len(str(e.value).splitlines()) == 1

@@ -1,8 +1,10 @@
-"""Options that several commands share."""
+"""Options and messages that several commands share."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import contextlib
+import logging
+from collections.abc import Generator, Mapping
 from typing import Annotated, Any
 
 import typer
@@ -17,3 +19,22 @@ def say_engine(attributes: Mapping[str, Any]) -> None:
     """The engine that evaluated, and why it was that one, on the error stream."""
     reason = attributes.get("engine_reason")
     typer.echo(f"evaluated by {attributes['engine']}" + (f": {reason}" if reason else ""), err=True)
+
+
+class _Echo(logging.Handler):
+    def emit(self, record: logging.LogRecord) -> None:
+        typer.echo(record.getMessage(), err=True)
+
+
+@contextlib.contextmanager
+def log_on_stderr() -> Generator[None]:
+    """Show on the error stream what the package logs."""
+    logger, handler = logging.getLogger("ballscrew"), _Echo()
+    before = logger.level
+    logger.addHandler(handler)
+    logger.setLevel(logging.INFO)
+    try:
+        yield
+    finally:
+        logger.setLevel(before)
+        logger.removeHandler(handler)

@@ -19,7 +19,7 @@ from typer.core import TyperCommand
 
 from ballscrew import _pint_plugins
 from ballscrew.cli import catalogue, check, fit, report, sensitivity, serve, validate
-from ballscrew.cli.common_options import AllowCode, Verbose, say_engine
+from ballscrew.cli.common_options import AllowCode, Verbose, log_on_stderr, say_engine
 
 app = typer.Typer(
     name="ballscrew",
@@ -170,8 +170,19 @@ def sweep(
     ] = None,
     scheduler: Annotated[
         str | None,
-        typer.Option("--scheduler", metavar="ADDRESS", help="Fill a .zarr by the workers of a Dask scheduler."),
+        typer.Option(
+            "--scheduler",
+            metavar="ADDRESS",
+            help="Fill a .zarr by the workers of a Dask scheduler that you trust: it runs code.",
+        ),
     ] = None,
+    verify: Annotated[
+        bool,
+        typer.Option("--verify", help="Compare all checksums of a .zarr that is there; compute damaged blocks again."),
+    ] = False,
+    trust: Annotated[
+        bool, typer.Option("--trust", help="Write into a .zarr that belongs to another user, who can change it.")
+    ] = False,
     model: ModelName = None,
     settings: Settings = None,
     allow_code: AllowCode = False,
@@ -182,7 +193,7 @@ def sweep(
     Without --vary, the axes come from the [sweep] table of the case file, or else are ten loads and
     ten speeds up to those of the case. One output over two axes comes as a table, load down and
     speed across, ready to paste; otherwise one row a point. A .zarr is filled block by block: stopped
-    by whatever, the same command goes on where it was.
+    by whatever, the same command goes on where it was; blocks whose files are damaged are computed again.
     """
     from ballscrew.cases import case_file
     from ballscrew.cli.progress import progress
@@ -192,8 +203,9 @@ def sweep(
 
     loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
     plan = studies.plan(loaded, vary or [], output or [], to)
-    with _stopped_in_words(), studies.workers(scheduler, to) as cluster, progress("sweep") as done:
-        dataset = studies.sweep(loaded, plan, done, to, cluster)
+    studies.check_store_options(to, verify=verify, trust=trust)
+    with _stopped_in_words(), studies.workers(scheduler, to) as cluster, progress("sweep") as done, log_on_stderr():
+        dataset = studies.sweep(loaded, plan, done, to, cluster, verify=verify, trust=trust)
     if verbose:
         say_engine(dataset.attrs)
     if to is None:

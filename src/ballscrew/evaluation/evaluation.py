@@ -198,7 +198,8 @@ def _fingerprint(plan: Plan, engine: Engine, program: Program | None, said: Call
     held: dict[str, Any] = {"engine": engine, "formulas": said()}
     if program is not None:
         # steps of other libraries are known by more than their names
-        held["functions"] = [step.function for _, step in program.steps if not hasattr(np, step.function.__name__)]
+        functions = [step.function for _, step in program.steps]
+        held["functions"] = [f for f in functions if getattr(np, f.__name__, None) is not f]
     else:
         held |= {"package": package_digest(), "evaluated": Configuration.at, "outputs": plan.wanted}
         held |= vars(plan.subject.changed({n: v for n, v in plan.points(slice(0, 1)).items() if n not in OPERATION}))

@@ -1,53 +1,56 @@
 """A fingerprint of code and values: what a model computes where it cannot be recorded.
 
-From the functions given, everything that they reach is visited: their code, with the code nested in it; defaults, closures and
-attributes; the globals that the code names, and what it names in modules; and the values, classes and methods of all objects. Of the package also
-the source counts, of other installed libraries the files as installed. Code counts as bytecode, so that another
-version of Python has other fingerprints. What code does with things that are no values (a file, a lock, ``eval``) cannot be
-known: then the reason is given, and the fingerprint is that of nothing else.
+From the functions given, everything that they reach is visited: their code, with the code nested in it; defaults,
+closures and attributes; the globals that the code names, and what it names in modules; and the values, classes and
+methods of all objects. Of the package also the source counts, of other installed libraries the files as installed.
+Code counts as bytecode, so that another version of Python has other fingerprints. Of compiled code, and of code that
+uses more than values (a file, a lock, ``eval``), it cannot be known what is computed: then there is a reason, and the
+fingerprint is random.
 """
 
 from __future__ import annotations
 
-import copyreg
 import dataclasses
 import enum
 import functools
 import hashlib
 import importlib
-import importlib.metadata
 import secrets
-import sys
 import types
 from collections.abc import Iterable, Mapping
 from dis import get_instructions, opmap
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
-_PACKAGE = __name__.partition(".")[0]
+from ballscrew.evaluation.origins import library, name_in_library, origin
+
 #: Names by which code gets at what is not among its values: files, the environment, other code.
-_BEYOND_VALUES = frozenset(
-    "open eval exec compile globals locals vars input __import__ import_module environ getenv load loadtxt genfromtxt"
-    " fromfile memmap read_text read_bytes read_csv read_excel".split()
-)
+_BEYOND_VALUES = frozenset({
+    "open", "eval", "exec", "compile", "globals", "locals", "vars", "input", "__import__", "import_module",
+    "environ", "getenv", "load", "loadtxt", "genfromtxt", "fromfile", "memmap", "read_text", "read_bytes",
+    "read_csv", "read_excel",
+})  # fmt: skip
 #: More functions and classes than any law reaches, unless it reaches a whole library that is not installed.
 _MOST = 20_000
 #: Attributes of classes that no evaluation reads.
-_ASIDE = frozenset(
-    "__annotations__ __annotate__ __annotate_func__ __annotations_cache__ __dict__ __weakref__ __doc__ __module__ __slots__"
-    " __firstlineno__ __static_attributes__ __dataclass_fields__ __dataclass_params__ __match_args__ __hash__ __slotnames__"
-    " __orig_bases__ __parameters__ __abstractmethods__ _abc_impl".split()
-)
+_ASIDE = frozenset({
+    "__annotations__", "__annotate__", "__annotate_func__", "__annotations_cache__", "__dict__", "__weakref__",
+    "__doc__", "__module__", "__slots__", "__firstlineno__", "__static_attributes__", "__dataclass_fields__",
+    "__dataclass_params__", "__match_args__", "__hash__", "__slotnames__", "__orig_bases__", "__parameters__",
+    "__abstractmethods__", "_abc_impl",
+})  # fmt: skip
 
+#: Methods that ``dataclass`` makes of the fields.
+_GENERATED = frozenset({
+    "__init__", "__repr__", "__eq__", "__lt__", "__le__", "__gt__", "__ge__", "__setattr__", "__delattr__",
+    "__replace__",
+})  # fmt: skip
 _PLAIN = frozenset({type(None), bool, int, float, complex, str, bytes, type(...)})
 _SLOTS = types.MemberDescriptorType, types.GetSetDescriptorType
+_COMPILED = types.MethodDescriptorType, types.WrapperDescriptorType, types.ClassMethodDescriptorType
 _TABLES = dict, list, set
-_DATA = frozenset({*_TABLES, tuple, frozenset, np.ndarray})
-
-#: Where code comes from: this package, an installed library or Python itself, or anywhere else.
-_Origin = Literal["package", "library", "outside"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -100,7 +103,7 @@ class _Visit:
         position = 0
         while position < len(self._reached):
             item = self._reached[position]
-            self._in_package = _origin(item) == "package"
+            self._in_package = origin(item) == "package"
             if position > _MOST:
                 self.unknown.append(f"more than {_MOST} functions")
                 break
@@ -130,17 +133,18 @@ class _Visit:
         self._known[key] = value, found
         return found
 
-    def _content(self, value: Any) -> bytes:  # noqa: PLR0911  (a kind of value a line)
+    def _content(self, value: Any) -> bytes:
         kind = type(value)
-        if named := _name_in_library(value):
+        if named := name_in_library(value):
             return named.encode()
         if kind in (list, tuple):
             return self._all(kind.__name__, value)
         if kind in (dict, types.MappingProxyType):
             pairs = sorted((self._digest(k), v) for k, v in value.items()) if _plain_keys(value) else value.items()
             return self._all("dict", (part for pair in pairs for part in pair))
-        if kind in (set, frozenset) and _plain_keys(value):
-            return b"set" + b"".join(sorted(map(self._digest, value)))
+        if kind in (set, frozenset):
+            ordered = b"".join(sorted(map(self._digest, value)))
+            return b"set" + ordered if _plain_keys(value) else self._unknown("a set of objects")
         if isinstance(value, np.generic) or (kind is np.ndarray and not value.dtype.hasobject):
             return f"{value.dtype.str} {np.shape(value)} ".encode() + value.tobytes()
         if kind is np.ndarray:
@@ -163,14 +167,15 @@ class _Visit:
         if isinstance(value, functools.cached_property):
             return self._all("cached property", (value.func,))
         if isinstance(value, types.BuiltinFunctionType):
-            return self._all(value.__name__, (value.__self__,))
+            of_module = isinstance(value.__self__, types.ModuleType)
+            return self._compiled(value.__name__) if of_module else self._all(value.__name__, (value.__self__,))
         if isinstance(value, types.ModuleType):
-            names = [] if _origin(value) != "outside" else [n for n in vars(value) if not n.startswith("__")]
+            names = [] if origin(value) != "outside" else [n for n in vars(value) if not n.startswith("__")]
             return self._of_module(value, names)
-        if hasattr(value, "__wrapped__") and _origin(kind) == "library":  # functools.cache and its like
+        if hasattr(value, "__wrapped__") and origin(kind) == "library":  # functools.cache and its like
             return self._all("wrapped", (value.__wrapped__,))
         if isinstance(value, np.ufunc):
-            return self._unknown(f"the function {value.__name__} of compiled or vectorized code")
+            return self._compiled(value.__name__)
         return self._of_object(value)
 
     def _all(self, kind: str, parts: Iterable[Any]) -> bytes:
@@ -182,28 +187,32 @@ class _Visit:
             self.unknown.append(what)
         return b"unknown"
 
+    def _compiled(self, name: str) -> bytes:
+        return self._unknown(f"the compiled function {name}")
+
     def _of_object(self, value: Any) -> bytes:
         """The class of an object, and all that it holds."""
         kind = type(value)
-        if _origin(kind) == "package" and dataclasses.is_dataclass(value):
+        if origin(kind) == "package" and dataclasses.is_dataclass(value):
             # what else it holds is computed from these
             return self._all("", (kind, *(getattr(value, field.name) for field in dataclasses.fields(value))))
-        if _origin(kind) == "library":
+        if origin(kind) == "library":
             return self._of_pickled(value)
         held: dict[str, Any] = dict(getattr(value, "__dict__", {}))
         for base in kind.__mro__:
-            held |= {n: getattr(value, n) for n, d in vars(base).items() if _is_slot(d) and hasattr(value, n)}
+            slots = [name for name, kept in vars(base).items() if isinstance(kept, types.MemberDescriptorType)]
+            held |= {name: getattr(value, name) for name in slots if hasattr(value, name)}
             for name, attribute in vars(base).items():
                 if isinstance(attribute, functools.cached_property):
                     held.pop(name, None)
-        built_in = next((base for base in kind.__mro__ if _origin(base) == "library"), object)
+        built_in = next((base for base in kind.__mro__ if origin(base) == "library"), object)
         below: Any = None
         if built_in is np.ndarray:
             below = np.asarray(value)
         elif built_in in (dict, list, tuple, set, frozenset, int, float, complex, str, bytes):
             below = built_in(value)
         elif built_in is not object and built_in.__module__ not in ("abc", "typing", "collections.abc"):
-            return self._unknown(f"an object of the class {kind.__qualname__}")
+            return self._all("object", (kind, held)) + self._of_pickled(value)
         return self._all("object", (kind, held, below))
 
     def _of_pickled(self, value: Any) -> bytes:
@@ -216,15 +225,13 @@ class _Visit:
         if isinstance(kept, str):
             return self._unknown(f"an object of the class {name}")
         function, arguments, *others = kept
-        if function is copyreg.__newobj__ and arguments == (type(value),) and not any(o is not None for o in others):
-            return self._unknown(f"an object of the class {name}")  # what it holds, if anything, pickle does not know
         parts = [others[0] if others else None, *(list(items) if items is not None else None for items in others[1:3])]
         return self._all("pickled", (function, arguments, *parts))
 
     # -- functions, classes and modules -----------------------------------------------------------
 
     def _reference(self, item: Any) -> bytes:
-        if named := _name_in_library(item):
+        if named := name_in_library(item):
             return named.encode()
         number = self._numbers.get(id(item))
         if number is None:
@@ -241,7 +248,7 @@ class _Visit:
         parts += [self._of_global(name, space[name], names) for name in sorted(names & space.keys())]
         if not self._in_package:
             beyond = sorted((names & _BEYOND_VALUES) - space.keys())
-            modules = [v for n in names if isinstance(v := space.get(n), types.ModuleType) and _origin(v) == "outside"]
+            modules = [v for n in names if isinstance(v := space.get(n), types.ModuleType) and origin(v) == "outside"]
             beyond += ["getattr"] if "getattr" in names and modules else []
             parts += [self._unknown(f"{function.__qualname__}, which calls {name}") for name in beyond]
             parts += [self._of_import(name, names) for name in _imported(function.__code__)]
@@ -250,14 +257,14 @@ class _Visit:
     def _of_global(self, name: str, value: Any, names: set[str]) -> bytes:
         if isinstance(value, types.ModuleType):
             return name.encode() + self._of_module(value, names)
-        if self._in_package and isinstance(value, _TABLES) or type(value).__module__ == "_thread":
+        if self._in_package and isinstance(value, _TABLES):
             return b""  # of the package these are tables, which its source has, and caches, which change no result
         return name.encode() + self._digest(value)
 
     def _of_module(self, module: types.ModuleType, names: Iterable[str]) -> bytes:
         """What code names in a module; of a library all of it."""
-        if _origin(module) == "library":
-            return _library(module.__name__).encode()
+        if origin(module) == "library":
+            return library(module.__name__).encode()
         space = vars(module)
         key = id(module)
         if key in self._open:
@@ -277,21 +284,19 @@ class _Visit:
 
     def _of_class(self, kind: type) -> bytes:
         """The bases and the attributes of a class."""
-        generated = dataclasses.is_dataclass(kind)
         parts = [self._all("class", kind.__bases__)]
-        for name in sorted(vars(kind).keys() - _ASIDE):
+        aside = _ASIDE | _GENERATED if dataclasses.is_dataclass(kind) else _ASIDE
+        for name in sorted(vars(kind).keys() - aside):
             value = vars(kind)[name]
-            code = getattr(value, "__code__", None)
-            if (generated and code is not None and code.co_filename == "<string>" and name != "__call__") or _is_slot(
-                value
-            ):
-                continue
-            parts.append(name.encode() + self._digest(value))
+            if isinstance(value, _COMPILED):
+                parts.append(self._compiled(f"{kind.__qualname__}.{name}"))
+            elif not isinstance(value, _SLOTS):
+                parts.append(name.encode() + self._digest(value))
         return b"".join(parts)
 
 
 def _code(code: types.CodeType, names: set[str]) -> bytes:
-    """Bytecode and constants, with those of nested code, without places in files; the names in it are added to ``names``."""
+    """Bytecode and constants, also of nested code, without places in files; ``names`` gets the names in it."""
     names.update(code.co_names)
     head = (
         code.co_argcount, code.co_posonlyargcount, code.co_kwonlyargcount, code.co_flags, code.co_names,
@@ -326,61 +331,3 @@ def _content_of(cell: types.CellType) -> Any:
 
 def _plain_keys(value: Iterable[Any]) -> bool:
     return all(isinstance(key, str | int | float | bytes | tuple) for key in value)
-
-
-def _is_slot(value: Any) -> bool:
-    return isinstance(value, _SLOTS)
-
-
-def _name_in_library(value: Any) -> str:
-    """The address of a function, class or constant of a library; empty if it is none."""
-    if type(value) in _DATA:
-        return ""
-    module, name = getattr(value, "__module__", None), getattr(value, "__qualname__", None)
-    if isinstance(value, np.ufunc):
-        module, name = "numpy", value.__name__
-        if getattr(np, name, None) is not value:
-            module = "scipy.special"
-    if not isinstance(module, str) or not isinstance(name, str) or _origin_of(module) != "library":
-        return ""
-    found: Any = sys.modules.get(module)
-    for part in name.split("."):
-        found = getattr(found, part, None)
-    return f"{_library(module)}:{module}.{name};" if found is value else ""
-
-
-def _origin(item: Any) -> _Origin:
-    if isinstance(item, types.ModuleType):
-        return _origin_of(item.__name__)
-    return _origin_of(getattr(item, "__module__", None) or "")
-
-
-@functools.cache
-def _origin_of(module: str) -> _Origin:
-    top = module.partition(".")[0]
-    if top == _PACKAGE:
-        return "package"
-    file = getattr(sys.modules.get(top), "__file__", None)
-    if top in sys.builtin_module_names or (top in sys.stdlib_module_names and top in sys.modules):
-        return "library" if file is None or Path(file).is_relative_to(Path(sys.base_prefix)) else "outside"
-    parts = Path(file).parts if file else ()
-    return "library" if "site-packages" in parts or "dist-packages" in parts else "outside"
-
-
-@functools.cache
-def _library(module: str) -> str:
-    """A library as it is installed: its name, and the version of Python or a digest of its files."""
-    top = module.partition(".")[0]
-    if top in sys.stdlib_module_names:
-        return f"python {sys.version}"
-    try:
-        distribution = importlib.metadata.distribution(top)
-    except importlib.metadata.PackageNotFoundError:
-        names = importlib.metadata.packages_distributions().get(top, [])
-        distribution = importlib.metadata.distribution(names[0]) if names else None
-    record = distribution.read_text("RECORD") if distribution else None
-    if distribution is None or record is None:
-        return f"{top} {getattr(sys.modules.get(top), '__version__', '')}"
-    # of scripts and caches the record has other digests in each environment
-    lines = [line for line in record.splitlines() if line.startswith(top) and "__pycache__" not in line]
-    return f"{top} {distribution.version} {hashlib.sha256(chr(10).join(sorted(lines)).encode()).hexdigest()}"

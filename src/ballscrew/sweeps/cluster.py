@@ -180,7 +180,10 @@ def _write_block(number: int, store: Store, threads: int) -> int:
 
 
 def _is_same(evaluation: Evaluation, store: Store) -> bool:
-    """Return whether this process evaluates the formulas of a store; a model that cannot be compared came from there."""
+    """Return whether this process evaluates the formulas of a store.
+
+    A model that cannot be compared was sent with the store, so that the package is all that may differ.
+    """
     if evaluation.identity.unknown:
         return store.description.get("package") == package_digest()
     return evaluation.fingerprint == store.description["formulas"]

@@ -88,8 +88,8 @@ class Store:
         """The store of a plan, new or begun, and its evaluation; nothing is written yet.
 
         A store that was begun keeps its engine. ``attributes`` go to the dataset with those of the plan.
-        Raises :class:`~ballscrew.errors.InputError` if something else lies there, and says what; for a link in the store;
-        and for a store of another user, unless ``trust``.
+        Raises :class:`~ballscrew.errors.InputError` if something else lies there, and says what; for a link in the
+        store; and for a store of another user, unless ``trust``.
         """
         folder = _checked(path, plan)
         stored = stored_plan(folder)
@@ -170,7 +170,10 @@ class Store:
         return stored is None
 
     def pending(self, *, new: bool) -> list[int]:
-        """The numbers of the blocks that are not finished; of damaged files the log tells, and they are prepared again."""
+        """The numbers of the blocks that are not finished, damaged ones among them, as the log tells.
+
+        Damaged metadata are written again.
+        """
         contents, rows = self.contents, self.contents.rows()
         damaged_blocks = contents.damaged_blocks(rows, checksums=True)
         damaged_layout = contents.damaged_layout(checksums=True)
@@ -183,7 +186,8 @@ class Store:
             self._lay_out()
         bad = {damage.block for damage in damaged_blocks}
         if bad:
-            _log.warning("%s: %d blocks are computed again: %s", self.path, len(bad), _named(damaged_blocks))
+            blocks = f"{len(bad)} block{'s are' if len(bad) > 1 else ' is'}"
+            _log.warning("%s: %s computed again: %s", self.path, blocks, _named(damaged_blocks))
         (self.own / "blocks").mkdir(exist_ok=True)
         return [number for number in range(self.blocks.count) if number not in rows or number in bad]
 

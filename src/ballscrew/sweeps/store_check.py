@@ -59,9 +59,10 @@ class Verification:
 def verify(store: str | os.PathLike[str]) -> Verification:
     """Read all files of the store of a sweep and compare size and CRC-32 with those noted when they were written.
 
-    Nothing is changed: the sweep that filled the store computes damaged blocks again (``bs.sweep(…, to=…, verify=True)``,
-    ``ballscrew sweep … --verify``). CRC-32 finds damage by accident, not a change on purpose.
-    Raises :class:`~ballscrew.errors.InputError` for a folder that is not the store of a sweep, or whose plan is damaged.
+    Nothing is changed: the sweep that filled the store computes damaged blocks again
+    (``bs.sweep(…, to=…, verify=True)``, ``ballscrew sweep … --verify``). CRC-32 finds damage by accident, not a change
+    on purpose. Raises :class:`~ballscrew.errors.InputError` for a folder that is not the store of a sweep, or
+    whose plan is damaged.
     """
     path = Path(store).absolute()
     document = stored_plan(path)
@@ -158,7 +159,10 @@ class Contents:
                 found[int(cells[0])] = line
 
     def damaged_blocks(self, rows: Mapping[int, bytes], *, checksums: bool) -> list[Damage]:
-        """The chunks of finished blocks that are not as they were written; of a complete store also blocks without a row."""
+        """The chunks of finished blocks that are not as they were written.
+
+        Of a complete store also the blocks without a valid row.
+        """
 
         def of_block(number: int) -> list[Damage]:
             cells = dict(zip(self.heading, cells_of(rows[number]) or (), strict=True))

@@ -14,8 +14,9 @@ from ballscrew.sweeps.store_rows import WHERE
 def refuse_unsafe(folder: Path, *, trust: bool) -> None:
     """Check the folder of a store before anything is written into it.
 
-    A link in it could lead every write to a file elsewhere, and the owner of a folder can replace any entry by a link at any
-    time. Raises :class:`~ballscrew.errors.InputError` for a link, and unless ``trust`` for a folder of another user.
+    A link in it could lead a write to a file elsewhere, and the owner of a folder can replace any entry by a link at
+    any time. Raises :class:`~ballscrew.errors.InputError` for a link, and unless ``trust`` for a folder of another
+    user.
     """
     try:
         top = folder.lstat()

@@ -60,10 +60,11 @@ def sweep(
     block, two of which are in memory at a time. It needs the extra ``data``. The same call goes on
     where a run was stopped, for any reason; a store that is complete is opened at once. The values of
     the dataset are read from it when they are asked for.
-    Files that are damaged are written again, their blocks computed again, and a warning is logged. Before a run goes on, sizes and
-    checksums of finished blocks are compared; of a complete store only the sizes, and with ``verify`` the checksums too
-    (:func:`~ballscrew.verify` compares and changes nothing). A folder of another user is refused unless ``trust``, as its owner could
-    replace files by links; links in a store are always refused.
+    Blocks whose files are damaged are computed again, damaged metadata written again, and a warning is logged. Before
+    a run goes on, sizes and checksums of finished blocks are compared; of a complete store only the sizes, and with
+    ``verify`` the checksums too (:func:`~ballscrew.verify` compares and changes nothing). A folder of another user is
+    refused unless ``trust``, as its owner could replace files by links; links in a store are always refused. A model
+    of which it cannot be known what it computes (compiled code, a file that it reads) fills a new store only.
     With a ``cluster``, the client of a Dask scheduler, its workers evaluate the blocks and write them; they must
     see the folder ``to`` under the same path. The blocks of a lost worker are evaluated again. Each block takes
     one thread unless ``threads`` says otherwise. It needs the extra ``cluster``.
