@@ -1,6 +1,6 @@
 """A sweep on disk: a Zarr store that is filled block by block, and goes on where it was stopped.
 
-The only module of this room that writes files, and only inside the store::
+Files are written here and, by Zarr, in :mod:`~ballscrew.sweeps.store_layout`, and only inside the store::
 
     map.zarr/zarr.json              last of all, by a rename: a store without it is not finished
     map.zarr/screw_torque/c/0/1     a chunk: the results of one block, one output
