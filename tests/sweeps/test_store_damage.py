@@ -175,6 +175,30 @@ def test_metadata_of_an_unfinished_store_are_repaired(name, damage, unfinished, 
     assert files(unfinished) == whole
 
 
+@pytest.mark.parametrize("change", ["heading", "more"])
+def test_a_table_of_blocks_that_cannot_be_read_is_written_again(change, complete, swept, whole, caplog):
+    table = complete / ".ballscrew" / "blocks.csv"
+    content = table.read_bytes()
+    table.write_bytes(content.replace(b"efficiency", b"effic1ency", 1) if change == "heading" else content + b"7,")
+    assert [damage.path for damage in bs.verify(complete).damaged] == [".ballscrew/blocks.csv"]
+    swept(complete)
+    assert "written again: .ballscrew/blocks.csv is damaged" in caplog.text
+    assert files(complete) == whole
+
+
+def test_a_store_of_the_layout_before_is_refused(complete, swept):
+    from ballscrew.sweeps.store_plan import read_sealed, sealed
+
+    plan = complete / ".ballscrew" / "plan.json"
+    document = read_sealed("plan", plan.read_text(encoding="utf-8")) | {"format": 1}
+    del document["shape"]
+    plan.write_bytes(sealed("plan", document))
+    with pytest.raises(bs.InputError, match=r"holds another sweep \(format 1, not 2\)"):
+        swept(complete)
+    with pytest.raises(bs.InputError, match=r"is a store of another version .*format 1"):
+        bs.verify(complete)
+
+
 def test_a_lost_plan_is_refused_in_one_line(complete, swept):
     (complete / ".ballscrew" / "plan.json").unlink()
     before = files(complete)
@@ -245,7 +269,7 @@ def test_a_model_that_cannot_be_compared_is_never_gone_on_with(seed_screw, seed_
     mine = dataclasses.replace(MODEL, friction=friction)
     path = tmp_path / "mine.zarr"
     bs.sweep(mine, seed_screw, seed_oil, to=path, **SMALL)
-    plan = json.loads((path / ".ballscrew" / "plan.json").read_text(encoding="utf-8"))["document"]
+    plan = json.loads((path / ".ballscrew" / "plan.json").read_text(encoding="utf-8"))["plan"]
     assert len(plan["formulas"]) == 64
     with pytest.raises(
         bs.InputError, match=r"it cannot be known whether the model is the same \(.*lock\) · choose"

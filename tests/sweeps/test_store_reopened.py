@@ -126,7 +126,7 @@ def test_an_empty_folder_will_do(swept, whole, tmp_path):
 def test_a_changed_plan_is_seen(swept, tmp_path):
     plan = tmp_path / "whole.zarr" / ".ballscrew" / "plan.json"
     kept = json.loads(plan.read_text(encoding="utf-8"))
-    kept["document"]["attributes"]["screw_lead"] = 0.006
+    kept["plan"]["attributes"]["screw_lead"] = 0.006
     for text in (json.dumps(kept), "{", "[]"):
         plan.write_text(text, encoding="utf-8")
         with pytest.raises(bs.InputError, match=r"has a damaged plan .*plan\.json"):

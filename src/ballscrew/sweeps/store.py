@@ -92,8 +92,8 @@ class Store:
         store; and for a store of another user, unless ``trust``.
         """
         folder = _checked(path, plan)
-        stored = stored_plan(folder)
         refuse_unsafe(folder, trust=trust)
+        stored = stored_plan(folder)
         chosen = engine or (None if stored is None else stored["engine"])
         try:
             evaluation = Evaluation.of(plan, chosen)
@@ -166,7 +166,7 @@ class Store:
         shutil.rmtree(self.own / "temporary", ignore_errors=True)
         (self.own / "temporary").mkdir(exist_ok=True)
         if stored is None:
-            self._put(self.own / "plan.json", [sealed(self.description)])
+            self._put(self.own / "plan.json", [sealed("plan", self.description)])
         return stored is None
 
     def pending(self, *, new: bool) -> list[int]:
@@ -175,19 +175,18 @@ class Store:
         Damaged metadata are written again.
         """
         contents, rows = self.contents, self.contents.rows()
-        damaged_blocks = contents.damaged_blocks(rows, checksums=True)
-        damaged_layout = contents.damaged_layout(checksums=True)
-        if self.is_complete and (damaged_blocks or damaged_layout):
+        of_blocks = contents.damaged_blocks(rows, checksums=True)
+        others = contents.damaged_layout(checksums=True)
+        if self.is_complete and (of_blocks or others):
             (self.path / ROOT).replace(self.own / ROOT)  # nobody shall open it until it is repaired
-        if damaged_layout:
-            is_begun = rows or (self.own / LAYOUT).exists()
-            if is_begun and not new:
-                _log.warning("%s: written again, as damaged: %s", self.path, _named(damaged_layout))
+        if others:
+            if not new and (rows or (self.own / LAYOUT).exists()):  # else a process was killed as it began
+                _log.warning("%s: written again: %s", self.path, _named(others))
             self._lay_out()
-        bad = {damage.block for damage in damaged_blocks}
+        bad = {damage.block for damage in of_blocks}
         if bad:
             blocks = f"{len(bad)} block{'s are' if len(bad) > 1 else ' is'}"
-            _log.warning("%s: %s computed again: %s", self.path, blocks, _named(damaged_blocks))
+            _log.warning("%s: %s computed again: %s", self.path, blocks, _named(of_blocks))
         (self.own / "blocks").mkdir(exist_ok=True)
         return [number for number in range(self.blocks.count) if number not in rows or number in bad]
 
@@ -205,7 +204,7 @@ class Store:
                 shutil.rmtree(place, ignore_errors=True)
                 member.replace(place)
         (new / ROOT).replace(self.own / ROOT)
-        self._put(self.own / LAYOUT, [sealed(layout)])
+        self._put(self.own / LAYOUT, [sealed("layout", layout)])
 
     def finish(self) -> None:
         """One file of checksums, then the root's metadata: now the store can be opened."""

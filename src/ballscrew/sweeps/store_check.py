@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew.errors import Fault, InputError
-from ballscrew.sweeps.store_plan import Blocks, read_sealed
-from ballscrew.sweeps.store_rows import BYTES, FALSE, OTHER, OWN, WHERE, Content, cells_of
+from ballscrew.sweeps.store_plan import FORMAT, Blocks, read_sealed
+from ballscrew.sweeps.store_rows import BYTES, FALSE, OTHER, OWN, WHERE, Content, cells_of, row
 
 #: The metadata of the dataset, and of each variable.
 ROOT = "zarr.json"
@@ -68,6 +68,9 @@ def verify(store: str | os.PathLike[str]) -> Verification:
     document = stored_plan(path)
     if document is None:
         raise InputError(Fault(WHERE, "is not the store of a sweep", str(path), "give the folder of a store"))
+    if document["format"] != FORMAT:
+        remedy = f"give a store of format {FORMAT}"
+        raise InputError(Fault(WHERE, "is a store of another version", f"{path}: format {document['format']}", remedy))
     contents = Contents.of(path, document)
     rows = contents.rows()
     damaged = (*contents.damaged_layout(checksums=True), *contents.damaged_blocks(rows, checksums=True))
@@ -96,7 +99,7 @@ def stored_plan(folder: Path) -> dict[str, Any] | None:
         raise InputError(Fault(WHERE, _FOREIGN, str(folder), "choose another name")) from None
     except (OSError, ValueError) as error:
         raise InputError(Fault(WHERE, "cannot be read", f"{path}: {error}", OTHER)) from None
-    document = read_sealed(text)
+    document = read_sealed("plan", text)
     if document is None:
         raise InputError(Fault(WHERE, "has a damaged plan", str(path), OTHER))
     return document
@@ -183,10 +186,17 @@ class Contents:
             damaged += [Damage(f"{OWN}/blocks.csv", f"has no valid row of block {n}", n) for n in missing]
         return damaged
 
+    def _has_whole_table(self) -> bool:
+        """Return whether the table of blocks has its heading and as many rows as there are blocks, all valid."""
+        with contextlib.suppress(OSError), (self.own / "blocks.csv").open("rb") as file:
+            is_headed = next(file, b"") == row(self.heading)
+            return is_headed and [cells_of(line) is not None for line in file] == [True] * self.blocks.count
+        return False
+
     def damaged_layout(self, *, checksums: bool) -> list[Damage]:
         """The metadata and coordinates that are not as they were written."""
         try:
-            layout = read_sealed((self.own / LAYOUT).read_text(encoding="utf-8"))
+            layout = read_sealed("layout", (self.own / LAYOUT).read_text(encoding="utf-8"))
         except FileNotFoundError:
             return [Damage(f"{OWN}/{LAYOUT}", "is missing")]
         except (OSError, ValueError):
@@ -194,6 +204,8 @@ class Contents:
         if layout is None:
             return [Damage(f"{OWN}/{LAYOUT}", "is damaged")]
         found: list[Damage] = []
+        if self.is_complete and not self._has_whole_table():
+            found.append(Damage(f"{OWN}/blocks.csv", "is damaged"))
         for key, noted in layout.items():
             path = self.own / ROOT if key == ROOT and not self.is_complete else self.path / key
             # metadata are small; coordinates may be as long as an axis

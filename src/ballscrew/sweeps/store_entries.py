@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ballscrew.errors import Fault, InputError
-from ballscrew.sweeps.store_rows import WHERE
+from ballscrew.sweeps.store_rows import OTHER, OWN, WHERE
 
 
 def refuse_unsafe(folder: Path, *, trust: bool) -> None:
@@ -23,15 +23,18 @@ def refuse_unsafe(folder: Path, *, trust: bool) -> None:
     except (FileNotFoundError, NotADirectoryError):
         return
     _refuse_foreign(folder, top, trust=trust)
-    if not folder.is_dir():
-        return
-    _refuse_foreign(folder, folder.stat(), trust=trust)  # its own name may be a link
-    for entry in _entries(folder):
-        if entry.is_symlink():
-            remedy = "remove the link, or choose another name"
-            raise InputError(Fault(WHERE, "has a link in it, which is not followed", entry.path, remedy))
-        if entry.is_dir(follow_symlinks=False):
-            _refuse_foreign(Path(entry.path), entry.stat(follow_symlinks=False), trust=trust)
+    if not os.path.lexists(folder / OWN):
+        return  # it is empty, or no store
+    try:
+        _refuse_foreign(folder, folder.stat(), trust=trust)  # its own name may be a link
+        for entry in _entries(folder):
+            if entry.is_symlink():
+                remedy = "remove the link, or choose another name"
+                raise InputError(Fault(WHERE, "has a link in it, which is not followed", entry.path, remedy))
+            if entry.is_dir(follow_symlinks=False):
+                _refuse_foreign(Path(entry.path), entry.stat(follow_symlinks=False), trust=trust)
+    except OSError as error:
+        raise InputError(Fault(WHERE, "cannot be read", f"{folder}: {error.strerror or error}", OTHER)) from None
 
 
 def opened_as_file(path: Path) -> int:

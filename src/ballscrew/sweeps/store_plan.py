@@ -154,17 +154,17 @@ def checksum(document: Mapping[str, Any]) -> str:
     return hashlib.sha256(canonical_json(document).encode()).hexdigest()
 
 
-def sealed(document: Mapping[str, Any]) -> bytes:
-    """A document with its digest, as the text of a file."""
-    return canonical_json({"document": document, "sha256": checksum(document)}).encode()
+def sealed(name: str, document: Mapping[str, Any]) -> bytes:
+    """A document under a name, with its digest, as the text of a file."""
+    return canonical_json({name: document, "sha256": checksum(document)}).encode()
 
 
-def read_sealed(text: str) -> dict[str, Any] | None:
-    """The document in the text of a file; None where it is damaged."""
+def read_sealed(name: str, text: str) -> dict[str, Any] | None:
+    """The document of a name in the text of a file; None where it is damaged."""
     with contextlib.suppress(ValueError, KeyError, TypeError):
         kept = json.loads(text)
-        if checksum(kept["document"]) == kept["sha256"]:
-            return kept["document"]
+        if checksum(kept[name]) == kept["sha256"]:
+            return kept[name]
     return None
 
 
