@@ -15,6 +15,7 @@ import xarray as xr
 import ballscrew as bs
 from ballscrew.evaluation.evaluation import Evaluation
 from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.friction.nut_parts import NutParts
 from ballscrew.kernels import kernel as kernels
 from ballscrew.sweeps import store as stores
 from ballscrew.sweeps.store import Store
@@ -89,6 +90,44 @@ def test_the_code_of_a_law_counts(seed_screw, seed_oil, tmp_path):
     bs.sweep(of(0.1), seed_screw, seed_oil, to=tmp_path / "m.zarr", **SMALL)
     with pytest.raises(bs.InputError, match=r"formulas \w+…, not \w+…"):
         bs.sweep(of(0.2), seed_screw, seed_oil, to=tmp_path / "m.zarr", **SMALL)
+
+
+def test_the_values_of_a_law_count(seed_screw, seed_oil, tmp_path):
+    """Of a law that cannot be recorded, which has the same code and the same name."""
+    import dataclasses
+
+    class Tabulated:
+        def __init__(self, scale):
+            self.table = scale * np.array([0.2, 0.1, 0.02])
+
+        def __call__(self, conditions):
+            return np.interp(conditions.film_parameter, [0.0, 1.0, 3.0], self.table)
+
+    def swept(scale):
+        mine = dataclasses.replace(MODEL, friction=Tabulated(scale))
+        return bs.sweep(mine, seed_screw, seed_oil, to=tmp_path / "m.zarr", **SMALL)
+
+    swept(1.0)
+    swept(1.0)
+    with pytest.raises(bs.InputError, match=r"holds another sweep \(formulas \w+…, not \w+…\)"):
+        swept(1.1)
+
+
+def test_an_equation_of_the_package_counts(seed_screw, seed_oil, tmp_path, monkeypatch):
+    """Of a whole nut, which is not recorded: one equation is changed under the same version."""
+    from ballscrew.equations import film
+
+    def swept():
+        points = {"axial_load": [500.0, 1000.0], "screw_speed": 30.0}
+        nut = NutParts(nut=bs.SingleNut())
+        return bs.sweep(bs.FrictionModel.corrected(), seed_screw, seed_oil, nut=nut, to=tmp_path / "m.zarr", **points)
+
+    swept()
+    swept()
+    thickness = film.minimum_film_thickness
+    monkeypatch.setattr(film, "minimum_film_thickness", lambda *given: 1.1 * thickness(*given))
+    with pytest.raises(bs.InputError, match=r"holds another sweep \(formulas \w+…, not \w+…\)"):
+        swept()
 
 
 def test_what_is_no_store_is_not_touched(swept, tmp_path):
