@@ -10,6 +10,7 @@ fingerprint is random.
 
 from __future__ import annotations
 
+import copyreg
 import dataclasses
 import enum
 import functools
@@ -219,7 +220,8 @@ class _Visit:
         """An object of a library by what ``pickle`` would keep of it."""
         name = f"{type(value).__module__}.{type(value).__qualname__}"
         try:
-            kept = value.__reduce_ex__(4)
+            reduce = copyreg.dispatch_table.get(type(value))
+            kept = value.__reduce_ex__(4) if reduce is None else reduce(value)
         except Exception:  # whatever a class raises that cannot be pickled
             return self._unknown(f"an object of the class {name}")
         if isinstance(kept, str):
