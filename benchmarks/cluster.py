@@ -54,12 +54,12 @@ def tasks_per_second(client: Any, store: Store, tasks: int) -> float:
 
 def timed_block(store: Store, number: int) -> tuple[float, float]:
     """Seconds to evaluate and to write a block."""
-    evaluation = cluster._ready(store)
+    evaluation = cluster._evaluation_of(store)
     start = time.perf_counter()
     results = evaluation.empty(store.blocks.points(number))
     evaluation.fill(results, store.blocks.span(number), threads=1)
     evaluated = time.perf_counter()
-    store.commit(number, results, [store.write(number, name, results[name]) for name in store.variables])
+    store.commit(number, results, {name: store.write(number, name, results[name]) for name in store.variables})
     written = time.perf_counter()
     return evaluated - start, written - evaluated
 
@@ -98,7 +98,7 @@ def main() -> None:
     ):
         store, evaluation = Store.of(Path(name) / "blocks.zarr", plan)
         store.own.mkdir(parents=True)
-        store.begin()
+        store.pending(new=store.begin())
         workers = list(client.nthreads())
         before = list(client.run(memory).values())
         tasks = tasks_per_second(client, store, options.tasks)

@@ -21,6 +21,7 @@ from ballscrew.evaluation.derivatives import derivatives as derivatives
 from ballscrew.friction.model import FrictionModel as FrictionModel
 from ballscrew.friction.nut_friction import nut_friction as nut_friction
 from ballscrew.friction.result import FrictionResult as FrictionResult
+from ballscrew.sweeps.store_check import verify as verify
 from ballscrew.sweeps.sweep import sweep as sweep
 from ballscrew.torque_logs.torque_log import TorqueLog as TorqueLog
 from ballscrew.uncertainty.bands import band as band

@@ -71,10 +71,30 @@ def test_a_complete_store_is_left_as_it_is(example, ballscrew, tmp_path):
     first = ballscrew("sweep", example, *AXES, "--to", "map.zarr")
     before = {name: (tmp_path / "map.zarr" / name).stat().st_mtime_ns for name in files(tmp_path / "map.zarr")}
     again = ballscrew("sweep", example, *AXES, "--to", "map.zarr")
-    assert (again.returncode, again.stdout, again.stderr) == (0, first.stdout, first.stderr)
+    said = f"{tmp_path / 'map.zarr'}: complete already, nothing was computed\n"
+    assert (again.returncode, again.stdout, again.stderr) == (0, first.stdout, said + first.stderr)
     assert {name: (tmp_path / "map.zarr" / name).stat().st_mtime_ns for name in before} == before
     other = ballscrew("sweep", example, *AXES, "--to", "map.zarr", "--set", "lubricant.viscosity=0.2 Pa s")
     fault(other, "sweep.to: holds another sweep (lubricant viscosity 0.1, not 0.2) · choose another name, or remove")
+
+
+def test_damage_is_said_and_repaired(example, ballscrew, tmp_path):
+    first = ballscrew("sweep", example, *AXES, "--to", "map.zarr")
+    before = files(tmp_path / "map.zarr")
+    chunk = tmp_path / "map.zarr" / "efficiency" / "c" / "0" / "0"
+    content = chunk.read_bytes()
+    chunk.write_bytes(content[:-1] + bytes([content[-1] ^ 1]))
+    again = ballscrew("sweep", example, *AXES, "--to", "map.zarr", "--verify")
+    path = tmp_path / "map.zarr"
+    said = f"{path}: 1 block is computed again: efficiency/c/0/0 has another checksum\n"
+    assert (again.returncode, again.stdout, again.stderr) == (0, first.stdout, said + first.stderr)
+    assert files(path) == before
+    last = ballscrew("sweep", example, *AXES, "--to", "map.zarr", "--verify")
+    assert last.stderr.startswith(f"{path}: complete already, all checksums hold, nothing was computed\n")
+
+
+def test_options_of_a_store_need_one(example, ballscrew):
+    fault(ballscrew("sweep", example, "--to", "map.nc", "--verify"), "--verify: needs a store · add --to map.zarr")
 
 
 def test_a_folder_of_others_is_left_as_it_is(example, ballscrew, tmp_path):
@@ -122,7 +142,7 @@ def test_an_interrupt_ends_with_words_and_130(example, tmp_path):
     assert stderr.endswith(" blocks are finished · run the same again to go on\n")
     assert len(stderr.splitlines()) == 1
     assert sorted(path.name for path in (tmp_path / "map.zarr" / ".ballscrew").iterdir()) == [
-        "blocks", "plan.json", "zarr.json",
+        "blocks", "layout.json", "plan.json", "zarr.json",
     ]  # fmt: skip
 
 

@@ -183,6 +183,22 @@ def test_a_model_of_the_user_goes_to_the_workers(client, tmp_path):
     assert files(tmp_path / "there.zarr") == files(tmp_path / "here.zarr")
 
 
+def test_a_model_that_cannot_be_compared_goes_to_the_workers(client, tmp_path):
+    """Only its package is compared there: the model comes with the store."""
+    import dataclasses
+
+    def friction(conditions):
+        return np.interp(conditions.film_parameter, [0.0, 3.0], [0.2, eval("0.02")])
+
+    def model():
+        return dataclasses.replace(bs.FrictionModel.olaru2005(), friction=friction)
+
+    small = {"axial_load": [100.0, 1000.0], "block_size": 10_000}
+    assert sweep(tmp_path / "map.zarr", model, cluster=client, **small)["efficiency"].notnull().all()
+    with pytest.raises(bs.InputError, match=r"cannot be gone on with, .* \(.*friction, which calls eval\)"):
+        sweep(tmp_path / "map.zarr", model, cluster=client, **small)
+
+
 def test_a_fault_in_a_law_of_the_user_is_raised(client, tmp_path):
     import dataclasses
 

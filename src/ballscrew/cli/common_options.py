@@ -1,8 +1,10 @@
-"""Options that several commands share."""
+"""Options and messages that several commands share."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import contextlib
+import logging
+from collections.abc import Generator, Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -37,3 +39,22 @@ def say_constant_torque(case: Any) -> None:
 
     for line in constant_torque(case):
         typer.echo(line, err=True)
+
+
+class _Echo(logging.Handler):
+    def emit(self, record: logging.LogRecord) -> None:
+        typer.echo(record.getMessage(), err=True)
+
+
+@contextlib.contextmanager
+def log_on_stderr() -> Generator[None]:
+    """Show on the error stream what the package logs."""
+    logger, handler = logging.getLogger("ballscrew"), _Echo()
+    before = logger.level
+    logger.addHandler(handler)
+    logger.setLevel(logging.INFO)
+    try:
+        yield
+    finally:
+        logger.setLevel(before)
+        logger.removeHandler(handler)

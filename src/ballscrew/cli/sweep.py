@@ -16,6 +16,7 @@ from ballscrew.cli.common_options import (
     ModelName,
     Settings,
     Verbose,
+    log_on_stderr,
     say_constant_torque,
     say_engine,
 )
@@ -42,8 +43,19 @@ def sweep(
     ] = None,
     scheduler: Annotated[
         str | None,
-        typer.Option("--scheduler", metavar="ADDRESS", help="Fill a .zarr by the workers of a Dask scheduler."),
+        typer.Option(
+            "--scheduler",
+            metavar="ADDRESS",
+            help="Fill a .zarr by the workers of a Dask scheduler that you trust: it runs code.",
+        ),
     ] = None,
+    verify: Annotated[
+        bool,
+        typer.Option("--verify", help="Compare all checksums of a .zarr that is there; compute damaged blocks again."),
+    ] = False,
+    trust: Annotated[
+        bool, typer.Option("--trust", help="Write into a .zarr that belongs to another user, who can change it.")
+    ] = False,
     model: ModelName = None,
     settings: Settings = None,
     allow_code: AllowCode = False,
@@ -54,7 +66,7 @@ def sweep(
     Without --vary, the axes come from the [sweep] table of the case file, or else are ten loads and
     ten speeds up to those of the case. One output over two axes comes as a table, load down and
     speed across, ready to paste; otherwise one row a point. A .zarr is filled block by block: stopped
-    by whatever, the same command goes on where it was.
+    by whatever, the same command goes on where it was; blocks whose files are damaged are computed again.
     """
     from ballscrew.cases import case_file
     from ballscrew.cli.progress import progress
@@ -64,8 +76,9 @@ def sweep(
 
     loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
     plan = studies.plan(loaded, vary or [], output or [], to)
-    with _report_interruption(), studies.workers(scheduler, to) as cluster, progress("sweep") as done:
-        dataset = studies.sweep(loaded, plan, done, to, cluster)
+    studies.check_store_options(to, verify=verify, trust=trust)
+    with _report_interruption(), studies.workers(scheduler, to) as cluster, progress("sweep") as done, log_on_stderr():
+        dataset = studies.sweep(loaded, plan, done, to, cluster, verify=verify, trust=trust)
     if verbose:
         say_engine(dataset.attrs)
     if to is None:

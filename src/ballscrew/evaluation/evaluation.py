@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-import hashlib
+import functools
 import math
-import types
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
@@ -14,7 +13,6 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ballscrew._arrays import BLOCK_SIZE, map_blocks, processors
-from ballscrew._version import __version__
 from ballscrew.errors import (
     Fault,
     InputError,
@@ -31,7 +29,9 @@ from ballscrew.evaluation.engines import (
     why_numpy,
     worth_compiling,
 )
-from ballscrew.evaluation.plan import Plan
+from ballscrew.evaluation.fingerprint import Fingerprint, fingerprint_of, package_digest
+from ballscrew.evaluation.outputs import OPERATION
+from ballscrew.evaluation.plan import Configuration, Plan
 from ballscrew.kernels import kernel as kernels
 from ballscrew.kernels.emission import UnknownOperationError, kernel_text
 from ballscrew.kernels.kernel import Kernel
@@ -59,15 +59,20 @@ class Evaluation:
     """A plan made ready by one of the engines; the same bits whatever the blocks and the threads."""
 
     def __init__(
-        self, plan: Plan, engine: Engine, reason: str, said: str, works: _Works, block_size: int, row_length: int
+        self,
+        plan: Plan,
+        engine: Engine,
+        reason: str,
+        identify: Callable[[], Fingerprint],
+        works: _Works,
+        block_size: int,
+        row_length: int,
     ) -> None:
         self.plan = plan
         self.engine: Engine = engine
         #: Why it is this engine.
         self.reason = reason
-        #: A digest of the formulas as they are evaluated: on like processors, those that share it give the same bits.
-        self.fingerprint = hashlib.sha256(f"{engine}\n{said}".encode()).hexdigest()
-        self._said = said
+        self._identify = identify
         self._works = works
         self._work = works(plan)
         self._block_size = block_size
@@ -93,7 +98,8 @@ class Evaluation:
                 made = (_Grid.of(plan) if times == 1 else None) or _Points.of(plan, program)
                 if engine or worth_compiling(made.program, points, made.text):
                     chosen = ASKED_FOR if engine else PAYS
-                    return cls(plan, "compiled", chosen, made.said, made.compiled(), LARGEST_BLOCK, made.row_length)
+                    identify = functools.partial(_fingerprint, plan, "compiled", program, lambda: made.said)
+                    return cls(plan, "compiled", chosen, identify, made.compiled(), LARGEST_BLOCK, made.row_length)
         except CannotRecordError as error:
             why = f"the model itself, on plain arrays: {error}"
         except UnknownOperationError as unknown:
@@ -101,6 +107,16 @@ class Evaluation:
         if engine == "compiled":
             raise InputError(Fault("sweep.engine", f"cannot be had: {why}", engine, 'take engine="numpy"'))
         return _by_numpy(plan, program, why)
+
+    @functools.cached_property
+    def identity(self) -> Fingerprint:
+        """The formulas as they are evaluated: on like processors, those that share it give the same bits."""
+        return self._identify()
+
+    @property
+    def fingerprint(self) -> str:
+        """The digest of the formulas as they are evaluated."""
+        return self.identity.digest
 
     @property
     def attributes(self) -> dict[str, str]:
@@ -116,7 +132,9 @@ class Evaluation:
         axes = {**self.plan.axes, **{name: xr.DataArray(value) for name, value in values.items()}}
         sizes = {str(d): size for axis in axes.values() for d, size in zip(axis.dims, axis.shape, strict=True)}
         plan = dataclasses.replace(self.plan, axes=axes, sizes=sizes)
-        return Evaluation(plan, self.engine, self.reason, self._said, self._works, self._block_size, self._row_length)
+        return Evaluation(
+            plan, self.engine, self.reason, self._identify, self._works, self._block_size, self._row_length
+        )
 
     def empty(self, count: int) -> dict[str, NDArray[Any]]:
         """Room for the results of so many points."""
@@ -171,28 +189,21 @@ def _by_numpy(plan: Plan, program: Program | None, reason: str) -> Evaluation:
 
         return work
 
-    said = _code_of(plan) if program is None else program.text
-    return Evaluation(plan, "numpy", reason, said, works, max(1, BLOCK_SIZE // plan.subject.balls), 1)
+    identify = functools.partial(_fingerprint, plan, "numpy", program, lambda: program.text if program else "")
+    return Evaluation(plan, "numpy", reason, identify, works, max(1, BLOCK_SIZE // plan.subject.balls), 1)
 
 
-def _code_of(plan: Plan) -> str:
-    """What stands for the formulas where they cannot be recorded: the version, and the code of the laws."""
-    subject = plan.subject
-    losses = {} if subject.nut is None else subject.nut.losses
-    parts = {field.name: getattr(subject.model, field.name) for field in dataclasses.fields(subject.model)}
-    said = [__version__]
-    for name, law in (parts | dict(losses)).items():
-        said.append(f"{name} {_said(law)} {_said(type(law).__call__)}")
-    return "\n".join(said)
-
-
-def _said(value: Any) -> str:
-    """Code, numbers and words as text that is the same in every process; of other things, what they are."""
-    if isinstance(value, types.FunctionType):
-        return f"{_said(value.__code__)} {[_said(cell.cell_contents) for cell in value.__closure__ or ()]}"
-    if isinstance(value, types.CodeType):
-        return f"{value.co_code.hex()} {value.co_names} {[_said(constant) for constant in value.co_consts]}"
-    return repr(value) if isinstance(value, str | int | float | bytes | None) else type(value).__name__
+def _fingerprint(plan: Plan, engine: Engine, program: Program | None, said: Callable[[], str]) -> Fingerprint:
+    """That of the formulas as they are evaluated: recorded steps, or else the model as code and values."""
+    held: dict[str, Any] = {"engine": engine, "formulas": said()}
+    if program is not None:
+        # steps of other libraries are known by more than their names
+        functions = [step.function for _, step in program.steps]
+        held["functions"] = [f for f in functions if getattr(np, f.__name__, None) is not f]
+    else:
+        held |= {"package": package_digest(), "evaluated": Configuration.at, "outputs": plan.wanted}
+        held |= vars(plan.subject.changed({n: v for n, v in plan.points(slice(0, 1)).items() if n not in OPERATION}))
+    return fingerprint_of(held)
 
 
 class _Kernels:

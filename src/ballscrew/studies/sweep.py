@@ -21,7 +21,7 @@ from ballscrew.cases.schema import name_of_law
 from ballscrew.components.materials import TEMPERATURE, Lubricant, Material
 from ballscrew.components.screw import MATERIALS
 from ballscrew.components.traits import traits_of
-from ballscrew.errors import Fault, InputError, fault_of, nearest
+from ballscrew.errors import Fault, InputError, fault_of, nearest, raise_if_any
 from ballscrew.evaluation.engines import FEW_POINTS
 from ballscrew.evaluation.outputs import DEFAULT_OUTPUTS, NUT_OUTPUTS, OPERATION, inputs_of, known_outputs
 from ballscrew.evaluation.plan import Configuration
@@ -225,11 +225,15 @@ def sweep(
     done: Callable[[int, int], None] | None = None,
     to: Path | None = None,
     cluster: Any = None,
+    *,
+    verify: bool = False,
+    trust: bool = False,
 ) -> xr.Dataset:
     """The dataset of a plan; load and speed are those of the case where they are not varied.
 
     It also says which points are valid, and why not, whether that was asked for or not. With a
-    store ``to`` it is filled first, by the workers of a ``cluster`` if there is one.
+    store ``to`` it is filled first, by the workers of a ``cluster`` if there is one; ``verify`` and ``trust`` are
+    those of :func:`~ballscrew.sweeps.sweep.sweep`.
     """
     fixed = {name: getattr(case.operation, name) for name in OPERATION if name not in plan.axes}
     names = dict.fromkeys((*plan.outputs, "valid", *(f"validity_{reason}" for reason in reasons_of(case))))
@@ -240,7 +244,7 @@ def sweep(
     if to is not None and is_store(to):
         subject = Configuration(case.model, case.screw, case.lubricant, case.parts)
         swept = Swept.of(subject, tuple(names), varied | fixed)
-        return stream(swept, to, done=done, cluster=cluster, attributes=oil)
+        return stream(swept, to, done=done, cluster=cluster, attributes=oil, verify=verify, trust=trust)
     # files of all kinds have the same bits; what is only looked at may be quicker
     few = to is None and math.prod(len(values) for values in plan.axes.values()) <= FEW_POINTS
     dataset = sweeps.sweep(
@@ -249,6 +253,13 @@ def sweep(
     )  # fmt: skip
     dataset.attrs |= oil
     return dataset
+
+
+def check_store_options(to: Path | None, **given: bool) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` for options of a store where there is none."""
+    remedy = "add --to map.zarr"
+    without = [name for name, is_given in given.items() if is_given and not is_store(to)]
+    raise_if_any([Fault(f"--{name}", "needs a store", "", remedy) for name in without])
 
 
 @contextlib.contextmanager

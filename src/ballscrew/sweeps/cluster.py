@@ -28,6 +28,7 @@ from ballscrew.errors import (
     InputError,
 )
 from ballscrew.evaluation.evaluation import Evaluation
+from ballscrew.evaluation.fingerprint import package_digest
 from ballscrew.sweeps.store import FULL, Store
 
 #: Tasks for each thread of the cluster that are under way or wait at the workers: some, so that no
@@ -174,8 +175,18 @@ def _write_block(number: int, store: Store, threads: int) -> int:
     evaluation = _evaluation_of(store)
     results = evaluation.empty(store.blocks.points(number))
     evaluation.fill(results, store.blocks.span(number), threads=threads)
-    store.commit(number, results, [store.write(number, name, results[name]) for name in store.variables])
+    store.commit(number, results, {name: store.write(number, name, results[name]) for name in store.variables})
     return number
+
+
+def _is_same(evaluation: Evaluation, store: Store) -> bool:
+    """Return whether this process evaluates the formulas of a store.
+
+    A model that cannot be compared was sent with the store, so that the package is all that may differ.
+    """
+    if evaluation.identity.unknown:
+        return store.description.get("package") == package_digest()
+    return evaluation.fingerprint == store.description["formulas"]
 
 
 def _evaluation_of(store: Store) -> Evaluation:
@@ -185,7 +196,7 @@ def _evaluation_of(store: Store) -> Evaluation:
         if which not in _evaluations:
             store.check_from_worker()
             evaluation = Evaluation.of(store.plan, store.description["engine"])
-            if evaluation.fingerprint != store.description["formulas"]:
+            if not _is_same(evaluation, store):
                 remedy = "install the same version of ballscrew on all nodes"
                 raise InputError(Fault(_WHERE, "a worker has other formulas", store.description["version"], remedy))
             _evaluations.clear()

@@ -16,6 +16,7 @@ from types import ModuleType
 from typing import Any
 
 from ballscrew.errors import Fault, InputError
+from ballscrew.sweeps.store_entries import opened_as_file
 
 _fcntl: ModuleType | None = importlib.import_module("fcntl") if importlib.util.find_spec("fcntl") else None
 #: Error numbers of a file system without locks.
@@ -34,8 +35,8 @@ class Lock:
     def __init__(self, path: Path, where: str, holds: Path) -> None:
         self._path = path
         while True:
-            # "a+" makes the file where there is none and leaves what is in it
-            self._file = path.open("a+", encoding="utf-8")
+            # the file is made where there is none, and what is in it stays; a link is not followed
+            self._file = os.fdopen(opened_as_file(path), "r+", encoding="utf-8")
             holder = _holder(self._file)
             if _is_held_by_other(self._file, holder):
                 self._file.close()
@@ -52,7 +53,7 @@ class Lock:
 
     def _is_in_place(self) -> bool:
         try:
-            return os.path.samestat(os.fstat(self._file.fileno()), self._path.stat())
+            return os.path.samestat(os.fstat(self._file.fileno()), self._path.lstat())
         except FileNotFoundError:
             return False
 

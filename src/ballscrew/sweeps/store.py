@@ -1,15 +1,17 @@
 """A sweep on disk: a Zarr store that is filled block by block, and goes on where it was stopped.
 
-The only module of this room that writes files, and only inside the store::
+Files are written here and, by Zarr, in :mod:`~ballscrew.sweeps.store_layout`, and only inside the store::
 
     map.zarr/zarr.json              last of all, by a rename: a store without it is not finished
     map.zarr/screw_torque/c/0/1     a chunk: the results of one block, one output
     map.zarr/.ballscrew/plan.json   what the store holds, with its digest
-    map.zarr/.ballscrew/blocks.csv  checksums (CRC-32 of the numbers) of all blocks
+    map.zarr/.ballscrew/layout.json sizes and checksums of metadata and coordinates, with a digest
+    map.zarr/.ballscrew/blocks.csv  sizes and checksums (CRC-32) of the chunks of all blocks
     map.zarr/.ballscrew/blocks/12   the row of one block; there once its chunks are, until all are
     map.zarr/.ballscrew/lock        while somebody writes
 
-Every file is written under another name, brought to the disk, and renamed.
+Every file is written under another name, brought to the disk, and renamed. What is damaged is found by
+sizes and checksums (:mod:`~ballscrew.sweeps.store_check`) and written again.
 """
 
 from __future__ import annotations
@@ -20,13 +22,12 @@ import errno
 import functools
 import importlib.util
 import itertools
-import json
+import logging
 import os
 import shutil
 import socket
 import uuid
-import warnings
-from collections.abc import Generator, Iterable, Mapping, Sequence
+from collections.abc import Collection, Generator, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -39,22 +40,21 @@ from ballscrew.errors import (
     raise_if_any,
 )
 from ballscrew.evaluation.evaluation import Engine, Evaluation
-from ballscrew.evaluation.outputs import attributes_of
 from ballscrew.evaluation.plan import Plan
-from ballscrew.sweeps.store_plan import Blocks, canonical_json, checksum, description_of, differences
-from ballscrew.sweeps.store_rows import FALSE, OTHER, OWN, WHERE, crc, row
+from ballscrew.sweeps.store_check import LAYOUT, ROOT, Contents, Damage, stored_plan
+from ballscrew.sweeps.store_entries import refuse_unsafe
+from ballscrew.sweeps.store_layout import lay_out
+from ballscrew.sweeps.store_plan import Blocks, checksum, description_of, differences, sealed
+from ballscrew.sweeps.store_rows import OTHER, WHERE, Content, row
 
-#: LZ4 with the bytes of equal weight side by side: a map of seven outputs takes 0.72 of its bytes, and
-#: a disk slower than a processor compresses has the less to do. Zstandard saves 0.02 more at most and
-#: takes up to twice as long; on numbers as they are it saves half as much
-#: (``benchmarks/out_of_core.py --codecs``).
-COMPRESSION: Mapping[str, Any] = {"cname": "lz4", "clevel": 1, "shuffle": "shuffle"}
 #: Suffixes that mean a file, not the folder of a store.
 _FILES = (".csv", ".xlsx", ".nc", ".json", ".toml")
-_ROOT = "zarr.json"
-_FOREIGN = "is there and is not the store of a sweep"
+#: At most so many damaged files are named in a message.
+_NAMED_AT_MOST = 3
 #: A disk that is full, for all or for this user.
 FULL = {errno.ENOSPC, errno.EDQUOT}
+
+_log = logging.getLogger(__name__)
 
 
 class UnfinishedSweepError(OSError):
@@ -83,14 +83,17 @@ class Store:
         engine: Engine | None = None,
         block_size: int | None = None,
         attributes: Mapping[str, Any] | None = None,
+        trust: bool = False,
     ) -> tuple[Store, Evaluation]:
         """The store of a plan, new or begun, and its evaluation; nothing is written yet.
 
         A store that was begun keeps its engine. ``attributes`` go to the dataset with those of the plan.
-        Raises :class:`~ballscrew.errors.InputError` if something else lies there, and says what.
+        Raises :class:`~ballscrew.errors.InputError` if something else lies there, and says what; for a link in the
+        store; and for a store of another user, unless ``trust``.
         """
         folder = _checked(path, plan)
-        stored = _stored(folder)
+        refuse_unsafe(folder, trust=trust)
+        stored = stored_plan(folder)
         chosen = engine or (None if stored is None else stored["engine"])
         try:
             evaluation = Evaluation.of(plan, chosen)
@@ -99,14 +102,16 @@ class Store:
                 begun = Fault(WHERE, f"was begun with the engine {chosen}", str(folder), OTHER)
                 raise InputError(begun, *error.faults) from None
             raise
+        if stored is not None and evaluation.identity.unknown:
+            problem = "cannot be gone on with, as it cannot be known whether the model is the same"
+            remedy = f"choose another name, or remove {folder}"
+            raise InputError(Fault(WHERE, problem, evaluation.identity.unknown, remedy))
         blocks = Blocks.of(plan, block_size)
         engine_of = evaluation.attributes
         if stored is not None:  # the reason for the choice when the store was begun
             engine_of |= {n: v for n, v in stored["attributes"].items() if n == "engine_reason"}
         all_attributes = {**plan.subject.attributes(list(plan.axes)), **engine_of, **(attributes or {})}
-        document = description_of(
-            plan, blocks, all_attributes, engine=evaluation.engine, fingerprint=evaluation.fingerprint
-        )
+        document = description_of(plan, blocks, all_attributes, engine=evaluation.engine, identity=evaluation.identity)
         store = cls(folder, plan, blocks, document)
         store.check(stored)
         return store, evaluation
@@ -115,7 +120,7 @@ class Store:
         """Raise :class:`~ballscrew.errors.InputError` where this process does not see the store that was begun."""
         _checked(self.path, self.plan)
         try:
-            seen = _stored(self.path) == self.description
+            seen = stored_plan(self.path) == self.description
         except InputError:
             seen = False
         if not seen:
@@ -128,10 +133,15 @@ class Store:
         differing = [] if stored is None else differences(stored, self.description)
         raise_if_any([Fault(WHERE, "holds another sweep", words, remedy) for words in differing])
 
+    @functools.cached_property
+    def contents(self) -> Contents:
+        """The files that the store has by its plan."""
+        return Contents.of(self.path, self.description)
+
     @property
     def own(self) -> Path:
         """The folder with the plan and the checksums."""
-        return self.path / OWN
+        return self.contents.own
 
     @property
     def variables(self) -> list[str]:
@@ -141,82 +151,68 @@ class Store:
     @property
     def is_complete(self) -> bool:
         """Return whether all blocks are finished and the store can be opened."""
-        return (self.path / _ROOT).exists()
+        return self.contents.is_complete
 
-    def finished(self) -> set[int]:
-        """The numbers of the finished blocks of a store that is not complete; an incomplete marker is ignored."""
-        found: set[int] = set()
-        with contextlib.suppress(FileNotFoundError):
-            for path in (self.own / "blocks").iterdir():
-                number = int(path.name) if path.name.isdecimal() else -1
-                if 0 <= number < self.blocks.count and self._marks(path, number):
-                    found.add(number)
-        return found
-
-    def _marks(self, path: Path, number: int) -> bool:
-        cells = path.read_text(encoding="utf-8", errors="replace").strip().split(",")
-        return cells[0] == str(number) and len(cells) == 1 + len(self.variables) + len(self._truths)
+    def finished(self) -> Collection[int]:
+        """The numbers of the finished blocks; those without a valid row are left out."""
+        return self.contents.rows().keys()
 
     # -- from begin to end ------------------------------------------------------------------------
 
-    def begin(self) -> None:
-        """Prepare the folder for blocks; remove what a killed process left behind."""
-        self.check(_stored(self.path))
+    def begin(self) -> bool:
+        """Prepare the folder for blocks; remove what a killed process left behind. Return whether the store is new."""
+        stored = stored_plan(self.path)
+        self.check(stored)
         shutil.rmtree(self.own / "temporary", ignore_errors=True)
         (self.own / "temporary").mkdir(exist_ok=True)
-        if _stored(self.path) is None:
-            self._put(
-                self.own / "plan.json", [canonical_json({"plan": self.description, "sha256": self.digest}).encode()]
-            )
-        if not (self.own / _ROOT).exists() and not self.is_complete:
+        if stored is None:
+            self._put(self.own / "plan.json", [sealed("plan", self.description)])
+        return stored is None
+
+    def pending(self, *, new: bool) -> list[int]:
+        """The numbers of the blocks that are not finished, damaged ones among them, as the log tells.
+
+        Damaged metadata are written again.
+        """
+        contents, rows = self.contents, self.contents.rows()
+        of_blocks = contents.damaged_blocks(rows, checksums=True)
+        others = contents.damaged_layout(checksums=True)
+        if self.is_complete and (of_blocks or others):
+            (self.path / ROOT).replace(self.own / ROOT)  # nobody shall open it until it is repaired
+        if others:
+            if not new and (rows or (self.own / LAYOUT).exists()):  # else a process was killed as it began
+                _log.warning("%s: written again: %s", self.path, _named(others))
             self._lay_out()
+        bad = {damage.block for damage in of_blocks}
+        if bad:
+            blocks = f"{len(bad)} block{'s are' if len(bad) > 1 else ' is'}"
+            _log.warning("%s: %s computed again: %s", self.path, blocks, _named(of_blocks))
         (self.own / "blocks").mkdir(exist_ok=True)
+        return [number for number in range(self.blocks.count) if number not in rows or number in bad]
 
     def _lay_out(self) -> None:
         """All metadata and coordinates, in place; the root's aside, until the store is complete."""
-        import zarr
-        from zarr.codecs import BloscCodec
-
         new = self.own / "temporary" / "new"
-        with warnings.catch_warnings():
-            # labels that are text have no settled type in Zarr 3 yet; they are read back by the same library
-            warnings.filterwarnings("ignore", message=".*does not have a Zarr V3 specification")
-            coordinates = xr.Dataset(coords=self.plan.coordinates(), attrs=dict(self.description["attributes"]))
-            coordinates.to_zarr(new, zarr_format=3, consolidated=False)
-        aside = [str(name) for name in coordinates.coords if name not in coordinates.dims]
-        for name in self.variables:
-            output = self.plan.wanted[name]
-            attributes: dict[str, Any] = {**attributes_of(output.quantity)}
-            if aside:
-                attributes["coordinates"] = " ".join(aside)
-            zarr.create_array(
-                new,
-                name=name,
-                shape=self.blocks.shape,
-                chunks=self.blocks.chunk,
-                dtype=np.dtype(output.dtype),
-                compressors=BloscCodec(**COMPRESSION) if self.blocks.shape else None,
-                fill_value=np.dtype(output.dtype).type(np.nan if output.dtype is float else False),
-                dimension_names=list(self.plan.sizes),
-                attributes=attributes,
-            )
-        root = json.loads((new / _ROOT).read_text(encoding="utf-8"))
-        root["attributes"].pop("coordinates", None)  # each variable names its own
-        members = sorted(path.name for path in new.iterdir() if path.is_dir())
-        # with the metadata of all members in one place nobody need list the folder
-        metadata = {name: json.loads((new / name / _ROOT).read_text(encoding="utf-8")) for name in members}
-        root["consolidated_metadata"] = {"kind": "inline", "must_understand": False, "metadata": metadata}
-        for name in members:
-            shutil.rmtree(self.path / name, ignore_errors=True)  # of a process killed at this very place
-            (new / name).replace(self.path / name)
-        self._put(self.own / _ROOT, [json.dumps(root, indent=2, ensure_ascii=False, sort_keys=True).encode()])
+        shutil.rmtree(new, ignore_errors=True)
+        layout = lay_out(new, self.plan, self.blocks, self.variables, self.description["attributes"])
+        for member in sorted(path for path in new.iterdir() if path.is_dir()):
+            place = self.path / member.name
+            if member.name in self.variables:  # chunks that are there stay
+                place.mkdir(exist_ok=True)
+                (member / ROOT).replace(place / ROOT)
+            else:
+                shutil.rmtree(place, ignore_errors=True)
+                member.replace(place)
+        (new / ROOT).replace(self.own / ROOT)
+        self._put(self.own / LAYOUT, [sealed("layout", layout)])
 
     def finish(self) -> None:
         """One file of checksums, then the root's metadata: now the store can be opened."""
         if not self.is_complete:
-            rows = (self.own / "blocks" / str(number) for number in range(self.blocks.count))
-            self._put(self.own / "blocks.csv", itertools.chain([self._heading], (row.read_bytes() for row in rows)))
-            (self.own / _ROOT).replace(self.path / _ROOT)
+            rows = self.contents.rows()
+            table = (rows[number] for number in range(self.blocks.count))
+            self._put(self.own / "blocks.csv", itertools.chain([row(self.contents.heading)], table))
+            (self.own / ROOT).replace(self.path / ROOT)
         self.clear()
         shutil.rmtree(self.own / "blocks", ignore_errors=True)
 
@@ -227,7 +223,15 @@ class Store:
     @property
     def is_tidy(self) -> bool:
         """Return whether no temporary file of the filling is left."""
-        return {path.name for path in self.own.iterdir()} == {"plan.json", "blocks.csv"}
+        return {path.name for path in self.own.iterdir()} == {"plan.json", LAYOUT, "blocks.csv"}
+
+    @property
+    def is_intact(self) -> bool:
+        """Return whether the store is complete, and all files are there in their sizes."""
+        contents = self.contents
+        if not (self.is_complete and self.is_tidy) or contents.damaged_layout(checksums=False):
+            return False
+        return not contents.damaged_blocks(contents.rows(), checksums=False)
 
     @functools.cached_property
     def digest(self) -> str:
@@ -236,32 +240,32 @@ class Store:
 
     # -- blocks -----------------------------------------------------------------------------------
 
-    def write(self, number: int, name: str, values: np.ndarray) -> str:
-        """Write the results of a block, one output; their checksum. Values are those of the flattened block."""
+    def write(self, number: int, name: str, values: np.ndarray) -> Content:
+        """Write the results of a block, one output; size and checksum. Values are those of the flattened block."""
         import zarr
         from zarr.storage import MemoryStore
 
-        held = {_ROOT: self._metadata[name]}  # Zarr makes the chunk in memory; how it gets to the disk is ours
+        held = {ROOT: self._metadata[name]}  # Zarr makes the chunk in memory; how it gets to the disk is ours
         region = self.blocks.region(number)
         array: Any = zarr.open_array(MemoryStore(held), mode="r+")
         array[region if region else ...] = values.reshape([part.stop - part.start for part in region])
-        for key, chunk in held.items():
-            if key != _ROOT:  # a chunk of nothing but the fill value has no file
-                self._put(self.path / name / key, [chunk.as_numpy_array()])
-        return crc(values)
+        key = self.contents.key(number, name)
+        chunk = held.get(self.blocks.key(number))
+        if chunk is None:  # of nothing but the fill value
+            (self.path / key).unlink(missing_ok=True)
+            return Content.of(key, b"")
+        content = chunk.as_numpy_array()
+        self._put(self.path / key, [content])
+        return Content.of(key, content)
 
-    def commit(self, number: int, results: Mapping[str, np.ndarray], checksums: Sequence[str]) -> None:
+    def commit(self, number: int, results: Mapping[str, np.ndarray], chunks: Mapping[str, Content]) -> None:
         """Mark a block as finished, after all its outputs are written."""
-        false = [results[name].size - np.count_nonzero(results[name]) for name in self._truths]
-        self._put(self.own / "blocks" / str(number), [row([number, *checksums, *false])])
-
-    @property
-    def _heading(self) -> bytes:
-        return row(["block", *self.variables, *(f"{name}{FALSE}" for name in self._truths)])
-
-    @property
-    def _truths(self) -> list[str]:
-        return [name for name in self.variables if self.plan.wanted[name].dtype is bool]
+        contents = self.contents
+        written = itertools.chain.from_iterable(
+            (chunks[name].checksum, chunks[name].bytes) for name in contents.variables
+        )
+        false = [results[name].size - np.count_nonzero(results[name]) for name in contents.truths]
+        self._put(self.own / "blocks" / str(number), [row([number, *written, *false])])
 
     @functools.cached_property
     def _metadata(self) -> dict[str, Any]:
@@ -269,13 +273,13 @@ class Store:
         from zarr.core.buffer import default_buffer_prototype
 
         buffer = default_buffer_prototype().buffer
-        return {name: buffer.from_bytes((self.path / name / _ROOT).read_bytes()) for name in self.variables}
+        return {name: buffer.from_bytes((self.path / name / ROOT).read_bytes()) for name in self.variables}
 
     def _put(self, path: Path, content: Iterable[Any]) -> None:
         """Write a file that is complete and synced to disk before it gets its name."""
         temporary = self.own / "temporary" / uuid.uuid4().hex
         try:
-            with temporary.open("xb") as file:
+            with temporary.open("xb") as file:  # "x" follows no link, nor does a rename
                 file.writelines(content)
                 file.flush()
                 os.fsync(file.fileno())
@@ -308,32 +312,6 @@ def _checked(path: str | os.PathLike[str], plan: Plan) -> Path:
     return Path(path).absolute()
 
 
-def _stored(folder: Path) -> dict[str, Any] | None:
-    """The document of the store in a folder; None where there is no store yet.
-
-    Raises :class:`~ballscrew.errors.InputError` where something else is: it is not touched.
-    """
-    path = folder / OWN / "plan.json"
-    try:
-        text = path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        # without a plan there may be what a process left that was killed as it began
-        if not folder.exists() or not {path.name for path in folder.iterdir()} - {OWN}:
-            return None
-        raise InputError(Fault(WHERE, _FOREIGN, str(folder), "choose another name")) from None
-    except NotADirectoryError:
-        if not folder.exists():
-            return None  # it is above that there is none, as making the folder will say
-        raise InputError(Fault(WHERE, _FOREIGN, str(folder), "choose another name")) from None
-    except (OSError, ValueError) as error:
-        raise InputError(Fault(WHERE, "cannot be read", f"{path}: {error}", OTHER)) from None
-    with contextlib.suppress(ValueError, KeyError, TypeError):
-        kept = json.loads(text)
-        if checksum(kept["plan"]) == kept["sha256"]:
-            return kept["plan"]
-    raise InputError(Fault(WHERE, "has a damaged plan", str(path), OTHER))
-
-
 @contextlib.contextmanager
 def stopping_cleanly(store: Store) -> Generator[None]:
     """Remove temporary files when the work stops, and report how many blocks are finished.
@@ -351,6 +329,12 @@ def stopping_cleanly(store: Store) -> Generator[None]:
         raise
     finally:
         store.clear()
+
+
+def _named(damaged: Sequence[Damage]) -> str:
+    """The first of the damaged files, and how many more there are."""
+    more = len(damaged) - _NAMED_AT_MOST
+    return ", ".join(map(str, damaged[:_NAMED_AT_MOST])) + (f" and {more} more" if more > 0 else "")
 
 
 def _stopped(store: Store, why: str, remedy: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import hashlib
 import itertools
@@ -13,15 +14,16 @@ from typing import Any
 import numpy as np
 
 from ballscrew._version import __version__
+from ballscrew.evaluation.fingerprint import Fingerprint, package_digest
 from ballscrew.evaluation.plan import Configuration, Plan
 
 #: Version of the layout of a store.
-FORMAT = 1
+FORMAT = 2
 #: The results of one block take at most so many bytes: a few blocks at a time fit any memory, and a
 #: file of each output still has some megabytes.
 BLOCK_BYTES = 32_000_000
 #: Entries that differ as a consequence of others, and are reported only where no other differs.
-_CONSEQUENCES = ("chunks", "formulas")
+_CONSEQUENCES = ("shape", "chunks", "formulas", "package")
 #: Digits of a digest that a message shows.
 _DIGITS_SHOWN = 12
 
@@ -66,10 +68,16 @@ class Blocks:
         """The points of a block, of the last ones along an axis perhaps fewer."""
         return math.prod(self.chunk)
 
+    def _places(self, number: int) -> list[int]:
+        return [int(place) for place in np.unravel_index(number, self.along)] if self.shape else []
+
+    def key(self, number: int) -> str:
+        """The path of the chunk of a block in the folder of each output."""
+        return "/".join(["c", *map(str, self._places(number))])
+
     def region(self, number: int) -> tuple[slice, ...]:
         """The range of a block in the grid."""
-        places = np.unravel_index(number, self.along) if self.shape else ()
-        corners = [int(place) * part for place, part in zip(places, self.chunk, strict=True)]
+        corners = [place * part for place, part in zip(self._places(number), self.chunk, strict=True)]
         return tuple(
             slice(corner, min(corner + part, length))
             for corner, part, length in zip(corners, self.chunk, self.shape, strict=True)
@@ -90,9 +98,12 @@ class Blocks:
 
 
 def description_of(
-    plan: Plan, blocks: Blocks, attributes: Mapping[str, Any], *, engine: str, fingerprint: str
+    plan: Plan, blocks: Blocks, attributes: Mapping[str, Any], *, engine: str, identity: Fingerprint
 ) -> dict[str, Any]:
-    """All that determines the bytes of a store, as plain JSON values: equal if and only if the stores are."""
+    """All that determines the bytes of a store, as plain JSON values: equal if and only if the stores are.
+
+    Where it cannot be known what a model computes, its fingerprint is random, and at least the package is compared.
+    """
     coordinates = {
         name: _digest(axis.dims, axis.to_numpy()) if axis.dims else axis.to_numpy().item()
         for name, axis in plan.axes.items()
@@ -107,8 +118,10 @@ def description_of(
         "format": FORMAT,
         "version": __version__,
         "engine": engine,
-        "formulas": fingerprint,
+        "formulas": identity.digest,
+        **({"package": package_digest()} if identity.unknown else {}),
         "grid": " x ".join(f"{name} {size}" for name, size in plan.sizes.items()),  # their order counts
+        "shape": blocks.shape,
         "chunks": blocks.chunk,
         "axes": coordinates | labels,
         "outputs": {name: np.dtype(output.dtype).name for name, output in plan.wanted.items()},
@@ -139,6 +152,20 @@ def _json(document: Mapping[str, Any], *, sort_keys: bool = False) -> str:
 def checksum(document: Mapping[str, Any]) -> str:
     """The digest of a description."""
     return hashlib.sha256(canonical_json(document).encode()).hexdigest()
+
+
+def sealed(name: str, document: Mapping[str, Any]) -> bytes:
+    """A document under a name, with its digest, as the text of a file."""
+    return canonical_json({name: document, "sha256": checksum(document)}).encode()
+
+
+def read_sealed(name: str, text: str) -> dict[str, Any] | None:
+    """The document of a name in the text of a file; None where it is damaged."""
+    with contextlib.suppress(ValueError, KeyError, TypeError):
+        kept = json.loads(text)
+        if checksum(kept[name]) == kept["sha256"]:
+            return kept[name]
+    return None
 
 
 def differences(stored: Mapping[str, Any], wanted: Mapping[str, Any]) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import shutil
 from collections.abc import Callable, Mapping, Sequence
@@ -18,10 +19,13 @@ from ballscrew.evaluation.plan import Plan
 from ballscrew.sweeps.cluster import check_cluster, fill_on_cluster
 from ballscrew.sweeps.lock import Lock
 from ballscrew.sweeps.store import Store, stopping_cleanly
-from ballscrew.sweeps.store_rows import WHERE
+from ballscrew.sweeps.store_entries import refuse_unsafe
+from ballscrew.sweeps.store_rows import WHERE, Content
 
 #: Outputs of a block that are compressed and written at a time.
 WRITERS = 4
+
+_log = logging.getLogger(__name__)
 
 
 def stream(
@@ -34,34 +38,43 @@ def stream(
     done: Callable[[int, int], None] | None = None,
     cluster: Any = None,
     attributes: Mapping[str, Any] | None = None,
+    verify: bool = False,
+    trust: bool = False,
 ) -> xr.Dataset:
     """Evaluate a plan into the store ``to``, from where it was stopped if it was, and open it.
 
     ``block_size`` is the number of points of a block at most; ``attributes`` are kept beside those
     of the plan. ``done(finished, total)`` reports points, first those finished before.
+    Blocks whose files are damaged are computed again, and the log tells. Of finished blocks sizes and checksums are
+    compared before a run goes on, of a complete store sizes, with ``verify`` also checksums.
     Raises :class:`~ballscrew.errors.InputError` if something else is there or another process
     writes it, and :class:`~ballscrew.sweeps.store.UnfinishedSweepError` if the disk is full or the cluster is lost.
     """
     if cluster is not None:
         check_cluster(cluster)
-    store, evaluation = Store.of(to, plan, engine=engine, block_size=block_size, attributes=attributes)
-    if store.is_complete and store.is_tidy:
+    store, evaluation = Store.of(to, plan, engine=engine, block_size=block_size, attributes=attributes, trust=trust)
+    if not verify and store.is_intact:
+        _log.info("%s: complete already, nothing was computed", store.path)
         return store.opened()
-    lock = _locked(store)
+    lock = _locked(store, trust=trust)
     try:
         with stopping_cleanly(store):
-            store.begin()
-            if not store.is_complete:
-                _fill(store, evaluation, threads=threads, done=done, cluster=cluster)
+            new = store.begin()
+            pending = store.pending(new=new)
+            if pending:
+                _fill(store, evaluation, pending, new=new, threads=threads, done=done, cluster=cluster)
+            elif store.is_complete:
+                _log.info("%s: complete already, all checksums hold, nothing was computed", store.path)
             store.finish()
     finally:
         lock.release()
     return store.opened()
 
 
-def _locked(store: Store) -> Lock:
+def _locked(store: Store, *, trust: bool) -> Lock:
     try:
         store.own.mkdir(parents=True, exist_ok=True)
+        refuse_unsafe(store.path, trust=trust)  # once more, now that nobody else can have made the folder
         return Lock(store.own / "lock", WHERE, store.path)
     except OSError as error:
         why = f"{store.path}: {error.strerror or error}"
@@ -71,15 +84,15 @@ def _locked(store: Store) -> Lock:
 def _fill(
     store: Store,
     evaluation: Evaluation,
+    pending: Sequence[int],
     *,
+    new: bool,
     threads: int | None,
     done: Callable[[int, int], None] | None,
     cluster: Any,
 ) -> None:
-    """Evaluate all blocks that are not finished, here or on a cluster."""
-    finished = store.finished()
-    pending = [number for number in range(store.blocks.count) if number not in finished]
-    points = sum(map(store.blocks.points, finished))
+    """Evaluate the blocks that are not finished, here or on a cluster."""
+    points = store.plan.total - sum(map(store.blocks.points, pending))
 
     def report(more: int) -> None:
         if done is not None:
@@ -92,7 +105,7 @@ def _fill(
         else:
             fill(store, evaluation, pending, report, threads=threads)
     except InputError:
-        if not store.finished():  # no block was written: remove the empty store
+        if new and not store.finished():  # no block was written: remove the empty store
             shutil.rmtree(store.path, ignore_errors=True)
         raise
 
@@ -107,15 +120,15 @@ def fill(
 ) -> None:
     """Evaluate blocks and write them; two of them are in memory at a time. ``report`` gets points."""
     room = [evaluation.empty(store.blocks.largest) for _ in range(min(2, len(pending)))]
-    being_written: list[tuple[int, Mapping[str, np.ndarray], list[Future[str]]]] = []
+    being_written: list[tuple[int, Mapping[str, np.ndarray], dict[str, Future[Content]]]] = []
     points = 0
 
     def commit_pending() -> None:
         """Wait for the block being written and mark it as finished."""
         while being_written:
             number, results, writes = being_written.pop()
-            wait(writes)
-            store.commit(number, results, [write.result() for write in writes])
+            wait(writes.values())
+            store.commit(number, results, {name: write.result() for name, write in writes.items()})
 
     with ThreadPoolExecutor(WRITERS) as pool:
         try:
@@ -128,7 +141,7 @@ def fill(
                 )
                 points += size
                 commit_pending()
-                writes = [pool.submit(store.write, number, name, results[name]) for name in store.variables]
+                writes = {name: pool.submit(store.write, number, name, results[name]) for name in store.variables}
                 being_written.append((number, results, writes))
         finally:
             commit_pending()

@@ -35,6 +35,8 @@ def sweep(
     done: Callable[[int, int], None] | None = None,
     to: str | os.PathLike[str] | None = None,
     cluster: distributed.Client | None = None,
+    verify: bool = False,
+    trust: bool = False,
     **varied: Any,
 ) -> xr.Dataset:
     """Evaluate a model over the values given, and return them with names, units and sources.
@@ -58,6 +60,11 @@ def sweep(
     block, two of which are in memory at a time. It needs the extra ``data``. The same call goes on
     where a run was stopped, for any reason; a store that is complete is opened at once. The values of
     the dataset are read from it when they are asked for.
+    Blocks whose files are damaged are computed again, damaged metadata written again, and a warning is logged. Before
+    a run goes on, sizes and checksums of finished blocks are compared; of a complete store only the sizes, and with
+    ``verify`` the checksums too (:func:`~ballscrew.verify` compares and changes nothing). A folder of another user is
+    refused unless ``trust``, as its owner could replace files by links; links in a store are always refused. A model
+    of which it cannot be known what it computes (compiled code, a file that it reads) fills a new store only.
     With a ``cluster``, the client of a Dask scheduler, its workers evaluate the blocks and write them; they must
     see the folder ``to`` under the same path. The blocks of a lost worker are evaluated again. Each block takes
     one thread unless ``threads`` says otherwise. It needs the extra ``cluster``.
@@ -77,7 +84,10 @@ def sweep(
     if to is not None:
         if engine == "model":
             raise InputError(Fault("sweep.engine", "fills no store", engine, 'take engine="numpy"'))
-        return stream(plan, to, engine=engine, block_size=block_size, threads=threads, done=done, cluster=cluster)
+        return stream(
+            plan, to, engine=engine, block_size=block_size, threads=threads, done=done, cluster=cluster,
+            verify=verify, trust=trust,
+        )  # fmt: skip
     evaluation = Evaluation.of(plan, engine)
     results = evaluation.empty(plan.total)
     evaluation.fill(results, slice(0, plan.total), block_size=block_size, threads=threads, done=done)

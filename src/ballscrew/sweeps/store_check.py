@@ -1,0 +1,230 @@
+"""Check of a store against its sizes and checksums, without the model that filled it."""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import itertools
+import os
+import stat
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+from ballscrew.errors import Fault, InputError
+from ballscrew.sweeps.store_plan import FORMAT, Blocks, read_sealed
+from ballscrew.sweeps.store_rows import BYTES, FALSE, OTHER, OWN, WHERE, Content, cells_of, row
+
+#: The metadata of the dataset, and of each variable.
+ROOT = "zarr.json"
+#: The table of metadata and coordinates.
+LAYOUT = "layout.json"
+#: Files that are read at a time.
+READERS = 4
+#: Blocks that wait for a reader.
+BATCH = 1000
+_FOREIGN = "is there and is not the store of a sweep"
+
+
+@dataclasses.dataclass(frozen=True)
+class Damage:
+    """A file of a store that is not as it was written; with the number of its block where it holds results."""
+
+    path: str
+    problem: str
+    block: int | None = None
+
+    def __str__(self) -> str:
+        return f"{self.path} {self.problem}"
+
+
+@dataclasses.dataclass(frozen=True)
+class Verification:
+    """The result of :func:`verify`."""
+
+    path: Path
+    #: The number of blocks of the sweep, and of those that are finished.
+    blocks: int
+    finished: int
+    #: The files that are not as they were written.
+    damaged: tuple[Damage, ...]
+
+    @property
+    def holds(self) -> bool:
+        """Return whether the store is complete and nothing is damaged."""
+        return self.finished == self.blocks and not self.damaged
+
+
+def verify(store: str | os.PathLike[str]) -> Verification:
+    """Read all files of the store of a sweep and compare size and CRC-32 with those noted when they were written.
+
+    Nothing is changed: the sweep that filled the store computes damaged blocks again
+    (``bs.sweep(…, to=…, verify=True)``, ``ballscrew sweep … --verify``). CRC-32 finds damage by accident, not a change
+    on purpose. Raises :class:`~ballscrew.errors.InputError` for a folder that is not the store of a sweep, or
+    whose plan is damaged.
+    """
+    path = Path(store).absolute()
+    document = stored_plan(path)
+    if document is None:
+        raise InputError(Fault(WHERE, "is not the store of a sweep", str(path), "give the folder of a store"))
+    if document["format"] != FORMAT:
+        remedy = f"give a store of format {FORMAT}"
+        raise InputError(Fault(WHERE, "is a store of another version", f"{path}: format {document['format']}", remedy))
+    contents = Contents.of(path, document)
+    rows = contents.rows()
+    damaged = (*contents.damaged_layout(checksums=True), *contents.damaged_blocks(rows, checksums=True))
+    return Verification(path, contents.blocks.count, len(rows), damaged)
+
+
+def stored_plan(folder: Path) -> dict[str, Any] | None:
+    """The document of the store in a folder; None where there is no store yet.
+
+    Raises :class:`~ballscrew.errors.InputError` where something else is: it is not touched.
+    """
+    path = folder / OWN / "plan.json"
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        # without a plan there may be what a process left that was killed as it began
+        names = {path.name for path in folder.iterdir()} if folder.exists() else set[str]()
+        if not names - {OWN}:
+            return None
+        if OWN in names:
+            raise InputError(Fault(WHERE, "has lost its plan", str(path), OTHER)) from None
+        raise InputError(Fault(WHERE, _FOREIGN, str(folder), "choose another name")) from None
+    except NotADirectoryError:
+        if not folder.exists():
+            return None  # it is above that there is none, as making the folder will say
+        raise InputError(Fault(WHERE, _FOREIGN, str(folder), "choose another name")) from None
+    except (OSError, ValueError) as error:
+        raise InputError(Fault(WHERE, "cannot be read", f"{path}: {error}", OTHER)) from None
+    document = read_sealed("plan", text)
+    if document is None:
+        raise InputError(Fault(WHERE, "has a damaged plan", str(path), OTHER))
+    return document
+
+
+@dataclasses.dataclass(frozen=True)
+class Contents:
+    """The files that a store has by its plan."""
+
+    path: Path
+    blocks: Blocks
+    #: The outputs, in the order of the table of blocks, and those that are truth values.
+    variables: tuple[str, ...]
+    truths: tuple[str, ...]
+
+    @classmethod
+    def of(cls, path: Path, document: Mapping[str, Any]) -> Contents:
+        """The files of a store with this document."""
+        outputs = {name: kind for name, kind in sorted(document["outputs"].items()) if name not in document["axes"]}
+        truths = tuple(name for name, kind in outputs.items() if kind == "bool")
+        return cls(path, Blocks(tuple(document["shape"]), tuple(document["chunks"])), tuple(outputs), truths)
+
+    @property
+    def own(self) -> Path:
+        """The folder with the plan and the checksums."""
+        return self.path / OWN
+
+    @property
+    def is_complete(self) -> bool:
+        """Return whether the store can be opened as a dataset."""
+        return os.path.lexists(self.path / ROOT)
+
+    @property
+    def heading(self) -> tuple[str, ...]:
+        """The headings of the table of blocks."""
+        columns = itertools.chain.from_iterable((name, f"{name}{BYTES}") for name in self.variables)
+        return ("block", *columns, *(f"{name}{FALSE}" for name in self.truths))
+
+    def key(self, number: int, name: str) -> str:
+        """The path of a chunk in the store."""
+        return f"{name}/{self.blocks.key(number)}"
+
+    def rows(self) -> dict[int, bytes]:
+        """The rows of the finished blocks; damaged ones are left out."""
+        found: dict[int, bytes] = {}
+        with contextlib.suppress(FileNotFoundError, NotADirectoryError), (self.own / "blocks.csv").open("rb") as file:
+            next(file, None)
+            self._add(found, file)
+        with contextlib.suppress(FileNotFoundError, NotADirectoryError):
+            for path in (self.own / "blocks").iterdir():
+                self._add(found, [path.read_bytes()], path.name)
+        return found
+
+    def _add(self, found: dict[int, bytes], lines: Any, name: str | None = None) -> None:
+        for line in lines:
+            cells = cells_of(line)
+            if cells is None or len(cells) != len(self.heading) or name not in (None, cells[0]):
+                continue
+            if 0 <= int(cells[0]) < self.blocks.count:
+                found[int(cells[0])] = line
+
+    def damaged_blocks(self, rows: Mapping[int, bytes], *, checksums: bool) -> list[Damage]:
+        """The chunks of finished blocks that are not as they were written.
+
+        Of a complete store also the blocks without a valid row.
+        """
+
+        def of_block(number: int) -> list[Damage]:
+            cells = dict(zip(self.heading, cells_of(rows[number]) or (), strict=True))
+            found: list[Damage] = []
+            for name in self.variables:
+                key = self.key(number, name)
+                noted = Content(int(cells[f"{name}{BYTES}"]), cells[name])
+                if problem := _problem(self.path / key, key, noted, checksums=checksums):
+                    found.append(Damage(key, problem, number))
+            return found
+
+        numbers, damaged = list(rows), list[Damage]()
+        with ThreadPoolExecutor(READERS) as pool:
+            for first in range(0, len(numbers), BATCH):  # a store may have millions
+                damaged += itertools.chain.from_iterable(pool.map(of_block, numbers[first : first + BATCH]))
+        if self.is_complete:
+            missing = (number for number in range(self.blocks.count) if number not in rows)
+            damaged += [Damage(f"{OWN}/blocks.csv", f"has no valid row of block {n}", n) for n in missing]
+        return damaged
+
+    def _has_whole_table(self) -> bool:
+        """Return whether the table of blocks has its heading and as many rows as there are blocks, all valid."""
+        with contextlib.suppress(OSError), (self.own / "blocks.csv").open("rb") as file:
+            is_headed = next(file, b"") == row(self.heading)
+            return is_headed and [cells_of(line) is not None for line in file] == [True] * self.blocks.count
+        return False
+
+    def damaged_layout(self, *, checksums: bool) -> list[Damage]:
+        """The metadata and coordinates that are not as they were written."""
+        try:
+            layout = read_sealed("layout", (self.own / LAYOUT).read_text(encoding="utf-8"))
+        except FileNotFoundError:
+            return [Damage(f"{OWN}/{LAYOUT}", "is missing")]
+        except (OSError, ValueError):
+            layout = None
+        if layout is None:
+            return [Damage(f"{OWN}/{LAYOUT}", "is damaged")]
+        found: list[Damage] = []
+        if self.is_complete and not self._has_whole_table():
+            found.append(Damage(f"{OWN}/blocks.csv", "is damaged"))
+        for key, noted in layout.items():
+            path = self.own / ROOT if key == ROOT and not self.is_complete else self.path / key
+            # metadata are small; coordinates may be as long as an axis
+            problem = _problem(path, key, Content(*noted), checksums=checksums or path.name == ROOT)
+            if problem:
+                found.append(Damage(key, problem))
+        return found
+
+
+def _problem(path: Path, key: str, noted: Content, *, checksums: bool) -> str:
+    """What is wrong with a file; a chunk of nothing but the fill value has no bytes and no file."""
+    try:
+        state = path.lstat()
+        if not stat.S_ISREG(state.st_mode):
+            return "is not a file"
+        if state.st_size != noted.bytes:
+            return f"has {state.st_size} bytes, not {noted.bytes}"
+        return "has another checksum" if checksums and Content.of(key, path.read_bytes()) != noted else ""
+    except (FileNotFoundError, NotADirectoryError):
+        return "is missing" if noted.bytes else ""
+    except OSError as error:
+        return f"cannot be read: {error.strerror or error}"

@@ -1,0 +1,278 @@
+"""Damage of a store: found by sizes and checksums, said, and repaired to the last byte."""
+
+import json
+import os
+import shutil
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import ballscrew as bs
+from ballscrew.evaluation.evaluation import Evaluation
+from ballscrew.sweeps.store_rows import cells_of, row
+from support.stores import MODEL, SMALL, files, stop_at
+
+pytest.importorskip("zarr")
+
+CHUNK = "efficiency/c/2/1/0"
+OTHER = "efficiency/c/3/0/0"
+BLOCK = 7
+
+
+def removed(chunk):
+    chunk.unlink()
+
+
+def cut(chunk):
+    os.truncate(chunk, chunk.stat().st_size // 2)
+
+
+def flipped(chunk):
+    content = bytearray(chunk.read_bytes())
+    content[len(content) // 2] ^= 0x10
+    chunk.write_bytes(content)
+
+
+def swapped(chunk):
+    """The chunk of another block in its place, of the same size and intact in itself."""
+    other = chunk.parents[4] / OTHER
+    a, b = chunk.read_bytes(), other.read_bytes()
+    assert len(a) == len(b), "choose others: a size shall not tell"
+    chunk.write_bytes(b)
+    other.write_bytes(a)
+
+
+#: What was done to a chunk, whether sizes alone tell, and what is said of it.
+DAMAGES = {
+    "removed": (removed, True, f"{CHUNK} is missing"),
+    "cut": (cut, True, f"{CHUNK} has"),
+    "flipped": (flipped, False, f"{CHUNK} has another checksum"),
+    "swapped": (swapped, False, f"{CHUNK} has another checksum"),
+}
+
+
+@pytest.fixture(scope="module")
+def stores(seed_screw, seed_oil, tmp_path_factory):
+    """A finished store, and one with 12 of its 21 blocks."""
+    folder = tmp_path_factory.mktemp("stores")
+    bs.sweep(MODEL, seed_screw, seed_oil, to=folder / "complete.zarr", **SMALL)
+    with pytest.MonkeyPatch.context() as patch:
+        stop_at(12, KeyboardInterrupt(), patch)
+        with pytest.raises(KeyboardInterrupt):
+            bs.sweep(MODEL, seed_screw, seed_oil, to=folder / "unfinished.zarr", **SMALL)
+    return folder
+
+
+@pytest.fixture
+def whole(stores):
+    return files(stores / "complete.zarr")
+
+
+@pytest.fixture
+def complete(stores, tmp_path):
+    return shutil.copytree(stores / "complete.zarr", tmp_path / "map.zarr")
+
+
+@pytest.fixture
+def unfinished(stores, tmp_path):
+    return shutil.copytree(stores / "unfinished.zarr", tmp_path / "map.zarr")
+
+
+@pytest.mark.parametrize("kind", DAMAGES)
+def test_a_damaged_block_is_computed_again_on_resume(kind, unfinished, swept, whole, caplog):
+    damage, _, said = DAMAGES[kind]
+    damage(unfinished / CHUNK)
+    told = []
+    swept(unfinished, done=lambda finished, total: told.append(finished))
+    bad, words = (2, "2 blocks are") if kind == "swapped" else (1, "1 block is")
+    assert told[0] == (12 - bad) * 9
+    assert f"{words} computed again: " in caplog.text
+    assert said in caplog.text
+    assert files(unfinished) == whole
+
+
+@pytest.mark.parametrize("kind", DAMAGES)
+def test_a_damaged_block_of_a_finished_store_is_computed_again(kind, complete, swept, whole, caplog):
+    damage, is_told_by_size, said = DAMAGES[kind]
+    damage(complete / CHUNK)
+    assert said in [str(d) for d in bs.verify(complete).damaged] or kind == "cut"
+    opened = swept(complete, **({} if is_told_by_size else {"verify": True}))
+    assert said in caplog.text
+    assert opened["efficiency"].notnull().all()
+    assert files(complete) == whole
+    assert bs.verify(complete).holds
+
+
+@pytest.mark.parametrize("kind", ["cut", "flipped"])
+def test_whatever_reads_a_damaged_chunk_raises(kind, complete):
+    DAMAGES[kind][0](complete / CHUNK)
+    with xr.open_zarr(complete, chunks=None) as opened, pytest.raises(Exception, match=r"(?i)checksum|crc|buffer|size"):
+        opened["efficiency"].load()
+
+
+def test_a_complete_store_is_said_to_be_so(complete, swept, whole, caplog, monkeypatch):
+    monkeypatch.setattr(Evaluation, "fill", lambda *_, **__: pytest.fail("computed again"))
+    caplog.set_level("INFO")
+    swept(complete)
+    assert f"{complete}: complete already, nothing was computed" in caplog.text
+    swept(complete, verify=True)
+    assert "all checksums hold, nothing was computed" in caplog.text
+    assert files(complete) == whole
+
+
+def test_a_kill_while_a_finished_store_is_repaired(complete, swept, whole, monkeypatch):
+    """What only checksums tell is not forgotten: the store cannot be opened until it is repaired."""
+    flipped(complete / CHUNK)
+    stop_at(BLOCK, KeyboardInterrupt(), monkeypatch)
+    with pytest.raises(KeyboardInterrupt):
+        swept(complete, verify=True)
+    monkeypatch.undo()
+    with pytest.raises(FileNotFoundError):
+        xr.open_zarr(complete, chunks=None)
+    swept(complete)
+    assert files(complete) == whole
+
+
+def test_a_file_where_there_should_be_none(complete, swept, whole):
+    """A chunk of nothing but the fill value has no file; one that appears there is damage, too."""
+    blocks = [f"valid/c/{row}/{column}/0" for row in range(7) for column in range(3)]
+    empty = next(name for name in blocks if name not in whole)
+    (complete / empty).parent.mkdir(exist_ok=True)
+    shutil.copy(complete / next(name for name in blocks if name in whole), complete / empty)
+    assert [damage.path for damage in bs.verify(complete).damaged] == [empty]
+    swept(complete)
+    assert files(complete) == whole
+
+
+# -- metadata -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "zarr.json", "efficiency/zarr.json", "viscosity/zarr.json", "axial_load/c/0", ".ballscrew/layout.json",
+        ".ballscrew/blocks.csv",
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("damage", [removed, cut])
+def test_metadata_of_a_finished_store_are_repaired(name, damage, complete, swept, whole, caplog):
+    damage(complete / name)
+    swept(complete)
+    if name != "zarr.json" or damage is cut:  # without it the store is an unfinished one
+        assert name in caplog.text
+    assert files(complete) == whole
+
+
+@pytest.mark.parametrize("name", [".ballscrew/zarr.json", "efficiency/zarr.json", "axial_load/c/0"])
+@pytest.mark.parametrize("damage", [removed, cut])
+def test_metadata_of_an_unfinished_store_are_repaired(name, damage, unfinished, swept, whole, caplog):
+    damage(unfinished / name)
+    told = []
+    swept(unfinished, done=lambda finished, total: told.append(finished))
+    assert told[0] == 12 * 9
+    assert name.removeprefix(".ballscrew/") in caplog.text
+    assert files(unfinished) == whole
+
+
+@pytest.mark.parametrize("change", ["heading", "more"])
+def test_a_table_of_blocks_that_cannot_be_read_is_written_again(change, complete, swept, whole, caplog):
+    table = complete / ".ballscrew" / "blocks.csv"
+    content = table.read_bytes()
+    table.write_bytes(content.replace(b"efficiency", b"effic1ency", 1) if change == "heading" else content + b"7,")
+    assert [damage.path for damage in bs.verify(complete).damaged] == [".ballscrew/blocks.csv"]
+    swept(complete)
+    assert "written again: .ballscrew/blocks.csv is damaged" in caplog.text
+    assert files(complete) == whole
+
+
+def test_a_store_of_the_layout_before_is_refused(complete, swept):
+    from ballscrew.sweeps.store_plan import read_sealed, sealed
+
+    plan = complete / ".ballscrew" / "plan.json"
+    document = read_sealed("plan", plan.read_text(encoding="utf-8")) | {"format": 1}
+    del document["shape"]
+    plan.write_bytes(sealed("plan", document))
+    with pytest.raises(bs.InputError, match=r"holds another sweep \(format 1, not 2\)"):
+        swept(complete)
+    with pytest.raises(bs.InputError, match=r"is a store of another version .*format 1"):
+        bs.verify(complete)
+
+
+def test_a_lost_plan_is_refused_in_one_line(complete, swept):
+    (complete / ".ballscrew" / "plan.json").unlink()
+    before = files(complete)
+    with pytest.raises(bs.InputError, match=r"has lost its plan .*plan\.json.* · choose another name, or remove it$"):
+        swept(complete)
+    assert files(complete) == before
+
+
+def test_a_damaged_row_is_not_taken_for_a_block(unfinished, swept, whole):
+    marker = unfinished / ".ballscrew" / "blocks" / "7"
+    line = marker.read_bytes()
+    assert cells_of(line) is not None
+    assert cells_of(line.replace(b"7,", b"8,", 1)) is None
+    assert cells_of(line[:-3]) is None
+    assert row(cells_of(line)) == line
+    marker.write_bytes(line.replace(b"7,", b"6,", 1))
+    shutil.copy(unfinished / ".ballscrew" / "blocks" / "5", unfinished / ".ballscrew" / "blocks" / "4")
+    told = []
+    swept(unfinished, done=lambda finished, total: told.append(finished))
+    assert told[0] == 10 * 9
+    assert files(unfinished) == whole
+
+
+# -- verify ---------------------------------------------------------------------------------------
+
+
+def test_verify_tells_all_that_is_damaged_and_changes_nothing(complete):
+    found = bs.verify(complete)
+    assert (found.path, found.blocks, found.finished, found.damaged) == (complete, 21, 21, ())
+    assert found.holds
+    removed(complete / CHUNK)
+    flipped(complete / "screw_torque/c/0/0/0")
+    cut(complete / "viscosity/zarr.json")
+    before = files(complete)
+    found = bs.verify(str(complete))
+    assert {(damage.path, damage.block) for damage in found.damaged} == {
+        (CHUNK, BLOCK), ("screw_torque/c/0/0/0", 0), ("viscosity/zarr.json", None),
+    }  # fmt: skip
+    assert not found.holds
+    assert files(complete) == before
+
+
+def test_verify_of_an_unfinished_store(unfinished):
+    found = bs.verify(unfinished)
+    assert (found.blocks, found.finished, found.damaged, found.holds) == (21, 12, (), False)
+
+
+@pytest.mark.parametrize("made", [False, True])
+def test_verify_of_what_is_no_store(made, tmp_path):
+    if made:
+        (tmp_path / "a.zarr").mkdir()
+        (tmp_path / "a.zarr" / "thesis.tex").touch()
+    with pytest.raises(bs.InputError, match="is not the store of a sweep"):
+        bs.verify(tmp_path / "a.zarr")
+
+
+def test_a_model_that_cannot_be_compared_is_never_gone_on_with(seed_screw, seed_oil, tmp_path, whole):
+    """Its fingerprint is random, so that nothing is taken from a store that may be of another model."""
+    import dataclasses
+    import threading
+
+    lock = threading.Lock()
+
+    def friction(conditions):
+        with lock:
+            return np.interp(conditions.film_parameter, [0.0, 3.0], [0.1, 0.02])
+
+    mine = dataclasses.replace(MODEL, friction=friction)
+    path = tmp_path / "mine.zarr"
+    bs.sweep(mine, seed_screw, seed_oil, to=path, **SMALL)
+    plan = json.loads((path / ".ballscrew" / "plan.json").read_text(encoding="utf-8"))["plan"]
+    assert len(plan["formulas"]) == 64
+    with pytest.raises(
+        bs.InputError, match=r"it cannot be known whether the model is the same \(.*lock\) · choose"
+    ) as e:
+        bs.sweep(mine, seed_screw, seed_oil, to=path, **SMALL)
+    assert len(str(e.value).splitlines()) == 1
