@@ -34,5 +34,5 @@ def played(program, *arrays, mask=False):
     """The same by NumPy."""
     out = np.empty(len(arrays[0]), dtype=bool if mask else float)
     with np.errstate(all="ignore"):
-        Interpreter(program).play(arrays, {"out": out})
+        Interpreter(program).run(arrays, {"out": out})
     return out

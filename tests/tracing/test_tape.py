@@ -24,7 +24,7 @@ def play(program, *values):
     values = values or (X, Y)
     out = np.full(len(values[0]), 99.0)
     with np.errstate(all="ignore"):
-        Interpreter(program).play(values, {"out": out})
+        Interpreter(program).run(values, {"out": out})
     return out
 
 
@@ -140,7 +140,7 @@ def test_constant_and_input_outputs():
     tape = Tape(1)
     program = Program.of(tape, {"constant": 4.5, "input": tape.value(0), "mask": tape.value(0) > 1})
     results = {"constant": np.empty(5), "input": np.empty(5), "mask": np.empty(5, dtype=bool)}
-    Interpreter(program).play([X], results)
+    Interpreter(program).run([X], results)
     assert np.array_equal(results["constant"], np.full(5, 4.5))
     assert np.array_equal(results["input"], X)
     assert np.array_equal(results["mask"], X > 1)

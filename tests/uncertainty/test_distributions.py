@@ -91,7 +91,7 @@ def test_on_all_kinds_of_value(name):
     assert isinstance(recorded, Traced)
     played = {"out": np.empty_like(LEVELS)}
     with np.errstate(all="ignore"):
-        Interpreter(Program.of(tape, {"out": recorded})).play([LEVELS], played)
+        Interpreter(Program.of(tape, {"out": recorded})).run([LEVELS], played)
     assert played["out"] == pytest.approx(expected, rel=1e-14, abs=1e-14)
 
 
@@ -186,7 +186,7 @@ def test_cut_on_values_that_are_recorded():
         recorded = distribution.quantile(tape.value(0))
         played = {"out": np.empty_like(LEVELS)}
         with np.errstate(all="ignore"):
-            Interpreter(Program.of(tape, {"out": recorded})).play([LEVELS], played)
+            Interpreter(Program.of(tape, {"out": recorded})).run([LEVELS], played)
         assert played["out"] == pytest.approx(distribution.quantile(LEVELS), rel=1e-14)
 
 

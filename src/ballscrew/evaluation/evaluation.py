@@ -49,10 +49,10 @@ MOST_ENTRIES = 4_000_000
 BLOCKS_PER_THREAD = 4
 SMALLEST_BLOCK, LARGEST_BLOCK = 2**14, 2**19
 
-#: Evaluates the points of a slice of the flattened grid into arrays that begin at the place given.
-_Work = Callable[[slice, Mapping[str, NDArray[Any]], int], None]
-#: Makes that of a plan; plans that differ by nothing but numbers share the formulas behind it.
-_Works = Callable[[Plan], _Work]
+#: Evaluates the points of a slice of the flattened grid into arrays that begin at the given place.
+_BlockEvaluator = Callable[[slice, Mapping[str, NDArray[Any]], int], None]
+#: Makes one for a plan; plans that differ only in numbers share the formulas.
+_EvaluatorFactory = Callable[[Plan], _BlockEvaluator]
 
 
 class Evaluation:
@@ -64,7 +64,7 @@ class Evaluation:
         engine: Engine,
         reason: str,
         identify: Callable[[], Fingerprint],
-        works: _Works,
+        evaluator_of: _EvaluatorFactory,
         block_size: int,
         row_length: int,
     ) -> None:
@@ -73,8 +73,8 @@ class Evaluation:
         #: Why it is this engine.
         self.reason = reason
         self._identify = identify
-        self._works = works
-        self._work = works(plan)
+        self._evaluator_of = evaluator_of
+        self._evaluate = evaluator_of(plan)
         self._block_size = block_size
         self._row_length = row_length
 
@@ -98,7 +98,7 @@ class Evaluation:
                 made = (_Grid.of(plan) if times == 1 else None) or _Points.of(plan, program)
                 if engine or worth_compiling(made.program, points, made.text):
                     chosen = ASKED_FOR if engine else PAYS
-                    identify = functools.partial(_fingerprint, plan, "compiled", program, lambda: made.said)
+                    identify = functools.partial(_fingerprint, plan, "compiled", program, lambda: made.formulas)
                     return cls(plan, "compiled", chosen, identify, made.compiled(), LARGEST_BLOCK, made.row_length)
         except CannotRecordError as error:
             why = f"the model itself, on plain arrays: {error}"
@@ -133,7 +133,7 @@ class Evaluation:
         sizes = {str(d): size for axis in axes.values() for d, size in zip(axis.dims, axis.shape, strict=True)}
         plan = dataclasses.replace(self.plan, axes=axes, sizes=sizes)
         return Evaluation(
-            plan, self.engine, self.reason, self._identify, self._works, self._block_size, self._row_length
+            plan, self.engine, self.reason, self._identify, self._evaluator_of, self._block_size, self._row_length
         )
 
     def empty(self, count: int) -> dict[str, NDArray[Any]]:
@@ -153,7 +153,7 @@ class Evaluation:
         total = block.stop - block.start
 
         def evaluate(part: slice) -> None:
-            self._work(slice(block.start + part.start, block.start + part.stop), results, block.start)
+            self._evaluate(slice(block.start + part.start, block.start + part.stop), results, block.start)
 
         map_blocks(
             evaluate,
@@ -173,29 +173,29 @@ class Evaluation:
 
 
 def _by_numpy(plan: Plan, program: Program | None, reason: str) -> Evaluation:
-    player = None if program is None else program.player
+    interpreter = None if program is None else program.interpreter
 
-    def works(plan: Plan) -> _Work:
-        def work(part: slice, results: Mapping[str, NDArray[Any]], first: int) -> None:
+    def evaluator_of(plan: Plan) -> _BlockEvaluator:
+        def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int) -> None:
             points = plan.points(part)
             here = {name: values[part.start - first : part.stop - first] for name, values in results.items()}
             with np.errstate(all="ignore"):
-                if player is not None:
-                    player.play([points[name] for name in plan.varying], here)
+                if interpreter is not None:
+                    interpreter.run([points[name] for name in plan.varying], here)
                     return
                 result = plan.subject.at(plan.fixed | points)
                 for name, output in plan.wanted.items():
                     here[name][...] = output.read(result)
 
-        return work
+        return evaluate
 
     identify = functools.partial(_fingerprint, plan, "numpy", program, lambda: program.text if program else "")
-    return Evaluation(plan, "numpy", reason, identify, works, max(1, BLOCK_SIZE // plan.subject.balls), 1)
+    return Evaluation(plan, "numpy", reason, identify, evaluator_of, max(1, BLOCK_SIZE // plan.subject.balls), 1)
 
 
-def _fingerprint(plan: Plan, engine: Engine, program: Program | None, said: Callable[[], str]) -> Fingerprint:
+def _fingerprint(plan: Plan, engine: Engine, program: Program | None, formulas: Callable[[], str]) -> Fingerprint:
     """That of the formulas as they are evaluated: recorded steps, or else the model as code and values."""
-    held: dict[str, Any] = {"engine": engine, "formulas": said()}
+    held: dict[str, Any] = {"engine": engine, "formulas": formulas()}
     if program is not None:
         # steps of other libraries are known by more than their names
         functions = [step.function for _, step in program.steps]
@@ -218,25 +218,25 @@ class _Kernels:
         self.text = kernel_text(program, sources, masks)
 
     @property
-    def said(self) -> str:
+    def formulas(self) -> str:
         """All formulas as they are evaluated, as text."""
         return f"{self.text}\n{self.program.text}"
 
-    def compiled(self) -> _Works:
-        """What evaluates a part of the grid."""
+    def compiled(self) -> _EvaluatorFactory:
+        """Compile the kernel, and return the evaluator of a part of the grid for a plan."""
         kernel = Kernel.of(self.text, self.sources)
         names, constants = list(self.program.outputs), self.program.constants
 
-        def works(plan: Plan) -> _Work:
-            def work(part: slice, results: Mapping[str, NDArray[Any]], first: int) -> None:
+        def evaluator_of(plan: Plan) -> _BlockEvaluator:
+            def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int) -> None:
                 for name, value in constants.items():
                     results[name][part.start - first : part.stop - first] = value
                 if names:
                     self.evaluate(plan, kernel, part, [results[name] for name in names], first)
 
-            return work
+            return evaluate
 
-        return works
+        return evaluator_of
 
     def evaluate(self, plan: Plan, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int) -> None:
         """Run the kernel over a part of the flattened grid."""
@@ -289,9 +289,9 @@ class _Grid(_Kernels):
         return None if entries > MOST_ENTRIES else cls(plan, cut, columns)
 
     @property
-    def said(self) -> str:
+    def formulas(self) -> str:
         """All formulas as they are evaluated, as text."""
-        return "\n".join([super().said, self.cut.rows.text, self.cut.columns.text])
+        return "\n".join([super().formulas, self.cut.rows.text, self.cut.columns.text])
 
     def _tables(self) -> list[NDArray[np.float64]]:
         found: dict[tuple[Source, str], NDArray[np.float64]] = {}
@@ -307,7 +307,7 @@ class _Grid(_Kernels):
             if names:
                 inputs = self.plan.points_at(np.asarray(places))
                 with np.errstate(all="ignore"):
-                    program.player.play([inputs[name] for name in self.plan.varying], values)
+                    program.interpreter.run([inputs[name] for name in self.plan.varying], values)
             for name in names:
                 found[source, name] = values[name].astype(float, copy=False)
         return [found[key] for key in self.cut.tables]

@@ -46,7 +46,7 @@ class Program:
         return cls(tape.inputs, chosen, traced, constants, known)
 
     @functools.cached_property
-    def player(self) -> Interpreter:
+    def interpreter(self) -> Interpreter:
         """The interpreter of the program."""
         return Interpreter(self)
 
@@ -127,7 +127,7 @@ class Interpreter:
         self.buffers[slot] = is_mask
         return slot
 
-    def play(self, inputs: Sequence[Any], results: Mapping[str, NDArray[Any]]) -> None:
+    def run(self, inputs: Sequence[Any], results: Mapping[str, NDArray[Any]]) -> None:
         """Evaluate one block: arrays of inputs in, arrays of results filled."""
         slots = self._workspace(len(next(iter(results.values()))))
         slots[: self.program.inputs] = inputs

@@ -50,7 +50,7 @@ NUMPY_STEP = 4 * UNIT
 SEEDS = 2**63
 
 #: Evaluates the samples of a slice into arrays of its length.
-_Work = Callable[[slice, Mapping[str, NDArray[Any]]], None]
+_SampleEvaluator = Callable[[slice, Mapping[str, NDArray[Any]]], None]
 
 
 def monte_carlo(
@@ -92,8 +92,8 @@ def monte_carlo(
     faults = _faults_of_options(samples, seed, quantiles, engine, threads)
     raise_if_any(faults + _faults_of_inputs(subject, distributions, fixed))
     plan = _planned(subject, outputs, distributions, fixed)
-    work, step, compiled, reason = _by_engine(plan, distributions, samples, seed, engine)
-    tally = _Tally(plan, work, step, compiled=compiled)
+    evaluate, step, compiled, reason = _by_engine(plan, distributions, samples, seed, engine)
+    tally = _Tally(plan, evaluate, step, compiled=compiled)
     map_blocks(
         tally.take,
         samples,
@@ -186,7 +186,7 @@ def _planned(
 
 def _by_engine(
     plan: Plan, distributions: Mapping[str, Distribution], samples: int, seed: int, engine: Engine | None
-) -> tuple[_Work, int, bool, str]:
+) -> tuple[_SampleEvaluator, int, bool, str]:
     """Evaluator of samples, its batch size, whether it is compiled, and the reason."""
     program: Program | None = None
     try:
@@ -214,14 +214,16 @@ def _recorded(plan: Plan, distributions: Mapping[str, Distribution]) -> Program:
     return plan.subject.recorded(tape, plan.fixed | drawn, plan.wanted)
 
 
-def _by_numpy(plan: Plan, distributions: Mapping[str, Distribution], program: Program | None, seed: int) -> _Work:
-    player = None if program is None else program.player
+def _by_numpy(
+    plan: Plan, distributions: Mapping[str, Distribution], program: Program | None, seed: int
+) -> _SampleEvaluator:
+    interpreter = None if program is None else program.interpreter
 
-    def work(part: slice, results: Mapping[str, NDArray[Any]]) -> None:
+    def evaluate(part: slice, results: Mapping[str, NDArray[Any]]) -> None:
         numbers = random.uniform(part, len(distributions), seed)
         with np.errstate(all="ignore"):
-            if player is not None:
-                player.play(numbers, results)
+            if interpreter is not None:
+                interpreter.run(numbers, results)
                 return
             drawn = zip(distributions.items(), numbers, strict=True)
             points = {name: distribution.quantile(u) for (name, distribution), u in drawn}
@@ -229,13 +231,13 @@ def _by_numpy(plan: Plan, distributions: Mapping[str, Distribution], program: Pr
             for name, output in plan.wanted.items():
                 results[name][...] = output.read(result)
 
-    return work
+    return evaluate
 
 
-def _by_kernel(kernel: Kernel, program: Program, seed: int) -> _Work:
+def _by_kernel(kernel: Kernel, program: Program, seed: int) -> _SampleEvaluator:
     names = list(program.outputs)
 
-    def work(part: slice, results: Mapping[str, NDArray[Any]]) -> None:
+    def evaluate(part: slice, results: Mapping[str, NDArray[Any]]) -> None:
         for name, value in program.constants.items():
             results[name][...] = value
         if names:
@@ -243,7 +245,7 @@ def _by_kernel(kernel: Kernel, program: Program, seed: int) -> _Work:
             here = [results[name] for name in names]
             kernel(slice(0, 1), part, part.stop, blank, here, first=part.start, seed=seed)
 
-    return work
+    return evaluate
 
 
 class _Tally:
@@ -253,12 +255,12 @@ class _Tally:
     for those of the blocks before.
     """
 
-    def __init__(self, plan: Plan, work: _Work, step: int, *, compiled: bool) -> None:
+    def __init__(self, plan: Plan, evaluate: _SampleEvaluator, step: int, *, compiled: bool) -> None:
         self.plan = plan
         self.numbers = [name for name, output in plan.wanted.items() if output.dtype is not bool]
         self.truths = [name for name, output in plan.wanted.items() if output.dtype is bool]
         self.true = np.zeros(len(self.truths), dtype=np.int64)
-        self._work, self._step, self._compiled = work, step, compiled
+        self._evaluate, self._step, self._compiled = evaluate, step, compiled
         self._lock = threading.Lock()
         self._idle: list[Sketch] = []
         self._moments = Moments.empty(len(self.numbers))
@@ -276,7 +278,7 @@ class _Tally:
             part = slice(start, min(start + self._step, block.stop))
             count = part.stop - part.start
             rows = [*values[:, :count], *masks[:, :count]]
-            self._work(part, dict(zip([*self.numbers, *self.truths], rows, strict=True)))
+            self._evaluate(part, dict(zip([*self.numbers, *self.truths], rows, strict=True)))
             if self.numbers:
                 sketch.add(values[:, :count])
             true += np.count_nonzero(masks[:, :count], axis=1)
