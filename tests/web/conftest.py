@@ -63,6 +63,12 @@ class Server:
         """What it has of the memory, MB."""
         return psutil.Process(self.process.pid).memory_info().rss / 2**20
 
+    @property
+    def processor_time(self) -> float:
+        """Seconds that it has computed, on all processors."""
+        times = psutil.Process(self.process.pid).cpu_times()
+        return times.user + times.system
+
     def post(self, address: str, body: object, **more: object) -> httpx.Response:
         content = body if isinstance(body, bytes) else json.dumps(body).encode()
         headers = {"Content-Type": "application/json", **more.pop("headers", {})}

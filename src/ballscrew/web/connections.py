@@ -24,6 +24,9 @@ LONGEST_HEAD = 65_536
 _WRITE_TIMEOUT = 60.0
 #: Seconds that responses have to be sent at shutdown.
 _SHUTDOWN_TIMEOUT = 2
+#: Turns of the event loop from a request that waits in the kernel to its handler: the connection is accepted, made,
+#: registered and read, one turn each. As many again in reserve.
+_TURNS_TO_READ = 8
 
 
 class _TimeoutProtocol(H11Protocol):
@@ -110,8 +113,14 @@ class _Server(uvicorn.Server):
         self._requests = requests
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """Refuse the requests that wait, and close the connections whose requests are incomplete."""
+        """Refuse the requests that wait, and close the connections whose requests are incomplete.
+
+        Requests that were sent but not read are read first: a connection closed with unread bytes is reset, and its
+        client would get no response.
+        """
         self._requests.close()
+        for _ in range(_TURNS_TO_READ):
+            await asyncio.sleep(0)
         for connection in list(self.server_state.connections):
             if isinstance(connection, _TimeoutProtocol) and connection.expects_body:
                 connection.transport.close()
