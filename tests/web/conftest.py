@@ -10,6 +10,7 @@ import shutil
 import signal
 import tempfile
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +35,7 @@ class Server:
         *arguments: str,
         environment: dict[str, str] | None = None,
         module: str = "ballscrew.cli",
+        errors: Sequence[str] = ERRORS,
     ) -> None:
         self.errors = tempfile.TemporaryFile("w+", encoding="utf-8")  # noqa: SIM115  (a pipe would fill up)
         reading, writing = os.pipe()
@@ -45,7 +47,7 @@ class Server:
                 streams=[nothing.fileno(), writing, self.errors.fileno()],
                 environment=environment,
                 module=module,
-                errors=ERRORS,
+                errors=errors,
             )
         os.close(writing)
         self.first_line = self._output.readline()

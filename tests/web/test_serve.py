@@ -125,6 +125,13 @@ def test_what_was_sent_before_the_end_is_answered(paper, accepted):
         assert [status_of(connection) for connection in asked] == [503] * 5
 
 
+def test_warnings_do_not_reach_the_terminal(start):
+    """Of NumPy: the answer says what has no value, and nobody reads the terminal."""
+    server = start(module="warning_server", errors=())
+    assert server.get("catalogue").status_code == 200
+    assert server.end() == (0, "")
+
+
 def test_a_second_signal_ends_it_too(start):
     server = start()
     for _ in range(2):

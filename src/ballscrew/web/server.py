@@ -14,7 +14,7 @@ from starlette.types import ASGIApp
 from ballscrew._version import __version__
 from ballscrew.errors import Fault, InputError
 from ballscrew.studies.run import run
-from ballscrew.web import api, files, openapi, problems, vocabulary
+from ballscrew.web import api, files, memory, openapi, problems, vocabulary
 from ballscrew.web.bodies import case_of
 from ballscrew.web.guard import HEADERS, LOOPBACK, Guard
 from ballscrew.web.policy import policy
@@ -81,3 +81,4 @@ async def _defect(_: Request, __: Exception) -> Response:
 def warm_up() -> None:
     """Load and compute what the first request would otherwise wait for."""
     run(case_of(vocabulary.vocabulary()["starts"]["paper"]["case"]))
+    memory.keep_loaded()
