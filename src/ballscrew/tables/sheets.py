@@ -28,7 +28,7 @@ HEADINGS_WITHIN = 10
 #: A spreadsheet may begin with a line for other spreadsheets: which delimiter it has.
 _DECLARATION = "sep="
 #: What spreadsheets write for a cell that went wrong; no comment, though it begins like one.
-_ERROR = re.compile(r"#(?:N/A|NV|[A-Z0-9/]+[!?])")
+_ERROR = re.compile(r"#(?:N/A|NV|[A-ZÄÖÜ0-9/]+[!?])")
 
 
 class Record(NamedTuple):
