@@ -211,6 +211,18 @@ def test_a_newer_file_of_matlab(tmp_path, struct):
     assert in_display_units(reading.read(path)) == EXPECTED
 
 
+def test_a_damaged_file_of_matlab_does_not_end_the_program(tmp_path):
+    """One wrong byte, the type of the elements of a cell array: SciPy's reader crashes (SIGSEGV)."""
+    path = tmp_path / "log.mat"
+    scipy.io.savemat(path, {"t": np.arange(3.0), "x": [1, 2, 3], "c": np.array(["ab", "c"], dtype=object)})
+    data = bytearray(path.read_bytes())
+    data[384] = 14
+    path.write_bytes(data)
+    (line,) = lines_of(reading.read, path)
+    assert line.startswith(f"{path}: is no file of MATLAB that can be read (")
+    assert line.endswith("save the columns as arrays of one length, or one struct of them, with save(..., '-v7')")
+
+
 def test_faults_of_files_of_matlab(tmp_path, monkeypatch):
     path = tmp_path / "log.mat"
     scipy.io.savemat(path, {**COLUMNS_OF_MATLAB, "speed_rpm": np.arange(4.0)})

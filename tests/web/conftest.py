@@ -10,6 +10,7 @@ import shutil
 import signal
 import tempfile
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +35,7 @@ class Server:
         *arguments: str,
         environment: dict[str, str] | None = None,
         module: str = "ballscrew.cli",
+        errors: Sequence[str] = ERRORS,
     ) -> None:
         self.errors = tempfile.TemporaryFile("w+", encoding="utf-8")  # noqa: SIM115  (a pipe would fill up)
         reading, writing = os.pipe()
@@ -45,7 +47,7 @@ class Server:
                 streams=[nothing.fileno(), writing, self.errors.fileno()],
                 environment=environment,
                 module=module,
-                errors=ERRORS,
+                errors=errors,
             )
         os.close(writing)
         self.first_line = self._output.readline()
@@ -62,6 +64,12 @@ class Server:
     def memory(self) -> float:
         """What it has of the memory, MB."""
         return psutil.Process(self.process.pid).memory_info().rss / 2**20
+
+    @property
+    def processor_time(self) -> float:
+        """Seconds that it has computed, on all processors."""
+        times = psutil.Process(self.process.pid).cpu_times()
+        return times.user + times.system
 
     def post(self, address: str, body: object, **more: object) -> httpx.Response:
         content = body if isinstance(body, bytes) else json.dumps(body).encode()

@@ -9,6 +9,7 @@ import time
 import pytest
 
 from ballscrew.web import bodies, limits
+from ballscrew.web.guard import HEADERS
 from support.short_timeouts import READ_TIMEOUT
 
 
@@ -232,6 +233,10 @@ def raw(server, text, wait=120.0):
         return found
 
 
+#: Headers that every response has.
+SECURITY = [name.lower() for name in (*HEADERS, "Content-Security-Policy")]
+
+
 @pytest.mark.parametrize(
     "text",
     [
@@ -252,7 +257,10 @@ def test_what_is_no_request(server, text):
         return
     assert found.startswith(b"HTTP/1.1 400")
     assert b"application/problem+json" in found
-    assert b"content-security-policy" in found.lower() or b"x-content-type-options" in found.lower()
+    expected = server.get("schema").headers
+    lines = found.partition(b"\r\n\r\n")[0].decode().splitlines()[1:]
+    headers = {name.lower(): value.strip() for name, _, value in (line.partition(":") for line in lines)}
+    assert {name: headers.get(name) for name in SECURITY} == {name: expected[name] for name in SECURITY}
 
 
 HEAD = b"POST /api/v1/run HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 500\r\n\r\n"

@@ -1,10 +1,18 @@
 """The server under load, for a short while; ``benchmarks/serve.py`` does it for minutes."""
 
+import concurrent.futures
+import gc
 import importlib.util
 import itertools
+import sys
 from pathlib import Path
 
+import psutil
 import pytest
+
+from ballscrew.report.blocks import Report
+from ballscrew.report.pdf import pdf_bytes
+from ballscrew.web import memory
 
 SCRIPT = Path(__file__).parents[2] / "benchmarks" / "serve.py"
 
@@ -34,6 +42,40 @@ def test_memory_stays_after_the_first_requests(server, serve):
     before = server.memory
     ask(2)
     assert server.memory - before < 15
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="needs malloc_trim of glibc")
+def test_memory_of_heavy_work_is_given_back():
+    """Also that of cycles, which figures and tapes are."""
+
+    def work(size):
+        cycle = [[str(i) * 200] for i in range(size)]
+        cycle.append(cycle)
+        return resident()
+
+    def resident():
+        return psutil.Process().memory_info().rss / 2**20
+
+    gc.collect()
+    before = resident()
+    largest = memory.releasing(work)(150_000)
+    assert largest - before > 100
+    assert resident() - before < 0.3 * (largest - before)
+
+
+def test_what_typst_keeps_does_not_stay_with_the_server(monkeypatch):
+    """10 MB for each of the last reports: the PDF is set in a process of its own."""
+    monkeypatch.setitem(sys.modules, "typst", None)
+    assert pdf_bytes(Report("Title", ["below it"], [], "ballscrew")).startswith(b"%PDF")
+
+
+@pytest.mark.long
+def test_memory_after_a_thousand_reports(start, serve):
+    server = start()
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        bodies = ({"case": serve.case_number(i)} for i in range(1000))
+        assert {found.status_code for found in pool.map(lambda body: server.post("report", body), bodies)} == {200}
+    assert server.memory < 400
 
 
 @pytest.mark.long

@@ -8,6 +8,7 @@ import sys
 import threading
 import time
 
+import httpx
 import pytest
 
 from ballscrew.web import api, server
@@ -97,6 +98,28 @@ def test_beyond_the_queue_it_is_refused_and_quick_work_goes_on():
         go_on.set()
         assert await asyncio.gather(*heavy) == [True] * 5
         assert await queue.heavy(reporting(0)) == "finished"
+
+    run_scene(scene())
+
+
+def test_a_short_sweep_does_not_wait_for_bands(paper):
+    """One of some hundred points takes 20 to 90 ms; a long one waits its turn, and here there is no room left."""
+
+    async def scene():
+        queue, go_on = RequestQueue(time_limit=LONG, heavy=1, waiting=1), threading.Event()
+        heavy = [asyncio.create_task(queue.heavy(lambda _: go_on.wait(LONG))) for _ in range(2)]
+        transport = httpx.ASGITransport(server.application(requests=queue))
+        async with httpx.AsyncClient(transport=transport, base_url="http://localhost", timeout=LONG) as client:
+
+            async def status(points):
+                body = {"case": paper, "vary": {"axial_load": f"1:9000:{points} N"}, "outputs": ["screw_torque"]}
+                return (await client.post("/api/v1/sweep", json=body)).status_code
+
+            assert await status(400) == 200
+            assert await status(5000) == 429
+        assert not any(task.done() for task in heavy)
+        go_on.set()
+        assert await asyncio.gather(*heavy) == [True] * 2
 
     run_scene(scene())
 

@@ -1,5 +1,6 @@
 """The API against its own OpenAPI description, by schemathesis."""
 
+import json
 from collections import Counter
 
 import jsonschema_rs
@@ -10,7 +11,8 @@ from schemathesis.specs.openapi.checks import positive_data_acceptance
 from schemathesis.specs.openapi.definitions import OPENAPI_31
 
 from ballscrew.cases.schema import json_schema
-from ballscrew.web import problems
+from ballscrew.studies import validation
+from ballscrew.web import api, problems
 from ballscrew.web.request_queue import RequestQueue
 from ballscrew.web.server import (
     application,
@@ -97,6 +99,17 @@ def test_the_bodies_to_try_follow_their_schema():
                 validator.validate(example["value"])
                 assert not validator.is_valid({**example["value"], "cases": 1}), path
                 assert not validator.is_valid({**example["value"], "case": {"screw": 5}}), path
+
+
+def test_whatever_may_be_null_is_described():
+    """A field that the description does not name may be anything: of null, a client learns from its description."""
+    entries = json.loads(api._validated(tuple(validation.SETS)))
+    parts = schema.raw_schema["components"]["schemas"]
+    for name, tables in (("ValidationEntry", entries), ("ValidationRow", [row for e in entries for row in e["rows"]])):
+        null = {field for table in tables for field, value in table.items() if value is None}
+        described = parts[name]["properties"]
+        assert null <= {field for field, s in described.items() if {"type": "null"} in s.get("anyOf", [])}, name
+        assert null
 
 
 @pytest.mark.parametrize("method", ["DELETE", "PUT", "PATCH", "OPTIONS", "TRACE"])

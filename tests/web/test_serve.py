@@ -3,11 +3,11 @@
 import asyncio
 import concurrent.futures
 import contextlib
+import json
 import signal
 import socket
 import subprocess
 import sys
-import threading
 import time
 import unittest.mock
 
@@ -16,6 +16,7 @@ import pytest
 import uvicorn
 
 from ballscrew.web import connections
+from ballscrew.web import server as web
 
 ENDS = (0, 130)
 
@@ -60,31 +61,75 @@ def test_without_the_extra_it_says_what_to_install(tmp_path):
     assert process.stderr == 'serve: needs fastapi and uvicorn · pip install "ballscrew[web]"\n'
 
 
+def connected(server):
+    return socket.create_connection(("127.0.0.1", server.port), timeout=60)
+
+
+def request_bytes(address, case):
+    body = json.dumps({"case": case}).encode()
+    head = (
+        f"POST {address} HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: {len(body)}"
+    )
+    return head.encode() + b"\r\n\r\n" + body
+
+
+def status_of(connection):
+    """The status of the response on a connection; a reset of the connection is an error."""
+    return int(connection.recv(65_536).split()[1])
+
+
 def test_it_ends_at_once_while_it_computes(start, elastic):
     """Also with a body that does not come to its end, and with a connection that says nothing."""
     server = start()
-    answers = []
-
-    def ask():
-        with httpx.Client(trust_env=False) as client:
-            answers.append(client.post(f"{server.address}/api/v1/band", json={"case": elastic}, timeout=300))
-
-    threads = [threading.Thread(target=ask) for _ in range(3)]
-    for thread in threads:
-        thread.start()
-    with socket.create_connection(("127.0.0.1", server.port)) as slow, socket.create_connection(slow.getpeername()):
-        slow.sendall(b"POST /api/v1/run HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n"
-                     b"Content-Type: application/json\r\n\r\n{")  # fmt: skip
-        time.sleep(0.5)
+    with contextlib.ExitStack() as stack:
+        asked, (slow, _) = ([stack.enter_context(connected(server)) for _ in range(count)] for count in (3, 2))
+        for connection in asked:
+            connection.sendall(request_bytes("/api/v1/band", elastic))
+        before = server.processor_time
+        while server.processor_time < before + 0.1:  # more than it takes to read the requests: it computes
+            time.sleep(0.01)
+        slow.sendall(request_bytes("/api/v1/run", elastic)[:-9])
         code, errors = server.end()
-        slow.settimeout(60)
+        assert {status_of(connection) for connection in asked} <= {200, 503}
         with contextlib.suppress(ConnectionResetError):
-            assert b" 408 " not in slow.recv(65_536), "it waited until the body was late"
+            assert slow.recv(65_536) == b"", "it waited until the body was late"
     assert code in ENDS
     assert "Traceback" not in errors
-    for thread in threads:
-        thread.join()
-    assert {answer.status_code for answer in answers} <= {200, 503}
+
+
+@pytest.mark.parametrize("accepted", [False, True])
+def test_what_was_sent_before_the_end_is_answered(paper, accepted):
+    """Requests that the kernel has, on connections that are accepted or not, and that are not read yet.
+
+    A client that has not sent its whole request by then may be reset: no server can answer what it has not got.
+    """
+    listening = socket.create_server(("127.0.0.1", 0))
+    application = web.application()
+
+    async def scene():
+        config = uvicorn.Config(application, http=connections._TimeoutProtocol, lifespan="off", log_level="error")
+        server = connections._Server(config, application.state.requests)
+        config.load()
+        server.lifespan = config.lifespan_class(config)
+        await server.startup([listening])
+        asked = [socket.create_connection(listening.getsockname(), timeout=60) for _ in range(5)]
+        while accepted and len(server.server_state.connections) < len(asked):
+            await asyncio.sleep(0)
+        for connection in asked:
+            connection.sendall(request_bytes("/api/v1/run", paper))
+        await server.shutdown([listening])
+        return asked
+
+    with concurrent.futures.ThreadPoolExecutor(1) as pool, contextlib.ExitStack() as stack:
+        asked = [stack.enter_context(connection) for connection in pool.submit(asyncio.run, scene()).result()]
+        assert [status_of(connection) for connection in asked] == [503] * 5
+
+
+def test_warnings_do_not_reach_the_terminal(start):
+    """Of NumPy: the answer says what has no value, and nobody reads the terminal."""
+    server = start(module="warning_server", errors=())
+    assert server.get("catalogue").status_code == 200
+    assert server.end() == (0, "")
 
 
 def test_a_second_signal_ends_it_too(start):

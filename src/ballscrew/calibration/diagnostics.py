@@ -6,9 +6,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ballscrew.calibration.fit_result import AS_GIVEN, CALIBRATED, FitResult
+from ballscrew.calibration.fit_result import AS_GIVEN, CALIBRATED, MINIMUM_DEGREES_OF_FREEDOM, FitResult
 from ballscrew.calibration.problem import CONSTANT_TORQUE
-from ballscrew.calibration.robust import autocorrelation_lag
+from ballscrew.calibration.robust import autocorrelation_lag, minimum_scatter
 from ballscrew.records import Record
 
 #: A share of outliers beyond which they are no longer a few.
@@ -21,6 +21,8 @@ PRIOR_SHARE = 0.05
 MAXIMUM_NOISE_SHARE = 0.3
 #: A description without physics that is off by less than this share of the model says that the model is another screw.
 BASELINE_RATIO = 0.5
+#: A larger ratio of residuals is not stated: what is nearer then follows the log to its rounding.
+MAXIMUM_RATIO = 100.0
 
 
 def warning_records(found: FitResult) -> list[Record]:
@@ -142,6 +144,10 @@ def _of_rows(found: FitResult) -> list[Record]:
     if outlying > MANY_OUTLIERS:
         text = f"{outlying:.0%} of the rows lie far from any fit: look at their signs, units and conditions"
         warn("outliers", "rows", text, outlying, MANY_OUTLIERS)
+    freedom = min(estimate.degrees_of_freedom for estimate in found.estimates.values())
+    if freedom < MINIMUM_DEGREES_OF_FREEDOM:
+        text = "too few operating points for so many numbers: no estimate has an error; measure at more, or free fewer"
+        warn("too_few", "rows", text, float(len(found.rows.log)))
     if autocorrelation_lag(found.solution.influence):
         text = "residuals that follow each other are alike: the errors are larger for it"
         warn("autocorrelated", "residuals", text)
@@ -152,9 +158,11 @@ def _of_rows(found: FitResult) -> list[Record]:
     own = rms.pop(CALIBRATED)
     rms.pop(AS_GIVEN)
     best = min(rms, key=lambda description: rms[description])
-    if rms[best] < BASELINE_RATIO * own:
+    if rms[best] < BASELINE_RATIO * own and own > minimum_scatter(found.rows.log.torque):
+        ratio = own / rms[best] if rms[best] * MAXIMUM_RATIO > own else MAXIMUM_RATIO
+        times = f"{ratio:.1f} times" if ratio < MAXIMUM_RATIO else f"more than {MAXIMUM_RATIO:.0f} times"
         text = (
-            f"the description without physics ({best}) is {own / rms[best]:.1f} times nearer to the log: look at "
+            f"the description without physics ({best}) is {times} nearer to the log: look at "
             "units, kind of torque, and whether this is the screw"
         )
         warn("baseline_better", "residual_rms", text, own, rms[best], "N m")

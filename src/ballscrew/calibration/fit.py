@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from ballscrew.calibration import baselines
 from ballscrew.calibration.calibrated_model import CalibratedModel
 from ballscrew.calibration.diagnostics import warning_records
-from ballscrew.calibration.fit_result import AS_GIVEN, CALIBRATED, Estimate, Rows, Score
-from ballscrew.calibration.identifiability import Identifiability, Uncertainty
+from ballscrew.calibration.fit_result import AS_GIVEN, CALIBRATED, MINIMUM_DEGREES_OF_FREEDOM, Estimate, Rows, Score
+from ballscrew.calibration.identifiability import MAXIMUM_RELATIVE_ERROR, Identifiability, Uncertainty
+from ballscrew.calibration.jackknife import jackknife_covariance, operating_points
 from ballscrew.calibration.priors import Priors
 from ballscrew.calibration.problem import CONSTANT_TORQUE, Problem, drift_of, escape_insensitive_start
 from ballscrew.calibration.response import Response, resolve_input
@@ -33,10 +34,10 @@ from ballscrew.uncertainty.distributions import Distribution
 
 #: How often a fit evaluates the whole log, roughly: only the choice of the engine depends on it.
 EVALUATIONS = 60
-#: Operating points are distinguished by this share of the largest load and speed.
-CELL_WIDTH = 0.02
 #: With fewer operating points than this, single rows are held out; with fewer rows than this, none are.
 MINIMUM_CELLS, MINIMUM_ROWS = 10, 10
+#: The errors of fewer rows than this are at least those of the jackknife, which fits once for each operating point.
+JACKKNIFE_ROWS = 16
 #: An estimate so near a bound, in units of its scale, is at it.
 AT_BOUND = 1e-3
 #: Where a number moves by two standard errors, the loss rises by four; by less than this share of it, it is flat.
@@ -127,8 +128,15 @@ def fit(
     scale = problem.scale_at(solution.values)
     told = Identifiability.of(solution, problem.names, scale)
     uncertainty = Uncertainty.of(solution, scale, known.slopes(solution.values))
+    degrees_of_freedom = solution.residuals.size - solution.values.size
+    if solution.residuals.size < JACKKNIFE_ROWS:
+        groups = _groups(log, held_out, solution.values.size)
+        degrees_of_freedom = np.unique(groups[~held_out]).size - solution.values.size
+        if degrees_of_freedom >= MINIMUM_DEGREES_OF_FREEDOM:
+            spread = jackknife_covariance(problem, log.torque, groups, start, problem.scale, known.all)
+            uncertainty = uncertainty.at_least(spread)
     one_sided = _one_sided(problem, solution, uncertainty, held_out, log)
-    estimates = _estimates(problem, solution, one_sided, uncertainty, known)
+    estimates = _estimates(problem, solution, one_sided, uncertainty, known, degrees_of_freedom)
     found = CalibratedModel(
         subject=_with(subject, response, solution),
         estimates={name: estimates[name] for name in problem.names},
@@ -203,16 +211,20 @@ def _held_out(log: TorqueLog, share: float, seed: int) -> NDArray[np.bool_]:
     rows = len(log)
     if share == 0 or rows < MINIMUM_ROWS:
         return np.zeros(rows, dtype=bool)
-    places = [np.sign(log.screw_speed)]
-    for values in (log.axial_load, log.screw_speed):
-        largest = float(np.max(np.abs(values))) or 1.0
-        places.append(np.round(values / (CELL_WIDTH * largest)))
-    _, cell = np.unique(np.stack(places), axis=1, return_inverse=True)
+    cell = operating_points(log.axial_load, log.screw_speed)
     cells = int(cell.max()) + 1
     if cells < MINIMUM_CELLS:
         cell, cells = np.arange(rows), rows
     chosen = np.random.default_rng(seed).permutation(cells)[: max(1, round(share * cells))]
     return np.isin(cell, chosen)
+
+
+def _groups(log: TorqueLog, held_out: NDArray[np.bool_], parameters: int) -> NDArray[np.int64]:
+    """The groups of the jackknife: operating points where there are enough, or else rows; -1 for rows held out."""
+    points = operating_points(log.axial_load, log.screw_speed)
+    if np.unique(points[~held_out]).size < parameters + MINIMUM_DEGREES_OF_FREEDOM:
+        points = np.arange(len(log))
+    return np.where(held_out, -1, points)
 
 
 def _one_sided(
@@ -240,18 +252,29 @@ def _one_sided(
 
 
 def _estimates(
-    problem: Problem, solution: Solution, one_sided: NDArray[np.bool_], uncertainty: Uncertainty, known: Priors
+    problem: Problem,
+    solution: Solution,
+    one_sided: NDArray[np.bool_],
+    uncertainty: Uncertainty,
+    known: Priors,
+    degrees_of_freedom: int,
 ) -> dict[str, Estimate]:
     low, high = problem.bounds
     near = AT_BOUND * problem.scale
     at_bound = (solution.values - low <= near) | (high - solution.values <= near)
+    precise = np.sqrt(np.diagonal(uncertainty.covariance)) <= MAXIMUM_RELATIVE_ERROR * uncertainty.scale
+    precise &= degrees_of_freedom >= MINIMUM_DEGREES_OF_FREEDOM
     found: dict[str, Estimate] = {}
     for i, parameter in enumerate(problem.parameters):
         value, variance = float(solution.values[i]), float(uncertainty.covariance[i, i])
         prior = known.deviation(i, value)
         share = 0.0 if prior is None else min(1.0, variance / prior**2)
         sensor_columns = i >= problem.free
-        told = uncertainty.directions.identifiable_parameters[i] and (sensor_columns or share <= PRIOR_ONLY_SHARE)
+        told = (
+            uncertainty.directions.identifiable_parameters[i]
+            and precise[i]
+            and (sensor_columns or share <= PRIOR_ONLY_SHARE)
+        )
         # in one direction a zero error of the sensor is the same as it
         told = told and (parameter.name != CONSTANT_TORQUE.name or problem.has_torque_offset)
         identified = bool(told and not at_bound[i] and not one_sided[i])
@@ -264,7 +287,7 @@ def _estimates(
             start=parameter.start,
             at_bound=bool(at_bound[i]),
             one_sided=bool(one_sided[i] and told),
-            degrees_of_freedom=max(1, solution.residuals.size - solution.values.size),
+            degrees_of_freedom=max(1, degrees_of_freedom),
             prior_share=share,
             bounds=(parameter.low, parameter.high),
         )

@@ -28,6 +28,8 @@ from ballscrew.uncertainty.sampling import JointNormal
 
 #: Bins of rows over which the means of residuals are taken.
 TREND_BINS = 5
+#: With fewer operating points beyond the number of parameters than this, no estimate gets an error.
+MINIMUM_DEGREES_OF_FREEDOM = 2
 #: Descriptions of the scores of the model itself, before and after the fit.
 AS_GIVEN, CALIBRATED = "the model as given", "the model calibrated"
 

@@ -153,6 +153,14 @@ class Uncertainty:
         outside = scale[:, np.newaxis] * inside @ inverse
         return cls(outside @ _at_least(spread, even) @ outside.T, scale, directions)
 
+    def at_least(self, covariance: Vector) -> Uncertainty:
+        """The same with another covariance, where that is the larger, within the directions that are measured."""
+        inside = self.directions.measured_directions
+        scales = np.outer(self.scale, self.scale)
+        own, other = (inside.T @ (one / scales) @ inside for one in (self.covariance, covariance))
+        outside = self.scale[:, np.newaxis] * inside
+        return dataclasses.replace(self, covariance=outside @ _at_least(other, own) @ outside.T)
+
     def variance_of(self, gradients: Vector) -> Vector:
         """Variance of a quantity with these derivatives by the parameters, along the last axis.
 

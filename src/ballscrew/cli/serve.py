@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import importlib.util
+import logging
 import os
 import socket
 import sys
@@ -48,6 +49,7 @@ def serve(
     sys.stdout.flush()
     if open_browser:
         webbrowser.open(address)
+    logging.captureWarnings(True)  # of NumPy: the answers state what has no value, the terminal is not where to look
     with listening, contextlib.suppress(KeyboardInterrupt):  # Ctrl-C is how it ends
         connections.serve(application, listening)
 

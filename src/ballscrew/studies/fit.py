@@ -70,8 +70,9 @@ def fit(case: Case, path: Path, options: Options, done: Callable[[int, int], Non
     """
     refuse_nut(case)
     log = reading.read(
-        path, options.columns, torque_constant=options.torque_constant, keep_going=options.keep_going, done=done
-    )
+        path, options.columns, torque_constant=options.torque_constant, lead=float(case.screw.lead),
+        keep_going=options.keep_going, done=done,
+    )  # fmt: skip
     subject = Configuration(case.model, case.screw, case.lubricant)
     known = free_quantities(case, options.free)
     priors = {

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ballscrew.quantities import within_bounds
 from ballscrew.tables import decimals
 from ballscrew.tables.headings import NOTHING, Heading
+from ballscrew.tables.sheets import is_error
 
 pd: Any = pandas  # its own types know little of what comes out
 #: The decimal marks of a file with decimal commas only.
@@ -42,8 +43,10 @@ def column_numbers(
 
 
 def is_missing(cell: Any) -> bool:
-    """Test whether a cell has no value."""
-    return cell is None or (isinstance(cell, float) and np.isnan(cell)) or (isinstance(cell, str) and cell in MISSING)
+    """Test whether a cell has no value, or an error of a spreadsheet in place of one."""
+    if isinstance(cell, str):
+        return cell in MISSING or is_error(cell)
+    return cell is None or (isinstance(cell, float) and np.isnan(cell))
 
 
 def _plain_numbers(cells: NDArray[Any], decimal: frozenset[str]) -> NDArray[np.float64]:

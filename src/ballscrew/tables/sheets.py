@@ -7,17 +7,17 @@ from __future__ import annotations
 
 import codecs
 import csv
+import importlib.util
 import io
 import itertools
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ballscrew.errors import (
-    Fault,
-    InputError,
-)
+from ballscrew import child_process
+from ballscrew.errors import Fault, InputError
+from ballscrew.tables import workbooks
 
 #: Endings of files that are read as spreadsheets, and how such files begin whatever they are called.
 SPREADSHEETS = (".xlsx", ".xlsm", ".xlsb", ".xls", ".ods")
@@ -28,7 +28,7 @@ HEADINGS_WITHIN = 10
 #: A spreadsheet may begin with a line for other spreadsheets: which delimiter it has.
 _DECLARATION = "sep="
 #: What spreadsheets write for a cell that went wrong; no comment, though it begins like one.
-_ERROR = re.compile(r"#(?:N/A|NV|[A-Z0-9/]+[!?])")
+_ERROR = re.compile(r"#(?:N/A|NV|[A-ZÄÖÜ0-9/]+[!?])")
 
 
 class Record(NamedTuple):
@@ -139,28 +139,11 @@ def delimiter_of(text: str, is_heading: Callable[[str], bool], within: int = HEA
 
 
 def _of_spreadsheet(path: Path, data: bytes) -> list[Record]:
-    try:
-        from python_calamine import CalamineError, CalamineWorkbook
-    except ImportError:
+    if importlib.util.find_spec("python_calamine") is None:
         remedy = 'pip install "ballscrew[data]", or save it as CSV'
-        raise InputError(Fault(str(path), "needs python-calamine", "", remedy)) from None
+        raise InputError(Fault(str(path), "needs python-calamine", "", remedy))
     try:
-        workbook = CalamineWorkbook.from_filelike(io.BytesIO(data))
-        for name in workbook.sheet_names:
-            rows = workbook.get_sheet_by_name(name).to_python(skip_empty_area=False)
-            found = list(_filled(rows))
-            if found:
-                return found
-    except CalamineError as error:
-        problem, remedy = "is no spreadsheet that can be read", "save it as XLSX without a password, or as CSV"
-        raise InputError(Fault(str(path), problem, str(error), remedy)) from None
-    return []
-
-
-def _filled(rows: Sequence[Sequence[Any]]) -> Iterator[Record]:
-    for line, row in enumerate(rows, start=1):
-        cells = [cell.strip() if isinstance(cell, str) else cell for cell in row]
-        filled = [cell for cell in cells if cell != ""]
-        comment = len(filled) == 1 and str(filled[0]).startswith("#")
-        if filled and not comment:
-            yield Record(line, cells)
+        return [Record(line, cells) for line, cells in child_process.call(workbooks.rows_of, data)]
+    except child_process.ChildError as error:
+        remedy = "save the table alone, without cells far from it and without a password, as XLSX or CSV"
+        raise InputError(Fault(str(path), "is no spreadsheet that can be read", str(error), remedy)) from None

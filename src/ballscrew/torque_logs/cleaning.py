@@ -13,12 +13,14 @@ from ballscrew.errors import Fault, InputError, fault_of
 from ballscrew.quantities import within_bounds
 from ballscrew.torque_logs.log_rows import INERTIA, REQUIRED, LogRows, quantities
 from ballscrew.torque_logs.motion import CLEAR, Floats, motion_of, runs_in
+from ballscrew.torque_logs.repeats import repeated_rows
 
 #: Any kind of log: each step returns the kind that it was given.
 Log = TypeVar("Log", bound=LogRows)
 
 #: Reasons for leaving rows out.
 GAPS, REST, RAMPS, THINNED = "a value is missing", "at rest", "speed changes", "thinned"
+REPEATED = "repeats an earlier row"
 #: Fewer rows than these tell nothing; fewer than those tell little.
 LEAST_ROWS, FEW_ROWS = 3, 30
 #: A log that is longer is thinned to so many rows before anything but its acceleration is looked at.
@@ -50,7 +52,8 @@ def cleaned(log: Log, inertia: float | None, most: int) -> Log:
     if inertia is not None and (fault := fault_of("log", INERTIA, inertia)) is not None:
         raise InputError(fault)
     log = log if log.keys is not None else dataclasses.replace(log, keys=random_keys(len(log)))
-    log = of_settings(thinned(in_order(without_gaps(log, (*REQUIRED, "time"))), HELD))
+    log = without_repeats(without_gaps(log, (*REQUIRED, "time")))
+    log = of_settings(thinned(in_order(log), HELD))
     log = without_gaps(log, ("temperature",))
     log = without_rest(without_ramps(log, inertia))
     log = thinned(log, most)
@@ -86,6 +89,17 @@ def complete_rows(columns: Mapping[str, Floats], rows: int) -> NDArray[np.bool_]
         if np.isfinite(values).any():
             found &= within_bounds(quantities()[name].info, values)
     return found
+
+
+def without_repeats(log: Log) -> Log:
+    """Without rows in sequences that occurred before: a log that was appended to itself counts once."""
+    if not len(log):
+        return log
+    again = repeated_rows([values for name, values in log.columns.items() if name != "time"])
+    if not again.any():
+        return log
+    told = f"{np.count_nonzero(again)} of {len(log)} rows repeat earlier ones, one after the other: counted once"
+    return log.select(~again, REPEATED).with_notes(told)
 
 
 def in_order(log: Log) -> Log:

@@ -38,6 +38,10 @@ _NAMES: Mapping[str, tuple[str, ...]] = {
         "feed", "feed speed", "linear speed", "linear velocity", "axial speed", "nut speed", "v", "velocity",
         "Vorschub", "Vorschubgeschwindigkeit", "Geschwindigkeit",
     ),
+    "position": (
+        "pos", "nut position", "axial position", "actual position", "travel", "stroke position",
+        "Weg", "Istposition", "Position ist", "Lage", "Verfahrweg", "Mutterposition",
+    ),
     "torque": ("T", "M", "Md", "Drehmoment", "Moment", "screw torque", "shaft torque", "spindle torque", "M_ist"),
     "friction_torque": (
         "no-load torque", "drag torque", "idling torque", "running torque", "preload torque", "preload drag torque",
@@ -59,19 +63,30 @@ _NAMES: Mapping[str, tuple[str, ...]] = {
 }  # fmt: skip
 #: Words that stand beside a name and change nothing. Set points have others.
 _HINTS = ("actual", "actual value", "act", "measured", "filtered", "ist", "Istwert", "mean", "value")
+#: Words beside a temperature that is taken as that of the oil; where there are several, one must be chosen.
+_PLACES = ("oil", "nut", "screw", "Öl", "Mutter", "Spindel")
+TEMPERATURE = "temperature"
 #: The columns that a torque may be in, the one that says most first, and what the torque then is.
 TORQUES: Mapping[str, Kind] = {
     "friction_torque": "friction", "drive_torque": "drive", "torque": "unknown", "current": "drive",
 }  # fmt: skip
-_SPEEDS = ("screw_speed", "feed_rate")
+#: The columns that a speed may come from; a position is differentiated.
+_SPEEDS = ("screw_speed", "feed_rate", "position")
 _QUANTITIES: Mapping[str, Quantity] = {
     **quantities(),
     **{name: dataclasses.replace(quantities()["torque"], name=name) for name in ("friction_torque", "drive_torque")},
     "current": Quantity("current", "A", Info("I", "current of the motor that makes torque")),
+    "position": Quantity("position", "m", Info("x", "position of the nut along the screw", "mm")),
     "feed_rate": Quantity("feed_rate", "m/s", Info("v", "speed of the nut along the screw", "m/min")),
 }
 COLUMNS = tuple(
-    Column(name, _QUANTITIES[name], names, name in {"axial_load", "screw_speed", "torque"}, _HINTS)
+    Column(
+        name,
+        _QUANTITIES[name],
+        names,
+        name in {"axial_load", "screw_speed", "torque"},
+        _HINTS + _PLACES * (name == TEMPERATURE),
+    )
     for name, names in _NAMES.items()
 )
 _BY_NAME: Mapping[str, Column] = {column.name: column for column in COLUMNS}
@@ -110,9 +125,21 @@ class Layout:
         return f'{self.file} row {line}, column "{self.headings[name].written}"'
 
     @property
+    def speed(self) -> str:
+        """The column that has the speed, or that it is computed from."""
+        return next((name for name in _SPEEDS if name in self.headings), _SPEEDS[0])
+
+    @property
     def torque(self) -> str:
         """The column that has the torque, or the current."""
         return next(name for name in TORQUES if name in self.headings)
+
+
+def temperatures_among(unused: Sequence[str]) -> list[str]:
+    """Of the columns that are not used, as :class:`Layout` lists them, those in a unit of temperature."""
+    column = _BY_NAME[TEMPERATURE]
+    parts = [(heading, _BRACKETS.fullmatch(heading.strip('"'))) for heading in unused]
+    return [heading for heading, found in parts if found is not None and fits(found["unit"], column)]
 
 
 def is_heading(cell: str) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections import Counter
 from collections.abc import Mapping
 from typing import Any
 
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from ballscrew.errors import Fault, InputError
 from ballscrew.tables.cells import shown, value_of
 from ballscrew.tables.number_columns import column_numbers, is_missing
+from ballscrew.tables.sheets import is_error
 from ballscrew.torque_logs.columns import CLOCK, Layout
 from ballscrew.torque_logs.log_rows import seconds
 from ballscrew.torque_logs.motion import Floats
@@ -31,6 +33,8 @@ class NumberReader:
     faults: list[Fault] = dataclasses.field(default_factory=list[Fault])
     #: Rows with a fault.
     bad_rows: int = 0
+    #: Errors of a spreadsheet in the cells, by what they say.
+    errors: Counter[str] = dataclasses.field(default_factory=Counter[str])
     _origin: Any = None
 
     def numbers(
@@ -46,6 +50,8 @@ class NumberReader:
         faults: list[tuple[int, Fault]] = []
         for name, cells in columns.items():
             heading = self.layout.headings[name]
+            if np.asarray(cells).dtype.kind not in "fiub":
+                self.errors.update(cell for cell in cells if isinstance(cell, str) and is_error(cell))
             values, wrong = (
                 self._dates(cells)
                 if heading.column.quantity is None

@@ -16,10 +16,11 @@ import numpy as np
 from ballscrew.errors import LINES_AT_MOST, Fault, InputError, raise_if_any
 from ballscrew.tables.sheets import unreadable
 from ballscrew.torque_logs.cleaning import HELD
-from ballscrew.torque_logs.columns import TORQUES, Layout, layout
+from ballscrew.torque_logs.columns import TEMPERATURE, TORQUES, Layout, layout, temperatures_among
 from ballscrew.torque_logs.log_rows import REQUIRED
 from ballscrew.torque_logs.motion import Floats
 from ballscrew.torque_logs.numbers import NumberReader
+from ballscrew.torque_logs.positions import feed_rate
 from ballscrew.torque_logs.reservoir_sampler import ReservoirSampler
 from ballscrew.torque_logs.sources import source_of
 from ballscrew.torque_logs.text_files import Piece, size_of
@@ -79,6 +80,15 @@ def _read(
     log, numbers = _gathered(place, source.pieces(place, chunk), factors, keep_going, held)
     digest = source.digest()
     notes = [f"columns not used: {', '.join(place.unused)}"] if place.unused else []
+    if TEMPERATURE not in place.headings and (others := temperatures_among(place.unused)):
+        notes.append(f"if {others[0]} is the temperature of the oil, give --column temperature={others[0]}")
+    if numbers.errors:
+        kinds, count = ", ".join(sorted(numbers.errors)), sum(numbers.errors.values())
+        notes.append(f"{count} cells hold errors of a spreadsheet ({kinds}): they count as missing")
+    if "position" in place.headings:
+        notes.append(
+            "the speed is that of the position over the time, from straight lines through the rows around each"
+        )
     if source.empty_bytes:
         notes.append(f"the file ends with {source.empty_bytes} empty bytes, which are left out")
     if done is not None:
@@ -92,12 +102,16 @@ def _check_factors(place: Layout, torque_constant: float | None, lead: float | N
     for name, factor, option in (
         ("current", torque_constant, 'give --torque-constant "0.5 N m/A"'),
         ("feed_rate", lead, "give the lead of the screw, or a column with its speed"),
+        ("position", lead, "give the lead of the screw, or a column with its speed"),
     ):
         if name in place.headings and factor is None:
             needs = "torque constant" if name == "current" else "lead"
             faults.append(
                 Fault(f'{place.file} column "{place.headings[name].written}"', f"needs the {needs}", "", option)
             )
+    if "position" in place.headings and "time" not in place.headings:
+        where = f'{place.file} column "{place.headings["position"].written}"'
+        faults.append(Fault(where, "gives no speed without the time", "", "give a column with the time, or the speed"))
     raise_if_any(faults)
 
 
@@ -138,6 +152,8 @@ def _named(
     torque_constant, lead = factors
     if "current" in found and torque_constant is not None:
         found["torque"] = torque_constant * found.pop("current")
+    if "position" in found:
+        found["feed_rate"] = feed_rate(found["time"], found.pop("position"))[0]
     if "feed_rate" in found and lead is not None:
         found["screw_speed"] = 2 * np.pi / lead * found.pop("feed_rate")
     for name in TORQUES:
@@ -152,7 +168,7 @@ def _lacks(named: Mapping[str, Floats], row: int) -> bool:
 
 def _check_filled(place: Layout, gathering: ReservoirSampler) -> None:
     """Raise for columns that are needed and empty."""
-    ours = {"torque": place.torque, "screw_speed": "feed_rate" if "feed_rate" in place.headings else "screw_speed"}
+    ours = {"torque": place.torque, "screw_speed": place.speed}
     raise_if_any(
         [
             Fault(

@@ -270,7 +270,7 @@ def _quantiles(values: Values, shares: Sequence[float]) -> list[float]:
 def _variance(name: str, values: Values) -> float:
     with np.errstate(all="ignore"):
         spread = np.log(values) if name in POSITIVE else values
-    finite = spread[np.isfinite(spread)]
-    if not finite.size:
-        return float("nan")
-    return float(np.var(finite)) if np.ptp(finite) else 0.0  # no roundings for a variance
+        finite = spread[np.isfinite(spread)]
+        if not finite.size:
+            return float("nan")
+        return float(np.var(finite)) if np.ptp(finite) else 0.0  # no roundings for a variance

@@ -322,9 +322,14 @@ class ValidationRow(Open):
 
     name: str
     unit: str
-    value: Number
+    value: Number = Field(description="of the model, SI")
+    middle: Number = Field(description="of the data, SI")
+    low: Number = Field(description="of the vendor's band, SI")
+    high: Number = Field(description="of the vendor's band, SI")
     ratio: Number
     in_band: bool | None
+    residual: Number = Field(description="SI")
+    residual_in_half_bands: Number
     warnings: list[Any]
 
 

@@ -6,7 +6,7 @@ import asyncio
 import functools
 import json
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Coroutine, Mapping
 from typing import Annotated, Any
 
 import tomlkit
@@ -29,7 +29,7 @@ from ballscrew.studies import run as runs
 from ballscrew.studies import sweep as sweeps
 from ballscrew.studies import validation
 from ballscrew.studies.comparison import comparison
-from ballscrew.web import answers, documents, limits, openapi, vocabulary
+from ballscrew.web import answers, documents, limits, memory, openapi, vocabulary
 from ballscrew.web.bodies import BandBody, CaseBody, SweepBody, case_of, read
 from ballscrew.web.problems import Refused
 from ballscrew.web.request_queue import Deadline, RequestQueue
@@ -79,8 +79,13 @@ def _queue(request: Request) -> RequestQueue:
 
 
 async def _heavy(request: Request, work: Callable[[Deadline], Any]) -> Any:
-    """Heavy work, cancelled when the client disconnects: the page cancels its requests at the next key."""
-    task = asyncio.ensure_future(_queue(request).heavy(work))
+    """Heavy work, cancelled when the client disconnects; its memory is given back."""
+    return await _cancellable(request, _queue(request).heavy(memory.releasing(work)))
+
+
+async def _cancellable(request: Request, work: Coroutine[Any, Any, Any]) -> Any:
+    """Work, cancelled when the client disconnects: the page cancels its requests at the next key."""
+    task = asyncio.ensure_future(work)
     disconnected = asyncio.ensure_future(_disconnected(request))
     try:
         await asyncio.wait((task, disconnected), return_when=asyncio.FIRST_COMPLETED)
@@ -126,14 +131,22 @@ async def sweep(request: Request) -> Response:
     body: SweepBody = await read(request, SweepBody)
     limits.check_size(body.vary, len(body.outputs))
 
-    def work(done: Deadline) -> Response:
+    def planned() -> tuple[case_file.Case, sweeps.Plan]:
         case = case_of(body.case)
         if not body.vary:
             limits.check_size(case.sweep, len(body.outputs))
         plan = sweeps.plan(case, [f"{name}={text}" for name, text in body.vary.items()], body.outputs, None)
         limits.check_sweep(case, plan)
+        return case, plan
+
+    queue = _queue(request)
+    case, plan = await queue.quick(planned)
+
+    def work(done: Deadline) -> Response:
         return _json(sweep_documents.document(case, plan, sweeps.sweep(case, plan, done)))
 
+    if limits.is_short(case, plan):
+        return await _cancellable(request, queue.short(work))
     return await _heavy(request, work)
 
 

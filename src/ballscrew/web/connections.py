@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import logging
 import socket
+from collections.abc import Mapping
 from typing import Any
 
 import h11
@@ -15,7 +16,6 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 from ballscrew.errors import Fault
 from ballscrew.web import problems
 from ballscrew.web.bodies import READ_TIMEOUT
-from ballscrew.web.guard import HEADERS
 from ballscrew.web.request_queue import RequestQueue
 
 #: Bytes of the head of a request.
@@ -24,6 +24,9 @@ LONGEST_HEAD = 65_536
 _WRITE_TIMEOUT = 60.0
 #: Seconds that responses have to be sent at shutdown.
 _SHUTDOWN_TIMEOUT = 2
+#: Turns of the event loop from a request that waits in the kernel to its handler: the connection is accepted, made,
+#: registered and read, one turn each. As many again in reserve.
+_TURNS_TO_READ = 8
 
 
 class _TimeoutProtocol(H11Protocol):
@@ -70,6 +73,12 @@ class _TimeoutProtocol(H11Protocol):
             self._start_reading()
 
     @property
+    def _headers(self) -> Mapping[str, str]:
+        """The headers of every response of the application."""
+        application: Any = self.config.app
+        return application.state.headers
+
+    @property
     def expects_body(self) -> bool:
         """True while the body of a request is incomplete."""
         return self.conn.their_state is h11.SEND_BODY
@@ -79,7 +88,8 @@ class _TimeoutProtocol(H11Protocol):
         if self.conn.our_state in (h11.IDLE, h11.SEND_RESPONSE):
             fault = Fault("request", "is not HTTP, or its head is too long", "", f"{LONGEST_HEAD} bytes at most")
             found = problems.response(400, [fault])
-            found.headers.update({**HEADERS, "Cache-Control": "no-store", "Connection": "close"})
+            # no middleware sees this response
+            found.headers.update({**self._headers, "Cache-Control": "no-store", "Connection": "close"})
             for event in (
                 h11.Response(status_code=400, headers=found.raw_headers, reason="Bad Request"),
                 h11.Data(data=bytes(found.body)),
@@ -110,8 +120,14 @@ class _Server(uvicorn.Server):
         self._requests = requests
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """Refuse the requests that wait, and close the connections whose requests are incomplete."""
+        """Refuse the requests that wait, and close the connections whose requests are incomplete.
+
+        Requests that were sent but not read are read first: a connection closed with unread bytes is reset, and its
+        client would get no response.
+        """
         self._requests.close()
+        for _ in range(_TURNS_TO_READ):
+            await asyncio.sleep(0)
         for connection in list(self.server_state.connections):
             if isinstance(connection, _TimeoutProtocol) and connection.expects_body:
                 connection.transport.close()

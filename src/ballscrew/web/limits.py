@@ -22,6 +22,8 @@ MOST_AXES, MOST_POINTS, MOST_POINTS_OF_NUT, MOST_RETURNED = 8, 20_000, 2_000, 20
 MOST_SAMPLES, MOST_SAMPLES_OF_NUT = 65_536, 1_024
 #: Balls that are computed one by one, in all points of a sweep or samples of a band.
 MOST_BALLS_IN_ALL = 250_000
+#: Points of a sweep of a tenth of a second, and balls in all of them that are computed one by one.
+SHORT_POINTS, SHORT_POINTS_OF_NUT, SHORT_BALLS = 1_000, 200, 5_000
 #: With more balls than this, a single point is heavy work.
 MANY_BALLS = 300
 #: Balls with two contacts that take as long as one with four.
@@ -53,6 +55,13 @@ def check_sweep(case: Case, plan: sweeps.Plan) -> None:
         number = f"{points * len(plan.columns):,}"
         faults.append(Fault("sweep", "too many values", number, f"{MOST_RETURNED:,} at most here"))
     raise_if_any(faults)
+
+
+def is_short(case: Case, plan: sweeps.Plan) -> bool:
+    """Test whether a sweep takes about a tenth of a second at most, such as those of the page."""
+    points = math.prod(len(values) for values in plan.axes.values())
+    most = SHORT_POINTS if case.parts is None else SHORT_POINTS_OF_NUT
+    return points <= most and points * balls_of(case) <= SHORT_BALLS
 
 
 def samples_of(case: Case, requested: int | None = None) -> int | None:

@@ -25,6 +25,8 @@ TITLES: Mapping[int, str] = {
     500: "Defect of ballscrew",
     503: "The server is shutting down",
 }
+#: Headers of the problems, by status. At shutdown no client shall send another request on its connection.
+_HEADERS: Mapping[int, Mapping[str, str]] = {429: {"Retry-After": "1"}, 503: {"Connection": "close"}}
 
 
 class Refused(Exception):
@@ -45,8 +47,7 @@ def response(status: int, faults: Sequence[Fault] = ()) -> Response:
         "lines": InputError(*faults).lines(),
         "faults": [_parts(fault) for fault in faults[: 10 * LINES_AT_MOST]],
     }
-    headers = {"Retry-After": "1"} if status == 429 else None
-    return Response(json.dumps(content), status, headers, MEDIA_TYPE)
+    return Response(json.dumps(content), status, _HEADERS.get(status), MEDIA_TYPE)
 
 
 def _parts(fault: Fault) -> dict[str, str]:

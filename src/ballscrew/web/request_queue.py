@@ -19,9 +19,9 @@ from ballscrew.web.problems import Refused
 #: Seconds that one request may compute.
 TIME_LIMIT = 20.0
 #: Requests that compute at the same time. More would only share the same processors.
-QUICK, HEAVY = 4, 2
-#: Heavy requests that may wait, and quick ones, which take some milliseconds each.
-MOST_WAITING, MOST_QUICK_WAITING = 16, 500
+QUICK, SHORT, HEAVY = 4, 1, 2
+#: Heavy requests that may wait, short ones, which take a tenth of a second each, and quick ones, some milliseconds.
+MOST_WAITING, MOST_SHORT_WAITING, MOST_QUICK_WAITING = 16, 100, 500
 
 Result = TypeVar("Result")
 
@@ -79,7 +79,7 @@ def _run_tasks(tasks: queue.SimpleQueue[Callable[[], None]]) -> None:
 
 
 class RequestQueue:
-    """The queue of one server: quick requests and heavy ones wait apart.
+    """The queue of one server: quick requests, short ones and heavy ones wait apart.
 
     A thread cannot be stopped from outside: it ends at its next call of the deadline, and keeps its place until then,
     also if its client has disconnected. No thread keeps the program from ending.
@@ -90,7 +90,7 @@ class RequestQueue:
     ) -> None:
         self.time_limit = time_limit
         self.waiting = waiting
-        self._quick, self._heavy = _Workers(quick), _Workers(heavy)
+        self._quick, self._short, self._heavy = _Workers(quick), _Workers(SHORT), _Workers(heavy)
         self._running: dict[asyncio.Future[Any], Deadline] = {}
         self._closed = False
 
@@ -99,6 +99,12 @@ class RequestQueue:
         if self._quick.limiter.statistics().tasks_waiting >= MOST_QUICK_WAITING:
             raise _busy(MOST_QUICK_WAITING)
         return await self._result(lambda _: work(), self._quick)
+
+    async def short(self, work: Callable[[Deadline], Result]) -> Result:
+        """Run work that takes a tenth of a second; it does not wait for heavy work."""
+        if self._short.limiter.statistics().tasks_waiting >= MOST_SHORT_WAITING:
+            raise _busy(MOST_SHORT_WAITING)
+        return await self._result(work, self._short)
 
     async def heavy(self, work: Callable[[Deadline], Result]) -> Result:
         """Run longer work; it is refused where many requests wait, and stopped when its time is used up."""
@@ -113,7 +119,7 @@ class RequestQueue:
             deadline.stop()
             if not future.done():
                 future.set_exception(_closing())
-        for workers in (self._quick, self._heavy):
+        for workers in (self._quick, self._short, self._heavy):
             workers.limiter.total_tokens = math.inf  # the waiting requests go on, and are refused
 
     async def _result(self, work: Callable[[Deadline], Any], workers: _Workers) -> Any:

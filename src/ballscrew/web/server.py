@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from fastapi import FastAPI, Request
 from starlette.exceptions import HTTPException
@@ -14,7 +14,7 @@ from starlette.types import ASGIApp
 from ballscrew._version import __version__
 from ballscrew.errors import Fault, InputError
 from ballscrew.studies.run import run
-from ballscrew.web import api, files, openapi, problems, vocabulary
+from ballscrew.web import api, files, memory, openapi, problems, vocabulary
 from ballscrew.web.bodies import case_of
 from ballscrew.web.guard import HEADERS, LOOPBACK, Guard
 from ballscrew.web.policy import policy
@@ -25,13 +25,12 @@ from ballscrew.web.request_queue import RequestQueue
 class _Application(FastAPI):
     """The routes, and around all of them the guard."""
 
-    #: The names it answers to, and the headers of each response.
+    #: The names it answers to.
     hosts: Sequence[str] = LOOPBACK
-    headers: Mapping[str, str] = HEADERS
 
     def build_middleware_stack(self) -> ASGIApp:
         """The middleware of FastAPI inside the guard: the response to a defect goes through it, too."""
-        return Guard(super().build_middleware_stack(), self.hosts, self.headers)
+        return Guard(super().build_middleware_stack(), self.hosts, self.state.headers)
 
 
 def application(hosts: Sequence[str] = LOOPBACK, requests: RequestQueue | None = None) -> FastAPI:
@@ -39,7 +38,8 @@ def application(hosts: Sequence[str] = LOOPBACK, requests: RequestQueue | None =
     app = _Application(
         title="ballscrew", version=__version__, docs_url=None, redoc_url=None, openapi_url=None, redirect_slashes=False
     )
-    app.hosts, app.headers = hosts, {**HEADERS, "Content-Security-Policy": policy(files.plotly_path())}
+    app.hosts = hosts
+    app.state.headers = {**HEADERS, "Content-Security-Policy": policy(files.plotly_path())}
     app.state.requests = requests or RequestQueue()
     app.include_router(api.router)
     description = functools.cache(lambda: json.dumps(openapi.document(app)).encode())
@@ -81,3 +81,4 @@ async def _defect(_: Request, __: Exception) -> Response:
 def warm_up() -> None:
     """Load and compute what the first request would otherwise wait for."""
     run(case_of(vocabulary.vocabulary()["starts"]["paper"]["case"]))
+    memory.keep_loaded()

@@ -1,0 +1,59 @@
+"""Rows of a log that repeat earlier ones, as in a file that was appended to itself: they are no further evidence.
+
+Single rows are often alike where a logger has few digits. What repeats is a sequence, so long that chance does not
+explain it, of rows that are alike in all columns but the time: a copy may have a clock of its own.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.torque_logs.motion import Floats
+
+#: The least number of rows in a repeated sequence that differ from each other.
+DISTINCT_ROWS = 10
+#: Probability that chance repeats any sequence of a log.
+CHANCE = 1e-6
+
+
+def repeated_rows(columns: Sequence[Floats]) -> NDArray[np.bool_]:
+    """The rows within sequences that occurred before, from columns of equal length.
+
+    Two rows are alike with the probability ``c = Σ p²``, so that a sequence of ``ln(rows² / CHANCE) / ln(1 / c)`` rows
+    is not repeated by chance. Readings of few digits that follow each other are alike more often than that: a sequence
+    also has so many distinct rows as :data:`DISTINCT_ROWS`.
+    """
+    keys = _hashed(np.stack([np.asarray(values, dtype=np.float64) for values in columns], axis=1))
+    _, number, counts = np.unique(keys, return_inverse=True, return_counts=True)
+    alike = float(np.sum((counts / keys.size) ** 2))
+    found = np.zeros(keys.size, dtype=bool)
+    if counts.size < DISTINCT_ROWS or counts.max() == 1:
+        return found
+    length = max(DISTINCT_ROWS, math.ceil(math.log(keys.size**2 / CHANCE) / -math.log(alike)))
+    if 2 * length > keys.size:
+        return found
+    windows = np.zeros(keys.size - length + 1, dtype=np.uint64)
+    for place, factor in enumerate(_factors(length)):
+        windows += factor * keys[place : place + windows.size]
+    _, first, same = np.unique(windows, return_index=True, return_inverse=True)
+    for begin in np.flatnonzero(first[same.reshape(-1)] + length <= np.arange(windows.size)):
+        found[begin : begin + length] = True
+    edges = np.flatnonzero(np.diff(found, prepend=False, append=False))
+    for begin, end in edges.reshape(-1, 2):
+        found[begin:end] = np.unique(number.reshape(-1)[begin:end]).size >= DISTINCT_ROWS
+    return found
+
+
+def _hashed(table: Floats) -> NDArray[np.uint64]:
+    """A number for each row, the same for rows that are alike."""
+    bits = np.ascontiguousarray(table + 0.0).view(np.uint64)  # no negative zeros
+    return np.asarray(np.sum((bits ^ (bits >> np.uint64(29))) * _factors(table.shape[1]), axis=1, dtype=np.uint64))
+
+
+def _factors(count: int) -> NDArray[np.uint64]:
+    """Odd random numbers, always the same."""
+    return np.random.default_rng(1).integers(0, 2**64, count, dtype=np.uint64) | np.uint64(1)

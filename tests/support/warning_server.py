@@ -1,0 +1,11 @@
+"""The program with a division by zero in each answer of ``/api/v1/catalogue``, of which NumPy warns."""
+
+import numpy as np
+
+from ballscrew.cli.main import main
+from ballscrew.web import api
+
+if __name__ == "__main__":
+    chosen = api.rows.chosen
+    api.rows.chosen = lambda *arguments: (np.ones(1) / np.zeros(1), chosen(*arguments))[1]
+    main()
