@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from importlib import resources
 from typing import Annotated, Any
 
+from ballscrew._arrays import ByValue
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import geometry
 from ballscrew.errors import Fault, InputError, faults_of, raise_if_any, shown
@@ -30,7 +31,7 @@ _OPTIONAL = ("pitch_circle_diameter", "root_diameter", "dynamic_load_rating", "s
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
-class CatalogueRow:
+class CatalogueRow(ByValue):
     """A ball screw as a catalogue lists it; what the catalogue leaves out is None or has a stated default.
 
     Defaults: a conformity of 0.54, which most root diameters of a catalogue imply (HIWIN's grooves for balls of

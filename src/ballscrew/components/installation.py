@@ -7,6 +7,7 @@ import enum
 import math
 from typing import Annotated, Any, cast
 
+from ballscrew._arrays import ByValue
 from ballscrew.errors import Fault, faults_of, raise_if_any
 from ballscrew.quantities import Array, Density, DiameterSpeed, Info, Length, Pressure, Ratio, Unit
 
@@ -34,7 +35,7 @@ class Ends(enum.Enum):
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
-class Installation:
+class Installation(ByValue):
     """A mounted screw. The default density is that of steel.
 
     Raises :class:`~ballscrew.errors.InputError` for values out of bounds, and for ends that are not :class:`Ends`.
@@ -58,7 +59,7 @@ class Installation:
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
-class Limits:
+class Limits(ByValue):
     """How near to its limits a screw may come, and how long it has to run.
 
     Defaults, all of THK514E: a static safety of 2, its least for loads without shocks (5 with them); a stress of

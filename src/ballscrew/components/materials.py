@@ -9,9 +9,19 @@ import tomllib
 from importlib import resources
 from typing import Annotated, Any
 
-from ballscrew._arrays import namespace
+from ballscrew._arrays import ByValue, namespace, same
 from ballscrew.equations import rheology
-from ballscrew.errors import Fault, InputError, fault_of, faults_of, is_concrete, nearest, raise_if_any
+from ballscrew.errors import (
+    Fault,
+    InputError,
+    accepts_units,
+    fault_of,
+    faults_of,
+    is_concrete,
+    nearest,
+    raise_if_any,
+    without_unit,
+)
 from ballscrew.quantities import (
     Conductivity,
     Density,
@@ -29,7 +39,7 @@ from ballscrew.quantities import (
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Material:
+class Material(ByValue):
     """An elastic material. The default is bearing steel: E′ = 226 GPa against itself.
 
     The paper prints no value of its equivalent modulus.
@@ -45,9 +55,28 @@ class Material:
         raise_if_any(faults_of("material", self))
 
 
+@dataclasses.dataclass(frozen=True)
+class OilState:
+    """A grade and a temperature, and the numbers that they set."""
+
+    grade: str | None
+    temperature: Temperature | None
+    viscosity: Viscosity
+    pressure_viscosity_coefficient: PressureCoefficient
+    temperature_coefficient: TemperatureCoefficient
+    density: Density
+
+
+#: The numbers of an oil that its grade and its temperature set.
+OF_A_GRADE = ("viscosity", "pressure_viscosity_coefficient", "temperature_coefficient", "density")
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
-class Lubricant:
+class Lubricant(ByValue):
     """An oil at the temperature of the contact.
+
+    An oil of a grade has a temperature: ``dataclasses.replace`` with another ``temperature`` or ``grade`` changes the
+    numbers that depend on it, but for those that are given anew in the same call.
 
     The temperature coefficient and the conductivity matter where the inlet heats; density and heat
     capacity are not used yet. The defaults are round figures for mineral oils: the density of
@@ -94,12 +123,41 @@ class Lubricant:
         HeatCapacity, Info("c_p", "specific heat capacity", above=0, hint="mineral oils have 2000 J/(kg K)")
     ] = 2000.0
 
-    #: The grade and the temperature (K) that the oil was made from, where it was: :meth:`at` needs them.
+    #: The grade and the temperature (K) that the oil was made from, where it was: with other ones it is another oil.
     grade: str | None = None
     temperature: Temperature | None = None
+    #: The state that the numbers stand for; ``dataclasses.replace`` hands it on, which shows what has changed.
+    made_as: OilState | None = dataclasses.field(default=None, repr=False, compare=False, kw_only=True)
 
     def __post_init__(self) -> None:
-        raise_if_any(faults_of("lubricant", self))
+        temperature = without_unit("lubricant.temperature", self.temperature, TEMPERATURE.unit)
+        faults = faults_of("lubricant", self)
+        if isinstance(temperature, Fault):
+            faults.append(temperature)
+        elif (self.grade is None) != (temperature is None):
+            given, other = ("temperature", "grade") if self.grade is None else ("grade", "temperature")
+            remedy = 'make it with Lubricant.from_grade("ISO VG 100", temperature)'
+            faults.append(Fault(f"lubricant.{given}", f"needs a {other}", str(getattr(self, given)), remedy))
+        raise_if_any(faults)
+        object.__setattr__(self, "temperature", temperature)
+        if self.made_as is not None and self.grade is not None and self.made_as.grade is not None:
+            for name, value in self._moved_from(self.made_as).items():
+                object.__setattr__(self, name, value)
+        numbers = {name: getattr(self, name) for name in OF_A_GRADE}
+        object.__setattr__(self, "made_as", OilState(self.grade, self.temperature, **numbers))
+
+    def _moved_from(self, before: OilState) -> dict[str, Any]:
+        """The numbers that change with the grade or the temperature, each by the ratio of the grade's own.
+
+        Nothing where both are as before. A number that is not as before was given anew, and stays.
+        """
+        if same(before.grade, self.grade) and same(before.temperature, self.temperature):
+            return {}
+        here, there = (oil_of_grade(str(state.grade), state.temperature) for state in (before, self))
+        kept = {name: old for name in OF_A_GRADE if same(getattr(self, name), old := getattr(before, name))}
+        ends = {name: (getattr(here, name), getattr(there, name)) for name in kept}
+        moved = {name: old * (ends[name][1] / ends[name][0]) for name, old in kept.items() if not same(*ends[name])}
+        return {"grade": there.grade, **moved}
 
     def at(self, temperature: Temperature) -> Lubricant:
         """The oil at another temperature in kelvin: what depends on it changes as it does for the grade.
@@ -111,14 +169,10 @@ class Lubricant:
         if self.grade is None:
             remedy = 'make it with Lubricant.from_grade("ISO VG 100", temperature)'
             raise InputError(Fault("lubricant.temperature", "needs an oil made from a grade", "", remedy))
-        here, there = (Lubricant.from_grade(self.grade, T) for T in (self.temperature, temperature))
-        moved = {
-            name: getattr(self, name) * (getattr(there, name) / getattr(here, name))
-            for name in ("viscosity", "pressure_viscosity_coefficient", "temperature_coefficient")
-        }
-        return dataclasses.replace(self, **moved, temperature=temperature)
+        return dataclasses.replace(self, temperature=temperature)
 
     @classmethod
+    @accepts_units("lubricant")
     def from_grade(cls, grade: str, temperature: Temperature = 313.15) -> Lubricant:
         """An oil by its grade (``"ISO VG 100"``, ``"FVA 3"``) at a temperature in kelvin.
 
@@ -130,40 +184,8 @@ class Lubricant:
         Raises :class:`~ballscrew.errors.InputError` for an unknown grade or a temperature
         outside 253.15–423.15 K (-20 to 150 °C).
         """
-        oils = _oils()
-        key = _grade_key(grade)
-        known = {_grade_key(name): name for name in oils}
-        faults: list[Fault] = []
-        if key not in known:
-            faults.append(Fault("lubricant.grade", "unknown grade", grade, nearest(grade, oils)))
-        fault = fault_of("lubricant", TEMPERATURE, temperature)
-        if fault is not None:
-            faults.append(fault)
-        if faults:
-            raise InputError(*faults)
-        oil = oils[known[key]]
-        nu = rheology.kinematic_viscosity_vogel(
-            temperature, oil["viscosity_at_infinity"], oil["vogel_constant"], oil["vogel_temperature"]
-        )
-        if "inverse_pressure_viscosity_at_0_degC" in oil:
-            alpha_p = rheology.pressure_viscosity_linear(
-                temperature, oil["inverse_pressure_viscosity_at_0_degC"], oil["inverse_pressure_viscosity_slope"]
-            )
-        else:
-            alpha_p = rheology.pressure_viscosity_estimate(nu)
-        # numbers were refused above; of an array, elements out of range become NaN
-        allowed = is_concrete(temperature) or within_bounds(TEMPERATURE.info, temperature)
-        nu = nu if allowed is True else namespace(nu).where(allowed, nu, float("nan"))
-        return cls(
-            viscosity=_plain(rheology.dynamic_viscosity(nu, oil["density"])),
-            pressure_viscosity_coefficient=_plain(alpha_p),
-            temperature_coefficient=_plain(
-                rheology.vogel_temperature_coefficient(temperature, oil["vogel_constant"], oil["vogel_temperature"])
-            ),
-            density=oil["density"],
-            grade=known[key],
-            temperature=temperature,
-        )
+        state = oil_of_grade(grade, temperature)
+        return cls(**{field.name: getattr(state, field.name) for field in dataclasses.fields(state)})
 
 
 TEMPERATURE = Quantity(
@@ -178,6 +200,44 @@ TEMPERATURE = Quantity(
         hint="the viscosity law holds from -20 degC to 150 degC",
     ),
 )
+
+
+def oil_of_grade(grade: str, temperature: Temperature) -> OilState:
+    """The nominal numbers of a grade at a temperature; see :meth:`Lubricant.from_grade`."""
+    oils = _oils()
+    key = _grade_key(grade)
+    known = {_grade_key(name): name for name in oils}
+    faults: list[Fault] = []
+    if key not in known:
+        faults.append(Fault("lubricant.grade", "unknown grade", grade, nearest(grade, oils)))
+    fault = fault_of("lubricant", TEMPERATURE, temperature)
+    if fault is not None:
+        faults.append(fault)
+    if faults:
+        raise InputError(*faults)
+    oil = oils[known[key]]
+    nu = rheology.kinematic_viscosity_vogel(
+        temperature, oil["viscosity_at_infinity"], oil["vogel_constant"], oil["vogel_temperature"]
+    )
+    if "inverse_pressure_viscosity_at_0_degC" in oil:
+        alpha_p = rheology.pressure_viscosity_linear(
+            temperature, oil["inverse_pressure_viscosity_at_0_degC"], oil["inverse_pressure_viscosity_slope"]
+        )
+    else:
+        alpha_p = rheology.pressure_viscosity_estimate(nu)
+    # numbers were refused above; of an array, elements out of range become NaN
+    allowed = is_concrete(temperature) or within_bounds(TEMPERATURE.info, temperature)
+    nu = nu if allowed is True else namespace(nu).where(allowed, nu, float("nan"))
+    return OilState(
+        viscosity=_plain(rheology.dynamic_viscosity(nu, oil["density"])),
+        pressure_viscosity_coefficient=_plain(alpha_p),
+        temperature_coefficient=_plain(
+            rheology.vogel_temperature_coefficient(temperature, oil["vogel_constant"], oil["vogel_temperature"])
+        ),
+        density=oil["density"],
+        grade=known[key],
+        temperature=temperature,
+    )
 
 
 def grades() -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from typing import Annotated
 
-from ballscrew._arrays import namespace
+from ballscrew._arrays import ByValue, namespace
 from ballscrew.components.conditions import ContactConditions
 from ballscrew.components.old_calls import also_with_arguments_of_0_1
 from ballscrew.components.traits import law_traits
@@ -25,7 +25,7 @@ Exponent = Annotated[Ratio, Info("C", "exponent of the film parameter", above=0,
 
 @law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
-class ZhouHoeprich:
+class ZhouHoeprich(ByValue):
     """Friction coefficient between the boundary and the full-film value, Olaru2005 §5 (23)–(26).
 
     After ZhouHoeprich1991. With the paper's coefficients the full-film value is reached at a film
@@ -57,7 +57,7 @@ class ZhouHoeprich:
 
 @law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
-class LoadSharing:
+class LoadSharing(ByValue):
     """Asperities and film share the load, ZhouHoeprich1991; no clamp.
 
     Boundary friction of 0.12 is what SKF2018 uses for rolling bearings in motion (0.15 at the
@@ -84,7 +84,7 @@ class LoadSharing:
 
 @law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
-class BalanSharing:
+class BalanSharing(ByValue):
     """Asperities and film share the load, Balan2015; its share is cut at a film parameter of 2."""
 
     boundary_friction_coefficient: Boundary = 0.12
@@ -105,7 +105,7 @@ class BalanSharing:
 
 @law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
-class GreenwoodTrippSharing:
+class GreenwoodTrippSharing(ByValue):
     """Asperities and film share the load, the asperities as elastic hills (GreenwoodTripp1970).
 
     The share is the pressure of the hills over what they have to carry: the mean pressure of the
@@ -168,7 +168,7 @@ def _shared(law: _Friction, asperity_load_share: Ratio, conditions: ContactCondi
 
 @law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
-class EyringTraction:
+class EyringTraction(ByValue):
     """Friction of the film from the mean shear rate and the mean pressure, Eyring's law with a limit.
 
     Viscosity under pressure by Roelands1966; the stress is that of Eyring1936 but never above the
@@ -198,7 +198,7 @@ class EyringTraction:
 
 @law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
-class LimitingShearTraction:
+class LimitingShearTraction(ByValue):
     """Friction of the film from the mean shear rate and the mean pressure, BairWiner1979."""
 
     limiting_shear_coefficient: Annotated[

@@ -7,8 +7,9 @@ from typing import Annotated, NamedTuple, TypeAlias
 
 import numpy as np
 
+from ballscrew._arrays import ByValue
 from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, faults_of, raise_if_any
+from ballscrew.errors import Fault, accepts_units, faults_of, raise_if_any
 from ballscrew.quantities import Force, Info, Length
 
 Preload = Annotated[
@@ -21,7 +22,7 @@ Spacing = Annotated[
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class SingleNut:
+class SingleNut(ByValue):
     """One nut body without preload: each ball touches one flank of screw and nut, and there may be play.
 
     Raises :class:`~ballscrew.errors.InputError` for a negative play.
@@ -36,7 +37,7 @@ class SingleNut:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class OversizeBallNut:
+class OversizeBallNut(ByValue):
     """One nut body, preloaded by balls too big for its grooves: each touches both flanks of both, four contacts.
 
     The preload is the axial force that each flank would carry by itself: that of the balls on one
@@ -51,7 +52,7 @@ class OversizeBallNut:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class DoubleNut:
+class DoubleNut(ByValue):
     """Two nut bodies braced against each other: the balls of each touch one flank, opposite to the other's.
 
     The loaded balls of the screw are those of one body; the other has as many.
@@ -66,7 +67,7 @@ class DoubleNut:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class OffsetLeadNut:
+class OffsetLeadNut(ByValue):
     """One nut body whose lead has an offset in its middle, which braces the balls before and behind it.
 
     It works like a :class:`DoubleNut`; the loaded balls of the screw are those of one half.
@@ -84,7 +85,7 @@ Nut: TypeAlias = SingleNut | OversizeBallNut | DoubleNut | OffsetLeadNut
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
-class Bodies:
+class Bodies(ByValue):
     """The bodies of screw and nut between the balls, as bars, and where the load enters them.
 
     Raises :class:`~ballscrew.errors.InputError` for diameters that are not positive or do not fit.
@@ -131,6 +132,7 @@ class Deviations(NamedTuple):
     lead: Length = 0.0
 
     @classmethod
+    @accepts_units("deviations")
     def scattered(cls, balls: int, *, seed: int, ball_diameter: Length = 0.0, lead: Length = 0.0) -> Deviations:
         """Normal scatter with these standard deviations; the same seed gives the same balls."""
         generator = np.random.default_rng(seed)

@@ -6,7 +6,7 @@ import dataclasses
 import math
 from typing import Annotated, Any, cast
 
-from ballscrew._arrays import namespace
+from ballscrew._arrays import ByValue, namespace
 from ballscrew.components.materials import Material
 from ballscrew.equations import geometry, hertz
 from ballscrew.errors import Fault, faults_of, is_concrete, raise_if_any, shown
@@ -18,7 +18,7 @@ MATERIALS = ("ball_material", "screw_material", "nut_material")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Raceway:
+class Raceway(ByValue):
     """One side of the screw as the ball sees it."""
 
     conformity: Ratio
@@ -27,7 +27,7 @@ class Raceway:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class BallScrew:
+class BallScrew(ByValue):
     """A ball screw with two-point contact: every ball touches one flank of screw and nut.
 
     Raises :class:`~ballscrew.errors.InputError` (a ``ValueError``) with one fault for each value
@@ -143,7 +143,7 @@ class BallScrew:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Operation:
+class Operation(ByValue):
     """What the screw does: the load it moves and the speed it turns at.
 
     Zero load and zero speed are legal and give limits. Raises

@@ -12,11 +12,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ballscrew._arrays import ByValue
 from ballscrew._version import __version__
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.components.traits import traits_of
-from ballscrew.errors import Fault, fault_of, nearest, raise_if_any
+from ballscrew.errors import Fault, fault_of, nearest, raise_if_any, without_unit
 from ballscrew.evaluation.outputs import (
     DEFAULT_OUTPUTS,
     NUT_OUTPUTS,
@@ -38,7 +39,7 @@ from ballscrew.tracing.tape import CannotRecordError, Tape, why_not_recorded
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Configuration:
+class Configuration(ByValue):
     """What is evaluated: a model on a screw with its lubricant, and the nut where there is one."""
 
     model: FrictionModel
@@ -283,7 +284,7 @@ def _axes(section: str, subject: Configuration, varied: Mapping[str, Any]) -> di
     for name, values in varied.items():
         if name in known:
             part, quantity = known[name]
-            axis = _axis(section, name, values)
+            axis = _axis(section, name, values, quantity)
             if isinstance(axis, Fault):
                 faults.append(axis)
             else:
@@ -293,9 +294,18 @@ def _axes(section: str, subject: Configuration, varied: Mapping[str, Any]) -> di
     return axes
 
 
-def _axis(section: str, name: str, values: Any) -> xr.DataArray | Fault:
+def _axis(section: str, name: str, values: Any, quantity: Quantity) -> xr.DataArray | Fault:
     """Values as a labelled array: a sequence gets a dimension of its own name."""
     where = f"{section}.{name}"
+    numbers = without_unit(where, values.data if isinstance(values, xr.DataArray) else values, quantity.unit)
+    if isinstance(numbers, Fault):
+        return numbers
+    if isinstance(values, xr.DataArray):
+        declared = str(values.attrs.get("units", quantity.unit))
+        if declared != quantity.unit:
+            return Fault(where, "is in another unit by its attribute units", declared, f"give it in {quantity.unit}")
+        numbers = values if numbers is values.data else values.copy(data=numbers)
+    values = numbers
     try:
         if np.ma.isMaskedArray(values) or np.asarray(values).dtype.kind not in "fiu":
             raise TypeError("a mask would be lost, and what is no number would become one")

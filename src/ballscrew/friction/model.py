@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from ballscrew._arrays import as_array, lazy
+from ballscrew._arrays import ByValue, as_array, lazy, same
 from ballscrew.components.balance import Resistances, ball_forces
 from ballscrew.components.conditions import Motion
 from ballscrew.components.contact import Contact, ContactLaws, RaceState, rolling_contact
@@ -58,7 +58,7 @@ from ballscrew.components.traits import traits_of
 from ballscrew.equations import equilibrium, geometry, kinematics
 from ballscrew.equations.rolling import nut_pressure_force, screw_pressure_force
 from ballscrew.equations.transmission import contact_load as equal_contact_load
-from ballscrew.errors import Fault, faults_of, is_concrete, raise_if_any
+from ballscrew.errors import Fault, accepts_units, faults_of, raise_if_any
 from ballscrew.friction.law_names import fault_of_law
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import AngularSpeed, Force, Info, Ratio, fields_of
@@ -70,7 +70,7 @@ PAPER_FRICTION = ZhouHoeprich()
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
-class FrictionModel:
+class FrictionModel(ByValue):
     """A friction model of a ball screw: one law in each slot, and three numbers.
 
     Call it with a screw, a lubricant, a load and a speed. Change one thing with
@@ -186,6 +186,7 @@ class FrictionModel:
             ideal_torque=virtual_work_torque,
         )
 
+    @accepts_units("operation")
     def __call__(
         self, screw: BallScrew, lubricant: Lubricant, *, axial_load: Force, screw_speed: AngularSpeed
     ) -> FrictionResult:
@@ -205,7 +206,7 @@ class FrictionModel:
         if preset is None:
             return ()
         fields = [field.name for field in dataclasses.fields(self)]
-        return tuple(field for field in fields if not _same(getattr(self, field), getattr(preset, field)))
+        return tuple(field for field in fields if not same(getattr(self, field), getattr(preset, field)))
 
     @property
     def label(self) -> str:
@@ -368,10 +369,3 @@ def presets() -> Mapping[str, FrictionModel]:
         FrictionModel.reference(),
     )
     return {model.name: model for model in models}
-
-
-def _same(one: Any, other: Any) -> bool:
-    """Whether two entries of a slot are the same law with the same coefficients, or the same number."""
-    if dataclasses.is_dataclass(one) and type(one) is type(other):
-        return all(_same(value, vars(other)[name]) for name, value in vars(one).items())
-    return one is other or (is_concrete(one) and is_concrete(other) and bool(one == other))

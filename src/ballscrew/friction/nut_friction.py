@@ -23,7 +23,7 @@ from ballscrew.components.nut_losses import ParasiticLaw
 from ballscrew.components.screw import BallScrew, Operation
 from ballscrew.components.traits import traits_of
 from ballscrew.equations import kinematics, transmission
-from ballscrew.errors import Fault, raise_if_any
+from ballscrew.errors import Fault, accepts_units, raise_if_any
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import MECHANISMS
 from ballscrew.friction.validity import (
@@ -98,7 +98,8 @@ class NutFriction:
     def efficiency(self) -> Annotated[Ratio, Info(r"\eta", "efficiency, screw drives the nut")]:
         """Efficiency when the screw drives the nut. Zero without load."""
         drive = self.drive_torque
-        return transmission.efficiency(self.ideal_torque, np.where(drive > 0, drive, 1.0) - self.ideal_torque)
+        # without any torque the divisor is 1; NaN stays NaN
+        return transmission.efficiency(self.ideal_torque, np.where(drive == 0, 1.0, drive) - self.ideal_torque)
 
     @lazy
     def back_driving_efficiency(self) -> Annotated[Ratio, Info(r"\eta_b", "efficiency, the load drives the screw")]:
@@ -159,6 +160,7 @@ class NutFriction:
         return [f"{record.name}: {record.text}" for record in self.warning_records]
 
 
+@accepts_units("operation")
 def nut_friction(
     model: FrictionModel,
     screw: BallScrew,

@@ -6,6 +6,7 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Annotated, Any
 
+from ballscrew._arrays import ByValue
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Bodies, Deviations, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut
 from ballscrew.components.nut_losses import ParasiticLaw
@@ -18,7 +19,7 @@ from ballscrew.quantities import AngularSpeed, Count, Force, Info, Length, field
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Scatter:
+class Scatter(ByValue):
     """How much balls and lead scatter, as standard deviations; one seed gives the same balls every time.
 
     Raises :class:`~ballscrew.errors.InputError` for negative numbers.
@@ -45,7 +46,7 @@ class Scatter:
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
-class NutParts:
+class NutParts(ByValue):
     """A nut, and what may go with it."""
 
     nut: Nut
