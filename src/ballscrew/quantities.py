@@ -35,7 +35,11 @@ class Unit:
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class Info:
-    """The symbol, the meaning, the bounds and the display unit of a field."""
+    """The symbol, the meaning, the bounds and the display unit of a field.
+
+    Values beyond the bounds are refused. ``usual`` is the range beyond which no ball screw is known; a value outside is
+    computed, with a warning (:mod:`ballscrew.friction.plausibility`).
+    """
 
     symbol: str
     meaning: str
@@ -47,6 +51,7 @@ class Info:
     whole: bool = False
     address: str = ""
     hint: str = ""
+    usual: tuple[float, float] | None = None
 
 
 Ratio = Annotated[Array, Unit("1")]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import contextvars
+import dataclasses
 import functools
 import importlib
 import re
@@ -16,6 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ballscrew import _pint_plugins
 from ballscrew.errors import Fault, as_float
 from ballscrew.quantities import Quantity
+from ballscrew.records import Record
 
 if TYPE_CHECKING:
     import pint
@@ -173,6 +175,16 @@ def in_display_units(fault: Fault, quantity: Quantity, given: str) -> Fault:
     bound = "" if fault.bound is None else shown(fault.bound, quantity)
     problem, remedy = (text.replace("{bound}", bound) for text in (fault.problem, fault.remedy))
     return Fault(fault.where, problem, given, remedy)
+
+
+def in_display_units_of(records: Sequence[Record]) -> list[Record]:
+    """Records with the quantities of their texts in display units."""
+    return [
+        dataclasses.replace(record, text=record.template.format(*(shown(*each) for each in record.quantities)))
+        if record.template
+        else record
+        for record in records
+    ]
 
 
 def heading(quantity: Quantity, name: str | None = None) -> str:

@@ -43,11 +43,21 @@ class Installation(ByValue):
 
     unsupported_length: Annotated[
         Length,
-        Info("l", "longest stretch of shaft between two supports", "mm", above=0, hint="bearing to bearing or to nut"),
+        Info(
+            "l",
+            "longest stretch of shaft between two supports",
+            "mm",
+            above=0,
+            hint="bearing to bearing or to nut",
+            usual=(0.01, 20.0),
+        ),
     ]
     ends: Ends
     shaft_density: Annotated[
-        Density, Info(r"\rho_s", "density of the shaft", "kg/m^3", above=0, hint="steel has 7850 kg/m^3")
+        Density,
+        Info(
+            r"\rho_s", "density of the shaft", "kg/m^3", above=0, hint="steel has 7850 kg/m^3", usual=(1500.0, 20000.0)
+        ),
     ] = 7850.0
 
     def __post_init__(self) -> None:

@@ -173,7 +173,13 @@ class Hysteresis(ByValue):
 
     loss_factor: Annotated[
         Ratio,
-        Info(r"\alpha", "share of the elastic work lost in hysteresis", at_least=0, hint="steel has 0.01 to 0.04"),
+        Info(
+            r"\alpha",
+            "share of the elastic work lost in hysteresis",
+            at_least=0,
+            hint="steel has 0.01 to 0.04",
+            usual=(0.0, 0.3),
+        ),
     ] = 0.02
 
     def __post_init__(self) -> None:
@@ -233,7 +239,13 @@ class ProportionalBallForce(ByValue):
 
     share_of_load: Annotated[
         Ratio,
-        Info("F_B/Q", "force between balls in units of the ball's load", at_least=0, hint="the paper has about 0.0002"),
+        Info(
+            "F_B/Q",
+            "force between balls in units of the ball's load",
+            at_least=0,
+            hint="the paper has about 0.0002",
+            usual=(0.0, 0.5),
+        ),
     ] = 0.0002
 
     def __post_init__(self) -> None:

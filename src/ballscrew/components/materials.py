@@ -48,8 +48,12 @@ class Material(ByValue):
     positive or a Poisson's ratio outside [0, 0.5).
     """
 
-    young_modulus: Annotated[Pressure, Info("E", "Young's modulus", "GPa", above=0, hint="steel has 206 GPa")] = 2.06e11
-    poisson_ratio: Annotated[Ratio, Info(r"\nu", "Poisson's ratio", at_least=0, below=0.5, hint="steel has 0.3")] = 0.3
+    young_modulus: Annotated[
+        Pressure, Info("E", "Young's modulus", "GPa", above=0, hint="steel has 206 GPa", usual=(3e10, 1e12))
+    ] = 2.06e11
+    poisson_ratio: Annotated[
+        Ratio, Info(r"\nu", "Poisson's ratio", at_least=0, below=0.5, hint="steel has 0.3", usual=(0.05, 0.45))
+    ] = 0.3
 
     def __post_init__(self) -> None:
         raise_if_any(faults_of("material", self))
@@ -94,6 +98,7 @@ class Lubricant(ByValue):
             "mPa s",
             above=0,
             hint="oils lie between 0.005 Pa s and 1 Pa s",
+            usual=(3e-4, 1000.0),
         ),
     ]
     pressure_viscosity_coefficient: Annotated[
@@ -104,6 +109,7 @@ class Lubricant(ByValue):
             "1/GPa",
             above=0,
             hint="mineral oils have 1e-8 to 2.5e-8 1/Pa",
+            usual=(1e-9, 2e-7),
         ),
     ] = 2.2e-8
     temperature_coefficient: Annotated[
@@ -113,14 +119,19 @@ class Lubricant(ByValue):
             "relative fall of the viscosity per kelvin",
             above=0,
             hint="mineral oils have 0.02 to 0.06 1/K near 40 degC",
+            usual=(0.002, 0.3),
         ),
     ] = 0.04
-    density: Annotated[Density, Info(r"\rho", "density", above=0, hint="mineral oils have 870 kg/m^3")] = 870.0
+    density: Annotated[
+        Density, Info(r"\rho", "density", above=0, hint="mineral oils have 870 kg/m^3", usual=(500.0, 2500.0))
+    ] = 870.0
     thermal_conductivity: Annotated[
-        Conductivity, Info(r"k_f", "thermal conductivity", above=0, hint="mineral oils have 0.14 W/(m K)")
+        Conductivity,
+        Info(r"k_f", "thermal conductivity", above=0, hint="mineral oils have 0.14 W/(m K)", usual=(0.05, 1.0)),
     ] = 0.14
     heat_capacity: Annotated[
-        HeatCapacity, Info("c_p", "specific heat capacity", above=0, hint="mineral oils have 2000 J/(kg K)")
+        HeatCapacity,
+        Info("c_p", "specific heat capacity", above=0, hint="mineral oils have 2000 J/(kg K)", usual=(500.0, 5000.0)),
     ] = 2000.0
 
     #: The grade and the temperature (K) that the oil was made from, where it was: with other ones it is another oil.

@@ -14,10 +14,18 @@ from ballscrew.errors import faults_of, raise_if_any
 from ballscrew.quantities import ArealDensity, Info, Length, Pressure, Ratio, ShearRate, Viscosity
 
 Boundary = Annotated[
-    Ratio, Info(r"\mu_0", "friction coefficient without a film", at_least=0, hint="boundary friction is 0.1 to 0.2")
+    Ratio,
+    Info(
+        r"\mu_0",
+        "friction coefficient without a film",
+        at_least=0,
+        hint="boundary friction is 0.1 to 0.2",
+        usual=(0.0, 1.0),
+    ),
 ]
 FullFilm = Annotated[
-    Ratio, Info(r"\mu_f", "friction coefficient of the full film", at_least=0, hint="the paper has 0.02")
+    Ratio,
+    Info(r"\mu_f", "friction coefficient of the full film", at_least=0, hint="the paper has 0.02", usual=(0.0, 0.5)),
 ]
 Decay = Annotated[Ratio, Info("B", "decay of the asperities' share", at_least=0, hint="the paper has 1.42")]
 Exponent = Annotated[Ratio, Info("C", "exponent of the film parameter", above=0, hint="the paper has 0.8")]

@@ -13,11 +13,25 @@ from ballscrew.errors import Fault, accepts_units, faults_of, raise_if_any
 from ballscrew.quantities import Force, Info, Length
 
 Preload = Annotated[
-    Force, Info("F_pr", "axial preload without external load", at_least=0, hint="2 to 10 % of the dynamic load rating")
+    Force,
+    Info(
+        "F_pr",
+        "axial preload without external load",
+        at_least=0,
+        hint="2 to 10 % of the dynamic load rating",
+        usual=(0.0, 1e6),
+    ),
 ]
 Spacing = Annotated[
     Length,
-    Info("l", "axial distance between the two halves, last ball to first ball", "mm", at_least=0, hint="about a lead"),
+    Info(
+        "l",
+        "axial distance between the two halves, last ball to first ball",
+        "mm",
+        at_least=0,
+        hint="about a lead",
+        usual=(0.0, 1.0),
+    ),
 ]
 
 
@@ -29,7 +43,8 @@ class SingleNut(ByValue):
     """
 
     axial_play: Annotated[
-        Length, Info("S_a", "axial play between screw and nut", "um", at_least=0, hint="5 um to 100 um")
+        Length,
+        Info("S_a", "axial play between screw and nut", "um", at_least=0, hint="5 um to 100 um", usual=(0.0, 1e-3)),
     ] = 0.0
 
     def __post_init__(self) -> None:
@@ -92,13 +107,22 @@ class Bodies(ByValue):
     """
 
     screw_diameter: Annotated[
-        Length, Info("d_c", "diameter of the screw's bar, about its root diameter", "mm", above=0, hint="d_m - d_w")
+        Length,
+        Info(
+            "d_c",
+            "diameter of the screw's bar, about its root diameter",
+            "mm",
+            above=0,
+            hint="d_m - d_w",
+            usual=(5e-4, 0.5),
+        ),
     ]
     nut_outer_diameter: Annotated[
-        Length, Info("D_o", "outer diameter of the nut's tube", "mm", above=0, hint="about 1.5 d_m")
+        Length, Info("D_o", "outer diameter of the nut's tube", "mm", above=0, hint="about 1.5 d_m", usual=(1e-3, 2.0))
     ]
     nut_inner_diameter: Annotated[
-        Length, Info("D_i", "inner diameter of the nut's tube", "mm", above=0, hint="about d_m + d_w")
+        Length,
+        Info("D_i", "inner diameter of the nut's tube", "mm", above=0, hint="about d_m + d_w", usual=(1e-3, 1.0)),
     ]
     #: Whether screw and nut are held on the same side of the balls: one is pulled where the other is pushed.
     same_side: bool = True

@@ -151,6 +151,7 @@ class Seals(ByValue):
             "torque of all seals of the nut",
             at_least=0,
             hint="rubber: 0.08 N m at 16 mm, 0.4 N m at 40 mm (Seals.of_table)",
+            usual=(0.0, 50.0),
         ),
     ] = 0.0
 
@@ -181,7 +182,13 @@ class LipSeals(ByValue):
 
     lip_friction: Annotated[
         parasitic.LineForce,
-        Info("q", "friction force on each length of lip", at_least=0, hint="rubber has 61 N/m to 109 N/m"),
+        Info(
+            "q",
+            "friction force on each length of lip",
+            at_least=0,
+            hint="rubber has 61 N/m to 109 N/m",
+            usual=(0.0, 2000.0),
+        ),
     ] = 0.0
     lips: Annotated[
         Count, Info("n_l", "number of sealing lips", at_least=0, whole=True, hint="one at each end of the nut: 2")
@@ -264,7 +271,14 @@ class Recirculation(ByValue):
     """The return of the balls: a force that the screw must push the train of balls with, through each return."""
 
     return_force: Annotated[
-        Force, Info("F_r", "force against the balls in one return", at_least=0, hint="no measured value is known")
+        Force,
+        Info(
+            "F_r",
+            "force against the balls in one return",
+            at_least=0,
+            hint="no measured value is known",
+            usual=(0.0, 1000.0),
+        ),
     ] = 0.0
     returns: Annotated[
         Count, Info("n_r", "number of returns", at_least=0, whole=True, hint="one for each circuit of balls")

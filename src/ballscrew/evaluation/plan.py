@@ -15,7 +15,7 @@ import xarray as xr
 from ballscrew._arrays import ByValue
 from ballscrew._version import __version__
 from ballscrew.components.materials import TEMPERATURE, Lubricant
-from ballscrew.components.screw import MATERIALS, BallScrew
+from ballscrew.components.screw import MATERIALS, BallScrew, Operation
 from ballscrew.components.traits import traits_of
 from ballscrew.errors import Fault, fault_of, nearest, raise_if_any, without_unit
 from ballscrew.evaluation.outputs import (
@@ -30,8 +30,10 @@ from ballscrew.evaluation.outputs import (
 from ballscrew.friction.model import SLOTS, FrictionModel
 from ballscrew.friction.nut_friction import NutFriction
 from ballscrew.friction.nut_parts import NutParts
+from ballscrew.friction.plausibility import implausible, named_parts
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Quantity, fields_of
+from ballscrew.records import Record
 from ballscrew.references import citations_of
 from ballscrew.tracing.merging import merged_program
 from ballscrew.tracing.program import Program
@@ -128,6 +130,17 @@ class Configuration(ByValue):
             if why is None:
                 raise
             raise CannotRecordError("; ".join([str(why), *getattr(error, "__notes__", ())])) from error
+
+    def implausible(self, points: Mapping[str, Any]) -> list[Record]:
+        """A warning for each input that no ball screw has, with these values of some inputs in place.
+
+        Of arrays the least and the greatest element count.
+        """
+        ends = {name: np.array([np.min(values), np.max(values)]) for name, values in points.items()}
+        there = self.changed({name: values for name, values in ends.items() if name not in OPERATION})
+        operation = Operation(*(ends.get(name, 0.0) for name in OPERATION))
+        nut = {} if there.nut is None else there.nut.by_section(there.screw)
+        return implausible(named_parts(there.model, there.screw, there.lubricant, operation=operation, **nut))
 
     def attributes(self, varied: Sequence[str] = ()) -> dict[str, Any]:
         """What is the same at all points, the sources, and the version: attributes of a dataset."""
@@ -244,6 +257,13 @@ class Plan:
         }
         return found | {n: (axis.dims, axis.to_numpy(), attributes_of(known[n][1])) for n, axis in self.axes.items()}
 
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """Attributes of the dataset: those of the subject, and what is implausible."""
+        records = self.subject.implausible({name: axis.to_numpy() for name, axis in self.axes.items()})
+        said = "; ".join(f"{record.name}: {record.text}" for record in records)
+        return self.subject.attributes(list(self.axes)) | ({"warnings": said} if said else {})
+
     def dataset(self, results: Mapping[str, np.ndarray]) -> xr.Dataset:
         """The results with names, units and sources."""
         variables = {
@@ -251,7 +271,7 @@ class Plan:
             for name, values in results.items()
             if name not in self.axes  # what is varied is there as a coordinate
         }
-        return xr.Dataset(variables, self.coordinates(), self.subject.attributes(list(self.axes)))
+        return xr.Dataset(variables, self.coordinates(), self.attributes)
 
 
 def _wanted(section: str, names: Sequence[str] | None, nut: NutParts | None) -> tuple[str, ...]:

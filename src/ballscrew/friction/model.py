@@ -60,6 +60,7 @@ from ballscrew.equations.rolling import nut_pressure_force, screw_pressure_force
 from ballscrew.equations.transmission import contact_load as equal_contact_load
 from ballscrew.errors import Fault, accepts_units, faults_of, raise_if_any
 from ballscrew.friction.law_names import fault_of_law
+from ballscrew.friction.plausibility import named_parts
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import AngularSpeed, Force, Info, Ratio, fields_of
 from ballscrew.solvers.ellipse_slip import ellipse_slip
@@ -100,10 +101,12 @@ class FrictionModel(ByValue):
             "net braking force between neighbouring balls; by default 1 N divided by the number of loaded balls",
             at_least=0,
             hint="the paper has 1/z and 2/z N",
+            usual=(0.0, 1000.0),
         ),
     ] = None
     ball_friction_coefficient: Annotated[
-        Ratio, Info(r"\mu_b", "friction coefficient between balls", at_least=0, hint="the paper has 0.1")
+        Ratio,
+        Info(r"\mu_b", "friction coefficient between balls", at_least=0, hint="the paper has 0.1", usual=(0.0, 1.0)),
     ] = 0.1
     pure_rolling_offset: Annotated[
         Ratio | None,
@@ -252,9 +255,8 @@ class FrictionModel(ByValue):
         )
         slip = laws.slip(BallProblem(on_screw, on_nut, asked, d_w, frame, screw_speed, self.pure_rolling_offset))
         carried = asked.scaled(slip.rolling_share)
-        laws_and_numbers = (self, *self.laws_with_coefficients.values())
         return FrictionResult(
-            parts=(screw, *screw.materials, lubricant, operation, *laws_and_numbers),
+            parts=named_parts(self, screw, lubricant, operation=operation),
             ball_screw=screw,
             frame=frame,
             axial_load=axial_load,

@@ -25,6 +25,7 @@ from ballscrew.components.traits import traits_of
 from ballscrew.equations import kinematics, transmission
 from ballscrew.errors import Fault, accepts_units, raise_if_any
 from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.plausibility import implausible, named_parts
 from ballscrew.friction.result import MECHANISMS
 from ballscrew.friction.validity import (
     CONDITIONS,
@@ -61,6 +62,8 @@ class LoadedPair(NamedTuple):
 class NutFriction:
     """Friction of a ball screw with its nut at one operating point, or at an array of them."""
 
+    #: The parts of the input, by section.
+    parts: Mapping[str, Any]
     model: FrictionModel
     ball_screw: BallScrew
     nut: Nut
@@ -150,13 +153,13 @@ class NutFriction:
 
     @property
     def warning_records(self) -> list[Record]:
-        """The conditions that fail somewhere, as records."""
+        """Inputs that no ball screw has, and the conditions that fail somewhere, as records."""
         contacts = [contact for pair in self.pairs for contact in (pair.screw, pair.nut)]
-        return warning_records(self.validity, contacts, NUT_CONDITIONS)
+        return [*implausible(self.parts), *warning_records(self.validity, contacts, NUT_CONDITIONS)]
 
     @property
     def warnings(self) -> list[str]:
-        """The conditions that fail somewhere, as texts: ``"reason: explanation"``."""
+        """The :attr:`warning_records` as texts: ``"reason: explanation"``."""
         return [f"{record.name}: {record.text}" for record in self.warning_records]
 
 
@@ -205,8 +208,10 @@ def nut_friction(
     }
     # without any load nothing is rolled along, as with one ball
     loaded = np.any(loads.forward_load + loads.backward_load > 0, axis=-1)
-    parts = (screw, *screw.materials, lubricant, operation, nut, model, *model.laws_with_coefficients.values())
+    of_losses = {f"losses.{name}": law for name, law in (losses or {}).items()}
+    parts = named_parts(model, screw, lubricant, operation=operation, nut=nut, bodies=bodies, **of_losses)
     return NutFriction(
+        parts=parts,
         model=model,
         ball_screw=screw,
         nut=nut,
@@ -219,7 +224,7 @@ def nut_friction(
         validity={
             **{reason: _holds_for_most(condition, loads.balls) for reason, condition in balls.validity.items()},
             "skid": _holds_for_most(balls.validity["skid"], loads.balls) & loaded,
-            "inputs": input_mask(parts, sum(contributions.values())),
+            "inputs": input_mask(parts.values(), sum(contributions.values())),
             "load_distribution": loads.converged,
         },
     )

@@ -13,6 +13,7 @@ from ballscrew.components.frame import Frame
 from ballscrew.components.laws import BallChain, IdealTorqueLaw, RaceTorqueLaw
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import dissipation, equilibrium, kinematics, transmission
+from ballscrew.friction.plausibility import implausible
 from ballscrew.friction.validity import validity_masks, warning_records
 from ballscrew.quantities import AngularSpeed, Force, Info, Mask, Power, Ratio, Speed, Torque
 from ballscrew.records import Record
@@ -55,7 +56,8 @@ class FrictionResult:
     asked for, and kept.
     """
 
-    parts: tuple[Any, ...]
+    #: The parts of the input, by section.
+    parts: Mapping[str, Any]
     ball_screw: BallScrew
     frame: Frame
     axial_load: Annotated[Force, Info("F", "axial load on the nut")]
@@ -266,7 +268,7 @@ class FrictionResult:
     def validity(self) -> Mapping[str, Mask]:
         """Where each condition of the model holds, by reason; see :data:`ballscrew.friction.validity.REASONS`."""
         return validity_masks(
-            self.parts,
+            self.parts.values(),
             self.screw,
             self.nut,
             self.converged,
@@ -286,10 +288,10 @@ class FrictionResult:
 
     @property
     def warning_records(self) -> list[Record]:
-        """The conditions that fail somewhere, as records."""
-        return warning_records(self.validity, (self.screw, self.nut))
+        """Inputs that no ball screw has, and the conditions that fail somewhere, as records."""
+        return [*implausible(self.parts), *warning_records(self.validity, (self.screw, self.nut))]
 
     @property
     def warnings(self) -> list[str]:
-        """The conditions that fail somewhere, as texts: ``"reason: explanation"``."""
+        """The :attr:`warning_records` as texts: ``"reason: explanation"``."""
         return [f"{record.name}: {record.text}" for record in self.warning_records]

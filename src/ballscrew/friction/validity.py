@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -122,7 +122,7 @@ def _worst(condition: Condition, contacts: Sequence[Contact]) -> float:
 
 
 def validity_masks(
-    parts: Sequence[Any],
+    parts: Iterable[Any],
     screw: RaceState,
     nut: RaceState,
     converged: Mask,
@@ -147,7 +147,7 @@ def validity_masks(
     return {reason: masks[reason] & everywhere for reason in REASONS}
 
 
-def input_mask(parts: Sequence[Any], torque: Torque) -> Mask:
+def input_mask(parts: Iterable[Any], torque: Torque) -> Mask:
     """Where all arrays of the parts are within their bounds, balls fit their screw, and a torque is finite."""
     inputs = namespace(torque).isfinite(torque)
     for part in parts:

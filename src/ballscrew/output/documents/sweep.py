@@ -25,7 +25,7 @@ def document(case: Case, plan: Plan, dataset: xr.Dataset) -> dict[str, Any]:
         "outputs": {name: table(name, dataset[name].to_numpy()) for name in plan.columns},
         "verdicts": [],
         "checks": [],
-        "warnings": documents(warnings(dataset)),
+        "warnings": documents([*case.implausible(plan.axes), *warnings(dataset)]),
         "provenance": {"version": __version__, "model": case.model.label, "references": case_file.references(case)},
     }
 
