@@ -161,7 +161,9 @@ def test_documents_of_commands(ballscrew, strange_case, command):
     assert [record["subject"] for record in records] == ["screw.lead_angle"]
     assert "62.89 deg lies outside the usual 0.2 deg to 55 deg" in records[0]["text"]
     on_the_terminal = ballscrew(command, strange_case, *options)
-    assert "implausible: lead angle of the helix of the ball centres 62.89 deg" in " ".join(on_the_terminal.stdout.split())
+    assert "implausible: lead angle of the helix of the ball centres 62.89 deg" in " ".join(
+        on_the_terminal.stdout.split()
+    )
 
 
 def test_a_sweep_on_the_command_line(ballscrew, strange_case):

@@ -12,16 +12,15 @@ from ballscrew.components.catalogue import CatalogueRow
 from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew, Operation
-from ballscrew.evaluation.plan import Configuration
 from ballscrew.friction.calibrations import Calibration
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.nut_parts import NutParts
+from ballscrew.friction.plausibility import implausible, named_parts
 from ballscrew.records import Record
 from ballscrew.uncertainty.distributions import Distribution
 
 #: The limits of the checks where a case gives none.
 USUAL_LIMITS = Limits()
-_NOTHING: Mapping[str, Any] = {}
 
 
 class PreloadNote(NamedTuple):
@@ -69,7 +68,8 @@ class Case:
     #: The table ``[calibration]`` that a fit wrote beside its numbers, as it stands in the file.
     fit: Mapping[str, Any] = dataclasses.field(default_factory=dict[str, Any])
 
-    def implausible(self, varied: Mapping[str, Any] = _NOTHING) -> list[Record]:
-        """A warning for each input that no ball screw has, with these values of some inputs in place."""
-        configuration = Configuration(self.model, self.screw, self.lubricant, self.parts)
-        return units.in_display_units_of(configuration.implausible({**vars(self.operation), **varied}))
+    def implausible(self) -> list[Record]:
+        """A warning for each input that no ball screw has."""
+        nut = {} if self.parts is None else self.parts.by_section(self.screw)
+        parts = named_parts(self.model, self.screw, self.lubricant, operation=self.operation, **nut)
+        return units.in_display_units_of(implausible(parts))

@@ -58,6 +58,7 @@ class BallScrew(ByValue):
             "z",
             "number of balls that carry load",
             at_least=1,
+            at_most=10_000,
             whole=True,
             hint="give a whole number, 1 or more",
             usual=(1, 2000),

@@ -37,6 +37,8 @@ from ballscrew.solvers.nut_balance import NutCase, solved
 TOLERANCE = 1e-10
 #: Springs that are solved at once: what belongs to them stays in the cache.
 BLOCK = 65_536
+#: Balls of a nut body that are solved for one by one: several times those of the largest nuts.
+MOST_BALLS = 2000
 #: Where the numbers of balls stand among what is solved for.
 _BALLS = 4
 
@@ -189,6 +191,9 @@ def _faults(screw: BallScrew, halves: int, deviations: Deviations | None) -> lis
     if not is_concrete(screw.loaded_balls):
         remedy = "solve screws with different numbers of balls one after the other"
         return [Fault("screw.loaded_balls", "must be one number where balls differ", "an array", remedy)]
+    if screw.loaded_balls > MOST_BALLS:
+        remedy = f"{MOST_BALLS} at most where balls differ or bodies are elastic"
+        return [Fault("screw.loaded_balls", "too many to solve one by one", f"{screw.loaded_balls:g}", remedy)]
     balls = halves * int(screw.loaded_balls)
     sizes = {} if deviations is None else {name: np.shape(value) for name, value in deviations._asdict().items()}
     return [

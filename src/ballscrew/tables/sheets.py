@@ -18,8 +18,11 @@ from ballscrew.errors import (
     Fault,
     InputError,
 )
+from ballscrew.files import read_bytes
 
 #: Endings of files that are read as spreadsheets, and how such files begin whatever they are called.
+#: Bytes of a table at most.
+LARGEST_TABLE = 200_000_000
 SPREADSHEETS = (".xlsx", ".xlsm", ".xlsb", ".xls", ".ods")
 _MAGIC = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
 _DELIMITERS = (";", "\t", ",")
@@ -70,7 +73,7 @@ def unreadable(path: Path, error: OSError | ValueError) -> InputError:
 
 def _bytes(path: Path) -> bytes:
     try:
-        return path.read_bytes()
+        return read_bytes(path, LARGEST_TABLE)
     except (OSError, ValueError) as error:
         raise unreadable(path, error) from None
 
