@@ -85,11 +85,12 @@ class InputError(ValueError):
         return lines
 
 
-def nearest(word: str, known: Iterable[str]) -> str:
-    """``did you mean "…"?`` for the closest known word, else the list of known words."""
+def nearest(word: str, known: Iterable[str], most: int | None = None) -> str:
+    """``did you mean "…"?`` for the closest known word, else the list of known words, ``most`` of them at most."""
     candidates = list(known)
     found = closest(word, candidates)
-    return f'did you mean "{found}"?' if found else "known: " + ", ".join(candidates)
+    more = ", …" if most is not None and len(candidates) > most else ""
+    return f'did you mean "{found}"?' if found else "known: " + ", ".join(candidates[:most]) + more
 
 
 def closest(word: str, known: Iterable[str]) -> str:

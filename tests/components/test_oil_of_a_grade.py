@@ -67,3 +67,12 @@ def test_grade_and_temperature_go_together(given):
 def test_a_temperature_out_of_range():
     with pytest.raises(bs.InputError, match=r"lubricant.temperature: must be at least 253.15 K"):
         dataclasses.replace(OIL, temperature=40.0)
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [("ISO VG 95", 100), ("VG 90", 100), ("VG47", 46), ("ISO VG 5", 10), ("95", 100), ("ISO VG 1000", 460)],
+)
+def test_an_unknown_grade_is_answered_with_the_nearest_number(written, meant):
+    with pytest.raises(bs.InputError, match=f'did you mean "ISO VG {meant}"'):
+        bs.Lubricant.from_grade(written)

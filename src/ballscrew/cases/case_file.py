@@ -49,16 +49,16 @@ _SECTIONS = (*_NEEDED, *NUT_TABLES, "model", "sweep", "calibration")
 _START = "start from examples/olaru2005.toml"
 
 
-def load(path: Path, settings: Sequence[str] = (), model: str | None = None, *, allow_code: bool = False) -> Case:
+def load(path: str | Path, settings: Sequence[str] = (), model: str | None = None, *, allow_code: bool = False) -> Case:
     """The case of a file, with settings from the command line. Raises ``InputError`` with all faults."""
-    return build(override(read(path), settings), model, path.parent, allow_code=allow_code)
+    return build(override(read(path), settings), model, Path(path).parent, allow_code=allow_code)
 
 
-def read(path: Path) -> dict[str, Any]:
+def read(path: str | Path) -> dict[str, Any]:
     """The tables of a TOML file. Raises :class:`~ballscrew.errors.InputError` if it is none."""
     where = str(path)
     try:
-        text = read_bytes(path, LARGEST_FILE).decode("utf-8-sig")
+        text = read_bytes(Path(path), LARGEST_FILE).decode("utf-8-sig")
     except UnicodeDecodeError:
         raise InputError(Fault(where, "is not text in UTF-8", "", "save it as UTF-8")) from None
     except (OSError, ValueError) as error:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import math
 import re
 import tomllib
+from collections.abc import Iterable
 from importlib import resources
 from typing import Annotated, Any
 
@@ -220,7 +222,7 @@ def oil_of_grade(grade: str, temperature: Temperature) -> OilState:
     known = {_grade_key(name): name for name in oils}
     faults: list[Fault] = []
     if key not in known:
-        faults.append(Fault("lubricant.grade", "unknown grade", grade, nearest(grade, oils)))
+        faults.append(Fault("lubricant.grade", "unknown grade", str(grade), _nearest_grade(str(grade), oils)))
     fault = fault_of("lubricant", TEMPERATURE, temperature)
     if fault is not None:
         faults.append(fault)
@@ -249,6 +251,15 @@ def oil_of_grade(grade: str, temperature: Temperature) -> OilState:
         grade=known[key],
         temperature=temperature,
     )
+
+
+def _nearest_grade(grade: str, oils: Iterable[str]) -> str:
+    """A remedy with the grade whose number is nearest, by their ratio; by its letters where there is no number."""
+    number = re.fullmatch(r"(?:iso)?(?:vg)?0*([1-9]\d{0,5})", _grade_key(grade))
+    numbers = {float(name.rpartition(" ")[2]): name for name in oils if name.startswith("ISO VG ")}
+    if number is None or not numbers:
+        return nearest(grade, oils)
+    return f'did you mean "{numbers[min(numbers, key=lambda n: abs(math.log(n / float(number[1]))))]}"?'
 
 
 def grades() -> list[str]:

@@ -321,6 +321,8 @@ def _axis(section: str, name: str, values: Any, quantity: Quantity) -> xr.DataAr
     if isinstance(numbers, Fault):
         return numbers
     if isinstance(values, xr.DataArray):
+        if not all(isinstance(dimension, str) for dimension in values.dims):
+            return Fault(where, "has a dimension whose name is no text", str(values.dims), "name it by a text")
         declared = str(values.attrs.get("units", quantity.unit))
         if declared != quantity.unit:
             return Fault(where, "is in another unit by its attribute units", declared, f"give it in {quantity.unit}")
