@@ -106,10 +106,10 @@ class NutFriction:
 
     @lazy
     def back_driving_efficiency(self) -> Annotated[Ratio, Info(r"\eta_b", "efficiency, the load drives the screw")]:
-        """Efficiency when the load drives the screw; zero or less means self-locking."""
+        """Efficiency when the load drives the screw; zero or less means self-locking. NaN without load."""
         eta = self.efficiency
         none = eta == 0
-        return np.where(none, -np.inf, transmission.back_driving_efficiency(np.where(none, 1.0, eta)))[()]
+        return np.where(none, np.nan, transmission.back_driving_efficiency(np.where(none, 1.0, eta)))[()]
 
     @lazy
     def holding_torque(

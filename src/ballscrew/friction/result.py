@@ -14,7 +14,7 @@ from ballscrew.components.laws import BallChain, IdealTorqueLaw, RaceTorqueLaw
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import dissipation, equilibrium, kinematics, transmission
 from ballscrew.friction.plausibility import implausible
-from ballscrew.friction.validity import validity_masks, warning_records
+from ballscrew.friction.validity import imbalance_records, validity_masks, warning_records
 from ballscrew.quantities import AngularSpeed, Force, Info, Mask, Power, Ratio, Speed, Torque
 from ballscrew.records import Record
 
@@ -128,12 +128,12 @@ class FrictionResult:
     def back_driving_efficiency(self) -> Annotated[Ratio, Info(r"\eta_b", "efficiency, the load drives the screw")]:
         """Efficiency when the load drives the screw; zero or less means self-locking.
 
-        Minus infinity where the direct efficiency is zero.
+        NaN where the direct efficiency is zero: without a load, nothing drives.
         """
         eta = self.efficiency
         xp = namespace(eta)
         none = eta == 0
-        return xp.where(none, -xp.inf, transmission.back_driving_efficiency(xp.where(none, 1.0, eta)))[()]
+        return xp.where(none, float("nan"), transmission.back_driving_efficiency(xp.where(none, 1.0, eta)))[()]
 
     @lazy
     def holding_torque(
@@ -265,6 +265,15 @@ class FrictionResult:
         return sum(self.dissipation.values())
 
     @lazy
+    def power_imbalance(self) -> Ratio:
+        """What the torque takes up beyond what the parts dissipate, as a share of the latter; zero in equilibrium.
+
+        NaN at rest. The printed reactions of Olaru2005 leave a part of the sliding forces out.
+        """
+        taken, lost = self.screw_torque * self.screw_speed, self.friction_power
+        return (taken - lost) / lost
+
+    @lazy
     def validity(self) -> Mapping[str, Mask]:
         """Where each condition of the model holds, by reason; see :data:`ballscrew.friction.validity.REASONS`."""
         return validity_masks(
@@ -288,8 +297,9 @@ class FrictionResult:
 
     @property
     def warning_records(self) -> list[Record]:
-        """Inputs that no ball screw has, and the conditions that fail somewhere, as records."""
-        return [*implausible(self.parts), *warning_records(self.validity, (self.screw, self.nut))]
+        """Inputs that no ball screw has, an imbalance of power, and the conditions that fail somewhere, as records."""
+        unbalanced = imbalance_records(self.power_imbalance, self.nut_torque)
+        return [*implausible(self.parts), *unbalanced, *warning_records(self.validity, (self.screw, self.nut))]
 
     @property
     def warnings(self) -> list[str]:

@@ -26,6 +26,8 @@ MATERIAL_PARAMETER_RANGE = (2000.0, 7500.0)
 #: Above this pressure balls and races keep a dent of 1e-4 of the ball diameter (ISO76), Pa.
 LARGEST_PRESSURE = 4.2e9
 
+#: Share of the dissipated power by which the power of the torque may differ from it.
+LARGEST_IMBALANCE = 0.01
 #: Below this the heat of the inlet is no longer a correction of the film but its master.
 SMALLEST_INLET_FACTOR = 0.5
 
@@ -88,6 +90,30 @@ CONDITIONS: Mapping[str, Condition] = {
 }  # fmt: skip
 #: The texts alone, by reason.
 REASONS: Mapping[str, str] = {reason: condition.text for reason, condition in CONDITIONS.items()}
+
+
+def imbalance_records(power_imbalance: Ratio, nut_torque: Torque) -> list[Record]:
+    """A warning where a model's own torque and losses differ by more than rounding and slow convergence explain."""
+    shares = np.abs(np.asarray(power_imbalance, dtype=float))
+    largest = float(np.max(shares[np.isfinite(shares)], initial=0.0))
+    if largest <= LARGEST_IMBALANCE:
+        return []
+    negative = " and the torque on the nut is negative" if np.any(np.asarray(nut_torque, dtype=float) < 0) else ""
+    text = (
+        f"the power of the torque differs by up to {largest:.1%} from what the parts dissipate{negative}: "
+        "the reactions of the model do not balance; the model corrected has them in balance"
+    )
+    return [
+        Record(
+            id="model.power_balance",
+            subject="friction_power",
+            text=text,
+            severity="warning",
+            holds=False,
+            value=largest,
+            limit=LARGEST_IMBALANCE,
+        )
+    ]
 
 
 def warning_records(
