@@ -1,5 +1,6 @@
 """Input that would take all time or memory: one line, and no traceback."""
 
+import ast
 import subprocess
 import sys
 import textwrap
@@ -81,3 +82,14 @@ def test_an_interrupt_while_the_program_is_loaded(when):
     program = textwrap.dedent(stopped[when]) + "from ballscrew.cli.start import main\nmain()"
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
     one_line(found, "interrupted", code=130)
+
+
+def test_messages_name_only_files_that_are_installed():
+    """The folders beside the package are not in the wheel; docstrings of modules may name them."""
+    folders = ("examples/", "docs/", "tests/", "benchmarks/")
+    for path in (ROOT / "src" / "ballscrew").rglob("*.py"):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        prose = {id(statement.value) for statement in ast.walk(tree) if isinstance(statement, ast.Expr)}
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in prose:
+                assert not any(folder in node.value for folder in folders), f"{path}:{node.lineno}"

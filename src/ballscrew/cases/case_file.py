@@ -46,7 +46,7 @@ from ballscrew.units import in_display_units
 LARGEST_FILE, LARGEST_INTEGER = 4_000_000, 1024
 _NEEDED = ("screw", "lubricant", "operation")
 _SECTIONS = (*_NEEDED, *NUT_TABLES, "model", "sweep", "calibration")
-_START = "start from examples/olaru2005.toml"
+_START = 'start from "ballscrew catalogue show hiwin-40-20k4 --case"'
 
 
 def load(path: str | Path, settings: Sequence[str] = (), model: str | None = None, *, allow_code: bool = False) -> Case:

@@ -48,7 +48,7 @@ class _Command(TyperCommand):
 
 #: What stands for the names of the models in help texts.
 _MODELS = "{models}"
-CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML), for example examples/olaru2005.toml.")]
+CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML); ballscrew catalogue show NAME --case makes one.")]
 ModelName = Annotated[
     str | None,
     typer.Option("--model", metavar="NAME", help=f"{_MODELS}; wins over the file."),

@@ -98,7 +98,7 @@ def imbalance_records(power_imbalance: Ratio, nut_torque: Torque) -> list[Record
     largest = float(np.max(shares[np.isfinite(shares)], initial=0.0))
     if largest <= LARGEST_IMBALANCE:
         return []
-    negative = " and the torque on the nut is negative" if np.any(np.asarray(nut_torque, dtype=float) < 0) else ""
+    negative = ", and the torque on the nut falls below zero" if np.any(np.asarray(nut_torque, dtype=float) < 0) else ""
     text = (
         f"the power of the torque differs by up to {largest:.1%} from what the parts dissipate{negative}: "
         "the reactions of the model do not balance; the model corrected has them in balance"
