@@ -139,10 +139,7 @@ class Bodies(ByValue):
         """Bodies of a usual size: the core of the screw, and a nut one and a half pitch circles wide."""
         d_m, d_w = screw.pitch_circle_diameter, screw.ball_diameter
         return cls(
-            screw_diameter=d_m - d_w,
-            nut_outer_diameter=1.5 * d_m,
-            nut_inner_diameter=d_m + d_w,
-            same_side=same_side,
+            screw_diameter=d_m - d_w, nut_outer_diameter=1.5 * d_m, nut_inner_diameter=d_m + d_w, same_side=same_side
         )
 
 
