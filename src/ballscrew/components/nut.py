@@ -109,12 +109,7 @@ class Bodies(ByValue):
     screw_diameter: Annotated[
         Length,
         Info(
-            "d_c",
-            "diameter of the screw's bar, about its root diameter",
-            "mm",
-            above=0,
-            hint="d_m - d_w",
-            usual=(5e-4, 0.5),
+            "d_c", "diameter of the screw's bar, its root diameter", "mm", above=0, hint="d_m - d_w", usual=(5e-4, 0.5)
         ),
     ]
     nut_outer_diameter: Annotated[
