@@ -105,4 +105,5 @@ def _bounds(quantity: Quantity) -> str:
     info = quantity.info
     words = {"above": info.above, "at least": info.at_least, "below": info.below, "at most": info.at_most}
     said = [f"{word} {units.shown(bound, quantity)}" for word, bound in words.items() if bound is not None]
-    return ", ".join([*said, *(["whole"] if info.whole else [])])
+    usual = [] if info.usual is None else [f"usual {' to '.join(units.shown(end, quantity) for end in info.usual)}"]
+    return ", ".join([*said, *(["whole"] if info.whole else []), *usual])

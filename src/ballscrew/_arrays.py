@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
+import numbers
 import os
 import sys
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
 from types import SimpleNamespace
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
@@ -21,6 +23,8 @@ T = TypeVar("T")
 BLOCK_SIZE = 64_000
 
 
+#: What is compared by its value.
+_PLAIN = (numbers.Number, np.generic, str, bytes, tuple, Mapping, type(None))
 #: The usual types, for which NumPy is the namespace.
 _OWN = frozenset({np.float64, np.ndarray, float, int, np.bool_})
 
@@ -75,6 +79,33 @@ class lazy(cached_property[T]):
         """The value; the first time, by the rules of IEEE 754 and in silence."""
         with np.errstate(all="ignore"):
             return super().__get__(instance, owner)
+
+
+def same(one: Any, other: Any) -> bool:
+    """Whether two values are one object, equal plain values, equal NumPy arrays, or dataclasses of such values.
+
+    Values of other libraries, which may not be known yet, are the same only if they are one object.
+    """
+    if one is other:
+        return True
+    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+        return np.array_equal(one, other, equal_nan=one.dtype.kind == other.dtype.kind == "f")
+    if dataclasses.is_dataclass(one) and type(one) is type(other):
+        fields = (field.name for field in dataclasses.fields(one) if field.compare)
+        return all(same(getattr(one, name), getattr(other, name)) for name in fields)
+    return isinstance(one, _PLAIN) and isinstance(other, _PLAIN) and bool(one == other)
+
+
+class ByValue:
+    """Equality by :func:`same`, for dataclasses whose fields may be arrays (``eq=False``)."""
+
+    def __eq__(self, other: object) -> bool:
+        return same(self, other) if type(other) is type(self) else NotImplemented
+
+    def __hash__(self) -> int:
+        values = (getattr(self, field.name) for field in dataclasses.fields(cast("Any", self)) if field.compare)
+        # arrays and mappings have no hash; those of a kind share one
+        return hash((type(self), *(value if isinstance(value, Hashable) else type(value) for value in values)))
 
 
 def as_array(value: Any) -> Any:

@@ -7,15 +7,20 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
+import functools
+import inspect
 import math
 import numbers
 import re
-from collections.abc import Iterable, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, ParamSpec, TypeVar, get_type_hints
 
 import numpy as np
 
-from ballscrew.quantities import Quantity, fields_of, out_of_bounds
+from ballscrew.quantities import Quantity, carries_unit, fields_of, in_si, out_of_bounds, unit_of
+
+P = ParamSpec("P")
+R = TypeVar("R")
 
 #: At most this many lines are printed; the last one then says how many more there are.
 LINES_AT_MOST = 10
@@ -83,11 +88,12 @@ class InputError(ValueError):
         return lines
 
 
-def nearest(word: str, known: Iterable[str]) -> str:
-    """``did you mean "…"?`` for the closest known word, else the list of known words."""
+def nearest(word: str, known: Iterable[str], most: int | None = None) -> str:
+    """``did you mean "…"?`` for the closest known word, else the list of known words, ``most`` of them at most."""
     candidates = list(known)
     found = closest(word, candidates)
-    return f'did you mean "{found}"?' if found else "known: " + ", ".join(candidates)
+    more = ", …" if most is not None and len(candidates) > most else ""
+    return f'did you mean "{found}"?' if found else "known: " + ", ".join(candidates[:most]) + more
 
 
 def closest(word: str, known: Iterable[str]) -> str:
@@ -144,13 +150,78 @@ def fault_of(section: str, quantity: Quantity, value: Any, given: str = "") -> F
     return Fault(where, problem, given or shown(value, quantity.unit), quantity.info.hint, bound, quantity.unit)
 
 
+def without_unit(where: str, value: Any, unit: str | None) -> Any | Fault:
+    """A value of pint in the SI unit given, any other value as it is; the fault where the unit does not fit.
+
+    None stands for what takes no unit.
+    """
+    if not carries_unit(value):
+        return value
+    if unit is None:
+        return Fault(where, "takes no unit", str(value), "give a plain number")
+    try:
+        return in_si(value, unit)
+    except (
+        TypeError,
+        ValueError,
+        AttributeError,
+    ) as error:  # of pint: a wrong dimension, an offset unit, an unknown one
+        remedy = "give a plain number" if unit == "1" else f"give a quantity in {unit}, or a plain number in {unit}"
+        return Fault(where, "wrong unit", f"{value}: {error}", remedy)
+
+
+def accepts_units(section: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
+    """Convert arguments that are quantities of pint to the SI units of the parameters' annotations; a decorator.
+
+    Raises :class:`InputError` for a unit that does not fit, and for a unit where the annotation has none.
+    """
+
+    def decorated(function: Callable[P, R]) -> Callable[P, R]:
+        @functools.cache
+        def signature() -> tuple[inspect.Signature, Mapping[str, str | None]]:
+            hints = get_type_hints(function, include_extras=True)
+            return inspect.signature(function), {name: unit_of(hint) for name, hint in hints.items()}
+
+        @functools.wraps(function)
+        def converting(*args: P.args, **kwargs: P.kwargs) -> R:
+            if not any(map(carries_unit, args)) and not any(map(carries_unit, kwargs.values())):
+                return function(*args, **kwargs)
+            declared, units = signature()
+            bound = declared.bind(*args, **kwargs)
+            for name, value in bound.arguments.items():
+                if carries_unit(value):
+                    bound.arguments[name] = si_value(f"{section}.{name}", value, units.get(name))
+            return function(*bound.args, **bound.kwargs)
+
+        return converting
+
+    return decorated
+
+
+def si_value(where: str, value: Any, unit: str | None) -> Any:
+    """As :func:`without_unit`, but a fault is raised as an :class:`InputError`."""
+    converted = without_unit(where, value, unit)
+    if isinstance(converted, Fault):
+        raise InputError(converted)
+    return converted
+
+
 def faults_of(section: str, part: Any, optional: Sequence[str] = ()) -> list[Fault]:
-    """Faults of every concrete annotated field of a dataclass instance."""
+    """Faults of every concrete annotated field of a dataclass instance that is being made.
+
+    Fields that were given as quantities of pint become numbers in SI.
+    """
     found: list[Fault] = []
     for name, quantity in fields_of(part).items():
-        value = getattr(part, name)
-        if value is None and name in optional:
+        given = getattr(part, name)
+        if given is None and name in optional:
             continue
+        value = without_unit(f"{section}.{name}", given, quantity.unit)
+        if isinstance(value, Fault):
+            found.append(value)
+            continue
+        if value is not given:
+            object.__setattr__(part, name, value)
         fault = fault_of(section, quantity, value)
         if fault is not None:
             found.append(fault)

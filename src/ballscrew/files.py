@@ -1,4 +1,4 @@
-"""Atomic writing of files: a file is complete, or not there."""
+"""Files: read up to a size, and written whole or not at all."""
 
 from __future__ import annotations
 
@@ -9,6 +9,15 @@ from collections.abc import Generator
 from pathlib import Path
 
 from ballscrew.errors import Fault, InputError
+
+
+def read_bytes(path: Path, most: int) -> bytes:
+    """The content of a file, of a pipe or a device too. Raises ``ValueError`` for more than ``most`` bytes."""
+    with path.open("rb") as file:
+        content = file.read(most + 1)
+    if len(content) > most:
+        raise ValueError(f"is larger than {most // 1_000_000:,} MB")
+    return content
 
 
 def write_error(where: str, path: Path, error: OSError) -> InputError:

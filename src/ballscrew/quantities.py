@@ -17,6 +17,8 @@ import types
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, TypeAlias, Union, get_args, get_origin, get_type_hints
 
+import numpy as np
+
 from ballscrew._arrays import namespace
 
 #: A float, a NumPy array, or any foreign array the equations run on (JAX, SymPy, pint).
@@ -33,7 +35,11 @@ class Unit:
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class Info:
-    """The symbol, the meaning, the bounds and the display unit of a field."""
+    """The symbol, the meaning, the bounds and the display unit of a field.
+
+    Values beyond the bounds are refused. ``usual`` is the range beyond which no ball screw is known; a value outside is
+    computed, with a warning (:mod:`ballscrew.friction.plausibility`).
+    """
 
     symbol: str
     meaning: str
@@ -45,6 +51,7 @@ class Info:
     whole: bool = False
     address: str = ""
     hint: str = ""
+    usual: tuple[float, float] | None = None
 
 
 Ratio = Annotated[Array, Unit("1")]
@@ -72,6 +79,7 @@ ArealDensity = Annotated[Array, Unit("1/m^2")]
 Stiffness = Annotated[Array, Unit("N/m")]
 LoadDeflection = Annotated[Array, Unit("N/m^1.5")]
 ShearRate = Annotated[Array, Unit("1/s")]
+MomentOfInertia = Annotated[Array, Unit("kg m^2")]
 TemperatureCoefficient = Annotated[Array, Unit("1/K")]
 
 
@@ -98,6 +106,31 @@ def unit_of(annotation: object) -> str | None:
     if isinstance(annotation, types.UnionType) or get_origin(annotation) is Union:
         return next((unit for unit in map(unit_of, get_args(annotation)) if unit is not None), None)
     return None
+
+
+def carries_unit(value: Any) -> bool:
+    """Whether a value is a quantity of pint, or a sequence or an array of such quantities."""
+    if isinstance(value, tuple) and hasattr(value, "_fields"):
+        return False  # a part with fields, which is no sequence of numbers
+    if isinstance(value, list | tuple) or (isinstance(value, np.ndarray) and value.dtype.kind == "O"):
+        return any(carries_unit(element) for element in value)
+    if isinstance(value, int | float | str | np.ndarray | np.generic):
+        return False
+    kind = type(value)
+    return hasattr(kind, "magnitude") and hasattr(kind, "dimensionality")
+
+
+def in_si(value: Any, unit: str) -> Array:
+    """A value that carries a unit, in the SI unit given; converted by its own library, which is not imported here.
+
+    Raises the errors of that library for a unit of another dimension, and ``ValueError`` for a sequence in which only
+    some numbers have a unit.
+    """
+    if isinstance(value, list | tuple | np.ndarray):
+        if not all(map(carries_unit, value)):
+            raise ValueError("some of the numbers have a unit, others have none")
+        return np.array([in_si(element, unit) for element in value])
+    return value.to(unit).magnitude
 
 
 def info_of(annotation: object) -> Info | None:

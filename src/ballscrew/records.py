@@ -9,6 +9,8 @@ import dataclasses
 from collections.abc import Iterable
 from typing import Any, Literal
 
+from ballscrew.quantities import Quantity
+
 Severity = Literal["info", "warning", "error"]
 
 
@@ -32,6 +34,10 @@ class Record:
     value: float | None = None
     limit: float | None = None
     unit: str = "1"
+    #: The text with ``{0}``, ``{1}`` and so on in place of quantities, and the quantities with their values in SI. The
+    #: rooms that face people make the text from them in display units.
+    template: str = ""
+    quantities: tuple[tuple[float, Quantity], ...] = ()
 
     @property
     def name(self) -> str:

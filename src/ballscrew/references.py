@@ -6,9 +6,13 @@ A docstring names its sources by key (``HamrockDowson1977``) and its equations b
 
 from __future__ import annotations
 
+import ast
 import dataclasses
 import functools
+import inspect
 import re
+import sys
+import textwrap
 import tomllib
 from collections.abc import Mapping
 from importlib import resources
@@ -60,6 +64,18 @@ def keys_in(text: str | None) -> tuple[str, ...]:
     return tuple(key for key in bibliography() if re.search(rf"\b{re.escape(key)}\b", text or ""))
 
 
+def documentation(documented: Any) -> str:
+    """The docstring of a function or a class; of its source where the interpreter has left docstrings out (``-OO``)."""
+    if sys.flags.optimize < 2:  # beyond that a dataclass makes itself a docstring of its signature
+        return documented.__doc__ or ""
+    try:
+        (definition,) = ast.parse(textwrap.dedent(inspect.getsource(documented))).body
+    except (OSError, TypeError, ValueError, SyntaxError):  # made without a source, as in a session
+        return ""
+    known = isinstance(definition, ast.FunctionDef | ast.ClassDef)
+    return (ast.get_docstring(definition) or "") if known else ""
+
+
 def citations_of(assembly: Any) -> list[str]:
     """Keys of the sources that the laws of a model name in their docstrings."""
     texts: list[str] = []
@@ -67,6 +83,6 @@ def citations_of(assembly: Any) -> list[str]:
         law = getattr(assembly, field.name)
         documented = law if callable(law) and hasattr(law, "__name__") else type(law)
         if callable(law):
-            texts.append(documented.__doc__ or "")
+            texts.append(documentation(documented))
     found = {key for text in texts for key in keys_in(text)} | {"Olaru2005"}
     return [key for key in bibliography() if key in found]

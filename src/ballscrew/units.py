@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import contextvars
+import dataclasses
 import functools
 import importlib
 import re
@@ -16,12 +17,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ballscrew import _pint_plugins
 from ballscrew.errors import Fault, as_float
 from ballscrew.quantities import Quantity
+from ballscrew.records import Record
 
 if TYPE_CHECKING:
     import pint
 
 _VALUE = re.compile(
-    r"\s*(?P<number>[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|nan|inf(?:inity)?))\s*(?P<unit>1\s*/.*?|[^\d\s.,].*?)?\s*",
+    r"\s*(?P<number>[-+]?(?:(?:\d+(?:[' \u00a0\u2009\u202f]\d{3}(?!\d))*[.,\d]*|[.,]\d+)(?:e[-+]?\d+)?"
+    r"|nan|inf(?:inity)?))"
+    r"\s*(?P<unit>1\s*/.*?|[^\d\s.,'].*?)?\s*",
     re.IGNORECASE,
 )
 # a product or quotient of named units with small powers, and nothing else: pint would also evaluate
@@ -47,6 +51,16 @@ USUAL: Mapping[str, Sequence[str]] = {
     "K": ("degC", "K", "degF"),
 }
 _NAMED = 3
+#: Spellings of revolutions per minute, without blanks.
+PER_MINUTE = ("1/min", "/min", "U/min", "r/min", "min-1", "min^-1", "min⁻¹", "RPM")
+#: Digits in groups of three: between blanks or apostrophes, points or commas; the other mark is that of decimals.
+_GROUPED = (
+    re.compile(r"([-+]?\d{1,3}(?:[' \u00a0\u2009\u202f]\d{3})+)(?:[.,](\d*))?"),
+    re.compile(r"([-+]?\d{1,3}(?:\.\d{3})+),(\d*)"),
+    re.compile(r"([-+]?\d{1,3}(?:,\d{3})+)\.(\d*)"),
+)
+_PLAIN = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+|nan|inf(?:inity)?)", re.IGNORECASE)
+_WITH_COMMA = re.compile(r"([-+]?\d*),(\d*)")
 #: Spellings that pint's parser does not have, and their replacements.
 _SPELLINGS = {
     "µ": "u",
@@ -175,6 +189,16 @@ def in_display_units(fault: Fault, quantity: Quantity, given: str) -> Fault:
     return Fault(fault.where, problem, given, remedy)
 
 
+def in_display_units_of(records: Sequence[Record]) -> list[Record]:
+    """Records with the quantities of their texts in display units."""
+    return [
+        dataclasses.replace(record, text=record.template.format(*(shown(*each) for each in record.quantities)))
+        if record.template
+        else record
+        for record in records
+    ]
+
+
 def heading(quantity: Quantity, name: str | None = None) -> str:
     """A column heading: ``axial load [N]``."""
     words = (name or quantity.name).replace("_", " ").replace(".", " ")
@@ -207,12 +231,32 @@ def parse(where: str, raw: object, quantity: Quantity) -> float | Fault:
     if match is None:
         problem = "is not a number" if quantity.unit == "1" else "is not a number with a unit"
         return Fault(where, problem, given, "write a decimal point" if "," in given else _fix(quantity))
-    number, unit = as_float(match["number"]), match["unit"] or ""
+    plain, unit = _plain(match["number"]), match["unit"] or ""
+    if isinstance(plain, Fault):
+        return Fault(where, plain.problem, given, plain.remedy)
+    number = as_float(plain)
     if quantity.unit == "1":
         return number if not unit else Fault(where, "takes no unit", given, _plain_number(number, unit, quantity))
     if not unit:
         return Fault(where, "needs a unit", given, f"write {example_of(quantity, match['number'])}")
     return _converted(where, number, unit, quantity, given)
+
+
+def _plain(written: str) -> str | Fault:
+    """A number as Python reads it, of digits in groups or with a decimal comma, or the fault where it could be two."""
+    mantissa, e, exponent = written.lower().partition("e") if "inf" not in written.lower() else (written, "", "")
+    for grouped in _GROUPED:
+        if match := grouped.fullmatch(mantissa):
+            return re.sub(r"[^-+\d]", "", match[1]) + f".{match[2] or ''}{e}{exponent}"
+    match = _WITH_COMMA.fullmatch(mantissa)
+    if match and len(match[2]) == 3 and match[1].strip("+-0"):
+        one, other = f"{match[1]}{match[2]}", f"{match[1]}.{match[2]}"
+        return Fault("", "could be two numbers", written, f"write {one} or {other}")
+    if match and (match[1] or match[2]):
+        return f"{match[1]}.{match[2]}{e}{exponent}"
+    if _PLAIN.fullmatch(mantissa):
+        return written
+    return Fault("", "is not a number", written, "write a decimal point, and no other marks between digits")
 
 
 def unit_in(text: str) -> str:
@@ -259,6 +303,8 @@ def _similar_unit(unit: str, quantity: Quantity) -> str:
 def _converted(where: str, number: float, unit: str, quantity: Quantity, given: str) -> float | Fault:
     pint = _pint()
 
+    if quantity.unit == "rad/s" and unit.replace(" ", "") in PER_MINUTE:
+        unit = "rpm"
     try:
         if len(unit) > _LONGEST_UNIT or not _UNIT.fullmatch(unit):
             raise pint.UndefinedUnitError(unit)
@@ -269,6 +315,6 @@ def _converted(where: str, number: float, unit: str, quantity: Quantity, given: 
         if quantity.name == "viscosity":
             remedy += '; for a kinematic viscosity multiply by the density, or give grade = "ISO VG 100"'
         return Fault(where, "wrong unit", given, remedy)
-    except (pint.PintError, ValueError, ArithmeticError):  # pint's own errors are of several kinds
+    except (pint.PintError, ValueError, ArithmeticError, TypeError):  # pint's own errors are of several kinds
         meant = _similar_unit(unit[:_LONGEST_UNIT], quantity)
         return Fault(where, "unknown unit", given, f'did you mean "{meant}"?' if meant else _advice(quantity))

@@ -331,3 +331,20 @@ def test_help_is_quick_and_says_what_there_is(ballscrew):
     for text in ("--rows", "--json", "--keep-going"):
         assert text in process.stdout
     assert "--case" in ballscrew("catalogue", "show", "--help").stdout
+
+
+def test_a_name_that_the_catalogue_in_python_does_not_have():
+    rows = bs.catalogue()
+    with pytest.raises(bs.InputError, match=r'catalogue: unknown row .*did you mean "rexroth-40x10x6-6-double"'):
+        rows["rexroth-40x10x6-6-doubel"]
+    with pytest.raises(KeyError, match="known: rexroth"):
+        rows["typo"]
+    assert rows.get("typo") is None
+    assert "typo" not in rows
+
+
+def test_a_case_is_loaded_by_its_path_as_text():
+    path = Path(__file__).parents[2] / "examples" / "feed_drive.toml"
+    assert case_file.load(str(path)).screw == case_file.load(path).screw
+    with pytest.raises(bs.InputError, match=r"nowhere\.toml: does not exist"):
+        case_file.load("nowhere.toml")

@@ -171,10 +171,10 @@ def test_python_says_the_same():
 def test_forbidden_files(example, monkeypatch):
     """Root may read everything, so the refusal is made here."""
 
-    def refuse(self):
+    def refuse(self, *_):
         raise PermissionError(13, "Permission denied", str(self))
 
-    monkeypatch.setattr(Path, "read_bytes", refuse)
+    monkeypatch.setattr(Path, "open", refuse)
     with pytest.raises(InputError, match=r"olaru2005\.toml: cannot be read \(Permission denied\)"):
         case_file.load(example)
 

@@ -240,7 +240,7 @@ def test_a_grade_instead_of_a_viscosity(example, tmp_path, ballscrew):
 def test_efficiency_table_on_the_terminal(example, ballscrew):
     process = ballscrew("sweep", example, "--vary", "axial_load=1000:4000:4 N", "--vary", "screw_speed=0, 300, 600 rpm")
     rows = list(csv.reader(io.StringIO(process.stdout)))
-    assert rows[0] == ["efficiency: axial load [N] down, screw speed [rpm] across", "0.0", "300.0", "600.0"]
+    assert rows[0] == ["efficiency: axial load [N] down; screw speed [rpm] across", "0.0", "300.0", "600.0"]
     assert [row[0] for row in rows[1:]] == ["1000.0", "2000.0", "3000.0", "4000.0"]
     assert float(rows[4][3]) == pytest.approx(float(paper_result(bs.FrictionModel.olaru2005()).efficiency), rel=1e-10)
 
@@ -390,3 +390,12 @@ def test_front_door():
     with pytest.raises(AttributeError, match="no attribute 'nonsense'"):
         bs.nonsense  # noqa: B018  (the access is the test)
     assert np.isfinite(paper_result(bs.FrictionModel.corrected()).screw_torque)
+
+
+def test_citations_survive_without_docstrings(ballscrew, example):
+    """-OO leaves docstrings out, in which the laws name their sources."""
+    optimised = subprocess.run(
+        [sys.executable, "-OO", "-m", "ballscrew.cli", "cite", example], capture_output=True, text=True, check=True
+    )
+    assert optimised.stdout == ballscrew("cite", example).stdout
+    assert "HamrockDowson1977" in optimised.stdout

@@ -86,7 +86,7 @@ def test_without_load_a_double_nut_is_two_halves_under_the_preload(kind, force):
     assert r.screw_torque == pytest.approx(2 * half.screw_torque, rel=1e-9)
     assert r.nut_torque == pytest.approx(2 * half.nut_torque, rel=1e-9)
     assert r.efficiency == 0
-    assert r.back_driving_efficiency == -np.inf
+    assert np.isnan(r.back_driving_efficiency)
 
 
 @pytest.mark.parametrize("kind", ["double", "offset"])
@@ -365,3 +365,19 @@ def test_no_load_and_no_preload_is_no_torque():
         r = friction(nut, 0.0)
         assert r.screw_torque == pytest.approx(0.0, abs=1e-9)
         assert r.efficiency == 0
+
+
+@pytest.mark.parametrize("bad", ["axial_load", "screw_speed"])
+@pytest.mark.parametrize("kind", NUTS)
+def test_what_has_no_meaning_is_nan_in_everything_derived(kind, bad):
+    # a load or a speed below zero is not refused in an array
+    signs = np.array([-1.0, 1.0])
+    r = friction(NUTS[kind], 2000.0 * signs) if bad == "axial_load" else friction(NUTS[kind], 2000.0, SPEED * signs)
+    derived = (
+        "screw_torque", "nut_torque", "drive_torque", "efficiency", "back_driving_efficiency", "holding_torque",
+        "friction_power",
+    )  # fmt: skip
+    for values in (*(getattr(r, name) for name in derived), *r.contributions.values()):
+        assert np.isnan(values[0])
+        assert np.isfinite(values[1])
+    assert list(r.valid) == [False, True]

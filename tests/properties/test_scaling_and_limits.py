@@ -152,11 +152,12 @@ def test_rest_is_the_limit_of_slow_motion(case, model):
 @given(screws(), oils, all_models, st.none() | st.just(0.0) | powers(1e-3, 1.0))
 @pytest.mark.parametrize(("axial_load", "screw_speed"), [(0.0, 0.0), (0.0, 60.0), (1000.0, 0.0)])
 def test_limits_are_numbers(axial_load, screw_speed, screw, oil, model, ball_to_ball_force):
-    """No load and no speed give limits, never NaN, in everything a result can say."""
+    """No load and no speed give limits, never NaN, in all but the efficiency of a load that there is not."""
     model = dataclasses.replace(model, ball_to_ball_force=ball_to_ball_force)
     r = model(screw, oil, axial_load=axial_load, screw_speed=screw_speed)
     for name, output in OUTPUTS.items():
-        assert not np.any(np.isnan(np.asarray(output.read(r), float))), name
+        undefined = axial_load == 0 and name == "back_driving_efficiency" and r.efficiency == 0  # nothing drives
+        assert bool(np.isnan(float(output.read(r)))) == undefined, name
     for power in r.dissipation.values():
         assert np.isfinite(power)
     for name in (*TORQUES, "efficiency", "friction_power"):
@@ -173,7 +174,7 @@ def test_without_load_the_screw_still_drags(screw, oil, model, screw_speed):
     assert r.screw_torque == r.contributions["ball_to_ball"]
     assert r.screw_torque > 0
     assert r.efficiency == 0
-    assert r.back_driving_efficiency == -np.inf
+    assert np.isnan(r.back_driving_efficiency)
 
 
 @given(screws(), oils, both_models, powers(1, 5000))
@@ -270,8 +271,8 @@ def test_arrays_are_scalars_element_by_element(some, model):
         for name, output in OUTPUTS.items():
             found = np.broadcast_to(output.read(together), load.shape)[i]
             expected = output.read(alone)
-            if np.isinf(expected):
-                assert found == expected, name
+            if not np.isfinite(expected):
+                np.testing.assert_equal(found, expected, name)
             elif name.endswith(("sliding_force", "tangential_force")):
                 assert close(found, expected, scale=abs(alone.screw.tangential_force) + abs(expected)), name
             elif name.endswith("pure_rolling_offset"):

@@ -151,11 +151,12 @@ def torque_scale(r: FrictionResult) -> float:
 
 
 def close(found: object, expected: object, relative: float = 1e-12, scale: object = None) -> bool:
-    """Equal within rounding: relative to ``scale``, or else to the expected value."""
+    """Equal within rounding: relative to ``scale``, or else to the expected value. NaN where NaN is expected."""
     found, expected = np.asarray(found, float), np.asarray(expected, float)
     size = np.abs(expected) if scale is None else np.abs(np.asarray(scale, float))
     with np.errstate(invalid="ignore"):  # equal infinities
-        return bool(np.all((found == expected) | (np.abs(found - expected) <= relative * size)))
+        same = (found == expected) | (np.isnan(found) & np.isnan(expected))
+        return bool(np.all(same | (np.abs(found - expected) <= relative * size)))
 
 
 # -- laws for isolating one mechanism -------------------------------------------------------------

@@ -13,7 +13,7 @@ from ballscrew.calibration.next_test import NextTest, next_test
 from ballscrew.calibration.posterior import Posterior, posterior
 from ballscrew.calibration.problem import CONSTANT_TORQUE
 from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import Fault, InputError
+from ballscrew.errors import Fault, InputError, accepts_units
 from ballscrew.quantities import AngularSpeed, Force, Temperature, Torque
 from ballscrew.uncertainty.distributions import normal_half_width
 
@@ -22,6 +22,7 @@ from ballscrew.uncertainty.distributions import normal_half_width
 class CalibratedModel(FitResult):
     """The result of :func:`~ballscrew.calibration.fit.fit`."""
 
+    @accepts_units("predict")
     def predict(self, axial_load: Force, screw_speed: AngularSpeed, temperature: Temperature | None = None) -> Torque:
         """Friction torque on the screw, N m, at loads (N), speeds (rad/s) and temperatures (K); arrays broadcast.
 
@@ -33,6 +34,7 @@ class CalibratedModel(FitResult):
         found = self.model(self.screw, oil, axial_load=load, screw_speed=speed)
         return found.screw_torque + self.constant_torque
 
+    @accepts_units("band")
     def band(
         self,
         axial_load: Force,

@@ -27,7 +27,8 @@ MAXIMUM_RATIO = 100.0
 
 def warning_records(found: FitResult) -> list[Record]:
     """Reasons not to trust the estimates, the gravest first."""
-    return [*_not_identified(found), *_of_bounds(found), *_of_priors(found), *_of_rows(found), *_trends(found)]
+    odd = found.subject.implausible({})
+    return [*odd, *_not_identified(found), *_of_bounds(found), *_of_priors(found), *_of_rows(found), *_trends(found)]
 
 
 def _warning(

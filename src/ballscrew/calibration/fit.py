@@ -23,11 +23,11 @@ from ballscrew.calibration.robust import Solution, Vector, loss_of, solve
 from ballscrew.calibration.torque_conventions import identify_convention
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, nearest, raise_if_any
+from ballscrew.errors import Fault, accepts_units, nearest, raise_if_any, si_value
 from ballscrew.evaluation.engines import Engine, engine_faults
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import within_bounds
+from ballscrew.quantities import MomentOfInertia, within_bounds
 from ballscrew.torque_logs.log_rows import Kind
 from ballscrew.torque_logs.torque_log import TorqueLog
 from ballscrew.uncertainty.distributions import Distribution
@@ -46,6 +46,7 @@ STEP_ERRORS, FLAT_SHARE = 2.0, 0.2
 PRIOR_ONLY_SHARE = 0.9
 
 
+@accepts_units("fit")
 def fit(
     model: FrictionModel,
     screw: BallScrew,
@@ -56,7 +57,7 @@ def fit(
     priors: Mapping[str, Distribution] | None = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     kind: Kind = "unknown",
-    inertia: float | None = None,
+    inertia: MomentOfInertia | None = None,
     holdout: float = 0.2,
     seed: int = 0,
     engine: Engine | None = None,
@@ -96,6 +97,14 @@ def fit(
             if asked[other] == asked[name]
         ]
     )
+    units = {name: _unit_of(subject, full) for name, full in asked.items()}
+    limits = {
+        name: (
+            float(si_value(f"fit.bounds.{name}", low, units[name])),
+            float(si_value(f"fit.bounds.{name}", high, units[name])),
+        )
+        for name, (low, high) in (bounds or {}).items()
+    }
     log = TorqueLog.of(data).cleaned(inertia=inertia)
     if lubricant.grade is not None and log.temperature is not None:
         log = log.select(np.asarray(within_bounds(TEMPERATURE.info, log.temperature)), "temperature beyond any oil")
@@ -110,7 +119,7 @@ def fit(
     held_out = _held_out(log, holdout, seed)
     # what the column is can be looked up in all rows: of few, those left to fit do not always tell
     convention, left = identify_convention(log.torque, torques, log.axial_load, log.screw_speed, drift_of(log), said)
-    problem = Problem.of(subject, response, asked, log, convention, left, torques, slopes, bounds or {})
+    problem = Problem.of(subject, response, asked, log, convention, left, torques, slopes, limits)
     start = escape_insensitive_start(problem, log.torque[~held_out], left, problem.start, ~held_out)
     given = {problem.names.index(name): prior for name, prior in (priors or {}).items()}
     known = Priors(problem.deviations | given, start, problem.scale)
@@ -151,7 +160,7 @@ def fit(
         settings={
             "free": list(free),
             "priors": {name: prior.describe(problem.quantity(name).unit) for name, prior in (priors or {}).items()},
-            "bounds": {name: list(map(float, pair)) for name, pair in (bounds or {}).items()},
+            "bounds": {name: list(pair) for name, pair in limits.items()},
             "holdout": holdout,
             "seed": seed,
             "inertia": inertia,
@@ -195,7 +204,7 @@ def _faults_of_options(
     faults += [
         Fault(f"fit.bounds.{n}", "must be a pair of numbers", str(pair), "such as (0.05, 0.2)")
         for n, pair in bounds.items()
-        if np.shape(pair) != (2,)
+        if not isinstance(pair, list | tuple | np.ndarray) or len(pair) != 2
     ]
     for where, named in {"priors": priors, "bounds": bounds}.items():
         faults += [Fault(f"fit.{where}.{n}", "is not free", "", nearest(n, free)) for n in named if n not in free]
@@ -204,6 +213,10 @@ def _faults_of_options(
     if kind not in get_args(Kind):
         faults.append(Fault("fit.kind", "unknown kind of torque", str(kind), f"one of {', '.join(get_args(Kind))}"))
     return faults
+
+
+def _unit_of(subject: Configuration, name: str) -> str:
+    return CONSTANT_TORQUE.unit if name == CONSTANT_TORQUE.name else subject.inputs[name][1].unit
 
 
 def _held_out(log: TorqueLog, share: float, seed: int) -> NDArray[np.bool_]:

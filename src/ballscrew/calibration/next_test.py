@@ -13,7 +13,8 @@ from ballscrew.calibration.fit_result import FitResult
 from ballscrew.calibration.identifiability import weighted_derivatives
 from ballscrew.calibration.robust import Vector
 from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import Fault, nearest, raise_if_any
+from ballscrew.errors import Fault, nearest, raise_if_any, si_value
+from ballscrew.torque_logs.log_rows import quantities
 
 #: Without limits, loads and speeds from half the least to twice the largest of the log are thought possible, and
 #: temperatures this many kelvin beyond those of the log.
@@ -99,7 +100,12 @@ def _ranges(found: FitResult, limits: Mapping[str, tuple[float, float]]) -> dict
         ranges[TEMPERATURE.name] = max(low, info.at_least or low), min(high, info.at_most or high)
     unknown = [name for name in limits if name not in ranges]
     raise_if_any([Fault(f"fit.limits.{n}", "is no condition of a test", "", nearest(n, ranges)) for n in unknown])
-    return {**ranges, **limits}
+    known = quantities()
+    in_si = {
+        name: (si_value(where := f"fit.limits.{name}", low, known[name].unit), si_value(where, high, known[name].unit))
+        for name, (low, high) in limits.items()
+    }
+    return {**ranges, **in_si}
 
 
 def _grid(ranges: Mapping[str, tuple[float, float]]) -> dict[str, Vector]:

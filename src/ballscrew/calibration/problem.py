@@ -39,6 +39,8 @@ WANDER_DEVIATION = 3.0
 #: The fit is insensitive to a parameter whose scale moves all torques together by less than this many scatters: it is
 #: then started again from these multiples of its start.
 INSENSITIVE, RESTART_FACTORS = 1.0, (3.0, 10.0, 1 / 3, 0.1)
+#: A torque beyond all others, in units of the largest measured one.
+BEYOND = 1e3
 #: A drift of one direction is fitted if the numbers leave this share of it unexplained.
 MINIMUM_INDEPENDENT_SHARE = 0.8
 #: Fewer rows tell no drift, and fewer than these no wandering.
@@ -71,6 +73,8 @@ class Problem:
     weights: Vector
     #: Derivatives by the linear parameters, of shape (rows, linear parameters).
     columns: Vector
+    #: The torque that stands for numbers that do not fit together: far beyond all others.
+    beyond: float
 
     @classmethod
     def of(
@@ -118,7 +122,8 @@ class Problem:
                     columns.append(np.cos(waves * np.pi * (drift + 0.5)))
         parameters = [_bounded(parameter, bounds) for parameter in parameters]
         linear = np.stack(columns, axis=1) if columns else np.empty((len(log), 0))
-        return cls(response, free, parameters, weights, linear)
+        beyond = BEYOND * max(usual, float(np.max(np.abs(log.torque))))
+        return cls(response, free, parameters, weights, linear, beyond)
 
     @property
     def names(self) -> list[str]:
@@ -171,12 +176,13 @@ class Problem:
     def torque(self, values: Vector) -> tuple[Vector, Vector]:
         """The torque of every row as it would be measured, and its derivatives, of shape (rows, parameters).
 
-        Where the model has no torque it is taken as zero that nothing changes: the fit sees it miss, and turns back.
+        Where the model has no torque at some rows it is taken as zero that nothing changes, where it has none at all as
+        far beyond what was measured: the fit sees it miss, and turns back.
         """
         numbers = len(self.response.names)
         torques, slopes = self.response(values[:numbers])
         told = np.asarray(np.isfinite(torques).all(axis=0) & np.isfinite(slopes).all(axis=(0, 2)))
-        torque = np.where(told, np.sum(self.weights * torques, axis=0), 0.0)
+        torque = np.where(told, np.sum(self.weights * torques, axis=0), 0.0 if told.any() else self.beyond)
         by_numbers = np.where(told[:, np.newaxis], np.einsum("tr,trn->rn", self.weights, slopes), 0.0)
         return torque + self.columns @ values[numbers:], np.hstack([by_numbers, self.columns])
 

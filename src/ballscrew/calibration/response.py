@@ -97,8 +97,22 @@ class Response:
         rows = {name: xr.DataArray(held, dims="row") for name, held in points.items()}
         return dataclasses.replace(self, evaluation=self.evaluation.at(rows))
 
+    def fits(self, values: NDArray[np.float64]) -> bool:
+        """Whether the parts accept these values of the free numbers."""
+        try:
+            self.evaluation.plan.subject.changed(dict(zip(self.names, values.tolist(), strict=True)))
+        except InputError:
+            return False
+        return True
+
     def __call__(self, values: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """The torques, of shape (torques, rows), and their derivatives, of shape (torques, rows, numbers)."""
+        """The torques, of shape (torques, rows), and their derivatives, of shape (torques, rows, numbers).
+
+        All NaN where the numbers do not fit together, such as balls too big for the screw.
+        """
+        if not self.fits(values):
+            shape = (len(TORQUES), self.evaluation.plan.total)
+            return np.full(shape, np.nan), np.full((*shape, values.size), np.nan)
         made = self.evaluation.at(dict(zip(self.names, values.tolist(), strict=True)))
         found = made.empty(made.plan.total)
         made.fill(found, slice(0, made.plan.total))

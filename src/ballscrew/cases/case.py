@@ -15,6 +15,8 @@ from ballscrew.components.screw import BallScrew, Operation
 from ballscrew.friction.calibrations import Calibration
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.nut_parts import NutParts
+from ballscrew.friction.plausibility import implausible, named_parts
+from ballscrew.records import Record
 from ballscrew.uncertainty.distributions import Distribution
 
 #: The limits of the checks where a case gives none.
@@ -65,3 +67,9 @@ class Case:
     calibration: Calibration | None = None
     #: The table ``[calibration]`` that a fit wrote beside its numbers, as it stands in the file.
     fit: Mapping[str, Any] = dataclasses.field(default_factory=dict[str, Any])
+
+    def implausible(self) -> list[Record]:
+        """A warning for each input that no ball screw has."""
+        nut = {} if self.parts is None else self.parts.by_section(self.screw)
+        parts = named_parts(self.model, self.screw, self.lubricant, operation=self.operation, **nut)
+        return units.in_display_units_of(implausible(parts))

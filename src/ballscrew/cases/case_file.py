@@ -9,7 +9,7 @@ from __future__ import annotations
 import dataclasses
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -34,6 +34,7 @@ from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.screw import MATERIALS, BallScrew, Operation
 from ballscrew.components.traits import traits_of
 from ballscrew.errors import Fault, InputError, closest, nearest, raise_if_any
+from ballscrew.files import read_bytes
 from ballscrew.friction.calibrations import calibrated, calibration
 from ballscrew.friction.law_names import coefficients
 from ballscrew.friction.model import FrictionModel
@@ -41,21 +42,23 @@ from ballscrew.friction.nut_parts import NutParts
 from ballscrew.quantities import fields_of
 from ballscrew.units import in_display_units
 
+#: Bytes of a case file at most, and bits of a whole number in it: no float is larger.
+LARGEST_FILE, LARGEST_INTEGER = 4_000_000, 1024
 _NEEDED = ("screw", "lubricant", "operation")
 _SECTIONS = (*_NEEDED, *NUT_TABLES, "model", "sweep", "calibration")
-_START = "start from examples/olaru2005.toml"
+_START = 'start from "ballscrew catalogue show hiwin-40-20k4 --case"'
 
 
-def load(path: Path, settings: Sequence[str] = (), model: str | None = None, *, allow_code: bool = False) -> Case:
+def load(path: str | Path, settings: Sequence[str] = (), model: str | None = None, *, allow_code: bool = False) -> Case:
     """The case of a file, with settings from the command line. Raises ``InputError`` with all faults."""
-    return build(override(read(path), settings), model, path.parent, allow_code=allow_code)
+    return build(override(read(path), settings), model, Path(path).parent, allow_code=allow_code)
 
 
-def read(path: Path) -> dict[str, Any]:
+def read(path: str | Path) -> dict[str, Any]:
     """The tables of a TOML file. Raises :class:`~ballscrew.errors.InputError` if it is none."""
     where = str(path)
     try:
-        text = path.read_bytes().decode("utf-8-sig")
+        text = read_bytes(Path(path), LARGEST_FILE).decode("utf-8-sig")
     except UnicodeDecodeError:
         raise InputError(Fault(where, "is not text in UTF-8", "", "save it as UTF-8")) from None
     except (OSError, ValueError) as error:
@@ -63,12 +66,29 @@ def read(path: Path) -> dict[str, Any]:
         reason = "" if isinstance(error, FileNotFoundError) else getattr(error, "strerror", str(error))
         raise InputError(Fault(where, problem, reason, "give the path of a case file")) from None
     try:
-        tables = tomllib.loads(text)
+        tables = _toml(text)
     except (ValueError, RecursionError) as error:
         raise InputError(Fault(where, "is not TOML", str(error), _toml_remedy(str(error), text))) from None
     if not tables:
         raise InputError(Fault(where, "is empty", "", _START))
     return tables
+
+
+def _toml(text: str) -> dict[str, Any]:
+    """The tables of a text. Raises ``ValueError`` where it is no TOML, and for whole numbers beyond any float."""
+    tables = tomllib.loads(text)
+    if any(isinstance(leaf, int) and leaf.bit_length() > LARGEST_INTEGER for leaf in _leaves(tables)):
+        raise ValueError(f"a whole number has more than {LARGEST_INTEGER} bits")
+    return tables
+
+
+def _leaves(value: Any) -> Iterator[Any]:
+    """All values of nested tables and lists."""
+    if isinstance(value, dict | list):
+        for inner in value.values() if isinstance(value, dict) else value:
+            yield from _leaves(inner)
+    else:
+        yield value
 
 
 def _toml_remedy(error: str, text: str) -> str:
@@ -112,7 +132,7 @@ def override(tables: dict[str, Any], settings: Sequence[str]) -> dict[str, Any]:
 def _literal(text: str) -> Any:
     """A value from the command line, where quotes are often eaten by the shell."""
     try:
-        return tomllib.loads(f"value = {text}")["value"]
+        return _toml(f"value = {text}")["value"]
     except (ValueError, RecursionError):
         return text
 

@@ -7,7 +7,7 @@ from typing import Any
 from ballscrew._version import __version__
 from ballscrew.cases.case import Case
 from ballscrew.components.materials import Lubricant
-from ballscrew.references import citations_of, keys_in
+from ballscrew.references import citations_of, documentation, keys_in
 
 
 def of_case(case: Case) -> dict[str, Any]:
@@ -17,7 +17,7 @@ def of_case(case: Case) -> dict[str, Any]:
 
 def references(case: Case) -> list[str]:
     """Keys of the sources of the model, and of the oil where it was made from a grade."""
-    of_oil = keys_in(Lubricant.from_grade.__doc__) if case.oil else ()
+    of_oil = keys_in(documentation(Lubricant.from_grade)) if case.oil else ()
     losses = {} if case.parts is None else case.parts.losses
-    of_nut = [key for law in losses.values() for key in keys_in(type(law).__doc__)]
+    of_nut = [key for law in losses.values() for key in keys_in(documentation(type(law)))]
     return list(dict.fromkeys([*citations_of(case.model), *of_oil, *of_nut]))

@@ -1,5 +1,5 @@
 """``python -m ballscrew.cli``."""
 
-from ballscrew.cli.main import main
+from ballscrew.cli.start import main
 
 main()

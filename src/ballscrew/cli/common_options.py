@@ -12,7 +12,7 @@ import typer
 
 #: Stands for the names of the models in help texts; replaced when the help is shown.
 MODEL_NAMES = "{models}"
-CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML), for example examples/olaru2005.toml.")]
+CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML); ballscrew catalogue show NAME --case makes one.")]
 ModelName = Annotated[
     str | None,
     typer.Option("--model", metavar="NAME", help=f"{MODEL_NAMES}; wins over the file."),

@@ -94,6 +94,8 @@ def options(
 
 def main() -> None:
     """Run a command; bad input ends with one line a fault and exit code 2, never with a traceback."""
+    if sys.stdout is None:  # pyright: ignore[reportUnnecessaryComparison]  (started with >&-)
+        _refuse(["stdout: is closed · leave out >&-, or write > /dev/null"])
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # a terminal that has no "·" still gets an answer
             stream.reconfigure(errors="backslashreplace")

@@ -17,7 +17,7 @@ _TO = "--to"
 
 
 def report(
-    case: Annotated[Path, typer.Argument(help="Case file (TOML), for example examples/catalogue_screw.toml.")],
+    case: Annotated[Path, typer.Argument(help="Case file (TOML); ballscrew catalogue show NAME --case makes one.")],
     to: Annotated[Path, typer.Option("--to", "-o", metavar="FILE", help="What to write: .pdf or .html.")],
     model: Annotated[str | None, typer.Option("--model", metavar="NAME", help="{models}; wins over the file.")] = None,
     settings: Annotated[

@@ -11,7 +11,7 @@ from ballscrew.cli.common_options import AllowCode
 
 
 def sensitivity(
-    case: Annotated[Path, typer.Argument(help="Case file (TOML), for example examples/olaru2005.toml.")],
+    case: Annotated[Path, typer.Argument(help="Case file (TOML); ballscrew catalogue show NAME --case makes one.")],
     output: Annotated[
         str, typer.Option("--output", metavar="NAME", help="Of which result, for example efficiency.")
     ] = "screw_torque",

@@ -10,9 +10,10 @@ from collections.abc import Mapping
 from importlib import resources
 from typing import Annotated, Any
 
+from ballscrew._arrays import ByValue
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import geometry
-from ballscrew.errors import Fault, InputError, faults_of, raise_if_any, shown
+from ballscrew.errors import Fault, InputError, faults_of, nearest, raise_if_any, shown
 from ballscrew.quantities import Angle, Count, Force, Info, Length, Ratio, Stiffness, Unit
 
 #: Turns that carry no load where the balls of a nut leave and enter (ISO3408-5, as it fits the ratings of catalogues).
@@ -30,7 +31,7 @@ _OPTIONAL = ("pitch_circle_diameter", "root_diameter", "dynamic_load_rating", "s
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
-class CatalogueRow:
+class CatalogueRow(ByValue):
     """A ball screw as a catalogue lists it; what the catalogue leaves out is None or has a stated default.
 
     Defaults: a conformity of 0.54, which most root diameters of a catalogue imply (HIWIN's grooves for balls of
@@ -152,12 +153,29 @@ class CatalogueRow:
         return BallScrew(**{**fields, **changes})
 
 
+class UnknownRowError(InputError, KeyError):
+    """A name that the catalogue does not have; a ``KeyError``, so that mappings work as usual."""
+
+    __str__ = ValueError.__str__
+
+
+class _Rows(dict[str, CatalogueRow]):
+    """Rows by name."""
+
+    def __missing__(self, name: str) -> CatalogueRow:
+        raise UnknownRowError(Fault("catalogue", "unknown row", str(name), nearest(str(name), self, most=5)))
+
+
 @functools.cache
 def catalogue() -> Mapping[str, CatalogueRow]:
-    """The rows shipped, by name (``data/screws.toml``)."""
+    """The rows shipped, by name (``data/screws.toml``).
+
+    A name that it does not have raises an :class:`UnknownRowError` with the nearest one.
+    """
     text = resources.files("ballscrew").joinpath("data/screws.toml").read_text(encoding="utf-8")
-    return {
+    rows = {
         name: CatalogueRow(name=name, nut=table["nut"], source=table["source"], **fields)
         for table in tomllib.loads(text)["catalogue"]
         for name, fields in table["rows"].items()
     }
+    return _Rows(rows)

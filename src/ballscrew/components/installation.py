@@ -7,6 +7,7 @@ import enum
 import math
 from typing import Annotated, Any, cast
 
+from ballscrew._arrays import ByValue
 from ballscrew.errors import Fault, faults_of, raise_if_any
 from ballscrew.quantities import Array, Density, DiameterSpeed, Info, Length, Pressure, Ratio, Unit
 
@@ -34,7 +35,7 @@ class Ends(enum.Enum):
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
-class Installation:
+class Installation(ByValue):
     """A mounted screw. The default density is that of steel.
 
     Raises :class:`~ballscrew.errors.InputError` for values out of bounds, and for ends that are not :class:`Ends`.
@@ -42,11 +43,21 @@ class Installation:
 
     unsupported_length: Annotated[
         Length,
-        Info("l", "longest stretch of shaft between two supports", "mm", above=0, hint="bearing to bearing or to nut"),
+        Info(
+            "l",
+            "longest stretch of shaft between two supports",
+            "mm",
+            above=0,
+            hint="bearing to bearing or to nut",
+            usual=(0.01, 20.0),
+        ),
     ]
     ends: Ends
     shaft_density: Annotated[
-        Density, Info(r"\rho_s", "density of the shaft", "kg/m^3", above=0, hint="steel has 7850 kg/m^3")
+        Density,
+        Info(
+            r"\rho_s", "density of the shaft", "kg/m^3", above=0, hint="steel has 7850 kg/m^3", usual=(1500.0, 20000.0)
+        ),
     ] = 7850.0
 
     def __post_init__(self) -> None:
@@ -58,7 +69,7 @@ class Installation:
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
-class Limits:
+class Limits(ByValue):
     """Permissible shares of the limits, and the required life.
 
     Defaults, all of THK514E: a static safety of 2, its least for loads without shocks (5 with them); a stress of

@@ -10,6 +10,7 @@ from __future__ import annotations
 import dataclasses
 from typing import Annotated, NamedTuple, Protocol
 
+from ballscrew._arrays import ByValue
 from ballscrew.components.conditions import ContactConditions, HertzShape
 from ballscrew.components.frame import Frame
 from ballscrew.components.old_calls import also_with_arguments_of_0_1
@@ -167,12 +168,18 @@ def snare_resistance(conditions: ContactConditions) -> Torque:
 
 @law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
-class Hysteresis:
+class Hysteresis(ByValue):
     """Elastic resistance as the part of the work of deformation that the material keeps, Johnson1985 §9.3."""
 
     loss_factor: Annotated[
         Ratio,
-        Info(r"\alpha", "share of the elastic work lost in hysteresis", at_least=0, hint="steel has 0.01 to 0.04"),
+        Info(
+            r"\alpha",
+            "share of the elastic work lost in hysteresis",
+            at_least=0,
+            hint="steel has 0.01 to 0.04",
+            usual=(0.0, 0.3),
+        ),
     ] = 0.02
 
     def __post_init__(self) -> None:
@@ -223,7 +230,7 @@ def imposed_ball_force(ball_to_ball_force: Force, contact_load: Force) -> Force:
 
 @law_traits(alternative=True, uses_imposed_force=False)
 @dataclasses.dataclass(frozen=True, eq=False)
-class ProportionalBallForce:
+class ProportionalBallForce(ByValue):
     """A force that grows with the load of the ball; an imposed one does not count.
 
     The load of a ball is that of its contacts with one race: one on two contacts, the sum of both flank
@@ -232,7 +239,13 @@ class ProportionalBallForce:
 
     share_of_load: Annotated[
         Ratio,
-        Info("F_B/Q", "force between balls in units of the ball's load", at_least=0, hint="the paper has about 0.0002"),
+        Info(
+            "F_B/Q",
+            "force between balls in units of the ball's load",
+            at_least=0,
+            hint="the paper has about 0.0002",
+            usual=(0.0, 0.5),
+        ),
     ] = 0.0002
 
     def __post_init__(self) -> None:

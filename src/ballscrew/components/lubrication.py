@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from typing import Annotated
 
-from ballscrew._arrays import namespace
+from ballscrew._arrays import ByValue, namespace
 from ballscrew.components.conditions import ContactConditions
 from ballscrew.components.laws import InletFactors
 from ballscrew.components.old_calls import also_with_arguments_of_0_1
@@ -17,7 +17,7 @@ from ballscrew.quantities import Force, Info, Length, Pressure, Ratio
 
 @law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
-class HamrockDowson:
+class HamrockDowson(ByValue):
     """Minimum film thickness by HamrockDowson1977; the paper prints the exponent as 0.66."""
 
     speed_exponent: Annotated[
@@ -80,7 +80,7 @@ def ideal_inlet(conditions: ContactConditions) -> InletFactors:
 
 @law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
-class Inlet:
+class Inlet(ByValue):
     """An inlet that its own shear heats (Gupta1992) and that may not be full (BibouletHoupertLines2010).
 
     The heating thins the film and the rolling force alike; missing oil lowers the rolling force only.

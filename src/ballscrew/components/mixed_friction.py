@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from typing import Annotated
 
-from ballscrew._arrays import namespace
+from ballscrew._arrays import ByValue, namespace
 from ballscrew.components.conditions import ContactConditions
 from ballscrew.components.old_calls import also_with_arguments_of_0_1
 from ballscrew.components.traits import law_traits
@@ -14,10 +14,18 @@ from ballscrew.errors import faults_of, raise_if_any
 from ballscrew.quantities import ArealDensity, Info, Length, Pressure, Ratio, ShearRate, Viscosity
 
 Boundary = Annotated[
-    Ratio, Info(r"\mu_0", "friction coefficient without a film", at_least=0, hint="boundary friction is 0.1 to 0.2")
+    Ratio,
+    Info(
+        r"\mu_0",
+        "friction coefficient without a film",
+        at_least=0,
+        hint="boundary friction is 0.1 to 0.2",
+        usual=(0.0, 1.0),
+    ),
 ]
 FullFilm = Annotated[
-    Ratio, Info(r"\mu_f", "friction coefficient of the full film", at_least=0, hint="the paper has 0.02")
+    Ratio,
+    Info(r"\mu_f", "friction coefficient of the full film", at_least=0, hint="the paper has 0.02", usual=(0.0, 0.5)),
 ]
 Decay = Annotated[Ratio, Info("B", "decay of the asperities' share", at_least=0, hint="the paper has 1.42")]
 Exponent = Annotated[Ratio, Info("C", "exponent of the film parameter", above=0, hint="the paper has 0.8")]
@@ -25,7 +33,7 @@ Exponent = Annotated[Ratio, Info("C", "exponent of the film parameter", above=0,
 
 @law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
-class ZhouHoeprich:
+class ZhouHoeprich(ByValue):
     """Friction coefficient between the boundary and the full-film value, Olaru2005 §5 (23)–(26).
 
     After ZhouHoeprich1991. With the paper's coefficients the full-film value is reached at a film
@@ -57,7 +65,7 @@ class ZhouHoeprich:
 
 @law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
-class LoadSharing:
+class LoadSharing(ByValue):
     """Asperities and film share the load, ZhouHoeprich1991; no clamp.
 
     Boundary friction of 0.12 is what SKF2018 uses for rolling bearings in motion (0.15 at the
@@ -84,7 +92,7 @@ class LoadSharing:
 
 @law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
-class BalanSharing:
+class BalanSharing(ByValue):
     """Asperities and film share the load, Balan2015; its share is cut at a film parameter of 2."""
 
     boundary_friction_coefficient: Boundary = 0.12
@@ -105,7 +113,7 @@ class BalanSharing:
 
 @law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
-class GreenwoodTrippSharing:
+class GreenwoodTrippSharing(ByValue):
     """Asperities and film share the load, the asperities as elastic hills (GreenwoodTripp1970).
 
     The share is the pressure of the hills over what they have to carry: the mean pressure of the
@@ -168,7 +176,7 @@ def _shared(law: _Friction, asperity_load_share: Ratio, conditions: ContactCondi
 
 @law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
-class EyringTraction:
+class EyringTraction(ByValue):
     """Friction of the film from the mean shear rate and the mean pressure, Eyring's law with a limit.
 
     Viscosity under pressure by Roelands1966; the stress is that of Eyring1936 but never above the
@@ -198,7 +206,7 @@ class EyringTraction:
 
 @law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
-class LimitingShearTraction:
+class LimitingShearTraction(ByValue):
     """Friction of the film from the mean shear rate and the mean pressure, BairWiner1979."""
 
     limiting_shear_coefficient: Annotated[

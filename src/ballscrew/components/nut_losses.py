@@ -15,11 +15,12 @@ import tomllib
 from importlib import resources
 from typing import Annotated, NamedTuple, Protocol
 
+from ballscrew._arrays import ByValue
 from ballscrew.components.frame import helix_frame
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import geometry, kinematics, parasitic, preload, transmission
-from ballscrew.errors import Fault, InputError, faults_of, raise_if_any
+from ballscrew.errors import Fault, InputError, accepts_units, faults_of, raise_if_any
 from ballscrew.quantities import AngularSpeed, Count, Force, Info, Length, Ratio, Speed, Torque
 
 #: Coefficients behind the no-load torques of Rexroth2006: their middle meets the tables within their digits.
@@ -40,7 +41,7 @@ class ParasiticLaw(Protocol):
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class JISDrag:
+class JISDrag(ByValue):
     """The rule of JISB1192 for all preloaded nuts, as THK514E prints it."""
 
     drag_coefficient: Annotated[Ratio, Info("k_p", "factor of the rule", at_least=0, hint="the standard has 0.05")] = (
@@ -53,6 +54,7 @@ class JISDrag:
     def __post_init__(self) -> None:
         raise_if_any(faults_of("losses.jis_drag", self))
 
+    @accepts_units("losses")
     def __call__(
         self, preload_force: Force, nominal_diameter: Length, pitch_circle_diameter: Length, lead: Length
     ) -> Torque:
@@ -63,7 +65,7 @@ class JISDrag:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class RexrothDrag:
+class RexrothDrag(ByValue):
     """The rule behind the tables of Rexroth2006, at 100 rpm; the lead does not count."""
 
     drag_coefficient: Annotated[
@@ -74,6 +76,7 @@ class RexrothDrag:
     def __post_init__(self) -> None:
         raise_if_any(faults_of("losses.rexroth_drag", self))
 
+    @accepts_units("losses")
     def __call__(
         self, preload_force: Force, nominal_diameter: Length, pitch_circle_diameter: Length, lead: Length
     ) -> Torque:
@@ -82,7 +85,7 @@ class RexrothDrag:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class EfficiencyDrag:
+class EfficiencyDrag(ByValue):
     """The drag of a double nut from the efficiency of its halves, with the same friction torque in both."""
 
     efficiency: Annotated[
@@ -92,6 +95,7 @@ class EfficiencyDrag:
     def __post_init__(self) -> None:
         raise_if_any(faults_of("losses.efficiency_drag", self))
 
+    @accepts_units("losses")
     def __call__(
         self, preload_force: Force, nominal_diameter: Length, pitch_circle_diameter: Length, lead: Length
     ) -> Torque:
@@ -137,7 +141,7 @@ def seal_table() -> tuple[SealRow, ...]:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Seals:
+class Seals(ByValue):
     """Seals whose torque is known: measured, or a vendor's."""
 
     seal_torque: Annotated[
@@ -147,6 +151,7 @@ class Seals:
             "torque of all seals of the nut",
             at_least=0,
             hint="rubber: 0.08 N m at 16 mm, 0.4 N m at 40 mm (Seals.of_table)",
+            usual=(0.0, 50.0),
         ),
     ] = 0.0
 
@@ -154,7 +159,8 @@ class Seals:
         raise_if_any(faults_of("losses.seals", self))
 
     @classmethod
-    def of_table(cls, nominal_diameter: float, lead: float) -> Seals:
+    @accepts_units("losses.seals")
+    def of_table(cls, nominal_diameter: Length, lead: Length) -> Seals:
         """The two standard seals of Rexroth2006, by nominal diameter and lead.
 
         Raises :class:`~ballscrew.errors.InputError` with the nearest row for a screw that the table does not have.
@@ -171,12 +177,18 @@ class Seals:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class LipSeals:
+class LipSeals(ByValue):
     """Seals whose lips rub all around the screw, on its pitch circle."""
 
     lip_friction: Annotated[
         parasitic.LineForce,
-        Info("q", "friction force on each length of lip", at_least=0, hint="rubber has 61 N/m to 109 N/m"),
+        Info(
+            "q",
+            "friction force on each length of lip",
+            at_least=0,
+            hint="rubber has 61 N/m to 109 N/m",
+            usual=(0.0, 2000.0),
+        ),
     ] = 0.0
     lips: Annotated[
         Count, Info("n_l", "number of sealing lips", at_least=0, whole=True, hint="one at each end of the nut: 2")
@@ -209,7 +221,7 @@ MovingBalls = Annotated[
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Churning:
+class Churning(ByValue):
     """Oil in the way of the balls: the drag of single spheres, SchillerNaumann1933.
 
     Without a number of balls the loaded balls of the screw it is called with count; a nut calls it with all its balls.
@@ -230,7 +242,7 @@ class Churning:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class HarrisChurning:
+class HarrisChurning(ByValue):
     """Oil in the way of the balls as bearings have it at high speed, Harris2001; thin oil only.
 
     Without a number of balls the loaded balls of the screw it is called with count; a nut calls it with all its balls.
@@ -255,11 +267,18 @@ class HarrisChurning:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Recirculation:
+class Recirculation(ByValue):
     """The return of the balls: a force that the screw must push the train of balls with, through each return."""
 
     return_force: Annotated[
-        Force, Info("F_r", "force against the balls in one return", at_least=0, hint="no measured value is known")
+        Force,
+        Info(
+            "F_r",
+            "force against the balls in one return",
+            at_least=0,
+            hint="no measured value is known",
+            usual=(0.0, 1000.0),
+        ),
     ] = 0.0
     returns: Annotated[
         Count, Info("n_r", "number of returns", at_least=0, whole=True, hint="one for each circuit of balls")

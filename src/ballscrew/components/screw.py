@@ -6,7 +6,7 @@ import dataclasses
 import math
 from typing import Annotated, Any, cast
 
-from ballscrew._arrays import namespace
+from ballscrew._arrays import ByValue, namespace
 from ballscrew.components.materials import Material
 from ballscrew.equations import geometry, hertz
 from ballscrew.errors import Fault, faults_of, is_concrete, raise_if_any, shown
@@ -18,7 +18,7 @@ MATERIALS = ("ball_material", "screw_material", "nut_material")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Raceway:
+class Raceway(ByValue):
     """One side of the screw as the ball sees it."""
 
     conformity: Ratio
@@ -27,7 +27,7 @@ class Raceway:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class BallScrew:
+class BallScrew(ByValue):
     """A ball screw with two-point contact: every ball touches one flank of screw and nut.
 
     Raises :class:`~ballscrew.errors.InputError` (a ``ValueError``) with one fault for each value
@@ -35,13 +35,34 @@ class BallScrew:
     """
 
     pitch_circle_diameter: Annotated[
-        Length, Info("d_m", "diameter of the helix of the ball centres", "mm", above=0, hint="lengths are positive")
+        Length,
+        Info(
+            "d_m",
+            "diameter of the helix of the ball centres",
+            "mm",
+            above=0,
+            hint="lengths are positive",
+            usual=(1e-3, 0.5),
+        ),
     ]
-    lead: Annotated[Length, Info("P_h", "advance of the nut in one turn", "mm", above=0, hint="lengths are positive")]
-    ball_diameter: Annotated[Length, Info("d_w", "ball diameter", "mm", above=0, hint="lengths are positive")]
+    lead: Annotated[
+        Length,
+        Info("P_h", "advance of the nut in one turn", "mm", above=0, hint="lengths are positive", usual=(2e-4, 0.5)),
+    ]
+    ball_diameter: Annotated[
+        Length, Info("d_w", "ball diameter", "mm", above=0, hint="lengths are positive", usual=(2e-4, 0.06))
+    ]
     loaded_balls: Annotated[
         Count,
-        Info("z", "number of balls that carry load", at_least=1, whole=True, hint="give a whole number, 1 or more"),
+        Info(
+            "z",
+            "number of balls that carry load",
+            at_least=1,
+            at_most=10_000,
+            whole=True,
+            hint="give a whole number, 1 or more",
+            usual=(1, 2000),
+        ),
     ]
     contact_angle: Annotated[
         Angle,
@@ -52,29 +73,69 @@ class BallScrew:
             above=0,
             below=math.pi / 2,
             hint='angles lie between 0 and 90 deg; in a file write "45 deg", in Python math.radians(45)',
+            usual=(math.radians(20), math.radians(70)),
         ),
     ]
     screw_conformity: Annotated[
         Ratio,
-        Info("f_s", "screw groove radius / ball diameter", above=0.5, at_most=1, hint="grooves have 0.515 to 0.54"),
+        Info(
+            "f_s",
+            "screw groove radius / ball diameter",
+            above=0.5,
+            at_most=1,
+            hint="grooves have 0.515 to 0.54",
+            usual=(0.505, 0.65),
+        ),
     ]
     nut_conformity: Annotated[
         Ratio,
-        Info("f_n", "nut groove radius / ball diameter", above=0.5, at_most=1, hint="grooves have 0.515 to 0.54"),
+        Info(
+            "f_n",
+            "nut groove radius / ball diameter",
+            above=0.5,
+            at_most=1,
+            hint="grooves have 0.515 to 0.54",
+            usual=(0.505, 0.65),
+        ),
     ]
     ball_roughness: Annotated[
-        Length, Info(r"\sigma_b", "RMS roughness of the balls", "um", above=0, hint="balls have 0.02 um to 0.1 um")
+        Length,
+        Info(
+            r"\sigma_b",
+            "RMS roughness of the balls",
+            "um",
+            above=0,
+            hint="balls have 0.02 um to 0.1 um",
+            usual=(1e-9, 2e-6),
+        ),
     ] = 0.08e-6
     screw_roughness: Annotated[
         Length,
-        Info(r"\sigma_s", "RMS roughness of the screw race", "um", above=0, hint="ground races have 0.2 um to 0.4 um"),
+        Info(
+            r"\sigma_s",
+            "RMS roughness of the screw race",
+            "um",
+            above=0,
+            hint="ground races have 0.2 um to 0.4 um",
+            usual=(5e-9, 1e-5),
+        ),
     ] = 0.3e-6
     nut_roughness: Annotated[
         Length,
-        Info(r"\sigma_n", "RMS roughness of the nut race", "um", above=0, hint="ground races have 0.2 um to 0.4 um"),
+        Info(
+            r"\sigma_n",
+            "RMS roughness of the nut race",
+            "um",
+            above=0,
+            hint="ground races have 0.2 um to 0.4 um",
+            usual=(5e-9, 1e-5),
+        ),
     ] = 0.3e-6
     starts: Annotated[
-        Count, Info("N", "number of thread starts", at_least=1, whole=True, hint="give a whole number, 1 or more")
+        Count,
+        Info(
+            "N", "number of thread starts", at_least=1, whole=True, hint="give a whole number, 1 or more", usual=(1, 12)
+        ),
     ] = 1
     ball_material: Material = STEEL
     screw_material: Material = STEEL
@@ -122,9 +183,31 @@ class BallScrew:
         return self.lead / self.starts * namespace(self.lead_angle).cos(self.lead_angle)
 
     @property
-    def lead_angle(self) -> Annotated[Angle, Info(r"\varphi", "lead angle of the helix of the ball centres", "deg")]:
+    def lead_angle(
+        self,
+    ) -> Annotated[
+        Angle,
+        Info(
+            r"\varphi",
+            "lead angle of the helix of the ball centres",
+            "deg",
+            usual=(math.radians(0.2), math.radians(55)),
+        ),
+    ]:
         """Lead angle of the helix of the ball centres."""
         return geometry.lead_angle(self.lead, self.pitch_circle_diameter)
+
+    @property
+    def relative_ball_diameter(
+        self,
+    ) -> Annotated[Ratio, Info("d_w/d_m", "ball diameter / pitch circle diameter", usual=(0.02, 0.4))]:
+        """Ball diameter over pitch circle diameter."""
+        return self.ball_diameter / self.pitch_circle_diameter
+
+    @property
+    def loaded_turns(self) -> Annotated[Ratio, Info("i_l", "turns that the loaded balls fill", usual=(0.02, 60.0))]:
+        """Turns that the loaded balls fill, one touching the next, on a path without slope."""
+        return self.loaded_balls * self.ball_diameter / (math.pi * self.pitch_circle_diameter)
 
     @property
     def screw_raceway(self) -> Raceway:
@@ -143,16 +226,19 @@ class BallScrew:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Operation:
+class Operation(ByValue):
     """Operating point: axial load and speed of the screw.
 
     Zero load and zero speed are legal and give limits. Raises
     :class:`~ballscrew.errors.InputError` for negative or non-finite numbers.
     """
 
-    axial_load: Annotated[Force, Info("F", "axial load on the nut", at_least=0, hint="give its magnitude")]
+    axial_load: Annotated[
+        Force, Info("F", "axial load on the nut", at_least=0, hint="give its magnitude", usual=(0.0, 1e7))
+    ]
     screw_speed: Annotated[
-        AngularSpeed, Info(r"\omega", "speed of the screw", "rpm", at_least=0, hint="give its magnitude")
+        AngularSpeed,
+        Info(r"\omega", "speed of the screw", "rpm", at_least=0, hint="give its magnitude", usual=(0.0, 2000.0)),
     ]
 
     def __post_init__(self) -> None:

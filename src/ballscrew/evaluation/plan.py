@@ -12,11 +12,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ballscrew._arrays import ByValue
 from ballscrew._version import __version__
 from ballscrew.components.materials import TEMPERATURE, Lubricant
-from ballscrew.components.screw import MATERIALS, BallScrew
+from ballscrew.components.screw import MATERIALS, BallScrew, Operation
 from ballscrew.components.traits import traits_of
-from ballscrew.errors import Fault, fault_of, nearest, raise_if_any
+from ballscrew.errors import Fault, fault_of, nearest, raise_if_any, without_unit
 from ballscrew.evaluation.outputs import (
     DEFAULT_OUTPUTS,
     NUT_OUTPUTS,
@@ -29,8 +30,10 @@ from ballscrew.evaluation.outputs import (
 from ballscrew.friction.model import SLOTS, FrictionModel
 from ballscrew.friction.nut_friction import NutFriction
 from ballscrew.friction.nut_parts import NutParts
+from ballscrew.friction.plausibility import implausible, named_parts
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Quantity, fields_of
+from ballscrew.records import Record
 from ballscrew.references import citations_of
 from ballscrew.tracing.merging import merged_program
 from ballscrew.tracing.program import Program
@@ -38,7 +41,7 @@ from ballscrew.tracing.tape import CannotRecordError, Tape, why_not_recorded
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Configuration:
+class Configuration(ByValue):
     """Configuration to evaluate: a model, a screw, its lubricant, and the nut if there is one."""
 
     model: FrictionModel
@@ -127,6 +130,17 @@ class Configuration:
             if why is None:
                 raise
             raise CannotRecordError("; ".join([str(why), *getattr(error, "__notes__", ())])) from error
+
+    def implausible(self, points: Mapping[str, Any]) -> list[Record]:
+        """A warning for each input that no ball screw has, with these values of some inputs in place.
+
+        Of arrays the least and the greatest element count.
+        """
+        ends = {name: np.array([np.min(values), np.max(values)]) for name, values in points.items()}
+        there = self.changed({name: values for name, values in ends.items() if name not in OPERATION})
+        operation = Operation(*(ends.get(name, 0.0) for name in OPERATION))
+        nut = {} if there.nut is None else there.nut.by_section(there.screw)
+        return implausible(named_parts(there.model, there.screw, there.lubricant, operation=operation, **nut))
 
     def attributes(self, varied: Sequence[str] = ()) -> dict[str, Any]:
         """Attributes of a dataset: constant inputs, sources, and the version."""
@@ -243,6 +257,13 @@ class Plan:
         }
         return found | {n: (axis.dims, axis.to_numpy(), attributes_of(known[n][1])) for n, axis in self.axes.items()}
 
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """Attributes of the dataset: those of the subject, and what is implausible."""
+        records = self.subject.implausible({name: axis.to_numpy() for name, axis in self.axes.items()})
+        said = "; ".join(f"{record.name}: {record.text}" for record in records)
+        return self.subject.attributes(list(self.axes)) | ({"warnings": said} if said else {})
+
     def dataset(self, results: Mapping[str, np.ndarray]) -> xr.Dataset:
         """The results with names, units and sources."""
         variables = {
@@ -250,7 +271,7 @@ class Plan:
             for name, values in results.items()
             if name not in self.axes  # what is varied is there as a coordinate
         }
-        return xr.Dataset(variables, self.coordinates(), self.subject.attributes(list(self.axes)))
+        return xr.Dataset(variables, self.coordinates(), self.attributes)
 
 
 def _wanted(section: str, names: Sequence[str] | None, nut: NutParts | None) -> tuple[str, ...]:
@@ -283,7 +304,7 @@ def _axes(section: str, subject: Configuration, varied: Mapping[str, Any]) -> di
     for name, values in varied.items():
         if name in known:
             part, quantity = known[name]
-            axis = _axis(section, name, values)
+            axis = _axis(section, name, values, quantity)
             if isinstance(axis, Fault):
                 faults.append(axis)
             else:
@@ -293,9 +314,20 @@ def _axes(section: str, subject: Configuration, varied: Mapping[str, Any]) -> di
     return axes
 
 
-def _axis(section: str, name: str, values: Any) -> xr.DataArray | Fault:
+def _axis(section: str, name: str, values: Any, quantity: Quantity) -> xr.DataArray | Fault:
     """Values as a labelled array: a sequence gets a dimension of its own name."""
     where = f"{section}.{name}"
+    numbers = without_unit(where, values.data if isinstance(values, xr.DataArray) else values, quantity.unit)
+    if isinstance(numbers, Fault):
+        return numbers
+    if isinstance(values, xr.DataArray):
+        if not all(isinstance(dimension, str) for dimension in values.dims):
+            return Fault(where, "has a dimension whose name is no text", str(values.dims), "name it by a text")
+        declared = str(values.attrs.get("units", quantity.unit))
+        if declared != quantity.unit:
+            return Fault(where, "is in another unit by its attribute units", declared, f"give it in {quantity.unit}")
+        numbers = values if numbers is values.data else values.copy(data=numbers)
+    values = numbers
     try:
         if np.ma.isMaskedArray(values) or np.asarray(values).dtype.kind not in "fiu":
             raise TypeError("a mask would be lost, and what is no number would become one")

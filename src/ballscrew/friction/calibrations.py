@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from importlib import resources
 from typing import Any
 
+from ballscrew._arrays import ByValue
 from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.errors import Fault, InputError, nearest
 from ballscrew.friction.law_names import coefficients
@@ -27,7 +28,7 @@ PARAMETERS: Mapping[str, str] = {
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
-class Calibration:
+class Calibration(ByValue):
     """A boundary friction coefficient, and a ball-to-ball force in units of the load of a ball, for all screws."""
 
     name: str

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from ballscrew._arrays import as_array, lazy
+from ballscrew._arrays import ByValue, as_array, lazy, same
 from ballscrew.components.balance import Resistances, ball_forces
 from ballscrew.components.conditions import Motion
 from ballscrew.components.contact import Contact, ContactLaws, RaceState, rolling_contact
@@ -58,8 +58,9 @@ from ballscrew.components.traits import traits_of
 from ballscrew.equations import equilibrium, geometry, kinematics
 from ballscrew.equations.rolling import nut_pressure_force, screw_pressure_force
 from ballscrew.equations.transmission import contact_load as equal_contact_load
-from ballscrew.errors import Fault, faults_of, is_concrete, raise_if_any
+from ballscrew.errors import Fault, accepts_units, faults_of, raise_if_any
 from ballscrew.friction.law_names import fault_of_law
+from ballscrew.friction.plausibility import named_parts
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import AngularSpeed, Force, Info, Ratio, fields_of
 from ballscrew.solvers.ellipse_slip import ellipse_slip
@@ -70,7 +71,7 @@ PAPER_FRICTION = ZhouHoeprich()
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
-class FrictionModel:
+class FrictionModel(ByValue):
     """A friction model of a ball screw: one law in each slot, and three numbers.
 
     Call it with a screw, a lubricant, a load and a speed. Change one thing with
@@ -100,10 +101,12 @@ class FrictionModel:
             "net braking force between neighbouring balls; by default 1 N divided by the number of loaded balls",
             at_least=0,
             hint="the paper has 1/z and 2/z N",
+            usual=(0.0, 1000.0),
         ),
     ] = None
     ball_friction_coefficient: Annotated[
-        Ratio, Info(r"\mu_b", "friction coefficient between balls", at_least=0, hint="the paper has 0.1")
+        Ratio,
+        Info(r"\mu_b", "friction coefficient between balls", at_least=0, hint="the paper has 0.1", usual=(0.0, 1.0)),
     ] = 0.1
     pure_rolling_offset: Annotated[
         Ratio | None,
@@ -186,6 +189,7 @@ class FrictionModel:
             ideal_torque=virtual_work_torque,
         )
 
+    @accepts_units("operation")
     def __call__(
         self, screw: BallScrew, lubricant: Lubricant, *, axial_load: Force, screw_speed: AngularSpeed
     ) -> FrictionResult:
@@ -205,7 +209,7 @@ class FrictionModel:
         if preset is None:
             return ()
         fields = [field.name for field in dataclasses.fields(self)]
-        return tuple(field for field in fields if not _same(getattr(self, field), getattr(preset, field)))
+        return tuple(field for field in fields if not same(getattr(self, field), getattr(preset, field)))
 
     @property
     def label(self) -> str:
@@ -251,9 +255,8 @@ class FrictionModel:
         )
         slip = laws.slip(BallProblem(on_screw, on_nut, asked, d_w, frame, screw_speed, self.pure_rolling_offset))
         carried = asked.scaled(slip.rolling_share)
-        laws_and_numbers = (self, *self.laws_with_coefficients.values())
         return FrictionResult(
-            parts=(screw, *screw.materials, lubricant, operation, *laws_and_numbers),
+            parts=named_parts(self, screw, lubricant, operation=operation),
             ball_screw=screw,
             frame=frame,
             axial_load=axial_load,
@@ -368,10 +371,3 @@ def presets() -> Mapping[str, FrictionModel]:
         FrictionModel.reference(),
     )
     return {model.name: model for model in models}
-
-
-def _same(one: Any, other: Any) -> bool:
-    """True for two entries of a slot that are the same law with the same coefficients, or the same number."""
-    if dataclasses.is_dataclass(one) and type(one) is type(other):
-        return all(_same(value, vars(other)[name]) for name, value in vars(one).items())
-    return one is other or (is_concrete(one) and is_concrete(other) and bool(one == other))

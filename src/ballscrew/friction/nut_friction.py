@@ -23,8 +23,9 @@ from ballscrew.components.nut_losses import ParasiticLaw
 from ballscrew.components.screw import BallScrew, Operation
 from ballscrew.components.traits import traits_of
 from ballscrew.equations import kinematics, transmission
-from ballscrew.errors import Fault, raise_if_any
+from ballscrew.errors import Fault, accepts_units, raise_if_any
 from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.plausibility import implausible, named_parts
 from ballscrew.friction.result import MECHANISMS
 from ballscrew.friction.validity import (
     CONDITIONS,
@@ -61,6 +62,8 @@ class LoadedPair(NamedTuple):
 class NutFriction:
     """Friction of a ball screw with its nut at one operating point, or at an array of them."""
 
+    #: The parts of the input, by section.
+    parts: Mapping[str, Any]
     model: FrictionModel
     ball_screw: BallScrew
     nut: Nut
@@ -98,14 +101,15 @@ class NutFriction:
     def efficiency(self) -> Annotated[Ratio, Info(r"\eta", "efficiency, screw drives the nut")]:
         """Efficiency when the screw drives the nut. Zero without load."""
         drive = self.drive_torque
-        return transmission.efficiency(self.ideal_torque, np.where(drive > 0, drive, 1.0) - self.ideal_torque)
+        # without any torque the divisor is 1; NaN stays NaN
+        return transmission.efficiency(self.ideal_torque, np.where(drive == 0, 1.0, drive) - self.ideal_torque)
 
     @lazy
     def back_driving_efficiency(self) -> Annotated[Ratio, Info(r"\eta_b", "efficiency, the load drives the screw")]:
-        """Efficiency when the load drives the screw; zero or less means self-locking."""
+        """Efficiency when the load drives the screw; zero or less means self-locking. NaN without load."""
         eta = self.efficiency
         none = eta == 0
-        return np.where(none, -np.inf, transmission.back_driving_efficiency(np.where(none, 1.0, eta)))[()]
+        return np.where(none, np.nan, transmission.back_driving_efficiency(np.where(none, 1.0, eta)))[()]
 
     @lazy
     def holding_torque(
@@ -149,16 +153,17 @@ class NutFriction:
 
     @property
     def warning_records(self) -> list[Record]:
-        """The conditions that fail somewhere, as records."""
+        """Inputs that no ball screw has, and the conditions that fail somewhere, as records."""
         contacts = [contact for pair in self.pairs for contact in (pair.screw, pair.nut)]
-        return warning_records(self.validity, contacts, NUT_CONDITIONS)
+        return [*implausible(self.parts), *warning_records(self.validity, contacts, NUT_CONDITIONS)]
 
     @property
     def warnings(self) -> list[str]:
-        """The conditions that fail somewhere, as texts: ``"reason: explanation"``."""
+        """The :attr:`warning_records` as texts: ``"reason: explanation"``."""
         return [f"{record.name}: {record.text}" for record in self.warning_records]
 
 
+@accepts_units("operation")
 def nut_friction(
     model: FrictionModel,
     screw: BallScrew,
@@ -203,8 +208,10 @@ def nut_friction(
     }
     # without any load nothing is rolled along, as with one ball
     loaded = np.any(loads.forward_load + loads.backward_load > 0, axis=-1)
-    parts = (screw, *screw.materials, lubricant, operation, nut, model, *model.laws_with_coefficients.values())
+    of_losses = {f"losses.{name}": law for name, law in (losses or {}).items()}
+    parts = named_parts(model, screw, lubricant, operation=operation, nut=nut, bodies=bodies, **of_losses)
     return NutFriction(
+        parts=parts,
         model=model,
         ball_screw=screw,
         nut=nut,
@@ -217,7 +224,7 @@ def nut_friction(
         validity={
             **{reason: _holds_for_most(condition, loads.balls) for reason, condition in balls.validity.items()},
             "skid": _holds_for_most(balls.validity["skid"], loads.balls) & loaded,
-            "inputs": input_mask(parts, sum(contributions.values())),
+            "inputs": input_mask(parts.values(), sum(contributions.values())),
             "load_distribution": loads.converged,
         },
     )

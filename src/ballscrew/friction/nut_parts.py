@@ -6,6 +6,7 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Annotated, Any
 
+from ballscrew._arrays import ByValue
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Bodies, Deviations, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut
 from ballscrew.components.nut_losses import ParasiticLaw
@@ -18,7 +19,7 @@ from ballscrew.quantities import AngularSpeed, Count, Force, Info, Length, field
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Scatter:
+class Scatter(ByValue):
     """Scatter of balls and lead as standard deviations; one seed gives the same balls every time.
 
     Raises :class:`~ballscrew.errors.InputError` for negative numbers.
@@ -26,11 +27,25 @@ class Scatter:
 
     ball_diameter: Annotated[
         Length,
-        Info("s_w", "standard deviation of the ball diameters", "um", at_least=0, hint="balls of one lot: below 1 um"),
+        Info(
+            "s_w",
+            "standard deviation of the ball diameters",
+            "um",
+            at_least=0,
+            hint="balls of one lot: below 1 um",
+            usual=(0.0, 5e-5),
+        ),
     ] = 0.0
     lead: Annotated[
         Length,
-        Info("s_h", "standard deviation of each ball's place on the lead", "um", at_least=0, hint="ground: about 1 um"),
+        Info(
+            "s_h",
+            "standard deviation of each ball's place on the lead",
+            "um",
+            at_least=0,
+            hint="ground: about 1 um",
+            usual=(0.0, 1e-4),
+        ),
     ] = 0.0
     seed: Annotated[
         Count, Info("n_s", "seed of the random numbers", at_least=0, whole=True, hint="any whole number")
@@ -45,7 +60,7 @@ class Scatter:
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
-class NutParts:
+class NutParts(ByValue):
     """A nut, and what may go with it."""
 
     nut: Nut
@@ -78,6 +93,11 @@ class NutParts:
         if self.scatter is None or not is_concrete(screw.loaded_balls):
             return None if self.scatter is None else Deviations()
         return self.scatter.of(self.halves * int(screw.loaded_balls))
+
+    def by_section(self, screw: BallScrew) -> dict[str, Any]:
+        """The parts with quantities, by their sections."""
+        losses = {f"losses.{name}": law for name, law in self.losses.items()}
+        return {"nut": self.nut, "bodies": self.bodies_of(screw), "deviations": self.scatter, **losses}
 
     def attributes(self, screw: BallScrew) -> dict[str, Any]:
         """All numbers besides those of the nut itself, by name, to be kept with results."""

@@ -13,7 +13,8 @@ from ballscrew.components.frame import Frame
 from ballscrew.components.laws import BallChain, IdealTorqueLaw, RaceTorqueLaw
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import dissipation, equilibrium, kinematics, transmission
-from ballscrew.friction.validity import validity_masks, warning_records
+from ballscrew.friction.plausibility import implausible
+from ballscrew.friction.validity import imbalance_records, validity_masks, warning_records
 from ballscrew.quantities import AngularSpeed, Force, Info, Mask, Power, Ratio, Speed, Torque
 from ballscrew.records import Record
 
@@ -55,7 +56,8 @@ class FrictionResult:
     asked for, and kept.
     """
 
-    parts: tuple[Any, ...]
+    #: The parts of the input, by section.
+    parts: Mapping[str, Any]
     ball_screw: BallScrew
     frame: Frame
     axial_load: Annotated[Force, Info("F", "axial load on the nut")]
@@ -126,12 +128,12 @@ class FrictionResult:
     def back_driving_efficiency(self) -> Annotated[Ratio, Info(r"\eta_b", "efficiency, the load drives the screw")]:
         """Efficiency when the load drives the screw; zero or less means self-locking.
 
-        Minus infinity where the direct efficiency is zero.
+        NaN where the direct efficiency is zero: without a load, nothing drives.
         """
         eta = self.efficiency
         xp = namespace(eta)
         none = eta == 0
-        return xp.where(none, -xp.inf, transmission.back_driving_efficiency(xp.where(none, 1.0, eta)))[()]
+        return xp.where(none, float("nan"), transmission.back_driving_efficiency(xp.where(none, 1.0, eta)))[()]
 
     @lazy
     def holding_torque(
@@ -263,10 +265,19 @@ class FrictionResult:
         return sum(self.dissipation.values())
 
     @lazy
+    def power_imbalance(self) -> Ratio:
+        """What the torque takes up beyond what the parts dissipate, as a share of the latter; zero in equilibrium.
+
+        NaN at rest. The printed reactions of Olaru2005 leave a part of the sliding forces out.
+        """
+        taken, lost = self.screw_torque * self.screw_speed, self.friction_power
+        return (taken - lost) / lost
+
+    @lazy
     def validity(self) -> Mapping[str, Mask]:
         """Masks of the conditions of the model, by reason; see :data:`ballscrew.friction.validity.REASONS`."""
         return validity_masks(
-            self.parts,
+            self.parts.values(),
             self.screw,
             self.nut,
             self.converged,
@@ -286,10 +297,11 @@ class FrictionResult:
 
     @property
     def warning_records(self) -> list[Record]:
-        """The conditions that fail somewhere, as records."""
-        return warning_records(self.validity, (self.screw, self.nut))
+        """Inputs that no ball screw has, an imbalance of power, and the conditions that fail somewhere, as records."""
+        unbalanced = imbalance_records(self.power_imbalance, self.nut_torque)
+        return [*implausible(self.parts), *unbalanced, *warning_records(self.validity, (self.screw, self.nut))]
 
     @property
     def warnings(self) -> list[str]:
-        """The conditions that fail somewhere, as texts: ``"reason: explanation"``."""
+        """The :attr:`warning_records` as texts: ``"reason: explanation"``."""
         return [f"{record.name}: {record.text}" for record in self.warning_records]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -26,6 +26,8 @@ MATERIAL_PARAMETER_RANGE = (2000.0, 7500.0)
 #: Above this pressure balls and races keep a dent of 1e-4 of the ball diameter (ISO76), Pa.
 LARGEST_PRESSURE = 4.2e9
 
+#: Share of the dissipated power by which the power of the torque may differ from it.
+LARGEST_IMBALANCE = 0.01
 #: Below this the heat of the inlet is no longer a correction of the film but its master.
 SMALLEST_INLET_FACTOR = 0.5
 
@@ -90,6 +92,30 @@ CONDITIONS: Mapping[str, Condition] = {
 REASONS: Mapping[str, str] = {reason: condition.text for reason, condition in CONDITIONS.items()}
 
 
+def imbalance_records(power_imbalance: Ratio, nut_torque: Torque) -> list[Record]:
+    """A warning where a model's own torque and losses differ by more than rounding and slow convergence explain."""
+    shares = np.abs(np.asarray(power_imbalance, dtype=float))
+    largest = float(np.max(shares[np.isfinite(shares)], initial=0.0))
+    if largest <= LARGEST_IMBALANCE:
+        return []
+    negative = ", and the torque on the nut falls below zero" if np.any(np.asarray(nut_torque, dtype=float) < 0) else ""
+    text = (
+        f"the power of the torque differs by up to {largest:.1%} from what the parts dissipate{negative}: "
+        "the reactions of the model do not balance; the model corrected has them in balance"
+    )
+    return [
+        Record(
+            id="model.power_balance",
+            subject="friction_power",
+            text=text,
+            severity="warning",
+            holds=False,
+            value=largest,
+            limit=LARGEST_IMBALANCE,
+        )
+    ]
+
+
 def warning_records(
     validity: Mapping[str, Mask], contacts: Sequence[Contact], conditions: Mapping[str, Condition] = CONDITIONS
 ) -> list[Record]:
@@ -122,7 +148,7 @@ def _worst(condition: Condition, contacts: Sequence[Contact]) -> float:
 
 
 def validity_masks(
-    parts: Sequence[Any],
+    parts: Iterable[Any],
     screw: RaceState,
     nut: RaceState,
     converged: Mask,
@@ -147,7 +173,7 @@ def validity_masks(
     return {reason: masks[reason] & everywhere for reason in REASONS}
 
 
-def input_mask(parts: Sequence[Any], torque: Torque) -> Mask:
+def input_mask(parts: Iterable[Any], torque: Torque) -> Mask:
     """Mask: all arrays of the parts are within their bounds, balls fit their screw, and the torque is finite."""
     inputs = namespace(torque).isfinite(torque)
     for part in parts:

@@ -44,7 +44,7 @@ def table(dataset: xr.Dataset, plan: Plan, name: str) -> Iterator[list[Any]]:
     """One output over two axes: the first axis down, the second across, in display units."""
     down, across = plan.axes
     corner = (
-        f"{units.heading(plan.quantities[name], name)}: {_heading(plan, down)} down, {_heading(plan, across)} across"
+        f"{units.heading(plan.quantities[name], name)}: {_heading(plan, down)} down; {_heading(plan, across)} across"
     )
     yield [corner, *_shown(dataset[across], plan, across)]
     values = _cells(dataset, plan, name).reshape(len(dataset[down]), len(dataset[across]))

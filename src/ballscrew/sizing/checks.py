@@ -14,7 +14,7 @@ from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.nut import Nut, SingleNut
 from ballscrew.components.screw import BallScrew, Operation
 from ballscrew.equations import geometry, life, rating, shaft
-from ballscrew.errors import Fault, raise_if_any, shown
+from ballscrew.errors import Fault, accepts_units, raise_if_any, shown
 from ballscrew.friction.validity import LARGEST_PRESSURE
 from ballscrew.quantities import AngularSpeed, Force, Length, Pressure, Ratio
 from ballscrew.records import Record
@@ -50,11 +50,13 @@ def ratings_of(row: CatalogueRow, rating_conformity: Ratio = RATING_CONFORMITY) 
     )
 
 
+@accepts_units("checks")
 def mean_load(loads: Sequence[Force], revolutions: Sequence[Ratio]) -> Force:
     """The steady load that tires a nut without preload as much as these loads, each for so many revolutions."""
     return np.average(np.power(loads, 3.0), weights=revolutions) ** (1 / 3)
 
 
+@accepts_units("checks")
 def loads_of_halves(nut: Nut, axial_load: Force) -> tuple[Force, ...]:
     """The load of a nut; with preload that of the half, or flank, which the axial load presses, then of the other."""
     if isinstance(nut, SingleNut) or nut.preload == 0:
@@ -97,6 +99,7 @@ class Check(NamedTuple):
         )
 
 
+@accepts_units("checks")
 def checks(
     screw: BallScrew,
     *,

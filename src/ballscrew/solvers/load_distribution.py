@@ -28,7 +28,7 @@ from ballscrew.components.frame import helix_frame
 from ballscrew.components.nut import Bodies, Deviations, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut
 from ballscrew.components.screw import BallScrew, Raceway
 from ballscrew.equations import deflection, geometry, hertz
-from ballscrew.errors import Fault, is_concrete, raise_if_any
+from ballscrew.errors import Fault, accepts_units, is_concrete, raise_if_any, si_value
 from ballscrew.quantities import Angle, Force, Info, Length, LoadDeflection, Mask, Ratio, Stiffness
 from ballscrew.solvers.ball_springs import Field
 from ballscrew.solvers.nut_balance import NutCase, solved
@@ -37,6 +37,10 @@ from ballscrew.solvers.nut_balance import NutCase, solved
 TOLERANCE = 1e-10
 #: Springs that are solved at once: what belongs to them stays in the cache.
 BLOCK = 65_536
+#: Balls of a nut body that are solved for one by one: several times those of the largest nuts.
+MOST_BALLS = 2000
+#: Where the numbers of balls stand among what is solved for.
+_BALLS = 4
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -73,6 +77,7 @@ class BallLoads:
         )
 
 
+@accepts_units("operation")
 def ball_loads(
     screw: BallScrew,
     nut: Nut,
@@ -84,12 +89,16 @@ def ball_loads(
 ) -> BallLoads:
     """Loads of the balls of a nut under an axial load; arrays of loads, screws and preloads broadcast.
 
+    Elements with a load or a preload below zero are NaN.
+
     Without ``bodies`` screw and nut are rigid between the balls; with them, and with ``deviations``, the
     number of balls must be one number. ``constant_contact_angle`` keeps the angle without load.
     Raises :class:`~ballscrew.errors.InputError` for balls that cannot be counted one by one.
     """
     one_by_one = bodies is not None or deviations is not None
     halves = 2 if isinstance(nut, DoubleNut | OffsetLeadNut) else 1
+    if deviations is not None:
+        deviations = Deviations(*(si_value(f"deviations.{n}", v, "m") for n, v in deviations._asdict().items()))
     raise_if_any(_faults(screw, halves, deviations) if one_by_one else [])
     preload = getattr(nut, "preload", 0.0)
     spacing = getattr(nut, "spacing", 0.0)
@@ -122,6 +131,10 @@ def ball_loads(
 
     map_blocks(solve, flat[0].size, block_size=size)
     joined = [np.concatenate(part, axis=-1) for part in zip(*parts, strict=True)]
+    # a load or a preload below zero has no distribution
+    meaningless = ~((flat[0] >= 0) & (flat[1] >= 0))
+    if np.any(meaningless):
+        joined = [part if i == _BALLS else np.where(meaningless, np.nan, part) for i, part in enumerate(joined)]
     by_ball = [np.moveaxis(part, 0, -1).reshape(*shape, part.shape[0]) for part in joined[:5]]
     plain = [part.reshape(shape)[()] for part in joined[5:]]
     return BallLoads(
@@ -178,6 +191,9 @@ def _faults(screw: BallScrew, halves: int, deviations: Deviations | None) -> lis
     if not is_concrete(screw.loaded_balls):
         remedy = "solve screws with different numbers of balls one after the other"
         return [Fault("screw.loaded_balls", "must be one number where balls differ", "an array", remedy)]
+    if screw.loaded_balls > MOST_BALLS:
+        remedy = f"{MOST_BALLS} at most where balls differ or bodies are elastic"
+        return [Fault("screw.loaded_balls", "too many to solve one by one", f"{screw.loaded_balls:g}", remedy)]
     balls = halves * int(screw.loaded_balls)
     sizes = {} if deviations is None else {name: np.shape(value) for name, value in deviations._asdict().items()}
     return [

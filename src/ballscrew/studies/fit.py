@@ -6,6 +6,7 @@ import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
+from ballscrew import units
 from ballscrew.calibration.calibrated_model import CalibratedModel
 from ballscrew.calibration.fit import fit as fitted
 from ballscrew.calibration.next_test import NextTest
@@ -90,7 +91,7 @@ def fit(case: Case, path: Path, options: Options, done: Callable[[int, int], Non
         )  # fmt: skip
     except InputError as error:
         raise InputError(*(_with_option(fault) for fault in error.faults)) from None
-    warnings = [*model.warning_records]
+    warnings = units.in_display_units_of(model.warning_records)
     if again:
         text = "the case was fitted to this very log before: its errors are not taken as priors"
         warnings.append(Record(id="fit.same_log", subject="priors", text=text, severity="warning", holds=False))

@@ -112,7 +112,12 @@ class Run:
     @property
     def warnings(self) -> list[Record]:
         """The conditions of the model that fail, and the loss of the preload."""
-        return [*self.friction.warning_records, *self._lost()]
+        return [*self.conditions, *self._lost()]
+
+    @property
+    def conditions(self) -> list[Record]:
+        """The warnings of the friction."""
+        return units.in_display_units_of(self.friction.warning_records)
 
     def _skid(self, moving: bool) -> list[Record]:
         share = self.rolling_share

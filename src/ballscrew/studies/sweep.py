@@ -32,6 +32,7 @@ from ballscrew.friction.nut_friction import NUT_REASONS
 from ballscrew.friction.validity import REASONS
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Quantity, fields_of
+from ballscrew.records import Record
 from ballscrew.sweeps import sweep as sweeps
 from ballscrew.sweeps.cluster import cluster_client
 from ballscrew.sweeps.stream import stream
@@ -275,6 +276,12 @@ def workers(scheduler: str | None, to: Path | None) -> Generator[Any]:
         # what it logs of a scheduler that is gone, the command says in a line
         logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
         yield client
+
+
+def implausible(case: Case, plan: Plan) -> list[Record]:
+    """A warning for each input that no ball screw has, at some point of the sweep."""
+    subject = Configuration(case.model, case.screw, case.lubricant, case.parts)
+    return units.in_display_units_of(subject.implausible({**vars(case.operation), **plan.axes}))
 
 
 def reasons_of(case: Case) -> Mapping[str, str]:

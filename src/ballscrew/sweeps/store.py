@@ -110,7 +110,7 @@ class Store:
         engine_of = evaluation.attributes
         if stored is not None:  # the reason for the choice when the store was begun
             engine_of |= {n: v for n, v in stored["attributes"].items() if n == "engine_reason"}
-        all_attributes = {**plan.subject.attributes(list(plan.axes)), **engine_of, **(attributes or {})}
+        all_attributes = {**plan.attributes, **engine_of, **(attributes or {})}
         document = description_of(plan, blocks, all_attributes, engine=evaluation.engine, identity=evaluation.identity)
         store = cls(folder, plan, blocks, document)
         store.check(stored)

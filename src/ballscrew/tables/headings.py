@@ -30,7 +30,7 @@ _WORD = re.compile(r"[^\W_]+")
 _UNITS = {
     "Nm": "N m", "Nmm": "N mm", "Ncm": "N cm", "mNm": "mN m", "kNm": "kN m", "N.m": "N m", "N-m": "N m",
     "in-lb": "in lbf", "lb-in": "in lbf", "ft-lb": "ft lbf", "lb-ft": "ft lbf",
-    "RPM": "rpm", "1/min": "rpm", "min-1": "rpm", "min^-1": "rpm", "min⁻¹": "rpm", "U/min": "rpm", "r/min": "rpm",
+    **dict.fromkeys(units.PER_MINUTE, "rpm"),
     "C": "degC", "F": "degF", "sec": "s",
 }  # fmt: skip
 #: Other spellings: of letters and signs, and of words.

@@ -17,8 +17,11 @@ from typing import Any, NamedTuple
 
 from ballscrew import child_process
 from ballscrew.errors import Fault, InputError
+from ballscrew.files import read_bytes
 from ballscrew.tables import workbooks
 
+#: Bytes of a table at most.
+LARGEST_TABLE = 200_000_000
 #: Endings of files that are read as spreadsheets, and how such files begin whatever they are called.
 SPREADSHEETS = (".xlsx", ".xlsm", ".xlsb", ".xls", ".ods")
 _MAGIC = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
@@ -70,7 +73,7 @@ def unreadable(path: Path, error: OSError | ValueError) -> InputError:
 
 def _bytes(path: Path) -> bytes:
     try:
-        return path.read_bytes()
+        return read_bytes(path, LARGEST_TABLE)
     except (OSError, ValueError) as error:
         raise unreadable(path, error) from None
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew._deprecated import RenamedAttribute
-from ballscrew.errors import Fault, InputError
+from ballscrew.errors import Fault, InputError, si_value
 from ballscrew.quantities import AngularSpeed, Force, Info, Quantity, Temperature, Torque, Unit, quantities_of
 from ballscrew.torque_logs.motion import Floats, Motion
 
@@ -70,7 +70,8 @@ class LogRows:
 
     def __post_init__(self) -> None:
         for name, values in self.columns.items():
-            object.__setattr__(self, name, np.asarray(values, dtype=np.float64))
+            in_si = si_value(f"log.{name}", values, quantities()[name].unit)
+            object.__setattr__(self, name, np.asarray(in_si, dtype=np.float64))
         line = np.arange(1, len(self) + 1) if self.line is None else np.asarray(self.line)
         object.__setattr__(self, "line", line)
         object.__setattr__(self, "rows", self.rows or len(self))

@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.errors import Fault, InputError, accepts_units, nearest, raise_if_any, without_unit
+from ballscrew.quantities import MomentOfInertia
 from ballscrew.torque_logs import cleaning
 from ballscrew.torque_logs.log_rows import OPTIONAL, REQUIRED, TORQUES, LogRows, quantities, seconds
 from ballscrew.torque_logs.motion import Floats
@@ -39,7 +40,8 @@ class TorqueLog(LogRows):
         """
         return data if isinstance(data, TorqueLog) else _log_of(data)
 
-    def cleaned(self, *, inertia: float | None = None, most: int = 100_000) -> TorqueLog:
+    @accepts_units("log")
+    def cleaned(self, *, inertia: MomentOfInertia | None = None, most: int = 100_000) -> TorqueLog:
         """The rows that a model of steady motion can be fitted to; a log that is clean passes as it is.
 
         Rows without a value, at rest and under acceleration are left out, signs are put right where there is no doubt,
@@ -99,6 +101,10 @@ def _hint(name: str, others: list[str]) -> str:
 
 def _numbers(name: str, values: Any) -> Floats | Fault:
     """An array of floats; times that are dates as seconds from the first."""
+    quantity = quantities()["torque" if name in TORQUES else name]
+    values = without_unit(f"data.{name}", values, quantity.unit)
+    if isinstance(values, Fault):
+        return values
     array = np.asarray(values)
     if array.dtype.kind in "Mm" and name == "time":
         return seconds(array)

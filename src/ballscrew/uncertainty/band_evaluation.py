@@ -53,7 +53,7 @@ def _efficiency(drawn: Sample) -> Values:
 def _back_driving_efficiency(drawn: Sample) -> Values:
     eta = _efficiency(drawn)
     none = eta == 0
-    return np.where(none, -np.inf, transmission.back_driving_efficiency(np.where(none, 1.0, eta)))
+    return np.where(none, np.nan, transmission.back_driving_efficiency(np.where(none, 1.0, eta)))
 
 
 #: What has a band: all of it follows from the friction torque.

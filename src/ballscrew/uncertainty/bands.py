@@ -14,7 +14,7 @@ import numpy as np
 
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, nearest, raise_if_any
+from ballscrew.errors import Fault, accepts_units, nearest, raise_if_any
 from ballscrew.evaluation.comparison import Candidate
 from ballscrew.evaluation.engines import Engine
 from ballscrew.evaluation.plan import Configuration
@@ -22,6 +22,7 @@ from ballscrew.friction.model import (
     FrictionModel,
 )
 from ballscrew.friction.nut_parts import NutParts
+from ballscrew.quantities import AngularSpeed, Force
 from ballscrew.uncertainty.band_evaluation import (
     DERIVED_OUTPUTS,
     POSITIVE,
@@ -105,14 +106,15 @@ class BandCurve:
     count: int
 
 
+@accepts_units("band")
 def band(
     model: FrictionModel,
     screw: BallScrew,
     lubricant: Lubricant,
     *,
     uncertain: Mapping[str, Distribution],
-    axial_load: float,
-    screw_speed: float,
+    axial_load: Force,
+    screw_speed: AngularSpeed,
     alternatives: Sequence[Candidate] = (),
     joint: JointNormal | None = None,
     outputs: Sequence[str] = ("screw_torque",),
@@ -190,6 +192,7 @@ def band(
     )
 
 
+@accepts_units("band")
 def band_along(
     model: FrictionModel,
     screw: BallScrew,
@@ -198,8 +201,8 @@ def band_along(
     along: str,
     points: Sequence[float] | Values,
     uncertain: Mapping[str, Distribution],
-    axial_load: float,
-    screw_speed: float,
+    axial_load: Force,
+    screw_speed: AngularSpeed,
     alternatives: Sequence[Candidate] = (),
     joint: JointNormal | None = None,
     samples: int | None = None,

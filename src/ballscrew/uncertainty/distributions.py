@@ -347,8 +347,8 @@ def _faults_of_numbers(section: str, distribution: Distribution) -> list[Fault]:
     return [
         Fault(f"{section}.{field.name}", "must be a finite number", str(value), "give one number in SI")
         for field in dataclasses.fields(distribution)
-        if field.default is dataclasses.MISSING
-        if not is_concrete(value := getattr(distribution, field.name)) or not math.isfinite(as_float(value))
+        if not is_concrete(value := getattr(distribution, field.name))
+        or (field.default is dataclasses.MISSING and not math.isfinite(as_float(value)))
     ]
 
 

@@ -111,7 +111,7 @@ def monte_carlo(
     return xr.Dataset(
         tally.variables(quantiles, samples),
         {"quantile": ("quantile", np.asarray(quantiles, dtype=float), of_quantile), **coordinates},
-        subject.attributes(list(plan.axes))
+        plan.attributes
         | {"samples": samples, "seed": seed, **words}
         | {"engine": "compiled" if compiled else "numpy", "engine_reason": reason},
     )

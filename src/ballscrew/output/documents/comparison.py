@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from ballscrew import units
 from ballscrew._version import __version__
 from ballscrew.cases import case_file
 from ballscrew.evaluation.comparison import Comparison, Row, Spread
@@ -34,9 +35,14 @@ def document(case: case_file.Case, found: Comparison) -> dict[str, Any]:
         "reasons": {reason: text for reason, text in NUT_REASONS.items() if reason in failing},
         "verdicts": documents(verdicts(found)),
         "checks": [],
-        "warnings": documents(found.case.result.warning_records),
+        "warnings": documents(warnings(found)),
         "provenance": {"version": __version__, "model": case.model.label, "references": case_file.references(case)},
     }
+
+
+def warnings(found: Comparison) -> list[Record]:
+    """The warnings of the case itself."""
+    return units.in_display_units_of(found.case.result.warning_records)
 
 
 def _row(row: Row) -> dict[str, Any]:

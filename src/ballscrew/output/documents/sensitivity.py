@@ -89,8 +89,8 @@ def verdicts(report: SensitivityReport) -> list[Record]:
 
 
 def warnings(case: case_file.Case, report: SensitivityReport) -> list[Record]:
-    """Samples without a number, and the correlation of a calibration, which is not sampled."""
-    records: list[Record] = []
+    """Implausible inputs, samples without a number, and the correlation of a calibration, which is not sampled."""
+    records = case.implausible()
     result = report.result
     if result.left_out:
         text = f"{result.left_out} samples or trajectories are left out as they have no number"

@@ -10,7 +10,7 @@ from ballscrew._version import __version__
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
 from ballscrew.records import Record, documents
-from ballscrew.studies.sweep import Plan
+from ballscrew.studies.sweep import Plan, implausible
 
 
 def document(case: Case, plan: Plan, dataset: xr.Dataset) -> dict[str, Any]:
@@ -25,7 +25,7 @@ def document(case: Case, plan: Plan, dataset: xr.Dataset) -> dict[str, Any]:
         "outputs": {name: table(name, dataset[name].to_numpy()) for name in plan.columns},
         "verdicts": [],
         "checks": [],
-        "warnings": documents(warnings(dataset)),
+        "warnings": documents([*implausible(case, plan), *warnings(dataset)]),
         "provenance": {"version": __version__, "model": case.model.label, "references": case_file.references(case)},
     }
 

@@ -73,7 +73,7 @@ def text(found: Checked) -> str:
         *_checks(found),
         "",
         f"verdict: {found.verdict}",
-        *(f"beware  {record.name}: {record.text}" for record in friction.warning_records),
+        *(f"beware  {record.name}: {record.text}" for record in found.run.conditions),
         "",
         "assumed",
         *(f"  {line}" for line in found.assumed),

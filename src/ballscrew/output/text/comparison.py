@@ -11,7 +11,8 @@ from ballscrew.cases import case_file, descriptions
 from ballscrew.cases.schema import LAWS, name_of_law
 from ballscrew.evaluation.comparison import Comparison, Row
 from ballscrew.friction.nut_friction import NUT_REASONS
-from ballscrew.output.documents.comparison import percent, verdicts
+from ballscrew.friction.plausibility import IMPLAUSIBLE
+from ballscrew.output.documents.comparison import percent, verdicts, warnings
 from ballscrew.studies.comparison import models_without_nut
 
 #: Headings of the mechanisms where there is little room.
@@ -72,6 +73,9 @@ def print_comparison(case: case_file.Case, found: Comparison) -> None:
         say(f"{PRINTED_MARK}  {PRINTED_WORDS}")
     if names := models_without_nut(case):
         say(f"left out: {', '.join(names)} and other laws of slip, which know no balls with four contacts")
+    for record in warnings(found):
+        if record.id == IMPLAUSIBLE:  # the others are in the table, by their letters
+            say(f"beware  {record.name}: {record.text}", "yellow")
     for reason, letter in reason_letters(found).items():
         say(f"{letter}  {reason}: {NUT_REASONS[reason]}", "yellow")
 

@@ -88,7 +88,7 @@ def _warnings(run: Run) -> list[Record]:
     """The conditions that fail; that balls skid is left out without load, and where a verdict has it."""
     unloaded = not any(flank.load for flank in run.touching)
     repeated = unloaded or any(record.id == "verdict.skid.at_rest" for record in run.verdicts)
-    return [record for record in run.friction.warning_records if not (repeated and record.id == "validity.skid")]
+    return [record for record in run.conditions if not (repeated and record.id == "validity.skid")]
 
 
 def _results(run: Run) -> Table:

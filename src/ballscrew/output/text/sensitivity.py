@@ -10,6 +10,7 @@ from rich.console import Console
 from ballscrew import units
 from ballscrew.cases import case_file, descriptions
 from ballscrew.cases.uncertain_inputs import Uncertain
+from ballscrew.friction.plausibility import IMPLAUSIBLE
 from ballscrew.output.documents.sensitivity import verdicts, warnings
 from ballscrew.output.wrapping import aligned, wrapped
 from ballscrew.quantities import Quantity
@@ -80,8 +81,10 @@ def method_and_effort(result: Sensitivity) -> str:
 def remarks(case: case_file.Case, report: SensitivityReport) -> list[str]:
     """Meaning of the numbers, assumptions, and method."""
     meaning = MEANING[report.result.method] + (f"; {LEFT}" if report.result.first_order else "")
-    correlated = [one.text for one in warnings(case, report) if one.id == "sensitivity.correlated"]
-    return [meaning, *_assumed_inputs(report), method_and_effort(report.result), LAWS_STAY, *correlated]
+    found = warnings(case, report)
+    correlated = [one.text for one in found if one.id == "sensitivity.correlated"]
+    odd = [f"{one.name}: {one.text}" for one in found if one.id == IMPLAUSIBLE]
+    return [meaning, *_assumed_inputs(report), method_and_effort(report.result), LAWS_STAY, *correlated, *odd]
 
 
 def _assumed_inputs(report: SensitivityReport) -> list[str]:

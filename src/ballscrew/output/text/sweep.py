@@ -15,7 +15,7 @@ from ballscrew.errors import InputError
 from ballscrew.evaluation.outputs import inputs_of
 from ballscrew.friction.validity import REASONS
 from ballscrew.quantities import fields_of
-from ballscrew.studies.sweep import Plan, is_store, reasons_of
+from ballscrew.studies.sweep import Plan, implausible, is_store, reasons_of
 from ballscrew.sweeps.store_plan import Blocks
 from ballscrew.sweeps.store_rows import count_false
 
@@ -35,13 +35,14 @@ def warning(case: Case, plan: Plan, dataset: xr.Dataset, to: Path | None = None)
     A store ``to`` knows the numbers block by block, so that it need not be read.
     """
     false = _false_in_store(dataset, to) if to is not None and is_store(to) else _false_in(dataset)
+    unusual = [f"beware  {record.name}: {record.text}" for record in implausible(case, plan)]
     if "valid" not in false:
-        return ""
+        return "\n".join(unusual)
     reasons = reasons_of(case)
     counts = {reason: found.count for reason in reasons if (found := false.get(f"validity_{reason}"))}
     told = ", ".join(f"{reason} {count}" for reason, count in counts.items())
     size = dataset["valid"].size
-    lines = [f"beware: {false['valid'].count} of {size} points lie outside the model's validity ({told})"]
+    lines = [*unusual, f"beware: {false['valid'].count} of {size} points lie outside the model's validity ({told})"]
     lines += [f"beware  {reason}: {reasons[reason]}" for reason in counts]
     if impossible := false.get("validity_inputs"):
         lines.append(_first_impossible(case, plan, dataset["validity_inputs"], impossible))

@@ -12,11 +12,14 @@ from ballscrew.quantities import Quantity
 
 
 def table_of(title: str, *columns: str) -> Table:
-    """An empty table with a bold title, the first column aligned left and the others right."""
+    """An empty table with a bold title, the first column aligned left and the others right.
+
+    In a narrow terminal cells go on in the next line; none is cut.
+    """
     table = Table(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False)
-    table.add_column(columns[0])
+    table.add_column(columns[0], overflow="fold")
     for column in columns[1:]:
-        table.add_column(column, justify="right")
+        table.add_column(column, justify="right", overflow="fold")
     return table
 
 

@@ -1,0 +1,24 @@
+"""The entry of the program: loads the commands, and ends with a line where that is interrupted."""
+
+from __future__ import annotations
+
+import sys
+
+#: The exit code of a program that Ctrl-C ends.
+INTERRUPTED = 130
+
+
+def main() -> None:
+    """Load the commands and run one; Ctrl-C meanwhile ends with one line and exit code 130, without a traceback."""
+    try:
+        from ballscrew.cli.main import main as run
+
+        run()
+    except KeyboardInterrupt:
+        sys.exit(_interrupted())
+
+
+def _interrupted() -> int:
+    if sys.stderr is not None:  # pyright: ignore[reportUnnecessaryComparison]  (None where the stream is closed)
+        sys.stderr.write("interrupted\n")
+    return INTERRUPTED

@@ -1,0 +1,225 @@
+"""Quantities of pint: converted by their unit wherever a number is given, or refused; a unit is never dropped."""
+
+import dataclasses
+import importlib
+import math
+import pkgutil
+
+import numpy as np
+import pint
+import pytest
+import xarray as xr
+
+import ballscrew as bs
+from ballscrew.components import nut_losses
+from ballscrew.components.catalogue import catalogue
+from ballscrew.components.installation import Ends, Installation, Limits
+from ballscrew.components.screw import Operation
+from ballscrew.friction.law_names import LAWS
+from ballscrew.friction.nut_parts import NutParts, Scatter
+from ballscrew.quantities import fields_of
+from ballscrew.sizing.checks import checks
+from ballscrew.solvers.load_distribution import ball_loads
+from ballscrew.uncertainty.bands import band_along
+from support.synthetic_logs import OIL
+
+U = pint.UnitRegistry()
+SCREW = catalogue()["rexroth-40x10x6-6-double"].screw()
+MODEL = bs.FrictionModel.corrected()
+GRADE = bs.Lubricant.from_grade("ISO VG 100")
+POINT = {"axial_load": 5e3, "screw_speed": 60.0}
+IN_UNITS = {"axial_load": 5 * U.kN, "screw_speed": 60 * 30 / math.pi * U.rpm}
+#: What is wanted of a screw or a result, and what only results have, is not given by anybody.
+RESULTS = {"ContactConditions", "Contact", "RaceState", "FrictionResult", "NutFriction", "BallLoads"}
+
+#: A part of each class that has quantities for fields.
+PARTS = [
+    SCREW,
+    GRADE,
+    MODEL,
+    bs.Material(),
+    catalogue()["rexroth-40x10x6-6-double"],
+    Operation(**POINT),
+    Installation(unsupported_length=1.0, ends=Ends.FIXED_FREE),
+    Limits(running_time=3600.0),
+    bs.SingleNut(1e-5),
+    bs.DoubleNut(1000.0, 0.01),
+    bs.OffsetLeadNut(1000.0, 0.01),
+    bs.OversizeBallNut(1000.0),
+    bs.Bodies.of(SCREW),
+    Scatter(1e-6, 2e-6),
+    bs.TorqueLog(axial_load=np.ones(3), screw_speed=np.ones(3), torque=np.ones(3), time=np.arange(3.0)),
+]
+PARTS += [
+    nut_losses.EfficiencyDrag(0.9),
+    *(
+        getattr(nut_losses, name)()
+        for name in ("JISDrag", "RexrothDrag", "Seals", "LipSeals", "Churning", "HarrisChurning", "Recirculation")
+    ),
+]
+PARTS += [law() for laws in LAWS.values() for law in laws.values() if isinstance(law, type) and fields_of(law)]
+
+
+def classes():
+    """All dataclasses of the package that have quantities for fields."""
+    found = set()
+    for module in pkgutil.walk_packages(bs.__path__, "ballscrew."):
+        if not module.name.endswith("__main__"):
+            found |= {part for part in vars(importlib.import_module(module.name)).values() if isinstance(part, type)}
+    return {c for c in found if c.__module__.startswith("ballscrew.") and dataclasses.is_dataclass(c) and fields_of(c)}
+
+
+def with_unit(value, unit):
+    """The same value in another unit of the same dimension, as people might give it."""
+    quantity = U.Quantity(value, unit)
+    other = {"m": "mm", "N": "kN", "rad/s": "rpm", "rad": "degree", "Pa": "MPa", "1": "percent"}.get(unit)
+    return quantity.to(other) if other else quantity
+
+
+def test_no_class_is_left_out():
+    known = {type(part).__name__ for part in PARTS}
+    assert {c.__name__ for c in classes()} - known - RESULTS <= {"LogRows"}
+
+
+@pytest.mark.parametrize("part", PARTS, ids=lambda part: type(part).__name__)
+def test_a_constructor_converts_or_refuses(part):
+    given = {
+        name: with_unit(getattr(part, name), quantity.unit)
+        for name, quantity in fields_of(part).items()
+        if getattr(part, name) is not None
+    }
+    made = dataclasses.replace(part, **given)
+    for name in given:
+        value, expected = getattr(made, name), getattr(part, name)
+        assert not isinstance(value, pint.Quantity)
+        np.testing.assert_allclose(value, expected, rtol=1e-12)
+    name = next(iter(fields_of(part)))
+    with pytest.raises(bs.InputError, match=f"{name}: wrong unit"):
+        dataclasses.replace(part, **{name: U.Quantity(np.ones(np.shape(getattr(part, name))), "kg")})
+
+
+def test_the_preload_of_a_nut_is_not_taken_for_newtons():
+    assert bs.DoubleNut(preload=1 * U.kN).preload == 1000.0
+
+
+def test_the_temperature_of_an_oil():
+    oil = bs.Lubricant.from_grade("ISO VG 100", U.Quantity(60.0, "degC"))
+    assert oil == GRADE.at(333.15) or oil.viscosity == pytest.approx(GRADE.at(333.15).viscosity, rel=1e-12)
+    assert dataclasses.replace(GRADE, temperature=U.Quantity(60.0, "degC")).viscosity == GRADE.at(333.15).viscosity
+    with pytest.raises(bs.InputError, match=r"lubricant.temperature: wrong unit"):
+        dataclasses.replace(GRADE, temperature=3 * U.mm)
+
+
+def torque(result):
+    return np.asarray(result.screw_torque, dtype=float)
+
+
+#: Each takes the operating point as it is given, and returns numbers.
+CALLS = {
+    "model": lambda **point: torque(MODEL(SCREW, OIL, **point)),
+    "nut_friction": lambda **point: torque(bs.nut_friction(MODEL, SCREW, bs.DoubleNut(preload=1e3), OIL, **point)),
+    "nut parts": lambda **point: torque(NutParts(nut=bs.SingleNut()).friction(MODEL, SCREW, OIL, **point)),
+    "sweep": lambda **point: torque(bs.sweep(MODEL, SCREW, OIL, **point)),
+    "sweep of a nut": lambda **point: torque(bs.sweep(MODEL, SCREW, OIL, nut=NutParts(nut=bs.SingleNut()), **point)),
+    "derivatives": lambda **point: torque(bs.derivatives(MODEL, SCREW, OIL, by=["axial_load"], **point)),
+}
+ONE_POINT = {
+    "ball_loads": lambda axial_load, screw_speed: ball_loads(SCREW, bs.SingleNut(), axial_load).forward_load,
+    "checks": lambda **point: [check.value for check in checks(SCREW, **point) if check.value is not None],
+    "monte_carlo": lambda **point: (
+        bs.monte_carlo(
+            MODEL, SCREW, OIL, distributions={"viscosity": bs.Normal(0.1, 0.01)}, samples=16, **point
+        ).screw_torque_mean.values
+    ),
+    "band": lambda **point: (
+        bs.band(MODEL, SCREW, OIL, uncertain={"viscosity": bs.Normal(0.1, 0.01)}, samples=16, **point)[
+            "screw_torque"
+        ].median
+    ),
+    "sensitivity": lambda **point: (
+        bs.sensitivity(MODEL, SCREW, OIL, uncertain={"viscosity": bs.Normal(0.1, 0.01)}, method="local", **point)
+        .first_order["viscosity"]
+        .value
+    ),
+    "drag": lambda axial_load, screw_speed: nut_losses.JISDrag()(axial_load, 0.04, 0.04, 0.01),
+}
+
+
+@pytest.mark.parametrize("name", [*CALLS, *ONE_POINT])
+def test_a_call_converts(name):
+    call = (CALLS | ONE_POINT)[name]
+    np.testing.assert_allclose(call(**IN_UNITS), call(**POINT), rtol=1e-9)
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_arrays_and_lists_of_quantities(name):
+    expected = CALLS[name](axial_load=[1e3, 2e3], screw_speed=60.0)
+    for loads in ([1, 2] * U.kN, [1 * U.kN, 2000 * U.N], np.array([1.0, 2.0]) * U.kN):
+        np.testing.assert_allclose(CALLS[name](axial_load=loads, screw_speed=60.0), expected, rtol=1e-9)
+    with pytest.raises(bs.InputError, match="some of the numbers have a unit"):
+        CALLS[name](axial_load=[1 * U.kN, 2000.0], screw_speed=60.0)
+    with pytest.raises(bs.InputError, match=r"axial_load: wrong unit .*give a quantity in N"):
+        CALLS[name](axial_load=[1.0, 2.0] * U.mm, screw_speed=60.0)
+
+
+def test_labelled_arrays_state_their_unit_in_two_ways():
+    loads = xr.DataArray([1e3, 2e3], dims="row")
+    expected = torque(bs.sweep(MODEL, SCREW, OIL, axial_load=loads, screw_speed=60.0))
+    of_pint = xr.DataArray([1.0, 2.0] * U.kN, dims="row")
+    np.testing.assert_allclose(torque(bs.sweep(MODEL, SCREW, OIL, axial_load=of_pint, screw_speed=60.0)), expected)
+    same = loads.assign_attrs(units="N")
+    np.testing.assert_array_equal(torque(bs.sweep(MODEL, SCREW, OIL, axial_load=same, screw_speed=60.0)), expected)
+    with pytest.raises(bs.InputError, match=r"another unit by its attribute units \(kN\)"):
+        bs.sweep(MODEL, SCREW, OIL, axial_load=loads.assign_attrs(units="kN"), screw_speed=60.0)
+
+
+def test_points_along_a_band():
+    with pytest.raises(bs.InputError, match=r"band.points: takes no unit"):
+        band_along(MODEL, SCREW, OIL, along="axial_load", points=[1, 2] * U.kN, uncertain={}, **POINT)
+
+
+def test_a_distribution_refuses_quantities():
+    for make in (lambda: bs.Normal(10 * U.mm, 0.1 * U.mm), lambda: bs.Normal(0.01, 1e-4, low=9 * U.mm)):
+        with pytest.raises(bs.InputError, match=r"must be a finite number .*give one number in SI"):
+            make()
+
+
+def test_deviations_of_balls():
+    plain, given = bs.Deviations(ball_diameter=1e-6), bs.Deviations(ball_diameter=1 * U.um)
+    screw = dataclasses.replace(SCREW, loaded_balls=5)
+    loads = [ball_loads(screw, bs.DoubleNut(1e3), 1e3, deviations=each).forward_load for each in (plain, given)]
+    np.testing.assert_allclose(*loads, rtol=1e-12)
+
+
+def test_logs_and_fits():
+    loads, speeds = np.linspace(1e3, 5e3, 12), np.full(12, 60.0)
+    measured = torque(MODEL(SCREW, OIL, axial_load=loads, screw_speed=speeds))
+    log = bs.TorqueLog.of(
+        {"axial_load": loads / 1e3 * U.kN, "screw_speed": speeds, "torque": measured * 1e3 * U("N mm")}
+    )
+    np.testing.assert_allclose([log.axial_load, log.torque], [loads, measured], rtol=1e-12)
+    with pytest.raises(bs.InputError, match=r"data.axial_load: wrong unit"):
+        bs.TorqueLog.of({"axial_load": loads * U.mm, "screw_speed": speeds, "torque": measured})
+    free, bounds = ["viscosity"], {"viscosity": (10 * U("mPa s"), 500 * U("mPa s"))}
+    found = bs.fit(MODEL, SCREW, OIL, log, free, bounds=bounds, kind="friction", engine="numpy")
+    assert found.estimates["viscosity"].bounds == pytest.approx((0.01, 0.5))
+    assert found.predict(5 * U.kN, 60.0) == found.predict(5e3, 60.0)
+    assert found.band(5 * U.kN, 60.0) == found.band(5e3, 60.0)
+
+
+def test_labelled_arrays_that_do_not_fit_together():
+    def swept(load, speed):
+        return bs.sweep(MODEL, SCREW, OIL, axial_load=load, screw_speed=speed)
+
+    two, three = (xr.DataArray(np.ones(n), dims="row") for n in (2, 3))
+    with pytest.raises(bs.InputError, match=r"sweep.row: different lengths \(2 and 3\) · make them equal"):
+        swept(two, three)
+    with pytest.raises(bs.InputError, match=r"sweep.row: has other labels in another input"):
+        swept(two.assign_coords(row=[1, 2]), two.assign_coords(row=[1, 3]))
+    with pytest.raises(bs.InputError, match=r"sweep.axial_load: has a dimension whose name is no text \(\(3,\)\)"):
+        swept(xr.DataArray([1.0, 2.0], dims=(3,)), 1.0)
+
+
+def test_a_law_by_its_name_in_python():
+    with pytest.raises(bs.InputError, match=r"model.rolling: must be a law, not its name .*rolling=houpert_rolling"):
+        dataclasses.replace(MODEL, rolling="houpert")
