@@ -24,6 +24,8 @@ from support.commands import Commands
 ROOT = Path(__file__).parents[2]
 #: A warning of NumPy in the server is a defect: nobody would see it.
 ERRORS = ["RuntimeWarning"]
+#: Seconds of one request: longer than any takes, also on a busy machine.
+TIME_LIMIT = 600
 
 
 class Server:
@@ -42,7 +44,7 @@ class Server:
         self._output = os.fdopen(reading, encoding="utf-8")
         with Path(os.devnull).open() as nothing:
             self.process = commands.start(
-                ["serve", "--port", "0", *arguments],
+                ["serve", "--port", "0", "--time-limit", str(TIME_LIMIT), *arguments],
                 folder=Path.cwd(),
                 streams=[nothing.fileno(), writing, self.errors.fileno()],
                 environment=environment,
@@ -54,7 +56,7 @@ class Server:
         found = re.search(r"http://\S+", self.first_line)
         assert found, self.said()
         self.address = found[0]
-        self.client = httpx.Client(base_url=self.address, timeout=120, trust_env=False)
+        self.client = httpx.Client(base_url=self.address, timeout=TIME_LIMIT, trust_env=False)
 
     @property
     def port(self) -> int:

@@ -75,6 +75,7 @@ def test_work_that_cannot_be_stopped_keeps_its_place():
         with pytest.raises(Refused) as caught:
             await queue.heavy(lambda _: go_on.wait(LONG))
         assert caught.value.status == 408
+        queue.time_limit = LONG  # of the second, which waits
         second = asyncio.create_task(queue.heavy(lambda _: "second"))
         await asyncio.sleep(0.05)
         assert not second.done()
