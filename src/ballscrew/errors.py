@@ -26,8 +26,10 @@ R = TypeVar("R")
 LINES_AT_MOST = 10
 #: Most characters of a given value in a message.
 LONGEST_VALUE = 200
+#: The problem of a field that is not given.
+MISSING = "missing"
 #: Stands for setting a field, in a remedy.
-_SETTING = re.compile(r"\{\w+\.(\w+)\}")
+_SETTING = re.compile(r"\{[\w.]+\.(\w+)\}")
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -46,6 +48,10 @@ class Fault:
     unit: str = "1"
     #: The known name that was probably meant, where the remedy suggests one.
     meant: str = ""
+    #: The kind of fault, where callers tell kinds apart: no caller reads the texts.
+    id: str = ""
+    #: The column that the fault is about, where ``where`` is a place in a file.
+    column: str = ""
 
     def __str__(self) -> str:
         return f"{self.field}: {self.text}"

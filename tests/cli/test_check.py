@@ -291,3 +291,9 @@ def test_help_is_there(ballscrew):
     for option in ("--rows", "--axial-load", "--preload", "--length", "--ends", "--calibration", "--keep-going"):
         assert option in text
     assert "{models}" not in text
+
+
+def test_a_missing_speed_is_named_by_its_option(ballscrew, tmp_path):
+    tables = '[screw]\ncatalogue = "rexroth-40x10x6-6-double"\n[lubricant]\nviscosity = "0.1 Pa s"\n'
+    (tmp_path / "case.toml").write_text(tables, encoding="utf-8")
+    refused(ballscrew("check", "case.toml", "--axial-load", "5 kN"), '--speed: missing · add --speed "…')

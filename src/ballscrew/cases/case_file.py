@@ -33,7 +33,7 @@ from ballscrew.components.installation import Installation
 from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.screw import MATERIALS, BallScrew, Operation
 from ballscrew.components.traits import traits_of
-from ballscrew.errors import Fault, InputError, closest, nearest, raise_if_any
+from ballscrew.errors import MISSING, Fault, InputError, closest, nearest, raise_if_any
 from ballscrew.files import read_bytes
 from ballscrew.friction.calibrations import calibrated, calibration
 from ballscrew.friction.law_names import coefficients
@@ -235,7 +235,7 @@ def _lubricant(sections: Sections, faults: list[Fault]) -> tuple[Lubricant | Non
             faults.append(Fault("lubricant.temperature", "needs a grade", given, 'add {lubricant.grade}"ISO VG 100"'))
         if "grade" not in table and "viscosity" not in table and "temperature" not in table:
             remedy = 'add viscosity = "… mPa s", or grade = "ISO VG 100" and a temperature'
-            faults.append(Fault("lubricant.viscosity", "missing", "", remedy))
+            faults.append(Fault("lubricant.viscosity", MISSING, "", remedy))
     if len(faults) > before:
         return None, {}
     made_from = {name: values.pop(name) for name in ("grade", "temperature") if name in values}

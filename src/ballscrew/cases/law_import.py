@@ -16,7 +16,7 @@ from collections.abc import Generator, Mapping
 from pathlib import Path
 from typing import Any
 
-from ballscrew.errors import Fault, InputError, nearest
+from ballscrew.errors import MISSING, Fault, InputError, nearest
 from ballscrew.friction.law_names import coefficients
 
 #: A law of a module, as it is written.
@@ -73,7 +73,7 @@ def with_plain_numbers(where: str, kind: Any, table: Mapping[str, Any], faults: 
         for name, field in fields.items()
         if name not in table and field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
     ]
-    faults += [Fault(f"{where}.{name}", "missing", "", f"add {name} = a number") for name in missing]
+    faults += [Fault(f"{where}.{name}", MISSING, "", f"add {name} = a number") for name in missing]
     return plain
 
 

@@ -18,7 +18,7 @@ from ballscrew.components.nut import Nut, SingleNut
 from ballscrew.components.nut_losses import ParasiticLaw
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import geometry
-from ballscrew.errors import Fault, InputError, nearest
+from ballscrew.errors import MISSING, Fault, InputError, nearest
 from ballscrew.friction.nut_parts import NutParts, Scatter
 from ballscrew.quantities import fields_of
 from ballscrew.sizing.checks import Ratings, ratings_of
@@ -121,14 +121,14 @@ def _nut(
         return None, ()
     kind = values.pop("type", (row.nut or "single") if row is not None else None)
     if kind is None:
-        faults.append(Fault("nut.type", "missing", "", "add {nut.type}" + _either(NUTS)))
+        faults.append(Fault("nut.type", MISSING, "", "add {nut.type}" + _either(NUTS)))
     elif kind not in NUTS:
         faults.append(Fault("nut.type", "unknown kind of nut", kind, nearest(kind, NUTS)))
     else:
         faults += _misplaced(kind, table)
         if "preload" in fields_of(NUTS[kind]) and "preload" not in values:
             remedy = 'add {nut.preload}"3 kN", or "7 %" of the dynamic load rating'
-            faults.append(Fault("nut.preload", "missing", "", remedy))
+            faults.append(Fault("nut.preload", MISSING, "", remedy))
     if len(faults) > before or kind is None:
         return None, ()
     preload = values.get("preload")
@@ -184,11 +184,11 @@ def installation(sections: Sections, faults: list[Fault]) -> Installation | None
     if len(faults) == before:
         if "unsupported_length" not in values:
             faults.append(
-                Fault("installation.unsupported_length", "missing", "", 'add {installation.unsupported_length}"1 m"')
+                Fault("installation.unsupported_length", MISSING, "", 'add {installation.unsupported_length}"1 m"')
             )
         ends = values.get("ends")
         if ends is None:
-            faults.append(Fault("installation.ends", "missing", "", "add {installation.ends}" + _either(ENDS)))
+            faults.append(Fault("installation.ends", MISSING, "", "add {installation.ends}" + _either(ENDS)))
         elif ends not in ENDS:
             faults.append(Fault("installation.ends", "unknown kind of ends", ends, nearest(ends, ENDS)))
     return Installation(**{**values, "ends": ENDS[values["ends"]]}) if len(faults) == before else None

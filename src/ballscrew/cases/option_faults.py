@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Collection, Iterable, Mapping
 
-from ballscrew.errors import Fault
+from ballscrew.errors import MISSING, Fault
 
 #: The options by the field that they set.
 OPTIONS: Mapping[str, str] = {
@@ -30,7 +30,7 @@ def in_options(faults: Iterable[Fault], given: Collection[str]) -> list[Fault]:
 
 def _in_options(fault: Fault, given: Collection[str], sections: Collection[str]) -> Fault:
     option, section = OPTIONS.get(fault.where), fault.where.partition(".")[0]
-    if option is None or not (fault.where in given or (fault.problem == "missing" and section in sections)):
+    if option is None or not (fault.where in given or (fault.problem == MISSING and section in sections)):
         return fault
 
     remedy = fault.remedy

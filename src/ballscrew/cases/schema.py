@@ -25,7 +25,7 @@ from ballscrew.components.materials import TEMPERATURE, Lubricant, Material, gra
 from ballscrew.components.nut import Bodies, DoubleNut
 from ballscrew.components.outside_laws import name_of as outside_name
 from ballscrew.components.screw import MATERIALS, BallScrew, Operation
-from ballscrew.errors import Fault, InputError, closest, nearest
+from ballscrew.errors import MISSING, Fault, InputError, closest, nearest
 from ballscrew.friction.calibrations import calibrations
 from ballscrew.friction.law_names import LAWS as LAWS
 from ballscrew.friction.law_names import coefficients
@@ -275,7 +275,7 @@ def read_table(where: str, model: type[BaseModel], table: Any, faults: list[Faul
     meant = {f"{fault.where.rpartition('.')[0]}.{fault.meant}" for fault in found if fault.meant}
     if "screw.catalogue" in meant:
         meant |= {f"screw.{name}" for name in fields_of(BallScrew)}
-    faults += [fault for fault in found if not (fault.problem == "missing" and fault.where in meant)]
+    faults += [fault for fault in found if not (fault.problem == MISSING and fault.where in meant)]
     return {}
 
 
@@ -291,7 +291,7 @@ def _fault(section: str, model: type[BaseModel], problem: dict[str, Any]) -> Fau
             quantity = {**fields_of(BallScrew), **fields_of(Operation)}.get(path[-1])
             unit = "" if quantity is None else f" {quantity.shown_in}"
             sample = "a number" if quantity is not None and quantity.unit == "1" else f'"…{unit}"'
-            return Fault(where, "missing", "", f"add {path[-1]} = {sample}")
+            return Fault(where, MISSING, "", f"add {{{where}}}{sample}")
         case "extra_forbidden":
             # a coefficient of a law, written without the slot of its law
             slots = [slot for slot in LAWS if any(path[-1] in coefficients_of(slot, name) for name in LAWS[slot])]

@@ -12,7 +12,7 @@ import xarray as xr
 
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.errors import MISSING, Fault, InputError, nearest, raise_if_any
 from ballscrew.evaluation.engines import Engine, engine_faults
 from ballscrew.evaluation.evaluation import Evaluation
 from ballscrew.evaluation.outputs import OPERATION, Output, known_outputs
@@ -78,7 +78,7 @@ def slopes_of(subject: Configuration, outputs: Sequence[str], by: Sequence[str],
     by = (by,) if isinstance(by, str) else tuple(dict.fromkeys(by))
     known = subject.inputs
     faults = [Fault("derivatives.by", "unknown input", name, nearest(name, known)) for name in by if name not in known]
-    faults += [] if by else [Fault("derivatives.by", "missing", "", 'name the inputs: by=["axial_load"]')]
+    faults += [] if by else [Fault("derivatives.by", MISSING, "", 'name the inputs: by=["axial_load"]')]
     raise_if_any(faults)
     held = {n: subject.value_of(n) for n in by if n not in varied and n not in OPERATION}
     raise_if_any(

@@ -17,7 +17,7 @@ from ballscrew._version import __version__
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import MATERIALS, BallScrew, Operation
 from ballscrew.components.traits import traits_of
-from ballscrew.errors import Fault, fault_of, nearest, raise_if_any, without_unit
+from ballscrew.errors import MISSING, Fault, fault_of, nearest, raise_if_any, without_unit
 from ballscrew.evaluation.outputs import (
     DEFAULT_OUTPUTS,
     NUT_OUTPUTS,
@@ -292,9 +292,7 @@ def _axes(section: str, subject: Configuration, varied: Mapping[str, Any]) -> di
     faults = [
         Fault(f"{section}.{name}", "unknown name", "", nearest(name, known)) for name in varied if name not in known
     ]
-    faults += [
-        Fault(f"{section}.{name}", "missing", "", f"give {name}=[…]") for name in OPERATION if name not in varied
-    ]
+    faults += [Fault(f"{section}.{name}", MISSING, "", f"give {name}=[…]") for name in OPERATION if name not in varied]
     faults += [
         Fault(f"{part}.{name}", "is an array", "", f"give it to the sweep: {name}=[…]")
         for name, (part, _) in known.items()

@@ -21,6 +21,8 @@ from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.quantities import Quantity
 from ballscrew.tables.sheets import HEADINGS_WITHIN, Record
 
+#: Kinds of faults of headings.
+NEEDS_UNIT, SAME_MEANING, NO_COLUMN = "needs_unit", "same_meaning", "no_column"
 #: What stands for nothing in a cell.
 NOTHING = ("", "-", "–", "—")
 
@@ -189,7 +191,10 @@ def checked(
         where, quantity = f'{path.name} column "{heading.written}"', heading.column.quantity
         if twin is not None:
             meaning = heading.column.name.replace("_", " ")
-            faults.append(Fault(where, f'means the same as "{twin.written}"', meaning, "leave out one of the two"))
+            problem = f'means the same as "{twin.written}"'
+            faults.append(
+                Fault(where, problem, meaning, "leave out one of the two", id=SAME_MEANING, column=heading.column.name)
+            )
         elif quantity is None or (quantity.unit == "1" and not heading.unit):
             known.append(heading)
         elif quantity.unit == "1":
@@ -206,7 +211,8 @@ def checked(
             if not filled or any(isinstance(cell, str) and units.unit_in(cell.replace(",", ".")) for cell in filled):
                 known.append(heading)
             else:
-                faults.append(Fault(where, "needs a unit", "", f'write "{heading.written} [{quantity.shown_in}]"'))
+                remedy = f'write "{heading.written} [{quantity.shown_in}]"'
+                faults.append(Fault(where, "needs a unit", "", remedy, id=NEEDS_UNIT, column=heading.column.name))
     missing = [column for column in columns if column.required and all(h.column is not column for h in headings)]
     raise_if_any([*(_missing(path, column, headings, first) for column in missing), *faults])
     return known
@@ -226,7 +232,7 @@ def _missing(path: Path, column: Column, headings: Sequence[Heading], first: Rec
     names = [bare(name) for name in (column.name, *column.aliases)]
     alike = [other for name in names for other in difflib.get_close_matches(name, others, n=1, cutoff=0.7)]
     guess = f'write it for "{others[alike[0]]}"' if alike else f"it may also be called {', '.join(column.aliases[:3])}"
-    return Fault(path.name, f'has no column "{column.example}"', "", guess)
+    return Fault(path.name, f'has no column "{column.example}"', "", guess, id=NO_COLUMN, column=column.name)
 
 
 def unused(first: Record, headings: Sequence[Heading], body: Sequence[Record]) -> list[str]:

@@ -17,7 +17,20 @@ from ballscrew import units
 from ballscrew.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.quantities import Info, Quantity
 from ballscrew.tables import decimals
-from ballscrew.tables.headings import Column, Heading, bare, checked, fits, heading_of, headings_in, spelt, unused
+from ballscrew.tables.headings import (
+    NEEDS_UNIT,
+    NO_COLUMN,
+    SAME_MEANING,
+    Column,
+    Heading,
+    bare,
+    checked,
+    fits,
+    heading_of,
+    headings_in,
+    spelt,
+    unused,
+)
 from ballscrew.tables.sheets import Record
 from ballscrew.torque_logs.log_rows import Kind, quantities
 
@@ -152,9 +165,9 @@ def layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Lay
 
     Raises :class:`~ballscrew.errors.InputError` for columns that are missing, double or without a unit that fits.
     """
-    asked = _asked(flags)
-    rows, constants, named = _renamed(found, asked)
-    columns = _wanted(asked)
+    given = _given_columns(flags)
+    rows, constants, named = _renamed(found, given)
+    columns = _wanted(given)
     start, headings = headings_in(path, rows, columns, WITHIN)
     columns, headings = _chosen(columns, headings, constants)
     body = rows[start + 1 :]
@@ -167,7 +180,7 @@ def layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Lay
     try:
         good = checked(path, headings, rows[start], body, columns)
     except InputError as error:
-        raise InputError(*(_advised(fault, headings) for fault in error.faults)) from None
+        raise InputError(*(_with_option(fault, headings) for fault in error.faults)) from None
     rest = unused(found[start], good, body[:WITHIN])
     good = [
         dataclasses.replace(heading, written=named.get((start, heading.place), heading.written)) for heading in good
@@ -186,11 +199,11 @@ def layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Lay
     )
 
 
-# -- what the user says of columns ----------------------------------------------------------------
+# -- columns given by the user ----------------------------------------------------------------
 
 
 @dataclasses.dataclass(frozen=True)
-class _Asked:
+class _GivenColumn:
     """A column as the user has it: its name and unit, and both as written."""
 
     column: Column
@@ -199,9 +212,9 @@ class _Asked:
     unit: str
 
 
-def _asked(flags: Mapping[str, str]) -> list[_Asked]:
+def _given_columns(flags: Mapping[str, str]) -> list[_GivenColumn]:
     faults: list[Fault] = []
-    found: list[_Asked] = []
+    found: list[_GivenColumn] = []
     for name, text in flags.items():
         column = _BY_NAME.get(name) or next((column for column in COLUMNS if column.answers_to(name)), None)
         if column is None:
@@ -215,19 +228,19 @@ def _asked(flags: Mapping[str, str]) -> list[_Asked]:
             fault = units.parse(f"--column {name}", f"1 {unit}", column.quantity)
             if isinstance(fault, Fault):
                 faults.append(dataclasses.replace(fault, given=written))
-        found.append(_Asked(column, written, parts["name"] if parts else written, unit))
+        found.append(_GivenColumn(column, written, parts["name"] if parts else written, unit))
     raise_if_any(faults)
     return found
 
 
 def _renamed(
-    found: Sequence[Record], asked: Sequence[_Asked]
+    found: Sequence[Record], given: Sequence[_GivenColumn]
 ) -> tuple[list[Record], dict[str, float], dict[tuple[int, int], str]]:
     """Rows with the given columns under their standard names, the constants, and the cells as written."""
     rows = list(found)
     constants: dict[str, float] = {}
     written: dict[tuple[int, int], str] = {}
-    for one in asked:
+    for one in given:
         ours = dataclasses.replace(one.column, name=one.name, aliases=(), hints=())
         places = [
             (number, place, heading)
@@ -241,29 +254,29 @@ def _renamed(
             constants[one.column.name] = _constant(one, found)
             continue
         # "T" is rather "T" than "t"
-        number, place, heading = min(places, key=lambda found: _unlike(one, str(rows[found[0]].cells[found[1]])))
+        number, place, heading = min(places, key=lambda found: _match_rank(one, str(rows[found[0]].cells[found[1]])))
         unit = one.unit or (heading.unit if heading else "")
         written[number, place] = str(found[number].cells[place])
         name = one.column.name.replace("_", " ")
-        cells = [_unless(one.column, cell) for cell in rows[number].cells]
+        cells = [_without_column(one.column, cell) for cell in rows[number].cells]
         cells[place] = f"{name} [{unit}]" if unit else name
         rows[number] = Record(rows[number].line, cells)
     return rows, constants, written
 
 
-def _unlike(one: _Asked, cell: str) -> int:
+def _match_rank(one: _GivenColumn, cell: str) -> int:
     """Rank of a match: exact, but for the unit, or but for capitals and blanks."""
     parts = _BRACKETS.fullmatch(cell)
     return 0 if cell == one.written else 1 if one.name in {cell, parts["name"] if parts else cell} else 2
 
 
-def _unless(column: Column, cell: Any) -> Any:
-    """A cell, but for one that would be taken for this column."""
+def _without_column(column: Column, cell: Any) -> Any:
+    """A cell; empty where it would be read as this column."""
     heading = heading_of(cell, 0, COLUMNS)
     return "" if heading is not None and heading.column is column else cell
 
 
-def _constant(one: _Asked, found: Sequence[Record]) -> float:
+def _constant(one: _GivenColumn, found: Sequence[Record]) -> float:
     quantity = one.column.quantity
     assert quantity is not None
     where = f"--column {one.column.name}"
@@ -277,9 +290,9 @@ def _constant(one: _Asked, found: Sequence[Record]) -> float:
     raise InputError(Fault(where, "is not a column of the file", one.written, nearest(one.name, headings[:20])))
 
 
-def _wanted(asked: Sequence[_Asked]) -> tuple[Column, ...]:
+def _wanted(given: Sequence[_GivenColumn]) -> tuple[Column, ...]:
     """The columns to look for: of those that stand for each other, only the one given."""
-    names = {one.column.name for one in asked}
+    names = {one.column.name for one in given}
     others = {other for family in (tuple(TORQUES), _SPEEDS) if names & {*family} for other in family} - names
     kept = (
         dataclasses.replace(column, aliases=(), hints=()) if column.name in names else column
@@ -314,11 +327,13 @@ def _bracketed(cell: Any) -> str:
 def _are_units(headings: Sequence[Heading], record: Record) -> bool:
     """Test whether a row has units and no numbers."""
     cells = [(heading.column, record.cells[heading.place]) for heading in headings if heading.place < len(record.cells)]
-    texts = all(isinstance(cell, str) and not re.match(r"\s*[-+]?[.,]?\d", _numberless(cell)) for _, cell in cells)
+    texts = all(
+        isinstance(cell, str) and not re.match(r"\s*[-+]?[.,]?\d", _unit_without_number(cell)) for _, cell in cells
+    )
     return texts and any(cell and fits(_bracketed(cell), column) for column, cell in cells)
 
 
-def _numberless(cell: str) -> str:
+def _unit_without_number(cell: str) -> str:
     """A unit that begins with a number: "1/min"."""
     return cell.removeprefix("[").removeprefix("1/")
 
@@ -351,21 +366,20 @@ def _texts(headings: Sequence[Heading], body: Sequence[Record]) -> list[str]:
     return [cell for cell in cells if isinstance(cell, str)]
 
 
-def _advised(fault: Fault, headings: Sequence[Heading]) -> Fault:
-    """A fault of a heading, with the option of the command line that mends it."""
+def _with_option(fault: Fault, headings: Sequence[Heading]) -> Fault:
+    """A fault of a column, with the option of the command line that resolves it."""
+    column = _BY_NAME.get(fault.column)
+    if column is None or column.quantity is None:
+        return fault
+    name, unit = column.name, column.quantity.shown_in
     heading = next((one for one in headings if fault.where.endswith(f'column "{one.written}"')), None)
     remedy = fault.remedy
-    if heading is not None and heading.column.quantity is not None:
-        name, quantity = heading.column.name, heading.column.quantity
-        bare_name = _BRACKETS.fullmatch(heading.written)
-        own = bare_name["name"] if bare_name else heading.written
-        if fault.problem == "needs a unit":
-            remedy += f', or give --column {name}="{own} [{quantity.shown_in}]"'
-        elif fault.problem.startswith("means the same"):
-            remedy = f'give --column {name}="{heading.written}" for the one that is meant'
-    missing = next((column for column in COLUMNS if fault.problem == f'has no column "{column.example}"'), None)
-    if missing is not None and missing.quantity is not None:
-        unit = missing.quantity.shown_in
-        remedy += f', or name it: --column {missing.name}="your heading [{unit}]"'
-        remedy += f'; if it is the same in every row, --column {missing.name}="0 {unit}"' * (missing.name != "torque")
+    if fault.id == NO_COLUMN:
+        remedy += f', or name it: --column {name}="your heading [{unit}]"'
+        remedy += f'; if it is the same in every row, --column {name}="0 {unit}"' * (name != "torque")
+    elif heading is not None and fault.id == NEEDS_UNIT:
+        parts = _BRACKETS.fullmatch(heading.written)
+        remedy += f', or give --column {name}="{parts["name"] if parts else heading.written} [{unit}]"'
+    elif heading is not None and fault.id == SAME_MEANING:
+        remedy = f'give --column {name}="{heading.written}" for the one that is meant'
     return dataclasses.replace(fault, remedy=remedy)

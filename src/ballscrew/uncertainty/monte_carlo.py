@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ballscrew._arrays import map_blocks
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, InputError, raise_if_any
+from ballscrew.errors import MISSING, Fault, InputError, raise_if_any
 from ballscrew.evaluation.engines import (
     ASKED_FOR,
     PAYS,
@@ -145,7 +145,7 @@ def _faults_of_inputs(
     for name in OPERATION:
         if name not in given:
             remedy = f"give {name}=… or a distribution of it"
-            faults.append(Fault(f"monte_carlo.{name}", "missing", "", remedy))
+            faults.append(Fault(f"monte_carlo.{name}", MISSING, "", remedy))
     for name, distribution in distributions.items():
         where = f"monte_carlo.distributions.{name}"
         fault = distribution_fault(where, name, distribution, known, f"give {name}=…")
