@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import logging
 from collections.abc import Generator, Mapping
 from pathlib import Path
 from typing import Annotated, Any
@@ -41,15 +40,16 @@ def say_constant_torque(case: Any) -> None:
         typer.echo(line, err=True)
 
 
-class _Echo(logging.Handler):
-    def emit(self, record: logging.LogRecord) -> None:
-        typer.echo(record.getMessage(), err=True)
-
-
 @contextlib.contextmanager
 def log_on_stderr() -> Generator[None]:
     """Show on the error stream what the package logs."""
-    logger, handler = logging.getLogger("ballscrew"), _Echo()
+    import logging  # not for those who ask for help only
+
+    class Echo(logging.Handler):
+        def emit(self, record: logging.LogRecord) -> None:
+            typer.echo(record.getMessage(), err=True)
+
+    logger, handler = logging.getLogger("ballscrew"), Echo()
     before = logger.level
     logger.addHandler(handler)
     logger.setLevel(logging.INFO)

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import contextlib
-import importlib.util
-import logging
 import os
-import socket
 import sys
-import webbrowser
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    import socket
 
 _NEEDS = ("fastapi", "fastapi_offline", "plotly", "uvicorn", "jinja2", "typst")
 _LOOPBACK = ("127.0.0.1", "localhost", "::1")
@@ -33,7 +32,11 @@ def serve(
 
     The page is at the address it prints, the API under /api. Nothing is asked from outside and nothing is stored.
     """
-    # NumPy behind it: not for those who ask for help only
+    # not for those who ask for help only
+    import importlib.util
+    import logging
+    import webbrowser
+
     from ballscrew.errors import Fault, InputError
 
     missing = [name for name in _NEEDS if importlib.util.find_spec(name) is None]
@@ -61,6 +64,8 @@ def serve(
 
 def _listening(host: str, port: int) -> socket.socket:
     """A socket that listens there; a fault that names the option if there can be none."""
+    import socket
+
     from ballscrew.errors import Fault, InputError
 
     if not 0 <= port <= 65535:
