@@ -184,7 +184,7 @@ def shown(value: Any, quantity: Quantity, digits: int = 4) -> str:
 
 def in_display_units(fault: Fault, quantity: Quantity, given: str) -> Fault:
     """A fault found in SI, with its bound in the display unit and the value as it was written."""
-    bound = "" if fault.bound is None else shown(fault.bound, quantity)
+    bound = "" if fault.bound is None else shown(fault.bound, quantity, 9 if quantity.info.whole else 4)
     problem, remedy = (text.replace("{bound}", bound) for text in (fault.problem, fault.remedy))
     return Fault(fault.where, problem, given, remedy)
 

@@ -60,7 +60,7 @@ class BallScrew(ByValue):
             at_least=1,
             at_most=10_000,
             whole=True,
-            hint="give a whole number, 1 or more",
+            hint="give a whole number, 1 to 10000",
             usual=(1, 2000),
         ),
     ]

@@ -30,6 +30,8 @@ def name_in_library(value: Any) -> str:
             module = "scipy.special"
     if not isinstance(module, str) or not isinstance(name, str) or _origin_of(module) != "library":
         return ""
+    if isinstance(value, type) and module == "builtins":
+        return f"{library(module)}:{name};"  # also types without a name there, as that of None
     found: Any = sys.modules.get(module)
     for part in name.split("."):
         found = getattr(found, part, None)
