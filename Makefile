@@ -1,6 +1,6 @@
 # make demo: set up and reproduce the paper.  make test: set up and run the tests (make test-all: the long ones too).
 # make app: the page in the browser.
-.PHONY: app demo test test-all lint types layers js docs bench constraints floors readme rooms screenshots clean
+.PHONY: app demo test test-all lint types layers js docs bench hostile constraints floors readme rooms screenshots clean
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -91,6 +91,12 @@ bench: $(READY)
 	$(BIN)/python benchmarks/reference.py
 	$(BIN)/python benchmarks/four_point.py
 	$(BIN)/python benchmarks/loads.py
+
+# random, mutated and damaged input for up to 15 minutes; fewer by SCALE=0.01. Writes the table of docs/reliability.md
+SCALE ?= 1
+
+hostile: $(READY)
+	$(BIN)/python -m benchmarks.hostile --scale $(SCALE)
 
 clean:
 	rm -rf .venv out build dist

@@ -18,7 +18,7 @@ import time
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import httpx
 import psutil
@@ -33,10 +33,10 @@ NUT = {**CASE, "nut": {"preload": "7 %"}, "bodies": {}}
 AXES = {"axial_load": "100:9000:20 N", "screw_speed": "1:900:20 rpm"}
 
 
-def started() -> tuple[subprocess.Popen[str], str]:
-    """The process of a server, and its address."""
-    program = [sys.executable, "-m", "ballscrew.cli", "serve", "--port", "0"]
-    process = subprocess.Popen(program, stdout=subprocess.PIPE, encoding="utf-8")
+def started(*options: str, errors: IO[str] | None = None) -> tuple[subprocess.Popen[str], str]:
+    """The process of a server, with options of Python and a file for its standard error, and its address."""
+    program = [sys.executable, *options, "-m", "ballscrew.cli", "serve", "--port", "0"]
+    process = subprocess.Popen(program, stdout=subprocess.PIPE, stderr=errors, encoding="utf-8")
     assert process.stdout is not None
     line = process.stdout.readline()
     found = re.search(r"http://\S+", line)

@@ -1,0 +1,334 @@
+"""Damaged stores of sweeps: checked, resumed, and compared with an undamaged one."""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import functools
+import json
+import logging
+import os
+import shutil
+import socket
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from benchmarks.hostile import workers
+from benchmarks.hostile.tally import Outcome, Tally
+
+import ballscrew as bs
+from ballscrew.errors import InputError
+from ballscrew.papers.olaru2005 import OIL, SCREW
+from ballscrew.sweeps.store import UnfinishedSweepError
+from ballscrew.sweeps.store_plan import read_sealed, sealed
+from support.stores import MODEL, SMALL, files
+
+SECONDS = 90.0
+TRIED = (
+    "kinds of damage, each on a finished store and on one with 12 of 21 blocks: every kind of file removed, cut, "
+    "emptied, "
+    "extended, flipped, zeroed, exchanged, replaced by a folder, a link and a link to nothing; locks, other plans, "
+    "formats, "
+    "models and folders. Then `bs.verify`, and the same sweep again (of a finished store with `verify=True`)"
+)
+WRONG = (
+    "a store with changed files that `bs.verify` calls good; numbers after the sweep that are not those of the "
+    "undamaged "
+    "store; an exception other than `InputError` or a stopped sweep in a line"
+)
+
+OWN = ".ballscrew"
+#: Points of 12 of the 21 blocks.
+UNFINISHED = 12 * 9
+
+#: ``(store, path of the file in it)``
+Damage = Callable[[Path, str], None]
+
+
+# -- damage of one file ---------------------------------------------------------------------------
+
+
+def removed(store: Path, name: str) -> None:
+    """Remove it."""
+    (store / name).unlink()
+
+
+def cut(store: Path, name: str) -> None:
+    """Leave the first half."""
+    os.truncate(store / name, (store / name).stat().st_size // 2)
+
+
+def emptied(store: Path, name: str) -> None:
+    """Leave nothing."""
+    os.truncate(store / name, 0)
+
+
+def extended(store: Path, name: str) -> None:
+    """Add bytes."""
+    with (store / name).open("ab") as file:
+        file.write(b"\0more")
+
+
+def flipped(store: Path, name: str) -> None:
+    """Flip one bit."""
+    content = bytearray((store / name).read_bytes())
+    content[len(content) // 2] ^= 0x10
+    (store / name).write_bytes(content)
+
+
+def zeroed(store: Path, name: str) -> None:
+    """Write zeros, as a file system may after a loss of power."""
+    (store / name).write_bytes(bytes((store / name).stat().st_size))
+
+
+def exchanged(store: Path, name: str) -> None:
+    """Exchange it with another file of the store, of the same folder if there is one."""
+    own = store / name
+    others = sorted(path for path in own.parent.parent.rglob("*") if path.is_file() and path != own)
+    others.sort(key=lambda path: abs(path.stat().st_size - own.stat().st_size))
+    content = own.read_bytes()
+    own.write_bytes(others[0].read_bytes())
+    others[0].write_bytes(content)
+
+
+def a_folder(store: Path, name: str) -> None:
+    """Put a folder in its place."""
+    (store / name).unlink()
+    (store / name).mkdir()
+
+
+def a_link(store: Path, name: str) -> None:
+    """Move it elsewhere and put a link in its place."""
+    (store / name).rename(store.parent / "elsewhere")
+    (store / name).symlink_to(store.parent / "elsewhere")
+
+
+def a_link_to_nothing(store: Path, name: str) -> None:
+    """Put a link to nothing in its place."""
+    (store / name).unlink()
+    (store / name).symlink_to(store.parent / "nowhere")
+
+
+ON_A_FILE: tuple[Damage, ...] = (
+    removed, cut, emptied, extended, flipped, zeroed, exchanged, a_folder, a_link, a_link_to_nothing,
+)  # fmt: skip
+
+#: Kinds of files, by the paths in a finished and in an unfinished store.
+FILES = {
+    "chunk": ("efficiency/c/2/1/0", "efficiency/c/2/1/0"),
+    "coordinate": ("axial_load/c/0", "axial_load/c/0"),
+    "metadata of an output": ("efficiency/zarr.json", "efficiency/zarr.json"),
+    "metadata of a coordinate": ("viscosity/zarr.json", "viscosity/zarr.json"),
+    "metadata of the store": ("zarr.json", f"{OWN}/zarr.json"),
+    "layout": (f"{OWN}/layout.json", f"{OWN}/layout.json"),
+    "table of blocks": (f"{OWN}/blocks.csv", f"{OWN}/blocks/7"),
+    "plan": (f"{OWN}/plan.json", f"{OWN}/plan.json"),
+}
+
+# -- damage of the store --------------------------------------------------------------------------
+
+
+def _another_plan(**changes: object) -> Callable[[Path], None]:
+    """The plan with other entries and a digest that fits."""
+
+    def damage(store: Path) -> None:
+        path = store / OWN / "plan.json"
+        plan = read_sealed("plan", path.read_text(encoding="utf-8")) or {}
+        path.write_bytes(sealed("plan", plan | changes))
+
+    return damage
+
+
+def _without_format(store: Path) -> None:
+    path = store / OWN / "plan.json"
+    plan = read_sealed("plan", path.read_text(encoding="utf-8")) or {}
+    del plan["format"]
+    path.write_bytes(sealed("plan", plan))
+
+
+def _of_another_sweep(model: bs.FrictionModel, **changes: object) -> Callable[[Path], None]:
+    def damage(store: Path) -> None:
+        shutil.rmtree(store)
+        bs.sweep(model, SCREW, OIL, to=store, **(SMALL | changes))
+
+    return damage
+
+
+def _lock(text: str) -> Callable[[Path], None]:
+    return lambda store: (store / OWN / "lock").write_text(text, encoding="utf-8") and None
+
+
+def _linked_lock(store: Path) -> None:
+    (store.parent / "target").write_text("thesis", encoding="utf-8")
+    (store / OWN / "lock").symlink_to(store.parent / "target")
+
+
+def _folder_for_lock(store: Path) -> None:
+    (store / OWN / "lock").mkdir()
+
+
+def _without(name: str) -> Callable[[Path], None]:
+    return lambda store: shutil.rmtree(store / name)
+
+
+def _linked(name: str) -> Callable[[Path], None]:
+    def damage(store: Path) -> None:
+        (store / name).rename(store.parent / "moved")
+        (store / name).symlink_to(store.parent / "moved")
+
+    return damage
+
+
+def _exchanged_outputs(store: Path) -> None:
+    (store / "efficiency").rename(store / "aside")
+    (store / "screw_torque").rename(store / "efficiency")
+    (store / "aside").rename(store / "screw_torque")
+
+
+def _older_chunk(store: Path) -> None:
+    """A chunk of another output in the place of one, of the same kind of number."""
+    shutil.copy(store / "screw_torque/c/2/1/0", store / "efficiency/c/2/1/0")
+
+
+def _changed_number(store: Path) -> None:
+    """Metadata of an output with another fill value."""
+    path = store / "efficiency" / "zarr.json"
+    document = json.loads(path.read_text(encoding="utf-8"))
+    path.write_text(json.dumps(document | {"fill_value": 1.0}), encoding="utf-8")
+
+
+def _a_file_for_an_output(store: Path) -> None:
+    shutil.rmtree(store / "efficiency")
+    (store / "efficiency").write_text("no folder", encoding="utf-8")
+
+
+def _all_chunks(store: Path) -> None:
+    for path in store.glob("*/c/*/*/*"):
+        path.unlink()
+
+
+def _temporary(store: Path) -> None:
+    (store / OWN / "temporary").mkdir(exist_ok=True)
+    (store / OWN / "temporary" / "left").write_bytes(b"half a chunk")
+
+
+DEAD = 2**22 - 1
+#: Damage of the whole; True where ``bs.verify`` may call the store good: its files are as they were written.
+ON_THE_STORE: dict[str, tuple[Callable[[Path], None], bool]] = {
+    "lock of a dead process": (_lock(json.dumps({"process": DEAD, "host": socket.gethostname()})), True),
+    "lock of another host": (_lock(json.dumps({"process": 1, "host": "elsewhere"})), True),
+    "lock of nobody": (_lock(""), True),
+    "lock with text": (_lock("thesis"), True),
+    "lock with a list": (_lock("[1, 2]"), True),
+    "lock that is a link": (_linked_lock, True),
+    "lock that is a folder": (_folder_for_lock, True),
+    "temporary file": (_temporary, True),
+    "another model's store": (_of_another_sweep(bs.FrictionModel.corrected()), True),
+    "another grid's store": (_of_another_sweep(MODEL, viscosity=[0.05, 0.1, 0.31]), True),
+    "format 1": (_another_plan(format=1), False),
+    "format 99": (_another_plan(format=99), False),
+    "format of text": (_another_plan(format="2"), False),
+    "no format": (_without_format, False),
+    "other formulas": (_another_plan(formulas="0" * 64), True),
+    "another shape": (_another_plan(shape=[7, 9, 4]), False),
+    "another chunk": (_another_plan(chunks=[7, 9, 3]), False),
+    "no outputs": (_another_plan(outputs={}), False),
+    "no own folder": (_without(OWN), False),
+    "no folder of an output": (_without("efficiency"), False),
+    "no folder of a coordinate": (_without("axial_load"), False),
+    "a linked output": (_linked("efficiency"), True),
+    "a linked own folder": (_linked(OWN), True),
+    "exchanged outputs": (_exchanged_outputs, False),
+    "a chunk of another output": (_older_chunk, False),
+    "another fill value": (_changed_number, False),
+    "a file for an output": (_a_file_for_an_output, False),
+    "no chunks": (_all_chunks, False),
+}
+
+
+@dataclasses.dataclass(frozen=True)
+class Kind:
+    """A kind of damage of a finished or an unfinished store."""
+
+    name: str
+    damage: Callable[[Path], None]
+    finished: bool
+    #: ``bs.verify`` may call the store good.
+    is_good: bool = False
+
+
+def kinds() -> list[Kind]:
+    """All kinds, on both stores; always in the same mixed order, so that a few of them are of all sorts."""
+    found: list[Kind] = []
+    for finished in (True, False):
+        for of_file, (whole, begun) in FILES.items():
+            name = whole if finished else begun
+            for act in ON_A_FILE:
+                words = f"{of_file} {act.__name__.replace('_', ' ')}"
+                found.append(Kind(words, functools.partial(act, name=name), finished))
+        found += [Kind(words, damage, finished, good) for words, (damage, good) in ON_THE_STORE.items()]
+    order = np.random.default_rng(0).permutation(len(found))
+    return [found[i] for i in order]
+
+
+COUNT = len(kinds())
+
+
+@functools.cache
+def undamaged() -> tuple[Path, xr.Dataset]:
+    """A finished and an unfinished store, and the numbers that they should have."""
+    folder = workers.folder() / "undamaged"
+    folder.mkdir()
+    numbers = bs.sweep(MODEL, SCREW, OIL, to=folder / "finished", **SMALL).load()
+
+    def stop(finished: int, _: int) -> None:
+        if finished >= UNFINISHED:
+            raise KeyboardInterrupt
+
+    with contextlib.suppress(KeyboardInterrupt):
+        bs.sweep(MODEL, SCREW, OIL, to=folder / "unfinished", done=stop, **SMALL)
+    return folder, numbers
+
+
+def run(tally: Tally, seed: int) -> None:
+    """Try all kinds of damage."""
+    workers.run(attempt, tally, seed)
+
+
+def attempt(_: int, number: int, __: int) -> Outcome:
+    """One kind of damage."""
+    logging.getLogger("ballscrew").setLevel(logging.CRITICAL)
+    kind = kinds()[number]
+    folder, numbers = undamaged()
+    place = workers.folder() / str(number)
+    store = Path(shutil.copytree(folder / ("finished" if kind.finished else "unfinished"), place / "map.zarr"))
+    before, good = files(store), bs.verify(store)
+    kind.damage(store)
+    words = f"{kind.name}, {'finished' if kind.finished else 'unfinished'}"
+    wrong: list[str] = []
+    refused = False
+    try:
+        found = bs.verify(store)
+        is_good = not found.damaged and (found.finished, found.blocks) == (good.finished, good.blocks)
+        if is_good and not kind.is_good and files(store) != before:
+            wrong.append("verify calls it good")
+    except InputError:
+        pass
+    except Exception as error:
+        wrong.append(f"verify: {workers.last_line(error)}")
+    try:
+        opened = bs.sweep(MODEL, SCREW, OIL, to=store, **SMALL, **({"verify": True} if kind.finished else {}))
+        if not opened.load().identical(numbers):
+            wrong.append("other numbers after the sweep")
+        elif not bs.verify(store).holds:
+            wrong.append("damaged after the sweep")
+    except (InputError, UnfinishedSweepError):
+        refused = True
+    except Exception as error:
+        wrong.append(f"sweep: {workers.last_line(error)}")
+    shutil.rmtree(place)
+    if wrong:
+        return Outcome(wrong=[f"{words}: {'; '.join(wrong)}"])
+    return Outcome(answered=int(not refused), refused=int(refused))
