@@ -381,3 +381,21 @@ def test_what_has_no_meaning_is_nan_in_everything_derived(kind, bad):
         assert np.isnan(values[0])
         assert np.isfinite(values[1])
     assert list(r.valid) == [False, True]
+
+
+def test_an_impossible_number_in_an_array_is_no_warning():
+    """Of NumPy, which are errors in tests: the number is reported by the validity."""
+    part = dataclasses.replace(SCREW, screw_conformity=np.array([0.5, 0.54]))
+    assert friction(OffsetLeadNut(1500.0), 1000.0, part=part).valid.tolist() == [False, True]
+
+
+def test_plain_numbers_that_overflow_are_refused():
+    oil = bs.Lubricant(viscosity=1e300, pressure_viscosity_coefficient=1e300)
+    for call in (
+        lambda: bs.FrictionModel.olaru2005()(SCREW, oil, axial_load=1e3, screw_speed=1e300),
+        lambda: friction(SingleNut(), 1e3, 1e300, model=bs.FrictionModel.olaru2005(), oil=oil),
+    ):
+        try:
+            assert not call().valid
+        except InputError as error:
+            assert "too large or too small" in str(error)

@@ -62,6 +62,7 @@ from ballscrew.errors import Fault, accepts_units, faults_of, raise_if_any
 from ballscrew.friction.law_names import fault_of_law
 from ballscrew.friction.plausibility import named_parts
 from ballscrew.friction.result import FrictionResult
+from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import AngularSpeed, Force, Info, Ratio, fields_of
 from ballscrew.solvers.ellipse_slip import ellipse_slip
 from ballscrew.solvers.pure_rolling import curvature_slip
@@ -190,12 +191,14 @@ class FrictionModel(ByValue):
         )
 
     @accepts_units("operation")
+    @overflow_as_input_error()
     def __call__(
         self, screw: BallScrew, lubricant: Lubricant, *, axial_load: Force, screw_speed: AngularSpeed
     ) -> FrictionResult:
         """Friction at an axial load (N) and a screw speed (rad/s); arrays broadcast.
 
-        Array values are never refused: where they make no sense the result says so in its validity.
+        Array values are never refused: where they make no sense the result says so in its validity. Raises
+        :class:`~ballscrew.errors.InputError` where plain numbers overflow.
         """
         operation = Operation(axial_load=as_array(axial_load), screw_speed=as_array(screw_speed))
         raise_if_any(_misfits(operation))

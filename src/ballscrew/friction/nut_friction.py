@@ -34,6 +34,7 @@ from ballscrew.friction.validity import (
     input_mask,
     warning_records,
 )
+from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import AngularSpeed, Force, Info, Mask, Power, Pressure, Ratio, Torque
 from ballscrew.records import Record
 from ballscrew.solvers.four_point_slip import FlankPair, FourPointBall, four_point_slip
@@ -164,6 +165,7 @@ class NutFriction:
 
 
 @accepts_units("operation")
+@overflow_as_input_error()
 def nut_friction(
     model: FrictionModel,
     screw: BallScrew,

@@ -78,6 +78,7 @@ class BallLoads:
 
 
 @accepts_units("operation")
+@np.errstate(all="ignore")  # what is impossible is NaN
 def ball_loads(
     screw: BallScrew,
     nut: Nut,
