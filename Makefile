@@ -73,7 +73,7 @@ js: $(READY) $(NODE_READY)
 	cd tools/page && npm run --silent check
 
 docs: $(READY)
-	$(BIN)/sphinx-build -W --keep-going -q -b html docs out/docs
+	OPENBLAS_NUM_THREADS=1 $(BIN)/sphinx-build -W --keep-going -q -b html docs out/docs
 
 readme: $(READY)
 	$(BIN)/python docs/make_readme.py
