@@ -497,3 +497,20 @@ def test_a_log_without_load_that_a_description_follows_to_its_rounding():
     columns |= {"axial_load": np.zeros(60), "torque": 0.1 * np.sign(columns["screw_speed"])}
     (line,) = [line for line in fit(PAPER, SCREW, OIL, columns).warnings if "nearer to the log" in line]
     assert "is more than 100 times nearer to the log" in line
+
+
+def test_a_torque_whose_squares_are_zero():
+    """The misses of all descriptions are then zero, and have no ratio."""
+    columns = log(truth(), rows=60, **CALM)
+    found = fit(PAPER, SCREW, OIL, columns | {"torque": 1e-300 * columns["torque"]})
+    assert not found.estimates[FRICTION].identified
+    assert np.isfinite(found.estimates[FRICTION].value)
+
+
+@pytest.mark.parametrize("rows", [8, 50])
+def test_one_row_again_and_again_has_no_errors(rows):
+    """It is followed exactly: there are no residuals, and no covariance to take the root of."""
+    columns = {name: np.full(rows, values[0]) for name, values in log(truth(), **CALM).items()}
+    found = fit(PAPER, SCREW, OIL, columns | {"torque": np.full(rows, 2.7)})
+    assert not any(estimate.identified for estimate in found.estimates.values())
+    assert any(line.startswith("too few operating points for so many numbers") for line in found.warnings)

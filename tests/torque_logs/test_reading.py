@@ -5,6 +5,7 @@ import hashlib
 import numpy as np
 import pytest
 
+from ballscrew.tables import headings
 from ballscrew.tables.headings import heading_of
 from ballscrew.torque_logs.columns import COLUMNS
 from support.log_texts import EXPECTED, HEADINGS, ROWS, RPM, in_display_units, lines_of
@@ -54,6 +55,16 @@ from support.log_texts import EXPECTED, HEADINGS, ROWS, RPM, in_display_units, l
 def test_headings(written, name, unit):
     found = heading_of(written, 0, COLUMNS)
     assert (found.column.name if found else None, found.unit if found else "") == (name, unit)
+
+
+@pytest.mark.parametrize("cell", ["59.13 " * 200, "n " * 200, "n " * 100])
+def test_a_long_cell_is_no_heading_and_takes_no_time(cell, monkeypatch):
+    """Without a limit, the letters tried grow with the fourth power of the words."""
+    tried = []
+    bare = headings.bare
+    monkeypatch.setattr(headings, "bare", lambda name: tried.append(len(name)) or bare(name))
+    assert heading_of(cell, 0, COLUMNS) is None
+    assert sum(tried) < 1_000_000
 
 
 def test_a_log(read):

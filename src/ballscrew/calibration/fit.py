@@ -144,6 +144,9 @@ def fit(
         if degrees_of_freedom >= MINIMUM_DEGREES_OF_FREEDOM:
             spread = jackknife_covariance(problem, log.torque, groups, start, problem.scale, known.all)
             uncertainty = uncertainty.at_least(spread)
+    different = _different_rows(log, held_out) - solution.values.size
+    if different < MINIMUM_DEGREES_OF_FREEDOM:
+        degrees_of_freedom = min(different, degrees_of_freedom)
     one_sided = _one_sided(problem, solution, uncertainty, held_out, log)
     estimates = _estimates(problem, solution, one_sided, uncertainty, known, degrees_of_freedom)
     found = CalibratedModel(
@@ -230,6 +233,12 @@ def _held_out(log: TorqueLog, share: float, seed: int) -> NDArray[np.bool_]:
         cell, cells = np.arange(rows), rows
     chosen = np.random.default_rng(seed).permutation(cells)[: max(1, round(share * cells))]
     return np.isin(cell, chosen)
+
+
+def _different_rows(log: TorqueLog, held_out: NDArray[np.bool_]) -> int:
+    """The number of fitted rows that differ: one that is repeated tells nothing of the noise."""
+    rows = np.stack([log.axial_load, log.screw_speed, log.torque])[:, ~held_out]
+    return int(np.unique(rows, axis=1).shape[1])
 
 
 def _groups(log: TorqueLog, held_out: NDArray[np.bool_], parameters: int) -> NDArray[np.int64]:

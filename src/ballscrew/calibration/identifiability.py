@@ -175,6 +175,8 @@ class Uncertainty:
 
 def _at_least(one: Vector, other: Vector) -> Vector:
     """The first covariance, raised in every direction to at least the second."""
+    if not other.any():  # no residuals: as many numbers as rows, or rows followed exactly
+        return one
     root = np.linalg.cholesky(other + 1e-14 * np.trace(other) * np.eye(other.shape[0]))
     ratios, directions = np.linalg.eigh(np.linalg.solve(root, np.linalg.solve(root, one).T))
     back = root @ directions

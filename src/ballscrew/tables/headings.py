@@ -23,6 +23,8 @@ from ballscrew.tables.sheets import HEADINGS_WITHIN, Record
 
 #: Kinds of faults of headings.
 NEEDS_UNIT, SAME_MEANING, NO_COLUMN = "needs_unit", "same_meaning", "no_column"
+#: Letters of a heading at most: a longer cell is none, and is not looked at.
+LONGEST_HEADING = 200
 #: What stands for nothing in a cell.
 NOTHING = ("", "-", "–", "—")
 
@@ -66,6 +68,9 @@ class Column:
         if self.answers_to(text):
             return True
         hints = frozenset(map(bare, self.hints))
+        longest = max(map(len, self._names))
+        if len(bare(text)) > longest + max(longest, *map(len, hints), 0):
+            return False
         for word in list(_WORD.finditer(text))[1:]:
             halves = {bare(text[: word.start()]), bare(text[word.start() :])}
             if halves & self._names and halves <= self._names | hints:
@@ -101,7 +106,7 @@ def bare(name: str) -> str:
 
 def heading_of(cell: Any, place: int, columns: Sequence[Column]) -> Heading | None:
     """The heading that a cell is, with its unit; None where no column is meant."""
-    if not isinstance(cell, str) or not cell:
+    if not isinstance(cell, str) or not 0 < len(cell) <= LONGEST_HEADING:
         return None
     written = " ".join(cell.split())
     bracketed = _BRACKETED.fullmatch(written)
