@@ -33,6 +33,22 @@ def test_two_readings_in_turn_are_no_repeats():
     assert not repeated_rows([np.tile([1.0, 2.0], 500), np.ones(1000)]).any()
 
 
+def test_a_plan_measured_twice_with_few_digits_is_no_repeat():
+    load, speed = (values.reshape(-1) for values in np.meshgrid([1e3, 2e3, 4e3], [50.0, 100, 200, 400]))
+    columns = [np.tile(values, 2) for values in (load, speed, np.round(0.1 + 1e-4 * load + 1e-3 * speed, 2))]
+    assert not repeated_rows(columns).any()
+    assert not repeated_rows(columns, np.arange(24.0)).any()
+    assert repeated_rows(columns, np.arange(24.0) % 12).sum() == 12  # the same clock again: the file was appended
+
+
+def test_a_ripple_read_with_few_digits_is_no_repeat():
+    """At every turn of the balls the same readings, but for their noise."""
+    rows = np.arange(2000)
+    noise = np.random.default_rng(0).standard_normal(rows.size)
+    torque = np.round(0.5 + 0.05 * np.sin(2 * np.pi * rows / 20) + 0.002 * noise, 2)
+    assert not repeated_rows([np.full(rows.size, 1e3), np.full(rows.size, 50.0), torque], rows * 0.01).any()
+
+
 @pytest.mark.parametrize("readings", [coarse, strokes])
 def test_a_part_that_was_appended_again_is_found(readings):
     first = readings(0)

@@ -95,7 +95,7 @@ def without_repeats(log: Log) -> Log:
     """Without rows in sequences that occurred before: a log that was appended to itself counts once."""
     if not len(log):
         return log
-    again = repeated_rows([values for name, values in log.columns.items() if name != "time"])
+    again = repeated_rows([values for name, values in log.columns.items() if name != "time"], log.time)
     if not again.any():
         return log
     told = f"{np.count_nonzero(again)} of {len(log)} rows repeat earlier ones, one after the other: counted once"

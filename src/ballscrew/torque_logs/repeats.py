@@ -16,16 +16,20 @@ from ballscrew.torque_logs.motion import Floats
 
 #: The least number of rows in a repeated sequence that differ from each other.
 DISTINCT_ROWS = 10
+#: The least number of rows, beyond those of chance, of a repeated sequence that does not begin with a step back in time.
+LEAST_ROWS = 50
 #: Probability that chance repeats any sequence of a log.
 CHANCE = 1e-6
 
 
-def repeated_rows(columns: Sequence[Floats]) -> NDArray[np.bool_]:
+def repeated_rows(columns: Sequence[Floats], time: Floats | None = None) -> NDArray[np.bool_]:
     """The rows within sequences that occurred before, from columns of equal length.
 
     Two rows are alike with the probability ``c = Σ p²``, so that a sequence of ``ln(rows² / CHANCE) / ln(1 / c)`` rows
     is not repeated by chance. Readings of few digits that follow each other are alike more often than that: a sequence
-    also has so many distinct rows as :data:`DISTINCT_ROWS`.
+    also has so many distinct rows as :data:`DISTINCT_ROWS`. A test plan that is measured twice with few digits is no
+    repeat: where the clock does not step back at its begin, a sequence has at least :data:`LEAST_ROWS` rows more than
+    chance needs, and as many as a tenth of the rows that are no repeats.
     """
     keys = _hashed(np.stack([np.asarray(values, dtype=np.float64) for values in columns], axis=1))
     _, number, counts = np.unique(keys, return_inverse=True, return_counts=True)
@@ -40,11 +44,22 @@ def repeated_rows(columns: Sequence[Floats]) -> NDArray[np.bool_]:
     for place, factor in enumerate(_factors(length)):
         windows += factor * keys[place : place + windows.size]
     _, first, same = np.unique(windows, return_index=True, return_inverse=True)
-    for begin in np.flatnonzero(first[same.reshape(-1)] + length <= np.arange(windows.size)):
-        found[begin : begin + length] = True
-    edges = np.flatnonzero(np.diff(found, prepend=False, append=False))
-    for begin, end in edges.reshape(-1, 2):
-        found[begin:end] = np.unique(number.reshape(-1)[begin:end]).size >= DISTINCT_ROWS
+    earlier = first[same.reshape(-1)]
+    begins = np.flatnonzero(earlier + length <= np.arange(windows.size))
+    if not begins.size:
+        return found
+    # windows one after the other, all as far behind what they repeat
+    breaks = (np.diff(begins) != 1) | (np.diff(begins - earlier[begins]) != 0)
+    sequences = [(part[0], part[-1] + length, part.size) for part in np.split(begins, np.flatnonzero(breaks) + 1)]
+    repeated = np.zeros(keys.size, dtype=bool)
+    for begin, end, _ in sequences:
+        repeated[begin:end] = True
+    least = max(LEAST_ROWS, np.count_nonzero(~repeated) / 10)
+    for begin, end, size in sequences:
+        steps_back = time is not None and begin > 0 and time[begin] < time[begin - 1]
+        distinct = np.unique(number.reshape(-1)[begin:end]).size
+        if (steps_back or size >= least) and distinct >= DISTINCT_ROWS:
+            found[begin:end] = True
     return found
 
 
