@@ -186,6 +186,81 @@ def test_a_table_of_blocks_that_cannot_be_read_is_written_again(change, complete
     assert files(complete) == whole
 
 
+def test_a_folder_in_place_of_the_table_of_blocks(complete, swept, whole):
+    table = complete / ".ballscrew" / "blocks.csv"
+    table.unlink()
+    table.mkdir()
+    assert ".ballscrew/blocks.csv is damaged" in [str(damage) for damage in bs.verify(complete).damaged]
+    swept(complete)
+    assert files(complete) == whole
+
+
+def test_a_folder_in_place_of_a_row(unfinished, swept, whole, caplog):
+    marker = unfinished / ".ballscrew" / "blocks" / str(BLOCK)
+    marker.unlink()
+    marker.mkdir()
+    found = bs.verify(unfinished)
+    assert [(str(damage), damage.block) for damage in found.damaged] == [
+        (f".ballscrew/blocks/{BLOCK} is not a file", BLOCK)
+    ]
+    assert found.finished == 11
+    swept(unfinished)
+    assert f"1 block is computed again: .ballscrew/blocks/{BLOCK} is not a file" in caplog.text
+    assert files(unfinished) == whole
+
+
+def test_a_link_to_nothing_hides_no_other_row(unfinished):
+    marker = unfinished / ".ballscrew" / "blocks" / str(BLOCK)
+    marker.unlink()
+    marker.symlink_to(unfinished / "nowhere")
+    assert bs.verify(unfinished).finished == 11
+
+
+@pytest.mark.parametrize("name", [CHUNK, "efficiency/zarr.json", f".ballscrew/blocks/{BLOCK}"])
+def test_a_folder_with_content_in_place_of_a_file_is_refused(name, unfinished, swept):
+    """It may hold files of the user: it is named and not removed."""
+    removed(unfinished / name)
+    (unfinished / name).mkdir()
+    (unfinished / name / "thesis.tex").touch()
+    words = rf"has a folder in place of a file \({unfinished / name}\) · remove the folder and run the same again$"
+    with pytest.raises(bs.InputError, match=words):
+        swept(unfinished)
+    assert (unfinished / name / "thesis.tex").exists()
+
+
+WRONG_PLANS = {
+    "no format": {"format": None},
+    "no engine": {"engine": None},
+    "no attributes": {"attributes": None},
+    "no outputs": {"outputs": None},
+    "chunks of nothing": {"chunks": [0, 0, 0]},
+    "fewer chunks": {"chunks": [7]},
+    "shape of text": {"shape": "7 9 3"},
+}
+
+
+@pytest.mark.parametrize("kind", WRONG_PLANS)
+def test_a_plan_without_an_entry_is_damaged_although_its_digest_fits(kind, complete, swept):
+    from ballscrew.sweeps.store_plan import read_sealed, sealed
+
+    plan = complete / ".ballscrew" / "plan.json"
+    document = read_sealed("plan", plan.read_text(encoding="utf-8")) | WRONG_PLANS[kind]
+    plan.write_bytes(sealed("plan", {name: value for name, value in document.items() if value is not None}))
+    for act in (bs.verify, swept):
+        with pytest.raises(bs.InputError, match=r"has a damaged plan .*plan\.json"):
+            act(complete)
+
+
+@pytest.mark.parametrize("layout", [{"zarr.json": 5}, {"zarr.json": [1, 2, 3]}, []])
+def test_a_layout_of_another_form_is_damaged_although_its_digest_fits(layout, complete):
+    from ballscrew.sweeps.store_plan import sealed
+
+    (complete / ".ballscrew" / "layout.json").write_bytes(
+        sealed("layout", layout).replace(b'"layout":{}', b'"layout":[]')
+    )
+    assert [str(damage) for damage in bs.verify(complete).damaged] == [".ballscrew/layout.json is damaged"]
+
+
 def test_a_store_of_the_layout_before_is_refused(complete, swept):
     from ballscrew.sweeps.store_plan import read_sealed, sealed
 

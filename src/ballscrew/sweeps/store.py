@@ -94,7 +94,7 @@ class Store:
         folder = _checked(path, plan)
         refuse_unsafe(folder, trust=trust)
         stored = stored_plan(folder)
-        chosen = engine or (None if stored is None else stored["engine"])
+        chosen = engine or (None if stored is None else stored.get("engine"))
         try:
             evaluation = Evaluation.of(plan, chosen)
         except InputError as error:
@@ -109,7 +109,7 @@ class Store:
         blocks = Blocks.of(plan, block_size)
         engine_of = evaluation.attributes
         if stored is not None:  # the reason for the choice when the store was begun
-            engine_of |= {n: v for n, v in stored["attributes"].items() if n == "engine_reason"}
+            engine_of |= {n: v for n, v in stored.get("attributes", {}).items() if n == "engine_reason"}
         all_attributes = {**plan.attributes, **engine_of, **(attributes or {})}
         document = description_of(plan, blocks, all_attributes, engine=evaluation.engine, identity=evaluation.identity)
         store = cls(folder, plan, blocks, document)
@@ -178,7 +178,7 @@ class Store:
         of_blocks = contents.damaged_blocks(rows, checksums=True)
         others = contents.damaged_layout(checksums=True)
         if self.is_complete and (of_blocks or others):
-            (self.path / ROOT).replace(self.own / ROOT)  # nobody shall open it until it is repaired
+            (self.path / ROOT).replace(_free(self.own / ROOT))  # nobody shall open it until it is repaired
         if others:
             if not new and (rows or (self.own / LAYOUT).exists()):  # else a process was killed as it began
                 _log.warning("%s: written again: %s", self.path, _named(others))
@@ -199,11 +199,11 @@ class Store:
             place = self.path / member.name
             if member.name in self.variables:  # chunks that are there stay
                 place.mkdir(exist_ok=True)
-                (member / ROOT).replace(place / ROOT)
+                (member / ROOT).replace(_free(place / ROOT))
             else:
                 shutil.rmtree(place, ignore_errors=True)
                 member.replace(place)
-        (new / ROOT).replace(self.own / ROOT)
+        (new / ROOT).replace(_free(self.own / ROOT))
         self._put(self.own / LAYOUT, [sealed("layout", layout)])
 
     def finish(self) -> None:
@@ -252,7 +252,7 @@ class Store:
         key = self.contents.key(number, name)
         chunk = held.get(self.blocks.key(number))
         if chunk is None:  # of nothing but the fill value
-            (self.path / key).unlink(missing_ok=True)
+            _free(self.path / key).unlink(missing_ok=True)
             return Content.of(key, b"")
         content = chunk.as_numpy_array()
         self._put(self.path / key, [content])
@@ -284,7 +284,7 @@ class Store:
                 file.flush()
                 os.fsync(file.fileno())
             try:
-                temporary.replace(path)
+                temporary.replace(_free(path))
             except FileNotFoundError:
                 path.parent.mkdir(parents=True, exist_ok=True)
                 temporary.replace(path)
@@ -297,6 +297,19 @@ class Store:
     def opened(self) -> xr.Dataset:
         """The dataset of a complete store; values are read when they are asked for."""
         return xr.open_zarr(self.path, chunks=None, consolidated=True)[self.variables]
+
+
+def _free(path: Path) -> Path:
+    """The path of a file that is written or removed; an empty folder in its place is removed, another one refused."""
+    if path.is_dir() and not path.is_symlink():
+        try:
+            path.rmdir()
+        except OSError:
+            fault = Fault(
+                WHERE, "has a folder in place of a file", str(path), "remove the folder and run the same again"
+            )
+            raise InputError(fault) from None
+    return path
 
 
 def _checked(path: str | os.PathLike[str], plan: Plan) -> Path:

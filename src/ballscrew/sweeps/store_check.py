@@ -7,13 +7,13 @@ import dataclasses
 import itertools
 import os
 import stat
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 from ballscrew.errors import Fault, InputError
-from ballscrew.sweeps.store_plan import FORMAT, Blocks, read_sealed
+from ballscrew.sweeps.store_plan import FORMAT, Blocks, is_plan, read_sealed
 from ballscrew.sweeps.store_rows import BYTES, FALSE, OTHER, OWN, WHERE, Content, cells_of, row
 
 #: The metadata of the dataset, and of each variable.
@@ -100,7 +100,7 @@ def stored_plan(folder: Path) -> dict[str, Any] | None:
     except (OSError, ValueError) as error:
         raise InputError(Fault(WHERE, "cannot be read", f"{path}: {error}", OTHER)) from None
     document = read_sealed("plan", text)
-    if document is None:
+    if document is None or not is_plan(document):
         raise InputError(Fault(WHERE, "has a damaged plan", str(path), OTHER))
     return document
 
@@ -145,13 +145,30 @@ class Contents:
     def rows(self) -> dict[int, bytes]:
         """The rows of the finished blocks; damaged ones are left out."""
         found: dict[int, bytes] = {}
-        with contextlib.suppress(FileNotFoundError, NotADirectoryError), (self.own / "blocks.csv").open("rb") as file:
+        missing = FileNotFoundError, NotADirectoryError
+        with contextlib.suppress(*missing, IsADirectoryError), (self.own / "blocks.csv").open("rb") as file:
             next(file, None)
             self._add(found, file)
-        with contextlib.suppress(FileNotFoundError, NotADirectoryError):
-            for path in (self.own / "blocks").iterdir():
-                self._add(found, [path.read_bytes()], path.name)
+        for entry in self._entries():
+            if entry.is_file(follow_symlinks=False):
+                with contextlib.suppress(*missing):
+                    self._add(found, [Path(entry.path).read_bytes()], entry.name)
         return found
+
+    def _entries(self) -> Iterator[os.DirEntry[str]]:
+        """The entries of the folder with the rows of single blocks."""
+        with contextlib.suppress(FileNotFoundError, NotADirectoryError), os.scandir(self.own / "blocks") as entries:
+            yield from entries
+
+    def _rows_without_file(self) -> list[Damage]:
+        """The blocks with a folder or a link in place of the file of their row."""
+        return [
+            Damage(f"{OWN}/blocks/{entry.name}", "is not a file", int(entry.name))
+            for entry in self._entries()
+            if entry.name.isdecimal()
+            and int(entry.name) < self.blocks.count
+            and not entry.is_file(follow_symlinks=False)
+        ]
 
     def _add(self, found: dict[int, bytes], lines: Any, name: str | None = None) -> None:
         for line in lines:
@@ -177,7 +194,7 @@ class Contents:
                     found.append(Damage(key, problem, number))
             return found
 
-        numbers, damaged = list(rows), list[Damage]()
+        numbers, damaged = list(rows), self._rows_without_file()
         with ThreadPoolExecutor(READERS) as pool:
             for first in range(0, len(numbers), BATCH):  # a store may have millions
                 damaged += itertools.chain.from_iterable(pool.map(of_block, numbers[first : first + BATCH]))
@@ -196,10 +213,11 @@ class Contents:
     def damaged_layout(self, *, checksums: bool) -> list[Damage]:
         """The metadata and coordinates that are not as they were written."""
         try:
-            layout = read_sealed("layout", (self.own / LAYOUT).read_text(encoding="utf-8"))
+            document = read_sealed("layout", (self.own / LAYOUT).read_text(encoding="utf-8"))
+            layout = None if document is None else {key: Content(*noted) for key, noted in document.items()}
         except FileNotFoundError:
             return [Damage(f"{OWN}/{LAYOUT}", "is missing")]
-        except (OSError, ValueError):
+        except (OSError, ValueError, TypeError):
             layout = None
         if layout is None:
             return [Damage(f"{OWN}/{LAYOUT}", "is damaged")]
@@ -209,7 +227,7 @@ class Contents:
         for key, noted in layout.items():
             path = self.own / ROOT if key == ROOT and not self.is_complete else self.path / key
             # metadata are small; coordinates may be as long as an axis
-            problem = _problem(path, key, Content(*noted), checksums=checksums or path.name == ROOT)
+            problem = _problem(path, key, noted, checksums=checksums or path.name == ROOT)
             if problem:
                 found.append(Damage(key, problem))
         return found

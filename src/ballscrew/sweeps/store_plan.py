@@ -24,6 +24,8 @@ FORMAT = 2
 BLOCK_BYTES = 32_000_000
 #: Entries that differ as a consequence of others, and are reported only where no other differs.
 _CONSEQUENCES = ("shape", "chunks", "formulas", "package")
+#: Entries of a plan that are read, and their JSON types.
+_ENTRIES = {"engine": str, "attributes": dict, "axes": dict, "outputs": dict, "shape": list, "chunks": list}
 #: Digits of a digest that a message shows.
 _DIGITS_SHOWN = 12
 
@@ -163,9 +165,19 @@ def read_sealed(name: str, text: str) -> dict[str, Any] | None:
     """The document of a name in the text of a file; None where it is damaged."""
     with contextlib.suppress(ValueError, KeyError, TypeError):
         kept = json.loads(text)
-        if checksum(kept[name]) == kept["sha256"]:
+        if isinstance(kept[name], dict) and checksum(kept[name]) == kept["sha256"]:
             return kept[name]
     return None
+
+
+def is_plan(document: Mapping[str, Any]) -> bool:
+    """Return whether a document has the entries of a plan that are read; of another format, whether it tells which."""
+    if document.get("format") != FORMAT:
+        return "format" in document
+    if not all(isinstance(document.get(name), kind) for name, kind in _ENTRIES.items()):
+        return False
+    shape, chunks = document["shape"], document["chunks"]
+    return len(shape) == len(chunks) and all(type(length) is int and length > 0 for length in (*shape, *chunks))
 
 
 def differences(stored: Mapping[str, Any], wanted: Mapping[str, Any]) -> list[str]:

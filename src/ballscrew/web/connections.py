@@ -11,7 +11,7 @@ from typing import Any
 import h11
 import uvicorn
 from fastapi import FastAPI
-from uvicorn.protocols.http.h11_impl import H11Protocol
+from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 
 from ballscrew.errors import Fault
 from ballscrew.web import problems
@@ -83,16 +83,25 @@ class _TimeoutProtocol(H11Protocol):
         """True while the body of a request is incomplete."""
         return self.conn.their_state is h11.SEND_BODY
 
+    @property
+    def _cycle(self) -> RequestResponseCycle | None:
+        """The latest request and its response; None before the first, which the annotation of uvicorn leaves out."""
+        return self.cycle
+
     def send_400_response(self, msg: str) -> None:  # noqa: ARG002  (it only says that it is invalid)
         """Refuse what is not HTTP by a problem document."""
+        if cycle := self._cycle:  # the head of its request is valid and its body is not: it must not respond too
+            cycle.disconnected = True
+            cycle.message_event.set()
         if self.conn.our_state in (h11.IDLE, h11.SEND_RESPONSE):
+            is_head = self.conn.our_state is h11.SEND_RESPONSE and self.scope["method"] == "HEAD"
             fault = Fault("request", "is not HTTP, or its head is too long", "", f"{LONGEST_HEAD} bytes at most")
             found = problems.response(400, [fault])
             # no middleware sees this response
             found.headers.update({**self._headers, "Cache-Control": "no-store", "Connection": "close"})
             for event in (
                 h11.Response(status_code=400, headers=found.raw_headers, reason="Bad Request"),
-                h11.Data(data=bytes(found.body)),
+                h11.Data(data=b"" if is_head else bytes(found.body)),
                 h11.EndOfMessage(),
             ):
                 self.transport.write(self.conn.send(event) or b"")
