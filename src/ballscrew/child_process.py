@@ -5,12 +5,14 @@ The process starts from nothing, imports the module of the function and ends wit
 
 from __future__ import annotations
 
+import contextlib
 import os
 import pickle
 import signal
 import subprocess
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import TypeVar
 
 Result = TypeVar("Result")
@@ -44,7 +46,11 @@ def call(function: Callable[..., Result], *arguments: object, memory: int = MEMO
     time. Raises :class:`ChildError` if the function raises, the process crashes, or a limit is reached.
     """
     # it finds the same modules; one thread of BLAS, because each reserves address space
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path)), "OPENBLAS_NUM_THREADS": "1"}
+    environment = {
+        **os.environ,
+        "PYTHONPATH": os.pathsep.join(path or str(Path.cwd()) for path in sys.path),
+        "OPENBLAS_NUM_THREADS": "1",
+    }
     try:
         process = subprocess.run(
             [sys.executable, "-P", "-c", _PROGRAM],
@@ -92,4 +98,5 @@ def _limit(memory: int) -> None:
         return
     for name, limit in ((resource.RLIMIT_AS, memory), (resource.RLIMIT_CORE, 0)):
         _, most = resource.getrlimit(name)
-        resource.setrlimit(name, (limit if most == resource.RLIM_INFINITY else min(limit, most), most))
+        with contextlib.suppress(ValueError, OSError):  # some systems name limits that cannot be set
+            resource.setrlimit(name, (limit if most == resource.RLIM_INFINITY else min(limit, most), most))

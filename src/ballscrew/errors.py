@@ -167,11 +167,8 @@ def without_unit(where: str, value: Any, unit: str | None) -> Any | Fault:
         return Fault(where, "takes no unit", str(value), "give a plain number")
     try:
         return in_si(value, unit)
-    except (
-        TypeError,
-        ValueError,
-        AttributeError,
-    ) as error:  # of pint: a wrong dimension, an offset unit, an unknown one
+    # of pint: a wrong dimension, an offset unit, an unknown one
+    except (TypeError, ValueError, AttributeError) as error:
         remedy = "give a plain number" if unit == "1" else f"give a quantity in {unit}, or a plain number in {unit}"
         return Fault(where, "wrong unit", f"{value}: {error}", remedy)
 

@@ -108,12 +108,16 @@ def unit_of(annotation: object) -> str | None:
     return None
 
 
+#: Parts of the names of units that a speed of rotation has; 1/min and Hz leave open what is counted.
+_ANGLES = ("rad", "deg", "turn", "rev", "rpm", "rps", "cycle")
+
+
 def carries_unit(value: Any) -> bool:
     """Whether a value is a quantity of pint, or a sequence or an array of such quantities."""
     if isinstance(value, tuple) and hasattr(value, "_fields"):
         return False  # a part with fields, which is no sequence of numbers
     if isinstance(value, list | tuple) or (isinstance(value, np.ndarray) and value.dtype.kind == "O"):
-        return any(carries_unit(element) for element in value)
+        return any(carries_unit(element) for element in value if type(element) is not float)
     if isinstance(value, int | float | str | np.ndarray | np.generic):
         return False
     kind = type(value)
@@ -130,6 +134,8 @@ def in_si(value: Any, unit: str) -> Array:
         if not all(map(carries_unit, value)):
             raise ValueError("some of the numbers have a unit, others have none")
         return np.array([in_si(element, unit) for element in value])
+    if unit == "rad/s" and not any(angle in str(value.units) for angle in _ANGLES):
+        raise ValueError("could count radians or revolutions")
     return value.to(unit).magnitude
 
 

@@ -24,6 +24,16 @@ from ballscrew.uncertainty.bands import band_along
 from support.synthetic_logs import OIL
 
 U = pint.UnitRegistry()
+
+
+@pytest.mark.parametrize("unit", ["1/min", "Hz"])
+def test_a_speed_without_an_angle_is_refused(unit):
+    """Pint counts it in radians, a case file ``1/min`` in revolutions."""
+    with pytest.raises(bs.InputError, match="could count radians or revolutions"):
+        Operation(axial_load=1e3, screw_speed=U.Quantity(500.0, unit))
+    assert Operation(axial_load=1e3, screw_speed=U.Quantity(60.0, "rpm")).screw_speed == pytest.approx(2 * math.pi)
+
+
 SCREW = catalogue()["rexroth-40x10x6-6-double"].screw()
 MODEL = bs.FrictionModel.corrected()
 GRADE = bs.Lubricant.from_grade("ISO VG 100")

@@ -78,3 +78,15 @@ def test_a_position_needs_the_time_and_the_lead(tmp_path):
     assert lines_of(reading.read, path, lead=0.005) == [
         'log.csv column "Weg [mm]": gives no speed without the time · give a column with the time, or the speed'
     ]
+
+
+def test_long_rests_do_not_smooth_the_strokes():
+    """Most rows at rest: the width follows the speed of the strokes, not that of the noise."""
+    moves = np.tile(np.repeat([0.0, 0.05, 0.0, -0.05], [100, 40, 100, 40]), 5)
+    time = 0.01 * np.arange(moves.size)
+    position = np.cumsum(moves) * 0.01 + 1e-6 * np.random.default_rng(0).standard_normal(moves.size)
+    speed, _ = feed_rate(time, position)
+    middle = np.convolve(np.abs(moves) > 0, np.ones(21), "same") == 21
+    assert np.abs(speed[middle]) == pytest.approx(0.05, rel=0.02)
+    rest = np.convolve(np.abs(moves) > 0, np.ones(21), "same") == 0
+    assert np.max(np.abs(speed[rest])) < 5e-4

@@ -122,8 +122,8 @@ def _axes(torques: Axes, efficiencies: Axes, rows: Sequence[Row], lines: Sequenc
         tick.set_fontweight("bold" if line.row is None else "normal")
         tick.set_fontsize(_LABEL_SIZE)
     torques.set_ylim(len(lines) - 0.4, -0.6)
-    lowest = min((float(row.result.back_driving_efficiency) for row in rows), default=0.0)
-    lowest = max(lowest, 0.0) if math.isfinite(lowest) else 0.0
+    backward = [float(row.result.back_driving_efficiency) for row in rows]
+    lowest = max(min(filter(math.isfinite, backward), default=0.0), 0.0)
     efficiencies.set_xlim(max(0.0, 1.2 * lowest - 0.2), 1.0)
     efficiencies.set_xlabel("efficiency η")
     for panel in (torques, efficiencies):

@@ -7,6 +7,7 @@ from importlib import resources
 from pathlib import Path
 
 from ballscrew import child_process
+from ballscrew.errors import Fault, InputError
 from ballscrew.report import typesetting
 from ballscrew.report.blocks import Report, as_data
 
@@ -16,10 +17,14 @@ def pdf_bytes(report: Report) -> bytes:
 
     The texts go in as data, never as markup: nothing in them is obeyed. Nothing is read or fetched but the fonts that
     come with the packages. It is set in a process of its own: Typst keeps 10 MB of memory for each of the last reports.
+    Raises :class:`~ballscrew.errors.InputError` where that process reaches its limits.
     """
     import matplotlib as mpl
 
     template = resources.files("ballscrew.report").joinpath("templates", "report.typ").read_text(encoding="utf-8")
     fonts = Path(mpl.get_data_path()) / "fonts" / "ttf"
     data = json.dumps(as_data(report), ensure_ascii=False, sort_keys=True)
-    return child_process.call(typesetting.pdf, template, data, str(fonts))
+    try:
+        return child_process.call(typesetting.pdf, template, data, str(fonts))
+    except child_process.ChildError as error:
+        raise InputError(Fault("report", "cannot be set as a PDF", str(error), "write .html instead")) from error

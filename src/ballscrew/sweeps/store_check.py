@@ -49,11 +49,13 @@ class Verification:
     finished: int
     #: The files that are not as they were written.
     damaged: tuple[Damage, ...]
+    #: True after the sweep has ended in order: only then the store can be opened.
+    is_complete: bool
 
     @property
     def holds(self) -> bool:
         """Return whether the store is complete and nothing is damaged."""
-        return self.finished == self.blocks and not self.damaged
+        return self.is_complete and self.finished == self.blocks and not self.damaged
 
 
 def verify(store: str | os.PathLike[str]) -> Verification:
@@ -74,7 +76,7 @@ def verify(store: str | os.PathLike[str]) -> Verification:
     contents = Contents.of(path, document)
     rows = contents.rows()
     damaged = (*contents.damaged_layout(checksums=True), *contents.damaged_blocks(rows, checksums=True))
-    return Verification(path, contents.blocks.count, len(rows), damaged)
+    return Verification(path, contents.blocks.count, len(rows), damaged, contents.is_complete)
 
 
 def stored_plan(folder: Path) -> dict[str, Any] | None:

@@ -8,6 +8,8 @@ from ballscrew.torque_logs.motion import Floats
 
 #: Numbers of rows on either side that a line goes through.
 _HALF_WIDTHS = (1, 2, 4, 8, 16, 32, 64)
+#: Quantile of the speeds that stands for motion: a log may rest most of its time.
+_FAST = 0.95
 #: The noise of the speed, as a share of a typical speed, for which no wider line is taken.
 _NOISE_SHARE = 0.01
 #: A step of time so many times the usual one is a gap: no line crosses it.
@@ -39,7 +41,7 @@ def _slopes(t: Floats, x: Floats) -> tuple[Floats, int]:
     usual = float(np.median(step[step > 0])) if (step > 0).any() else np.inf
     part = np.concatenate([[0], np.cumsum((step < 0) | (step > _GAP * usual))])
     noise = _SECOND_DIFFERENCE * float(np.median(np.abs(np.diff(x, 2))))
-    typical = float(np.median(np.abs(np.diff(x)))) / usual
+    typical = float(np.quantile(np.abs(np.diff(x)), _FAST)) / usual
     width = _HALF_WIDTHS[0]
     for width in _HALF_WIDTHS:
         rows = 2 * width + 1

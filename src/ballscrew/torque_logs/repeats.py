@@ -16,7 +16,7 @@ from ballscrew.torque_logs.motion import Floats
 
 #: The least number of rows in a repeated sequence that differ from each other.
 DISTINCT_ROWS = 10
-#: The least number of rows, beyond those of chance, of a repeated sequence that does not begin with a step back in time.
+#: The least number of rows, beyond those of chance, of a repeated sequence that no step back in time begins.
 LEAST_ROWS = 50
 #: Probability that chance repeats any sequence of a log.
 CHANCE = 1e-6
