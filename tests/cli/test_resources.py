@@ -34,7 +34,7 @@ def case(tmp_path):
 
 @pytest.mark.parametrize("balls", ["100000", "1" + 99 * "0", "1e99"])
 def test_balls_without_number(ballscrew, case, balls):
-    one_line(ballscrew("run", case("loaded_balls = 75", f"loaded_balls = {balls}", NUT)), "must be at most 1e+04")
+    one_line(ballscrew("run", case("loaded_balls = 75", f"loaded_balls = {balls}", NUT)), "must be at most 10000")
 
 
 def test_more_balls_than_can_be_solved_one_by_one(ballscrew, case):
