@@ -191,7 +191,6 @@ class FrictionModel(ByValue):
         )
 
     @accepts_units("operation")
-    @overflow_as_input_error()
     def __call__(
         self, screw: BallScrew, lubricant: Lubricant, *, axial_load: Force, screw_speed: AngularSpeed
     ) -> FrictionResult:
@@ -202,7 +201,7 @@ class FrictionModel(ByValue):
         """
         operation = Operation(axial_load=as_array(axial_load), screw_speed=as_array(screw_speed))
         raise_if_any(_misfits(operation))
-        with np.errstate(all="ignore"):
+        with overflow_as_input_error(), np.errstate(all="ignore"):
             return self._evaluate(screw, lubricant, operation)
 
     @property

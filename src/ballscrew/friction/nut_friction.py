@@ -165,7 +165,6 @@ class NutFriction:
 
 
 @accepts_units("operation")
-@overflow_as_input_error()
 def nut_friction(
     model: FrictionModel,
     screw: BallScrew,
@@ -200,7 +199,7 @@ def nut_friction(
         lubricant=_per_ball(lubricant),
         screw_speed=_per_ball(operation.screw_speed),
     )
-    with np.errstate(all="ignore"):
+    with overflow_as_input_error(), np.errstate(all="ignore"):
         balls = _on_four_contacts(ball, loads) if four else _on_two_contacts(ball, loads)
         all_balls = dataclasses.replace(screw, loaded_balls=np.sum(loads.balls, axis=-1)[()])
         further = {name: law(all_balls, lubricant, operation.screw_speed) for name, law in (losses or {}).items()}
