@@ -16,7 +16,7 @@ from ballscrew._version import __version__ as __version__
 with open(f"{__file__}i", encoding="utf-8") as _stub:  # noqa: PTH123  (pathlib is slow to load)
     _MODULES = {words[3]: words[1] for line in _stub if (words := line.split()) and words[0] == "from"}
 
-__all__ = sorted(_MODULES)  # pyright: ignore[reportUnsupportedDunderAll]
+__all__ = sorted(_MODULES)  # pyright: ignore[reportUnsupportedDunderAll]  (read from the stub)
 
 
 def __getattr__(name: str) -> Any:

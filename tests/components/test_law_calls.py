@@ -149,7 +149,7 @@ def test_what_a_law_returns_is_checked(slot, returned, said, seed_screw, seed_oi
 
     model = dataclasses.replace(REFERENCE, **{slot: returns})
     with pytest.raises(bs.InputError, match=said):
-        model(seed_screw, seed_oil, axial_load=[1000.0, 2000.0, 3000.0], screw_speed=60.0).drive_torque  # noqa: B018
+        model(seed_screw, seed_oil, axial_load=[1000.0, 2000.0, 3000.0], screw_speed=60.0).drive_torque  # noqa: B018  (read)
     with pytest.raises(bs.InputError, match=said):
         bs.sweep(model, seed_screw, seed_oil, axial_load=[1000.0, 2000.0, 3000.0], screw_speed=60.0)
 

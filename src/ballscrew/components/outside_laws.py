@@ -62,6 +62,7 @@ class _Checked:
             found = self.call(*arguments)
         except Exception as error:  # named and raised again, whatever it is
             error.add_note(f"raised by the law model.{self.slot} = {name_of(self.law)}")
+            # an attribute of our own on an error of anybody
             error.raised_by_law = f"model.{self.slot}: {name_of(self.law)}"  # pyright: ignore[reportAttributeAccessIssue]
             raise
         problem = self._problem(found, arguments)

@@ -45,6 +45,7 @@ Contact = model(
 )
 _OF_NUT = quantities_of(NutFriction)
 _RESULTS = {n: q for n, q in {**_OF_NUT, **quantities_of(FrictionResult)}.items() if n not in fields_of(Operation)}
+# Models made by ``create_model`` are variables to a type checker: where they are used as types, it is silenced.
 #: Results of one row of equal balls, and of a whole nut.
 _ALWAYS = {name: q for name, q in _RESULTS.items() if name in _OF_NUT and name in (*SHOWN, *MASKS, "holding_torque")}
 Results = model(
