@@ -82,7 +82,7 @@ class lazy(cached_property[T]):
 
 
 def same(one: Any, other: Any) -> bool:
-    """Whether two values are one object, equal plain values, equal NumPy arrays, or dataclasses of such values.
+    """Return whether two values are one object, equal plain values, equal NumPy arrays, or dataclasses of such values.
 
     Values of other libraries, which may not be known yet, are the same only if they are one object.
     """

@@ -113,7 +113,7 @@ _ANGLES = ("rad", "deg", "turn", "rev", "rpm", "rps", "cycle")
 
 
 def carries_unit(value: Any) -> bool:
-    """Whether a value is a quantity of pint, or a sequence or an array of such quantities."""
+    """Return whether a value is a quantity of pint, or a sequence or an array of such quantities."""
     if isinstance(value, tuple) and hasattr(value, "_fields"):
         return False  # a part with fields, which is no sequence of numbers
     if isinstance(value, list | tuple) or (isinstance(value, np.ndarray) and value.dtype.kind == "O"):

@@ -98,7 +98,7 @@ class Response:
         return dataclasses.replace(self, evaluation=self.evaluation.at(rows))
 
     def fits(self, values: NDArray[np.float64]) -> bool:
-        """Whether the parts accept these values of the free numbers."""
+        """Return whether the parts accept these values of the free numbers."""
         try:
             self.evaluation.plan.subject.changed(dict(zip(self.names, values.tolist(), strict=True)))
         except InputError:

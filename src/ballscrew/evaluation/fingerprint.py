@@ -264,7 +264,7 @@ class _Visit:
         return name.encode() + self._digest(value)
 
     def _of_module(self, module: types.ModuleType, names: Iterable[str]) -> bytes:
-        """What code names in a module; of a library all of it."""
+        """Names of a module that code reads; of a library all of it."""
         if origin(module) == "library":
             return library(module.__name__).encode()
         space = vars(module)

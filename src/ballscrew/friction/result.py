@@ -266,7 +266,7 @@ class FrictionResult:
 
     @lazy
     def power_imbalance(self) -> Ratio:
-        """What the torque takes up beyond what the parts dissipate, as a share of the latter; zero in equilibrium.
+        """Power of the torque beyond what the parts dissipate, as a share of the latter; zero in equilibrium.
 
         NaN at rest. The printed reactions of Olaru2005 leave a part of the sliding forces out.
         """

@@ -236,7 +236,7 @@ class Contents:
 
 
 def _problem(path: Path, key: str, noted: Content, *, checksums: bool) -> str:
-    """What is wrong with a file; a chunk of nothing but the fill value has no bytes and no file."""
+    """Problem of a file; a chunk of nothing but the fill value has no bytes and no file."""
     try:
         state = path.lstat()
         if not stat.S_ISREG(state.st_mode):
