@@ -119,7 +119,7 @@ def of_nested_code(scale):
 
 
 def module_of(source, **values):
-    module = types.ModuleType("laws_of_a_test")
+    module = types.ModuleType("module_held_by_a_law")
     module.__dict__.update(values, np=np)
     exec(source, module.__dict__)
     return module
