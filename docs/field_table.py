@@ -14,7 +14,8 @@ from ballscrew.cases.nut_kinds import ENDS, LISTED, LOSSES, NUTS
 from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.materials import Lubricant, Material, grades
 from ballscrew.components.nut import Bodies
-from ballscrew.components.screw import MATERIALS, BallScrew, Operation
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.nut_parts import Scatter
 from ballscrew.quantities import Quantity, fields_of
@@ -26,7 +27,7 @@ PARTS = {
     "[screw]": BallScrew,
     ", ".join(f"[screw.{name}]" for name in MATERIALS): Material,
     "[lubricant]": Lubricant,
-    "[operation]": Operation,
+    "[operation]": OperatingState,
     "[model]": FrictionModel,
     **{f'[nut] type = "{kind}"': cls for kind, cls in NUTS.items()},
     "[bodies]": Bodies,

@@ -7,7 +7,7 @@ from pathlib import Path
 from ballscrew.cases import case_file
 from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.components.nut import DoubleNut, Nut, OversizeBallNut
-from ballscrew.components.screw import Operation
+from ballscrew.components.operating_state import OperatingState
 from ballscrew.figures import band as figures
 from ballscrew.figures import style
 from ballscrew.friction.calibrations import calibrated, calibration
@@ -93,7 +93,7 @@ def _case(model: FrictionModel, values: Values, nut: type[Nut], percent: int) ->
         model=model,
         screw=screw_of(values).screw(),
         lubricant=at.lubricant,
-        operation=Operation(axial_load=0.0, screw_speed=at.screw_speed),
+        operation=OperatingState(axial_load=0.0, screw_speed=at.screw_speed),
         sweep={},
         oil={"grade": at.grade, "temperature": at.temperature},
         parts=NutParts(nut=nut(preload=percent / 100 * values["dynamic_load_rating"])),

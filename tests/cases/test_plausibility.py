@@ -14,7 +14,8 @@ from ballscrew.cases import case_file
 from ballscrew.components.catalogue import catalogue
 from ballscrew.components.laws import Hysteresis
 from ballscrew.components.materials import grades
-from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.screw import BallScrew
 from ballscrew.friction.model import presets
 from ballscrew.friction.plausibility import IMPLAUSIBLE, implausible, named_parts
 from ballscrew.quantities import fields_of, quantities_of
@@ -131,7 +132,7 @@ def test_no_default_and_no_preset_is_implausible():
 
 
 def test_the_usual_range_lies_within_the_bounds():
-    for part in (BallScrew, bs.Lubricant, bs.Material, Operation, Hysteresis, bs.DoubleNut, type(FRICTION)):
+    for part in (BallScrew, bs.Lubricant, bs.Material, OperatingState, Hysteresis, bs.DoubleNut, type(FRICTION)):
         for quantity in fields_of(part).values():
             low, high = quantity.info.usual or (0.0, 1.0)
             bounds = [quantity.info.above, quantity.info.at_least, quantity.info.below, quantity.info.at_most]

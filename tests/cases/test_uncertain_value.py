@@ -10,7 +10,7 @@ import ballscrew as bs
 from ballscrew.cases import case_file, schema, uncertain_inputs
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.components.mixed_friction import LoadSharing
-from ballscrew.components.screw import Operation
+from ballscrew.components.operating_state import OperatingState
 from ballscrew.errors import Fault, InputError
 from ballscrew.quantities import fields_of
 from ballscrew.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
@@ -44,8 +44,8 @@ MEANT = [
     ("313.15 ± 5 K", TEMPERATURE, normal(313.15, 5.0)),
     ("104 ± 9 degF", TEMPERATURE, normal(313.15, 5.0)),
     ("uniform(0.52, 0.56)", SCREW["screw_conformity"], (0.54, Uniform(0.52, 0.56))),
-    ("Uniform (500, 700) rpm", fields_of(Operation)["screw_speed"], (600 * RPM, Uniform(500 * RPM, 700 * RPM))),
-    ("uniform(500 rpm, 700 rpm)", fields_of(Operation)["screw_speed"], (600 * RPM, Uniform(500 * RPM, 700 * RPM))),
+    ("Uniform (500, 700) rpm", fields_of(OperatingState)["screw_speed"], (600 * RPM, Uniform(500 * RPM, 700 * RPM))),
+    ("uniform(500 rpm, 700 rpm)", fields_of(OperatingState)["screw_speed"], (600 * RPM, Uniform(500 * RPM, 700 * RPM))),
     ("uniform(20, 60 degC)", TEMPERATURE, (313.15, Uniform(293.15, 333.15))),
     ("normal(40 mm, 0.1 mm)", SCREW["pitch_circle_diameter"], (0.040, Normal(0.040, 1e-4))),
     ("normal(40, 0.1) mm", SCREW["pitch_circle_diameter"], (0.040, Normal(0.040, 1e-4))),

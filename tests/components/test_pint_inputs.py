@@ -14,7 +14,7 @@ import ballscrew as bs
 from ballscrew.components import nut_losses
 from ballscrew.components.catalogue import catalogue
 from ballscrew.components.installation import Ends, Installation, Limits
-from ballscrew.components.screw import Operation
+from ballscrew.components.operating_state import OperatingState
 from ballscrew.friction.law_names import LAWS
 from ballscrew.friction.nut_parts import NutParts, Scatter
 from ballscrew.quantities import fields_of
@@ -30,8 +30,8 @@ U = pint.UnitRegistry()
 def test_a_speed_without_an_angle_is_refused(unit):
     """Pint counts it in radians, a case file ``1/min`` in revolutions."""
     with pytest.raises(bs.InputError, match="could count radians or revolutions"):
-        Operation(axial_load=1e3, screw_speed=U.Quantity(500.0, unit))
-    assert Operation(axial_load=1e3, screw_speed=U.Quantity(60.0, "rpm")).screw_speed == pytest.approx(2 * math.pi)
+        OperatingState(axial_load=1e3, screw_speed=U.Quantity(500.0, unit))
+    assert OperatingState(axial_load=1e3, screw_speed=U.Quantity(60.0, "rpm")).screw_speed == pytest.approx(2 * math.pi)
 
 
 SCREW = catalogue()["rexroth-40x10x6-6-double"].screw()
@@ -49,7 +49,7 @@ PARTS = [
     MODEL,
     bs.Material(),
     catalogue()["rexroth-40x10x6-6-double"],
-    Operation(**POINT),
+    OperatingState(**POINT),
     Installation(unsupported_length=1.0, ends=Ends.FIXED_FREE),
     Limits(running_time=3600.0),
     bs.SingleNut(1e-5),

@@ -6,11 +6,12 @@ import pytest
 
 from ballscrew import units
 from ballscrew.components.materials import TEMPERATURE, Lubricant
-from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault
 from ballscrew.quantities import quantities_of
 
-KNOWN = {**quantities_of(BallScrew), **quantities_of(Lubricant), **quantities_of(Operation), "temperature": TEMPERATURE}
+KNOWN = {**quantities_of(BallScrew), **quantities_of(Lubricant), **quantities_of(OperatingState), "temperature": TEMPERATURE}
 
 
 @pytest.mark.parametrize(

@@ -83,9 +83,9 @@ class Response:
         ``times`` says how often the whole will be evaluated. Raises :class:`~ballscrew.errors.InputError` for
         a law that cannot be recorded, and for values that are refused.
         """
-        if subject.nut is not None:
-            remedy = "leave out [nut] and what belongs to it: its balls are fitted as those of a single nut"
-            raise_if_any([Fault("fit", "knows no whole nuts", "", remedy)])
+        if subject.nut.one_by_one:
+            remedy = "leave out [bodies] and [deviations]: balls that differ are not fitted"
+            raise_if_any([Fault("fit", "knows no nuts whose balls differ", "", remedy)])
         start = np.array([initial_value(subject, name) for name in names])
         rows = {name: xr.DataArray(values, dims="row") for name, values in points.items()}
         held = dict(zip(names, start.tolist(), strict=True))

@@ -11,10 +11,11 @@ from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.components.catalogue import CatalogueRow
 from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.components.nut import Nut
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.screw import BallScrew
 from ballscrew.friction.calibrations import Calibration
 from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.nut_parts import NutParts
 from ballscrew.friction.plausibility import implausible, named_parts
 from ballscrew.records import Record
 from ballscrew.uncertainty.distributions import Distribution
@@ -44,7 +45,7 @@ class Case:
     model: FrictionModel
     screw: BallScrew
     lubricant: Lubricant
-    operation: Operation
+    operation: OperatingState
     sweep: Mapping[str, str]
     #: Grade and temperature the oil was made from, where it was.
     oil: Mapping[str, Any]
@@ -52,8 +53,6 @@ class Case:
     row: CatalogueRow | None = None
     #: Load ratings and root diameter, where a catalogue or the case lists them.
     listed: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
-    #: The nut with its preload, bodies and losses; without one the screw is only its loaded balls.
-    parts: NutParts | None = None
     installation: Installation | None = None
     limits: Limits = USUAL_LIMITS
     #: Numbers that were derived from others.
@@ -68,8 +67,13 @@ class Case:
     #: The table ``[calibration]`` that a fit wrote beside its numbers, as it stands in the file.
     fit: Mapping[str, Any] = dataclasses.field(default_factory=dict[str, Any])
 
+    @property
+    def nut(self) -> Nut | None:
+        """The nut with its preload, bodies and losses; None for a row of equal balls and nothing else."""
+        nut = self.screw.nut
+        return None if nut.is_row and not nut.losses else nut
+
     def implausible(self) -> list[Record]:
         """A warning for each input that no ball screw has."""
-        nut = {} if self.parts is None else self.parts.by_section(self.screw)
-        parts = named_parts(self.model, self.screw, self.lubricant, operation=self.operation, **nut)
+        parts = named_parts(self.model, self.screw, self.lubricant, operation=self.operation)
         return units.in_display_units_of(implausible(parts))

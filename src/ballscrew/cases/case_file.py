@@ -31,14 +31,15 @@ from ballscrew.cases.sections import Sections, validated_sections
 from ballscrew.components.catalogue import CatalogueRow
 from ballscrew.components.installation import Installation
 from ballscrew.components.materials import Lubricant, Material
-from ballscrew.components.screw import MATERIALS, BallScrew, Operation
+from ballscrew.components.nut import Nut
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.components.traits import traits_of
 from ballscrew.errors import MISSING, Fault, InputError, closest, nearest, raise_if_any
 from ballscrew.files import read_bytes
 from ballscrew.friction.calibrations import calibrated, calibration
 from ballscrew.friction.law_names import coefficients
 from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.nut_parts import NutParts
 from ballscrew.quantities import fields_of
 from ballscrew.units import in_display_units
 
@@ -167,15 +168,15 @@ def build(
     fit = tables.get("calibration", {})
     if not isinstance(fit, dict):
         faults.append(Fault("calibration", "must be a table", str(fit), "leave it as ballscrew fit wrote it"))
-    parts, notes = nut_tables.nut_parts(sections, *made, faults)
+    nut, notes = nut_tables.nut_of(sections, *made, faults)
     mounted = nut_tables.installation(sections, faults) if "installation" in sections else None
     limits = nut_tables.limits(sections, faults) if "limits" in sections else USUAL_LIMITS
-    screw = made.screw
+    screw = made.screw if made.screw is None or nut is None else dataclasses.replace(made.screw, nut=nut)
     if faults or screw is None or lubricant is None or operation is None or friction_model is None:
         raise InputError(*faults)
     calibrated_by = tables.get("model", {}).get("calibration")
     return Case(
-        friction_model, screw, lubricant, operation, sweep, oil, made.row, made.listed, parts, mounted, limits, notes,
+        friction_model, screw, lubricant, operation, sweep, oil, made.row, made.listed, mounted, limits, notes,
         *uncertain_inputs.parse_distributions(tables, friction_model, screw, lubricant),
         None if calibrated_by is None else calibration(calibrated_by),
         fit,
@@ -249,10 +250,10 @@ def _lubricant(sections: Sections, faults: list[Fault]) -> tuple[Lubricant | Non
     return dataclasses.replace(oil, **values), made_from
 
 
-def _operation(sections: Sections, faults: list[Fault]) -> Operation | None:
+def _operation(sections: Sections, faults: list[Fault]) -> OperatingState | None:
     before = len(faults)
     values = sections.values_of("operation", faults)
-    return Operation(**values) if len(faults) == before else None
+    return OperatingState(**values) if len(faults) == before else None
 
 
 def _model(sections: Sections, chosen: str | None, faults: list[Fault], code: Path | None) -> FrictionModel | None:
@@ -331,19 +332,21 @@ def inputs(case: Case) -> dict[str, Any]:
             **_numbers(model),
             **{slot: _law(slot, getattr(model, slot)) for slot in LAWS},
         },
-        **({} if case.parts is None else _inputs_of_nut(case.parts, case.screw)),
+        **({} if case.nut is None else _inputs_of_nut(case.nut, case.screw)),
         **({} if case.installation is None else {"installation": _mounting(case.installation)}),
         **({} if case.limits is USUAL_LIMITS else {"limits": _numbers(case.limits)}),
     }
 
 
-def _inputs_of_nut(parts: NutParts, screw: BallScrew) -> dict[str, Any]:
-    bodies = parts.bodies_of(screw)
+def _inputs_of_nut(nut: Nut, screw: BallScrew) -> dict[str, Any]:
+    bodies = None if nut.bodies is None else nut.bodies.sized(screw)
+    scatter = nut.parts.get("deviations")
+    own = {name: value for name, value in _numbers(nut).items() if value is not None}
     return {
-        "nut": {"type": kind_of(parts.nut), **_numbers(parts.nut)},
+        "nut": {"type": kind_of(nut), **own},
         **({} if bodies is None else {"bodies": {**_numbers(bodies), "same_side": bodies.same_side}}),
-        **({} if parts.scatter is None else {"deviations": _numbers(parts.scatter)}),
-        **({"losses": {slot: _law(slot, law) for slot, law in parts.losses.items()}} if parts.losses else {}),
+        **({} if scatter is None else {"deviations": _numbers(scatter)}),
+        **({"losses": {slot: _law(slot, law) for slot, law in nut.losses.items()}} if nut.losses else {}),
     }
 
 

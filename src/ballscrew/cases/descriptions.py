@@ -10,17 +10,18 @@ from ballscrew.cases.nut_kinds import LOSSES, kind_of
 from ballscrew.cases.schema import LAWS, MODELS, name_of_law
 from ballscrew.components.contact import RaceState
 from ballscrew.components.materials import TEMPERATURE, Lubricant
-from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.components.nut import Bodies, Nut
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.screw import BallScrew
 from ballscrew.components.traits import traits_of
 from ballscrew.friction.law_names import coefficients
-from ballscrew.friction.nut_parts import NutParts
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import fields_of, quantities_of
 
 #: Temperature of an oil of a grade where none is given, K.
 DEFAULT_TEMPERATURE = 313.15
 LEFT_OUT, NOT_COMPARED = "left out: seals, preload, return path, churning", "not compared with measurements"
-_OPERATION = fields_of(Operation)
+_OPERATION = fields_of(OperatingState)
 _BALL_FORCE = quantities_of(FrictionResult)["ball_to_ball_force"]
 _LOSSES = {"seals": "seals", "churning": "churning", "recirculation": "return path"}
 
@@ -36,7 +37,7 @@ def operating_point_and_nut(case: Case) -> str:
 
 
 def _load_speed_and_nut(case: Case) -> list[str]:
-    return [operating_point(case), *([] if case.parts is None else [nut_text(case.parts)])]
+    return [operating_point(case), *([] if case.nut is None else [nut_text(case.nut)])]
 
 
 def operating_point(case: Case) -> str:
@@ -44,15 +45,15 @@ def operating_point(case: Case) -> str:
     return ", ".join(units.shown(getattr(case.operation, name), q) for name, q in _OPERATION.items())
 
 
-def nut_text(parts: NutParts) -> str:
+def nut_text(nut: Nut) -> str:
     """``double nut, preload 5047 N``."""
-    known = fields_of(parts.nut)
+    known = fields_of(nut)
     numbers = [
-        f", {name.replace('_', ' ')} {units.shown(getattr(parts.nut, name), known[name])}"
+        f", {name.replace('_', ' ')} {units.shown(value, known[name])}"
         for name in known
-        if name == "preload" or getattr(parts.nut, name)
+        if (value := getattr(nut, name)) is not None and (name == "preload" or value)
     ]
-    return f"{kind_of(parts.nut)} nut{''.join(numbers)}"
+    return f"{kind_of(nut)} nut{''.join(numbers)}"
 
 
 def model_text(case: Case) -> str:
@@ -97,14 +98,14 @@ def design(case: Case, plain_text: bool = False) -> str:
 def assumptions(case: Case, ball_to_ball_force: float | None = None) -> list[str]:
     """Inputs that are seldom given and on which the result depends."""
     common = common_assumptions(case, ball_to_ball_force)
-    if case.parts is None:
+    if case.nut is None:
         return [*common, *without_preload(case)]
     bodies = (
         "screw and nut rigid between the balls"
-        if case.parts.bodies is None
-        else "screw and nut elastic" + ("" if case.parts.bodies else ", of a usual size")
+        if case.nut.bodies is None
+        else "screw and nut elastic" + (", of a usual size" if _of_usual_size(case.nut.bodies) else "")
     )
-    return [*common, bodies, *map(str, case.notes), *_against_vendors(case, case.parts)]
+    return [*common, bodies, *map(str, case.notes), *_against_vendors(case, case.nut)]
 
 
 def common_assumptions(case: Case, ball_to_ball_force: float | None = None) -> list[str]:
@@ -141,14 +142,18 @@ def _between_balls(case: Case, force: float | None) -> str:
 def without_preload(case: Case) -> list[str]:
     """The nut that is missing where the row of a preloaded nut is computed without one."""
     kind = "" if case.row is None else case.row.nut
-    if case.parts is not None or kind in ("", "single"):
+    if case.nut is not None or kind in ("", "single"):
         return []
     return [f'without preload: the row is a {kind} nut, and none is given; add type = "{kind}" and a preload to [nut]']
 
 
-def _against_vendors(case: Case, parts: NutParts) -> list[str]:
+def _of_usual_size(bodies: Bodies) -> bool:
+    return all(getattr(bodies, name) is None for name in fields_of(bodies))
+
+
+def _against_vendors(case: Case, nut: Nut) -> list[str]:
     """The first result of ``ballscrew validate``, where it concerns the case."""
-    if not getattr(parts.nut, "preload", 0.0) or case.calibration is not None or case.fit:
+    if not getattr(nut, "preload", 0.0) or case.calibration is not None or case.fit:
         return []
     return [
         "vendors state more torque of preloaded nuts without load than the model as it is (ballscrew validate), "
@@ -159,8 +164,8 @@ def _against_vendors(case: Case, parts: NutParts) -> list[str]:
 def left_out(case: Case) -> str:
     """Losses that are not in the torque; of a case without a fit also that it was not compared with measurements."""
     losses = LEFT_OUT
-    if case.parts is not None:
-        missing = [_LOSSES[slot] for slot in LOSSES if slot not in case.parts.losses]
+    if case.nut is not None:
+        missing = [_LOSSES[slot] for slot in LOSSES if slot not in case.nut.losses]
         losses = f"left out: {', '.join(missing)}" if missing else ""
     return "; ".join(filter(None, [losses, "" if case.fit.get("log") else NOT_COMPARED]))
 

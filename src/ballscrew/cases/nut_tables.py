@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -14,15 +15,16 @@ from ballscrew.cases.schema import law_of
 from ballscrew.cases.sections import Sections
 from ballscrew.components.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow
 from ballscrew.components.installation import Installation, Limits
-from ballscrew.components.nut import Nut, SingleNut
+from ballscrew.components.nut import Bodies, Nut, Scatter, SingleNut
 from ballscrew.components.nut_losses import ParasiticLaw
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import geometry
 from ballscrew.errors import MISSING, Fault, InputError, nearest
-from ballscrew.friction.nut_parts import NutParts, Scatter
 from ballscrew.quantities import fields_of
 from ballscrew.sizing.checks import Ratings, ratings_of
 
+#: The nut of a case that names one without preload.
+SINGLE = SingleNut(angle_under_load=True)
 #: What a screw with a nut consists of besides its balls.
 _OF_NUT = ("nut", "bodies", "deviations", "losses")
 
@@ -82,30 +84,38 @@ def _dynamic_rating(screw: BallScrew, row: CatalogueRow | None, listed: Mapping[
     return ratings(screw, row).dynamic, "computed from the geometry (ISO 3408-5)"
 
 
-def nut_parts(
+def nut_of(
     sections: Sections,
     screw: BallScrew | None,
     row: CatalogueRow | None,
     listed: Mapping[str, float],
     faults: list[Fault],
-) -> tuple[NutParts | None, Sequence[PreloadNote]]:
-    """The nut with its bodies, deviations and losses, and a note on its preload; None without such a section."""
+) -> tuple[Nut | None, Sequence[PreloadNote]]:
+    """The nut with its bodies, deviations and losses, and a note on its preload; None without such a section.
+
+    The contact angle of a single nut that a case names follows the load.
+    """
     if not any(name in sections for name in _OF_NUT):
         return None, ()
     before = len(faults)
-    nut, notes = _nut(sections, screw, row, listed, faults) if "nut" in sections else (SingleNut(), ())
+    nut, notes = _nut(sections, screw, row, listed, faults) if "nut" in sections else (SINGLE, ())
     bodies = sections.values_of("bodies", faults) if "bodies" in sections else None
     scatter = sections.values_of("deviations", faults) if "deviations" in sections else None
     losses = _losses(sections, faults) if "losses" in sections else {}
     if len(faults) > before or nut is None:
         return None, ()
-    parts = NutParts(nut=nut, bodies=bodies, scatter=None if scatter is None else Scatter(**scatter), losses=losses)
+    made = {
+        "bodies": None if bodies is None else Bodies(**bodies),
+        "deviations": None if scatter is None else Scatter(**scatter),
+        "losses": losses,
+    }
+    nut = dataclasses.replace(nut, **{name: part for name, part in made.items() if part})
     try:
-        if screw is not None:
-            parts.bodies_of(screw)
+        if screw is not None and nut.bodies is not None:
+            nut.bodies.sized(screw)
     except InputError as error:
         faults += error.faults
-    return parts, notes
+    return nut, notes
 
 
 def _nut(
@@ -133,7 +143,7 @@ def _nut(
         return None, ()
     preload = values.get("preload")
     if not isinstance(preload, Share):
-        return NUTS[kind](**values), ()
+        return dataclasses.replace(SINGLE, **values) if kind == "single" else NUTS[kind](**values), ()
     if screw is None:
         return None, ()  # its own faults are there already
     try:

@@ -22,15 +22,15 @@ from ballscrew.cases.law_import import OUTSIDE, law_from_outside, with_plain_num
 from ballscrew.cases.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS
 from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.materials import TEMPERATURE, Lubricant, Material, grades
-from ballscrew.components.nut import Bodies, DoubleNut
+from ballscrew.components.nut import Bodies, DoubleNut, Scatter
 from ballscrew.components.outside_laws import name_of as outside_name
-from ballscrew.components.screw import MATERIALS, BallScrew, Operation
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.errors import MISSING, Fault, InputError, closest, nearest
 from ballscrew.friction.calibrations import calibrations
 from ballscrew.friction.law_names import LAWS as LAWS
 from ballscrew.friction.law_names import coefficients
 from ballscrew.friction.model import FrictionModel, presets
-from ballscrew.friction.nut_parts import Scatter
 from ballscrew.quantities import Quantity, fields_of
 
 MODELS = presets()
@@ -121,7 +121,7 @@ def sections() -> Mapping[str, type[BaseModel]]:
         ),
         "lubricant": section_of("Lubricant", oil, Lubricant, required=False, uncertain=oil, grade=(grade, None)),
         "operation": section_of(
-            "Operation", fields_of(Operation), Operation, required=True, uncertain=fields_of(Operation)
+            "Operation", fields_of(OperatingState), OperatingState, required=True, uncertain=fields_of(OperatingState)
         ),
         "model": section_of(
             "Model", fields_of(FrictionModel), FrictionModel, required=False, uncertain=fields_of(FrictionModel),
@@ -288,7 +288,7 @@ def _fault(section: str, model: type[BaseModel], problem: dict[str, Any]) -> Fau
         case "fault":
             return Fault(where, problem["ctx"]["problem"], problem["ctx"]["given"], problem["ctx"]["remedy"])
         case "missing":
-            quantity = {**fields_of(BallScrew), **fields_of(Operation)}.get(path[-1])
+            quantity = {**fields_of(BallScrew), **fields_of(OperatingState)}.get(path[-1])
             unit = "" if quantity is None else f" {quantity.shown_in}"
             sample = "a number" if quantity is not None and quantity.unit == "1" else f'"…{unit}"'
             return Fault(where, MISSING, "", f"add {{{where}}}{sample}")

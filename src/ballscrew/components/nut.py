@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Annotated, NamedTuple, TypeAlias
+from collections.abc import Callable, Mapping
+from typing import Annotated, Any, NamedTuple, Protocol, TypeAlias, cast
 
 import numpy as np
 
 from ballscrew._arrays import ByValue
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, accepts_units, faults_of, raise_if_any
-from ballscrew.quantities import Force, Info, Length
+from ballscrew.errors import MISSING, Fault, accepts_units, faults_of, is_concrete, raise_if_any
+from ballscrew.quantities import Count, Force, Info, Length, Torque, fields_of
 
 Preload = Annotated[
     Force,
@@ -35,107 +35,63 @@ Spacing = Annotated[
 ]
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class SingleNut(ByValue):
-    """One nut body without preload: each ball touches one flank of screw and nut, and there may be play.
+class _Sized(Protocol):
+    """The sizes of a screw that its bodies follow."""
 
-    Raises :class:`~ballscrew.errors.InputError` for a negative play.
-    """
-
-    axial_play: Annotated[
-        Length,
-        Info("S_a", "axial play between screw and nut", "um", at_least=0, hint="5 um to 100 um", usual=(0.0, 1e-3)),
-    ] = 0.0
-
-    def __post_init__(self) -> None:
-        raise_if_any(faults_of("nut", self))
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class OversizeBallNut(ByValue):
-    """One nut body, preloaded by balls too big for its grooves: each touches both flanks of both, four contacts.
-
-    The preload is the axial force that each flank would carry by itself: that of the balls on one
-    flank of the nut, which those on the other hold.
-    Raises :class:`~ballscrew.errors.InputError` for a negative preload.
-    """
-
-    preload: Preload
-
-    def __post_init__(self) -> None:
-        raise_if_any(faults_of("nut", self))
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class DoubleNut(ByValue):
-    """Two nut bodies braced against each other: the balls of each touch one flank, opposite to the other's.
-
-    The loaded balls of the screw are those of one body; the other has as many.
-    Raises :class:`~ballscrew.errors.InputError` for a negative preload or spacing.
-    """
-
-    preload: Preload
-    spacing: Spacing = 0.0
-
-    def __post_init__(self) -> None:
-        raise_if_any(faults_of("nut", self))
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class OffsetLeadNut(ByValue):
-    """One nut body whose lead has an offset in its middle, which braces the balls before and behind it.
-
-    It works like a :class:`DoubleNut`; the loaded balls of the screw are those of one half.
-    Raises :class:`~ballscrew.errors.InputError` for a negative preload or spacing.
-    """
-
-    preload: Preload
-    spacing: Spacing = 0.0
-
-    def __post_init__(self) -> None:
-        raise_if_any(faults_of("nut", self))
-
-
-Nut: TypeAlias = SingleNut | OversizeBallNut | DoubleNut | OffsetLeadNut
+    @property
+    def pitch_circle_diameter(self) -> Any: ...
+    @property
+    def ball_diameter(self) -> Any: ...
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class Bodies(ByValue):
     """The bodies of screw and nut between the balls, as bars, and where the load enters them.
 
+    A diameter that is not given has the usual size for the screw (:meth:`sized`).
     Raises :class:`~ballscrew.errors.InputError` for diameters that are not positive or do not fit.
     """
 
     screw_diameter: Annotated[
-        Length,
+        Length | None,
         Info(
             "d_c", "diameter of the screw's bar, its root diameter", "mm", above=0, hint="d_m - d_w", usual=(5e-4, 0.5)
         ),
-    ]
+    ] = None
     nut_outer_diameter: Annotated[
-        Length, Info("D_o", "outer diameter of the nut's tube", "mm", above=0, hint="about 1.5 d_m", usual=(1e-3, 2.0))
-    ]
+        Length | None,
+        Info("D_o", "outer diameter of the nut's tube", "mm", above=0, hint="about 1.5 d_m", usual=(1e-3, 2.0)),
+    ] = None
     nut_inner_diameter: Annotated[
-        Length,
+        Length | None,
         Info("D_i", "inner diameter of the nut's tube", "mm", above=0, hint="about d_m + d_w", usual=(1e-3, 1.0)),
-    ]
+    ] = None
     #: Whether screw and nut are held on the same side of the balls: one is pulled where the other is pushed.
     same_side: bool = True
 
     def __post_init__(self) -> None:
-        faults = faults_of("bodies", self)
-        if not faults and np.any(self.nut_outer_diameter <= self.nut_inner_diameter):
+        faults = faults_of("bodies", self, optional=tuple(fields_of(Bodies)))
+        outer, inner = self.nut_outer_diameter, self.nut_inner_diameter
+        if not faults and outer is not None and inner is not None and np.any(outer <= inner):
             remedy = "give the outer diameter of the nut, not that of its bore"
             faults.append(Fault("bodies.nut_outer_diameter", "must exceed the inner diameter", "", remedy))
         raise_if_any(faults)
 
     @classmethod
-    def of(cls, screw: BallScrew, *, same_side: bool = True) -> Bodies:
+    def of(cls, screw: _Sized, *, same_side: bool = True) -> Bodies:
         """Bodies of a usual size: the core of the screw, and a nut one and a half pitch circles wide."""
+        return cls(same_side=same_side).sized(screw)
+
+    def sized(self, screw: _Sized) -> Bodies:
+        """These bodies with the usual sizes for a screw where none is given."""
         d_m, d_w = screw.pitch_circle_diameter, screw.ball_diameter
-        return cls(
-            screw_diameter=d_m - d_w, nut_outer_diameter=1.5 * d_m, nut_inner_diameter=d_m + d_w, same_side=same_side
-        )
+        usual = {
+            "screw_diameter": d_m - d_w,
+            "nut_outer_diameter": 1.5 * d_m,
+            "nut_inner_diameter": d_m + d_w,
+        }
+        missing = {name: value for name, value in usual.items() if getattr(self, name) is None}
+        return dataclasses.replace(self, **missing) if missing else self
 
 
 class Deviations(NamedTuple):
@@ -153,3 +109,208 @@ class Deviations(NamedTuple):
         """Normal scatter with these standard deviations; the same seed gives the same balls."""
         generator = np.random.default_rng(seed)
         return cls(ball_diameter * generator.standard_normal(balls), lead * generator.standard_normal(balls))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Scatter(ByValue):
+    """Scatter of balls and lead as standard deviations; one seed gives the same balls every time.
+
+    Raises :class:`~ballscrew.errors.InputError` for negative numbers.
+    """
+
+    ball_diameter: Annotated[
+        Length,
+        Info(
+            "s_w",
+            "standard deviation of the ball diameters",
+            "um",
+            at_least=0,
+            hint="balls of one lot: below 1 um",
+            usual=(0.0, 5e-5),
+        ),
+    ] = 0.0
+    lead: Annotated[
+        Length,
+        Info(
+            "s_h",
+            "standard deviation of each ball's place on the lead",
+            "um",
+            at_least=0,
+            hint="ground: about 1 um",
+            usual=(0.0, 1e-4),
+        ),
+    ] = 0.0
+    seed: Annotated[
+        Count, Info("n_s", "seed of the random numbers", at_least=0, whole=True, hint="any whole number")
+    ] = 1
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("deviations", self))
+
+    def of(self, balls: int) -> Deviations:
+        """The deviations of so many balls."""
+        return Deviations.scattered(balls, seed=int(self.seed), ball_diameter=self.ball_diameter, lead=self.lead)
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class NutParts(ByValue):
+    """What every nut may have besides its balls and its preload.
+
+    Without bodies, screw and nut are rigid between the balls. Losses are laws of torque besides the balls by name, as
+    ``{"seals": Seals(seal_torque=0.2)}`` (:mod:`ballscrew.components.nut_losses`).
+    """
+
+    bodies: Bodies | None = None
+    #: Deviations of each ball, or their scatter.
+    deviations: Deviations | Scatter | None = None
+    losses: Mapping[str, Callable[..., Torque]] = dataclasses.field(default_factory=dict[str, Callable[..., Torque]])
+
+    #: Nut bodies or halves with the loaded balls of the screw each.
+    halves = 1
+    #: Contacts of a ball that is preloaded.
+    contacts_per_ball = 2
+    #: Whether the contact angle stays nominal where nothing braces the balls.
+    nominal_angle = False
+
+    @property
+    def one_by_one(self) -> bool:
+        """True where the balls differ, so that each is solved by itself."""
+        return self.bodies is not None or self.deviations is not None
+
+    @property
+    def is_row(self) -> bool:
+        """True where all balls carry the same load at the nominal contact angle: the row of balls of Olaru2005."""
+        return self.nominal_angle and not self.one_by_one
+
+    @property
+    def parts(self) -> dict[str, Any]:
+        """The nut and its parts that have quantities, by their sections in a case file."""
+        scatter = self.deviations if isinstance(self.deviations, Scatter) else None
+        found = {"nut": self, "bodies": self.bodies, "deviations": scatter}
+        found |= {f"losses.{name}": law for name, law in self.losses.items() if dataclasses.is_dataclass(law)}
+        return {section: part for section, part in found.items() if part is not None}
+
+    def value_of(self, name: str) -> Any:
+        """The value of an input: ``preload``, ``nut.preload``, or ``losses.seals.seal_torque`` of what it loses."""
+        section, _, field = name.rpartition(".")
+        return getattr(self.losses[section.removeprefix("losses.")] if section not in ("", "nut") else self, field)
+
+    def changed(self, name: str, value: Any) -> Nut:
+        """The nut with another value of an input, named as in :meth:`value_of`."""
+        section, _, field = name.rpartition(".")
+        if section in ("", "nut"):
+            return self._with(field, value)
+        law: Any = self.losses[loss := section.removeprefix("losses.")]
+        return dataclasses.replace(self._nut, losses={**self.losses, loss: dataclasses.replace(law, **{field: value})})
+
+    def _with(self, field: str, value: Any) -> Nut:
+        return dataclasses.replace(self._nut, **{field: value})
+
+    @property
+    def _nut(self) -> Nut:
+        return cast("Nut", self)
+
+    def deviations_of(self, loaded_balls: Any) -> Deviations | None:
+        """The deviations of each ball of a nut with so many loaded balls in each half."""
+        if not isinstance(self.deviations, Scatter):
+            return self.deviations
+        if not is_concrete(loaded_balls):
+            return Deviations()
+        return self.deviations.of(self.halves * int(loaded_balls))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class SingleNut(NutParts):
+    """One nut body without preload: each ball touches one flank of screw and nut, and there may be play.
+
+    Rigid, and with balls alike, it is the row of equal balls of Olaru2005 at the nominal contact angle; with
+    ``angle_under_load`` the angle follows the load there too, as it always does where balls differ or are preloaded.
+    Raises :class:`~ballscrew.errors.InputError` for a negative play.
+    """
+
+    axial_play: Annotated[
+        Length,
+        Info("S_a", "axial play between screw and nut", "um", at_least=0, hint="5 um to 100 um", usual=(0.0, 1e-3)),
+    ] = 0.0
+    angle_under_load: bool = dataclasses.field(default=False, kw_only=True)
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("nut", self))
+
+    @property
+    def nominal_angle(self) -> bool:  # pyright: ignore[reportIncompatibleVariableOverride]  (a constant elsewhere)
+        """True where the contact angle stays nominal."""
+        return not self.angle_under_load
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class OversizeBallNut(NutParts):
+    """One nut body, preloaded by balls too big for its grooves: each touches both flanks of both, four contacts.
+
+    The preload is the axial force that each flank would carry by itself: that of the balls on one
+    flank of the nut, which those on the other hold. Instead of it, the ``oversize`` of the balls against their
+    grooves can be given.
+    Raises :class:`~ballscrew.errors.InputError` for a negative preload or oversize, and for both or none of them.
+    """
+
+    preload: Preload | None = None
+    oversize: Annotated[
+        Length | None,
+        Info(
+            r"\delta_w",
+            "diameter of the balls beyond what fits their grooves",
+            "um",
+            at_least=0,
+            hint="a few micrometres",
+            usual=(0.0, 1e-4),
+        ),
+    ] = None
+    contacts_per_ball = 4
+
+    def __post_init__(self) -> None:
+        faults = faults_of("nut", self, optional=("preload", "oversize"))
+        if (self.preload is None) == (self.oversize is None):
+            problem = MISSING if self.preload is None else "is given beside the oversize of the balls"
+            faults.append(Fault("nut.preload", problem, "", "give either the preload or the oversize of the balls"))
+        raise_if_any(faults)
+
+    def _with(self, field: str, value: Any) -> Nut:
+        other = {"preload": "oversize", "oversize": "preload"}.get(field)
+        return dataclasses.replace(self, **{field: value, **({other: None} if other else {})})
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class DoubleNut(NutParts):
+    """Two nut bodies braced against each other: the balls of each touch one flank, opposite to the other's.
+
+    The loaded balls of the screw are those of one body; the other has as many.
+    Raises :class:`~ballscrew.errors.InputError` for a negative preload or spacing.
+    """
+
+    preload: Preload
+    spacing: Spacing = 0.0
+    halves = 2
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("nut", self))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class OffsetLeadNut(NutParts):
+    """One nut body whose lead has an offset in its middle, which braces the balls before and behind it.
+
+    It works like a :class:`DoubleNut`; the loaded balls of the screw are those of one half.
+    Raises :class:`~ballscrew.errors.InputError` for a negative preload or spacing.
+    """
+
+    preload: Preload
+    spacing: Spacing = 0.0
+    halves = 2
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("nut", self))
+
+
+Nut: TypeAlias = SingleNut | OversizeBallNut | DoubleNut | OffsetLeadNut
+
+

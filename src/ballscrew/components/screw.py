@@ -8,11 +8,13 @@ from typing import Annotated, Any, cast
 
 from ballscrew._arrays import ByValue, namespace
 from ballscrew.components.materials import Material
+from ballscrew.components.nut import Nut, NutParts, SingleNut
 from ballscrew.equations import geometry, hertz
 from ballscrew.errors import Fault, faults_of, is_concrete, raise_if_any, shown
-from ballscrew.quantities import Angle, AngularSpeed, Count, Force, Info, Length, Mask, Pressure, Ratio
+from ballscrew.quantities import Angle, Count, Info, Length, Mask, Pressure, Ratio
 
 STEEL = Material()
+SINGLE_NUT = SingleNut()
 #: The fields of a screw that are materials.
 MATERIALS = ("ball_material", "screw_material", "nut_material")
 
@@ -28,8 +30,10 @@ class Raceway(ByValue):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class BallScrew(ByValue):
-    """A ball screw with two-point contact: every ball touches one flank of screw and nut.
+    """A ball screw: shaft, nut and balls (ISO 3408-1).
 
+    Without a ``nut`` it has a single one without preload, rigid: a row of equal balls, each of which touches one flank
+    of screw and nut. Of a double nut the loaded balls are those of one half.
     Raises :class:`~ballscrew.errors.InputError` (a ``ValueError``) with one fault for each value
     out of bounds, and for a ball too big for the pitch circle or for the lead.
     """
@@ -140,6 +144,7 @@ class BallScrew(ByValue):
     ball_material: Material = STEEL
     screw_material: Material = STEEL
     nut_material: Material = STEEL
+    nut: Nut = SINGLE_NUT
 
     def __post_init__(self) -> None:
         faults = faults_of("screw", self)
@@ -148,6 +153,8 @@ class BallScrew(ByValue):
             for name, material in zip(MATERIALS, cast("tuple[Any, ...]", self.materials), strict=True)
             if not isinstance(material, Material)
         ]
+        if not isinstance(cast("Any", self.nut), NutParts):
+            faults.append(Fault("screw.nut", "must be a nut", repr(self.nut), "give ballscrew.DoubleNut(preload=…)"))
         raise_if_any(faults)
         raise_if_any(self._misfits())
 
@@ -223,23 +230,3 @@ class BallScrew(ByValue):
         """Equivalent modulus of ball and race, Pa."""
         ball, race = self.ball_material, raceway.material
         return hertz.equivalent_modulus(ball.young_modulus, ball.poisson_ratio, race.young_modulus, race.poisson_ratio)
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class Operation(ByValue):
-    """Operating point: axial load and speed of the screw.
-
-    Zero load and zero speed are legal and give limits. Raises
-    :class:`~ballscrew.errors.InputError` for negative or non-finite numbers.
-    """
-
-    axial_load: Annotated[
-        Force, Info("F", "axial load on the nut", at_least=0, hint="give its magnitude", usual=(0.0, 1e7))
-    ]
-    screw_speed: Annotated[
-        AngularSpeed,
-        Info(r"\omega", "speed of the screw", "rpm", at_least=0, hint="give its magnitude", usual=(0.0, 2000.0)),
-    ]
-
-    def __post_init__(self) -> None:
-        raise_if_any(faults_of("operation", self))

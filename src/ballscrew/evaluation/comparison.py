@@ -8,10 +8,9 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.screw import BallScrew
 from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.nut_friction import NutFriction
-from ballscrew.friction.nut_parts import NutParts
 from ballscrew.friction.result import FrictionResult
 
 
@@ -33,7 +32,7 @@ class Row:
     """A candidate and its result."""
 
     candidate: Candidate
-    result: FrictionResult | NutFriction
+    result: FrictionResult
     #: Friction torque over that of the case's model, less one; NaN where that is zero.
     change: float
 
@@ -102,21 +101,17 @@ def compare(
     laws: Sequence[Candidate],
     screw: BallScrew,
     lubricant: Lubricant,
-    operation: Operation,
-    parts: NutParts | None = None,
+    operation: OperatingState,
     done: Callable[[int, int], None] | None = None,
 ) -> Comparison:
     """Evaluate the case's model, other models, and the case's with other laws, at one operating point.
 
-    Where one of the models is the case's own, their rows are one. With ``parts`` a whole nut is
-    evaluated; models that do not support it are left out. ``done(finished, total)`` reports the rows.
+    Where one of the models is the case's own, their rows are one; models that do not know the nut are left out. ``done(finished, total)`` reports the rows.
     """
     finished = 0
 
-    def result_of(model: FrictionModel) -> FrictionResult | NutFriction:
+    def result_of(model: FrictionModel) -> FrictionResult:
         load, speed = operation.axial_load, operation.screw_speed
-        if parts is not None:
-            return parts.friction(model, screw, lubricant, axial_load=load, screw_speed=speed)
         return model(screw, lubricant, axial_load=load, screw_speed=speed)
 
     name = next((candidate.name for candidate in models if candidate.model is case), "this case")
@@ -133,7 +128,7 @@ def compare(
         change = float(result.screw_torque) / own.torque - 1 if own.torque else math.nan
         return Row(candidate, result, change)
 
-    models, laws = ([c for c in found if parts is None or parts.knows(c.model)] for found in (models, laws))
+    models, laws = ([c for c in found if c.model.knows(screw.nut)] for found in (models, laws))
     return Comparison(
         own,
         [row(candidate) for candidate in models],

@@ -115,7 +115,7 @@ class Slopes(Plan):
         """The outputs, each followed by its derivatives."""
         found: dict[str, Output] = {}
         for name in self.outputs:
-            found[name] = known_outputs()[name]
+            found[name] = known_outputs(self.subject.nut)[name]
             found |= {_name(name, x): self._slope(found[name], x) for x in self.by}
         return found
 
@@ -137,7 +137,7 @@ class Slopes(Plan):
             with self.subject.recording():
                 result = self.subject.at(self.fixed | self.traced(tape))
                 for name in self.outputs:
-                    found[name] = known_outputs()[name].read(result)
+                    found[name] = known_outputs(self.subject.nut)[name].read(result)
                     slopes = partials(tape, found[name], [varying.index(x) for x in self.by])
                     found |= {_name(name, x): slope for x, slope in zip(self.by, slopes, strict=True)}
         except UnknownDerivativeError as unknown:
@@ -165,7 +165,7 @@ def _by_jax(slopes: Slopes) -> xr.Dataset:
 
     def outputs_of(values: Mapping[str, Any]) -> dict[str, Any]:
         result = slopes.subject.at({**slopes.fixed, **values})
-        return {name: known_outputs()[name].read(result) for name in slopes.outputs}
+        return {name: known_outputs(slopes.subject.nut)[name].read(result) for name in slopes.outputs}
 
     values, found = jax_value_and_partials(outputs_of, points, slopes.outputs, slopes.by)
     named = {_name(output, x): slope for (output, x), slope in found.items()}

@@ -7,19 +7,19 @@ import functools
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ballscrew.components.contact import RaceState
+from ballscrew.components.contact import Contact, RaceState
 from ballscrew.components.materials import TEMPERATURE, Lubricant
-from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.components.nut import Nut
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.screw import SINGLE_NUT, BallScrew
 from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.nut_friction import NUT_REASONS, NutFriction
-from ballscrew.friction.nut_parts import NutParts
 from ballscrew.friction.result import MECHANISMS, FrictionResult
-from ballscrew.friction.validity import REASONS
+from ballscrew.friction.validity import NUT_REASONS, REASONS
 from ballscrew.quantities import Info, Quantity, fields_of, quantities_of
 from ballscrew.solvers.load_distribution import BallLoads
 
 #: The fields of the operating point, which every sweep needs.
-OPERATION = tuple(fields_of(Operation))
+OPERATION = tuple(fields_of(OperatingState))
 #: Outputs of a sweep by default.
 DEFAULT_OUTPUTS = (
     "screw_torque",
@@ -38,7 +38,9 @@ DEFAULT_OUTPUTS = (
 
 #: Scalar results of the loads of the balls of a nut.
 OF_LOADS = ("deflection", "rigidity", "remaining_preload", "lift_off_load", "residual")
-#: Outputs of a sweep over a whole nut by default.
+#: Results that only balls with two contacts have.
+OF_TWO_CONTACTS = frozenset({"spin_moment", "lateral_force", "ball_friction_moment"})
+#: Outputs of a sweep by default where the balls are preloaded or differ.
 NUT_OUTPUTS = (
     "screw_torque",
     "nut_torque",
@@ -72,38 +74,38 @@ class Output:
         return bool if self.name.startswith("valid") or self.name in TRUTHS else float
 
 
-def known_outputs(nut: NutParts | None = None) -> Mapping[str, Output]:
-    """All outputs of a sweep by name: ``screw_torque``, ``nut_film_parameter``, ``contribution_curvature``…
+def known_outputs(nut: Nut = SINGLE_NUT) -> Mapping[str, Output]:
+    """All outputs of a sweep by name: ``screw_torque``, ``nut_film_parameter``, ``contribution_curvature``, ``rigidity``…
 
-    On a whole nut there are ``rigidity`` and other results of the loads of all balls, and no single contacts.
+    Of balls that differ, results of a single contact are those of the most loaded ball.
     """
-    return _outputs(None if nut is None else tuple(nut.losses))
+    return _outputs(nut.is_row, nut.contacts_per_ball, tuple(nut.losses))
 
 
 @functools.cache
-def _outputs(losses: tuple[str, ...] | None) -> Mapping[str, Output]:
-    """The outputs of a screw, or of a nut with these losses; cached by the names of the losses."""
+def _outputs(is_row: bool, contacts_per_ball: int, losses: tuple[str, ...]) -> Mapping[str, Output]:
+    """The outputs of a screw whose nut has these losses."""
     found: dict[str, Output] = {}
-    result = FrictionResult if losses is None else NutFriction
-    for name, quantity in quantities_of(result).items():
-        if name not in OPERATION:
+    known = quantities_of(FrictionResult)
+    for name, quantity in known.items():
+        if name not in OPERATION and not (contacts_per_ball > 2 and name in OF_TWO_CONTACTS):
             found[name] = Output(name, quantity, lambda r, n=name: getattr(r, n))
-    torque = quantities_of(FrictionResult)["screw_torque"]
-    for mechanism, words in {**MECHANISMS, **{name: name for name in losses or ()}}.items():
+    torque = known["screw_torque"]
+    for mechanism, words in {**MECHANISMS, **{name: name for name in losses}}.items():
         info = dataclasses.replace(
             torque.info, symbol=f"M_S ({words})", meaning=f"friction torque on the screw by {words}"
         )
         name = f"contribution_{mechanism}"
         found[name] = Output(name, Quantity(name, torque.unit, info), lambda r, m=mechanism: r.contributions[m])
-    mask = quantities_of(FrictionResult)["valid"]
-    for reason, words in (REASONS if losses is None else NUT_REASONS).items():
+    mask = known["valid"]
+    for reason, words in (REASONS if is_row else NUT_REASONS).items():
         name, info = f"validity_{reason}", Info(reason, f"holds where true; where false, {words}")
         found[name] = Output(name, Quantity(name, mask.unit, info), lambda r, n=reason: r.validity[n])
-    if losses is not None:
-        of_loads = {name: quantities_of(BallLoads)[name] for name in OF_LOADS}
-        return found | {n: Output(n, q, lambda r, n=n: getattr(r.loads, n)) for n, q in of_loads.items()}
+    of_loads = {name: quantities_of(BallLoads)[name] for name in OF_LOADS}
+    found |= {n: Output(n, q, lambda r, n=n: getattr(r.loads, n)) for n, q in of_loads.items()}
+    contact = RaceState if contacts_per_ball == 2 else Contact
     for side in ("screw", "nut"):
-        for name, quantity in quantities_of(RaceState).items():
+        for name, quantity in quantities_of(contact).items():
             info = dataclasses.replace(quantity.info, meaning=f"{quantity.info.meaning}, ball–{side} contact")
             full = f"{side}_{name}"
             found[full] = Output(
@@ -112,17 +114,21 @@ def _outputs(losses: tuple[str, ...] | None) -> Mapping[str, Output]:
     return found
 
 
-def inputs_of(
-    model: FrictionModel, screw: BallScrew, lubricant: Lubricant, nut: NutParts | None = None
-) -> Mapping[str, tuple[str, Quantity]]:
+def inputs_of(model: FrictionModel, screw: BallScrew, lubricant: Lubricant) -> Mapping[str, tuple[str, Quantity]]:
     """All inputs that a sweep can vary: name to (part, quantity).
 
     Names are those of the fields; a coefficient of a law is ``law.field``, for example
-    ``friction.boundary_friction_coefficient``. ``temperature`` is that of an oil made from a grade.
+    ``friction.boundary_friction_coefficient``. Fields of the nut are ``nut.preload`` or ``preload``; those of what it
+    loses ``losses.seals.seal_torque``. ``temperature`` is that of an oil made from a grade.
     """
-    parts = {"operation": Operation, "screw": screw, "lubricant": lubricant, "model": model}
-    parts |= {} if nut is None else {"nut": nut.nut}
+    parts = {"operation": OperatingState, "screw": screw, "lubricant": lubricant, "model": model}
     found = {name: (part, quantity) for part, value in parts.items() for name, quantity in fields_of(value).items()}
+    of_nut = fields_of(screw.nut)
+    found |= {name: ("nut", quantity) for name, quantity in of_nut.items()}
+    found |= {f"nut.{name}": ("nut", quantity) for name, quantity in of_nut.items()}
+    for section, law in screw.nut.parts.items():
+        if section.startswith("losses."):
+            found |= {f"{section}.{name}": ("nut", quantity) for name, quantity in fields_of(law).items()}
     if lubricant.grade is not None:
         found[TEMPERATURE.name] = ("lubricant", TEMPERATURE)
     for slot, law in model.laws_with_coefficients.items():

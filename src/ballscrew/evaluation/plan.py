@@ -15,7 +15,9 @@ import xarray as xr
 from ballscrew._arrays import ByValue
 from ballscrew._version import __version__
 from ballscrew.components.materials import TEMPERATURE, Lubricant
-from ballscrew.components.screw import MATERIALS, BallScrew, Operation
+from ballscrew.components.nut import Nut, NutParts
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.components.traits import traits_of
 from ballscrew.errors import MISSING, Fault, fault_of, nearest, raise_if_any, without_unit
 from ballscrew.evaluation.outputs import (
@@ -28,8 +30,6 @@ from ballscrew.evaluation.outputs import (
     known_outputs,
 )
 from ballscrew.friction.model import SLOTS, FrictionModel
-from ballscrew.friction.nut_friction import NutFriction
-from ballscrew.friction.nut_parts import NutParts
 from ballscrew.friction.plausibility import implausible, named_parts
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Quantity, fields_of
@@ -42,38 +42,39 @@ from ballscrew.tracing.tape import CannotRecordError, Tape, why_not_recorded
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Configuration(ByValue):
-    """Configuration to evaluate: a model, a screw, its lubricant, and the nut if there is one."""
+    """Configuration to evaluate: a model, a ball screw with its nut, and the lubricant."""
 
     model: FrictionModel
     screw: BallScrew
     lubricant: Lubricant
-    nut: NutParts | None = None
+
+    @property
+    def nut(self) -> Nut:
+        """The nut of the screw."""
+        return self.screw.nut
 
     @property
     def by_section(self) -> dict[str, Any]:
         """The parts with fields that can be varied."""
-        nut = {} if self.nut is None else {"nut": self.nut.nut}
-        return {"screw": self.screw, "lubricant": self.lubricant, "model": self.model, **nut}
+        return {"screw": self.screw, "lubricant": self.lubricant, "model": self.model, "nut": self.nut}
 
     @property
     def inputs(self) -> Mapping[str, tuple[str, Quantity]]:
         """Everything that can be varied."""
-        return inputs_of(self.model, self.screw, self.lubricant, self.nut)
+        return inputs_of(self.model, self.screw, self.lubricant)
 
     @property
     def balls(self) -> int:
         """Number of balls solved for at each point."""
-        if self.nut is None or not self.nut.one_by_one:
+        if not self.nut.one_by_one:
             return 1
         return self.nut.halves * int(np.max(self.screw.loaded_balls))
 
-    def at(self, points: Mapping[str, Any]) -> FrictionResult | NutFriction:
+    def at(self, points: Mapping[str, Any]) -> FrictionResult:
         """The friction with these values in place: numbers, arrays, or values that are being recorded."""
         changed = self.changed({name: values for name, values in points.items() if name not in OPERATION})
         operation = {name: points[name] for name in OPERATION}
-        if changed.nut is None:
-            return changed.model(changed.screw, changed.lubricant, **operation)
-        return changed.nut.friction(changed.model, changed.screw, changed.lubricant, **operation)
+        return changed.model(changed.screw, changed.lubricant, **operation)
 
     def changed(self, values: Mapping[str, Any]) -> Configuration:
         """The subject with other values of some inputs, those of the operating point left aside."""
@@ -86,11 +87,14 @@ class Configuration(ByValue):
             if name == TEMPERATURE.name:
                 continue
             part = parts[where[name]]
+            if where[name] == "nut":
+                parts["nut"] = part.changed(name, value)
+                continue
             law, _, field = name.rpartition(".")
             change = {field: value} if not law else {law: dataclasses.replace(getattr(part, law), **{field: value})}
             parts[where[name]] = dataclasses.replace(part, **change)
-        nut = None if self.nut is None else dataclasses.replace(self.nut, nut=parts["nut"])
-        return Configuration(parts["model"], parts["screw"], parts["lubricant"], nut)
+        screw = parts["screw"] if parts["nut"] is self.nut else dataclasses.replace(parts["screw"], nut=parts["nut"])
+        return Configuration(parts["model"], screw, parts["lubricant"])
 
     def value_of(self, name: str) -> Any:
         """The value an input has where it is not varied."""
@@ -105,10 +109,9 @@ class Configuration(ByValue):
     def recorded(self, tape: Tape, points: Mapping[str, Any], wanted: Mapping[str, Output]) -> Program:
         """The outputs wanted as a program of the inputs of a tape, at points that are made of them.
 
-        Raises :class:`~ballscrew.tracing.tape.CannotRecordError` for a nut, and for a law that wants plain arrays.
+        Raises :class:`~ballscrew.tracing.tape.CannotRecordError` for a nut whose balls differ, and for a law that
+        wants plain arrays.
         """
-        if self.nut is not None:
-            raise CannotRecordError("a whole nut is evaluated on plain arrays")
         with self.recording():
             result = self.at(points)
             return merged_program(tape, {name: output.read(result) for name, output in wanted.items()})
@@ -119,6 +122,8 @@ class Configuration(ByValue):
 
         What a law raises for another reason is raised as it is.
         """
+        if self.nut.one_by_one:
+            raise CannotRecordError("balls that differ are solved one by one, on plain arrays")
         for slot in SLOTS:
             if not traits_of(getattr(self.model, slot)).recordable:
                 raise CannotRecordError(f"the law model.{slot} declares that it wants plain arrays")
@@ -138,19 +143,17 @@ class Configuration(ByValue):
         """
         ends = {name: np.array([np.min(values), np.max(values)]) for name, values in points.items()}
         there = self.changed({name: values for name, values in ends.items() if name not in OPERATION})
-        operation = Operation(*(ends.get(name, 0.0) for name in OPERATION))
-        nut = {} if there.nut is None else there.nut.by_section(there.screw)
-        return implausible(named_parts(there.model, there.screw, there.lubricant, operation=operation, **nut))
+        operation = OperatingState(*(ends.get(name, 0.0) for name in OPERATION))
+        return implausible(named_parts(there.model, there.screw, there.lubricant, operation=operation))
 
     def attributes(self, varied: Sequence[str] = ()) -> dict[str, Any]:
         """Attributes of a dataset: constant inputs, sources, and the version."""
         fixed: dict[str, Any] = {
             f"{part}_{name.replace('.', '_')}": value
             for name, (part, _) in self.inputs.items()
-            if part != "operation" and name not in varied
-            if (value := self.value_of(name)) is not None
+            if part not in ("operation", "nut") and name not in varied and (value := self.value_of(name)) is not None
         }
-        fixed |= {} if self.nut is None else self.nut.attributes(self.screw)
+        fixed |= self._attributes_of_nut(varied)
         for name, material in zip(MATERIALS, self.screw.materials, strict=True):
             fixed |= {f"screw_{name}_{field}": getattr(material, field) for field in fields_of(material)}
         slots = {field.name: getattr(self.model, field.name) for field in dataclasses.fields(self.model)}
@@ -162,6 +165,16 @@ class Configuration(ByValue):
             "references": "; ".join(citations_of(self.model)),
             **{name: value for name, value in fixed.items() if np.ndim(value) == 0},
         }
+
+    def _attributes_of_nut(self, varied: Sequence[str]) -> dict[str, Any]:
+        """The kind of the nut, its own numbers, and those of its parts."""
+        parts = named_parts(self.model, self.screw, self.lubricant)
+        found: dict[str, Any] = {} if self.nut.is_row else {"nut_kind": type(self.nut).__name__}
+        for section in self.nut.parts:
+            for name in fields_of(parts[section]):
+                if not {name, f"{section}.{name}"} & set(varied):
+                    found[f"{section.replace('.', '_')}_{name}"] = getattr(parts[section], name)
+        return {name: value for name, value in found.items() if value is not None}
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -274,9 +287,9 @@ class Plan:
         return xr.Dataset(variables, self.coordinates(), self.attributes)
 
 
-def _wanted(section: str, names: Sequence[str] | None, nut: NutParts | None) -> tuple[str, ...]:
+def _wanted(section: str, names: Sequence[str] | None, nut: Nut) -> tuple[str, ...]:
     known = known_outputs(nut)
-    usual = DEFAULT_OUTPUTS if nut is None else NUT_OUTPUTS
+    usual = DEFAULT_OUTPUTS if nut.is_row else NUT_OUTPUTS
     names = (names,) if isinstance(names, str) else usual if names is None or not len(names) else names
     chosen = [str(name).replace(".", "_") for name in names]
     raise_if_any(
@@ -373,5 +386,7 @@ def _sizes(section: str, axes: Mapping[str, xr.DataArray], wanted: Sequence[str]
 
 def _read(part: Any, name: str) -> Any:
     """A field of a part, or ``law.field`` of one of its laws."""
+    if isinstance(part, NutParts):
+        return part.value_of(name)
     law, _, field = name.rpartition(".")
     return getattr(getattr(part, law) if law else part, field)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ballscrew import units
 from ballscrew.cases.case_file import Case
 from ballscrew.cases.descriptions import title
-from ballscrew.components.screw import Operation
+from ballscrew.components.operating_state import OperatingState
 from ballscrew.figures import style
 from ballscrew.output.text import band as text
 from ballscrew.quantities import Quantity, fields_of
@@ -38,7 +38,7 @@ def picture(case: Case, report: BandReport, curve: BandCurve) -> Figure:
     figure, (left, right) = style.new_figure(text.caption(case, report, curve), height=height)
     wrapped = "\n".join(textwrap.wrap(title(case), _TITLE_CHARACTERS))
     figure.suptitle(wrapped, x=0.012, ha="left", fontsize=11, fontweight="bold")
-    _along(left, curve, fields_of(Operation)[curve.along], band)
+    _along(left, curve, fields_of(OperatingState)[curve.along], band)
     _causes(right, band)
     return figure
 

@@ -11,10 +11,8 @@ from typing import Annotated, Any
 import numpy as np
 
 from ballscrew._arrays import ByValue, as_array, lazy, same
-from ballscrew.components.balance import Resistances, ball_forces
-from ballscrew.components.conditions import Motion
-from ballscrew.components.contact import Contact, ContactLaws, RaceState, rolling_contact
-from ballscrew.components.frame import Frame, bearing_frame, helix_frame
+from ballscrew.components.contact import ContactLaws
+from ballscrew.components.frame import bearing_frame, helix_frame
 from ballscrew.components.laws import (
     BallChainLaw,
     BallForceLaw,
@@ -52,21 +50,22 @@ from ballscrew.components.lubrication import (
 from ballscrew.components.lubrication import literal_film_parameter as printed_film_parameter
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.mixed_friction import LoadSharing, ZhouHoeprich
+from ballscrew.components.nut import Nut
+from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.outside_laws import usable
-from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.components.screw import BallScrew
 from ballscrew.components.traits import traits_of
-from ballscrew.equations import equilibrium, geometry, kinematics
-from ballscrew.equations.rolling import nut_pressure_force, screw_pressure_force
 from ballscrew.equations.transmission import contact_load as equal_contact_load
 from ballscrew.errors import Fault, accepts_units, faults_of, raise_if_any
 from ballscrew.friction.law_names import fault_of_law
+from ballscrew.friction.loaded_balls import LoadedBalls, balls_under, loads_of, row_of_balls
 from ballscrew.friction.plausibility import named_parts
 from ballscrew.friction.result import FrictionResult
 from ballscrew.overflow import overflow_as_input_error
-from ballscrew.quantities import AngularSpeed, Force, Info, Ratio, fields_of
+from ballscrew.quantities import AngularSpeed, Count, Force, Info, Ratio, Temperature, fields_of
 from ballscrew.solvers.ellipse_slip import ellipse_slip
 from ballscrew.solvers.pure_rolling import curvature_slip
-from ballscrew.solvers.slip import BallProblem, ContactSlip, Slip, SlipLaw
+from ballscrew.solvers.slip import Slip, SlipLaw
 
 PAPER_FRICTION = ZhouHoeprich()
 
@@ -192,17 +191,37 @@ class FrictionModel(ByValue):
 
     @accepts_units("operation")
     def __call__(
-        self, screw: BallScrew, lubricant: Lubricant, *, axial_load: Force, screw_speed: AngularSpeed
+        self,
+        screw: BallScrew,
+        lubricant: Lubricant,
+        *,
+        axial_load: Force,
+        screw_speed: AngularSpeed,
+        temperature: Temperature | None = None,
     ) -> FrictionResult:
-        """Friction at an axial load (N) and a screw speed (rad/s); arrays broadcast.
+        """Friction at an axial load (N) and a screw speed (rad/s) of either sign; arrays broadcast.
 
-        Array values are never refused: where they make no sense the result says so in its validity. Raises
-        :class:`~ballscrew.errors.InputError` where plain numbers overflow.
+        A positive load is one that a positive speed lifts. With a ``temperature`` (K) the lubricant, which must have
+        been made from a grade, is taken there. Array values are never refused: where they make no sense the result
+        says so in its validity. Raises :class:`~ballscrew.errors.InputError` where plain numbers overflow, for a
+        temperature of an oil without a grade, and for a nut whose balls have four contacts with a slip law that
+        knows two.
         """
-        operation = Operation(axial_load=as_array(axial_load), screw_speed=as_array(screw_speed))
-        raise_if_any(_misfits(operation))
+        state = OperatingState(as_array(axial_load), as_array(screw_speed), as_array(temperature))
+        raise_if_any([*_misfits(state), *self._misfits_of_nut(screw)])
+        oil = lubricant if temperature is None else lubricant.at(state.temperature)
         with overflow_as_input_error(), np.errstate(all="ignore"):
-            return self._evaluate(screw, lubricant, operation)
+            return self._evaluate(screw, oil, state)
+
+    def knows(self, nut: Nut) -> bool:
+        """Return whether the slip law knows the number of contacts that the balls of a nut have."""
+        return nut.contacts_per_ball in traits_of(self.slip).contacts_per_ball
+
+    def _misfits_of_nut(self, screw: BallScrew) -> list[Fault]:
+        if self.knows(screw.nut):
+            return []
+        remedy = 'take the model reference, or slip = "ellipse"'
+        return [Fault("model.slip", "knows no balls with four contacts, as an oversize-ball nut has", "", remedy)]
 
     @property
     def changes(self) -> tuple[str, ...]:
@@ -235,114 +254,35 @@ class FrictionModel(ByValue):
         """The laws that one contact needs, to be called."""
         return ContactLaws(**{field.name: getattr(self.laws, field.name) for field in dataclasses.fields(ContactLaws)})
 
-    def _evaluate(self, screw: BallScrew, lubricant: Lubricant, operation: Operation) -> FrictionResult:
-        axial_load, screw_speed = operation.axial_load, operation.screw_speed
-        laws = self.laws
-        frame = laws.frame(screw)
-        Q = laws.contact_load(axial_load, screw.loaded_balls, screw.contact_angle, frame.lead_angle)
-        v = frame.entrainment_speed(screw_speed)
-        d_w = screw.ball_diameter
-        spin = kinematics.relative_spin(screw_speed, frame.rolling_plane_sine)
-        lateral = kinematics.torsion_speed(screw_speed, d_w, frame.lead_angle)
-        motion = Motion(v, spin / 2, lateral / 2)
-        on_screw, on_nut = self.contacts(screw, lubricant, frame, Q, (motion, motion))
-        F_B = laws.ball_force(self.imposed_ball_force(screw), Q)
-        chain = laws.ball_chain(self.ball_friction_coefficient, F_B, d_w, frame)
-        asked = Resistances(
-            on_screw.hydrodynamic_rolling_force,
-            on_nut.hydrodynamic_rolling_force,
-            on_screw.elastic_resistance_moment,
-            on_nut.elastic_resistance_moment,
-            chain,
+    def _evaluate(self, screw: BallScrew, lubricant: Lubricant, state: OperatingState) -> FrictionResult:
+        nut, laws = screw.nut, self.laws
+        loads = None if nut.is_row else loads_of(screw, state.axial_load)
+        kinds = (
+            (row_of_balls(self, screw, lubricant, state),)
+            if loads is None
+            else balls_under(self, screw, lubricant, state, loads)
         )
-        slip = laws.slip(BallProblem(on_screw, on_nut, asked, d_w, frame, screw_speed, self.pure_rolling_offset))
-        carried = asked.scaled(slip.rolling_share)
+        all_balls = dataclasses.replace(screw, loaded_balls=_sum_of_balls(kinds)) if nut.losses else screw
         return FrictionResult(
-            parts=named_parts(self, screw, lubricant, operation=operation),
+            parts=named_parts(self, screw, lubricant, operation=state),
             ball_screw=screw,
-            frame=frame,
-            axial_load=axial_load,
-            screw_speed=screw_speed,
-            contact_load=Q,
-            entrainment_speed=v,
-            ball_chain=carried.chain,
-            ball_to_ball_force=slip.rolling_share * F_B,
-            spin_moment=slip.spin_moment,
-            lateral_force=slip.lateral_force,
-            rolling_share=slip.rolling_share,
-            race_torques=laws.race_torques,
+            frame=laws.frame(screw),
+            axial_load=state.axial_load,
+            screw_speed=state.screw_speed,
+            kinds=kinds,
+            losses={name: law(all_balls, lubricant, abs(state.screw_speed)) for name, law in nut.losses.items()},
             ideal_torque_law=laws.ideal_torque,
-            converged=slip.converged,
-            slip_is_curvature_alone=traits_of(self.slip).curvature_alone,
-            **self._race_states(on_screw, on_nut, carried, slip, frame, d_w),
+            solved_loads=loads,
         )
-
-    def contacts(
-        self, screw: BallScrew, lubricant: Lubricant, frame: Frame, contact_load: Force, motions: tuple[Motion, Motion]
-    ) -> tuple[Contact, Contact]:
-        """The contacts of a ball with screw and nut under a load, in motion; what slips in them comes later."""
-        d_w, gamma = screw.ball_diameter, frame.curvature_ratio
-        sides = (
-            (screw.screw_raceway, geometry.screw_rolling_radius(d_w, gamma)),
-            (screw.nut_raceway, geometry.nut_rolling_radius(d_w, gamma)),
-        )
-        on_screw, on_nut = (
-            rolling_contact(self.contact_laws, screw, raceway, lubricant, rolling_radius, contact_load, motion)
-            for (raceway, rolling_radius), motion in zip(sides, motions, strict=True)
-        )
-        return on_screw, on_nut
 
     def imposed_ball_force(self, screw: BallScrew) -> Force:
         """The ball-to-ball force where the load does not set it: the paper's 1 N over the number of balls, or given."""
         return 1 / screw.loaded_balls if self.ball_to_ball_force is None else self.ball_to_ball_force
 
-    def _race_states(
-        self, on_screw: Contact, on_nut: Contact, carried: Resistances, slip: Slip, frame: Frame, ball_diameter: Any
-    ) -> dict[str, RaceState]:
-        F_Rs, F_Rn, M_ERs, M_ERn, chain = carried
-        M_s = slip.screw.curvature_moment + M_ERs
-        M_n = slip.nut.curvature_moment + M_ERn
-        forces = ball_forces(Resistances(F_Rs, F_Rn, M_s, M_n, chain), ball_diameter, frame)
-        torques = self.laws.race_torques(forces.screw_tangential_force, forces.nut_tangential_force, M_s, M_n, frame)
-        through = equilibrium.spin_torque(slip.spin_moment, frame.rolling_plane_sine) + equilibrium.torsion_torque(
-            slip.lateral_force, ball_diameter, frame.lead_angle
-        )
 
-        def state(contact: Contact, at_contact: ContactSlip, **changed: Any) -> RaceState:
-            return contact.extended(
-                RaceState,
-                **changed,
-                pure_rolling_offset=at_contact.pure_rolling_offset,
-                curvature_friction_moment=at_contact.curvature_moment,
-                creep_speed=at_contact.creep_speed,
-                spin=at_contact.spin,
-                lateral_slip_speed=at_contact.lateral_slip_speed,
-            )
-
-        return {
-            "screw": state(
-                on_screw,
-                slip.screw,
-                hydrodynamic_rolling_force=F_Rs,
-                elastic_resistance_moment=M_ERs,
-                sliding_force=forces.screw_sliding_force,
-                contact_radius=frame.screw_contact_radius,
-                pressure_force=screw_pressure_force(F_Rs, frame.curvature_ratio),
-                tangential_force=forces.screw_tangential_force,
-                friction_torque=torques.screw + through,
-            ),
-            "nut": state(
-                on_nut,
-                slip.nut,
-                hydrodynamic_rolling_force=F_Rn,
-                elastic_resistance_moment=M_ERn,
-                sliding_force=forces.nut_sliding_force,
-                contact_radius=frame.nut_contact_radius,
-                pressure_force=nut_pressure_force(F_Rn, frame.curvature_ratio),
-                tangential_force=forces.nut_tangential_force,
-                friction_torque=torques.nut + through,
-            ),
-        }
+def _sum_of_balls(kinds: tuple[LoadedBalls, ...]) -> Count:
+    """The number of all balls."""
+    return sum(kind.total(1.0) for kind in kinds)
 
 
 #: The slots of the model: its fields that hold a law.
@@ -351,9 +291,9 @@ SLOTS = tuple(
 )
 
 
-def _misfits(operation: Operation) -> list[Fault]:
+def _misfits(state: OperatingState) -> list[Fault]:
     """Fault of arrays of loads and speeds that do not broadcast."""
-    shapes = [np.shape(value) for value in vars(operation).values() if isinstance(value, np.ndarray)]
+    shapes = [np.shape(value) for value in vars(state).values() if isinstance(value, np.ndarray)]
     try:
         np.broadcast_shapes(*shapes)
     except ValueError:

@@ -25,7 +25,7 @@ _TEXT = "{meaning} {0} lies outside the usual {1} to {2}: check the number and i
 def named_parts(model: Any, screw: BallScrew, lubricant: Any, **others: Any) -> dict[str, Any]:
     """The parts of a configuration by the section that their fields have in a case file.
 
-    ``others`` are further parts by section; None stands for one that there is not.
+    Those of the nut are among them. ``others`` are further parts by section; None stands for one that there is not.
     """
     materials = zip(MATERIALS, screw.materials, strict=True)
     laws = {f"model.{slot}": law for slot, law in model.laws_with_coefficients.items()}
@@ -33,10 +33,17 @@ def named_parts(model: Any, screw: BallScrew, lubricant: Any, **others: Any) -> 
         "screw": screw,
         **{f"screw.{name}": material for name, material in materials},
         "lubricant": lubricant,
+        **_parts_of_nut(screw),
         **{section: part for section, part in others.items() if part is not None},
         "model": model,
         **laws,
     }
+
+
+def _parts_of_nut(screw: BallScrew) -> dict[str, Any]:
+    """The nut, its bodies in the sizes they have for the screw, and what it loses."""
+    parts = screw.nut.parts
+    return parts | ({"bodies": screw.nut.bodies.sized(screw)} if screw.nut.bodies is not None else {})
 
 
 def implausible(parts: Mapping[str, Any]) -> list[Record]:

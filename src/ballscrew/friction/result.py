@@ -1,4 +1,4 @@
-"""Result of a friction model: torques, their parts, both contacts, and their validity."""
+"""Result of a friction model: torques, their parts, the contacts, and their validity."""
 
 from __future__ import annotations
 
@@ -7,27 +7,25 @@ from collections.abc import Mapping
 from typing import Annotated, Any, NamedTuple
 
 from ballscrew._arrays import lazy, namespace
-from ballscrew.components.balance import Resistances, ball_forces
 from ballscrew.components.contact import RaceState
 from ballscrew.components.frame import Frame
-from ballscrew.components.laws import BallChain, IdealTorqueLaw, RaceTorqueLaw
+from ballscrew.components.laws import BallChain, IdealTorqueLaw
 from ballscrew.components.screw import BallScrew
-from ballscrew.equations import dissipation, equilibrium, kinematics, transmission
+from ballscrew.equations import transmission
+from ballscrew.friction import loaded_balls
+from ballscrew.friction.balls import MECHANISMS as MECHANISMS
+from ballscrew.friction.loaded_balls import LoadedBalls, LoadedPair
 from ballscrew.friction.plausibility import implausible
-from ballscrew.friction.validity import imbalance_records, validity_masks, warning_records
-from ballscrew.quantities import AngularSpeed, Force, Info, Mask, Power, Ratio, Speed, Torque
+from ballscrew.friction.validity import (
+    NUT_CONDITIONS,
+    imbalance_records,
+    input_mask,
+    validity_masks,
+    warning_records,
+)
+from ballscrew.quantities import AngularSpeed, Force, Info, Mask, Power, Pressure, Ratio, Speed, Torque
 from ballscrew.records import Record
-
-#: The mechanisms a torque is made of, and what each is called in words.
-MECHANISMS: Mapping[str, str] = {
-    "hydrodynamic_rolling": "hydrodynamic rolling",
-    "elastic_hysteresis": "elastic hysteresis",
-    "curvature": "curvature slip",
-    "spin": "spin slip",
-    "helix": "helix slip",
-    "ball_to_ball": "ball to ball",
-}
-
+from ballscrew.solvers.load_distribution import BallLoads
 
 #: The four quadrants: directions of the load on the nut and of the rotation.
 QUADRANTS: Mapping[str, tuple[int, int]] = {
@@ -52,7 +50,9 @@ class Quadrant(NamedTuple):
 class FrictionResult:
     """Friction of a ball screw at one operating point, or at an array of them.
 
-    The equilibrium is in hand when the result is made; everything else is computed when it is
+    ``screw_torque``, ``nut_torque`` and ``contributions`` are magnitudes: friction opposes the motion. ``ideal_torque``
+    and ``drive_torque`` have the sign of the torque on the shaft, positive where it turns the screw at a positive speed.
+    The equilibrium of the balls is in hand when the result is made; everything else is computed when it is
     asked for, and kept.
     """
 
@@ -62,90 +62,95 @@ class FrictionResult:
     frame: Frame
     axial_load: Annotated[Force, Info("F", "axial load on the nut")]
     screw_speed: Annotated[AngularSpeed, Info(r"\omega", "speed of the screw", "rpm")]
-    contact_load: Annotated[Force, Info("Q", "normal load of each loaded ball")]
-    entrainment_speed: Annotated[Speed, Info("v", "entrainment speed at both contacts")]
-    screw: RaceState
-    nut: RaceState
-    ball_chain: BallChain
-    ball_to_ball_force: Annotated[Force, Info("F_B", "net braking force between neighbouring balls")]
-    spin_moment: Annotated[Torque, Info("M_P", "moment about the contact normals, the same at both contacts", "N mm")]
-    lateral_force: Annotated[Force, Info("F_L", "friction across the path, the same at both contacts")]
-    rolling_share: Annotated[
-        Ratio, Info(r"\sigma", "share of the resistances to rolling that friction carries; below one the ball skids")
-    ]
-    race_torques: RaceTorqueLaw
+    #: The balls of each kind; of a preloaded double nut the half that carries the load comes first.
+    kinds: tuple[LoadedBalls, ...]
+    #: Torque on the screw besides the balls, by name, N m.
+    losses: Mapping[str, Torque]
     ideal_torque_law: IdealTorqueLaw
-    converged: Mask
-    slip_is_curvature_alone: bool
+    #: The loads of all balls; None for a row of equal balls, which needs no solver to know them.
+    solved_loads: BallLoads | None = None
 
     def __repr__(self) -> str:
         """The few numbers one looks for first."""
         shown = {name: getattr(self, name) for name in ("screw_torque", "nut_torque", "efficiency", "valid")}
         return f"FrictionResult({', '.join(f'{name}={value}' for name, value in shown.items())})"
 
+    # -- torques ----------------------------------------------------------------------------------
+
     @lazy
     def screw_torque(
         self,
     ) -> Annotated[Torque, Info("M_S", "friction torque on the screw", address="Olaru2005 §6 (33)")]:
-        """Friction torque on the screw."""
-        return equilibrium.total_friction_torque(self.ball_screw.loaded_balls, self.screw.friction_torque)
+        """Friction torque on the screw, its magnitude."""
+        balls = [kind.total(kind.friction.screw_torque) for kind in self.kinds]
+        return _sum([*balls, *self.losses.values()])
 
     @lazy
     def nut_torque(self) -> Annotated[Torque, Info("M_N", "friction torque on the nut", address="Olaru2005 §6 (34)")]:
         """Friction torque on the nut, the reaction and not a further loss."""
-        return equilibrium.total_friction_torque(self.ball_screw.loaded_balls, self.nut.friction_torque)
+        balls = [kind.total(kind.friction.nut_torque) for kind in self.kinds]
+        return _sum([*balls, *self.losses.values()])
 
     @lazy
     def ideal_torque(
         self,
     ) -> Annotated[Torque, Info("M_Sa", "drive torque without friction", address="Olaru2005 §7 (35)")]:
-        """Drive torque without friction."""
+        """Drive torque without friction, with the sign of the load."""
         return self.ideal_torque_law(self.axial_load, self.ball_screw, self.frame)
 
     @lazy
-    def drive_torque(self) -> Annotated[Torque, Info("M_Sa + M_S", "drive torque with friction")]:
-        """Torque that drives the screw against the load."""
-        return self.ideal_torque + self.screw_torque
+    def drive_torque(self) -> Annotated[Torque, Info("M_Sa + M_S", "torque on the shaft, with friction")]:
+        r"""Torque on the shaft in motion, :math:`M_{Sa}(F) + \operatorname{sign}(\omega) M_S`.
 
-    @lazy
-    def efficiency(
-        self,
-    ) -> Annotated[Ratio, Info(r"\eta", "efficiency, screw drives the nut", address="Olaru2005 §7 (36)")]:
-        """Efficiency when the screw drives the nut.
-
-        Zero without load. Where both torques vanish, the limit of vanishing load in the models of
-        the paper: 0 in motion, where friction falls more slowly than the load, and 1 at rest, where
-        it falls faster. In the reference model the ball skids under vanishing load, and the limit
-        in motion lies between the two: there the 0 is a convention (no load, no useful work).
+        At rest friction holds up to ``screw_torque`` either way, and the torque is the ideal one:
+        see :attr:`holding_torque`.
         """
-        ideal, friction = self.ideal_torque, self.screw_torque
-        no_torque = ideal + friction == 0
-        # truth counts as 1 here: it keeps 0/0 away, and is the limit at rest
-        eta = transmission.efficiency(ideal, friction + no_torque)
-        return eta + (no_torque & (self.screw_speed == 0))
-
-    @lazy
-    def back_driving_efficiency(self) -> Annotated[Ratio, Info(r"\eta_b", "efficiency, the load drives the screw")]:
-        """Efficiency when the load drives the screw; zero or less means self-locking.
-
-        NaN where the direct efficiency is zero: without a load, nothing drives.
-        """
-        eta = self.efficiency
-        xp = namespace(eta)
-        none = eta == 0
-        return xp.where(none, float("nan"), transmission.back_driving_efficiency(xp.where(none, 1.0, eta)))[()]
+        xp = namespace(self.screw_speed, self.screw_torque)
+        direction = xp.where(self.screw_speed > 0, 1.0, xp.where(self.screw_speed < 0, -1.0, 0.0))[()]
+        return self.ideal_torque + direction * self.screw_torque
 
     @lazy
     def holding_torque(
         self,
     ) -> Annotated[Torque, Info("M_h", "torque that holds the load when it drives; negative: that lowers it")]:
-        """Torque on the shaft when the load drives the screw: held where positive, self-locking where not."""
-        return transmission.holding_torque(self.ideal_torque, self.screw_torque)
+        """Torque on the shaft when the load drives the screw: held where positive, self-locking where not.
+
+        For a load below zero all signs are reversed.
+        """
+        size = transmission.holding_torque(abs(self.ideal_torque), self.screw_torque)
+        return namespace(self.axial_load, size).where(self.axial_load < 0, -size, size)[()]
 
     @lazy
     def self_locking(self) -> Annotated[Mask, Info("self-locking", "the load alone cannot turn the screw")]:
         """True where there is a load that cannot drive the screw back at this speed, that is with this friction."""
-        return (self.ideal_torque > 0) & (self.holding_torque <= 0)
+        size = abs(self.ideal_torque)
+        return (size > 0) & (size <= self.screw_torque)
+
+    @lazy
+    def _direct_efficiency(self) -> Ratio:
+        """Efficiency if the screw drove the load at this speed; NaN without a load."""
+        size = abs(self.ideal_torque)
+        xp = namespace(self.axial_load, size)
+        loaded = self.axial_load != 0
+        eta = transmission.efficiency(xp.where(loaded, size, 1.0)[()], self.screw_torque)
+        return xp.where(loaded, eta, float("nan"))[()]
+
+    @lazy
+    def efficiency(
+        self,
+    ) -> Annotated[Ratio, Info(r"\eta", "efficiency, screw drives the nut", address="Olaru2005 §7 (36)")]:
+        """Efficiency where the screw drives the nut against its load, at rest its limit.
+
+        NaN where it drives no load: without one, and where the load has the sign of the motion.
+        """
+        F, omega = self.axial_load, self.screw_speed
+        drives = ((F > 0) & (omega >= 0)) | ((F < 0) & (omega <= 0))
+        return namespace(F, omega).where(drives, self._direct_efficiency, float("nan"))[()]
+
+    @lazy
+    def back_driving_efficiency(self) -> Annotated[Ratio, Info(r"\eta_b", "efficiency, the load drives the screw")]:
+        """Efficiency if the load drives the screw; zero or less means self-locking. NaN without a load."""
+        return transmission.back_driving_efficiency(self._direct_efficiency)
 
     def shaft_torque(self, load_sign: int, speed_sign: int) -> Torque:
         """Torque on the shaft in one of four quadrants, positive the way that moves the nut against a load of +1.
@@ -154,7 +159,7 @@ class FrictionResult:
         with equal signs the screw drives the nut against its load, with opposite signs the load
         helps. Friction is the same in all four and opposes the rotation.
         """
-        return load_sign * self.ideal_torque + speed_sign * self.screw_torque
+        return load_sign * abs(self.ideal_torque) + speed_sign * self.screw_torque
 
     @lazy
     def quadrants(self) -> Mapping[str, Quadrant]:
@@ -169,95 +174,31 @@ class FrictionResult:
                 load,
                 speed,
                 self.shaft_torque(load, speed),
-                self.shaft_torque(load, speed) * speed * self.screw_speed,
-                self.efficiency if load == speed else self.back_driving_efficiency,
+                self.shaft_torque(load, speed) * speed * abs(self.screw_speed),
+                self._direct_efficiency if load == speed else self.back_driving_efficiency,
             )
             for name, (load, speed) in QUADRANTS.items()
         }
 
-    @lazy
-    def ball_friction_moment(
-        self,
-    ) -> Annotated[
-        Torque, Info("M_B", "braking moment of the neighbouring balls", "N mm", address="Olaru2005 §2.2 (21)")
-    ]:
-        """Braking moment of the neighbouring balls."""
-        return self.ball_chain.moment
+    # -- parts and power --------------------------------------------------------------------------
 
     @lazy
     def contributions(self) -> Mapping[str, Torque]:
-        """Friction torque on the screw by mechanism, N m; the parts sum to ``screw_torque``.
-
-        The torque is linear in the forces and moments of the mechanisms, so each part is the torque
-        with all others struck out.
-        """
-        s, n, chain = self.screw, self.nut, self.ball_chain
-        zero = 0 * s.friction_torque
-        F_Rs, F_Rn = s.hydrodynamic_rolling_force, n.hydrodynamic_rolling_force
-        M_ERs, M_ERn = s.elastic_resistance_moment, n.elastic_resistance_moment
-        M_Cs, M_Cn = s.curvature_friction_moment, n.curvature_friction_moment
-        # adding zero gives the parts that depend on less the shape of the operating point
-        M_B, F_B = chain.moment + zero, chain.braking_force + zero
-        nothing = BallChain(zero, zero)
-        parts = {
-            "hydrodynamic_rolling": Resistances(F_Rs, F_Rn, zero, zero, nothing),
-            "elastic_hysteresis": Resistances(zero, zero, M_ERs, M_ERn, nothing),
-            "curvature": Resistances(zero, zero, M_Cs, M_Cn, nothing),
-            "ball_to_ball": Resistances(zero, zero, zero, zero, BallChain(M_B, F_B)),
+        """Friction torque on the screw by mechanism, N m, then by loss; the parts sum to ``screw_torque``."""
+        balls = {
+            mechanism: _sum([kind.total(kind.friction.contributions[mechanism]) for kind in self.kinds])
+            for mechanism in MECHANISMS
         }
-        torques = {mechanism: self._screw_torque_of(part) for mechanism, part in parts.items()}
-        torques["spin"] = zero + equilibrium.spin_torque(self.spin_moment, self.frame.rolling_plane_sine)
-        torques["helix"] = zero + equilibrium.torsion_torque(
-            self.lateral_force, self.ball_screw.ball_diameter, self.frame.lead_angle
-        )
-        z = self.ball_screw.loaded_balls
-        return {mechanism: equilibrium.total_friction_torque(z, torques[mechanism]) for mechanism in MECHANISMS}
-
-    def _screw_torque_of(self, part: Resistances) -> Torque:
-        """Torque of one ball on the screw that a part of its resistances gives rise to."""
-        forces = ball_forces(part, self.ball_screw.ball_diameter, self.frame)
-        return self.race_torques(
-            forces.screw_tangential_force, forces.nut_tangential_force, part.screw_moment, part.nut_moment, self.frame
-        ).screw
+        return {**balls, **self.losses}
 
     @lazy
     def dissipation(self) -> Mapping[str, Power]:
-        """Power dissipated by mechanism, W, from local forces and local speeds.
-
-        The speeds are those of a ball whose races creep ahead of it, where the slip law tells how
-        much; what the sliding forces dissipate in creep counts as curvature slip. That the sum is the
-        torque's power says that the ball is in balance, not that its slip has settled: the forces
-        are those of the balance, and how far the slip is from them, ``converged`` tells.
-        """
-        s, n, chain, frame = self.screw, self.nut, self.ball_chain, self.frame
-        d_w, z, cosine = self.ball_screw.ball_diameter, self.ball_screw.loaded_balls, frame.rolling_plane_cosine
-        A_s, A_n = s.creep_speed, n.creep_speed
-        w = kinematics.ball_surface_speed(
-            self.entrainment_speed, A_s, A_n, s.contact_radius, n.contact_radius, frame.path_radius
-        )
-        ball = kinematics.ball_rotation(w, d_w)
-        orbit = kinematics.orbital_rotation(w + A_n, n.contact_radius)
-        relative = kinematics.screw_relative_rotation(w + A_s, s.contact_radius)
-        at_screw = kinematics.screw_contact_rotation(ball, relative, cosine)
-        at_nut = kinematics.nut_contact_rotation(ball, orbit, cosine)
-        per_ball = {
-            "hydrodynamic_rolling": dissipation.hydrodynamic_rolling_power(
-                s.hydrodynamic_rolling_force, n.hydrodynamic_rolling_force, w + A_s / 2, w + A_n / 2
-            ),
-            "elastic_hysteresis": dissipation.contact_moment_power(
-                s.elastic_resistance_moment, n.elastic_resistance_moment, at_screw, at_nut
-            ),
-            "curvature": dissipation.contact_moment_power(
-                s.curvature_friction_moment, n.curvature_friction_moment, at_screw, at_nut
-            )
-            + dissipation.creep_power(s.sliding_force, n.sliding_force, A_s, A_n),
-            "spin": dissipation.spin_power(self.spin_moment, s.spin + n.spin),
-            "helix": dissipation.torsion_power(self.lateral_force, s.lateral_slip_speed + n.lateral_slip_speed),
-            "ball_to_ball": dissipation.ball_chain_power(
-                chain.moment, ball, self.ball_to_ball_force, kinematics.orbital_speed(orbit, frame.path_radius)
-            ),
+        """Power dissipated by mechanism, W, from local forces and local speeds, then by loss."""
+        balls = {
+            mechanism: _sum([kind.total(kind.friction.dissipation[mechanism]) for kind in self.kinds])
+            for mechanism in MECHANISMS
         }
-        return {mechanism: z * power for mechanism, power in per_ball.items()}
+        return {**balls, **{name: torque * abs(self.screw_speed) for name, torque in self.losses.items()}}
 
     @lazy
     def friction_power(self) -> Annotated[Power, Info("P", "power dissipated by friction")]:
@@ -270,21 +211,138 @@ class FrictionResult:
 
         NaN at rest. The printed reactions of Olaru2005 leave a part of the sliding forces out.
         """
-        taken, lost = self.screw_torque * self.screw_speed, self.friction_power
+        taken, lost = self.screw_torque * abs(self.screw_speed), self.friction_power
         return (taken - lost) / lost
+
+    # -- balls and contacts -----------------------------------------------------------------------
+
+    @lazy
+    def loads(self) -> BallLoads:
+        """Loads and contact angles of the balls, the deflection and the rigidity of the nut.
+
+        Of a row of equal balls those of Hertz springs, whose contact angle follows the load.
+        """
+        if self.solved_loads is None:
+            return loaded_balls.loads_of(self.ball_screw, self.axial_load)
+        return self.solved_loads
+
+    @property
+    def pairs(self) -> tuple[LoadedPair, ...]:
+        """The flank pairs that balls touch, with their contacts: of each kind of balls one pair, or two."""
+        return tuple(pair for kind in self.kinds for pair in kind.pairs)
+
+    @lazy
+    def screw(self) -> RaceState:
+        """The contact with the screw of the most loaded ball; on four contacts without the forces of its balance."""
+        return self.kinds[0].most_loaded(self.kinds[0].friction.screw)
+
+    @lazy
+    def nut(self) -> RaceState:
+        """The contact with the nut of the most loaded ball; on four contacts without the forces of its balance."""
+        return self.kinds[0].most_loaded(self.kinds[0].friction.nut)
+
+    @lazy
+    def _ball(self) -> Any:
+        """Friction of the most loaded ball."""
+        return self.kinds[0].most_loaded(self.kinds[0].friction)
+
+    @lazy
+    def contact_load(self) -> Annotated[Force, Info("Q", "normal load of each loaded ball")]:
+        """Normal load of each loaded ball; of unequal ones that of the most loaded."""
+        return self._ball.contact_load
+
+    @lazy
+    def entrainment_speed(self) -> Annotated[Speed, Info("v", "entrainment speed at both contacts")]:
+        """Entrainment speed at both contacts."""
+        return self._ball.entrainment_speed
+
+    @lazy
+    def ball_to_ball_force(self) -> Annotated[Force, Info("F_B", "net braking force between neighbouring balls")]:
+        """Net braking force between neighbouring balls."""
+        return self._ball.ball_to_ball_force
+
+    @lazy
+    def spin_moment(
+        self,
+    ) -> Annotated[Torque, Info("M_P", "moment about the contact normals, the same at both contacts", "N mm")]:
+        """Moment about the contact normals, the same at both contacts of a ball with two."""
+        return self._ball.spin_moment
+
+    @lazy
+    def lateral_force(self) -> Annotated[Force, Info("F_L", "friction across the path, the same at both contacts")]:
+        """Friction across the path, the same at both contacts of a ball with two."""
+        return self._ball.lateral_force
+
+    @lazy
+    def rolling_share(
+        self,
+    ) -> Annotated[
+        Ratio, Info(r"\sigma", "share of the resistances to rolling that friction carries; below one the ball skids")
+    ]:
+        """Share of the resistances to rolling that friction carries; below one the ball skids."""
+        return self._ball.rolling_share
+
+    @lazy
+    def ball_friction_moment(
+        self,
+    ) -> Annotated[
+        Torque, Info("M_B", "braking moment of the neighbouring balls", "N mm", address="Olaru2005 §2.2 (21)")
+    ]:
+        """Braking moment of the neighbouring balls of a ball with two contacts."""
+        return self._ball.ball_friction_moment
+
+    @property
+    def ball_chain(self) -> BallChain:
+        """Moment and braking force of the neighbouring balls of a ball with two contacts."""
+        return self.kinds[0].friction.ball_chain  # pyright: ignore  (those with four contacts have none)
+
+    @property
+    def converged(self) -> Mask:
+        """Mask: the slip of all balls converged."""
+        masks = [kind.friction.converged for kind in self.kinds]
+        return masks[0] if len(masks) == 1 else masks[0] & masks[1]
+
+    @lazy
+    def largest_contact_load(self) -> Annotated[Force, Info("Q_max", "load of the most loaded contact")]:
+        """Load of the most loaded contact."""
+        return loaded_balls.largest_contact_load(self.kinds)
+
+    @lazy
+    def maximum_pressure(self) -> Annotated[Pressure, Info("p_0", "greatest contact pressure", "GPa")]:
+        """Greatest contact pressure of all balls."""
+        return loaded_balls.maximum_pressure(self.kinds)
+
+    @lazy
+    def minimum_film_parameter(self) -> Annotated[Ratio, Info(r"\lambda", "least film parameter of all contacts")]:
+        """Least film parameter of all contacts that carry load."""
+        return loaded_balls.minimum_film_parameter(self.kinds)
+
+    # -- validity ---------------------------------------------------------------------------------
 
     @lazy
     def validity(self) -> Mapping[str, Mask]:
-        """Masks of the conditions of the model, by reason; see :data:`ballscrew.friction.validity.REASONS`."""
-        return validity_masks(
-            self.parts.values(),
-            self.screw,
-            self.nut,
-            self.converged,
-            self.rolling_share,
-            self.slip_is_curvature_alone,
-            self.drive_torque,
-        )
+        """Masks of the conditions of the model, by reason; see :data:`ballscrew.friction.validity.REASONS`.
+
+        Of a nut whose balls differ, a condition may fail for contacts that carry a negligible share of the load.
+        """
+        if self.solved_loads is None:
+            ball: Any = self.kinds[0].friction
+            return validity_masks(
+                self.parts.values(),
+                ball.screw,
+                ball.nut,
+                ball.converged,
+                ball.rolling_share,
+                ball.slip_is_curvature_alone,
+                self.drive_torque,
+            )
+        found = dict(loaded_balls.holds_for_most(self.kinds))
+        # without any load nothing is rolled along, as with one ball
+        found["skid"] = found["skid"] & (self.largest_contact_load > 0)
+        found["inputs"] = input_mask(self.parts.values(), self.drive_torque)
+        found["load_distribution"] = self.solved_loads.converged
+        everywhere = found["inputs"] | True
+        return {reason: found.get(reason, True) & everywhere for reason in NUT_CONDITIONS}
 
     @lazy
     def valid(self) -> Annotated[Mask, Info("valid", "all conditions of the model hold")]:
@@ -298,10 +356,19 @@ class FrictionResult:
     @property
     def warning_records(self) -> list[Record]:
         """Inputs that no ball screw has, an imbalance of power, and the conditions that fail somewhere, as records."""
+        contacts = [contact for pair in self.pairs for contact in (pair.screw, pair.nut)]
         unbalanced = imbalance_records(self.power_imbalance, self.nut_torque)
-        return [*implausible(self.parts), *unbalanced, *warning_records(self.validity, (self.screw, self.nut))]
+        return [*implausible(self.parts), *unbalanced, *warning_records(self.validity, contacts, NUT_CONDITIONS)]
 
     @property
     def warnings(self) -> list[str]:
         """The :attr:`warning_records` as texts: ``"reason: explanation"``."""
         return [f"{record.name}: {record.text}" for record in self.warning_records]
+
+
+def _sum(values: list[Any]) -> Any:
+    """A sum whose first term is not added to zero, so that one term alone keeps its bits and its type."""
+    total = values[0]
+    for value in values[1:]:
+        total = total + value
+    return total

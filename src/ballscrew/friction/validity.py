@@ -88,7 +88,13 @@ CONDITIONS: Mapping[str, Condition] = {
     ),
     "equilibrium": Condition("equilibrium", "the slip of the ball did not converge"),
 }  # fmt: skip
+#: The conditions of a ball, and those of a nut.
+NUT_CONDITIONS: Mapping[str, Condition] = {
+    **CONDITIONS,
+    "load_distribution": Condition("load_distribution", "the loads of the balls did not converge"),
+}
 #: The texts alone, by reason.
+NUT_REASONS: Mapping[str, str] = {reason: condition.text for reason, condition in NUT_CONDITIONS.items()}
 REASONS: Mapping[str, str] = {reason: condition.text for reason, condition in CONDITIONS.items()}
 
 
@@ -191,9 +197,14 @@ def contact_masks(contact: Contact) -> dict[str, Mask]:
     return {reason: holds(contact) for reason, holds in _OF_A_CONTACT.items()}
 
 
-def _no_skid(side: RaceState) -> Mask:
-    xp = namespace(side.sliding_force)
-    return (side.contact_load > 0) & (xp.abs(side.sliding_force) <= side.traction_limit)
+def slip_masks(side: RaceState) -> dict[str, Mask]:
+    """Masks of the conditions on the slip at a contact, by reason."""
+    return {reason: holds(side) for reason, holds in _OF_THE_SLIP.items()}
+
+
+def no_skid(side: RaceState) -> Mask:
+    """Mask: the contact is loaded, and friction carries its sliding force."""
+    return (side.contact_load > 0) & (abs(side.sliding_force) <= side.traction_limit)
 
 
 def _within(value: Ratio, least: float, most: float) -> Mask:
@@ -202,7 +213,7 @@ def _within(value: Ratio, least: float, most: float) -> Mask:
 
 #: The conditions on the slip at a contact, by reason.
 _OF_THE_SLIP: Mapping[str, Callable[[RaceState], Mask]] = {
-    "skid": _no_skid,
+    "skid": no_skid,
     "pure_rolling_offset": lambda side: (
         (side.pure_rolling_offset >= 0) & (side.pure_rolling_offset < LARGEST_PURE_ROLLING_OFFSET)
     ),

@@ -158,7 +158,7 @@ def _slip(run: Run, flanks: Sequence[Touching], side: Mapping[str, float]) -> tu
     case, omega = run.case, float(run.case.operation.screw_speed)
     if omega == 0:
         return None, AT_REST
-    if "creep_speed" not in side or (case.parts is not None and isinstance(case.parts.nut, OversizeBallNut)):
+    if "creep_speed" not in side or isinstance(case.nut, OversizeBallNut):
         return None, FOUR_CONTACTS
     flank = max(flanks, key=lambda flank: flank.load)
     at_angle = dataclasses.replace(case.screw, contact_angle=flank.angle)

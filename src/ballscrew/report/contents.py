@@ -82,7 +82,7 @@ def content(case: case_file.Case, done: Done | None = None, samples: int | None 
 
 def _subtitle(case: case_file.Case) -> list[str]:
     of_row = [] if case.row is None else [f"{case.row.name} ({case.row.source})"]
-    nut = [] if case.parts is None else [descriptions.nut_text(case.parts)]
+    nut = [] if case.nut is None else [descriptions.nut_text(case.nut)]
     lines = [*of_row, descriptions.design(case, plain_text=True), *nut]
     return [*lines, f"{descriptions.operating_point(case)}; {descriptions.model_text(case)}"]
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ballscrew import units
 from ballscrew.cases.case_file import Case
-from ballscrew.components.screw import Operation
+from ballscrew.components.operating_state import OperatingState
 from ballscrew.evaluation.outputs import OPERATION
 from ballscrew.quantities import fields_of
 
@@ -20,7 +20,7 @@ Masks = NDArray[np.bool_]
 BEYOND, POINTS, MAP_POINTS, FIRST = 2.0, 61, 25, 0.02
 #: Where the curves of a case at rest or without load end.
 SPEED, LOAD, SHARE_OF_RATING = 1200 * np.pi / 30, 2000.0, 0.2
-_KNOWN = fields_of(Operation)
+_KNOWN = fields_of(OperatingState)
 
 
 class Curves(NamedTuple):
@@ -52,9 +52,7 @@ def friction_of(case: Case) -> Callable[[Any, Any], Any]:
     """The friction of a case, or of its nut, at loads and speeds."""
 
     def of(load: Any, speed: Any) -> Any:
-        if case.parts is None:
-            return case.model(case.screw, case.lubricant, axial_load=load, screw_speed=speed)
-        return case.parts.friction(case.model, case.screw, case.lubricant, axial_load=load, screw_speed=speed)
+        return case.model(case.screw, case.lubricant, axial_load=load, screw_speed=speed)
 
     return of
 
@@ -93,7 +91,7 @@ def curves(case: Case) -> Curves:
 
 
 def _contacts(case: Case, over_speed: Any, over_load: Any) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
-    if case.parts is not None:
+    if case.nut is not None:
         words = "of all contacts"
         return {f"least {words}": over_speed.minimum_film_parameter}, {f"greatest {words}": over_load.maximum_pressure}
     sides = {"at the screw": "screw", "at the nut": "nut"}

@@ -12,7 +12,8 @@ from ballscrew.cases.nut_kinds import ENDS, LISTED, kind_of
 from ballscrew.cases.schema import LAWS, name_of_law
 from ballscrew.components.installation import Limits
 from ballscrew.components.materials import TEMPERATURE, Lubricant
-from ballscrew.components.screw import MATERIALS, BallScrew, Operation
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.friction.law_names import coefficients
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.report.blocks import Table
@@ -39,7 +40,7 @@ def tables(case: Case) -> list[Table]:
     found = [
         Table("Screw", _COLUMNS, _screw(case), _TEXTS),
         Table("Lubricant", _COLUMNS, _lubricant(case), _TEXTS),
-        Table("Operating point", _COLUMNS, _part(case, case.operation, fields_of(Operation), lambda _: CASE), _TEXTS),
+        Table("Operating point", _COLUMNS, _part(case, case.operation, fields_of(OperatingState), lambda _: CASE), _TEXTS),
     ]
     others = {"Nut": _nut(case), "Installation": _installation(case), "Limits of the checks": _limits(case)}
     found += [Table(title, _COLUMNS, rows, _TEXTS) for title, rows in others.items() if rows]
@@ -132,21 +133,22 @@ def _lubricant(case: Case) -> Rows:
 
 
 def _nut(case: Case) -> Rows:
-    parts = case.parts
-    if parts is None:
+    nut = case.nut
+    if nut is None:
         return []
-    of_row = case.row is not None and (case.row.nut or "single") == kind_of(parts.nut)
-    rows: Rows = [("kind of nut", kind_of(parts.nut), ROW if of_row else CASE)]
-    usual = _defaults(type(parts.nut))
-    rows += _part(
-        case, parts.nut, fields_of(parts.nut), lambda n: DEFAULT if getattr(parts.nut, n) == usual.get(n) else CASE
-    )
-    bodies = parts.bodies_of(case.screw)
-    if bodies is not None:
-        given = parts.bodies or {}
-        rows += _part(case, bodies, fields_of(bodies), lambda n: CASE if n in given else DEFAULT)
-    for part in (parts.scatter, *parts.losses.values()):
-        if part is not None:
+    of_row = case.row is not None and (case.row.nut or "single") == kind_of(nut)
+    rows: Rows = [("kind of nut", kind_of(nut), ROW if of_row else CASE)]
+    usual = _defaults(type(nut))
+    own = {name: quantity for name, quantity in fields_of(nut).items() if getattr(nut, name) is not None}
+    rows += _part(case, nut, own, lambda n: DEFAULT if getattr(nut, n) == usual.get(n) else CASE)
+    given = nut.bodies
+    if given is not None:
+        bodies = given.sized(case.screw)
+        rows += _part(
+            case, bodies, fields_of(bodies), lambda n: DEFAULT if getattr(given, n) is None else CASE
+        )
+    for section, part in nut.parts.items():
+        if section not in ("nut", "bodies"):
             own = _defaults(type(part))
 
             def source(name: str, part: Any = part, own: Mapping[str, Any] = own) -> str:

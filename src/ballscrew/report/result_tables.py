@@ -10,7 +10,6 @@ from ballscrew.cases import case_file, descriptions
 from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.components.contact import RaceState
 from ballscrew.evaluation.outputs import known_outputs
-from ballscrew.friction.nut_friction import NutFriction
 from ballscrew.friction.result import MECHANISMS, FrictionResult
 from ballscrew.output.text import band
 from ballscrew.output.text import check as check_text
@@ -26,7 +25,7 @@ from ballscrew.studies.check import Checked
 from ballscrew.studies.run import Run
 from ballscrew.uncertainty.bands import Interval
 
-_ONE, _NUT, _LOADS = quantities_of(FrictionResult), quantities_of(NutFriction), quantities_of(BallLoads)
+_ONE, _LOADS = quantities_of(FrictionResult), quantities_of(BallLoads)
 _CONTACT = quantities_of(RaceState)
 _TORQUE = _ONE["screw_torque"]
 #: The results of a screw, in this order; a nut has no contact load and entrainment speed of all its balls.
@@ -155,7 +154,7 @@ def _bar(interval: Interval, value: float, ends: Sequence[float]) -> Bar | str:
 
 
 def _followers(case: case_file.Case, report: BandReport) -> Table:
-    known = known_outputs(case.parts)
+    known = known_outputs(case.screw.nut)
     rows: list[tuple[str, ...]] = []
     for name in band.SHOWN:
         quantity, one = known[name].quantity, report.band[name]
@@ -169,7 +168,7 @@ def _followers(case: case_file.Case, report: BandReport) -> Table:
 
 def checks(found: Checked) -> list[Block]:
     """Checks, line by line."""
-    without_nut = found.case.parts is None
+    without_nut = found.case.nut is None
     said = [found.verdict]
     if without_nut:
         said.append("the case has no nut: it is checked as a single nut without preload")

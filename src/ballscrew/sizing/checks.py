@@ -12,7 +12,8 @@ from ballscrew._deprecated import RenamedAttribute
 from ballscrew.components.catalogue import CatalogueRow
 from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.nut import Nut, SingleNut
-from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.screw import BallScrew
 from ballscrew.equations import geometry, life, rating, shaft
 from ballscrew.errors import Fault, accepts_units, raise_if_any, shown
 from ballscrew.friction.validity import LARGEST_PRESSURE
@@ -125,7 +126,7 @@ def checks(
     Raises :class:`~ballscrew.errors.InputError` for values that are not positive, loads and speed below zero, and a
     largest load below the mean.
     """
-    Operation(axial_load=axial_load, screw_speed=screw_speed)
+    OperatingState(axial_load=axial_load, screw_speed=screw_speed)
     _raise_for_nonsense(axial_load, largest_load, dynamic_load_rating, static_load_rating, root_diameter)
     largest = axial_load if largest_load is None else largest_load
     at_mean = loads_of_halves(nut, axial_load) if half_loads is None else half_loads

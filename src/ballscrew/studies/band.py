@@ -115,7 +115,7 @@ def curve(case: Case, report: BandReport, options: Options, done: Done | None = 
     here = float(getattr(case.operation, along)) or 1.0
     return bands.band_along(
         along=along,
-        points=np.linspace(0.0, _BEYOND * here, _POINTS if case.parts is None else _NUT_POINTS),
+        points=np.linspace(0.0, _BEYOND * here, _POINTS if case.nut is None else _NUT_POINTS),
         axial_load=case.operation.axial_load,
         screw_speed=case.operation.screw_speed,
         **_arguments(case, report.inputs, options),
@@ -131,7 +131,6 @@ def _arguments(case: Case, inputs: Mapping[str, Uncertain], options: Options) ->
         "model": case.model,
         "screw": case.screw,
         "lubricant": case.lubricant,
-        "nut": case.parts,
         "uncertain": {name: u.distribution for name, u in inputs.items() if name not in together},
         "joint": joint,
         "alternatives": alternatives(case),

@@ -15,7 +15,6 @@ from ballscrew.cases.option_faults import in_options
 from ballscrew.components.catalogue import CatalogueRow
 from ballscrew.components.nut import SingleNut
 from ballscrew.errors import Fault, InputError, raise_if_any
-from ballscrew.friction.nut_parts import NutParts
 from ballscrew.records import Record
 from ballscrew.sizing.checks import Check, Ratings, checks, ratings_of
 from ballscrew.studies.run import NutState, Run, with_nut
@@ -189,8 +188,7 @@ def _filled(tables: dict[str, Any], row: CatalogueRow) -> list[str]:
 
 def checked(name: str, case: Case, notes: Sequence[str] = ()) -> Checked:
     """The checks of a case; without a nut, of a single one. ``notes`` are further assumptions."""
-    parts = NutParts(nut=SingleNut()) if case.parts is None else case.parts
-    run = with_nut(case, parts)
+    run = with_nut(case, nut_tables.SINGLE if case.nut is None else case.nut)
     assert run.nut is not None
     computed = _computed(case)
     rated = {name: case.listed.get(name) for name in RATINGS}
@@ -202,7 +200,7 @@ def checked(name: str, case: Case, notes: Sequence[str] = ()) -> Checked:
         case.screw,
         axial_load=load,
         screw_speed=float(case.operation.screw_speed),
-        nut=parts.nut,
+        nut=run.case.screw.nut,
         **rated,
         half_loads=(load + left, left) if left > 0 else (load,),
         maximum_pressure=run.nut.maximum_pressure,

@@ -58,10 +58,10 @@ def _coefficients(law: Any) -> dict[str, Any]:
 def comparison(case: case_file.Case, done: Callable[[int, int], None] | None = None) -> Comparison:
     """The comparison of a case; ``done(finished, total)`` reports the progress by rows."""
     models, laws = candidates(case)
-    return compare(case.model, models, laws, case.screw, case.lubricant, case.operation, case.parts, done)
+    return compare(case.model, models, laws, case.screw, case.lubricant, case.operation, done)
 
 
 def models_without_nut(case: case_file.Case) -> list[str]:
     """Names of the models that cannot compute the nut of the case, and are left out."""
     models, _ = candidates(case)
-    return [c.name for c in models if case.parts is not None and not case.parts.knows(c.model)]
+    return [c.name for c in models if not c.model.knows(case.screw.nut)]

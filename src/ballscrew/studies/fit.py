@@ -59,7 +59,7 @@ class FitReport:
 
 def refuse_nut(case: Case) -> None:
     """Raise :class:`~ballscrew.errors.InputError` for a case with a nut, which cannot be fitted yet."""
-    if case.parts is not None:
+    if case.nut is not None:
         remedy = "leave out [nut] and what belongs to it, or fit a case without"
         raise InputError(Fault("nut", "a whole nut cannot be fitted yet", "", remedy))
 

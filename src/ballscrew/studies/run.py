@@ -15,15 +15,13 @@ import numpy as np
 from ballscrew import units
 from ballscrew.cases.case import Case
 from ballscrew.components.contact import RaceState
+from ballscrew.components.nut import Nut
 from ballscrew.components.traits import traits_of
-from ballscrew.friction.nut_friction import NutFriction
-from ballscrew.friction.nut_parts import NutParts
-from ballscrew.friction.protocol import Friction
 from ballscrew.friction.result import FrictionResult, Quadrant
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Quantity, quantities_of
 from ballscrew.records import Record
-from ballscrew.solvers.load_distribution import BallLoads
+from ballscrew.solvers.load_distribution import BallLoads, preload_of
 
 _TORQUE, _SHARE = quantities_of(FrictionResult)["holding_torque"], quantities_of(FrictionResult)["rolling_share"]
 _LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
@@ -48,7 +46,7 @@ class Flank(NamedTuple):
 class NutState:
     """The loads of the balls of a nut, and the torque of the nut without axial load."""
 
-    parts: NutParts
+    nut: Nut
     #: Preload of the nut, N.
     preload: float
     #: Torque of the nut without load: the sum of preload and losses.
@@ -71,9 +69,9 @@ class Run:
     """Friction of a case at its operating point."""
 
     case: Case
-    friction: Friction
+    friction: FrictionResult
     #: The same at rest: the torque that a brake has to hold.
-    at_rest: Friction
+    at_rest: FrictionResult
     #: The contacts with screw and nut of a ball, of a nut those of the most loaded one.
     contacts: Mapping[str, Mapping[str, float]]
     #: The flanks that this ball touches.
@@ -151,7 +149,7 @@ class Run:
         ]  # fmt: skip
 
 
-def _holding(friction: Friction, place: str) -> list[Record]:
+def _holding(friction: FrictionResult, place: str) -> list[Record]:
     """The direction in which the load drives, and the torque that holds or lowers it; empty where it is NaN."""
     held = float(friction.holding_torque)
     if math.isnan(held):
@@ -185,7 +183,7 @@ def _holding(friction: Friction, place: str) -> list[Record]:
 @overflow_as_input_error()
 def run(case: Case) -> Run:
     """Friction of a case at its operating point."""
-    return _of_balls(case) if case.parts is None else with_nut(case, case.parts)
+    return _of_balls(case) if case.nut is None else with_nut(case, case.nut)
 
 
 def _of_balls(case: Case) -> Run:
@@ -211,17 +209,19 @@ def _of_balls(case: Case) -> Run:
     )
 
 
-def with_nut(case: Case, parts: NutParts) -> Run:
+def with_nut(case: Case, nut: Nut) -> Run:
     """The case with this nut in place of its own."""
     load, speed = case.operation.axial_load, case.operation.screw_speed
 
-    def friction(load: float, speed: float) -> NutFriction:
-        return parts.friction(case.model, case.screw, case.lubricant, axial_load=load, screw_speed=speed)
+    screw = dataclasses.replace(case.screw, nut=nut)
+
+    def friction(load: float, speed: float) -> FrictionResult:
+        return case.model(screw, case.lubricant, axial_load=load, screw_speed=speed)
 
     found = friction(load, speed)
-    loads, half = found.loads, np.shape(found.loads.balls)[-1] // parts.halves
+    loads, half = found.loads, np.shape(found.loads.balls)[-1] // nut.halves
     return Run(
-        case=dataclasses.replace(case, parts=parts),
+        case=dataclasses.replace(case, screw=screw),
         friction=found,
         at_rest=friction(load, 0.0) if float(speed) and float(load) else found,
         contacts=_most_loaded(found),
@@ -230,8 +230,8 @@ def with_nut(case: Case, parts: NutParts) -> Run:
         ball_to_ball_force=None,
         quadrants={},
         nut=NutState(
-            parts=parts,
-            preload=float(getattr(parts.nut, "preload", 0.0)),
+            nut=nut,
+            preload=float(preload_of(screw)),
             preload_drag=float(friction(0.0, speed).screw_torque),
             loads=loads,
             maximum_pressure=float(found.maximum_pressure),
@@ -253,7 +253,7 @@ def _flank(load: Any, angle: Any, balls: Any) -> Flank | None:
     return Flank(ends(load, balls), ends(angle[touches], balls[touches]))
 
 
-def _most_loaded(found: NutFriction) -> dict[str, dict[str, float]]:
+def _most_loaded(found: FrictionResult) -> dict[str, dict[str, float]]:
     """The contacts of the most loaded ball, on screw and nut."""
     pair = max(found.pairs, key=lambda pair: float(np.max(pair.load)))
     ball = int(np.argmax(pair.load))
@@ -263,7 +263,7 @@ def _most_loaded(found: NutFriction) -> dict[str, dict[str, float]]:
     }
 
 
-def _touching(found: NutFriction) -> list[Touching]:
+def _touching(found: FrictionResult) -> list[Touching]:
     """The flanks that the most loaded ball touches; without load the one that it would touch first."""
     pair = max(found.pairs, key=lambda pair: float(np.max(pair.load)))
     ball, loads = int(np.argmax(pair.load)), found.loads

@@ -57,7 +57,6 @@ def sensitivity(
             case.screw,
             case.lubricant,
             uncertain={name: u.distribution for name, u in uncertain.items()},
-            nut=case.parts,
             output=options.output.replace(".", "_"),
             method=cast("Method", options.method),
             samples=options.samples,
@@ -67,7 +66,7 @@ def sensitivity(
         )
     except InputError as error:
         raise InputError(*(_of_command_line(fault) for fault in error.faults)) from None
-    known = Configuration(case.model, case.screw, case.lubricant, case.parts).inputs
+    known = Configuration(case.model, case.screw, case.lubricant).inputs
     return SensitivityReport(result, uncertain, known)
 
 

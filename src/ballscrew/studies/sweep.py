@@ -28,8 +28,7 @@ from ballscrew.evaluation.plan import Configuration
 from ballscrew.evaluation.plan import Plan as Swept
 from ballscrew.files import check_writable
 from ballscrew.friction.law_names import coefficients
-from ballscrew.friction.nut_friction import NUT_REASONS
-from ballscrew.friction.validity import REASONS
+from ballscrew.friction.validity import NUT_REASONS, REASONS
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.records import Record
@@ -77,7 +76,7 @@ class Plan:
 def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None) -> Plan:
     """Plan of a sweep. Raises :class:`~ballscrew.errors.InputError` before anything is computed."""
     faults: list[Fault] = []
-    known = dict(inputs_of(case.model, case.screw, case.lubricant, case.parts))
+    known = dict(inputs_of(case.model, case.screw, case.lubricant))
     if "grade" in case.oil:
         known["temperature"] = ("lubricant", TEMPERATURE)
     axes: dict[str, np.ndarray] = {}
@@ -99,10 +98,10 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
             axes[name] = values
     if not vary and not case.sweep:
         axes = {name: np.linspace(0.1, 1.0, 10) * (getattr(case.operation, name) or 1.0) for name in OPERATION}
-    usual = DEFAULT_OUTPUTS if case.parts is None else NUT_OUTPUTS
+    usual = DEFAULT_OUTPUTS if case.screw.nut.is_row else NUT_OUTPUTS
     chosen = tuple(name.replace(".", "_") for name in wanted)
     chosen = chosen or (("efficiency",) if to is None and len(axes) == 2 else usual)
-    possible = known_outputs(case.parts)
+    possible = known_outputs(case.screw.nut)
     faults += [Fault("--output", "unknown output", n, nearest(n, possible)) for n in chosen if n not in possible]
     faults += [
         Fault("--output", "is what is varied", n, "leave it out: it is a column anyway") for n in chosen if n in axes
@@ -114,7 +113,7 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
         faults.append(Fault("sweep.ball_to_ball_force", problem, "", remedy))
     of_temperature = [name for name in OF_TEMPERATURE if "temperature" in axes and name in axes]
     faults += [Fault(f"sweep.{n}", "goes with the temperature", "", "vary one of the two") for n in of_temperature]
-    if "loaded_balls" in axes and case.parts is not None and case.parts.one_by_one:
+    if "loaded_balls" in axes and case.nut is not None and case.nut.one_by_one:
         remedy = "leave out [bodies] and [deviations]"
         faults.append(Fault("sweep.loaded_balls", "cannot be varied where balls differ", "", remedy))
     size = math.prod(len(values) for values in axes.values())
@@ -243,13 +242,13 @@ def sweep(
         varied |= _oils(case, values) if name == "temperature" else {name: values}
     oil = {f"lubricant_{name}": value for name, value in case.oil.items() if name not in plan.axes}
     if to is not None and is_store(to):
-        subject = Configuration(case.model, case.screw, case.lubricant, case.parts)
+        subject = Configuration(case.model, case.screw, case.lubricant)
         swept = Swept.of(subject, tuple(names), varied | fixed)
         return stream(swept, to, done=done, cluster=cluster, attributes=oil, verify=verify, trust=trust)
     # files of all kinds have the same bits; what is only looked at may be quicker
     few = to is None and math.prod(len(values) for values in plan.axes.values()) <= FEW_POINTS
     dataset = sweeps.sweep(
-        case.model, case.screw, case.lubricant, nut=case.parts, outputs=tuple(names),
+        case.model, case.screw, case.lubricant, outputs=tuple(names),
         engine="model" if few else None, done=done, **varied, **fixed,
     )  # fmt: skip
     dataset.attrs |= oil
@@ -280,13 +279,13 @@ def workers(scheduler: str | None, to: Path | None) -> Generator[Any]:
 
 def implausible(case: Case, plan: Plan) -> list[Record]:
     """A warning for each input that no ball screw has, at some point of the sweep."""
-    subject = Configuration(case.model, case.screw, case.lubricant, case.parts)
+    subject = Configuration(case.model, case.screw, case.lubricant)
     return units.in_display_units_of(subject.implausible({**vars(case.operation), **plan.axes}))
 
 
 def reasons_of(case: Case) -> Mapping[str, str]:
     """The reasons for which a point may not be valid, with their texts."""
-    return REASONS if case.parts is None else NUT_REASONS
+    return REASONS if case.screw.nut.is_row else NUT_REASONS
 
 
 def _oils(case: Case, temperatures: np.ndarray) -> dict[str, xr.DataArray]:

@@ -136,7 +136,7 @@ def description_of(
 def _laws(subject: Configuration) -> dict[str, str]:
     """The laws of a model and a nut by name; their coefficients are among the attributes."""
     model = {field.name: getattr(subject.model, field.name) for field in dataclasses.fields(subject.model)}
-    losses = {} if subject.nut is None else {f"losses {name}": law for name, law in subject.nut.losses.items()}
+    losses = {f"losses {name}": law for name, law in subject.nut.losses.items()}
     return {
         slot: getattr(law, "__name__", type(law).__name__) for slot, law in (model | losses).items() if callable(law)
     }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
@@ -9,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 import xarray as xr
 
 from ballscrew.components.materials import Lubricant
+from ballscrew.components.nut import Nut
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.evaluation.engines import SweepEngine
 from ballscrew.evaluation.evaluation import Evaluation
 from ballscrew.evaluation.plan import Configuration, Plan
 from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.nut_parts import NutParts
 from ballscrew.sweeps.stream import stream
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ def sweep(
     screw: BallScrew,
     lubricant: Lubricant,
     *,
-    nut: NutParts | None = None,
+    nut: Nut | None = None,
     outputs: Sequence[str] | None = None,
     engine: SweepEngine | None = None,
     block_size: int | None = None,
@@ -47,8 +48,8 @@ def sweep(
     own name; ``xarray.DataArray`` values that share a dimension vary together along it, so random
     points are ``xr.DataArray(values, dims="point")``. The dataset has the dimensions in the order
     given. Only the ``outputs`` asked for are kept (see
-    :func:`~ballscrew.evaluation.outputs.known_outputs`; a default handful otherwise). With a ``nut`` it
-    is a whole nut whose friction is computed, and the fields of the nut can be varied.
+    :func:`~ballscrew.evaluation.outputs.known_outputs`; a default handful otherwise). A ``nut``
+    takes the place of that of the screw; its fields are varied as ``**{"nut.preload": [...]}``.
 
     Work goes block by block on a few threads, of ``block_size`` points at most, and
     ``done(finished, total)`` reports the points.
@@ -80,7 +81,8 @@ def sweep(
     if cluster is not None and to is None:
         remedy = 'add to="map.zarr", in a folder that all workers share'
         raise InputError(Fault("sweep.cluster", "needs a store", "", remedy))
-    plan = Plan.of(Configuration(model, screw, lubricant, nut), outputs, varied)
+    screw = screw if nut is None else dataclasses.replace(screw, nut=nut)
+    plan = Plan.of(Configuration(model, screw, lubricant), outputs, varied)
     if to is not None:
         if engine == "model":
             raise InputError(Fault("sweep.engine", "fills no store", engine, 'take engine="numpy"'))

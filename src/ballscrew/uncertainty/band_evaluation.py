@@ -115,7 +115,7 @@ class BandEvaluator:
         central = subject.at(point)
         ratios: dict[str, list[tuple[str, Values]]] = {}
         for candidate in alternatives:
-            if candidate.counts and candidate.slot and (subject.nut is None or subject.nut.knows(candidate.model)):
+            if candidate.counts and candidate.slot and candidate.model.knows(subject.nut):
                 result = dataclasses.replace(subject, model=candidate.model).at(point)
                 with np.errstate(all="ignore"):
                     ratio = np.asarray(result.screw_torque, dtype=float) / central.screw_torque

@@ -21,7 +21,6 @@ from ballscrew.evaluation.plan import Configuration
 from ballscrew.friction.model import (
     FrictionModel,
 )
-from ballscrew.friction.nut_parts import NutParts
 from ballscrew.quantities import AngularSpeed, Force
 from ballscrew.uncertainty.band_evaluation import (
     DERIVED_OUTPUTS,
@@ -41,7 +40,7 @@ from ballscrew.uncertainty.band_evaluation import (
 from ballscrew.uncertainty.distributions import Distribution
 from ballscrew.uncertainty.sampling import JointNormal
 
-#: Default number of samples: for a screw, and for a whole nut, every ball of which is solved for.
+#: Default number of samples, and for a nut whose balls differ, every one of which is solved for.
 SAMPLES, NUT_SAMPLES = 2**14, 2**10
 
 
@@ -121,7 +120,6 @@ def band(
     samples: int | None = None,
     seed: int = 0,
     level: float = 0.95,
-    nut: NutParts | None = None,
     engine: Engine | None = None,
     keep_samples: bool = False,
     done: Callable[[int, int], None] | None = None,
@@ -138,15 +136,15 @@ def band(
 
     ``outputs`` are of :data:`~ballscrew.uncertainty.band_evaluation.BAND_OUTPUTS`: the friction torque and quantities
     that follow from it.
-    ``samples`` is 2^14, and 2^10 for a whole ``nut`` by default; a power of two is spread the most evenly.
+    ``samples`` is 2^14, and 2^10 for a nut whose balls differ by default; a power of two is spread the most evenly.
     The same seed gives the same band.
 
     Raises :class:`~ballscrew.errors.InputError` for unknown names, numbers out of bounds and an engine that cannot
     be had.
     """
-    count = samples if samples is not None else SAMPLES if nut is None else NUT_SAMPLES
+    count = samples if samples is not None else NUT_SAMPLES if screw.nut.one_by_one else SAMPLES
     outputs = (outputs,) if isinstance(outputs, str) else tuple(dict.fromkeys(outputs))
-    subject = Configuration(model, screw, lubricant, nut)
+    subject = Configuration(model, screw, lubricant)
     point = {"axial_load": axial_load, "screw_speed": screw_speed}
     raise_if_any(
         [
@@ -208,7 +206,6 @@ def band_along(
     samples: int | None = None,
     seed: int = 0,
     level: float = 0.95,
-    nut: NutParts | None = None,
     engine: Engine | None = None,
     done: Callable[[int, int], None] | None = None,
 ) -> BandCurve:
@@ -219,8 +216,8 @@ def band_along(
 
     Raises :class:`~ballscrew.errors.InputError` as :func:`band` does.
     """
-    count = samples if samples is not None else (SAMPLES if nut is None else NUT_SAMPLES) // 8
-    subject = Configuration(model, screw, lubricant, nut)
+    count = samples if samples is not None else (NUT_SAMPLES if screw.nut.one_by_one else SAMPLES) // 8
+    subject = Configuration(model, screw, lubricant)
     uncertain = {name: distribution for name, distribution in uncertain.items() if name != along}
     point: dict[str, Any] = {"axial_load": axial_load, "screw_speed": screw_speed}
     faults = [] if along in point else [Fault("band.along", "unknown", along, nearest(along, point))]

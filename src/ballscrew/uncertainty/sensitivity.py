@@ -19,7 +19,6 @@ from ballscrew.evaluation.derivatives import JAX_INSTEAD, derivatives
 from ballscrew.evaluation.outputs import known_outputs
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.nut_parts import NutParts
 from ballscrew.quantities import Quantity
 from ballscrew.uncertainty.distributions import Distribution, distribution_fault
 from ballscrew.uncertainty.morris import elementary_effects
@@ -129,7 +128,6 @@ def sensitivity(
     lubricant: Lubricant,
     *,
     uncertain: Mapping[str, Distribution],
-    nut: NutParts | None = None,
     output: str = "screw_torque",
     method: Method = "sobol",
     samples: int | None = None,
@@ -142,7 +140,7 @@ def sensitivity(
 
     ``uncertain`` names inputs as :func:`~ballscrew.sweeps.sweep.sweep` does, ``fixed`` gives numbers
     to others; between them they have ``axial_load`` and ``screw_speed``. Inputs are independent of each
-    other and stay within their bounds. With a ``nut`` it is a whole nut whose friction is computed.
+    other and stay within their bounds.
 
     * ``"sobol"``: shares of the variance of the output, first-order and total
       (:func:`~ballscrew.uncertainty.sobol.sobol_indices`), from ``samples`` (inputs + 2) evaluations and at
@@ -161,8 +159,8 @@ def sensitivity(
     Raises :class:`~ballscrew.errors.InputError` for unknown names, bad values, an output that is true or
     false or that has no finite value in more than a tenth of the samples, and where there are no derivatives.
     """
-    subject = Configuration(model, screw, lubricant, nut)
-    usual = SAMPLES if nut is None else NUT_SAMPLES
+    subject = Configuration(model, screw, lubricant)
+    usual = NUT_SAMPLES if screw.nut.one_by_one else SAMPLES
     count = usual.get(method, 1) if samples is None else samples
     raise_if_any(_faults(subject, uncertain, output, method, samples, seed, level))
     sampler = Sampler(subject, uncertain, {n: v for n, v in fixed.items() if n not in uncertain}, (output,))
@@ -190,7 +188,7 @@ def sensitivity(
     return Sensitivity(
         method=method,
         output=output,
-        quantity=known_outputs(nut)[output].quantity,
+        quantity=known_outputs(screw.nut)[output].quantity,
         inputs=_ranked(by_name[0]),
         measures=dict(zip(MEASURES[method], by_name, strict=True)),
         mean=found.mean,
@@ -229,8 +227,8 @@ def _faults(
         faults.append(Fault("sensitivity.output", "is true or false, and has no variance", output, "choose a number"))
     if method not in METHODS:
         faults.append(Fault("sensitivity.method", "unknown method", str(method), f"one of {', '.join(METHODS)}"))
-    elif method == "local" and subject.nut is not None:
-        faults.append(Fault("sensitivity.method", "has no derivatives of a whole nut", method, ANOTHER_METHOD))
+    elif method == "local" and subject.nut.one_by_one:
+        faults.append(Fault("sensitivity.method", "has no derivatives where balls differ", method, ANOTHER_METHOD))
     if not isinstance(seed, int | np.integer) or seed < 0:
         faults.append(Fault("sensitivity.seed", "must be a whole number, 0 or more", str(seed)))
     if not 0 < level < 1:
@@ -288,7 +286,7 @@ def _local(sampler: Sampler, output: str, level: float, seed: int) -> Sensitivit
     return Sensitivity(
         method="local",
         output=output,
-        quantity=known_outputs()[output].quantity,
+        quantity=known_outputs(subject.nut)[output].quantity,
         inputs=ranked,
         measures=dict(zip(MEASURES["local"], by_name, strict=True)),
         mean=float(slopes[output]),

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from ballscrew.components.materials import TEMPERATURE, Lubricant
-from ballscrew.components.screw import Operation
+from ballscrew.components.operating_state import OperatingState
 from ballscrew.errors import Fault, InputError
 from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import AngularSpeed, Info, Quantity, Temperature, Viscosity, fields_of
@@ -84,7 +84,7 @@ CONDITIONS: Mapping[str, Quantity | None] = {
     "grade": None,
     "temperature": TEMPERATURE,
     "viscosity": fields_of(Lubricant)["viscosity"],
-    "screw_speed": fields_of(Operation)["screw_speed"],
+    "screw_speed": fields_of(OperatingState)["screw_speed"],
 }
 
 

@@ -17,7 +17,7 @@ from ballscrew.components.screw import STEEL, BallScrew
 from ballscrew.equations import geometry, hertz, rheology
 from ballscrew.errors import Fault, InputError
 from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.nut_friction import NutFriction, nut_friction
+from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Torque, fields_of
 from ballscrew.sizing.checks import ratings_of
 from ballscrew.solvers.load_distribution import ball_loads
@@ -58,11 +58,9 @@ def _stated(values: Values, name: str) -> Band:
 
 def _unloaded(
     model: FrictionModel, row: CatalogueRow, nut: Nut, conditions: Conditions
-) -> tuple[NutFriction, dict[str, float]]:
+) -> tuple[FrictionResult, dict[str, float]]:
     """A nut without load at these conditions, and what its row is like."""
-    found = nut_friction(
-        model, row.screw(), nut, conditions.lubricant, axial_load=0.0, screw_speed=conditions.screw_speed
-    )
+    found = model(row.screw(nut=nut), conditions.lubricant, axial_load=0.0, screw_speed=conditions.screw_speed)
     film = float(np.min([np.min(pair.screw.film_parameter) for pair in found.pairs]))
     return found, {**_descriptors(row), "film_parameter": film}
 

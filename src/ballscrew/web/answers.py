@@ -13,8 +13,7 @@ from pydantic import BaseModel, Field
 from ballscrew.cases.schema import LAWS
 from ballscrew.components.catalogue import CatalogueRow
 from ballscrew.components.contact import RaceState
-from ballscrew.components.screw import Operation
-from ballscrew.friction.nut_friction import NutFriction
+from ballscrew.components.operating_state import OperatingState
 from ballscrew.friction.result import FrictionResult
 from ballscrew.output.text.run import SHOWN
 from ballscrew.quantities import fields_of, quantities_of
@@ -43,8 +42,8 @@ Contact = model(
     BaseModel,
     **quantities(quantities_of(RaceState), optional=True),
 )
-_OF_NUT = quantities_of(NutFriction)
-_RESULTS = {n: q for n, q in {**_OF_NUT, **quantities_of(FrictionResult)}.items() if n not in fields_of(Operation)}
+_OF_NUT = quantities_of(FrictionResult)
+_RESULTS = {n: q for n, q in {**_OF_NUT, **quantities_of(FrictionResult)}.items() if n not in fields_of(OperatingState)}
 # Models made by ``create_model`` are variables to a type checker: where they are used as types, it is silenced.
 #: Results of one row of equal balls, and of a whole nut.
 _ALWAYS = {name: q for name, q in _RESULTS.items() if name in _OF_NUT and name in (*SHOWN, *MASKS, "holding_torque")}

@@ -167,7 +167,7 @@ def case_of(tables: Mapping[str, Any]) -> Case:
         raise InputError(Fault("screw.catalogue_file", "is not taken from a request", "", remedy))
     raise_if_any([Fault(where, "must not be null", "", "leave it out") for where in _nulls("", tables)])
     case = case_file.build(tables, rows=catalogue())
-    if case.parts is not None and case.parts.one_by_one and case.screw.loaded_balls > MOST_BALLS:
+    if case.nut is not None and case.nut.one_by_one and case.screw.loaded_balls > MOST_BALLS:
         given, remedy = f"{case.screw.loaded_balls:g}", f"{MOST_BALLS} at most where balls differ or bodies are elastic"
         raise InputError(Fault("screw.loaded_balls", "too many to compute one by one", given, remedy))
     return case

@@ -47,7 +47,7 @@ def check_sweep(case: Case, plan: sweeps.Plan) -> None:
     """Refuse a sweep that is too large for its case, before it is computed."""
     points = math.prod(len(values) for values in plan.axes.values())
     faults: list[Fault] = []
-    if case.parts is not None and points > MOST_POINTS_OF_NUT:
+    if case.nut is not None and points > MOST_POINTS_OF_NUT:
         faults.append(_too_many_points(points, MOST_POINTS_OF_NUT))
     elif points * balls_of(case) > MOST_BALLS_IN_ALL:
         faults.append(_too_many_points(points, MOST_BALLS_IN_ALL // balls_of(case)))
@@ -60,7 +60,7 @@ def check_sweep(case: Case, plan: sweeps.Plan) -> None:
 def is_short(case: Case, plan: sweeps.Plan) -> bool:
     """Test whether a sweep takes about a tenth of a second at most, such as those of the page."""
     points = math.prod(len(values) for values in plan.axes.values())
-    most = SHORT_POINTS if case.parts is None else SHORT_POINTS_OF_NUT
+    most = SHORT_POINTS if case.nut is None else SHORT_POINTS_OF_NUT
     return points <= most and points * balls_of(case) <= SHORT_BALLS
 
 
@@ -78,21 +78,21 @@ def samples_of(case: Case, requested: int | None = None) -> int | None:
 
 
 def _default_samples(case: Case) -> int:
-    return SAMPLES if case.parts is None else NUT_SAMPLES
+    return SAMPLES if case.nut is None else NUT_SAMPLES
 
 
 def _most_samples(case: Case) -> int:
-    if case.parts is None:
+    if case.nut is None:
         return MOST_SAMPLES
     return min(MOST_SAMPLES_OF_NUT, MOST_BALLS_IN_ALL // max(1, balls_of(case)))
 
 
 def balls_of(case: Case) -> int:
     """The number of balls that are computed one by one, weighted by their time; zero where all balls are equal."""
-    parts = case.parts
-    if parts is None or not parts.one_by_one:
+    nut = case.screw.nut
+    if not nut.one_by_one:
         return 0
-    each = _FOUR_CONTACTS if isinstance(parts.nut, OversizeBallNut) else parts.halves
+    each = _FOUR_CONTACTS if isinstance(nut, OversizeBallNut) else nut.halves
     return int(case.screw.loaded_balls) * each
 
 

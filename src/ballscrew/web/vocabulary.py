@@ -16,13 +16,12 @@ from ballscrew.components.catalogue import catalogue
 from ballscrew.components.contact import RaceState
 from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.materials import Lubricant, Material
-from ballscrew.components.nut import Bodies
-from ballscrew.components.screw import BallScrew, Operation
+from ballscrew.components.nut import Bodies, Scatter
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.screw import BallScrew
 from ballscrew.evaluation.outputs import known_outputs
 from ballscrew.figures.colours import MECHANISM_COLOURS
 from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.nut_friction import NUT_REASONS, NutFriction
-from ballscrew.friction.nut_parts import Scatter
 from ballscrew.friction.result import MECHANISMS, FrictionResult
 from ballscrew.papers.olaru2005 import case as paper
 from ballscrew.quantities import Info, Quantity, fields_of, quantities_of
@@ -129,7 +128,7 @@ def _unit(unit: str, si: str) -> dict[str, Any]:
 
 def _known_fields() -> list[Quantity]:
     """The quantities that a case file can have."""
-    parts = (BallScrew, Lubricant, Operation, Material, Bodies, Scatter, Installation, Limits, FrictionModel)
+    parts = (BallScrew, Lubricant, OperatingState, Material, Bodies, Scatter, Installation, Limits, FrictionModel)
     laws = [law for slot in (*LAWS.values(), *LOSSES.values()) for law in slot.values() if isinstance(law, type)]
     return [*NUT_FIELDS.values(), *LISTED.values(), *(q for part in (*parts, *laws) for q in fields_of(part).values())]
 
@@ -150,7 +149,7 @@ def _results() -> dict[str, Any]:
 
 def _known_results() -> dict[str, Quantity]:
     known = {name: output.quantity for name, output in known_outputs().items()}
-    for part in (NutFriction, FrictionResult, RaceState, BallLoads):
+    for part in (FrictionResult, RaceState, BallLoads):
         known |= quantities_of(part)
     return known
 
@@ -168,7 +167,7 @@ def _paper() -> dict[str, Any]:
         "screw": _written(paper.SCREW, BallScrew),
         "lubricant": _written(paper.OIL, Lubricant),
         "operation": {
-            name: units.written(value, fields_of(Operation)[name])
+            name: units.written(value, fields_of(OperatingState)[name])
             for name, value in (("axial_load", paper.AXIAL_LOAD), ("screw_speed", paper.SCREW_SPEED))
         },
         "model": {"name": DEFAULT_MODEL},

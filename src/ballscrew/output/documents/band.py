@@ -11,7 +11,7 @@ from ballscrew.cases.case_file import Case
 from ballscrew.cases.descriptions import constant_torque
 from ballscrew.cases.uncertain_inputs import Uncertain
 from ballscrew.evaluation.outputs import known_outputs
-from ballscrew.friction.nut_friction import NUT_REASONS
+from ballscrew.friction.validity import NUT_REASONS
 from ballscrew.output.documents.run import document as run_document
 from ballscrew.records import Record, documents
 from ballscrew.studies.band import BandReport
@@ -49,7 +49,7 @@ def document(run: Run, report: BandReport) -> dict[str, Any]:
 def verdicts(case: Case, report: BandReport) -> list[Record]:
     """The friction torque with its band, the log of a fit, and the share of self-locking samples."""
     band, torque = report.band, report.band[_TORQUE]
-    quantity = known_outputs(case.parts)[_TORQUE].quantity
+    quantity = known_outputs(case.screw.nut)[_TORQUE].quantity
     if not math.isfinite(torque.median):
         text = "no band: the friction torque is no number here"
         return [Record(id="band.no_torque", subject=_TORQUE, text=text, severity="warning", unit=quantity.unit)]

@@ -21,7 +21,7 @@ def document(found: Checked) -> dict[str, Any]:
     root_diameter = nut_tables.root_diameter(case.screw, case.listed)
     return {
         "name": found.name,
-        "nut": kind_of(found.nut.parts.nut),
+        "nut": kind_of(found.nut.nut),
         "inputs": case_file.inputs(case),
         "geometry": {"lead_angle": case.screw.lead_angle, "root_diameter": root_diameter},
         "results": run.results(found.run),

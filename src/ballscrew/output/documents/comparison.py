@@ -10,7 +10,7 @@ from ballscrew import units
 from ballscrew._version import __version__
 from ballscrew.cases import case_file
 from ballscrew.evaluation.comparison import Comparison, Row, Spread
-from ballscrew.friction.nut_friction import NUT_REASONS
+from ballscrew.friction.validity import NUT_REASONS
 from ballscrew.records import Record, documents
 
 _TORQUE = "screw_torque"

@@ -7,7 +7,7 @@ from typing import Any
 
 from ballscrew.cases import case_file, provenance
 from ballscrew.components.contact import RaceState
-from ballscrew.components.screw import Operation
+from ballscrew.components.operating_state import OperatingState
 from ballscrew.friction.result import QUADRANTS, FrictionResult
 from ballscrew.quantities import Quantity, fields_of, quantities_of
 from ballscrew.records import documents
@@ -21,7 +21,7 @@ _LOADS = quantities_of(BallLoads)
 OF_LOADS: Mapping[str, Quantity] = {name: quantity for name, quantity in _LOADS.items() if name not in _OF_BALLS}
 _KNOWN = quantities_of(FrictionResult)
 #: Inputs, which are no results.
-_OPERATION = fields_of(Operation)
+_OPERATION = fields_of(OperatingState)
 #: The results that have the units of the fields of a quadrant.
 _OF_QUADRANT = {"shaft_torque": "drive_torque", "shaft_power": "friction_power", "efficiency": "efficiency"}
 _ENDS = ("least", "mean", "greatest")

@@ -58,7 +58,7 @@ def print_band(case: Case, report: BandReport) -> None:
 
 
 def _quantities(case: Case) -> Mapping[str, Quantity]:
-    return {name: known_outputs(case.parts)[name].quantity for name in BAND_OUTPUTS}
+    return {name: known_outputs(case.screw.nut)[name].quantity for name in BAND_OUTPUTS}
 
 
 def intervals(output: OutputBand) -> Sequence[Interval]:

@@ -9,7 +9,7 @@ from ballscrew import units
 from ballscrew.cases import descriptions, nut_tables
 from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.components.screw import BallScrew
-from ballscrew.friction.nut_friction import NutFriction
+from ballscrew.friction.result import FrictionResult
 from ballscrew.output.text.run import stiffness_fields
 from ballscrew.output.text.tables import shown_or_dash
 from ballscrew.output.wrapping import beside, wrapped
@@ -26,7 +26,7 @@ _GIVE = {
     "installation": "--length and --ends, or [installation]",
     "limits.running_time": '--set limits.running_time="20000 h"',
 }
-_RESULT, _LOADS = quantities_of(NutFriction), quantities_of(BallLoads)
+_RESULT, _LOADS = quantities_of(FrictionResult), quantities_of(BallLoads)
 _HEADINGS = ("name", "load", "torque", "eff.", "eff. back", "rigidity", "life", "verdict")
 _WIDTH = 66
 

@@ -12,7 +12,6 @@ from rich.table import Table
 from ballscrew import units
 from ballscrew.cases import descriptions
 from ballscrew.components.contact import RaceState
-from ballscrew.friction.nut_friction import NutFriction
 from ballscrew.friction.result import MECHANISMS, FrictionResult, Quadrant
 from ballscrew.output.text.tables import shown_or_dash, table_of
 from ballscrew.quantities import quantities_of
@@ -50,7 +49,7 @@ SHORT: Mapping[str, str] = {
 }
 _BAR_WIDTH = 24
 _KNOWN, _LOADS, _CONTACT = quantities_of(FrictionResult), quantities_of(BallLoads), quantities_of(RaceState)
-_TORQUE, _PRESSURE = _KNOWN["screw_torque"], quantities_of(NutFriction)["maximum_pressure"]
+_TORQUE, _PRESSURE = _KNOWN["screw_torque"], quantities_of(FrictionResult)["maximum_pressure"]
 
 
 def print_run(run: Run) -> None:

@@ -1,0 +1,166 @@
+"""Friction of one ball on four contacts, as balls that are too big for their grooves have."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ballscrew._arrays import namespace
+from ballscrew.components.conditions import Motion
+from ballscrew.components.contact import Contact
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.screw import BallScrew
+from ballscrew.equations import kinematics
+from ballscrew.friction.balls import MECHANISMS, BallFriction, BallModel, ball_contacts, ball_friction
+from ballscrew.quantities import Angle, AngularSpeed, Force, Mask, Power, Ratio, Torque
+from ballscrew.solvers.four_point_slip import FlankPair, FourPointBall, four_point_slip
+
+
+class LoadedFlanks(NamedTuple):
+    """A pair of flanks of a ball: its load, its angle, and the contacts with screw and nut."""
+
+    load: Force
+    angle: Angle
+    screw: Contact
+    nut: Contact
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class FourContactFriction:
+    """Friction of one ball on four contacts in its equilibrium; on two where a flank pair is relieved."""
+
+    #: The flank pair that carries the load, and the one that it relieves.
+    flanks: tuple[LoadedFlanks, LoadedFlanks]
+    screw_speed: AngularSpeed
+    #: Torque on the screw by mechanism, N m.
+    contributions: Mapping[str, Torque]
+    nut_torque: Torque
+    rolling_share: Ratio
+    ball_to_ball_force: Force
+    skids: Mask
+    converged: Mask
+
+    @property
+    def screw_torque(self) -> Torque:
+        """Friction torque of the ball on the screw."""
+        return sum(self.contributions.values())
+
+    @property
+    def screw(self) -> Contact:
+        """The contact with the screw on the flank that carries the load."""
+        return self.flanks[0].screw
+
+    @property
+    def nut(self) -> Contact:
+        """The contact with the nut on the flank that carries the load."""
+        return self.flanks[0].nut
+
+    @property
+    def contact_load(self) -> Force:
+        """Load of the flank pair that carries the load."""
+        return self.flanks[0].load
+
+    @property
+    def entrainment_speed(self) -> Any:
+        """Entrainment speed on the flank pair that carries the load."""
+        return self.screw.motion.entrainment_speed
+
+    @property
+    def dissipation(self) -> Mapping[str, Power]:
+        """Power dissipated at the ball by mechanism, W: the torque is the least power over the speed."""
+        return {mechanism: torque * self.screw_speed for mechanism, torque in self.contributions.items()}
+
+
+def four_contact_friction(
+    model: BallModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    flanks: tuple[tuple[Force, Angle], tuple[Force, Angle]],
+    screw_speed: AngularSpeed,
+    imposed_ball_force: Force,
+) -> FourContactFriction:
+    """Friction of a ball with these loads and angles of its flank pairs; a relieved flank takes no part."""
+    laws, omega = model.laws, screw_speed
+    xp = namespace(omega, screw.contact_angle, *flanks[0], *flanks[1])
+    both = flanks[0][0] + flanks[1][0]
+    pairs: list[LoadedFlanks] = []
+    for load, angle in flanks:
+        at_angle = dataclasses.replace(screw, contact_angle=xp.where(load > 0, angle, screw.contact_angle)[()])
+        frame = laws.frame(at_angle)
+        lateral = kinematics.torsion_speed(omega, screw.ball_diameter, frame.lead_angle) / 2
+        v = frame.entrainment_speed(omega)
+        # between equally loaded flanks the ball turns about the binormal; what of its rotation does not roll spins, at
+        # the screw more than at the nut. The more one pair carries, the nearer its contacts are to those of a ball that
+        # touches no other, which halves the relative spin between screw and nut.
+        spin = kinematics.relative_spin(omega, frame.rolling_plane_sine)
+        about_binormal = kinematics.ball_rotation(v, screw.ball_diameter) * xp.tan(at_angle.contact_angle)
+        leaning = xp.where(both > 0, xp.maximum(2 * load - both, 0.0) / xp.where(both > 0, both, 1.0), 0.0)
+        at_nut = (1 - leaning) * about_binormal - leaning * spin / 2
+        motions = (Motion(v, at_nut + spin, lateral), Motion(v, abs(at_nut), lateral))
+        contacts = ball_contacts(model.contact_laws, at_angle, lubricant, frame, load, motions)
+        pairs.append(LoadedFlanks(load, at_angle.contact_angle, *contacts))
+    frame = laws.frame(screw)
+    F_B = laws.ball_force(imposed_ball_force, both)
+    moment = laws.ball_chain(model.ball_friction_coefficient, F_B, screw.ball_diameter, frame).moment
+    one, other = (FlankPair(pair.screw, pair.nut, pair.angle) for pair in pairs)
+    slip = four_point_slip(
+        FourPointBall(one, other, moment, F_B, screw.ball_diameter, frame.lead_angle, frame.path_radius)
+    )
+    found = FourContactFriction(
+        flanks=(pairs[0], pairs[1]),
+        screw_speed=omega,
+        contributions=slip.contributions,
+        nut_torque=slip.nut_torque,
+        rolling_share=slip.rolling_share,
+        ball_to_ball_force=slip.rolling_share * F_B,
+        skids=slip.rolling_share != 1,
+        converged=slip.converged,
+    )
+    lifted = (flanks[0][0] == 0) | (flanks[1][0] == 0)
+    if isinstance(lifted, bool | np.bool_ | np.ndarray) and not np.any(lifted):
+        return found
+    angle = xp.where(flanks[0][0] > 0, flanks[0][1], flanks[1][1])
+    angle = xp.where(both > 0, angle, screw.contact_angle)[()]
+    two = two_contact_friction(model, screw, lubricant, both, angle, omega, imposed_ball_force)
+    return _on_two_where(xp, lifted, found, two)
+
+
+def two_contact_friction(
+    model: BallModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    contact_load: Force,
+    contact_angle: Angle,
+    screw_speed: AngularSpeed,
+    imposed_ball_force: Force,
+) -> BallFriction:
+    """Friction of a ball that touches one flank pair at this angle."""
+    at_angle = dataclasses.replace(screw, contact_angle=contact_angle)
+    frame = model.laws.frame(at_angle)
+    return ball_friction(model, at_angle, lubricant, frame, contact_load, screw_speed, imposed_ball_force)
+
+
+def _on_two_where(xp: Any, lifted: Mask, four: FourContactFriction, two: BallFriction) -> FourContactFriction:
+    """The friction on four contacts, or on two where a flank pair has lifted off."""
+    loaded_skid = (
+        (two.contact_load > 0)
+        & (abs(two.screw.sliding_force) <= two.screw.traction_limit)
+        & (abs(two.nut.sliding_force) <= two.nut.traction_limit)
+        & (two.rolling_share == 1)
+    )
+
+    def pick(of_two: Any, of_four: Any) -> Any:
+        return xp.where(lifted, of_two, of_four)[()]
+
+    return dataclasses.replace(
+        four,
+        contributions={name: pick(two.contributions[name], four.contributions[name]) for name in MECHANISMS},
+        nut_torque=pick(two.nut_torque, four.nut_torque),
+        rolling_share=pick(two.rolling_share, four.rolling_share),
+        ball_to_ball_force=pick(two.ball_to_ball_force, four.ball_to_ball_force),
+        skids=pick(~loaded_skid, four.skids),
+        converged=pick(two.converged, four.converged),
+    )
