@@ -23,7 +23,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from ballscrew._arrays import map_blocks
+from ballscrew._arrays import as_array, in_blocks, lazy, map_blocks, namespace
 from ballscrew.components.frame import helix_frame
 from ballscrew.components.nut import Bodies, Deviations, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut
 from ballscrew.components.screw import BallScrew, Raceway
@@ -32,6 +32,7 @@ from ballscrew.errors import Fault, accepts_units, is_concrete, raise_if_any, si
 from ballscrew.quantities import Angle, Force, Info, Length, LoadDeflection, Mask, Ratio, Stiffness
 from ballscrew.solvers.ball_springs import Field
 from ballscrew.solvers.nut_balance import NutCase, solved
+from ballscrew.solvers.rigid_nut import KindLoads, RigidLoads, RigidNut, rigid_loads
 
 #: Imbalance, in units of load and preload, that counts as balanced.
 TOLERANCE = 1e-10
@@ -39,23 +40,22 @@ TOLERANCE = 1e-10
 BLOCK = 65_536
 #: Balls of a nut body that are solved for one by one: several times those of the largest nuts.
 MOST_BALLS = 2000
-#: Where the numbers of balls stand among what is solved for.
-_BALLS = 4
+#: Results for the nut as a whole, in the order of the solvers.
+_OF_NUT = ("deflection", "rigidity", "remaining_preload", "lift_off_load", "residual")
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class BallLoads:
     """Outcome: load and contact angle of each ball on both flanks, and how far the nut gives way.
 
-    The ball axis comes last. It has one entry for each kind of ball where all of a kind are alike.
+    A positive load presses on the forward flanks, a negative one on the backward ones. The ball axis comes last. It has
+    one entry for each kind of ball where all of a kind are alike.
     """
 
-    forward_load: Annotated[Force, Info("Q_i", "normal load of each ball on the flank that carries the load")]
-    backward_load: Annotated[Force, Info("Q_i'", "normal load of each ball on the other flank")]
-    forward_angle: Annotated[Angle, Info(r"\alpha_i", "contact angle of each ball under load", "deg")]
-    backward_angle: Annotated[Angle, Info(r"\alpha_i'", "contact angle of each ball on the other flank", "deg")]
-    #: How many balls each entry of the ball axis stands for.
-    balls: Any
+    #: The kinds of balls: one of a nut with one body, two of a nut with halves; or one with all balls one by one.
+    kinds: tuple[KindLoads, ...]
+    #: Whether the balls are given one by one.
+    one_by_one: bool
     deflection: Annotated[Length, Info("x", "axial displacement of the screw against the nut by the load", "um")]
     rigidity: Annotated[Stiffness, Info("R_nu", "axial rigidity of the nut at this load", "N/um")]
     remaining_preload: Annotated[Force, Info("F_b", "axial force left on the flank that the load relieves")]
@@ -63,6 +63,43 @@ class BallLoads:
     #: That of all balls together. What is left at one ball between elastic bodies, beyond rounding, is less than a
     #: millionth of load and preload, or else it stands here.
     residual: Annotated[Ratio, Info(r"\epsilon", "imbalance / (load + preload)")]
+
+    @lazy
+    def forward_load(
+        self,
+    ) -> Annotated[Force, Info("Q_i", "normal load of each ball on the flank that carries the load")]:
+        """Normal load of each ball on the flank that a positive load presses on."""
+        return self._by_ball("forward_load")
+
+    @lazy
+    def backward_load(self) -> Annotated[Force, Info("Q_i'", "normal load of each ball on the other flank")]:
+        """Normal load of each ball on the other flank."""
+        return self._by_ball("backward_load")
+
+    @lazy
+    def forward_angle(self) -> Annotated[Angle, Info(r"\alpha_i", "contact angle of each ball under load", "deg")]:
+        """Contact angle of each ball on the flank that a positive load presses on."""
+        return self._by_ball("forward_angle")
+
+    @lazy
+    def backward_angle(
+        self,
+    ) -> Annotated[Angle, Info(r"\alpha_i'", "contact angle of each ball on the other flank", "deg")]:
+        """Contact angle of each ball on the other flank."""
+        return self._by_ball("backward_angle")
+
+    @lazy
+    def balls(self) -> Any:
+        """How many balls each entry of the ball axis stands for."""
+        return self._by_ball("balls")
+
+    def _by_ball(self, name: str) -> Any:
+        parts = [getattr(kind, name) for kind in self.kinds]
+        if self.one_by_one:
+            return parts[0]
+        xp = namespace(*parts, self.deflection)
+        *whole, _ = xp.broadcast_arrays(*parts, self.deflection)
+        return xp.stack(whole, axis=-1)
 
     @property
     def converged(self) -> Mask:
@@ -88,38 +125,77 @@ def ball_loads(
     deviations: Deviations | None = None,
     constant_contact_angle: bool = False,
 ) -> BallLoads:
-    """Loads of the balls of a nut under an axial load; arrays of loads, screws and preloads broadcast.
+    """Loads of the balls of a nut under an axial load of either sign; arrays of loads, screws and preloads broadcast.
 
-    Elements with a load or a preload below zero are NaN.
+    Elements with a preload below zero are NaN.
 
     Without ``bodies`` screw and nut are rigid between the balls; with them, and with ``deviations``, the
-    number of balls must be one number. ``constant_contact_angle`` keeps the angle without load.
+    number of balls must be one number. Without both, every operation is elementwise and can be recorded.
+    ``constant_contact_angle`` keeps the angle without load.
     Raises :class:`~ballscrew.errors.InputError` for balls that cannot be counted one by one.
     """
-    one_by_one = bodies is not None or deviations is not None
-    halves = 2 if isinstance(nut, DoubleNut | OffsetLeadNut) else 1
+    c_phi = namespace(screw.lead_angle).cos(screw.lead_angle)
+    A = deflection.groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
+    point = RigidNut(
+        load=as_array(axial_load),
+        preload=as_array(getattr(nut, "preload", 0.0)),
+        contact_angle=screw.contact_angle,
+        lead_cosine=c_phi,
+        centre_distance=A,
+        load_deflection=pair_load_deflection(screw),
+        loaded_balls=screw.loaded_balls,
+    )
+    if bodies is None and deviations is None:
+        return _alike(nut, point, constant_contact_angle)
+    return _one_by_one(screw, nut, point, bodies, deviations, constant_contact_angle)
+
+
+def _halves(nut: Nut) -> int:
+    return 2 if isinstance(nut, DoubleNut | OffsetLeadNut) else 1
+
+
+def _alike(nut: Nut, point: RigidNut, constant_angle: bool) -> BallLoads:
+    """Rigid bodies, and all balls of a kind alike."""
+    halves, oversize = _halves(nut), isinstance(nut, OversizeBallNut)
+
+    def solve(*numbers: Any) -> RigidLoads:
+        return rigid_loads(RigidNut(*numbers), halves=halves, oversize=oversize, constant_angle=constant_angle)
+
+    forward, backward, forward_angle, backward_angle, *of_nut = in_blocks(solve, *map(as_array, point))
+    if halves == 2:
+        kinds = (
+            KindLoads(point.loaded_balls, forward, 0.0, forward_angle, 0.0),
+            KindLoads(point.loaded_balls, 0.0, backward, 0.0, backward_angle),
+        )
+    else:
+        kinds = (KindLoads(point.loaded_balls, forward, backward, forward_angle, backward_angle),)
+    return BallLoads(kinds=kinds, one_by_one=False, **dict(zip(_OF_NUT, of_nut, strict=True)))
+
+
+def _one_by_one(
+    screw: BallScrew,
+    nut: Nut,
+    point: RigidNut,
+    bodies: Bodies | None,
+    deviations: Deviations | None,
+    constant_angle: bool,
+) -> BallLoads:
+    """Each ball for itself, in blocks of operating points."""
+    halves = _halves(nut)
     if deviations is not None:
         deviations = Deviations(*(si_value(f"deviations.{n}", v, "m") for n, v in deviations._asdict().items()))
-    raise_if_any(_faults(screw, halves, deviations) if one_by_one else [])
-    preload = getattr(nut, "preload", 0.0)
-    spacing = getattr(nut, "spacing", 0.0)
-    c_phi = np.cos(screw.lead_angle)
-    A = deflection.groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
-    numbers = [
-        axial_load, preload, spacing, screw.contact_angle, c_phi, A, pair_load_deflection(screw), screw.loaded_balls,
-        *_bodies(screw, bodies),
-    ]  # fmt: skip
+    raise_if_any(_faults(screw, halves, deviations))
+    numbers = [*point, getattr(nut, "spacing", 0.0), *_bodies(screw, bodies)]
     shape = np.broadcast_shapes(*(np.shape(number) for number in numbers))
     flat = [np.broadcast_to(np.asarray(number, dtype=float), shape).reshape(-1) for number in numbers]
-    balls = int(screw.loaded_balls) if one_by_one else 1
+    balls = int(screw.loaded_balls)
     case = NutCase(
         balls=balls,
-        one_by_one=one_by_one,
         halves=halves,
         oversize=isinstance(nut, OversizeBallNut),
         elastic=bodies is not None,
         same_side=bodies is None or bodies.same_side,
-        constant_angle=constant_contact_angle,
+        constant_angle=constant_angle,
         scatters=deviations is not None,
         excess=_by_ball(deviations.ball_diameter if deviations else 0.0, halves * balls),
         lead_error=_by_ball(deviations.lead if deviations else 0.0, halves * balls),
@@ -132,24 +208,14 @@ def ball_loads(
 
     map_blocks(solve, flat[0].size, block_size=size)
     joined = [np.concatenate(part, axis=-1) for part in zip(*parts, strict=True)]
-    # a load or a preload below zero has no distribution
-    meaningless = ~((flat[0] >= 0) & (flat[1] >= 0))
+    # a preload below zero has no distribution
+    meaningless = np.isnan(flat[0]) | ~(flat[1] >= 0)
     if np.any(meaningless):
-        joined = [part if i == _BALLS else np.where(meaningless, np.nan, part) for i, part in enumerate(joined)]
-    by_ball = [np.moveaxis(part, 0, -1).reshape(*shape, part.shape[0]) for part in joined[:5]]
-    plain = [part.reshape(shape)[()] for part in joined[5:]]
-    return BallLoads(
-        forward_load=by_ball[0],
-        backward_load=by_ball[1],
-        forward_angle=by_ball[2],
-        backward_angle=by_ball[3],
-        balls=by_ball[4],
-        deflection=plain[0],
-        rigidity=plain[1],
-        remaining_preload=plain[2],
-        lift_off_load=plain[3],
-        residual=plain[4],
-    )
+        joined = [np.where(meaningless, np.nan, part) for part in joined]
+    by_ball = [np.moveaxis(part, 0, -1).reshape(*shape, part.shape[0]) for part in joined[:4]]
+    plain = [part.reshape(shape)[()] for part in joined[4:]]
+    kind = KindLoads(np.ones_like(by_ball[0]), *by_ball)
+    return BallLoads(kinds=(kind,), one_by_one=True, **dict(zip(_OF_NUT, plain, strict=True)))
 
 
 def pair_load_deflection(screw: BallScrew) -> LoadDeflection:

@@ -22,6 +22,7 @@ from ballscrew.solvers.ball_springs import (
     rigid_balance,
     tridiagonal,
 )
+from ballscrew.solvers.rigid_nut import RigidNut, rigid_lift_off_load
 
 #: Imbalance of a ball between its bars that rounding may leave, in the same units.
 LARGEST_OF_A_BALL = 1e-6
@@ -35,7 +36,6 @@ class NutCase(NamedTuple):
     """Parameters common to all operating points."""
 
     balls: int
-    one_by_one: bool
     halves: int
     oversize: bool
     elastic: bool
@@ -51,15 +51,20 @@ class NutPoint(NamedTuple):
 
     load: Field
     preload: Field
-    spacing: Field
     contact_angle: Field
     lead_cosine: Field
     centre_distance: Field
     load_deflection: Field
     loaded_balls: Field
+    spacing: Field
     screw_bar: Field
     nut_bar: Field
     step: Field
+
+    @property
+    def direction(self) -> Field:
+        """Which way the load presses: one forwards, minus one backwards."""
+        return np.where(self.load < 0, -1.0, 1.0)
 
     @property
     def link(self) -> Field:
@@ -69,7 +74,7 @@ class NutPoint(NamedTuple):
     @property
     def forces_at_work(self) -> Field:
         """Load and preload, against which an imbalance is judged; without both, what a picometre gives."""
-        return np.maximum(self.load + self.preload, self.loaded_balls * self.load_deflection * PICOMETRE**1.5)
+        return np.maximum(np.abs(self.load) + self.preload, self.loaded_balls * self.load_deflection * PICOMETRE**1.5)
 
     def approach(self, force: Field) -> Field:
         """Approach of balls that share an axial force equally at their angle without load."""
@@ -92,10 +97,10 @@ def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
         at_rest = _balance(case, point, springs, bars, 0 * point.load) if case.scatters else 0 * at_rest
     found = _balance(case, point, springs, bars, point.load)
     if not (case.halves == 2 or case.oversize):
-        found = np.where(point.load > 0, found, at_rest)
+        found = np.where(point.load != 0, found, at_rest)
     forward, backward = _by_facing(springs, found)
     # without load and preload balls just touch; what rounding makes of that is no load
-    works = point.load + point.preload > 0
+    works = np.abs(point.load) + point.preload > 0
     forward, backward = (
         (np.where(works, load, 0.0), angle, np.where(works, force, 0.0)) for load, angle, force in (forward, backward)
     )
@@ -114,12 +119,11 @@ def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
         backward[0],
         forward[1],
         backward[1],
-        springs.balls + 0 * found,
         _travel(case, point, bars, found, point.load) - _travel(case, point, bars, at_rest, 0 * point.load),
         1 / _compliance(case, point, bars, springs.forces(found)[1]),
-        on_backward,
+        np.where(point.load < 0, on_forward, on_backward),
         _lift_off_load(case, point, springs),
-        np.where(point.load + point.preload == 0, 0.0, relative),
+        np.where(works, relative, 0.0),
     )
 
 
@@ -139,9 +143,14 @@ def _by_facing(springs: BallSprings, displacement: Field) -> list[tuple[Field, F
 
 
 def _springs(case: NutCase, point: NutPoint) -> BallSprings:
-    """The balls. Those of the second half of a double nut face backwards; they are not braced yet."""
+    """The balls. Those of the second half of a double nut face backwards; they are not braced yet.
+
+    Those of a single nut face the way its load presses.
+    """
     row = np.arange(case.halves * case.balls)[:, None]
     forward = np.where(row < case.balls, 1.0, -1.0)
+    if not (case.halves == 2 or case.oversize):
+        forward = forward * point.direction
     excess = np.broadcast_to(case.excess, forward.shape)
     if case.oversize:
         excess = excess + point.approach(point.preload)
@@ -154,7 +163,7 @@ def _springs(case: NutCase, point: NutPoint) -> BallSprings:
         centre_distance=point.centre_distance,
         contact_angle=point.contact_angle,
         lead_cosine=point.lead_cosine,
-        balls=np.ones_like(point.load) if case.one_by_one else point.loaded_balls,
+        balls=np.ones_like(point.load),
         constant_angle=case.constant_angle,
         flanks=tuple(pairs),
     )
@@ -201,8 +210,9 @@ def _braced(case: NutCase, point: NutPoint, springs: BallSprings, bars: Bars) ->
 
 def _first_touch(point: NutPoint, springs: BallSprings) -> Field:
     """The displacement at which the first ball of a nut without preload touches, at each ball."""
-    touch = np.min((springs.touch(springs.flanks[0]) - springs.flanks[0].offset) / point.lead_cosine, axis=0)
-    return touch + 0 * springs.flanks[0].offset
+    flanks = springs.flanks[0]
+    touch = np.min((springs.touch(flanks) - flanks.offset) / point.lead_cosine, axis=0)
+    return point.direction * touch + 0 * flanks.offset
 
 
 def _travel(case: NutCase, point: NutPoint, bars: Bars, x: Field, load: Field) -> Length:
@@ -231,18 +241,22 @@ def _parallel_compliance(case: NutCase, point: NutPoint, bars: Bars) -> Ratio:
 
 
 def _lift_off_load(case: NutCase, point: NutPoint, springs: BallSprings) -> Force:
-    """The load of a rigid screw in a rigid nut when the other flanks just touch."""
+    """The size of the load of a rigid screw in a rigid nut when the flanks that it relieves just touch."""
     if not (case.halves == 2 or case.oversize):
         return 0 * point.load
+    if not case.scatters:  # all balls are alike
+        nut = RigidNut(*point[: len(RigidNut._fields)])
+        return rigid_lift_off_load(nut, oversize=case.oversize, constant_angle=case.constant_angle)
     if case.elastic:
         case = case._replace(elastic=False)
-        if not case.scatters:  # one ball stands for all
-            none = np.zeros((case.halves, 1))
-            case = case._replace(balls=1, one_by_one=False, excess=none, lead_error=none)
         springs = _springs(case, point)
         if case.halves == 2:
             springs, _ = _braced(case, point, springs, _bars(case, point))
-    own, other = springs.flanks[0], springs.flanks[-1]
-    lifted = np.where(other.facing < 0, other.offset - springs.touch(other), -np.inf).max(axis=0) / point.lead_cosine
-    carried = springs.balls * springs.loads(own, lifted).axial_force
-    return np.sum(np.where(own.facing > 0, carried, 0.0), axis=0)
+    ahead = point.direction
+    lets_go = [np.where(each.facing == -ahead, each.offset - springs.touch(each), -np.inf) for each in springs.flanks]
+    lifted = ahead * np.maximum.reduce(lets_go).max(axis=0) / point.lead_cosine
+    carried = [
+        np.where(each.facing == ahead, springs.balls * ahead * springs.loads(each, lifted).axial_force, 0.0)
+        for each in springs.flanks
+    ]
+    return np.sum(sum(carried), axis=0)
