@@ -48,6 +48,12 @@ def namespace(*values: Any) -> Any:
     return np
 
 
+def where(mask: Any, yes: Any, no: Any) -> Any:
+    """``where`` of the namespace of the values; a number for numbers."""
+    found = namespace(mask, yes, no).where(mask, yes, no)
+    return found[()] if isinstance(found, np.ndarray) else found
+
+
 def _symbolic() -> SimpleNamespace:
     """NumPy's spelling of the few functions the equations use, in SymPy."""
     sympy = sys.modules["sympy"]

@@ -6,7 +6,7 @@ import dataclasses
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from ballscrew.cases import catalogue
 from ballscrew.cases.case import PreloadNote
@@ -126,7 +126,8 @@ def _nut(
     faults: list[Fault],
 ) -> tuple[Nut | None, Sequence[PreloadNote]]:
     before = len(faults)
-    table, values = sections.tables["nut"], sections.values_of("nut", faults)
+    table = sections.tables["nut"]
+    values = cast("dict[str, Any]", sections.values_of("nut", faults))
     if len(faults) > before:
         return None, ()
     kind = values.pop("type", (row.nut or "single") if row is not None else None)
@@ -142,8 +143,10 @@ def _nut(
     if len(faults) > before or kind is None:
         return None, ()
     preload = values.get("preload")
+    if kind == "single":
+        return dataclasses.replace(SINGLE, **values), ()
     if not isinstance(preload, Share):
-        return dataclasses.replace(SINGLE, **values) if kind == "single" else NUTS[kind](**values), ()
+        return NUTS[kind](**values), ()
     if screw is None:
         return None, ()  # its own faults are there already
     try:

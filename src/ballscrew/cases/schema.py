@@ -23,8 +23,8 @@ from ballscrew.cases.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS
 from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.materials import TEMPERATURE, Lubricant, Material, grades
 from ballscrew.components.nut import Bodies, DoubleNut, Scatter
-from ballscrew.components.outside_laws import name_of as outside_name
 from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.outside_laws import name_of as outside_name
 from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.errors import MISSING, Fault, InputError, closest, nearest
 from ballscrew.friction.calibrations import calibrations

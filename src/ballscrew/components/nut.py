@@ -312,5 +312,3 @@ class OffsetLeadNut(NutParts):
 
 
 Nut: TypeAlias = SingleNut | OversizeBallNut | DoubleNut | OffsetLeadNut
-
-

@@ -23,14 +23,14 @@ class OperatingState(ByValue):
         Force,
         Info(
             "F",
-            "axial load on the nut, positive where a positive speed lifts it",
-            hint="give a finite number",
+            "axial load on the nut",
+            hint="positive where a positive speed lifts it",
             usual=(-1e7, 1e7),
         ),
     ]
     screw_speed: Annotated[
         AngularSpeed,
-        Info(r"\omega", "speed of the screw", "rpm", hint="give a finite number", usual=(-2000.0, 2000.0)),
+        Info(r"\omega", "speed of the screw", "rpm", hint="in rad/s in Python", usual=(-2000.0, 2000.0)),
     ]
     #: The temperature at which an oil of a grade is taken, K. In a case file it stands with the oil.
     temperature: Temperature | None = None

@@ -106,7 +106,8 @@ def compare(
 ) -> Comparison:
     """Evaluate the case's model, other models, and the case's with other laws, at one operating point.
 
-    Where one of the models is the case's own, their rows are one; models that do not know the nut are left out. ``done(finished, total)`` reports the rows.
+    Where one of the models is the case's own, their rows are one; models that do not know the nut are left out.
+    ``done(finished, total)`` reports the rows.
     """
     finished = 0
 

@@ -75,7 +75,7 @@ class Output:
 
 
 def known_outputs(nut: Nut = SINGLE_NUT) -> Mapping[str, Output]:
-    """All outputs of a sweep by name: ``screw_torque``, ``nut_film_parameter``, ``contribution_curvature``, ``rigidity``…
+    """All outputs of a sweep by name: ``screw_torque``, ``nut_film_parameter``, ``rigidity``…
 
     Of balls that differ, results of a single contact are those of the most loaded ball.
     """

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew._arrays import namespace
+from ballscrew._arrays import namespace, where
 from ballscrew.components.conditions import Motion
 from ballscrew.components.contact import Contact
 from ballscrew.components.materials import Lubricant
@@ -88,7 +88,7 @@ def four_contact_friction(
     both = flanks[0][0] + flanks[1][0]
     pairs: list[LoadedFlanks] = []
     for load, angle in flanks:
-        at_angle = dataclasses.replace(screw, contact_angle=xp.where(load > 0, angle, screw.contact_angle)[()])
+        at_angle = dataclasses.replace(screw, contact_angle=where(load > 0, angle, screw.contact_angle))
         frame = laws.frame(at_angle)
         lateral = kinematics.torsion_speed(omega, screw.ball_diameter, frame.lead_angle) / 2
         v = frame.entrainment_speed(omega)
@@ -97,7 +97,7 @@ def four_contact_friction(
         # touches no other, which halves the relative spin between screw and nut.
         spin = kinematics.relative_spin(omega, frame.rolling_plane_sine)
         about_binormal = kinematics.ball_rotation(v, screw.ball_diameter) * xp.tan(at_angle.contact_angle)
-        leaning = xp.where(both > 0, xp.maximum(2 * load - both, 0.0) / xp.where(both > 0, both, 1.0), 0.0)
+        leaning = where(both > 0, xp.maximum(2 * load - both, 0.0) / where(both > 0, both, 1.0), 0.0)
         at_nut = (1 - leaning) * about_binormal - leaning * spin / 2
         motions = (Motion(v, at_nut + spin, lateral), Motion(v, abs(at_nut), lateral))
         contacts = ball_contacts(model.contact_laws, at_angle, lubricant, frame, load, motions)
@@ -122,10 +122,10 @@ def four_contact_friction(
     lifted = (flanks[0][0] == 0) | (flanks[1][0] == 0)
     if isinstance(lifted, bool | np.bool_ | np.ndarray) and not np.any(lifted):
         return found
-    angle = xp.where(flanks[0][0] > 0, flanks[0][1], flanks[1][1])
-    angle = xp.where(both > 0, angle, screw.contact_angle)[()]
+    angle = where(flanks[0][0] > 0, flanks[0][1], flanks[1][1])
+    angle = where(both > 0, angle, screw.contact_angle)
     two = two_contact_friction(model, screw, lubricant, both, angle, omega, imposed_ball_force)
-    return _on_two_where(xp, lifted, found, two)
+    return _on_two_where(lifted, found, two)
 
 
 def two_contact_friction(
@@ -143,7 +143,7 @@ def two_contact_friction(
     return ball_friction(model, at_angle, lubricant, frame, contact_load, screw_speed, imposed_ball_force)
 
 
-def _on_two_where(xp: Any, lifted: Mask, four: FourContactFriction, two: BallFriction) -> FourContactFriction:
+def _on_two_where(lifted: Mask, four: FourContactFriction, two: BallFriction) -> FourContactFriction:
     """The friction on four contacts, or on two where a flank pair has lifted off."""
     loaded_skid = (
         (two.contact_load > 0)
@@ -153,7 +153,7 @@ def _on_two_where(xp: Any, lifted: Mask, four: FourContactFriction, two: BallFri
     )
 
     def pick(of_two: Any, of_four: Any) -> Any:
-        return xp.where(lifted, of_two, of_four)[()]
+        return where(lifted, of_two, of_four)
 
     return dataclasses.replace(
         four,

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew._arrays import namespace
+from ballscrew._arrays import namespace, where
 from ballscrew.components.contact import Contact
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.operating_state import OperatingState
@@ -121,9 +121,7 @@ def row_of_balls(model: BallModel, screw: BallScrew, lubricant: Lubricant, state
     frame = model.laws.frame(screw)
     Q = model.laws.contact_load(abs(state.axial_load), screw.loaded_balls, screw.contact_angle, frame.lead_angle)
     friction = ball_friction(model, screw, lubricant, frame, Q, abs(state.screw_speed), model.imposed_ball_force(screw))
-    return LoadedBalls(
-        balls=screw.loaded_balls, one_by_one=False, contact_angle=screw.contact_angle, friction=friction
-    )
+    return LoadedBalls(balls=screw.loaded_balls, one_by_one=False, contact_angle=screw.contact_angle, friction=friction)
 
 
 def balls_under(
@@ -134,7 +132,6 @@ def balls_under(
     four = screw.nut.contacts_per_ball == 4
     # a symmetric nut is the same for loads of either sign: what carries takes the place of what is relieved
     reversed_load = state.axial_load < 0
-    xp = namespace(state.axial_load, kinds[0].forward_load)
     alone = dataclasses.replace(screw, nut=SINGLE_NUT)
     part = alone
     if loads.one_by_one:
@@ -144,10 +141,10 @@ def balls_under(
     if four:
         found = [_on_four_contacts(model, part, lubricant, omega, imposed, kind, reversed_load) for kind in kinds]
     else:
-        touched = [_touched(xp, kind, part.contact_angle) for kind in kinds]
+        touched = [_touched(kind, part.contact_angle) for kind in kinds]
         if len(touched) == 2:
             touched = [
-                tuple(xp.where(reversed_load, b, a)[()] for a, b in zip(one, other, strict=True))
+                tuple(where(reversed_load, b, a) for a, b in zip(one, other, strict=True))
                 for one, other in (touched, touched[::-1])
             ]
         found = [
@@ -160,11 +157,11 @@ def balls_under(
     )
 
 
-def _touched(xp: Any, kind: KindLoads, nominal_angle: Angle) -> tuple[Force, Angle]:
+def _touched(kind: KindLoads, nominal_angle: Angle) -> tuple[Force, Angle]:
     """Load and angle of the one flank pair that the balls of a kind touch."""
     load = kind.forward_load + kind.backward_load
-    angle = xp.where(kind.forward_load > 0, kind.forward_angle, kind.backward_angle)
-    return load, xp.where(load > 0, angle, nominal_angle)[()]
+    angle = where(kind.forward_load > 0, kind.forward_angle, kind.backward_angle)
+    return load, where(load > 0, angle, nominal_angle)
 
 
 def _on_four_contacts(
@@ -177,9 +174,8 @@ def _on_four_contacts(
     reversed_load: Mask,
 ) -> tuple[Angle, FourContactFriction]:
     forward, backward = (kind.forward_load, kind.forward_angle), (kind.backward_load, kind.backward_angle)
-    xp = namespace(*forward, *backward)
     carrying, relieved = (
-        (xp.where(reversed_load, there[0], here[0])[()], xp.where(reversed_load, there[1], here[1])[()])
+        (where(reversed_load, there[0], here[0]), where(reversed_load, there[1], here[1]))
         for here, there in ((forward, backward), (backward, forward))
     )
     friction = four_contact_friction(model, screw, lubricant, (carrying, relieved), speed, imposed_ball_force)
@@ -198,8 +194,7 @@ def holds_for_most(kinds: Sequence[LoadedBalls]) -> Mapping[str, Mask]:
         for kind, of_kind in conditions:
             for holds, carried in of_kind[reason]:
                 each = carried + 0 * kind.load
-                xp = namespace(each)
-                failing = failing + kind.total(xp.where(holds, 0.0, each))
+                failing = failing + kind.total(where(holds, 0.0, each))
                 load = load + kind.total(each)
         found[reason] = failing <= NEGLIGIBLE_SHARE * load
     return found
@@ -222,8 +217,7 @@ def minimum_film_parameter(kinds: Sequence[LoadedBalls]) -> Ratio:
     for kind in kinds:
         for pair in kind.pairs:
             for contact in (pair.screw, pair.nut):
-                xp = namespace(pair.load, contact.film_parameter)
-                found.append(-kind.largest(xp.where(pair.load > 0, -contact.film_parameter, -float("inf"))))
+                found.append(-kind.largest(where(pair.load > 0, -contact.film_parameter, -float("inf"))))
     return -_extreme([-each for each in found])
 
 

@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Annotated, Any, NamedTuple
 
-from ballscrew._arrays import lazy, namespace
+from ballscrew._arrays import lazy, where
 from ballscrew.components.contact import RaceState
 from ballscrew.components.frame import Frame
 from ballscrew.components.laws import BallChain, IdealTorqueLaw
@@ -51,7 +51,7 @@ class FrictionResult:
     """Friction of a ball screw at one operating point, or at an array of them.
 
     ``screw_torque``, ``nut_torque`` and ``contributions`` are magnitudes: friction opposes the motion. ``ideal_torque``
-    and ``drive_torque`` have the sign of the torque on the shaft, positive where it turns the screw at a positive speed.
+    and ``drive_torque`` have the sign of the torque on the shaft, positive where it turns the screw forwards.
     The equilibrium of the balls is in hand when the result is made; everything else is computed when it is
     asked for, and kept.
     """
@@ -105,8 +105,7 @@ class FrictionResult:
         At rest friction holds up to ``screw_torque`` either way, and the torque is the ideal one:
         see :attr:`holding_torque`.
         """
-        xp = namespace(self.screw_speed, self.screw_torque)
-        direction = xp.where(self.screw_speed > 0, 1.0, xp.where(self.screw_speed < 0, -1.0, 0.0))[()]
+        direction = where(self.screw_speed > 0, 1.0, where(self.screw_speed < 0, -1.0, 0.0))
         return self.ideal_torque + direction * self.screw_torque
 
     @lazy
@@ -118,7 +117,7 @@ class FrictionResult:
         For a load below zero all signs are reversed.
         """
         size = transmission.holding_torque(abs(self.ideal_torque), self.screw_torque)
-        return namespace(self.axial_load, size).where(self.axial_load < 0, -size, size)[()]
+        return where(self.axial_load < 0, -size, size)
 
     @lazy
     def self_locking(self) -> Annotated[Mask, Info("self-locking", "the load alone cannot turn the screw")]:
@@ -130,10 +129,9 @@ class FrictionResult:
     def _direct_efficiency(self) -> Ratio:
         """Efficiency if the screw drove the load at this speed; NaN without a load."""
         size = abs(self.ideal_torque)
-        xp = namespace(self.axial_load, size)
         loaded = self.axial_load != 0
-        eta = transmission.efficiency(xp.where(loaded, size, 1.0)[()], self.screw_torque)
-        return xp.where(loaded, eta, float("nan"))[()]
+        eta = transmission.efficiency(where(loaded, size, 1.0), self.screw_torque)
+        return where(loaded, eta, float("nan"))
 
     @lazy
     def efficiency(
@@ -145,7 +143,7 @@ class FrictionResult:
         """
         F, omega = self.axial_load, self.screw_speed
         drives = ((F > 0) & (omega >= 0)) | ((F < 0) & (omega <= 0))
-        return namespace(F, omega).where(drives, self._direct_efficiency, float("nan"))[()]
+        return where(drives, self._direct_efficiency, float("nan"))
 
     @lazy
     def back_driving_efficiency(self) -> Annotated[Ratio, Info(r"\eta_b", "efficiency, the load drives the screw")]:

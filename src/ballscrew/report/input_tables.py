@@ -40,7 +40,7 @@ def tables(case: Case) -> list[Table]:
     found = [
         Table("Screw", _COLUMNS, _screw(case), _TEXTS),
         Table("Lubricant", _COLUMNS, _lubricant(case), _TEXTS),
-        Table("Operating point", _COLUMNS, _part(case, case.operation, fields_of(OperatingState), lambda _: CASE), _TEXTS),
+        Table("Operating point", _COLUMNS, _operation(case), _TEXTS),
     ]
     others = {"Nut": _nut(case), "Installation": _installation(case), "Limits of the checks": _limits(case)}
     found += [Table(title, _COLUMNS, rows, _TEXTS) for title, rows in others.items() if rows]
@@ -132,6 +132,10 @@ def _lubricant(case: Case) -> Rows:
     return [*rows, *_part(case, oil, fields_of(Lubricant), source)]
 
 
+def _operation(case: Case) -> Rows:
+    return _part(case, case.operation, fields_of(OperatingState), lambda _: CASE)
+
+
 def _nut(case: Case) -> Rows:
     nut = case.nut
     if nut is None:
@@ -144,9 +148,7 @@ def _nut(case: Case) -> Rows:
     given = nut.bodies
     if given is not None:
         bodies = given.sized(case.screw)
-        rows += _part(
-            case, bodies, fields_of(bodies), lambda n: DEFAULT if getattr(given, n) is None else CASE
-        )
+        rows += _part(case, bodies, fields_of(bodies), lambda n: DEFAULT if getattr(given, n) is None else CASE)
     for section, part in nut.parts.items():
         if section not in ("nut", "bodies"):
             own = _defaults(type(part))

@@ -53,7 +53,7 @@ def results(run: Run) -> list[Table]:
     if run.nut is not None:
         rows.insert(1, ("torque without load", value_of(run.nut.preload_drag, _TORQUE)))
         stiff = [_row(run.nut.loads, name, _LOADS) for name in stiffness_fields(run.nut)]
-        stiff.append(_row(run.nut, "maximum_pressure", _NUT))
+        stiff.append(_row(run.nut, "maximum_pressure", _ONE))
         whose = "Contacts of the most loaded ball"
     tables = [Table("Torque, efficiency and power", ("", "value"), rows)]
     if stiff:

@@ -25,7 +25,7 @@ import numpy as np
 
 from ballscrew._arrays import as_array, in_blocks, lazy, map_blocks, namespace
 from ballscrew.components.frame import helix_frame
-from ballscrew.components.nut import Bodies, Deviations, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut
+from ballscrew.components.nut import Bodies, Deviations, Nut, OversizeBallNut
 from ballscrew.components.screw import BallScrew, Raceway
 from ballscrew.equations import deflection, geometry, hertz
 from ballscrew.errors import Fault, accepts_units, is_concrete, raise_if_any, si_value
@@ -138,7 +138,7 @@ def ball_loads(
     A = deflection.groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
     point = RigidNut(
         load=as_array(axial_load),
-        preload=as_array(getattr(nut, "preload", 0.0)),
+        preload=as_array(preload_of(screw, nut)),
         contact_angle=screw.contact_angle,
         lead_cosine=c_phi,
         centre_distance=A,
@@ -150,13 +150,9 @@ def ball_loads(
     return _one_by_one(screw, nut, point, bodies, deviations, constant_contact_angle)
 
 
-def _halves(nut: Nut) -> int:
-    return 2 if isinstance(nut, DoubleNut | OffsetLeadNut) else 1
-
-
 def _alike(nut: Nut, point: RigidNut, constant_angle: bool) -> BallLoads:
     """Rigid bodies, and all balls of a kind alike."""
-    halves, oversize = _halves(nut), isinstance(nut, OversizeBallNut)
+    halves, oversize = nut.halves, isinstance(nut, OversizeBallNut)
 
     def solve(*numbers: Any) -> RigidLoads:
         return rigid_loads(RigidNut(*numbers), halves=halves, oversize=oversize, constant_angle=constant_angle)
@@ -181,7 +177,7 @@ def _one_by_one(
     constant_angle: bool,
 ) -> BallLoads:
     """Each ball for itself, in blocks of operating points."""
-    halves = _halves(nut)
+    halves = nut.halves
     if deviations is not None:
         deviations = Deviations(*(si_value(f"deviations.{n}", v, "m") for n, v in deviations._asdict().items()))
     raise_if_any(_faults(screw, halves, deviations))
@@ -218,6 +214,22 @@ def _one_by_one(
     return BallLoads(kinds=(kind,), one_by_one=True, **dict(zip(_OF_NUT, plain, strict=True)))
 
 
+def preload_of(screw: BallScrew, nut: Nut) -> Force:
+    r"""The axial preload of a nut: given, or that of balls whose oversize is given; zero without.
+
+    .. math:: F_{pr} = z K \delta_w^{3/2} (\sin\alpha) (\cos\varphi)
+
+    The oversize is the approach of a ball on each pair of flanks, at the contact angle without load.
+    """
+    oversize = getattr(nut, "oversize", None)
+    if oversize is None:
+        return getattr(nut, "preload", 0.0)
+    xp = namespace(oversize, screw.contact_angle, screw.lead_angle)
+    K = pair_load_deflection(screw)
+    axial = xp.sin(screw.contact_angle) * xp.cos(screw.lead_angle)
+    return screw.loaded_balls * K * oversize * xp.sqrt(oversize) * axial
+
+
 def pair_load_deflection(screw: BallScrew) -> LoadDeflection:
     """Load over approach to the power of one and a half, of a ball between screw and nut."""
     gamma = helix_frame(screw).curvature_ratio
@@ -245,8 +257,9 @@ def _bodies(screw: BallScrew, bodies: Bodies | None) -> tuple[Any, Any, Any]:
     step = screw.ball_diameter * np.sin(screw.lead_angle) / screw.starts
     if bodies is None:
         return np.inf, np.inf, step
-    core = np.pi / 4 * bodies.screw_diameter**2
-    tube = np.pi / 4 * (bodies.nut_outer_diameter**2 - bodies.nut_inner_diameter**2)
+    whole: Any = bodies.sized(screw)
+    core = np.pi / 4 * whole.screw_diameter**2
+    tube = np.pi / 4 * (whole.nut_outer_diameter**2 - whole.nut_inner_diameter**2)
     return screw.screw_material.young_modulus * core, screw.nut_material.young_modulus * tube, step
 
 

@@ -13,7 +13,6 @@ from ballscrew.cases.case import Case
 from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.cases.option_faults import in_options
 from ballscrew.components.catalogue import CatalogueRow
-from ballscrew.components.nut import SingleNut
 from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.records import Record
 from ballscrew.sizing.checks import Check, Ratings, checks, ratings_of

@@ -231,7 +231,7 @@ def with_nut(case: Case, nut: Nut) -> Run:
         quadrants={},
         nut=NutState(
             nut=nut,
-            preload=float(preload_of(screw)),
+            preload=float(preload_of(screw, nut)),
             preload_drag=float(friction(0.0, speed).screw_torque),
             loads=loads,
             maximum_pressure=float(found.maximum_pressure),

@@ -23,6 +23,7 @@ from ballscrew.evaluation.outputs import known_outputs
 from ballscrew.figures.colours import MECHANISM_COLOURS
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import MECHANISMS, FrictionResult
+from ballscrew.friction.validity import NUT_REASONS
 from ballscrew.papers.olaru2005 import case as paper
 from ballscrew.quantities import Info, Quantity, fields_of, quantities_of
 from ballscrew.solvers.load_distribution import BallLoads

@@ -10,8 +10,8 @@ from rich.console import Console
 from ballscrew.cases import case_file, descriptions
 from ballscrew.cases.schema import LAWS, name_of_law
 from ballscrew.evaluation.comparison import Comparison, Row
-from ballscrew.friction.validity import NUT_REASONS
 from ballscrew.friction.plausibility import IMPLAUSIBLE
+from ballscrew.friction.validity import NUT_REASONS
 from ballscrew.output.documents.comparison import percent, verdicts, warnings
 from ballscrew.studies.comparison import models_without_nut
 
