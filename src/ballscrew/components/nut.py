@@ -12,16 +12,14 @@ from ballscrew._arrays import ByValue
 from ballscrew.errors import MISSING, Fault, accepts_units, faults_of, is_concrete, raise_if_any
 from ballscrew.quantities import Count, Force, Info, Length, Torque, fields_of
 
-Preload = Annotated[
-    Force,
-    Info(
-        "F_pr",
-        "axial preload without external load",
-        at_least=0,
-        hint="2 to 10 % of the dynamic load rating",
-        usual=(0.0, 1e6),
-    ),
-]
+_PRELOAD = Info(
+    "F_pr",
+    "axial preload without external load",
+    at_least=0,
+    hint="2 to 10 % of the dynamic load rating",
+    usual=(0.0, 1e6),
+)
+Preload = Annotated[Force, _PRELOAD]
 Spacing = Annotated[
     Length,
     Info(
@@ -253,7 +251,7 @@ class OversizeBallNut(NutParts):
     Raises :class:`~ballscrew.errors.InputError` for a negative preload or oversize, and for both or none of them.
     """
 
-    preload: Preload | None = None
+    preload: Annotated[Force | None, _PRELOAD] = None
     oversize: Annotated[
         Length | None,
         Info(
