@@ -170,6 +170,11 @@ class FrictionResult:
             for name, (load, speed) in QUADRANTS.items()
         }
 
+    @property
+    def friction_effort(self) -> Torque:
+        """Generalised friction force of the element: ``screw_torque``."""
+        return self.screw_torque
+
     # -- parts and power --------------------------------------------------------------------------
 
     @lazy
