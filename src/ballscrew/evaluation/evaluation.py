@@ -32,10 +32,11 @@ from ballscrew.evaluation.engines import (
 from ballscrew.evaluation.fingerprint import Fingerprint, fingerprint_of, package_digest
 from ballscrew.evaluation.outputs import OPERATION
 from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.evaluation.recordings import Recording, recording
 from ballscrew.kernels import kernel as kernels
-from ballscrew.kernels.emission import UnknownOperationError, kernel_text
+from ballscrew.kernels.emission import UnknownOperationError
 from ballscrew.kernels.kernel import Kernel
-from ballscrew.tracing.grid import COLUMNS, ROWS, Split, inner_axes, split
+from ballscrew.tracing.grid import COLUMNS, ROWS, Split, inner_axes
 from ballscrew.tracing.program import Program, Source
 from ballscrew.tracing.tape import CannotRecordError
 
@@ -91,11 +92,12 @@ class Evaluation:
             return _by_numpy(plan, None, f"the model itself: {ASKED_FOR}")
         program: Program | None = None
         try:
-            program = plan.recorded()
+            made_of = recorded(plan)
+            program = made_of.program
             points = plan.total * times
             why = why_numpy(engine)
             if may_be_compiled(program, points, engine):
-                made = (_Grid.of(plan) if times == 1 else None) or _Points.of(plan, program)
+                made = (_Grid.of(plan) if times == 1 else None) or _Points.of(plan, made_of)
                 if engine or worth_compiling(made.program, points, made.text):
                     chosen = ASKED_FOR if engine else PAYS
                     identify = functools.partial(_fingerprint, plan, "compiled", program, lambda: made.formulas)
@@ -173,7 +175,8 @@ class Evaluation:
 
 
 def _by_numpy(plan: Plan, program: Program | None, reason: str) -> Evaluation:
-    interpreter = None if program is None else program.interpreter
+    # its buffers go with this evaluation, while the program may be kept
+    interpreter = None if program is None else program.interpreter.with_own_buffers()
 
     def evaluator_of(plan: Plan) -> _BlockEvaluator:
         def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int) -> None:
@@ -206,16 +209,25 @@ def _fingerprint(plan: Plan, engine: Engine, program: Program | None, formulas: 
     return fingerprint_of(held)
 
 
+def recorded(plan: Plan, groups: Sequence[int] | None = None) -> Recording:
+    """The model as a program of the varying inputs of a plan, in groups where asked for; kept where it can be."""
+
+    def key() -> Any:
+        by = getattr(plan, "by", ())
+        return type(plan), plan.subject, plan.fixed, plan.varying, plan.outputs, by, groups
+
+    return recording(key, lambda: plan.recorded(groups))
+
+
 class _Kernels:
     """A program as assembly, compiled when it is decided to be worth it."""
 
     row_length = 1
 
-    def __init__(self, plan: Plan, program: Program, sources: Sequence[Source]) -> None:
+    def __init__(self, plan: Plan, made_of: Recording, program: Program, sources: Sequence[Source]) -> None:
         self.program = program
         self.sources = sources
-        masks = {name: output.dtype is bool for name, output in plan.wanted.items()}
-        self.text = kernel_text(program, sources, masks)
+        self.text = made_of.text(program, sources, {n: output.dtype is bool for n, output in plan.wanted.items()})
 
     @property
     def formulas(self) -> str:
@@ -247,10 +259,10 @@ class _Points(_Kernels):
     """Every point by itself."""
 
     @classmethod
-    def of(cls, plan: Plan, program: Program) -> _Points:
+    def of(cls, plan: Plan, made_of: Recording) -> _Points:
         """A kernel that reads the inputs of each point."""
         sources: list[Source] = ["points" if plan.axes[name].dims else "rows" for name in plan.varying]
-        return cls(plan, program, sources)
+        return cls(plan, made_of, made_of.program, sources)
 
     def evaluate(self, plan: Plan, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int) -> None:
         """Run the kernel over a part of the flattened grid."""
@@ -264,8 +276,8 @@ class _Points(_Kernels):
 class _Grid(_Kernels):
     """Rows and columns of a grid, with tables of what needs only one of them."""
 
-    def __init__(self, plan: Plan, cut: Split, columns: int) -> None:
-        super().__init__(plan, cut.points, [source for source, _ in cut.tables])
+    def __init__(self, plan: Plan, made_of: Recording, cut: Split, columns: int) -> None:
+        super().__init__(plan, made_of, cut.points, [source for source, _ in cut.tables])
         self.plan = plan
         self.row_length = columns
         self.cut = cut
@@ -284,9 +296,10 @@ class _Grid(_Kernels):
             groups.append(sum(COLUMNS if is_inner else ROWS for is_inner in dims) or ROWS)
         if ROWS | COLUMNS in groups or WORTH_CUTTING * (columns + plan.total // columns) > plan.total:
             return None
-        cut = split(plan.recorded(groups), groups)
+        made_of = recorded(plan, groups)
+        cut = made_of.cut(groups)
         entries = len(cut.rows.outputs) * (plan.total // columns) + len(cut.columns.outputs) * columns
-        return None if entries > MOST_ENTRIES else cls(plan, cut, columns)
+        return None if entries > MOST_ENTRIES else cls(plan, made_of, cut, columns)
 
     @property
     def formulas(self) -> str:
@@ -307,7 +320,7 @@ class _Grid(_Kernels):
             if names:
                 inputs = self.plan.points_at(np.asarray(places))
                 with np.errstate(all="ignore"):
-                    program.interpreter.run([inputs[name] for name in self.plan.varying], values)
+                    program.interpreter.with_own_buffers().run([inputs[name] for name in self.plan.varying], values)
             for name in names:
                 found[source, name] = values[name].astype(float, copy=False)
         return [found[key] for key in self.cut.tables]

@@ -170,6 +170,7 @@ def _processor() -> str:
     return f"{llvm.get_default_triple()} {llvm.get_host_cpu_name()} {features} {llvm.llvm_version_info} {FORMAT}"
 
 
+@functools.lru_cache(maxsize=64)
 def _digest(text: str) -> str:
     """The name of a kernel: a digest of the assembly, the processor and the compiler."""
     return hashlib.sha256(f"{_processor()}\n{text}".encode()).hexdigest()
