@@ -17,7 +17,7 @@ import os
 import sys
 import tempfile
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -121,6 +121,16 @@ class Kernel:
             (ctypes.c_void_p * len(places))(*places),
             (ctypes.c_void_p * len(ends))(*ends),
         )
+
+    def at_one_point(self, inputs: NDArray[np.float64], results: Sequence[NDArray[Any]]) -> Callable[[], None]:
+        """A call that reads one point from ``inputs`` and writes it into ``results``, with next to nothing left to do.
+
+        ``inputs`` holds a number for each input, all of them over points; the arrays must outlive the call.
+        """
+        start, item = _address(inputs, 0), inputs.itemsize
+        places = (ctypes.c_void_p * inputs.size)(*(start + i * item for i in range(inputs.size)))
+        ends = (ctypes.c_void_p * len(results))(*(_address(array, 0) for array in results))
+        return functools.partial(self._function, 0, 1, 0, 1, 1, 1, 0, False, places, ends)
 
 
 def is_cached(text: str) -> bool:
