@@ -33,7 +33,7 @@ from ballscrew.evaluation.fingerprint import Fingerprint, fingerprint_of, packag
 from ballscrew.evaluation.outputs import OPERATION
 from ballscrew.evaluation.plan import Configuration, Plan
 from ballscrew.evaluation.recordings import Recording, recording
-from ballscrew.kernels import kernel as kernels
+from ballscrew.kernels.buffers import ALIGNMENT, aligned_array
 from ballscrew.kernels.emission import UnknownOperationError
 from ballscrew.kernels.kernel import Kernel
 from ballscrew.tracing.grid import COLUMNS, ROWS, Split, inner_axes
@@ -140,7 +140,7 @@ class Evaluation:
 
     def empty(self, count: int) -> dict[str, NDArray[Any]]:
         """Room for the results of so many points."""
-        return {name: kernels.aligned_array(count, output.dtype) for name, output in self.plan.wanted.items()}
+        return {name: aligned_array(count, output.dtype) for name, output in self.plan.wanted.items()}
 
     def fill(
         self,
@@ -170,7 +170,7 @@ class Evaluation:
             return self._block_size
         fair = math.ceil(total / (BLOCKS_PER_THREAD * (threads or processors())))
         size = min(max(fair, SMALLEST_BLOCK), self._block_size)
-        step = self._row_length if 1 < self._row_length <= size else kernels.ALIGNMENT
+        step = self._row_length if 1 < self._row_length <= size else ALIGNMENT
         return math.ceil(size / step) * step
 
 

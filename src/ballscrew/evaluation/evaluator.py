@@ -22,6 +22,7 @@ from ballscrew.evaluation.plan import Configuration, Plan
 from ballscrew.evaluation.recordings import Recording, recording
 from ballscrew.friction.model import FrictionModel
 from ballscrew.kernels import kernel as kernels
+from ballscrew.kernels.buffers import aligned_array
 from ballscrew.kernels.emission import UnknownOperationError
 from ballscrew.kernels.kernel import Kernel
 from ballscrew.quantities import Quantity, within_bounds
@@ -189,7 +190,7 @@ class Evaluator:
             given = ", ".join(f"{name} {array.shape}" for name, array in zip(self.inputs, arrays, strict=True))
             raise InputError(Fault("evaluator", "the shapes do not broadcast", given, "make them fit")) from None
         size = int(np.prod(shape))
-        found = {name: kernels.aligned_array(size, bool if mask else float) for name, mask in self._masks.items()}
+        found = {name: aligned_array(size, bool if mask else float) for name, mask in self._masks.items()}
         block_size = (
             LARGE_KERNEL_BLOCK if self.engine == "compiled" and size > 8 * LARGE_KERNEL_BLOCK else self._block_size
         )
@@ -267,7 +268,7 @@ def _recorded(plan: Plan, quantities: Mapping[str, Quantity], fixed: Mapping[str
     for name, output in plan.wanted.items():  # read in this order: a value, then its derivatives
         wanted[name] = Output(name, output.quantity, functools.partial(value, output))
         for of in (slope_name(name, x) for x in by):
-            at = Output(of, output.quantity, _within)
+            at = Output(of, output.quantity, output.read)
             wanted[of] = dataclasses.replace(at, read=functools.partial(slope, at))
     try:
         return plan.subject.recorded(tape, {**fixed, **points}, wanted)

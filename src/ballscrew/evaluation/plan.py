@@ -18,6 +18,7 @@ from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import MATERIALS, BallScrew, Operation
 from ballscrew.components.traits import traits_of
 from ballscrew.errors import MISSING, Fault, fault_of, nearest, raise_if_any, without_unit
+from ballscrew.evaluation.ends import ends
 from ballscrew.evaluation.outputs import (
     DEFAULT_OUTPUTS,
     NUT_OUTPUTS,
@@ -182,12 +183,19 @@ class Plan:
         Raises :class:`~ballscrew.errors.InputError` with all faults in it, which stand under ``section``.
         """
         names = _wanted(section, outputs, subject.nut)
-        axes = _axes(section, subject, varied)
-        return cls(subject, axes, _sizes(section, axes, names), names)
+        axes, extremes = _axes(section, subject, varied)
+        plan = cls(subject, axes, _sizes(section, axes, names), names)
+        vars(plan)["extremes"] = extremes  # as a cached property, which a plan with other axes finds anew
+        return plan
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Fields that other processes need."""
         return Plan, (self.subject, dict(self.axes), dict(self.sizes), self.outputs)
+
+    @functools.cached_property
+    def extremes(self) -> Mapping[str, np.ndarray]:
+        """The least and the greatest value of each input."""
+        return {name: ends(axis.to_numpy()) for name, axis in self.axes.items()}
 
     @functools.cached_property
     def wanted(self) -> dict[str, Output]:
@@ -260,7 +268,7 @@ class Plan:
     @property
     def attributes(self) -> dict[str, Any]:
         """Attributes of the dataset: those of the subject, and what is implausible."""
-        records = self.subject.implausible({name: axis.to_numpy() for name, axis in self.axes.items()})
+        records = self.subject.implausible(self.extremes)
         said = "; ".join(f"{record.name}: {record.text}" for record in records)
         return self.subject.attributes(list(self.axes)) | ({"warnings": said} if said else {})
 
@@ -285,8 +293,10 @@ def _wanted(section: str, names: Sequence[str] | None, nut: NutParts | None) -> 
     return tuple(dict.fromkeys(chosen))
 
 
-def _axes(section: str, subject: Configuration, varied: Mapping[str, Any]) -> dict[str, xr.DataArray]:
-    """The values to vary as labelled arrays; all faults in them at once."""
+def _axes(
+    section: str, subject: Configuration, varied: Mapping[str, Any]
+) -> tuple[dict[str, xr.DataArray], dict[str, np.ndarray]]:
+    """The values to vary as labelled arrays, and the ends of each; all faults in them at once."""
     known = subject.inputs
     parts = subject.by_section
     faults = [
@@ -299,6 +309,7 @@ def _axes(section: str, subject: Configuration, varied: Mapping[str, Any]) -> di
         if part != "operation" and name not in varied and np.ndim(_read(parts[part], name))
     ]
     axes: dict[str, xr.DataArray] = {}
+    extremes: dict[str, np.ndarray] = {}
     for name, values in varied.items():
         if name in known:
             part, quantity = known[name]
@@ -307,9 +318,10 @@ def _axes(section: str, subject: Configuration, varied: Mapping[str, Any]) -> di
                 faults.append(axis)
             else:
                 axes[name] = axis
-                faults += _faults_of_axis(part, quantity, axis.to_numpy())
+                extremes[name] = ends(axis.to_numpy())
+                faults += _faults_of_axis(part, quantity, axis.to_numpy(), extremes[name])
     raise_if_any(faults)
-    return axes
+    return axes, extremes
 
 
 def _axis(section: str, name: str, values: Any, quantity: Quantity) -> xr.DataArray | Fault:
@@ -341,11 +353,9 @@ def _axis(section: str, name: str, values: Any, quantity: Quantity) -> xr.DataAr
     return axis if axis.size else Fault(where, "has no values", "", "give at least one")
 
 
-def _faults_of_axis(part: str, quantity: Quantity, values: np.ndarray) -> list[Fault]:
+def _faults_of_axis(part: str, quantity: Quantity, values: np.ndarray, extremes: np.ndarray) -> list[Fault]:
     """Faults of an axis: its ends (NaN comes out as both) and, where whole numbers are needed, the first broken one."""
-    telling = [values.min()]
-    if not np.isnan(telling[0]):
-        telling.append(values.max())
+    telling = (extremes[:1] if np.isnan(extremes[0]) else extremes).tolist()
     if quantity.info.whole:
         telling += values[values != np.floor(values)].ravel()[:1].tolist()
     faults = [fault_of(part, quantity, float(value)) for value in dict.fromkeys(telling)]

@@ -24,10 +24,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ballscrew.kernels.buffers import ALIGNMENT
 from ballscrew.tracing.program import Source
 
-#: Alignment in bytes that non-temporal stores need.
-ALIGNMENT = 64
 #: Columns that are worked on at a time, row after row: tables of a dozen inputs then stay in the first cache.
 COLUMN_TILE = 512
 #: Results larger than this do not stay in the cache anyway, and are stored non-temporally.
@@ -139,14 +138,6 @@ def is_cached(text: str) -> bool:
     with contextlib.suppress(OSError, RuntimeError):
         return name in _kernels or (cache_folder() / name).exists()
     return False
-
-
-def aligned_array(count: int, dtype: type) -> NDArray[Any]:
-    """An uninitialised array aligned for non-temporal stores."""
-    item = np.dtype(dtype).itemsize
-    raw = np.empty(count * item + ALIGNMENT, dtype=np.uint8)
-    start = -raw.ctypes.data % ALIGNMENT
-    return raw[start : start + count * item].view(dtype)
 
 
 def _address(array: NDArray[Any], first: int) -> int:
