@@ -18,6 +18,7 @@ from ballscrew.errors import (
     InputError,
     raise_if_any,
 )
+from ballscrew.evaluation.axes import ends
 from ballscrew.evaluation.engines import (
     ASKED_FOR,
     PAYS,
@@ -33,6 +34,7 @@ from ballscrew.evaluation.fingerprint import Fingerprint, fingerprint_of, packag
 from ballscrew.evaluation.outputs import OPERATION
 from ballscrew.evaluation.plan import Configuration, Plan
 from ballscrew.evaluation.recordings import Recording, recording
+from ballscrew.kernels import kernel as kernels
 from ballscrew.kernels.buffers import ALIGNMENT, aligned_array
 from ballscrew.kernels.emission import UnknownOperationError
 from ballscrew.kernels.kernel import Kernel
@@ -46,6 +48,8 @@ FEWEST_COLUMNS = 256
 WORTH_CUTTING = 8
 #: Tables with more numbers than this are not worth their memory.
 MOST_ENTRIES = 4_000_000
+#: Points whose inputs are checked and then evaluated, while they are in the cache.
+CHECKED_AT_ONCE = 2**16
 #: Blocks of a kernel: a few for each thread, not too small and not too large.
 BLOCKS_PER_THREAD = 4
 SMALLEST_BLOCK, LARGEST_BLOCK = 2**14, 2**19
@@ -151,11 +155,24 @@ class Evaluation:
         threads: int | None = None,
         done: Callable[[int, int], None] | None = None,
     ) -> None:
-        """Evaluate the points of a block of the flattened grid; ``results`` has room for just these."""
+        """Evaluate the points of a block of the flattened grid; ``results`` has room for just these.
+
+        Raises :class:`~ballscrew.errors.InputError` for bad values of an axis that is checked where it is read.
+        """
         total = block.stop - block.start
+        unchecked = {name: self.plan.axes[name].to_numpy() for name in self.plan.unchecked}
+        found: dict[str, list[NDArray[Any]]] = {name: [] for name in unchecked}
 
         def evaluate(part: slice) -> None:
-            self._evaluate(slice(block.start + part.start, block.start + part.stop), results, block.start)
+            here = slice(block.start + part.start, block.start + part.stop)
+            if not unchecked:
+                self._evaluate(here, results, block.start)
+                return
+            for start in range(here.start, here.stop, CHECKED_AT_ONCE):
+                piece = slice(start, min(start + CHECKED_AT_ONCE, here.stop))
+                for name, values in unchecked.items():
+                    found[name].append(ends(values[piece]))
+                self._evaluate(piece, results, block.start)
 
         map_blocks(
             evaluate,
@@ -164,6 +181,8 @@ class Evaluation:
             threads=threads,
             done=None if done is None else lambda n: done(n, total),
         )
+        if unchecked:
+            self.plan.check({name: ends(np.array(pairs)) for name, pairs in found.items()})
 
     def _usual_block(self, total: int, threads: int | None) -> int:
         if self.engine == "numpy":
@@ -270,7 +289,8 @@ class _Points(_Kernels):
         inputs = [np.ascontiguousarray(points[name], dtype=float) for name in plan.varying]
         here = [values[part.start - first : part.stop - first] for values in results]
         count = part.stop - part.start
-        kernel(slice(0, 1), slice(0, count), count, inputs, here)
+        large = sum(values.nbytes for values in results) > kernels.LARGEST_CACHED
+        kernel(slice(0, 1), slice(0, count), count, inputs, here, past_cache=large)
 
 
 class _Grid(_Kernels):

@@ -89,8 +89,11 @@ class Kernel:
         *,
         first: int = 0,
         seed: int = 0,
+        past_cache: bool | None = None,
     ) -> None:
         """Evaluate a rectangle of the grid; both slices hold at least one number.
+
+        ``past_cache`` says whether the results outgrow the cache; by default their sizes decide.
 
         Results and inputs over points are contiguous arrays that begin at place ``first`` of the
         flattened grid; inputs over rows and columns are whole; random ones are None.
@@ -103,7 +106,8 @@ class Kernel:
             if array.dtype == np.float64
         )
         aligned &= rows.stop - rows.start == 1 or row_length % (ALIGNMENT // 8) == 0
-        leaves_cache = sum(array.nbytes for array in results) > LARGEST_CACHED
+        if past_cache is None:
+            past_cache = sum(array.nbytes for array in results) > LARGEST_CACHED
         places = [
             None if array is None else _address(array, first if source == "points" else 0)
             for source, array in zip(self.sources, inputs, strict=True)
@@ -116,7 +120,7 @@ class Kernel:
             row_length,
             COLUMN_TILE if "columns" in self.sources else columns.stop - columns.start,
             seed,
-            aligned and leaves_cache,
+            aligned and past_cache,
             (ctypes.c_void_p * len(places))(*places),
             (ctypes.c_void_p * len(ends))(*ends),
         )

@@ -80,7 +80,7 @@ def sweep(
     if cluster is not None and to is None:
         remedy = 'add to="map.zarr", in a folder that all workers share'
         raise InputError(Fault("sweep.cluster", "needs a store", "", remedy))
-    plan = Plan.of(Configuration(model, screw, lubricant, nut), outputs, varied)
+    plan = Plan.of(Configuration(model, screw, lubricant, nut), outputs, varied, later=to is None)
     if to is not None:
         if engine == "model":
             raise InputError(Fault("sweep.engine", "fills no store", engine, 'take engine="numpy"'))
