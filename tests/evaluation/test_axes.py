@@ -6,7 +6,8 @@ import xarray as xr
 
 import ballscrew as bs
 from ballscrew.evaluation.axes import BLOCK, ends
-from ballscrew.evaluation.plan import LONG_AXIS
+from ballscrew.evaluation.evaluation import Evaluation
+from ballscrew.evaluation.plan import LONG_AXIS, Configuration, Plan
 from ballscrew.papers.olaru2005 import OIL, SCREW
 
 
@@ -41,3 +42,32 @@ def test_a_long_axis_warns_as_a_short_one_does():
         )
         said.append(ds.attrs["warnings"])
     assert said[0] == said[1] != ""
+
+
+def test_a_bad_value_in_a_long_axis_of_a_grid_is_refused():
+    loads = np.linspace(1.0, 4000.0, LONG_AXIS + 1)
+    loads[-1] = np.nan
+    with pytest.raises(bs.InputError, match=r"operation.axial_load: must be a finite number"):
+        bs.sweep(bs.FrictionModel.olaru2005(), SCREW, OIL, axial_load=loads, screw_speed=[1.0, 2.0], outputs=["valid"])
+
+
+@pytest.mark.compiles
+def test_checking_changes_no_bit():
+    """Neither does the size of the blocks, whose ends are put together."""
+    rng = np.random.default_rng(3)
+    varied = {"axial_load": rng.uniform(0, 4000, 2 * LONG_AXIS), "screw_speed": rng.uniform(0, 100, 2 * LONG_AXIS)}
+    varied = {name: xr.DataArray(values, dims="point") for name, values in varied.items()}
+    subject = Configuration(bs.FrictionModel.olaru2005(), SCREW, OIL)
+    checked = Plan.of(subject, None, varied)
+    for block_size in (None, 1000, 77_777):
+        later = Plan.of(subject, None, varied, later=True)
+        assert list(later.unchecked) == list(varied)
+        found = []
+        for plan in (checked, later):
+            evaluation = Evaluation.of(plan, "compiled")
+            results = evaluation.empty(plan.total)
+            evaluation.fill(results, slice(0, plan.total), block_size=block_size)
+            found.append(results)
+        assert all(np.array_equal(found[0][name], found[1][name], equal_nan=True) for name in checked.wanted)
+        assert not later.unchecked
+        assert all(np.array_equal(later.extremes[name], checked.extremes[name]) for name in varied)

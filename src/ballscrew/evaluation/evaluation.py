@@ -36,8 +36,9 @@ from ballscrew.evaluation.plan import Configuration, Plan
 from ballscrew.evaluation.recordings import Recording, recording
 from ballscrew.kernels import kernel as kernels
 from ballscrew.kernels.buffers import ALIGNMENT, aligned_array
-from ballscrew.kernels.emission import UnknownOperationError
+from ballscrew.kernels.emission import UnknownOperationError, lanes_for
 from ballscrew.kernels.kernel import Kernel
+from ballscrew.kernels.watched import WatchedKernel
 from ballscrew.tracing.grid import COLUMNS, ROWS, Split, inner_axes
 from ballscrew.tracing.program import Program, Source
 from ballscrew.tracing.tape import CannotRecordError
@@ -48,14 +49,16 @@ FEWEST_COLUMNS = 256
 WORTH_CUTTING = 8
 #: Tables with more numbers than this are not worth their memory.
 MOST_ENTRIES = 4_000_000
-#: Points whose inputs are checked and then evaluated, while they are in the cache.
-CHECKED_AT_ONCE = 2**16
+#: A kernel of more steps does not gain by checking its inputs itself, and takes long to compile.
+MOST_STEPS_WATCHED = 1000
 #: Blocks of a kernel: a few for each thread, not too small and not too large.
 BLOCKS_PER_THREAD = 4
 SMALLEST_BLOCK, LARGEST_BLOCK = 2**14, 2**19
 
-#: Evaluates the points of a slice of the flattened grid into arrays that begin at the given place.
-_BlockEvaluator = Callable[[slice, Mapping[str, NDArray[Any]], int], None]
+#: By input that is to be checked, the ends of its values in each block.
+_Ends = Mapping[str, list[NDArray[Any] | None]]
+#: Evaluates the points of a slice of the flattened grid into arrays that begin at the given place, and notes ends.
+_BlockEvaluator = Callable[[slice, Mapping[str, NDArray[Any]], int, _Ends], None]
 #: Makes one for a plan; plans that differ only in numbers share the formulas.
 _EvaluatorFactory = Callable[[Plan], _BlockEvaluator]
 
@@ -160,19 +163,10 @@ class Evaluation:
         Raises :class:`~ballscrew.errors.InputError` for bad values of an axis that is checked where it is read.
         """
         total = block.stop - block.start
-        unchecked = {name: self.plan.axes[name].to_numpy() for name in self.plan.unchecked}
-        found: dict[str, list[NDArray[Any]]] = {name: [] for name in unchecked}
+        found: _Ends = {name: [] for name in self.plan.unchecked}
 
         def evaluate(part: slice) -> None:
-            here = slice(block.start + part.start, block.start + part.stop)
-            if not unchecked:
-                self._evaluate(here, results, block.start)
-                return
-            for start in range(here.start, here.stop, CHECKED_AT_ONCE):
-                piece = slice(start, min(start + CHECKED_AT_ONCE, here.stop))
-                for name, values in unchecked.items():
-                    found[name].append(ends(values[piece]))
-                self._evaluate(piece, results, block.start)
+            self._evaluate(slice(block.start + part.start, block.start + part.stop), results, block.start, found)
 
         map_blocks(
             evaluate,
@@ -181,7 +175,7 @@ class Evaluation:
             threads=threads,
             done=None if done is None else lambda n: done(n, total),
         )
-        if unchecked:
+        if found:
             self.plan.check({name: ends(np.array(pairs)) for name, pairs in found.items()})
 
     def _usual_block(self, total: int, threads: int | None) -> int:
@@ -198,8 +192,10 @@ def _by_numpy(plan: Plan, program: Program | None, reason: str) -> Evaluation:
     interpreter = None if program is None else program.interpreter.with_own_buffers()
 
     def evaluator_of(plan: Plan) -> _BlockEvaluator:
-        def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int) -> None:
+        def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int, found: _Ends) -> None:
             points = plan.points(part)
+            for name, noted in found.items():
+                noted.append(ends(points[name]))
             here = {name: values[part.start - first : part.stop - first] for name, values in results.items()}
             with np.errstate(all="ignore"):
                 if interpreter is not None:
@@ -246,7 +242,11 @@ class _Kernels:
     def __init__(self, plan: Plan, made_of: Recording, program: Program, sources: Sequence[Source]) -> None:
         self.program = program
         self.sources = sources
-        self.text = made_of.text(program, sources, {n: output.dtype is bool for n, output in plan.wanted.items()})
+        self.made_of = made_of
+        self.masks = {n: output.dtype is bool for n, output in plan.wanted.items()}
+        self.text = made_of.text(program, sources, self.masks)
+        self.checks = bool(plan.unchecked) and len(program.steps) <= MOST_STEPS_WATCHED
+        self.watched: WatchedKernel | None = None
 
     @property
     def formulas(self) -> str:
@@ -259,17 +259,19 @@ class _Kernels:
         names, constants = list(self.program.outputs), self.program.constants
 
         def evaluator_of(plan: Plan) -> _BlockEvaluator:
-            def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int) -> None:
+            def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int, found: _Ends) -> None:
                 for name, value in constants.items():
                     results[name][part.start - first : part.stop - first] = value
-                if names:
-                    self.evaluate(plan, kernel, part, [results[name] for name in names], first)
+                if names or found:
+                    self.evaluate(plan, kernel, part, [results[name] for name in names], first, found)
 
             return evaluate
 
         return evaluator_of
 
-    def evaluate(self, plan: Plan, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int) -> None:
+    def evaluate(
+        self, plan: Plan, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int, found: _Ends
+    ) -> None:
         """Run the kernel over a part of the flattened grid."""
         raise NotImplementedError
 
@@ -283,13 +285,29 @@ class _Points(_Kernels):
         sources: list[Source] = ["points" if plan.axes[name].dims else "rows" for name in plan.varying]
         return cls(plan, made_of, made_of.program, sources)
 
-    def evaluate(self, plan: Plan, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int) -> None:
+    def compiled(self) -> _EvaluatorFactory:
+        """Compile the kernel, and another one that checks inputs where there are such and it gains."""
+        if self.checks:
+            text = self.made_of.text(self.program, self.sources, self.masks, watched=True)
+            self.watched = WatchedKernel(text, self.sources, lanes_for(self.program))
+        return super().compiled()
+
+    def evaluate(
+        self, plan: Plan, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int, found: _Ends
+    ) -> None:
         """Run the kernel over a part of the flattened grid."""
         points = plan.points(part)
         inputs = [np.ascontiguousarray(points[name], dtype=float) for name in plan.varying]
         here = [values[part.start - first : part.stop - first] for values in results]
         count = part.stop - part.start
         large = sum(values.nbytes for values in results) > kernels.LARGEST_CACHED
+        if found and self.watched is not None:
+            seen = dict(zip(plan.varying, self.watched(count, inputs, here, past_cache=large), strict=True))
+            for name, noted in found.items():
+                noted.append(seen[name])
+            return
+        for name, noted in found.items():
+            noted.append(ends(points[name]))
         kernel(slice(0, 1), slice(0, count), count, inputs, here, past_cache=large)
 
 
@@ -352,6 +370,7 @@ class _Grid(_Kernels):
         part: slice,
         results: Sequence[NDArray[Any]],
         first: int,
+        found: _Ends,  # noqa: ARG002  (axes of a grid are checked before)
     ) -> None:
         """Run the kernel over a part of the flattened grid."""
         for rows, columns in rectangles(part, self.row_length):

@@ -196,6 +196,8 @@ class Plan:
         plan = cls(subject, axes, _sizes(section, axes, names), names)
         # cached properties, which a plan with other axes finds anew
         vars(plan).update(extremes=extremes, unchecked=[name for name in axes if name not in extremes])
+        if len(plan.sizes) > 1:  # of a grid, an axis is read many times
+            plan.check({name: ends(axes[name].to_numpy()) for name in plan.unchecked})
         return plan
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -57,11 +57,13 @@ class Recording:
             self._cuts[key] = split(self.program, groups)
         return self._cuts[key]
 
-    def text(self, program: Program, sources: Sequence[Source], masks: Mapping[str, bool]) -> str:
+    def text(
+        self, program: Program, sources: Sequence[Source], masks: Mapping[str, bool], *, watched: bool = False
+    ) -> str:
         """The assembly of the program, or of its cut."""
-        key = program is self.program, tuple(sources), tuple(masks.items())
+        key = program is self.program, tuple(sources), tuple(masks.items()), watched
         if key not in self._texts:
-            self._texts[key] = kernel_text(program, sources, masks)
+            self._texts[key] = kernel_text(program, sources, masks, watched=watched)
         return self._texts[key]
 
 
