@@ -2,7 +2,8 @@
 
 import gc
 import os
-import warnings
+import subprocess
+import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -108,17 +109,17 @@ def test_a_system_that_refuses_keeps_nothing(monkeypatch):
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no fork")
 @needs_pieces
 def test_a_child_begins_with_nothing():
-    array = aligned_array(LARGE, float)
-    del array
-    assert buffers._kept
-    read, write = os.pipe()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DeprecationWarning)  # other threads may run in this process
-        child = os.fork()
-    if child == 0:
-        os.write(write, b"empty" if not buffers._kept else b"kept")
-        os._exit(0)
-    os.waitpid(child, 0)
-    assert os.read(read, 10) == b"empty"
-    os.close(read)
-    os.close(write)
+    """In a process of its own, as other libraries warn of a fork in this one."""
+    program = (
+        "import os\n"
+        "from ballscrew.kernels import buffers\n"
+        f"array = buffers.aligned_array({LARGE}, float)\n"
+        "del array\n"
+        "assert buffers._kept\n"
+        "child = os.fork()\n"
+        "if child == 0:\n"
+        "    os._exit(3 if buffers._kept else 0)\n"
+        "print('child:', os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))"
+    )
+    outcome = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert "child: 0" in outcome.stdout
