@@ -270,7 +270,10 @@ def test_what_a_law_computes_with_besides_values_cannot_be_known():
 
     for law, why in ((reading, "open"), (locked, "lock")):
         model = dataclasses.replace(MODEL, friction=law)
-        made = [Evaluation.of(Plan.of(Configuration(model, with_nut(NUTS["ball by ball"]), OIL), None, POINTS)) for _ in "ab"]
+        made = [
+            Evaluation.of(Plan.of(Configuration(model, with_nut(NUTS["ball by ball"]), OIL), None, POINTS))
+            for _ in "ab"
+        ]
         assert made[0].fingerprint != made[1].fingerprint
         assert why in made[0].identity.unknown
 
