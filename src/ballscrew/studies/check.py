@@ -194,7 +194,7 @@ def checked(name: str, case: Case, notes: Sequence[str] = ()) -> Checked:
     stand_ins = [name for name, value in rated.items() if value is None and computed is not None]
     if computed is not None:
         rated |= {name: getattr(computed, RATINGS[name]) for name in stand_ins}
-    load, left = float(case.operation.axial_load), float(run.nut.loads.remaining_preload)
+    load, left = abs(float(case.operation.axial_load)), float(run.nut.loads.remaining_preload)
     found = checks(
         case.screw,
         axial_load=load,
