@@ -7,7 +7,6 @@ are made, evaluated and counted a few thousand at a time, and nothing grows with
 
 from __future__ import annotations
 
-import operator
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -137,7 +136,7 @@ def _faults_of_inputs(
     subject: Configuration, distributions: Mapping[str, Any], fixed: Mapping[str, Any]
 ) -> list[Fault]:
     """Faults that a sweep would not find, or would not put in these words."""
-    known, parts = subject.inputs, subject.by_section
+    known = subject.inputs
     given = {*distributions, *fixed}
     faults: list[Fault] = []
     if not distributions:
@@ -159,7 +158,7 @@ def _faults_of_inputs(
         elif np.ndim(value):
             faults.append(Fault(f"monte_carlo.{name}", "must be one number", "", "for several, call again for each"))
     for name, (part, _) in known.items():
-        if part != "operation" and name not in given and np.ndim(operator.attrgetter(name)(parts[part])):
+        if part != "operation" and name not in given and np.ndim(subject.value_of(name)):
             faults.append(Fault(f"{part}.{name}", "is an array", "", "give one number, or a distribution of it"))
     return faults
 

@@ -72,7 +72,7 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
         records += [
             Record(id="band.constant_torque", subject="constant_torque", text=text) for text in constant_torque(case)
         ]
-    if float(case.operation.axial_load) > 0:
+    if float(case.operation.axial_load) != 0:
         share = band.self_locking_share
         text = f"self-locking in {share:.2%} of the samples" if share else "self-locking in none of the samples"
         records.append(Record(id="band.self_locking_share", subject="self_locking", text=text, value=share))
