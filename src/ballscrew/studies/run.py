@@ -114,7 +114,13 @@ class Run:
             return [*found, *self._lost()]
         moving = bool(self.friction.screw_speed)
         found = _holding(self.friction, "") if moving else []
-        return [*_quadrant(self.friction), *found, *_holding(self.at_rest, "at_rest"), *self._skid(moving), *self._lost()]
+        return [
+            *_quadrant(self.friction),
+            *found,
+            *_holding(self.at_rest, "at_rest"),
+            *self._skid(moving),
+            *self._lost(),
+        ]
 
     @property
     def warnings(self) -> list[Record]:
@@ -257,6 +263,10 @@ def with_nut(case: Case, nut: Nut) -> Run:
         _flank(loads.backward_load[-half:], loads.backward_angle[-half:], loads.balls[-half:]),
     )
     loaded, relieved = flanks if load >= 0 else flanks[::-1]
+    quadrants = found.quadrants
+    if nut.one_by_one and float(load):  # another half carries a load of the other sign, and not as this one does
+        reverse = friction(-load, speed).quadrants
+        quadrants = {name: one if one.load_sign * load > 0 else reverse[name] for name, one in quadrants.items()}
     return Run(
         case=dataclasses.replace(case, screw=screw),
         friction=found,
@@ -265,7 +275,7 @@ def with_nut(case: Case, nut: Nut) -> Run:
         touching=_touching(found),
         rolling_share=math.nan,
         ball_to_ball_force=None,
-        quadrants=found.quadrants,
+        quadrants=quadrants,
         nut=NutState(
             nut=nut,
             preload=float(preload_of(screw, nut)),
