@@ -32,7 +32,7 @@ class CalibratedModel(FitResult):
         oil = self.lubricant if temperature is None else self.lubricant.at(temperature)
         load, speed = np.abs(np.asarray(axial_load, dtype=float)), np.abs(np.asarray(screw_speed, dtype=float))
         found = self.model(self.screw, oil, axial_load=load, screw_speed=speed)
-        return found.screw_torque + self.constant_torque
+        return found.screw_torque
 
     @accepts_units("band")
     def band(

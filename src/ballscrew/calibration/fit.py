@@ -22,6 +22,7 @@ from ballscrew.calibration.response import Response, resolve_input
 from ballscrew.calibration.robust import Solution, Vector, loss_of, solve
 from ballscrew.calibration.torque_conventions import identify_convention
 from ballscrew.components.materials import TEMPERATURE, Lubricant
+from ballscrew.components.nut_losses import ConstantTorque
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, accepts_units, nearest, raise_if_any, si_value
 from ballscrew.evaluation.engines import Engine, engine_faults
@@ -32,6 +33,8 @@ from ballscrew.torque_logs.log_rows import Kind
 from ballscrew.torque_logs.torque_log import TorqueLog
 from ballscrew.uncertainty.distributions import Distribution
 
+#: The loss of a nut that a fitted constant torque becomes.
+CONSTANT_LOSS = "constant"
 #: How often a fit evaluates the whole log, roughly: only the choice of the engine depends on it.
 EVALUATIONS = 60
 #: With fewer operating points than this, single rows are held out; with fewer rows than this, none are.
@@ -85,6 +88,8 @@ def fit(
     recorded.
     """
     subject = Configuration(model, screw, lubricant)
+    if CONSTANT_TORQUE.name in free:  # found anew: that of an earlier fit goes
+        subject = with_constant_torque(subject, None)
     raise_if_any(_faults_of_options(free, priors or {}, bounds or {}, holdout, seed, kind, engine))
     asked = {
         name: CONSTANT_TORQUE.name if name == CONSTANT_TORQUE.name else resolve_input(subject, name) for name in free
@@ -150,7 +155,7 @@ def fit(
     one_sided = _one_sided(problem, solution, uncertainty, held_out, log)
     estimates = _estimates(problem, solution, one_sided, uncertainty, known, degrees_of_freedom)
     found = CalibratedModel(
-        subject=_with(subject, response, solution),
+        subject=_with(subject, response, problem, solution),
         estimates={name: estimates[name] for name in problem.names},
         sensor={name: estimate for name, estimate in estimates.items() if name not in problem.names},
         identifiability=told,
@@ -316,10 +321,22 @@ def _estimates(
     return found
 
 
-def _with(subject: Configuration, response: Response, solution: Solution) -> Configuration:
+def _with(subject: Configuration, response: Response, problem: Problem, solution: Solution) -> Configuration:
     """The subject with the fitted numbers in place."""
     values = solution.values[: len(response.names)].tolist()
-    return subject.changed(dict(zip(response.names, values, strict=True)))
+    made = subject.changed(dict(zip(response.names, values, strict=True)))
+    if CONSTANT_TORQUE.name not in problem.names:
+        return made
+    return with_constant_torque(made, float(solution.values[len(response.names)]))
+
+
+def with_constant_torque(subject: Configuration, torque: float | None) -> Configuration:
+    """The subject whose nut loses this torque besides, at all loads and speeds; None for nothing of the kind."""
+    losses = {name: law for name, law in subject.nut.losses.items() if name != CONSTANT_LOSS}
+    if torque is not None:
+        losses[CONSTANT_LOSS] = ConstantTorque(torque)
+    nut = dataclasses.replace(subject.nut, losses=losses)
+    return dataclasses.replace(subject, screw=dataclasses.replace(subject.screw, nut=nut))
 
 
 def _scores(problem: Problem, rows: Rows, torques: Vector) -> list[Score]:

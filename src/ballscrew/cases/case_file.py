@@ -168,6 +168,10 @@ def build(
     fit = tables.get("calibration", {})
     if not isinstance(fit, dict):
         faults.append(Fault("calibration", "must be a table", str(fit), "leave it as ballscrew fit wrote it"))
+    elif "constant_torque" in fit:
+        remedy = 'fit again, or move it: [losses] constant = {law = "known", constant_torque = "…"}'
+        problem = "is of an earlier version, in which it was left out of the torque"
+        faults.append(Fault("calibration.constant_torque", problem, str(fit["constant_torque"]), remedy))
     nut, notes = nut_tables.nut_of(sections, *made, faults)
     mounted = nut_tables.installation(sections, faults) if "installation" in sections else None
     limits = nut_tables.limits(sections, faults) if "limits" in sections else USUAL_LIMITS

@@ -6,7 +6,7 @@ from typing import Any
 
 from ballscrew import units
 from ballscrew.cases.case import Case
-from ballscrew.cases.nut_kinds import LOSSES, kind_of
+from ballscrew.cases.nut_kinds import kind_of
 from ballscrew.cases.schema import LAWS, MODELS, name_of_law
 from ballscrew.components.contact import RaceState
 from ballscrew.components.materials import TEMPERATURE, Lubricant
@@ -166,22 +166,14 @@ def left_out(case: Case) -> str:
     """Losses that are not in the torque; of a case without a fit also that it was not compared with measurements."""
     losses = LEFT_OUT
     if case.nut is not None:
-        missing = [_LOSSES[slot] for slot in LOSSES if slot not in case.nut.losses]
+        missing = [words for slot, words in _LOSSES.items() if slot not in case.nut.losses]
         losses = f"left out: {', '.join(missing)}" if missing else ""
     return "; ".join(filter(None, [losses, "" if case.fit.get("log") else NOT_COMPARED]))
 
 
 def of_fit(case: Case) -> list[str]:
-    """The log of a fitted case, and torque that no model of the balls has."""
-    return [*([f"calibrated to {case.fit['log']}"] if case.fit.get("log") else []), *constant_torque(case)]
-
-
-def constant_torque(case: Case) -> list[str]:
-    """Friction that a fit found and that no model of the balls has."""
-    constant = case.fit.get("constant_torque")
-    return (
-        [f"not in it: {constant} that the log has at all loads and speeds, of seals and bearings"] if constant else []
-    )
+    """The log of a fitted case."""
+    return [f"calibrated to {case.fit['log']}"] if case.fit.get("log") else []
 
 
 def assumed(case: Case, ball_to_ball_force: float | None = None) -> list[str]:

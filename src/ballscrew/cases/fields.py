@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import re
 from collections.abc import Collection, Mapping
 from typing import Annotated, Any
 
@@ -56,6 +57,10 @@ EXAMPLES: Mapping[str, str | float] = {
 _DISTRIBUTION = r"±|\+\s*/?\s*[-−–]|\("
 
 
+#: A force whose deviation alone is in per cent.
+_PERCENT_OF_FORCE = re.compile(r"[a-zA-Z]\s*±")
+
+
 def _si(raw: object, quantity: Quantity, may_vary: bool = False) -> float:
     """A raw value in SI and within its bounds, or the fault in it as pydantic wants to hear it.
 
@@ -83,15 +88,23 @@ def _si(raw: object, quantity: Quantity, may_vary: bool = False) -> float:
 
 def read_preload(raw: object) -> float:
     """A preload in N, or as a share of the dynamic load rating."""
-    if isinstance(raw, str) and raw.rstrip().endswith("%"):
-        return Share(_si(raw.strip()[:-1].strip(), PERCENT) / 100)
+    if isinstance(raw, str) and "%" in raw and not _PERCENT_OF_FORCE.search(raw):
+        return Share(_si(without_percent(raw), PERCENT, may_vary=True) / 100)
     bare = units.parse("", raw, PERCENT)
     if not isinstance(bare, Fault) and 0 < bare <= 100:
         remedy = f'write "{bare if bare >= 1 else 100 * bare:.12g} %" of the dynamic load rating, or "{bare:.12g} kN"'
         raise PydanticCustomError(
             "fault", "{problem}", {"problem": "needs a unit", "given": str(raw), "remedy": remedy}
         )
-    return _si(raw, NUT_FIELDS["preload"])
+    return _si(raw, NUT_FIELDS["preload"], may_vary=True)
+
+
+def without_percent(raw: str) -> str:
+    """A share of the dynamic load rating without its sign: ``"7"``, ``"7 ± 10 %"``, ``"(7 ± 1)"``."""
+    middle, sign, half = raw.partition("±")
+    if sign and not middle.lstrip().startswith("("):
+        return f"{middle.strip().removesuffix('%').strip()} ± {half.strip()}"
+    return raw.strip().removesuffix("%").strip()
 
 
 def example_of(quantity: Quantity) -> str | float | None:

@@ -14,7 +14,9 @@ import numpy as np
 
 from ballscrew import units
 from ballscrew.calibration.calibrated_model import CalibratedModel
+from ballscrew.calibration.fit import CONSTANT_LOSS
 from ballscrew.calibration.fit_result import Estimate
+from ballscrew.calibration.problem import CONSTANT_TORQUE
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
 from ballscrew.cases.provenance import of_case, references
@@ -25,6 +27,8 @@ from ballscrew.quantities import Quantity, fields_of
 from ballscrew.uncertainty.distributions import normal_half_width
 
 _HEAD = "A calibrated model, written by ballscrew fit. Numbers that are not identified have no error behind them."
+#: The name of a fitted constant torque among the inputs of a case.
+CONSTANT_INPUT = f"losses.{CONSTANT_LOSS}.{CONSTANT_TORQUE.name}"
 #: Digits of a fitted number: enough to give the same torques.
 _DIGITS = 12
 
@@ -59,13 +63,22 @@ def _with_numbers(tables: Mapping[str, Any], case: Case, found: CalibratedModel)
     known = found.subject.inputs
     settings: list[str] = []
     for full, estimate in zip(found.response.names, found.estimates.values(), strict=False):
-        settings.append(f'{known[full][0]}.{full}="{_written(estimate)}"')
+        settings.append(f'{_place(known, full)}="{_written(estimate)}"')
         if full == "viscosity" and "grade" in made["lubricant"]:
             # one of the two: what the grade gave is written out
             made["lubricant"] = {k: v for k, v in made["lubricant"].items() if k not in ("grade", "temperature")}
             for name, quantity in fields_of(Lubricant).items():
                 made["lubricant"].setdefault(name, _number(getattr(case.lubricant, name), quantity))
+    constant = found.estimates.get(CONSTANT_TORQUE.name)
+    if constant is not None:
+        made.setdefault("losses", {})[CONSTANT_LOSS] = {"law": "known", CONSTANT_TORQUE.name: _written(constant)}
     return case_file.override(made, settings)
+
+
+def _place(known: Mapping[str, tuple[str, Quantity]], name: str) -> str:
+    """The place of an input in a case file; those of the nut have theirs in the name, or are its own fields."""
+    section = known[name][0]
+    return name if name.startswith(("nut.", "losses.")) else f"{section}.{name}"
 
 
 def _written(estimate: Estimate) -> str:
@@ -90,18 +103,17 @@ def provenance_of(case: Case, found: CalibratedModel) -> dict[str, Any]:
 
 def calibration_of(case: Case, found: CalibratedModel) -> dict[str, Any]:
     """Values of ``[calibration]``, in SI."""
-    estimates = list(found.estimates.values())[: len(found.response.names)]
+    estimates = list(found.estimates.values())
     told = [estimate.identified for estimate in estimates]
-    names = [name for name, known in zip(found.response.names, told, strict=True) if known]
+    full = [*found.response.names, *([CONSTANT_INPUT] if CONSTANT_TORQUE.name in found.estimates else [])]
+    names = [name for name, known in zip(full, told, strict=True) if known]
     covariance = found.uncertainty.covariance[: len(told), : len(told)][np.ix_(told, told)]
-    constant = found.estimates.get("constant_torque")
     return {
         **provenance_of(case, found),
         "numbers": names,
         "values": [estimate.value for estimate in estimates if estimate.identified],
         "covariance": covariance.tolist(),
-        "not_identified": [n for n, known in zip(found.response.names, told, strict=True) if not known],
-        **({} if constant is None else {"constant_torque": f"{constant.value:.6g} {constant.quantity.unit}"}),
+        "not_identified": [n for n, known in zip(full, told, strict=True) if not known],
         "residual_rms": f"{found.residual_rms:.6g} N m",
         **({} if found.holdout_rms is None else {"holdout_rms": f"{found.holdout_rms:.6g} N m"}),
         "warnings": list(found.warnings),

@@ -36,6 +36,7 @@ LOSSES: Mapping[str, Mapping[str, type[ParasiticLaw]]] = {
     "seals": {"known": nut_losses.Seals, "lips": nut_losses.LipSeals},
     "churning": {"spheres": nut_losses.Churning, "harris": nut_losses.HarrisChurning},
     "recirculation": {"force": nut_losses.Recirculation},
+    "constant": {"known": nut_losses.ConstantTorque},
 }
 #: How the ends of a shaft are held.
 ENDS: Mapping[str, Ends] = {ends.name.lower().replace("_", "-"): ends for ends in Ends}

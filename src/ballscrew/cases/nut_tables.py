@@ -6,7 +6,7 @@ import dataclasses
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 from ballscrew.cases import catalogue
 from ballscrew.cases.case import PreloadNote
@@ -17,7 +17,7 @@ from ballscrew.components.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow
 from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.nut import Bodies, Nut, Scatter, SingleNut
 from ballscrew.components.nut_losses import ParasiticLaw
-from ballscrew.components.screw import BallScrew
+from ballscrew.components.screw import SINGLE_NUT, BallScrew
 from ballscrew.equations import geometry
 from ballscrew.errors import MISSING, Fault, InputError, nearest
 from ballscrew.quantities import fields_of
@@ -98,7 +98,7 @@ def nut_of(
     if not any(name in sections for name in _OF_NUT):
         return None, ()
     before = len(faults)
-    nut, notes = _nut(sections, screw, row, listed, faults) if "nut" in sections else (SINGLE, ())
+    nut, notes = _nut(sections, screw, row, listed, faults) if "nut" in sections else (SINGLE_NUT, ())
     bodies = sections.values_of("bodies", faults) if "bodies" in sections else None
     scatter = sections.values_of("deviations", faults) if "deviations" in sections else None
     losses = _losses(sections, faults) if "losses" in sections else {}
@@ -127,7 +127,7 @@ def _nut(
 ) -> tuple[Nut | None, Sequence[PreloadNote]]:
     before = len(faults)
     table = sections.tables["nut"]
-    values = cast("dict[str, Any]", sections.values_of("nut", faults))
+    values = sections.values_of("nut", faults)
     if len(faults) > before:
         return None, ()
     kind = values.pop("type", (row.nut or "single") if row is not None else None)
@@ -142,11 +142,12 @@ def _nut(
             faults.append(Fault("nut.preload", MISSING, "", remedy))
     if len(faults) > before or kind is None:
         return None, ()
+    made: Any = values
     preload = values.get("preload")
     if kind == "single":
-        return dataclasses.replace(SINGLE, **values), ()
+        return SingleNut(angle_under_load=True, **made), ()
     if not isinstance(preload, Share):
-        return NUTS[kind](**values), ()
+        return NUTS[kind](**made), ()
     if screw is None:
         return None, ()  # its own faults are there already
     try:
@@ -156,7 +157,8 @@ def _nut(
         given = str(table["preload"])
         faults.append(Fault("nut.preload", "is a share of a dynamic load rating that is not known", given, remedy))
         return None, ()
-    return NUTS[kind](**{**values, "preload": preload * rating}), (PreloadNote(preload, rating, source),)
+    made = {**values, "preload": preload * rating}
+    return NUTS[kind](**made), (PreloadNote(preload, rating, source),)
 
 
 def _misplaced(kind: str, table: Mapping[str, Any]) -> list[Fault]:

@@ -66,7 +66,7 @@ def name_of_law(slot: str, law: Any) -> str:
 def _coefficients(slot: str, name: str) -> type[BaseModel]:
     """The model of a table that sets coefficients of a law."""
     known = coefficients_of(slot, name)
-    return section_of(name, known, _SLOTS[slot][name], required=False, uncertain=known if slot in LAWS else ())
+    return section_of(name, known, _SLOTS[slot][name], required=False, uncertain=known)
 
 
 def _slot(slot: str) -> tuple[Any, Any]:
@@ -131,6 +131,7 @@ def sections() -> Mapping[str, type[BaseModel]]:
         ),
         "nut": section_of(
             "Nut", {name: q for name, q in NUT_FIELDS.items() if name != "preload"}, DoubleNut, required=False,
+            uncertain=NUT_FIELDS,
             type=(_one_of(NUTS, "kind of nut"), None),
             preload=(Annotated[Any, BeforeValidator(read_preload), WithJsonSchema(preload)], None),
         ),

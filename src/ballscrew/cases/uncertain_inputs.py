@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ballscrew.cases.case import Case
+from ballscrew.cases.fields import without_percent
+from ballscrew.cases.nut_kinds import PERCENT
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, raise_if_any
@@ -18,7 +20,7 @@ from ballscrew.friction.calibrations import PARAMETERS, Calibration
 from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import Quantity
 from ballscrew.uncertainty.default_uncertainties import default_distributions
-from ballscrew.uncertainty.distributions import Distribution, Normal
+from ballscrew.uncertainty.distributions import Distribution, Normal, scaled
 from ballscrew.uncertainty.uncertain_value import UncertainValue, describe_distribution, parse_uncertain
 
 if TYPE_CHECKING:
@@ -154,7 +156,9 @@ def parse_distributions(
     found: dict[str, Distribution] = {}
     exact: set[str] = set()
     for name, (section, quantity) in inputs_of(model, screw, lubricant).items():
-        written = parse_uncertain(_at(tables, f"{section}.{name}"), quantity)
+        if name.startswith("nut."):
+            continue  # another name of the same field
+        written = _written(_at(tables, name if name.startswith("losses.") else f"{section}.{name}"), quantity, screw)
         assert not isinstance(written, Fault), written
         if isinstance(written, UncertainValue):
             if written.distribution is None:
@@ -162,6 +166,17 @@ def parse_distributions(
             else:
                 found[name] = written.distribution
     return found, frozenset(exact)
+
+
+def _written(raw: Any, quantity: Quantity, screw: BallScrew) -> UncertainValue | Fault | None:
+    """The uncertain value in a text; a share of the dynamic load rating becomes a force by the preload of the screw."""
+    if quantity.name != "preload" or not isinstance(raw, str) or "%" not in raw:
+        return parse_uncertain(raw, quantity)
+    written = parse_uncertain(without_percent(raw), PERCENT)
+    if not isinstance(written, UncertainValue) or written.distribution is None:
+        return written
+    force = getattr(screw.nut, "preload", 0.0) / written.central
+    return dataclasses.replace(written, distribution=scaled(written.distribution, force))
 
 
 def _at(tables: Mapping[str, Any], path: str) -> Any:

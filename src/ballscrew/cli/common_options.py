@@ -32,14 +32,6 @@ def say_engine(attributes: Mapping[str, Any]) -> None:
     typer.echo(f"evaluated by {attributes['engine']}" + (f": {reason}" if reason else ""), err=True)
 
 
-def say_constant_torque(case: Any) -> None:
-    """Print the constant torque of a calibrated case, beside that of the balls, on the error stream."""
-    from ballscrew.cases.descriptions import constant_torque
-
-    for line in constant_torque(case):
-        typer.echo(line, err=True)
-
-
 @contextlib.contextmanager
 def log_on_stderr() -> Generator[None]:
     """Show on the error stream what the package logs."""

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, CaseFile, ModelName, Settings, say_constant_torque
+from ballscrew.cli.common_options import AllowCode, CaseFile, ModelName, Settings
 
 
 def compare(
@@ -46,4 +46,3 @@ def compare(
 
         files.draw(lambda: figures.picture(loaded, compared), to)
         typer.echo(f"{to}: {len(compared.rows)} models and laws", err=as_json)
-    say_constant_torque(loaded)

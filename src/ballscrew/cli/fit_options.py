@@ -10,7 +10,7 @@ from ballscrew.cases.case import Case
 from ballscrew.errors import Fault, nearest, raise_if_any
 from ballscrew.evaluation.outputs import inputs_of
 from ballscrew.quantities import Quantity
-from ballscrew.studies.fit import CONDITIONS, Options, Range, free_quantities, refuse_nut
+from ballscrew.studies.fit import CONDITIONS, Options, Range, free_quantities
 from ballscrew.torque_logs.log_rows import INERTIA, TORQUE_CONSTANT, Kind
 
 #: The number that is fitted by default.
@@ -32,7 +32,6 @@ def options(
     keep_going: bool,
 ) -> Options:
     """The options as typed values. Raises :class:`~ballscrew.errors.InputError` with all faults in them."""
-    refuse_nut(case)
     names = [name.strip() for given in free or [DEFAULT_FREE] for name in given.split(",") if name.strip()]
     faults: list[Fault] = []
     if not names:

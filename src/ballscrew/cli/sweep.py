@@ -17,7 +17,6 @@ from ballscrew.cli.common_options import (
     Settings,
     Verbose,
     log_on_stderr,
-    say_constant_torque,
     say_engine,
 )
 
@@ -89,7 +88,6 @@ def sweep(
         typer.echo(f"{to}: {text.size(dataset, plan)}, model {loaded.model.label}")
     if beware := text.warning(loaded, plan, dataset, to):
         typer.echo(beware, err=True)
-    say_constant_torque(loaded)
 
 
 @contextlib.contextmanager

@@ -202,6 +202,23 @@ class LipSeals(ByValue):
         return parasitic.seal_torque(self.lips, self.lip_friction, screw.pitch_circle_diameter)
 
 
+@dataclasses.dataclass(frozen=True, eq=False)
+class ConstantTorque(ByValue):
+    """Friction that is the same at all loads and speeds, as a fit finds it: of seals, wipers and what else there is."""
+
+    constant_torque: Annotated[
+        Torque,
+        Info("M_0", "friction torque at all loads and speeds", hint="what a fit found", usual=(-50.0, 50.0)),
+    ] = 0.0
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("losses.constant", self))
+
+    def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Torque:
+        """Torque on the screw, N m."""
+        return self.constant_torque
+
+
 # -- oil and returns ------------------------------------------------------------------------------
 
 OilShare = Annotated[

@@ -6,13 +6,13 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Annotated, Any, NamedTuple
 
-from ballscrew._arrays import lazy, where
+from ballscrew._arrays import lazy
 from ballscrew.components.contact import RaceState
 from ballscrew.components.frame import Frame
 from ballscrew.components.laws import BallChain, IdealTorqueLaw
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import transmission
-from ballscrew.friction import loaded_balls
+from ballscrew.friction import directions, loaded_balls
 from ballscrew.friction.balls import MECHANISMS as MECHANISMS
 from ballscrew.friction.loaded_balls import LoadedBalls, LoadedPair
 from ballscrew.friction.plausibility import implausible
@@ -105,8 +105,7 @@ class FrictionResult:
         At rest friction holds up to ``screw_torque`` either way, and the torque is the ideal one:
         see :attr:`holding_torque`.
         """
-        direction = where(self.screw_speed > 0, 1.0, where(self.screw_speed < 0, -1.0, 0.0))
-        return self.ideal_torque + direction * self.screw_torque
+        return self.ideal_torque + directions.direction_of(self.screw_speed) * self.screw_torque
 
     @lazy
     def holding_torque(
@@ -116,22 +115,17 @@ class FrictionResult:
 
         For a load below zero all signs are reversed.
         """
-        size = transmission.holding_torque(abs(self.ideal_torque), self.screw_torque)
-        return where(self.axial_load < 0, -size, size)
+        return directions.holding_torque(self.ideal_torque, self.screw_torque)
 
     @lazy
     def self_locking(self) -> Annotated[Mask, Info("self-locking", "the load alone cannot turn the screw")]:
         """True where there is a load that cannot drive the screw back at this speed, that is with this friction."""
-        size = abs(self.ideal_torque)
-        return (size > 0) & (size <= self.screw_torque)
+        return directions.locks_itself(self.ideal_torque, self.screw_torque)
 
     @lazy
     def _direct_efficiency(self) -> Ratio:
         """Efficiency if the screw drove the load at this speed; NaN without a load."""
-        size = abs(self.ideal_torque)
-        loaded = self.axial_load != 0
-        eta = transmission.efficiency(where(loaded, size, 1.0), self.screw_torque)
-        return where(loaded, eta, float("nan"))
+        return directions.direct_efficiency(self.ideal_torque, self.screw_torque)
 
     @lazy
     def efficiency(
@@ -141,9 +135,7 @@ class FrictionResult:
 
         NaN where it drives no load: without one, and where the load has the sign of the motion.
         """
-        F, omega = self.axial_load, self.screw_speed
-        drives = ((F > 0) & (omega >= 0)) | ((F < 0) & (omega <= 0))
-        return where(drives, self._direct_efficiency, float("nan"))
+        return directions.efficiency(self.ideal_torque, self.screw_torque, directions.direction_of(self.screw_speed))
 
     @lazy
     def back_driving_efficiency(self) -> Annotated[Ratio, Info(r"\eta_b", "efficiency, the load drives the screw")]:
@@ -177,6 +169,11 @@ class FrictionResult:
             )
             for name, (load, speed) in QUADRANTS.items()
         }
+
+    @property
+    def friction_effort(self) -> Torque:
+        """Generalised friction force of the element: ``screw_torque``."""
+        return self.screw_torque
 
     # -- parts and power --------------------------------------------------------------------------
 

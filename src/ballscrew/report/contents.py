@@ -89,8 +89,7 @@ def _subtitle(case: case_file.Case) -> list[str]:
 
 def _answer(found: Run) -> list[Block]:
     verdicts = [record.text for record in found.verdicts]
-    # what a fit found besides belongs to every torque above
-    lines = [f"{sentence(line)}." for line in (*descriptions.constant_torque(found.case), *verdicts)]
+    lines = [f"{sentence(line)}." for line in verdicts]
     text = " ".join([result_tables.headline(found), *lines])
     return [Paragraph(text, strong=True), Columns.of(result_tables.results(found))]
 

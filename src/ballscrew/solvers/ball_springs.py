@@ -154,8 +154,8 @@ def rigid_balance(springs: BallSprings, load: Field, scale: Field, guess: Field,
         if not (too_high.any() or too_low.any()):
             break
         low, high = np.where(too_high, 2 * low, low), np.where(too_low, 2 * high, high)
-    # a force rises ever faster the more balls it presses on: Newton's steps from there stay on one side
-    x = np.where(load < 0, low, high)
+    # from where every ball that the load presses on is pressed; minus zero is no load on balls that face backwards
+    x = np.where(np.signbit(load), low, high)
     among, here = np.arange(load.size), springs
     for _ in range(STEPS):
         at = x[among]

@@ -10,7 +10,12 @@ Screw and nut body are bars between neighbouring balls. The displacements of two
 differ by the stretch of both bars, so that all of them are those of a chain of springs (the two
 bodies in series) with a spring to ground at each ball. Where screw and nut are held on the same side,
 the load enters at the first ball; where they are held on opposite sides, it enters at both ends, in
-the ratio of the flexibilities of screw and nut. :mod:`ballscrew.solvers.ball_springs` solves it.
+the ratio of the flexibilities of screw and nut. :mod:`ballscrew.solvers.ball_springs` solves it. Between
+rigid bodies all balls of a kind are alike, and :mod:`ballscrew.solvers.rigid_nut` has the answer in a fixed
+number of steps.
+
+A load of either sign: a negative one presses on the backward flanks, those of a single nut or of the second
+half of a double nut, and relieves the forward ones. It enters where a positive one enters.
 
 Left out: bending and tilt of the nut, radial play, swelling of the nut, friction and inertia of the
 balls, and the change of K with the contact angle.

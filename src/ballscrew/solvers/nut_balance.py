@@ -22,14 +22,12 @@ from ballscrew.solvers.ball_springs import (
     rigid_balance,
     tridiagonal,
 )
-from ballscrew.solvers.rigid_nut import RigidNut, rigid_lift_off_load
+from ballscrew.solvers.rigid_nut import PICOMETRE, RigidNut, rigid_lift_off_load
 
 #: Imbalance of a ball between its bars that rounding may leave, in the same units.
 LARGEST_OF_A_BALL = 1e-6
 #: Imbalance of the rigid screw from which the elastic one starts.
 START = 0.1
-#: An approach that is none.
-PICOMETRE = 1e-12
 
 
 class NutCase(NamedTuple):

@@ -57,19 +57,11 @@ class FitReport:
     log: TorqueLog
 
 
-def refuse_nut(case: Case) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` for a case with a nut, which cannot be fitted yet."""
-    if case.nut is not None:
-        remedy = "leave out [nut] and what belongs to it, or fit a case without"
-        raise InputError(Fault("nut", "a whole nut cannot be fitted yet", "", remedy))
-
-
 def fit(case: Case, path: Path, options: Options, done: Callable[[int, int], None] | None = None) -> FitReport:
     """Fit of a case to the log in a file. Raises ``InputError`` that names options of the command line.
 
     A distribution that the case gives a free number is its prior.
     """
-    refuse_nut(case)
     log = reading.read(
         path, options.columns, torque_constant=options.torque_constant, lead=float(case.screw.lead),
         keep_going=options.keep_going, done=done,

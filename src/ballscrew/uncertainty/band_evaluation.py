@@ -19,6 +19,7 @@ from ballscrew.evaluation.comparison import Candidate
 from ballscrew.evaluation.engines import Engine, engine_faults
 from ballscrew.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.evaluation.plan import Configuration
+from ballscrew.friction import directions
 from ballscrew.uncertainty.distributions import Distribution, distribution_fault, within
 from ballscrew.uncertainty.sampling import JointNormal, Sampler, sobol_sequence
 
@@ -34,6 +35,7 @@ class Sample(NamedTuple):
 
     screw_torque: Values
     ideal_torque: Values
+    drive_torque: Values
     #: Computed where it is wanted.
     friction_power: Values = np.full(1, np.nan)
     #: The torque with the laws drawn over that with the model's.
@@ -44,30 +46,29 @@ class Sample(NamedTuple):
         """The friction torque with the laws drawn."""
         return self.screw_torque * self.factor
 
+    @property
+    def direction(self) -> Values:
+        """The sign of the speed, by that of the friction in the torque on the shaft."""
+        return np.sign(self.drive_torque - self.ideal_torque)
 
-def _efficiency(drawn: Sample) -> Values:
-    still = drawn.ideal_torque + drawn.torque == 0
-    return np.where(still, 0.0, transmission.efficiency(drawn.ideal_torque, np.where(still, 1.0, drawn.torque)))
-
-
-def _back_driving_efficiency(drawn: Sample) -> Values:
-    eta = _efficiency(drawn)
-    none = eta == 0
-    return np.where(none, np.nan, transmission.back_driving_efficiency(np.where(none, 1.0, eta)))
+    @property
+    def back_driving_efficiency(self) -> Values:
+        """Efficiency if the load drives the screw."""
+        return transmission.back_driving_efficiency(directions.direct_efficiency(self.ideal_torque, self.torque))
 
 
 #: What has a band: all of it follows from the friction torque.
 DERIVED_OUTPUTS: Mapping[str, Callable[[Sample], Values]] = {
     "screw_torque": lambda drawn: drawn.torque,
-    "drive_torque": lambda drawn: drawn.ideal_torque + drawn.torque,
-    "holding_torque": lambda drawn: transmission.holding_torque(drawn.ideal_torque, drawn.torque),
+    "drive_torque": lambda drawn: drawn.ideal_torque + drawn.direction * drawn.torque,
+    "holding_torque": lambda drawn: directions.holding_torque(drawn.ideal_torque, drawn.torque),
     "friction_power": lambda drawn: drawn.friction_power * drawn.factor,
-    "efficiency": _efficiency,
-    "back_driving_efficiency": _back_driving_efficiency,
+    "efficiency": lambda drawn: directions.efficiency(drawn.ideal_torque, drawn.torque, drawn.direction),
+    "back_driving_efficiency": lambda drawn: drawn.back_driving_efficiency,
 }
 #: The outputs that may have a band.
 BAND_OUTPUTS = tuple(DERIVED_OUTPUTS)
-#: Those that are never negative: their spread is that of their logarithm.
+#: Those whose spread is that of their logarithm where they are positive.
 POSITIVE = frozenset({"screw_torque", "drive_torque", "friction_power"})
 
 
@@ -82,7 +83,12 @@ class Alternative:
 
 def evaluated_outputs(outputs: Sequence[str]) -> tuple[str, ...]:
     """Outputs that the engine evaluates for each sample, besides validity."""
-    return ("screw_torque", "ideal_torque", *(["friction_power"] if "friction_power" in outputs else []))
+    return (
+        "screw_torque",
+        "ideal_torque",
+        "drive_torque",
+        *(["friction_power"] if "friction_power" in outputs else []),
+    )
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

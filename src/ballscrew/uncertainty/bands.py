@@ -18,6 +18,7 @@ from ballscrew.errors import Fault, accepts_units, nearest, raise_if_any
 from ballscrew.evaluation.comparison import Candidate
 from ballscrew.evaluation.engines import Engine
 from ballscrew.evaluation.plan import Configuration
+from ballscrew.friction import directions
 from ballscrew.friction.model import (
     FrictionModel,
 )
@@ -171,7 +172,7 @@ def band(
         for name in outputs
     }
     numbers = np.isfinite(both.torque)
-    locks = (both.ideal_torque > 0) & (DERIVED_OUTPUTS["holding_torque"](both) <= 0)
+    locks = directions.locks_itself(both.ideal_torque, both.torque)
     reasons = {name.removeprefix(VALIDITY): 1 - float(np.mean(found[name])) for name in evaluator.masks}
     kept = {
         **evaluator.sampler.inputs_at(shares[: evaluator.inputs]),
@@ -269,7 +270,7 @@ def _quantiles(values: Values, shares: Sequence[float]) -> list[float]:
 
 def _variance(name: str, values: Values) -> float:
     with np.errstate(all="ignore"):
-        spread = np.log(values) if name in POSITIVE else values
+        spread = np.log(values) if name in POSITIVE and np.all(values > 0) else values
         finite = spread[np.isfinite(spread)]
         if not finite.size:
             return float("nan")

@@ -83,14 +83,17 @@ def default_distributions(
     what a grade leaves open: never both, as one would undo the other.
     """
     inputs, known = inputs_of(model, screw, lubricant), default_uncertainties()
-    parts = {"screw": screw, "lubricant": lubricant, "model": model}
+    parts = {"screw": screw, "lubricant": lubricant, "model": model, "nut": screw.nut}
     found: dict[str, tuple[Distribution, DefaultUncertainty]] = {}
     for name in known:
         if name not in inputs or name in given or name in exact or not _counts(name, model, lubricant, exact):
             continue
         part, quantity = inputs[name]
         value = operator.attrgetter(name)(parts[part])
-        value = model.imposed_ball_force(screw) if value is None else value
+        if value is None and name == "ball_to_ball_force":
+            value = model.imposed_ball_force(screw)
+        if value is None:
+            continue  # preload of balls whose oversize is given
         graded = name == "viscosity" and lubricant.grade is not None
         uncertainty = known[_OF_GRADE if graded else name]
         distribution = uncertainty.about(float(value), quantity.info)

@@ -243,6 +243,13 @@ class Triangular:
 Distribution: TypeAlias = Uniform | Normal | LogNormal | Triangular
 
 
+def scaled(distribution: Distribution, factor: float) -> Distribution:
+    """The distribution of a positive multiple of a quantity."""
+    kept = {"factor"} if isinstance(distribution, LogNormal) else set[str]()
+    numbers = {field.name: getattr(distribution, field.name) for field in dataclasses.fields(distribution)}
+    return dataclasses.replace(distribution, **{n: factor * value for n, value in numbers.items() if n not in kept})
+
+
 def within(distribution: Distribution, info: Info) -> Distribution:
     """The distribution, its tails cut off at the bounds of a quantity; those of others are left as they are.
 

@@ -8,7 +8,6 @@ from typing import Any
 from ballscrew import units
 from ballscrew.cases import uncertain_inputs
 from ballscrew.cases.case_file import Case
-from ballscrew.cases.descriptions import constant_torque
 from ballscrew.cases.uncertain_inputs import Uncertain
 from ballscrew.evaluation.outputs import known_outputs
 from ballscrew.friction.validity import NUT_REASONS
@@ -69,9 +68,6 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
             f"on rows held out the model was off by {case.fit.get('holdout_rms', 'an unknown torque')}"
         )
         records.append(Record(id="band.calibrated", subject="model", text=text))
-        records += [
-            Record(id="band.constant_torque", subject="constant_torque", text=text) for text in constant_torque(case)
-        ]
     if float(case.operation.axial_load) != 0:
         share = band.self_locking_share
         text = f"self-locking in {share:.2%} of the samples" if share else "self-locking in none of the samples"

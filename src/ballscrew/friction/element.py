@@ -1,0 +1,71 @@
+"""An element: contacts that share a load, called with an operating state.
+
+The ball screw is one. Support bearings, guides and seals meet the same protocols, so that an axis can sum what its
+elements lose and needs to know no more of them.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+from ballscrew._arrays import ByValue
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.screw import BallScrew
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.result import FrictionResult
+from ballscrew.quantities import Array, Mask, Power
+from ballscrew.records import Record
+
+
+class ElementFriction(Protocol):
+    """What an axis needs to know of the friction of an element at an operating state."""
+
+    @property
+    def friction_effort(self) -> Array:
+        """Magnitude of the generalised friction force: a torque about the shaft in N m, or a force along a rail in N."""
+        ...
+
+    @property
+    def contributions(self) -> Mapping[str, Array]:
+        """The effort by mechanism; the parts sum to it."""
+        ...
+
+    @property
+    def friction_power(self) -> Power:
+        """Power dissipated, W; the heat of the element."""
+        ...
+
+    @property
+    def validity(self) -> Mapping[str, Mask]:
+        """Masks of the conditions of the model, by reason."""
+        ...
+
+    @property
+    def warning_records(self) -> list[Record]:
+        """Warnings as records."""
+        ...
+
+
+class FrictionElement(Protocol):
+    """Anything that loses power in contacts under a load and in motion: its friction at an operating state."""
+
+    def __call__(self, state: OperatingState, /) -> ElementFriction:
+        """Friction at a state; load and speed are those of the element, with their signs."""
+        ...
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class BallScrewElement(ByValue):
+    """A ball screw with its oil and the model of its friction, as an element."""
+
+    model: FrictionModel
+    screw: BallScrew
+    lubricant: Lubricant
+
+    def __call__(self, state: OperatingState, /) -> FrictionResult:
+        """Friction at a state. Raises :class:`~ballscrew.errors.InputError` as the model does."""
+        given: dict[str, Any] = {"axial_load": state.axial_load, "screw_speed": state.screw_speed}
+        return self.model(self.screw, self.lubricant, **given, temperature=state.temperature)
