@@ -34,8 +34,9 @@ from ballscrew._arrays import map_blocks, processors
 from ballscrew.evaluation.derivatives import slopes_of
 from ballscrew.evaluation.evaluation import Evaluation
 from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.kernels.buffers import aligned_array
 from ballscrew.kernels.emission import kernel_text
-from ballscrew.kernels.kernel import Kernel, aligned_array
+from ballscrew.kernels.kernel import Kernel
 from ballscrew.papers.olaru2005 import OIL, SCREW
 from ballscrew.tracing.program import Program, Source
 from ballscrew.tracing.tape import Tape

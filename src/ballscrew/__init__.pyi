@@ -13,11 +13,14 @@ from ballscrew.components.nut import Deviations as Deviations
 from ballscrew.components.nut import DoubleNut as DoubleNut
 from ballscrew.components.nut import OffsetLeadNut as OffsetLeadNut
 from ballscrew.components.nut import OversizeBallNut as OversizeBallNut
+from ballscrew.components.nut import Scatter as Scatter
 from ballscrew.components.nut import SingleNut as SingleNut
 from ballscrew.components.nut_losses import Seals as Seals
+from ballscrew.components.operating_state import OperatingState as OperatingState
 from ballscrew.components.screw import BallScrew as BallScrew
 from ballscrew.errors import InputError as InputError
 from ballscrew.evaluation.derivatives import derivatives as derivatives
+from ballscrew.evaluation.evaluator import evaluator as evaluator
 from ballscrew.friction.model import FrictionModel as FrictionModel
 from ballscrew.friction.nut_friction import nut_friction as nut_friction
 from ballscrew.friction.result import FrictionResult as FrictionResult

@@ -9,8 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ballscrew.kernels import kernel as kernels
+from ballscrew.kernels.buffers import aligned_array
 from ballscrew.kernels.emission import UnknownOperationError, kernel_text
-from ballscrew.kernels.kernel import Kernel, aligned_array
+from ballscrew.kernels.kernel import Kernel
 from ballscrew.tracing.program import Program
 from ballscrew.tracing.tape import Tape
 from support.expressions import EXPRESSIONS

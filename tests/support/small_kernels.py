@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from ballscrew.kernels.buffers import aligned_array
 from ballscrew.kernels.emission import kernel_text
-from ballscrew.kernels.kernel import Kernel, aligned_array
+from ballscrew.kernels.kernel import Kernel
 from ballscrew.tracing.program import Interpreter, Program
 from ballscrew.tracing.tape import Tape
 

@@ -116,7 +116,7 @@ class Slopes(Plan):
         found: dict[str, Output] = {}
         for name in self.outputs:
             found[name] = known_outputs(self.subject.nut)[name]
-            found |= {_name(name, x): self._slope(found[name], x) for x in self.by}
+            found |= {slope_name(name, x): self._slope(found[name], x) for x in self.by}
         return found
 
     def _slope(self, output: Output, name: str) -> Output:
@@ -127,7 +127,7 @@ class Slopes(Plan):
             rf"\partial {above.info.symbol}/\partial {below.info.symbol}",
             f"{above.info.meaning}, by {below.info.meaning}",
         )
-        return Output(_name(output.name, name), Quantity(_name(output.name, name), unit, info), _unreadable)
+        return Output(slope_name(output.name, name), Quantity(slope_name(output.name, name), unit, info), _unreadable)
 
     def recorded(self, groups: Sequence[int] | None = None) -> Program:
         """The outputs and their derivatives as a program of the varying inputs."""
@@ -139,7 +139,7 @@ class Slopes(Plan):
                 for name in self.outputs:
                     found[name] = known_outputs(self.subject.nut)[name].read(result)
                     slopes = partials(tape, found[name], [varying.index(x) for x in self.by])
-                    found |= {_name(name, x): slope for x, slope in zip(self.by, slopes, strict=True)}
+                    found |= {slope_name(name, x): slope for x, slope in zip(self.by, slopes, strict=True)}
         except UnknownDerivativeError as unknown:
             raise InputError(Fault("derivatives", f"{unknown} has no derivative here", "", JAX_INSTEAD)) from None
         except CannotRecordError as why:
@@ -147,7 +147,8 @@ class Slopes(Plan):
         return merged_program(tape, found)
 
 
-def _name(output: str, name: str) -> str:
+def slope_name(output: str, name: str) -> str:
+    """The name of the derivative of an output by an input."""
     return f"d_{output}_d_{name.replace('.', '_')}"
 
 
@@ -168,5 +169,5 @@ def _by_jax(slopes: Slopes) -> xr.Dataset:
         return {name: known_outputs(slopes.subject.nut)[name].read(result) for name in slopes.outputs}
 
     values, found = jax_value_and_partials(outputs_of, points, slopes.outputs, slopes.by)
-    named = {_name(output, x): slope for (output, x), slope in found.items()}
+    named = {slope_name(output, x): slope for (output, x), slope in found.items()}
     return slopes.dataset({name: (values | named)[name] for name in slopes.wanted})

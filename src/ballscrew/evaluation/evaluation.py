@@ -18,6 +18,7 @@ from ballscrew.errors import (
     InputError,
     raise_if_any,
 )
+from ballscrew.evaluation.axes import ends
 from ballscrew.evaluation.engines import (
     ASKED_FOR,
     PAYS,
@@ -32,10 +33,13 @@ from ballscrew.evaluation.engines import (
 from ballscrew.evaluation.fingerprint import Fingerprint, fingerprint_of, package_digest
 from ballscrew.evaluation.outputs import OPERATION
 from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.evaluation.recordings import Recording, recording
 from ballscrew.kernels import kernel as kernels
-from ballscrew.kernels.emission import UnknownOperationError, kernel_text
+from ballscrew.kernels.buffers import ALIGNMENT, aligned_array
+from ballscrew.kernels.emission import UnknownOperationError, lanes_for
 from ballscrew.kernels.kernel import Kernel
-from ballscrew.tracing.grid import COLUMNS, ROWS, Split, inner_axes, split
+from ballscrew.kernels.watched import WatchedKernel
+from ballscrew.tracing.grid import COLUMNS, ROWS, Split, inner_axes
 from ballscrew.tracing.program import Program, Source
 from ballscrew.tracing.tape import CannotRecordError
 
@@ -45,12 +49,16 @@ FEWEST_COLUMNS = 256
 WORTH_CUTTING = 8
 #: Tables with more numbers than this are not worth their memory.
 MOST_ENTRIES = 4_000_000
+#: A kernel of more steps does not gain by checking its inputs itself, and takes long to compile.
+MOST_STEPS_WATCHED = 1000
 #: Blocks of a kernel: a few for each thread, not too small and not too large.
 BLOCKS_PER_THREAD = 4
 SMALLEST_BLOCK, LARGEST_BLOCK = 2**14, 2**19
 
-#: Evaluates the points of a slice of the flattened grid into arrays that begin at the given place.
-_BlockEvaluator = Callable[[slice, Mapping[str, NDArray[Any]], int], None]
+#: By input that is to be checked, the ends of its values in each block.
+_Ends = Mapping[str, list[NDArray[Any] | None]]
+#: Evaluates the points of a slice of the flattened grid into arrays that begin at the given place, and notes ends.
+_BlockEvaluator = Callable[[slice, Mapping[str, NDArray[Any]], int, _Ends], None]
 #: Makes one for a plan; plans that differ only in numbers share the formulas.
 _EvaluatorFactory = Callable[[Plan], _BlockEvaluator]
 
@@ -91,11 +99,12 @@ class Evaluation:
             return _by_numpy(plan, None, f"the model itself: {ASKED_FOR}")
         program: Program | None = None
         try:
-            program = plan.recorded()
+            made_of = recorded(plan)
+            program = made_of.program
             points = plan.total * times
             why = why_numpy(engine)
             if may_be_compiled(program, points, engine):
-                made = (_Grid.of(plan) if times == 1 else None) or _Points.of(plan, program)
+                made = (_Grid.of(plan) if times == 1 else None) or _Points.of(plan, made_of)
                 if engine or worth_compiling(made.program, points, made.text):
                     chosen = ASKED_FOR if engine else PAYS
                     identify = functools.partial(_fingerprint, plan, "compiled", program, lambda: made.formulas)
@@ -138,7 +147,7 @@ class Evaluation:
 
     def empty(self, count: int) -> dict[str, NDArray[Any]]:
         """Room for the results of so many points."""
-        return {name: kernels.aligned_array(count, output.dtype) for name, output in self.plan.wanted.items()}
+        return {name: aligned_array(count, output.dtype) for name, output in self.plan.wanted.items()}
 
     def fill(
         self,
@@ -149,11 +158,15 @@ class Evaluation:
         threads: int | None = None,
         done: Callable[[int, int], None] | None = None,
     ) -> None:
-        """Evaluate the points of a block of the flattened grid; ``results`` has room for just these."""
+        """Evaluate the points of a block of the flattened grid; ``results`` has room for just these.
+
+        Raises :class:`~ballscrew.errors.InputError` for bad values of an axis that is checked where it is read.
+        """
         total = block.stop - block.start
+        found: _Ends = {name: [] for name in self.plan.unchecked}
 
         def evaluate(part: slice) -> None:
-            self._evaluate(slice(block.start + part.start, block.start + part.stop), results, block.start)
+            self._evaluate(slice(block.start + part.start, block.start + part.stop), results, block.start, found)
 
         map_blocks(
             evaluate,
@@ -162,22 +175,27 @@ class Evaluation:
             threads=threads,
             done=None if done is None else lambda n: done(n, total),
         )
+        if found:
+            self.plan.check({name: ends(np.array(pairs)) for name, pairs in found.items()})
 
     def _usual_block(self, total: int, threads: int | None) -> int:
         if self.engine == "numpy":
             return self._block_size
         fair = math.ceil(total / (BLOCKS_PER_THREAD * (threads or processors())))
         size = min(max(fair, SMALLEST_BLOCK), self._block_size)
-        step = self._row_length if 1 < self._row_length <= size else kernels.ALIGNMENT
+        step = self._row_length if 1 < self._row_length <= size else ALIGNMENT
         return math.ceil(size / step) * step
 
 
 def _by_numpy(plan: Plan, program: Program | None, reason: str) -> Evaluation:
-    interpreter = None if program is None else program.interpreter
+    # its buffers go with this evaluation, while the program may be kept
+    interpreter = None if program is None else program.interpreter.with_own_buffers()
 
     def evaluator_of(plan: Plan) -> _BlockEvaluator:
-        def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int) -> None:
+        def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int, found: _Ends) -> None:
             points = plan.points(part)
+            for name, noted in found.items():
+                noted.append(ends(points[name]))
             here = {name: values[part.start - first : part.stop - first] for name, values in results.items()}
             with np.errstate(all="ignore"):
                 if interpreter is not None:
@@ -206,16 +224,29 @@ def _fingerprint(plan: Plan, engine: Engine, program: Program | None, formulas: 
     return fingerprint_of(held)
 
 
+def recorded(plan: Plan, groups: Sequence[int] | None = None) -> Recording:
+    """The model as a program of the varying inputs of a plan, in groups where asked for; kept where it can be."""
+
+    def key() -> Any:
+        by = getattr(plan, "by", ())
+        return type(plan), plan.subject, plan.fixed, plan.varying, plan.outputs, by, groups
+
+    return recording(key, lambda: plan.recorded(groups))
+
+
 class _Kernels:
     """A program as assembly, compiled when it is decided to be worth it."""
 
     row_length = 1
 
-    def __init__(self, plan: Plan, program: Program, sources: Sequence[Source]) -> None:
+    def __init__(self, plan: Plan, made_of: Recording, program: Program, sources: Sequence[Source]) -> None:
         self.program = program
         self.sources = sources
-        masks = {name: output.dtype is bool for name, output in plan.wanted.items()}
-        self.text = kernel_text(program, sources, masks)
+        self.made_of = made_of
+        self.masks = {n: output.dtype is bool for n, output in plan.wanted.items()}
+        self.text = made_of.text(program, sources, self.masks)
+        self.checks = bool(plan.unchecked) and len(program.steps) <= MOST_STEPS_WATCHED
+        self.watched: WatchedKernel | None = None
 
     @property
     def formulas(self) -> str:
@@ -228,17 +259,19 @@ class _Kernels:
         names, constants = list(self.program.outputs), self.program.constants
 
         def evaluator_of(plan: Plan) -> _BlockEvaluator:
-            def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int) -> None:
+            def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int, found: _Ends) -> None:
                 for name, value in constants.items():
                     results[name][part.start - first : part.stop - first] = value
-                if names:
-                    self.evaluate(plan, kernel, part, [results[name] for name in names], first)
+                if names or found:
+                    self.evaluate(plan, kernel, part, [results[name] for name in names], first, found)
 
             return evaluate
 
         return evaluator_of
 
-    def evaluate(self, plan: Plan, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int) -> None:
+    def evaluate(
+        self, plan: Plan, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int, found: _Ends
+    ) -> None:
         """Run the kernel over a part of the flattened grid."""
         raise NotImplementedError
 
@@ -247,25 +280,42 @@ class _Points(_Kernels):
     """Every point by itself."""
 
     @classmethod
-    def of(cls, plan: Plan, program: Program) -> _Points:
+    def of(cls, plan: Plan, made_of: Recording) -> _Points:
         """A kernel that reads the inputs of each point."""
         sources: list[Source] = ["points" if plan.axes[name].dims else "rows" for name in plan.varying]
-        return cls(plan, program, sources)
+        return cls(plan, made_of, made_of.program, sources)
 
-    def evaluate(self, plan: Plan, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int) -> None:
+    def compiled(self) -> _EvaluatorFactory:
+        """Compile the kernel, and another one that checks inputs where there are such and it gains."""
+        if self.checks:
+            text = self.made_of.text(self.program, self.sources, self.masks, watched=True)
+            self.watched = WatchedKernel(text, self.sources, lanes_for(self.program))
+        return super().compiled()
+
+    def evaluate(
+        self, plan: Plan, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int, found: _Ends
+    ) -> None:
         """Run the kernel over a part of the flattened grid."""
         points = plan.points(part)
         inputs = [np.ascontiguousarray(points[name], dtype=float) for name in plan.varying]
         here = [values[part.start - first : part.stop - first] for values in results]
         count = part.stop - part.start
-        kernel(slice(0, 1), slice(0, count), count, inputs, here)
+        large = sum(values.nbytes for values in results) > kernels.LARGEST_CACHED
+        if found and self.watched is not None:
+            seen = dict(zip(plan.varying, self.watched(count, inputs, here, past_cache=large), strict=True))
+            for name, noted in found.items():
+                noted.append(seen[name])
+            return
+        for name, noted in found.items():
+            noted.append(ends(points[name]))
+        kernel(slice(0, 1), slice(0, count), count, inputs, here, past_cache=large)
 
 
 class _Grid(_Kernels):
     """Rows and columns of a grid, with tables of what needs only one of them."""
 
-    def __init__(self, plan: Plan, cut: Split, columns: int) -> None:
-        super().__init__(plan, cut.points, [source for source, _ in cut.tables])
+    def __init__(self, plan: Plan, made_of: Recording, cut: Split, columns: int) -> None:
+        super().__init__(plan, made_of, cut.points, [source for source, _ in cut.tables])
         self.plan = plan
         self.row_length = columns
         self.cut = cut
@@ -284,9 +334,10 @@ class _Grid(_Kernels):
             groups.append(sum(COLUMNS if is_inner else ROWS for is_inner in dims) or ROWS)
         if ROWS | COLUMNS in groups or WORTH_CUTTING * (columns + plan.total // columns) > plan.total:
             return None
-        cut = split(plan.recorded(groups), groups)
+        made_of = recorded(plan, groups)
+        cut = made_of.cut(groups)
         entries = len(cut.rows.outputs) * (plan.total // columns) + len(cut.columns.outputs) * columns
-        return None if entries > MOST_ENTRIES else cls(plan, cut, columns)
+        return None if entries > MOST_ENTRIES else cls(plan, made_of, cut, columns)
 
     @property
     def formulas(self) -> str:
@@ -307,7 +358,7 @@ class _Grid(_Kernels):
             if names:
                 inputs = self.plan.points_at(np.asarray(places))
                 with np.errstate(all="ignore"):
-                    program.interpreter.run([inputs[name] for name in self.plan.varying], values)
+                    program.interpreter.with_own_buffers().run([inputs[name] for name in self.plan.varying], values)
             for name in names:
                 found[source, name] = values[name].astype(float, copy=False)
         return [found[key] for key in self.cut.tables]
@@ -319,6 +370,7 @@ class _Grid(_Kernels):
         part: slice,
         results: Sequence[NDArray[Any]],
         first: int,
+        found: _Ends,  # noqa: ARG002  (axes of a grid are checked before)
     ) -> None:
         """Run the kernel over a part of the flattened grid."""
         for rows, columns in rectangles(part, self.row_length):

@@ -19,7 +19,8 @@ from ballscrew.components.nut import Nut, NutParts
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.components.traits import traits_of
-from ballscrew.errors import MISSING, Fault, fault_of, nearest, raise_if_any, without_unit
+from ballscrew.errors import MISSING, Fault, nearest, raise_if_any
+from ballscrew.evaluation.axes import axis_of, ends, faults_of_axis
 from ballscrew.evaluation.outputs import (
     DEFAULT_OUTPUTS,
     NUT_OUTPUTS,
@@ -38,6 +39,9 @@ from ballscrew.references import citations_of
 from ballscrew.tracing.merging import merged_program
 from ballscrew.tracing.program import Program
 from ballscrew.tracing.tape import CannotRecordError, Tape, why_not_recorded
+
+#: An axis of more values is long: to read it twice takes time.
+LONG_AXIS = 100_000
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -188,19 +192,47 @@ class Plan:
 
     @classmethod
     def of(
-        cls, subject: Configuration, outputs: Sequence[str] | None, varied: Mapping[str, Any], section: str = "sweep"
+        cls,
+        subject: Configuration,
+        outputs: Sequence[str] | None,
+        varied: Mapping[str, Any],
+        section: str = "sweep",
+        *,
+        later: bool = False,
     ) -> Plan:
-        """A plan from what a person gives.
+        """A plan from what a person gives; with ``later``, long axes are left to be checked where they are read.
 
         Raises :class:`~ballscrew.errors.InputError` with all faults in it, which stand under ``section``.
         """
         names = _wanted(section, outputs, subject.nut)
-        axes = _axes(section, subject, varied)
-        return cls(subject, axes, _sizes(section, axes, names), names)
+        axes, extremes = _axes(section, subject, varied, later=later)
+        plan = cls(subject, axes, _sizes(section, axes, names), names)
+        # cached properties, which a plan with other axes finds anew
+        vars(plan).update(extremes=extremes, unchecked=[name for name in axes if name not in extremes])
+        if len(plan.sizes) > 1:  # of a grid, an axis is read many times
+            plan.check({name: ends(axes[name].to_numpy()) for name in plan.unchecked})
+        return plan
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Fields that other processes need."""
         return Plan, (self.subject, dict(self.axes), dict(self.sizes), self.outputs)
+
+    @functools.cached_property
+    def unchecked(self) -> Sequence[str]:
+        """The inputs whose values are to be checked where they are read."""
+        return ()
+
+    def check(self, found: Mapping[str, np.ndarray]) -> None:
+        """Check what is unchecked by the ends of its values. Raises :class:`~ballscrew.errors.InputError`."""
+        known = self.subject.inputs
+        checked = [faults_of_axis(*known[name], self.axes[name].to_numpy(), held) for name, held in found.items()]
+        raise_if_any([fault for faults in checked for fault in faults])
+        vars(self).update(extremes={**self.extremes, **found}, unchecked=())
+
+    @functools.cached_property
+    def extremes(self) -> Mapping[str, np.ndarray]:
+        """The least and the greatest value of each input."""
+        return {name: ends(axis.to_numpy()) for name, axis in self.axes.items()}
 
     @functools.cached_property
     def wanted(self) -> dict[str, Output]:
@@ -273,7 +305,7 @@ class Plan:
     @property
     def attributes(self) -> dict[str, Any]:
         """Attributes of the dataset: those of the subject, and what is implausible."""
-        records = self.subject.implausible({name: axis.to_numpy() for name, axis in self.axes.items()})
+        records = self.subject.implausible(self.extremes)
         said = "; ".join(f"{record.name}: {record.text}" for record in records)
         return self.subject.attributes(list(self.axes)) | ({"warnings": said} if said else {})
 
@@ -298,8 +330,10 @@ def _wanted(section: str, names: Sequence[str] | None, nut: Nut) -> tuple[str, .
     return tuple(dict.fromkeys(chosen))
 
 
-def _axes(section: str, subject: Configuration, varied: Mapping[str, Any]) -> dict[str, xr.DataArray]:
-    """The values to vary as labelled arrays; all faults in them at once."""
+def _axes(
+    section: str, subject: Configuration, varied: Mapping[str, Any], *, later: bool
+) -> tuple[dict[str, xr.DataArray], dict[str, np.ndarray]]:
+    """The values to vary as labelled arrays, and the ends of those that are looked at now; all faults in them."""
     known = subject.inputs
     parts = subject.by_section
     faults = [
@@ -312,57 +346,21 @@ def _axes(section: str, subject: Configuration, varied: Mapping[str, Any]) -> di
         if part != "operation" and name not in varied and np.ndim(_read(parts[part], name))
     ]
     axes: dict[str, xr.DataArray] = {}
+    extremes: dict[str, np.ndarray] = {}
     for name, values in varied.items():
         if name in known:
             part, quantity = known[name]
-            axis = _axis(section, name, values, quantity)
+            axis = axis_of(section, name, values, quantity)
             if isinstance(axis, Fault):
                 faults.append(axis)
             else:
                 axes[name] = axis
-                faults += _faults_of_axis(part, quantity, axis.to_numpy())
+                if later and axis.ndim == 1 and axis.size > LONG_AXIS and not quantity.info.whole:
+                    continue
+                extremes[name] = ends(axis.to_numpy())
+                faults += faults_of_axis(part, quantity, axis.to_numpy(), extremes[name])
     raise_if_any(faults)
-    return axes
-
-
-def _axis(section: str, name: str, values: Any, quantity: Quantity) -> xr.DataArray | Fault:
-    """Values as a labelled array: a sequence gets a dimension of its own name."""
-    where = f"{section}.{name}"
-    numbers = without_unit(where, values.data if isinstance(values, xr.DataArray) else values, quantity.unit)
-    if isinstance(numbers, Fault):
-        return numbers
-    if isinstance(values, xr.DataArray):
-        if not all(isinstance(dimension, str) for dimension in values.dims):
-            return Fault(where, "has a dimension whose name is no text", str(values.dims), "name it by a text")
-        declared = str(values.attrs.get("units", quantity.unit))
-        if declared != quantity.unit:
-            return Fault(where, "is in another unit by its attribute units", declared, f"give it in {quantity.unit}")
-        numbers = values if numbers is values.data else values.copy(data=numbers)
-    values = numbers
-    try:
-        if np.ma.isMaskedArray(values) or np.asarray(values).dtype.kind not in "fiu":
-            raise TypeError("a mask would be lost, and what is no number would become one")
-        if isinstance(values, xr.DataArray):
-            axis = values.astype(float, copy=False)
-        else:
-            array = np.asarray(values, dtype=float)
-            if array.ndim > 1:
-                return Fault(where, "has several axes", f"shape {array.shape}", "name them: pass an xarray.DataArray")
-            axis = xr.DataArray(array, dims=(name,) if array.ndim else ())
-    except (TypeError, ValueError):
-        return Fault(where, "must be numbers in SI", str(values), "give a number or a plain list of numbers")
-    return axis if axis.size else Fault(where, "has no values", "", "give at least one")
-
-
-def _faults_of_axis(part: str, quantity: Quantity, values: np.ndarray) -> list[Fault]:
-    """Faults of an axis: its ends (NaN comes out as both) and, where whole numbers are needed, the first broken one."""
-    telling = [values.min()]
-    if not np.isnan(telling[0]):
-        telling.append(values.max())
-    if quantity.info.whole:
-        telling += values[values != np.floor(values)].ravel()[:1].tolist()
-    faults = [fault_of(part, quantity, float(value)) for value in dict.fromkeys(telling)]
-    return [fault for fault in faults if fault is not None]
+    return axes, extremes
 
 
 def _sizes(section: str, axes: Mapping[str, xr.DataArray], wanted: Sequence[str]) -> dict[str, int]:

@@ -25,7 +25,7 @@ class ElementFriction(Protocol):
 
     @property
     def friction_effort(self) -> Array:
-        """Magnitude of the generalised friction force: a torque about the shaft in N m, or a force along a rail in N."""
+        """Magnitude of the generalised friction force: a torque about the shaft (N m) or a force along a rail (N)."""
         ...
 
     @property

@@ -55,16 +55,24 @@ def lanes_for(program: Program) -> int:
 
 
 def kernel_text(
-    program: Program, sources: Sequence[Source], masks: Mapping[str, bool], *, lanes: int | None = None
+    program: Program,
+    sources: Sequence[Source],
+    masks: Mapping[str, bool],
+    *,
+    lanes: int | None = None,
+    watched: bool = False,
 ) -> str:
     """The module with the kernel of a program.
 
     ``sources`` has the origin of the values of each input, ``masks`` whether the array of each output
-    holds truth values. Raises :class:`UnknownOperationError`.
+    holds truth values. A ``watched`` kernel has one more output, the ends of what it reads, so that inputs need not be
+    read twice to be checked: for each input over points :data:`ENDS_OF_EACH` vectors of integers, the least and the
+    greatest bits by lane over all whole vectors. Raises :class:`UnknownOperationError`.
     """
     w = Writer(lanes or lanes_for(program))
     outputs = list(program.outputs)
-    values = dict(enumerate(_emit_loops_and_loads(w, sources)))
+    seen = [i for i, source in enumerate(sources) if source == "points"] if watched else []
+    values = dict(enumerate(_emit_loops_and_loads(w, sources, seen)))
     emitter = _StepEmitter(w, program, values)
     results = [
         emitter.as_mask(program.outputs[n]) if masks[n] else emitter.as_number(program.outputs[n]) for n in outputs
@@ -75,6 +83,7 @@ def kernel_text(
         for name, result, kind in zip(outputs, results, types, strict=True)
     ]
     _emit_stores_and_loop_ends(w, types, stored)
+    lines = [*w.lines, *_emit_ends(w, seen, len(outputs)), "  ret void"]
     return "\n".join(
         [
             elementary.definitions(w.lanes),
@@ -85,7 +94,8 @@ def kernel_text(
             *_pointers("input", len(sources)),
             *_pointers("output", len(outputs)),
             *(random.emit_key_schedule() if "random" in sources else []),
-            *w.lines,
+            *(line for i in seen for line in _ends_of_nothing(w, i)),
+            *lines,
             "}",
             "declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)",
             "!0 = !{i32 1}",
@@ -103,7 +113,45 @@ def _pointers(name: str, count: int) -> list[str]:
     return lines
 
 
-def _emit_loops_and_loads(w: Writer, sources: Sequence[Source]) -> list[Value]:
+#: What a watched kernel finds of each input: a name, the comparison, and the bits to begin with, those of ∞ and 0.
+_ENDS = (("least", "slt", 0x7FF0000000000000), ("greatest", "sgt", 0))
+ENDS_OF_EACH = len(_ENDS)
+
+
+def _ends_of_nothing(w: Writer, i: int) -> list[str]:
+    lines: list[str] = []
+    for name, _, start in _ENDS:
+        lines.append(f"  %{name}{i} = alloca {w.integers}, align 64")
+        lines.append(f"  store {w.integers} splat (i64 {start}), ptr %{name}{i}")
+    return lines
+
+
+def _emit_watch(w: Writer, i: int, value: Value) -> None:
+    """Emit the comparison of a vector with the ends so far, as integers, in the order of numbers of positive sign."""
+    bits = w.bits(value)
+    for name, relation, _ in _ENDS:
+        before = w.instruction(f"load {w.integers}, ptr %{name}{i}")
+        is_beyond = w.instruction(f"icmp {relation} {w.integers} {bits}, {before}")
+        after = w.instruction(f"select {w.masks} {is_beyond}, {w.integers} {bits}, {w.integers} {before}")
+        w.lines.append(f"  store {w.integers} {after}, ptr %{name}{i}")
+
+
+def _emit_ends(w: Writer, seen: Sequence[int], outputs: int) -> list[str]:
+    """The stores of the ends, when all is done."""
+    lines = [f"  %ends_entry = getelementptr ptr, ptr %outputs, i64 {outputs}", "  %ends = load ptr, ptr %ends_entry"]
+    places = [
+        (f"%{name}{i}", w.lanes * (ENDS_OF_EACH * k + j))
+        for k, i in enumerate(seen)
+        for j, (name, _, _) in enumerate(_ENDS)
+    ]
+    for k, (name, place) in enumerate(places):
+        lines.append(f"  %end{k} = load {w.integers}, ptr {name}")
+        lines.append(f"  %to_end{k} = getelementptr i64, ptr %ends, i64 {place}")
+        lines.append(f"  store {w.integers} %end{k}, ptr %to_end{k}, align 8")
+    return lines if seen else []
+
+
+def _emit_loops_and_loads(w: Writer, sources: Sequence[Source], seen: Sequence[int]) -> list[Value]:
     """Emit the heads of the loops over tiles, rows and points; return the inputs at the points of a vector."""
     values: dict[int, Value] = {}
     w.lines += ["  br label %tile_loop", "tile_loop:"]
@@ -128,6 +176,8 @@ def _emit_loops_and_loads(w: Writer, sources: Sequence[Source]) -> list[Value]:
     addresses = {i: w.instruction(f"getelementptr double, ptr %input{i}, i64 {at}") for i, at in from_arrays.items()}
     w.lines += ["  br i1 %is_full, label %load_all, label %load_some", "load_all:"]
     whole = {i: w.instruction(f"load {w.doubles}, ptr {address}, align 8") for i, address in addresses.items()}
+    for i in seen:
+        _emit_watch(w, i, whole[i])
     w.lines += ["  br label %evaluate", "load_some:"]
     some: dict[int, Value] = {}
     for i, address in addresses.items():
@@ -173,7 +223,7 @@ def _emit_stores_and_loop_ends(w: Writer, types: Sequence[str], values: Sequence
     w.lines.append("  %next_row = add i64 %row, 1")
     w.lines.append("  %more_rows = icmp slt i64 %next_row, %row_stop")
     w.lines += ["  br i1 %more_rows, label %row_loop, label %tile_done", "tile_done:"]
-    w.lines += ["  br i1 %is_last_tile, label %done, label %tile_loop", "done:", "  ret void"]
+    w.lines += ["  br i1 %is_last_tile, label %done, label %tile_loop", "done:"]
 
 
 class _StepEmitter:

@@ -17,17 +17,16 @@ import os
 import sys
 import tempfile
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ballscrew.kernels.buffers import ALIGNMENT
 from ballscrew.tracing.program import Source
 
-#: Alignment in bytes that non-temporal stores need.
-ALIGNMENT = 64
 #: Columns that are worked on at a time, row after row: tables of a dozen inputs then stay in the first cache.
 COLUMN_TILE = 512
 #: Results larger than this do not stay in the cache anyway, and are stored non-temporally.
@@ -90,8 +89,11 @@ class Kernel:
         *,
         first: int = 0,
         seed: int = 0,
+        past_cache: bool | None = None,
     ) -> None:
         """Evaluate a rectangle of the grid; both slices hold at least one number.
+
+        ``past_cache`` says whether the results outgrow the cache; by default their sizes decide.
 
         Results and inputs over points are contiguous arrays that begin at place ``first`` of the
         flattened grid; inputs over rows and columns are whole; random ones are None.
@@ -104,7 +106,8 @@ class Kernel:
             if array.dtype == np.float64
         )
         aligned &= rows.stop - rows.start == 1 or row_length % (ALIGNMENT // 8) == 0
-        leaves_cache = sum(array.nbytes for array in results) > LARGEST_CACHED
+        if past_cache is None:
+            past_cache = sum(array.nbytes for array in results) > LARGEST_CACHED
         places = [
             None if array is None else _address(array, first if source == "points" else 0)
             for source, array in zip(self.sources, inputs, strict=True)
@@ -117,10 +120,20 @@ class Kernel:
             row_length,
             COLUMN_TILE if "columns" in self.sources else columns.stop - columns.start,
             seed,
-            aligned and leaves_cache,
+            aligned and past_cache,
             (ctypes.c_void_p * len(places))(*places),
             (ctypes.c_void_p * len(ends))(*ends),
         )
+
+    def at_one_point(self, inputs: NDArray[np.float64], results: Sequence[NDArray[Any]]) -> Callable[[], None]:
+        """A call that reads one point from ``inputs`` and writes it into ``results``, with next to nothing left to do.
+
+        ``inputs`` holds a number for each input, all of them over points; the arrays must outlive the call.
+        """
+        start, item = _address(inputs, 0), inputs.itemsize
+        places = (ctypes.c_void_p * inputs.size)(*(start + i * item for i in range(inputs.size)))
+        ends = (ctypes.c_void_p * len(results))(*(_address(array, 0) for array in results))
+        return functools.partial(self._function, 0, 1, 0, 1, 1, 1, 0, False, places, ends)
 
 
 def is_cached(text: str) -> bool:
@@ -129,14 +142,6 @@ def is_cached(text: str) -> bool:
     with contextlib.suppress(OSError, RuntimeError):
         return name in _kernels or (cache_folder() / name).exists()
     return False
-
-
-def aligned_array(count: int, dtype: type) -> NDArray[Any]:
-    """An uninitialised array aligned for non-temporal stores."""
-    item = np.dtype(dtype).itemsize
-    raw = np.empty(count * item + ALIGNMENT, dtype=np.uint8)
-    start = -raw.ctypes.data % ALIGNMENT
-    return raw[start : start + count * item].view(dtype)
 
 
 def _address(array: NDArray[Any], first: int) -> int:
@@ -170,6 +175,7 @@ def _processor() -> str:
     return f"{llvm.get_default_triple()} {llvm.get_host_cpu_name()} {features} {llvm.llvm_version_info} {FORMAT}"
 
 
+@functools.lru_cache(maxsize=64)
 def _digest(text: str) -> str:
     """The name of a kernel: a digest of the assembly, the processor and the compiler."""
     return hashlib.sha256(f"{_processor()}\n{text}".encode()).hexdigest()

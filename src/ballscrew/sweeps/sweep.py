@@ -82,7 +82,7 @@ def sweep(
         remedy = 'add to="map.zarr", in a folder that all workers share'
         raise InputError(Fault("sweep.cluster", "needs a store", "", remedy))
     screw = screw if nut is None else dataclasses.replace(screw, nut=nut)
-    plan = Plan.of(Configuration(model, screw, lubricant), outputs, varied)
+    plan = Plan.of(Configuration(model, screw, lubricant), outputs, varied, later=to is None)
     if to is not None:
         if engine == "model":
             raise InputError(Fault("sweep.engine", "fills no store", engine, 'take engine="numpy"'))

@@ -7,6 +7,7 @@ load and at rest (the logarithm of zero is minus infinity).
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 import functools
 import threading
@@ -21,6 +22,9 @@ from ballscrew.tracing.tape import Tape, Traced
 
 #: The origin of the values of an input: one for each point, column or row of a grid, or a random number.
 Source = Literal["points", "columns", "rows", "random"]
+
+#: Most sizes of blocks whose buffers a thread keeps.
+MOST_WORKSPACES = 4
 
 
 @dataclasses.dataclass(frozen=True)
@@ -96,6 +100,12 @@ class Interpreter:
         self._calls = self._assign_slots()
         self._local = threading.local()
 
+    def with_own_buffers(self) -> Interpreter:
+        """The same interpreter with buffers of its own, which go when it goes."""
+        found = copy.copy(self)
+        found._local = threading.local()
+        return found
+
     def _assign_slots(self) -> list[tuple[Any, list[int], int]]:
         """Assign a slot to every step: that of its result, or a buffer that is free again after its last use."""
         steps, outputs = self.program.steps, self.program.outputs
@@ -146,6 +156,8 @@ class Interpreter:
         if workspaces is None:
             workspaces = self._local.workspaces = {}
         if size not in workspaces:
+            if len(workspaces) >= MOST_WORKSPACES:
+                workspaces.clear()
             slots = workspaces[size] = list(self._slots)
             for slot, is_mask in self.buffers.items():
                 slots[slot] = np.empty(size, dtype=bool if is_mask else float)

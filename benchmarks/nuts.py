@@ -1,0 +1,166 @@
+"""How fast preloaded nuts are: compiled sweeps, derivatives, bands and fits, as ratios in one run.
+
+``python benchmarks/nuts.py`` prints a table, ``--json`` one object. What is compared is measured in turn, round after
+round; ratios are medians over the rounds. The nut is a double one of the catalogue, rigid, with the reference model,
+and olaru2005() beside it.
+
+- ``sweep``: a million points over load, speed and preload, compiled, against the model on NumPy arrays.
+- ``gradient``: the torque and its derivatives by eight inputs, against the torque alone, both compiled.
+- ``second call``: what a sweep of ten points takes when the same one was asked for before.
+- ``elastic``: points of an elastic nut, all balls one by one, in a second.
+- ``band``: 100,000 samples; ``fit``: 10,000 rows with the preload and a friction coefficient free.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import statistics
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+import ballscrew as bs
+from ballscrew.evaluation.derivatives import slopes_of
+from ballscrew.evaluation.evaluation import Evaluation
+from ballscrew.evaluation.plan import Configuration, Plan
+
+PRELOAD = 4326.0
+SCREW = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=bs.DoubleNut(preload=PRELOAD))
+OIL = bs.Lubricant.from_grade("ISO VG 100", 313.15)
+MODELS = {"olaru2005": bs.FrictionModel.olaru2005(), "reference": bs.FrictionModel.reference()}
+SIDE = 100
+#: Points of the model itself, which a million would keep busy for minutes.
+OF_THE_MODEL = 40_000
+BY = (
+    "axial_load", "screw_speed", "nut.preload", "viscosity", "ball_diameter", "screw_conformity", "contact_angle",
+    "screw_roughness",
+)  # fmt: skip
+
+
+def seconds(work: Callable[[], Any]) -> float:
+    """Time of one call."""
+    start = time.perf_counter()
+    work()
+    return time.perf_counter() - start
+
+
+def grid(side: int) -> dict[str, Any]:
+    """Loads, speeds and preloads, so many of each."""
+    return {
+        "axial_load": np.linspace(-20e3, 20e3, side),
+        "screw_speed": np.linspace(1.0, 100.0, side),
+        "nut.preload": np.linspace(1000.0, 6000.0, side),
+    }
+
+
+def cloud(number: int, seed: int = 1) -> dict[str, Any]:
+    """Random points of the same ranges."""
+    rng = np.random.default_rng(seed)
+    return {name: xr.DataArray(rng.uniform(a[0], a[-1], number), dims="point") for name, a in grid(2).items()}
+
+
+def sweep(model: bs.FrictionModel, rounds: int) -> dict[str, float]:
+    """Rates of compiled points and of the model on arrays, and their ratio."""
+    outputs = ("screw_torque", "efficiency", "valid")
+    compiled = Evaluation.of(Plan.of(Configuration(model, SCREW, OIL), outputs, grid(SIDE)), "compiled")
+    arrays = Evaluation.of(Plan.of(Configuration(model, SCREW, OIL), outputs, cloud(OF_THE_MODEL)), "model")
+    ratios: list[float] = []
+    rates: list[float] = []
+    for _ in range(rounds):
+        fast, slow = (
+            seconds(lambda e=e: e.fill(e.empty(e.plan.total), slice(0, e.plan.total))) / e.plan.total
+            for e in (compiled, arrays)
+        )
+        ratios.append(slow / fast)
+        rates.append(1 / fast)
+    return {"points_per_second": statistics.median(rates), "over_numpy": statistics.median(ratios)}
+
+
+def gradient(model: bs.FrictionModel, rounds: int) -> dict[str, float]:
+    """Time of value and derivatives, in units of that of the value."""
+    subject, points = Configuration(model, SCREW, OIL), cloud(100_000)
+    held = {name: xr.DataArray(np.full(100_000, subject.value_of(name)), dims="point") for name in BY[3:]}
+    value = Evaluation.of(Plan.of(subject, ("screw_torque",), points | held), "compiled")
+    slopes = Evaluation.of(slopes_of(subject, ("screw_torque",), BY, points | held), "compiled")
+    ratios: list[float] = []
+    for _ in range(rounds):
+        one, all_of_them = (
+            seconds(lambda e=e: e.fill(e.empty(e.plan.total), slice(0, e.plan.total))) for e in (value, slopes)
+        )
+        ratios.append(all_of_them / one)
+    return {"over_value": statistics.median(ratios)}
+
+
+def second_call(model: bs.FrictionModel) -> dict[str, float]:
+    """Seconds of the first call of a small sweep and of the second."""
+    points = {"axial_load": np.linspace(0.0, 9000.0, 10), "screw_speed": 50.0}
+    work = lambda: bs.sweep(model, SCREW, OIL, outputs=["screw_torque"], engine="compiled", **points)  # noqa: E731
+    first = seconds(work)
+    return {"first_s": first, "second_s": min(seconds(work) for _ in range(5))}
+
+
+def elastic(model: bs.FrictionModel) -> dict[str, float]:
+    """Rate of an elastic nut."""
+    nut = bs.DoubleNut(preload=PRELOAD, bodies=bs.Bodies())
+    load, speed = np.random.default_rng(2).uniform([[100.0], [1.0]], [[20e3], [100.0]], (2, 1000))
+    screw = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=nut)
+    took = seconds(lambda: model(screw, OIL, axial_load=load, screw_speed=speed).screw_torque)
+    return {"points_per_second": load.size / took}
+
+
+def band(model: bs.FrictionModel) -> dict[str, float]:
+    """Seconds of a band of 100,000 samples."""
+    uncertain = {"nut.preload": bs.Normal(PRELOAD, 500.0), "viscosity": bs.LogNormal(0.088, 1.2)}
+    work = lambda: bs.band(  # noqa: E731
+        model, SCREW, OIL, uncertain=uncertain, axial_load=3000.0, screw_speed=50.0, samples=100_000
+    )
+    first = seconds(work)
+    return {"first_s": first, "second_s": seconds(work)}
+
+
+def fit(model: bs.FrictionModel) -> dict[str, float]:
+    """Seconds of a fit of 10,000 rows."""
+    rng, rows = np.random.default_rng(3), 10_000
+    log = {
+        "axial_load": rng.uniform(0.0, 20e3, rows),
+        "screw_speed": rng.uniform(1.0, 100.0, rows) * rng.choice([-1, 1], rows),
+    }
+    truth = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=bs.DoubleNut(preload=0.8 * PRELOAD))
+    torque = model(truth, OIL, **log).drive_torque
+    log["torque"] = torque + 0.01 * np.abs(torque) * rng.standard_normal(rows)
+    free = ["nut.preload", "boundary_friction_coefficient"]
+    return {"seconds": seconds(lambda: bs.fit(model, SCREW, OIL, log, free))}
+
+
+def main() -> None:
+    """Measure, and print a table or one object."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--json", action="store_true")
+    parser.add_argument("--rounds", type=int, default=5)
+    options = parser.parse_args()
+    found = {
+        name: {
+            "sweep": sweep(model, options.rounds),
+            "gradient": gradient(model, options.rounds),
+            "second call": second_call(model),
+            "elastic": elastic(model),
+            "band": band(model),
+            "fit": fit(model),
+        }
+        for name, model in MODELS.items()
+    }
+    if options.json:
+        print(json.dumps(found, indent=1))
+        return
+    for name, cases in found.items():
+        print(name)
+        for case, numbers in cases.items():
+            print(f"  {case:12s} " + ", ".join(f"{what} {value:.4g}" for what, value in numbers.items()))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,192 @@
+"""Recordings that are kept in this process: what is recorded once is not recorded, nor written as assembly, again.
+
+The key of a recording holds all that it depends on, by value: the numbers and the laws of the parts, the names of the
+inputs and the outputs. A law of this package that is a function counts as itself. Of a law from outside it cannot be
+known quickly whether it computes what it did (its globals, closures and attributes may change), so a model with one is
+recorded anew each time. A number that is the same at all points is a constant of the recording and part of its key:
+folded, it costs nothing at any point. Who changes it call by call makes it an input, of an axis or of
+:func:`~ballscrew.evaluation.evaluator.evaluator`.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import enum
+import functools
+import sys
+import threading
+import types
+from collections import OrderedDict
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from itertools import chain
+from typing import Any
+
+import numpy as np
+
+from ballscrew.kernels.emission import kernel_text
+from ballscrew.tracing.grid import Split, split
+from ballscrew.tracing.program import Program, Source
+
+#: Most recordings that are kept, and most steps of all of them together, some 400 bytes each.
+MOST_RECORDINGS, MOST_STEPS = 256, 300_000
+#: An array with more numbers than this in a part is not compared call by call.
+MOST_NUMBERS = 1000
+
+_PACKAGE = __name__.partition(".")[0]
+#: The rooms whose functions and constants are in a recording.
+_ROOMS = tuple(f"{_PACKAGE}.{room}" for room in ("equations", "components", "solvers", "friction", "tracing"))
+_PLAIN = frozenset({int, bool, str, bytes, type(None)})
+
+
+class UnknownPartError(Exception):
+    """A part of which it is not known whether it computes the same each time; what it is in is not kept."""
+
+
+class Recording:
+    """A program, and what has been made of it: its cut along a grid, and its assembly."""
+
+    def __init__(self, program: Program) -> None:
+        self.program = program
+        self._cuts: dict[tuple[int, ...], Split] = {}
+        self._texts: dict[Hashable, str] = {}
+
+    def cut(self, groups: Sequence[int]) -> Split:
+        """The program cut along rows and columns."""
+        key = tuple(groups)
+        if key not in self._cuts:
+            self._cuts[key] = split(self.program, groups)
+        return self._cuts[key]
+
+    def text(
+        self, program: Program, sources: Sequence[Source], masks: Mapping[str, bool], *, watched: bool = False
+    ) -> str:
+        """The assembly of the program, or of its cut."""
+        key = program is self.program, tuple(sources), tuple(masks.items()), watched
+        if key not in self._texts:
+            self._texts[key] = kernel_text(program, sources, masks, watched=watched)
+        return self._texts[key]
+
+
+def recording(key: Callable[[], Any], record: Callable[[], Program]) -> Recording:
+    """A recording that was made with an equal key, or a new one.
+
+    ``key`` returns all that the recording depends on; where that cannot be compared, nothing is kept.
+    """
+    try:
+        held = key_of(key())
+    except UnknownPartError:
+        return Recording(record())
+    return _kept.get(held) or _kept.add(held, Recording(record()))
+
+
+class _Kept:
+    """The recordings that were used last, as long as the package stays as it was."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._found: OrderedDict[Hashable, Recording] = OrderedDict()
+        self._steps = 0
+        self._modules: tuple[int, list[types.ModuleType]] = 0, []
+        self._identities: tuple[int, ...] = ()
+        self._items: list[Any] = []
+
+    def get(self, key: Hashable) -> Recording | None:
+        with self._lock:
+            self._forget_if_the_package_changed()
+            if key in self._found:
+                self._found.move_to_end(key)
+            return self._found.get(key)
+
+    def add(self, key: Hashable, made: Recording) -> Recording:
+        """Keep a recording, and return it, or that of another thread which was sooner."""
+        with self._lock:
+            if key not in self._found:
+                self._found[key] = made
+                self._steps += len(made.program.steps)
+            while len(self._found) > 1 and (len(self._found) > MOST_RECORDINGS or self._steps > MOST_STEPS):
+                _, oldest = self._found.popitem(last=False)
+                self._steps -= len(oldest.program.steps)
+            return self._found[key]
+
+    def clear(self) -> None:
+        with self._lock:
+            self._found.clear()
+            self._steps = 0
+
+    def _forget_if_the_package_changed(self) -> None:
+        """Drop all where a function or a constant of a module was replaced, as by a test or by ``reload``."""
+        count, modules = self._modules
+        if count != len(sys.modules):
+            modules = [module for name, module in list(sys.modules.items()) if name.startswith(_ROOMS)]
+            self._modules = len(sys.modules), modules
+        spaces = [vars(module).values() for module in modules]
+        identities = tuple(map(id, chain.from_iterable(spaces)))
+        if identities != self._identities:
+            # what is held here keeps its identity, so that equal identities are the same items
+            self._identities, self._items = identities, list(chain.from_iterable(spaces))
+            self._found.clear()
+            self._steps = 0
+
+
+_kept = _Kept()
+
+
+def forget() -> None:
+    """Drop all recordings that are kept."""
+    _kept.clear()
+
+
+def key_of(value: Any) -> Hashable:
+    """A value as a key: equal keys are values of which the same is computed, to the last bit.
+
+    Raises :class:`UnknownPartError` where that cannot be said.
+    """
+    kind = type(value)
+    if kind is float:
+        return value.hex()  # zeros by their signs, and NaN as itself
+    if kind in _PLAIN:
+        return kind, value
+    if kind is types.FunctionType and _is_own(value):
+        return value
+    if kind is np.float64:
+        return kind, float(value).hex()
+    if isinstance(value, np.generic | np.ndarray):
+        return _key_of_numbers(value)
+    if kind in (tuple, list):
+        return kind, *map(key_of, value)
+    if kind in (dict, types.MappingProxyType):
+        return kind, *((key_of(name), key_of(held)) for name, held in value.items())
+    if isinstance(value, type) and _is_own(value):
+        return value
+    if _is_own(kind):
+        if dataclasses.is_dataclass(value):  # what else it holds is computed from these
+            return kind, *[key_of(getattr(value, name)) for name in _names(kind)]
+        if isinstance(value, tuple):
+            return kind, *map(key_of, value)
+        if isinstance(value, enum.Enum):
+            return value
+    raise UnknownPartError(kind.__qualname__)
+
+
+def _key_of_numbers(value: Any) -> Hashable:
+    if value.dtype.hasobject or value.size > MOST_NUMBERS or type(value).__module__ != "numpy":
+        raise UnknownPartError("a large array, or one of objects")
+    return type(value), value.dtype.str, value.shape, value.tobytes()
+
+
+@functools.cache
+def _names(kind: Any) -> tuple[str, ...]:
+    return tuple(field.name for field in dataclasses.fields(kind))
+
+
+def _is_own(item: Any) -> bool:
+    """True for a function or a class that this package has under its name: not for one made in a call, or replaced."""
+    module = item.__module__
+    if not isinstance(module, str) or not module.startswith(f"{_PACKAGE}."):
+        return False
+    if isinstance(item, types.FunctionType) and not item.__globals__["__name__"].startswith(f"{_PACKAGE}."):
+        return False  # one from outside that took the name of what it wraps
+    found: Any = sys.modules.get(module)
+    for name in item.__qualname__.split("."):
+        found = getattr(found, name, None)
+    return found is item
