@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from pathlib import Path
 
 from ballscrew.cases import case_file
@@ -12,7 +13,6 @@ from ballscrew.figures import band as figures
 from ballscrew.figures import style
 from ballscrew.friction.calibrations import calibrated, calibration
 from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.nut_parts import NutParts
 from ballscrew.studies import band
 from ballscrew.studies.validation import shipped_rows
 from ballscrew.uncertainty.default_uncertainties import JUDGEMENT, DefaultUncertainty, default_uncertainties
@@ -89,13 +89,13 @@ def coverage(model: FrictionModel, name: str):
 def _case(model: FrictionModel, values: Values, nut: type[Nut], percent: int) -> case_file.Case:
     """Case of a row without load, at the conditions of the vendor."""
     at = Conditions().of(values)
+    braced = nut(preload=percent / 100 * values["dynamic_load_rating"])
     return case_file.Case(
         model=model,
-        screw=screw_of(values).screw(),
+        screw=dataclasses.replace(screw_of(values).screw(), nut=braced),
         lubricant=at.lubricant,
         operation=OperatingState(axial_load=0.0, screw_speed=at.screw_speed),
         sweep={},
         oil={"grade": at.grade, "temperature": at.temperature},
-        parts=NutParts(nut=nut(preload=percent / 100 * values["dynamic_load_rating"])),
         calibration=calibration("rexroth-2006") if isinstance(model.ball_force, ProportionalBallForce) else None,
     )

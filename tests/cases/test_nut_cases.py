@@ -1,6 +1,7 @@
 """Case files with a nut: rows, preload, bodies, deviations, losses, and what run, sweep and compare make of them."""
 
 import csv
+import dataclasses
 import io
 import json
 import math
@@ -36,10 +37,9 @@ def tables(**sections):
     return {**usual, **sections}
 
 
-def friction(case, nut, **others):
-    return bs.nut_friction(
-        case.model, case.screw, nut, case.lubricant, axial_load=5000.0, screw_speed=600 * RPM, **others
-    )
+def friction(case, nut=None, axial_load=5000.0):
+    screw = case.screw if nut is None else dataclasses.replace(case.screw, nut=nut)
+    return case.model(screw, case.lubricant, axial_load=axial_load, screw_speed=600 * RPM)
 
 
 def faults_of(**sections):
@@ -53,7 +53,7 @@ def faults_of(**sections):
 
 def test_a_row_is_the_screw_and_what_is_given_wins():
     case = case_file.build(tables())
-    assert case.parts is None  # without a nut, everything is as it was
+    assert case.nut is None  # without a nut, everything is as it was
     assert case.row is ROW
     assert case.listed == {"dynamic_load_rating": 72100, "static_load_rating": 132200}
     assert (case.screw.ball_diameter, case.screw.loaded_balls) == (0.006, ROW.loaded_balls)
@@ -69,29 +69,30 @@ def test_a_row_is_the_screw_and_what_is_given_wins():
 def test_every_kind_of_nut(kind):
     table = {"type": kind} | ({} if kind == "single" else {"preload": "3 kN"})
     case = case_file.build(tables(nut=table))
-    assert type(case.parts.nut) is NUTS[kind]
-    assert kind_of(case.parts.nut) == kind
-    found = case.parts.friction(case.model, case.screw, case.lubricant, axial_load=5000.0, screw_speed=600 * RPM)
-    assert found.screw_torque == friction(case, case.parts.nut).screw_torque
+    assert type(case.nut) is NUTS[kind]
+    assert kind_of(case.nut) == kind
+    alone = bs.SingleNut(angle_under_load=True) if kind == "single" else NUTS[kind](3000.0)
+    assert case.nut == case.screw.nut == alone
+    assert run(case).friction.screw_torque == friction(case, alone).screw_torque
     assert case_file.inputs(case)["nut"]["type"] == kind
 
 
 def test_a_preload_in_percent_is_of_the_dynamic_rating():
     case = case_file.build(tables(nut={"preload": "7 %"}))
-    assert isinstance(case.parts.nut, bs.DoubleNut)  # the row's kind
-    assert case.parts.nut.preload == pytest.approx(0.07 * 72100)
+    assert isinstance(case.nut, bs.DoubleNut)  # the row's kind
+    assert case.nut.preload == pytest.approx(0.07 * 72100)
     assert tuple(map(str, case.notes)) == ("preload 5.047 kN: 7 % of the dynamic load rating 72.1 kN, as listed",)
     given = case_file.build(
         tables(screw={"catalogue": ROW.name, "dynamic_load_rating": "50 kN"}, nut={"preload": "7 %"})
     )
-    assert given.parts.nut.preload == pytest.approx(3500)
+    assert given.nut.preload == pytest.approx(3500)
 
 
 def test_without_a_rating_it_is_that_of_the_geometry():
     drive = tomllib.loads((ROOT / "examples" / "feed_drive.toml").read_text(encoding="utf-8"))
     case = case_file.build({**drive, "nut": {"type": "double", "preload": "10%"}})
     like = bs.catalogue()["hiwin-40-20k4"]  # the same balls and as many a turn; another lead
-    assert case.parts.nut.preload == pytest.approx(0.1 * ratings_of(like).dynamic, rel=0.05)
+    assert case.nut.preload == pytest.approx(0.1 * ratings_of(like).dynamic, rel=0.05)
     assert "computed from the geometry (ISO 3408-5)" in str(case.notes[0])
     drive["screw"]["loaded_balls"] = 10_000
     with pytest.raises(InputError, match=r"nut\.preload: is a share of a dynamic load rating that is not known"):
@@ -115,7 +116,7 @@ def test_bodies_deviations_and_losses_are_those_of_python():
         same_side=False,
     )
     scatter = Deviations.scattered(2 * case.screw.loaded_balls, seed=7, ball_diameter=0.3e-6, lead=1e-6)
-    expected = friction(case, bs.DoubleNut(3000.0, 0.012), bodies=bodies, deviations=scatter, losses=case.parts.losses)
+    expected = friction(case, bs.DoubleNut(3000.0, 0.012, bodies=bodies, deviations=scatter, losses=case.nut.losses))
     found = run(case).friction
     assert found.screw_torque == pytest.approx(float(expected.screw_torque), rel=1e-12)
     assert found.loads.rigidity == pytest.approx(float(expected.loads.rigidity), rel=1e-12)
@@ -128,9 +129,9 @@ def test_bodies_deviations_and_losses_are_those_of_python():
 
 def test_losses_by_another_law_and_without_a_nut():
     case = case_file.build(tables(losses={"seals": {"law": "lips", "lip_friction": "80 N/m"}}))
-    assert isinstance(case.parts.nut, bs.SingleNut)
-    assert isinstance(case.parts.losses["seals"], LipSeals)
-    assert isinstance(case_file.build(tables(losses={"seals": "known"})).parts.losses["seals"], Seals)
+    assert isinstance(case.nut, bs.SingleNut)
+    assert isinstance(case.nut.losses["seals"], LipSeals)
+    assert isinstance(case_file.build(tables(losses={"seals": "known"})).nut.losses["seals"], Seals)
     spheres = case_file.build(tables(losses={"churning": {"oil_share": 1}}))
     assert "SchillerNaumann1933" in case_file.references(spheres)
     assert "SchillerNaumann1933" not in case_file.references(case)
@@ -235,7 +236,7 @@ def test_run_as_json(ballscrew):
     document = json.loads(ballscrew("run", EXAMPLE, "--json").stdout, parse_constant=pytest.fail)
     assert list(document) == ["inputs", "results", "loads", "units", "warnings", "verdicts", "checks", "provenance"]
     case = case_file.load(EXAMPLE)
-    expected = case.parts.friction(case.model, case.screw, case.lubricant, axial_load=7000.0, screw_speed=600 * RPM)
+    expected = friction(case, axial_load=7000.0)
     found, loads, units = document["results"], document["loads"], document["units"]
     for name in ("screw_torque", "efficiency", "back_driving_efficiency", "maximum_pressure", "largest_contact_load"):
         assert found[name] == pytest.approx(float(getattr(expected, name)), rel=1e-12)
@@ -294,7 +295,7 @@ def test_four_contacts_and_no_load(ballscrew):
     assert "model.slip: knows no balls with four contacts" in refused.stderr
     document = json.loads(ballscrew("run", EXAMPLE, "--json", "--set", "operation.axial_load=0 N").stdout)
     assert document["results"]["screw_torque"] == pytest.approx(document["results"]["preload_drag"])
-    assert document["results"]["efficiency"] == 0
+    assert document["results"]["efficiency"] is None  # no load is driven
     assert document["results"]["back_driving_efficiency"] is None
     assert "no load: nothing to hold" in ballscrew("run", EXAMPLE, "--set", "operation.axial_load=0 N").stdout
 
@@ -302,7 +303,7 @@ def test_four_contacts_and_no_load(ballscrew):
 def test_compare_with_a_nut(ballscrew):
     document = json.loads(ballscrew("compare", EXAMPLE, "--json").stdout)
     case = case_file.load(EXAMPLE)
-    own = case.parts.friction(case.model, case.screw, case.lubricant, axial_load=7000.0, screw_speed=600 * RPM)
+    own = friction(case, axial_load=7000.0)
     assert document["case"]["screw_torque"] == pytest.approx(float(own.screw_torque), rel=1e-12)
     assert [row["name"] for row in document["models"]] == ["olaru2005", "olaru2005-literal", "corrected", "reference"]
     assert document["models"][2]["screw_torque"] < own.screw_torque
@@ -353,8 +354,8 @@ def test_sweep_over_laws_screws_and_files(ballscrew, tmp_path):
     assert "sweep.loaded_balls: cannot be varied where balls differ · leave out [bodies]" in refused.stderr
     refused = ballscrew("sweep", EXAMPLE, "--vary", "axial_play=1, 2 um")
     assert "sweep.axial_play: unknown field" in refused.stderr
-    refused = ballscrew("sweep", EXAMPLE, "--output", "screw_film_parameter")
-    assert "--output: unknown output (screw_film_parameter)" in refused.stderr
+    refused = ballscrew("sweep", EXAMPLE, "--output", "contribution_seals")
+    assert "--output: unknown output (contribution_seals)" in refused.stderr
 
 
 def test_the_schema_knows_the_tables(ballscrew):

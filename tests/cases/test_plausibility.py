@@ -49,8 +49,9 @@ STRANGE = {
 
 def friction(screw=(), oil=(), model=(), point=(), nut=None):
     parts = [dataclasses.replace(part, **dict(new)) for part, new in ((MODEL, model), (SCREW, screw), (OIL, oil))]
-    where = POINT | dict(point)
-    return parts[0](*parts[1:], **where) if nut is None else bs.nut_friction(*parts[:2], nut, parts[2], **where)
+    if nut is not None:
+        parts[1] = dataclasses.replace(parts[1], nut=nut)
+    return parts[0](*parts[1:], **POINT | dict(point))
 
 
 def subjects(records):

@@ -1,5 +1,6 @@
 """``ballscrew check``: from a row, shipped or one's own, or from a case to everything in one command."""
 
+import dataclasses
 import json
 import math
 from pathlib import Path
@@ -68,11 +69,9 @@ def test_a_row_is_checked_in_one_command(ballscrew):
 
 def test_numbers_are_those_of_python(ballscrew):
     document = json.loads(ballscrew("check", NAME, "--preload", "7 %", "--json").stdout, parse_constant=pytest.fail)
-    screw, oil = ROW.screw(), bs.Lubricant.from_grade("ISO VG 100", 313.15)
-    expected = bs.nut_friction(
-        bs.FrictionModel.reference(), screw, bs.DoubleNut(0.07 * 72100), oil, axial_load=7210.0, screw_speed=600 * RPM,
-        bodies=Bodies.of(screw),
-    )  # fmt: skip
+    screw = dataclasses.replace(ROW.screw(), nut=bs.DoubleNut(0.07 * 72100, bodies=Bodies()))
+    oil = bs.Lubricant.from_grade("ISO VG 100", 313.15)
+    expected = bs.FrictionModel.reference()(screw, oil, axial_load=7210.0, screw_speed=600 * RPM)
     found = document["results"]
     assert found["screw_torque"] == pytest.approx(float(expected.screw_torque), rel=1e-9)
     assert found["efficiency"] == pytest.approx(float(expected.efficiency), rel=1e-9)
@@ -112,7 +111,7 @@ def test_what_is_given_counts():
     )  # fmt: skip
     case = found.case
     assert (case.operation.axial_load, case.operation.screw_speed) == (10_000, pytest.approx(1000 * RPM))
-    assert isinstance(found.nut.parts.nut, bs.SingleNut)
+    assert isinstance(found.nut.nut, bs.SingleNut)
     assert case.oil["temperature"] == pytest.approx(323.15)
     assert found.check("critical_speed").holds is False
     assert "fails: buckling, critical speed" in found.verdict
@@ -168,8 +167,8 @@ def test_a_case_of_a_row_without_a_nut(tmp_path):
     text = EXAMPLE.read_text(encoding="utf-8")
     (tmp_path / "case.toml").write_text(text.replace("[nut]", "[lib]").replace("[lib]\npreload", "#"), encoding="utf-8")
     found = checked(tmp_path / "case.toml")
-    assert isinstance(found.nut.parts.nut, bs.DoubleNut)
-    assert found.nut.parts.nut.preload == 0
+    assert isinstance(found.nut.nut, bs.DoubleNut)
+    assert found.nut.nut.preload == 0
     assert "no [nut] given: the nut of the row, without preload" in found.assumed
 
 

@@ -61,8 +61,8 @@ def test_every_example_of_the_schema_parses():
         name: value for name, value in written.items() if name != "grade"
     }
     definitions = schema.json_schema()["$defs"]
-    parts = {"Screw": bs.BallScrew, "Lubricant": bs.Lubricant, "Operation": schema.Operation, "Material": bs.Material,
-             "Model": bs.FrictionModel}  # fmt: skip
+    parts = {"Screw": bs.BallScrew, "Lubricant": bs.Lubricant, "Operation": schema.OperatingState,
+             "Material": bs.Material, "Model": bs.FrictionModel}  # fmt: skip
     known = {title: dict(fields_of(part)) for title, part in parts.items()}
     known["Lubricant"]["temperature"] = schema.TEMPERATURE
     tables = [(definitions[title]["properties"], quantities) for title, quantities in known.items()]

@@ -153,7 +153,8 @@ def _of_usual_size(bodies: Bodies) -> bool:
 
 def _against_vendors(case: Case, nut: Nut) -> list[str]:
     """The first result of ``ballscrew validate``, where it concerns the case."""
-    if not getattr(nut, "preload", 0.0) or case.calibration is not None or case.fit:
+    preloaded = getattr(nut, "preload", 0.0) or getattr(nut, "oversize", 0.0)
+    if not preloaded or case.calibration is not None or case.fit:
         return []
     return [
         "vendors state more torque of preloaded nuts without load than the model as it is (ballscrew validate), "

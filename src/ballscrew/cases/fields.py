@@ -37,6 +37,7 @@ EXAMPLES: Mapping[str, str | float] = {
     "root_diameter": "34.9 mm",
     "preload": "3 kN",
     "axial_play": "20 um",
+    "oversize": "3 um",
     "screw_diameter": "35 mm",
     "nut_outer_diameter": "62 mm",
     "nut_inner_diameter": "48 mm",

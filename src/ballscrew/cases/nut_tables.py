@@ -137,7 +137,7 @@ def _nut(
         faults.append(Fault("nut.type", "unknown kind of nut", kind, nearest(kind, NUTS)))
     else:
         faults += _misplaced(kind, table)
-        if "preload" in fields_of(NUTS[kind]) and "preload" not in values:
+        if "preload" in fields_of(NUTS[kind]) and not {"preload", "oversize"} & set(values):
             remedy = 'add {nut.preload}"3 kN", or "7 %" of the dynamic load rating'
             faults.append(Fault("nut.preload", MISSING, "", remedy))
     if len(faults) > before or kind is None:

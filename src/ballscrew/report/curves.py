@@ -58,9 +58,18 @@ def friction_of(case: Case) -> Callable[[Any, Any], Any]:
 
 
 def curves(case: Case) -> Curves:
-    """The curves around the operating point of a case, from rest and from no load to twice of both."""
-    friction = friction_of(case)
-    load, speed = (float(getattr(case.operation, name)) for name in OPERATION)
+    """The curves around the operating point of a case, from rest and from no load to twice of both.
+
+    Loads and speeds are magnitudes. The load is on the flank that it presses in the case, and the screw drives it:
+    there both efficiencies are numbers, and friction is the same in either direction.
+    """
+    load, speed = (abs(float(getattr(case.operation, name))) for name in OPERATION)
+    sign = -1.0 if case.operation.axial_load < 0 else 1.0
+    evaluated = friction_of(case)
+
+    def friction(load: Any, speed: Any) -> Any:
+        return evaluated(sign * load, sign * speed)
+
     rating = case.listed.get("dynamic_load_rating")
     most_load = BEYOND * load or (LOAD if rating is None else SHARE_OF_RATING * rating)
     most_speed = BEYOND * speed or SPEED

@@ -232,8 +232,10 @@ def headline(run: Run) -> str:
     if not math.isfinite(torque):
         return "No friction torque came out: it is no number here."
     words = [f"Friction torque on the screw {value_of(torque, _TORQUE)}"]
-    if float(found.axial_load) > 0:
+    if math.isfinite(efficiency):
         words.append(f"efficiency {efficiency:.1%}")
+    elif float(found.axial_load) != 0:
+        words.append(f"efficiency, the load drives the screw, {float(found.back_driving_efficiency):.1%}")
     words.append(f"power lost {power}")
     outside = "" if found.valid else " (outside the model's validity)"
     return f"{', '.join(words)}{outside}."

@@ -13,6 +13,7 @@ from ballscrew.cases.case import Case
 from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.cases.option_faults import in_options
 from ballscrew.components.catalogue import CatalogueRow
+from ballscrew.components.nut import Nut, OversizeBallNut
 from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.records import Record
 from ballscrew.sizing.checks import Check, Ratings, checks, ratings_of
@@ -194,12 +195,13 @@ def checked(name: str, case: Case, notes: Sequence[str] = ()) -> Checked:
     stand_ins = [name for name, value in rated.items() if value is None and computed is not None]
     if computed is not None:
         rated |= {name: getattr(computed, RATINGS[name]) for name in stand_ins}
+    # the checks are of magnitudes: a screw wears and buckles the same in either direction
     load, left = abs(float(case.operation.axial_load)), float(run.nut.loads.remaining_preload)
     found = checks(
         case.screw,
         axial_load=load,
-        screw_speed=float(case.operation.screw_speed),
-        nut=run.case.screw.nut,
+        screw_speed=abs(float(case.operation.screw_speed)),
+        nut=_of_known_preload(run),
         **rated,
         half_loads=(load + left, left) if left > 0 else (load,),
         maximum_pressure=run.nut.maximum_pressure,
@@ -210,6 +212,13 @@ def checked(name: str, case: Case, notes: Sequence[str] = ()) -> Checked:
     of_ratings = [f"{name.replace('_', ' ')} computed from the geometry: none is listed" for name in stand_ins]
     assumptions = [*notes, *descriptions.assumptions(run.case), *of_ratings, descriptions.left_out(run.case)]
     return Checked(name, case, run, run.nut, computed, found, list(dict.fromkeys(filter(None, assumptions))))
+
+
+def _of_known_preload(run: Run) -> Nut:
+    """The nut of a run with its preload as a number, also where the case gives the oversize of the balls."""
+    nut = run.case.screw.nut
+    assert run.nut is not None
+    return nut.changed("preload", run.nut.preload) if isinstance(nut, OversizeBallNut) else nut
 
 
 def _computed(case: case_file.Case) -> Ratings | None:

@@ -1,6 +1,6 @@
 """Friction of a case at its operating point, with and without a nut.
 
-Both kinds of screw give the same fields. What only a nut has stands in :attr:`Run.nut`.
+All nuts give the same fields. What only a nut has whose balls differ or are preloaded stands in :attr:`Run.nut`.
 """
 
 from __future__ import annotations
@@ -17,14 +17,22 @@ from ballscrew.cases.case import Case
 from ballscrew.components.contact import RaceState
 from ballscrew.components.nut import Nut
 from ballscrew.components.traits import traits_of
-from ballscrew.friction.result import FrictionResult, Quadrant
+from ballscrew.friction.result import QUADRANTS, FrictionResult, Quadrant
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Quantity, quantities_of
 from ballscrew.records import Record
 from ballscrew.solvers.load_distribution import BallLoads, preload_of
 
-_TORQUE, _SHARE = quantities_of(FrictionResult)["holding_torque"], quantities_of(FrictionResult)["rolling_share"]
+_KNOWN = quantities_of(FrictionResult)
+_TORQUE, _DRIVE, _SHARE = (_KNOWN[name] for name in ("holding_torque", "drive_torque", "rolling_share"))
 _LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
+#: Results of a single ball. Those of a nut whose balls differ are of its contacts, or of all balls together.
+OF_ONE_BALL = frozenset(
+    {
+        "contact_load", "entrainment_speed", "ball_to_ball_force", "spin_moment", "lateral_force", "rolling_share",
+        "ball_friction_moment",
+    }
+)  # fmt: skip
 
 
 class Touching(NamedTuple):
@@ -80,15 +88,16 @@ class Run:
     rolling_share: float
     #: Force between neighbouring balls, N; None in a nut, whose balls have loads of their own.
     ball_to_ball_force: float | None
-    #: The four combinations of load and rotation; empty with a nut.
+    #: The four combinations of load and rotation.
     quadrants: Mapping[str, Quadrant]
     #: None without a nut.
     nut: NutState | None = None
 
     @property
     def quantities(self) -> Mapping[str, Quantity]:
-        """The quantities of the result, by name."""
-        return quantities_of(type(self.friction))
+        """The quantities of the result, by name; of a nut whose balls differ without those of a single ball."""
+        known = quantities_of(type(self.friction))
+        return known if self.nut is None else {n: q for n, q in known.items() if n not in OF_ONE_BALL}
 
     @property
     def curvature_alone(self) -> bool:
@@ -97,7 +106,7 @@ class Run:
 
     @property
     def verdicts(self) -> list[Record]:
-        """Directions in which the load drives, in motion and at rest; skidding; loss of the preload."""
+        """The quadrant, where it is not the usual one; whether the load drives; skidding; loss of the preload."""
         if float(self.friction.axial_load) == 0:
             found = [
                 Record(id="verdict.no_load", subject="axial_load", text="no load: nothing to hold", value=0.0, unit="N")
@@ -105,7 +114,13 @@ class Run:
             return [*found, *self._lost()]
         moving = bool(self.friction.screw_speed)
         found = _holding(self.friction, "") if moving else []
-        return [*found, *_holding(self.at_rest, "at_rest"), *self._skid(moving), *self._lost()]
+        return [
+            *_quadrant(self.friction),
+            *found,
+            *_holding(self.at_rest, "at_rest"),
+            *self._skid(moving),
+            *self._lost(),
+        ]
 
     @property
     def warnings(self) -> list[Record]:
@@ -144,19 +159,42 @@ class Run:
         return [
             Record(
                 id="verdict.preload_lost", subject="axial_load", text=text, severity="warning", holds=False,
-                value=float(self.friction.axial_load), limit=limit, unit=_LIFT_OFF.unit,
+                value=abs(float(self.friction.axial_load)), limit=limit, unit=_LIFT_OFF.unit,
             )
         ]  # fmt: skip
 
 
+def _quadrant(friction: FrictionResult) -> list[Record]:
+    """The directions of load and rotation in words; empty at rest, and where both are positive as usual."""
+    load, speed, torque = (float(v) for v in (friction.axial_load, friction.screw_speed, friction.drive_torque))
+    if speed == 0 or (load > 0 and speed > 0) or math.isnan(torque):
+        return []
+    signs = (int(math.copysign(1, load)), int(math.copysign(1, speed)))
+    name = next(words for words, each in QUADRANTS.items() if each == signs)
+    size = units.shown(abs(torque), _DRIVE)
+    if signs[0] == signs[1]:
+        does = f"the screw moves the nut against the load; {size} on the shaft drive it"
+    elif torque * speed < 0:
+        does = f"the load moves the way the screw turns; {size} on the shaft hold it back"
+    else:
+        does = f"the load moves the way the screw turns, and does not suffice; {size} on the shaft drive it"
+    return [
+        Record(
+            id="verdict.quadrant", subject="drive_torque", text=f"{name}: {does}", severity="info",
+            value=torque, unit=_DRIVE.unit,
+        )
+    ]  # fmt: skip
+
+
 def _holding(friction: FrictionResult, place: str) -> list[Record]:
-    """The direction in which the load drives, and the torque that holds or lowers it; empty where it is NaN."""
+    """Whether the load drives, and the torque that holds or lowers it; empty where it is NaN."""
     held = float(friction.holding_torque)
     if math.isnan(held):
         return []
+    drives = held * float(friction.axial_load) > 0
     torque, when = units.shown(abs(held), _TORQUE), "at rest" if place else "at this speed"
     beware = "" if friction.valid else " (outside the model's validity)"
-    if held > 0:
+    if drives:
         name, text = (
             "back_driving",
             f"back-drives: the load turns the screw; {torque} on the shaft hold it {when}{beware}",
@@ -169,7 +207,7 @@ def _holding(friction: FrictionResult, place: str) -> list[Record]:
             id=".".join(filter(None, ["verdict", name, place])),
             subject="holding_torque",
             text=text,
-            severity="info" if held > 0 else "warning",
+            severity="info" if drives else "warning",
             holds=True,
             value=held,
             unit=_TORQUE.unit,
@@ -220,6 +258,15 @@ def with_nut(case: Case, nut: Nut) -> Run:
 
     found = friction(load, speed)
     loads, half = found.loads, np.shape(found.loads.balls)[-1] // nut.halves
+    flanks = (
+        _flank(loads.forward_load[:half], loads.forward_angle[:half], loads.balls[:half]),
+        _flank(loads.backward_load[-half:], loads.backward_angle[-half:], loads.balls[-half:]),
+    )
+    loaded, relieved = flanks if load >= 0 else flanks[::-1]
+    quadrants = found.quadrants
+    if nut.one_by_one and float(load):  # another half carries a load of the other sign, and not as this one does
+        reverse = friction(-load, speed).quadrants
+        quadrants = {name: one if one.load_sign * load > 0 else reverse[name] for name, one in quadrants.items()}
     return Run(
         case=dataclasses.replace(case, screw=screw),
         friction=found,
@@ -228,15 +275,15 @@ def with_nut(case: Case, nut: Nut) -> Run:
         touching=_touching(found),
         rolling_share=math.nan,
         ball_to_ball_force=None,
-        quadrants={},
+        quadrants=quadrants,
         nut=NutState(
             nut=nut,
             preload=float(preload_of(screw, nut)),
             preload_drag=float(friction(0.0, speed).screw_torque),
             loads=loads,
             maximum_pressure=float(found.maximum_pressure),
-            loaded=_flank(loads.forward_load[:half], loads.forward_angle[:half], loads.balls[:half]),
-            relieved=_flank(loads.backward_load[-half:], loads.backward_angle[-half:], loads.balls[-half:]),
+            loaded=loaded,
+            relieved=relieved,
         ),
     )
 
@@ -265,12 +312,13 @@ def _most_loaded(found: FrictionResult) -> dict[str, dict[str, float]]:
 
 def _touching(found: FrictionResult) -> list[Touching]:
     """The flanks that the most loaded ball touches; without load the one that it would touch first."""
-    pair = max(found.pairs, key=lambda pair: float(np.max(pair.load)))
-    ball, loads = int(np.argmax(pair.load)), found.loads
+    loads = found.loads
+    ball = int(np.argmax(np.maximum(loads.forward_load, loads.backward_load)))
+    carries = 1 if found.axial_load >= 0 else -1
     sides = (
-        Touching(1, _of_ball(loads.forward_angle, ball), _of_ball(loads.forward_load, ball)),
-        Touching(-1, _of_ball(loads.backward_angle, ball), _of_ball(loads.backward_load, ball)),
-    )
+        Touching(carries, _of_ball(loads.forward_angle, ball), _of_ball(loads.forward_load, ball)),
+        Touching(-carries, _of_ball(loads.backward_angle, ball), _of_ball(loads.backward_load, ball)),
+    )[::carries]
     touching = [flank for flank in sides if flank.load > 0 and math.isfinite(flank.angle)]
     return touching or [Touching(1, float(found.ball_screw.contact_angle), 0.0)]
 

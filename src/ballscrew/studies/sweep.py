@@ -280,7 +280,8 @@ def workers(scheduler: str | None, to: Path | None) -> Generator[Any]:
 def implausible(case: Case, plan: Plan) -> list[Record]:
     """A warning for each input that no ball screw has, at some point of the sweep."""
     subject = Configuration(case.model, case.screw, case.lubricant)
-    return units.in_display_units_of(subject.implausible({**vars(case.operation), **plan.axes}))
+    there = {name: getattr(case.operation, name) for name in OPERATION}
+    return units.in_display_units_of(subject.implausible({**there, **plan.axes}))
 
 
 def reasons_of(case: Case) -> Mapping[str, str]:

@@ -79,12 +79,17 @@ class Conditions:
         return Lubricant.from_grade(self.grade, self.temperature)
 
 
+def _magnitude(quantity: Quantity) -> Quantity:
+    """The quantity without its sign, as tables state it."""
+    return dataclasses.replace(quantity, info=dataclasses.replace(quantity.info, at_least=0))
+
+
 #: The conditions that a row may have of its own, by column; None is text.
 CONDITIONS: Mapping[str, Quantity | None] = {
     "grade": None,
     "temperature": TEMPERATURE,
     "viscosity": fields_of(Lubricant)["viscosity"],
-    "screw_speed": fields_of(OperatingState)["screw_speed"],
+    "screw_speed": _magnitude(fields_of(OperatingState)["screw_speed"]),
 }
 
 

@@ -17,6 +17,7 @@ from ballscrew.components.operating_state import OperatingState
 from ballscrew.friction.result import FrictionResult
 from ballscrew.output.text.run import SHOWN
 from ballscrew.quantities import fields_of, quantities_of
+from ballscrew.studies.run import OF_ONE_BALL
 from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.uncertainty.bands import Interval, OutputBand
 from ballscrew.web.answer_parts import (
@@ -42,11 +43,10 @@ Contact = model(
     BaseModel,
     **quantities(quantities_of(RaceState), optional=True),
 )
-_OF_NUT = quantities_of(FrictionResult)
-_RESULTS = {n: q for n, q in {**_OF_NUT, **quantities_of(FrictionResult)}.items() if n not in fields_of(OperatingState)}
+_RESULTS = {n: q for n, q in quantities_of(FrictionResult).items() if n not in fields_of(OperatingState)}
 # Models made by ``create_model`` are variables to a type checker: where they are used as types, it is silenced.
 #: Results of one row of equal balls, and of a whole nut.
-_ALWAYS = {name: q for name, q in _RESULTS.items() if name in _OF_NUT and name in (*SHOWN, *MASKS, "holding_torque")}
+_ALWAYS = {n: q for n, q in _RESULTS.items() if n in (*SHOWN, *MASKS, "holding_torque") and n not in OF_ONE_BALL}
 Results = model(
     "Results",
     "Results of one row of equal balls, or of a whole nut.",

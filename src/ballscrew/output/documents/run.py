@@ -48,7 +48,7 @@ def results(run: Run) -> dict[str, Any]:
         **{name: getattr(found, name) for name in run.quantities if name not in _OPERATION},
         **({} if run.nut is None else {"preload_drag": run.nut.preload_drag}),
         "contributions": dict(found.contributions),
-        **({"quadrants": {name: each._asdict() for name, each in run.quadrants.items()}} if run.quadrants else {}),
+        "quadrants": {name: each._asdict() for name, each in run.quadrants.items()},
         "validity": {reason: bool(mask) for reason, mask in found.validity.items()},
         **run.contacts,
     }
@@ -63,7 +63,7 @@ def result_units(run: Run) -> dict[str, Any]:
         **own,
         **({} if run.nut is None else {"preload_drag": torque}),
         "contributions": dict.fromkeys(run.friction.contributions, torque),
-        **({"quadrants": dict.fromkeys(QUADRANTS, quadrant)} if run.quadrants else {}),
+        "quadrants": dict.fromkeys(QUADRANTS, quadrant),
         **{side: {name: of_contact[name].unit for name in values} for side, values in run.contacts.items()},
         **({} if run.nut is None else {"loads": _load_units()}),
     }

@@ -76,8 +76,7 @@ def print_run(run: Run) -> None:
         line(text)
     if any(float(part) for part in friction.contributions.values()):
         console.print(parts_table(friction.contributions, float(friction.screw_torque), console.encoding))
-    if run.quadrants:
-        console.print(_quadrants(run.quadrants, float(friction.axial_load) != 0))
+    console.print(_quadrants(run.quadrants, float(friction.axial_load) != 0))
     if run.nut is not None:
         console.print(_loads(run.nut))
     console.print(_contacts(run))
