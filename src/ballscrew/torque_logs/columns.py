@@ -145,7 +145,7 @@ class Layout:
     @property
     def torque(self) -> str:
         """The column that has the torque, or the current."""
-        return next(name for name in TORQUES if name in self.headings)
+        return next(name for name in TORQUES if name in self.headings or name in self.constants)
 
 
 def temperatures_among(unused: Sequence[str]) -> list[str]:
