@@ -51,7 +51,7 @@ class Question:
     @property
     def address(self) -> str:
         """Path and query."""
-        more = {"catalogue": f"?words={DIAMETERS[self.number]}x", "report": "?kind=html"}
+        more = {"catalogue": f"?words={DIAMETERS[self.number % len(DIAMETERS)]}x", "report": "?kind=html"}
         return f"/api/v1/{self.kind}{more.get(self.kind, '')}"
 
     @property
