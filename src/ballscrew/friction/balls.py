@@ -6,6 +6,8 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Annotated, Any, Protocol
 
+import numpy as np
+
 from ballscrew._arrays import lazy
 from ballscrew.components.balance import Resistances, ball_forces
 from ballscrew.components.conditions import Motion
@@ -220,6 +222,40 @@ def ball_friction(
         race_torques=laws.race_torques,
         converged=slip.converged,
         slip_is_curvature_alone=traits_of(model.slip).curvature_alone,
+    )
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class IdleBallFriction:
+    """Friction of a ball that carries no load: its neighbours may push it along."""
+
+    screw_torque: Torque
+    nut_torque: Torque
+    contributions: Mapping[str, Torque]
+    dissipation: Mapping[str, Power]
+
+
+def idle_ball_friction(
+    model: BallModel, screw: BallScrew, frame: Frame, screw_speed: AngularSpeed, imposed_ball_force: Force
+) -> IdleBallFriction:
+    """The limit of :func:`ball_friction` without load, without what has no derivative there.
+
+    Where curvature is the only slip, an imposed force between balls is carried without load too; with all slips the
+    ball skids, and carries nothing.
+    """
+    laws, d_w = model.laws, screw.ball_diameter
+    share = 1.0 if traits_of(model.slip).curvature_alone else 0.0
+    F_B = laws.ball_force(imposed_ball_force, np.float64(0.0))
+    chain = laws.ball_chain(model.ball_friction_coefficient, F_B, d_w, frame)
+    carried = Resistances(0.0, 0.0, 0.0, 0.0, chain).scaled(share)
+    forces = ball_forces(carried, d_w, frame)
+    torques = laws.race_torques(forces.screw_tangential_force, forces.nut_tangential_force, 0.0, 0.0, frame)
+    nothing = dict.fromkeys(MECHANISMS, 0.0)
+    return IdleBallFriction(
+        screw_torque=torques.screw,
+        nut_torque=torques.nut,
+        contributions={**nothing, "ball_to_ball": torques.screw},
+        dissipation={**nothing, "ball_to_ball": torques.screw * screw_speed},
     )
 
 

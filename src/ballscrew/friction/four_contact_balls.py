@@ -100,7 +100,9 @@ def four_contact_friction(
         leaning = where(both > 0, xp.maximum(2 * load - both, 0.0) / where(both > 0, both, 1.0), 0.0)
         at_nut = (1 - leaning) * about_binormal - leaning * spin / 2
         motions = (Motion(v, at_nut + spin, lateral), Motion(v, abs(at_nut), lateral))
-        contacts = ball_contacts(model.contact_laws, at_angle, lubricant, frame, load, motions)
+        # of a flank that is lifted off nothing is used, at a load at which it has derivatives
+        computed = where(load == 0, both, load)
+        contacts = ball_contacts(model.contact_laws, at_angle, lubricant, frame, computed, motions)
         pairs.append(LoadedFlanks(load, at_angle.contact_angle, *contacts))
     frame = laws.frame(screw)
     F_B = laws.ball_force(imposed_ball_force, both)

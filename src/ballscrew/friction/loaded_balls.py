@@ -8,7 +8,7 @@ oversize balls have four (:mod:`ballscrew.friction.four_contact_balls`).
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,12 +18,14 @@ from ballscrew.components.contact import Contact
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import SINGLE_NUT, BallScrew
-from ballscrew.friction.balls import BallFriction, BallModel, ball_friction
+from ballscrew.friction.balls import BallFriction, BallModel, IdleBallFriction, ball_friction, idle_ball_friction
 from ballscrew.friction.four_contact_balls import FourContactFriction, four_contact_friction, two_contact_friction
 from ballscrew.friction.validity import contact_masks, no_skid, slip_masks
 from ballscrew.quantities import Angle, Count, Force, Mask, Pressure, Ratio
 from ballscrew.solvers.load_distribution import BallLoads, KindLoads, ball_loads
 
+#: A load at which the friction of lifted balls is computed, N, to have a derivative; its value is not used.
+ANY_LOAD = 1.0
 #: Share of the loads of all contacts below which it does not count that a condition fails.
 NEGLIGIBLE_SHARE = 0.01
 
@@ -46,11 +48,20 @@ class LoadedBalls:
     one_by_one: bool
     contact_angle: Angle
     friction: BallFriction | FourContactFriction
+    #: The load of balls on two contacts.
+    given_load: Force | None = None
+    #: Friction where a load lifts all balls of the kind off; None for balls that it does not.
+    idle: IdleBallFriction | None = None
 
     def total(self, of_a_ball: Any) -> Any:
         """The sum over the balls of something that each has."""
         each = self.balls * of_a_ball
         return np.sum(each, axis=-1) if self.one_by_one else each
+
+    def sum_of(self, read: Callable[[Any], Any]) -> Any:
+        """The sum over the balls of a torque or a power that is read off their friction."""
+        found = read(self.friction)
+        return self.total(found if self.idle is None else where(self.load == 0, read(self.idle), found))
 
     @property
     def pairs(self) -> tuple[LoadedPair, ...]:
@@ -58,7 +69,8 @@ class LoadedBalls:
         found = self.friction
         if isinstance(found, FourContactFriction):
             return tuple(LoadedPair(*pair) for pair in found.flanks)
-        return (LoadedPair(found.contact_load, self.contact_angle, found.screw, found.nut),)
+        load = found.contact_load if self.given_load is None else self.given_load
+        return (LoadedPair(load, self.contact_angle, found.screw, found.nut),)
 
     def largest(self, values: Any) -> Any:
         """The greatest of what each ball has."""
@@ -147,14 +159,41 @@ def balls_under(
                 tuple(where(reversed_load, b, a) for a, b in zip(one, other, strict=True))
                 for one, other in (touched, touched[::-1])
             ]
-        found = [
-            (angle, two_contact_friction(model, part, lubricant, load, angle, omega, imposed))
-            for load, angle in touched
-        ]
+        return _on_two_contacts(model, part, lubricant, omega, imposed, loads, touched)
     return tuple(
         LoadedBalls(balls=kind.balls, one_by_one=loads.one_by_one, contact_angle=angle, friction=friction)
         for kind, (angle, friction) in zip(kinds, found, strict=True)
     )
+
+
+def _on_two_contacts(
+    model: BallModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    speed: Any,
+    imposed_ball_force: Force,
+    loads: BallLoads,
+    touched: Sequence[tuple[Force, Angle]],
+) -> tuple[LoadedBalls, ...]:
+    """Kinds of balls with these loads and angles; a second kind may be lifted off."""
+    found: list[LoadedBalls] = []
+    for place, (load, angle) in enumerate(touched):
+        idle, computed = None, load
+        if place == 1:
+            idle = idle_ball_friction(model, screw, model.laws.frame(screw), speed, imposed_ball_force)
+            computed = where(load == 0, ANY_LOAD, load)
+        friction = two_contact_friction(model, screw, lubricant, computed, angle, speed, imposed_ball_force)
+        found.append(
+            LoadedBalls(
+                balls=loads.kinds[place].balls,
+                one_by_one=loads.one_by_one,
+                contact_angle=angle,
+                friction=friction,
+                given_load=load,
+                idle=idle,
+            )
+        )
+    return tuple(found)
 
 
 def _touched(kind: KindLoads, nominal_angle: Angle) -> tuple[Force, Angle]:

@@ -82,13 +82,13 @@ class FrictionResult:
         self,
     ) -> Annotated[Torque, Info("M_S", "friction torque on the screw", address="Olaru2005 §6 (33)")]:
         """Friction torque on the screw, its magnitude."""
-        balls = [kind.total(kind.friction.screw_torque) for kind in self.kinds]
+        balls = [kind.sum_of(lambda ball: ball.screw_torque) for kind in self.kinds]
         return _sum([*balls, *self.losses.values()])
 
     @lazy
     def nut_torque(self) -> Annotated[Torque, Info("M_N", "friction torque on the nut", address="Olaru2005 §6 (34)")]:
         """Friction torque on the nut, the reaction and not a further loss."""
-        balls = [kind.total(kind.friction.nut_torque) for kind in self.kinds]
+        balls = [kind.sum_of(lambda ball: ball.nut_torque) for kind in self.kinds]
         return _sum([*balls, *self.losses.values()])
 
     @lazy
@@ -181,7 +181,7 @@ class FrictionResult:
     def contributions(self) -> Mapping[str, Torque]:
         """Friction torque on the screw by mechanism, N m, then by loss; the parts sum to ``screw_torque``."""
         balls = {
-            mechanism: _sum([kind.total(kind.friction.contributions[mechanism]) for kind in self.kinds])
+            mechanism: _sum([kind.sum_of(lambda ball, m=mechanism: ball.contributions[m]) for kind in self.kinds])
             for mechanism in MECHANISMS
         }
         return {**balls, **self.losses}
@@ -190,7 +190,7 @@ class FrictionResult:
     def dissipation(self) -> Mapping[str, Power]:
         """Power dissipated by mechanism, W, from local forces and local speeds, then by loss."""
         balls = {
-            mechanism: _sum([kind.total(kind.friction.dissipation[mechanism]) for kind in self.kinds])
+            mechanism: _sum([kind.sum_of(lambda ball, m=mechanism: ball.dissipation[m]) for kind in self.kinds])
             for mechanism in MECHANISMS
         }
         return {**balls, **{name: torque * abs(self.screw_speed) for name, torque in self.losses.items()}}

@@ -221,7 +221,8 @@ def rigid_loads(nut: RigidNut, *, halves: int, oversize: bool, constant_angle: b
     floor = nut.loaded_balls * nut.load_deflection * PICOMETRE**1.5
     residual = xp.where(works > 0, unit * off_balance / xp.maximum(works, floor), 0.0)
     of_ball = nut.load_deflection * nut.centre_distance * xp.sqrt(nut.centre_distance)
-    loads = (of_ball * loaded_load, of_ball * relieved.load)
+    # a choice, so that slopes of the friction by a load that vanishes, which are infinite, go no further
+    loads = (of_ball * loaded_load, xp.where(relieved.load == 0, 0.0, of_ball * relieved.load))
     angles = (groove.angle(offset + x), groove.angle(offset - x) if braced else 0.0)
     travel = x * nut.centre_distance / nut.lead_cosine
     known = (force >= 0) & (preload >= 0)

@@ -1,0 +1,116 @@
+"""Fits of preloaded nuts with a known truth: preload and seals, without load and loaded, and what cannot be told."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from scipy.stats import binom
+
+import ballscrew as bs
+from ballscrew.calibration.fit import fit
+from support.strategies import MODELS
+from support.synthetic_logs import OIL
+
+MODEL = MODELS["olaru2005"]
+PRELOAD, SEALS, FRICTION = "nut.preload", "constant_torque", "boundary_friction_coefficient"
+TRUE_PRELOAD, TRUE_SEALS = 3000.0, 0.12
+SCREW = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=bs.DoubleNut(preload=4326.0))
+TRUTH = dataclasses.replace(
+    SCREW, nut=bs.DoubleNut(preload=TRUE_PRELOAD, losses={"seals": bs.Seals(seal_torque=TRUE_SEALS)})
+)
+WITHOUT_SEALS = dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=TRUE_PRELOAD))
+#: Logs of each kind, and of those that ``make test-all`` runs.
+SEEDS, MANY = 20, 200
+#: How often intervals that are right fail a test of ``SEEDS`` logs.
+FALSE_ALARM = 1e-3
+#: The load at which the relieved half of the true nut lifts off, about.
+LIFT_OFF = 2.8 * TRUE_PRELOAD
+CASES = {
+    "preload, no load": ([PRELOAD], WITHOUT_SEALS, 0.0),
+    "preload, loaded": ([PRELOAD], WITHOUT_SEALS, LIFT_OFF),
+    "preload and seals, no load": ([PRELOAD, SEALS], TRUTH, 0.0),
+    "preload and seals, loaded": ([PRELOAD, SEALS], TRUTH, LIFT_OFF),
+}
+
+
+def nut_log(screw, seed, largest_load, rows=120):
+    """A log of both directions at random loads up to one and random speeds: noise, a drift of the zero, outliers."""
+    rng = np.random.default_rng(seed)
+    load = rng.uniform(0.0, largest_load, rows) if largest_load else np.zeros(rows)
+    speed = np.exp(rng.uniform(np.log(1.0), np.log(300.0), rows)) * np.where(np.arange(rows) % 2, 1, -1)
+    result = MODEL(screw, OIL, axial_load=load, screw_speed=speed)
+    torque, usual = result.drive_torque, float(np.median(result.screw_torque))
+    torque = torque + 0.01 * usual * rng.standard_normal(rows) + 0.02 * usual * np.linspace(-0.5, 0.5, rows)
+    torque = torque + np.where(rng.random(rows) < 0.05, 0.3 * usual * rng.standard_normal(rows), 0.0)
+    return {"axial_load": load, "screw_speed": speed, "torque": torque, "time": np.arange(rows, dtype=float)}
+
+
+def covered(name, seeds):
+    """For each estimate and seed: does the interval of 95 % hold the truth?"""
+    free, screw, largest_load = CASES[name]
+    true = {PRELOAD: TRUE_PRELOAD, SEALS: TRUE_SEALS}
+    hits = []
+    for seed in range(seeds):
+        found = fit(MODEL, SCREW, OIL, nut_log(screw, seed, largest_load), free)
+        row = []
+        for number in free:
+            interval = found.estimates[number].interval()
+            row.append(None if interval is None else interval[0] <= true[number] <= interval[1])
+        hits.append(row)
+    return list(zip(*hits, strict=True))
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_intervals_hold_the_preload(name):
+    for hits in covered(name, SEEDS):
+        told = [hit for hit in hits if hit is not None]
+        assert len(told) >= 0.9 * SEEDS
+        assert np.sum(told) >= binom.ppf(FALSE_ALARM, len(told), 0.95)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", CASES)
+def test_intervals_of_95_percent_hold_the_preload_in_90_to_99_percent_of_logs(name):
+    for hits in covered(name, MANY):
+        told = [hit for hit in hits if hit is not None]
+        assert len(told) >= 0.9 * MANY
+        assert 0.90 <= np.mean(told) <= 0.99
+
+
+def at_one_point(seed, rows=60):
+    """A log of one operating point, in both directions."""
+    log = nut_log(WITHOUT_SEALS, seed, 0.0, rows)
+    speed = 30.0 * np.sign(log["screw_speed"])
+    torque = MODEL(WITHOUT_SEALS, OIL, axial_load=0.0 * speed, screw_speed=speed).drive_torque
+    noise = 0.01 * np.abs(torque) * np.random.default_rng(seed).standard_normal(rows)
+    return {**log, "screw_speed": speed, "torque": torque + noise}
+
+
+def test_preload_and_friction_at_one_operating_point_are_one_number():
+    found = fit(MODEL, SCREW, OIL, at_one_point(1), [PRELOAD, FRICTION])
+    assert not any(estimate.identified for estimate in found.estimates.values())
+    assert [combination.identified for combination in found.identifiability.combinations] == [True, False]
+    assert found.next_test().best_volume < 0.3
+
+
+def test_a_range_of_loads_past_lift_off_tells_them_apart():
+    found = fit(MODEL, SCREW, OIL, nut_log(WITHOUT_SEALS, 2, 3 * LIFT_OFF, rows=300), [PRELOAD, FRICTION])
+    for number, true in ((PRELOAD, TRUE_PRELOAD), (FRICTION, 0.1)):
+        estimate = found.estimates[number]
+        assert estimate.identified, number
+        if number == PRELOAD:
+            low, high = estimate.interval(0.999)
+            assert low <= true <= high
+
+
+def test_the_fitted_torque_of_seals_is_in_all_that_follows():
+    found = fit(MODEL, SCREW, OIL, nut_log(TRUTH, 3, 0.0), [PRELOAD, SEALS])
+    seals = found.estimates[SEALS].value
+    assert found.screw.nut.losses["constant"].constant_torque == seals
+    alone = dataclasses.replace(found.screw, nut=dataclasses.replace(found.screw.nut, losses={}))
+    with_it, without = (MODEL(s, OIL, axial_load=500.0, screw_speed=20.0).screw_torque for s in (found.screw, alone))
+    assert with_it == pytest.approx(without + seals, rel=1e-12)
+    assert found.predict(500.0, 20.0) == with_it
+    assert found.band(500.0, 20.0).value == pytest.approx(with_it, rel=1e-9)
+    again = fit(MODEL, found.screw, OIL, nut_log(TRUTH, 3, 0.0), [PRELOAD, SEALS])
+    assert again.estimates[SEALS].value == pytest.approx(seals, rel=1e-6)
