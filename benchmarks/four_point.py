@@ -22,6 +22,7 @@ import ballscrew as bs
 from ballscrew.components.conditions import Motion
 from ballscrew.components.frame import helix_frame
 from ballscrew.equations import transmission
+from ballscrew.friction.balls import ball_contacts
 from ballscrew.friction.validity import LARGEST_PRESSURE
 from ballscrew.solvers.four_point_slip import FlankPair, FourPointBall, FourPointSlip, four_point_slip
 from oracles.contact_integral import contact_integral
@@ -42,7 +43,8 @@ def flank_pair(cases: Box, load: Numbers) -> FlankPair:
     frame = helix_frame(cases.screw)
     v = frame.entrainment_speed(1.0)
     motion = Motion(v, 0 * v, 0 * v)
-    contacts = dry(bs.FrictionModel.reference()).contacts(cases.screw, cases.oil, frame, load, (motion, motion))
+    laws = dry(bs.FrictionModel.reference()).contact_laws
+    contacts = ball_contacts(laws, cases.screw, cases.oil, frame, load, (motion, motion))
     return FlankPair(*contacts, cases.screw.contact_angle)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from benchmarks.hostile import workers
-from benchmarks.hostile.screws import STRANGE, TORQUES, faults_of_parts
+from benchmarks.hostile.screws import STRANGE, TORQUES, faults_of_efficiency, faults_of_parts
 from benchmarks.hostile.tally import Outcome, Tally
 from benchmarks.loads import KINDS, Draw, draw
 
@@ -15,7 +15,7 @@ import ballscrew as bs
 from ballscrew.components.nut_losses import Churning, HarrisChurning, LipSeals, ParasiticLaw, Recirculation, Seals
 from ballscrew.components.traits import traits_of
 from ballscrew.errors import InputError
-from ballscrew.friction.nut_friction import NutFriction, nut_friction
+from ballscrew.friction.result import FrictionResult
 from support.strategies import MODELS, RPM
 
 COUNT, SECONDS = 2_000, 60.0
@@ -52,11 +52,12 @@ def attempt(seed: int, number: int, size: int) -> Outcome:
     knows = kind != "oversize" or 4 in traits_of(MODELS[name].slip).contacts_per_ball
     try:
         part = strange(part, rng) if is_strange else part
-        result = nut_friction(
-            MODELS[name], part.screw, part.nut, bs.Lubricant(float(np.exp(rng.uniform(np.log(0.005), 0)))),
-            axial_load=part.load, screw_speed=speed, bodies=part.bodies, deviations=part.deviations,
-            losses=losses(rng),
-        )  # fmt: skip
+        oil = bs.Lubricant(float(np.exp(rng.uniform(np.log(0.005), 0))))
+        nut = dataclasses.replace(part.nut, bodies=part.bodies, deviations=part.deviations, losses=losses(rng))
+        if isinstance(nut, bs.SingleNut):
+            nut = dataclasses.replace(nut, angle_under_load=True)
+        screw = dataclasses.replace(part.screw, nut=nut)
+        result = MODELS[name](screw, oil, axial_load=part.load, screw_speed=speed)
         wrong = faults_of(result, size)
     except InputError as error:
         if is_strange or not knows:
@@ -108,10 +109,11 @@ def losses(rng: np.random.Generator) -> dict[str, ParasiticLaw]:
     return {name: law for name, law in known.items() if rng.random() < 0.3}
 
 
-def faults_of(result: NutFriction, size: int) -> dict[int, str]:
+def faults_of(result: FrictionResult, size: int) -> dict[int, str]:
     """Words on the nuts with a wrong result."""
     values, valid, loads = {name: getattr(result, name) for name in TORQUES}, result.valid, result.loads
     faults = dict(faults_of_parts(values, {"friction": result.screw_torque}, valid, size))
+    faults |= dict(faults_of_efficiency(result, size))
     with np.errstate(all="ignore"):
         pulled = np.any((loads.forward_load < 0) | (loads.backward_load < 0), axis=-1)
     faults["valid, and a ball is pulled"] = valid & pulled

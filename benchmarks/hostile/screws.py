@@ -25,8 +25,8 @@ TRIED = (
     "constructors, one by one"
 )
 WRONG = (
-    "an exception other than `InputError`; a warning of NumPy; at a valid point a torque that is not finite, a "
-    "negative "
+    "an exception other than `InputError`; a warning of NumPy; at a valid point a torque that is not finite, an "
+    "efficiency that is not finite where the screw drives the load, or a number elsewhere, a negative "
     "part (of the torque as printed, else of the dissipated power), or power in that is not power lost to 1e-9 "
     "(corrected, reference); a point valid in an array that the "
     "constructor refuses, or whose torque differs from that alone by more than 1e-9"
@@ -37,7 +37,7 @@ SIZE, ALONE = 1000, 50
 BALANCE, ROUNDING = 1e-9, 1e-12
 BALANCED = ("corrected", "reference")
 STRANGE = np.array([0.0, -0.0, -1.0, 0.5, 1.0, 1e-300, 1e-30, 1e-12, 1e6, 1e30, 1e300, np.nan, np.inf, -np.inf])
-TORQUES = ("screw_torque", "nut_torque", "ideal_torque", "drive_torque", "efficiency", "friction_power")
+TORQUES = ("screw_torque", "nut_torque", "ideal_torque", "drive_torque", "friction_power")
 
 Mask = NDArray[np.bool_]
 
@@ -118,9 +118,10 @@ def faults_of(name: str, result: FrictionResult, size: int) -> Iterator[tuple[st
     # what creep dissipates counts as curvature slip, while its torque may fall below zero by some millionths
     parts = result.dissipation if name in BALANCED else result.contributions
     yield from faults_of_parts(values, parts, result.valid, size)
+    yield from faults_of_efficiency(result, size)
     if name in BALANCED:
         with np.errstate(all="ignore"):
-            power = result.screw_torque * result.screw_speed
+            power = result.screw_torque * np.abs(result.screw_speed)
             gap, scale = np.abs(power - result.friction_power), sum(np.abs(part) for part in parts.values())
             yield "valid, and power in is not power lost", result.valid & ~(gap <= BALANCE * scale)
 
@@ -135,6 +136,15 @@ def faults_of_parts(
         scale = sum(np.abs(part) for part in parts.values())
         for mechanism, part in parts.items():
             yield f"valid, and {mechanism} is negative", np.broadcast_to(valid & (part < -ROUNDING * scale), (size,))
+
+
+def faults_of_efficiency(result: FrictionResult, size: int) -> Iterator[tuple[str, Mask]]:
+    """It is a number where the screw drives the load, at rest in the limit, and nowhere else."""
+    with np.errstate(all="ignore"):
+        load, motion = np.sign(result.axial_load), np.sign(result.screw_speed)
+        drives, known = (load != 0) & (load * motion >= 0), np.isfinite(result.efficiency)
+        yield "valid, and efficiency is not finite", np.broadcast_to(result.valid & drives & ~known, (size,))
+        yield "valid, and efficiency of nothing driven", np.broadcast_to(result.valid & ~drives & known, (size,))
 
 
 def alone(case: Case, i: int) -> str:

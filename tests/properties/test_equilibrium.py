@@ -150,7 +150,8 @@ def test_back_driving_efficiency(case, model):
     assert close(r.back_driving_efficiency, 2 - 1 / r.efficiency, scale=2 + 1 / r.efficiency)
     driven = (r.ideal_torque - r.screw_torque) / r.ideal_torque
     assert close(r.back_driving_efficiency, driven, scale=1 + 1 / r.efficiency)
-    assert close(r.drive_torque, r.ideal_torque / r.efficiency)
+    # at rest friction holds either way
+    assert close(r.drive_torque, r.ideal_torque / (r.efficiency if case.screw_speed > 0 else 1.0))
 
 
 @given(cases, balanced_models)

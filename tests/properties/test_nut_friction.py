@@ -11,15 +11,18 @@ from ballscrew.components.mixed_friction import LoadSharing
 from ballscrew.components.nut import Bodies, Deviations, DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
 from ballscrew.components.nut_losses import Recirculation, Seals
 from ballscrew.errors import InputError
-from ballscrew.friction.nut_friction import NUT_REASONS, nut_friction
+from ballscrew.friction.nut_friction import nut_friction
 from ballscrew.friction.result import MECHANISMS
+from ballscrew.friction.validity import NUT_REASONS
 from ballscrew.solvers.load_distribution import ball_loads
 from support.nut_cases import KINDS, nut_case
 from support.strategies import MODELS, RPM, constant_friction, reference, without_losses_of_rolling
 
 OIL = bs.Lubricant(viscosity=0.1, pressure_viscosity_coefficient=2e-8)
 PRELOADED = {"double": DoubleNut(1500.0, 0.01), "offset": OffsetLeadNut(1500.0), "oversize": OversizeBallNut(1500.0)}
-NUTS = {"single": SingleNut(), **PRELOADED}
+#: As balls that differ or are preloaded have it, too.
+SINGLE = SingleNut(angle_under_load=True)
+NUTS = {"single": SINGLE, **PRELOADED}
 LOADS = np.array([0.0, 50.0, 1500.0, 4000.0, 9000.0])
 SPEED = 500 * RPM
 #: Sums over balls in another order.
@@ -45,7 +48,8 @@ SCREW = screw()
 
 
 def friction(nut, load, speed=SPEED, *, model=reference, part=SCREW, oil=OIL, **more):
-    return nut_friction(model, part, nut, oil, axial_load=load, screw_speed=speed, **more)
+    screw = dataclasses.replace(part, nut=dataclasses.replace(nut, **more))
+    return model(screw, oil, axial_load=load, screw_speed=speed)
 
 
 # -- the balls add up ------------------------------------------------------------------------------
@@ -56,7 +60,7 @@ def friction(nut, load, speed=SPEED, *, model=reference, part=SCREW, oil=OIL, **
 def test_a_single_nut_is_the_model_at_the_angle_under_load(name, load):
     """Nothing else differs: balls alike on rigid bodies have the contact load F/(z sin α cos φ) of that angle."""
     model = MODELS[name]
-    r = friction(SingleNut(), load, model=model)
+    r = friction(SINGLE, load, model=model)
     part = dataclasses.replace(SCREW, contact_angle=float(r.loads.forward_angle[0]))
     # olaru2005 has no helix in its contact load
     axial = load / math.cos(SCREW.lead_angle) if name == "olaru2005" else load
@@ -72,7 +76,7 @@ def test_a_single_nut_is_the_model_at_the_angle_under_load(name, load):
 def test_the_angle_under_load_is_all_that_differs_from_the_model():
     """Small loads leave the angle alone: the difference of the torques goes as that of the angles, to zero."""
     loads = 10.0 ** np.arange(0, 4)
-    nut, alone = friction(SingleNut(), loads), reference(SCREW, OIL, axial_load=loads, screw_speed=SPEED)
+    nut, alone = friction(SINGLE, loads), reference(SCREW, OIL, axial_load=loads, screw_speed=SPEED)
     turned = np.abs(nut.loads.forward_angle[:, 0] - SCREW.contact_angle)
     assert np.all(np.diff(turned) > 0)
     # spin, load and radii all go with functions of the angle whose slopes by it are of the order of one
@@ -82,10 +86,10 @@ def test_the_angle_under_load_is_all_that_differs_from_the_model():
 @pytest.mark.parametrize("kind", ["double", "offset"])
 @pytest.mark.parametrize("force", [1.0, 700.0, 5000.0])
 def test_without_load_a_double_nut_is_two_halves_under_the_preload(kind, force):
-    r, half = friction(type(PRELOADED[kind])(force), 0.0), friction(SingleNut(), force)
+    r, half = friction(type(PRELOADED[kind])(force), 0.0), friction(SINGLE, force)
     assert r.screw_torque == pytest.approx(2 * half.screw_torque, rel=1e-9)
     assert r.nut_torque == pytest.approx(2 * half.nut_torque, rel=1e-9)
-    assert r.efficiency == 0
+    assert np.isnan(r.efficiency)
     assert np.isnan(r.back_driving_efficiency)
 
 
@@ -96,7 +100,7 @@ def test_a_loaded_double_nut_is_two_single_nuts(kind, load):
     nut = PRELOADED[kind]
     r = friction(nut, load * nut.preload)
     left = r.loads.remaining_preload
-    halves = [friction(SingleNut(), force) for force in (load * nut.preload + left, left)]
+    halves = [friction(SINGLE, force) for force in (load * nut.preload + left, left)]
     assert r.screw_torque == pytest.approx(sum(half.screw_torque for half in halves), rel=1e-8)
 
 
@@ -121,7 +125,7 @@ def test_twice_the_balls_with_twice_the_load_have_twice_the_torque(kind):
 
 def test_unequal_balls_sum_ball_by_ball():
     deviations = Deviations.scattered(60, seed=3, ball_diameter=5e-7, lead=1e-6)
-    r = friction(SingleNut(), 3000.0, deviations=deviations, bodies=Bodies.of(SCREW))
+    r = friction(SINGLE, 3000.0, deviations=deviations, bodies=Bodies.of(SCREW))
     by_ball = dataclasses.replace(
         reference, contact_load=lambda axial_load, *_: axial_load, ball_to_ball_force=1 / SCREW.loaded_balls
     )
@@ -171,7 +175,8 @@ def test_efficiencies_belong_to_the_drive_torque():
     ideal = LOADS * SCREW.lead / (2 * math.pi)
     assert r.ideal_torque == pytest.approx(ideal, rel=RELATIVE)
     assert r.drive_torque == pytest.approx(ideal + r.screw_torque, rel=RELATIVE)
-    assert r.efficiency == pytest.approx(ideal / r.drive_torque, rel=RELATIVE)
+    assert np.isnan(r.efficiency[0])
+    assert r.efficiency[1:] == pytest.approx((ideal / r.drive_torque)[1:], rel=RELATIVE)
     assert r.back_driving_efficiency[1:] == pytest.approx(2 - 1 / r.efficiency[1:], rel=RELATIVE)
     assert r.largest_contact_load == pytest.approx(r.loads.forward_load[:, 0], rel=RELATIVE)
 
@@ -187,7 +192,7 @@ def test_beyond_lift_off_oversize_balls_roll_on_two_contacts(factor):
     r = friction(nut, load)
     assert r.loads.remaining_preload == 0
     excess = Deviations(ball_diameter=interference(nut.preload))
-    single = friction(SingleNut(), load, deviations=excess)
+    single = friction(SINGLE, load, deviations=excess)
     assert r.loads.forward_angle[0] == pytest.approx(single.loads.forward_angle[0], rel=1e-9)
     assert r.screw_torque == pytest.approx(single.screw_torque, rel=2e-3)
     assert r.nut_torque == pytest.approx(single.nut_torque, rel=2e-3)
@@ -332,14 +337,14 @@ def test_nothing_is_missing_in_the_range_of_machines(kind):
     preloads = np.array([0.0, 1e-3, 1.0, 300.0, 5000.0, 20e3])[:, None, None]
     loads = np.array([0.0, 1e-3, 1.0, 100.0, 3000.0, 20e3, 50e3])[:, None]
     speeds = np.array([0.0, 1e-3, 1.0, 100.0, 1000.0, 5000.0]) * RPM
-    nut = SingleNut() if kind == "single" else type(NUTS[kind])(preloads)
+    nut = SINGLE if kind == "single" else type(NUTS[kind])(preloads)
     r = friction(nut, loads + 0 * preloads, speeds)
     assert r.screw_torque.shape == (6, 7, 6)
-    for torque in (r.screw_torque, r.nut_torque, r.efficiency, *r.contributions.values()):
+    for torque in (r.screw_torque, r.nut_torque, r.efficiency[:, 1:], *r.contributions.values()):
         assert np.all(np.isfinite(torque))
     assert np.all(r.screw_torque >= 0)
-    assert np.all((r.efficiency >= 0) & (r.efficiency < 1))
-    assert np.all(r.efficiency[:, 0] == 0)
+    assert np.all((r.efficiency[:, 1:] >= 0) & (r.efficiency[:, 1:] < 1))
+    assert np.all(np.isnan(r.efficiency[:, 0]))
     for mask in r.validity.values():
         assert mask.dtype == bool
     # without speed nothing rolls on a film
@@ -361,18 +366,18 @@ def test_any_screw_under_any_load(kind):
 
 
 def test_no_load_and_no_preload_is_no_torque():
-    for nut in (SingleNut(), DoubleNut(0.0), OversizeBallNut(0.0)):
+    for nut in (SINGLE, DoubleNut(0.0), OversizeBallNut(0.0)):
         r = friction(nut, 0.0)
         assert r.screw_torque == pytest.approx(0.0, abs=1e-9)
-        assert r.efficiency == 0
+        assert np.isnan(r.efficiency)
 
 
 @pytest.mark.parametrize("bad", ["axial_load", "screw_speed"])
 @pytest.mark.parametrize("kind", NUTS)
 def test_what_has_no_meaning_is_nan_in_everything_derived(kind, bad):
-    # a load or a speed below zero is not refused in an array
-    signs = np.array([-1.0, 1.0])
-    r = friction(NUTS[kind], 2000.0 * signs) if bad == "axial_load" else friction(NUTS[kind], 2000.0, SPEED * signs)
+    # what is no number is not refused in an array
+    some = np.array([np.nan, 1.0])
+    r = friction(NUTS[kind], 2000.0 * some) if bad == "axial_load" else friction(NUTS[kind], 2000.0, SPEED * some)
     derived = (
         "screw_torque", "nut_torque", "drive_torque", "efficiency", "back_driving_efficiency", "holding_torque",
         "friction_power",
@@ -393,3 +398,22 @@ def test_plain_numbers_that_overflow_are_refused():
     part = dataclasses.replace(SCREW, ball_roughness=1e200)
     with pytest.raises(InputError, match="too large or too small"):
         reference(part, OIL, axial_load=1e3, screw_speed=SPEED)
+
+
+# -- as it was called ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", NUTS)
+def test_the_former_call_is_the_model_with_a_warning(kind):
+    """Of a single nut that whose contact angle follows its load, which it had."""
+    parts = {"losses": {"seals": Seals(seal_torque=0.2)}}
+    if kind == "double":
+        parts |= {"bodies": Bodies(), "deviations": Deviations.scattered(120, seed=1, ball_diameter=1e-7)}
+    nut = SingleNut() if kind == "single" else NUTS[kind]
+    with pytest.warns(DeprecationWarning, match="nut_friction is deprecated: a ball screw has its nut"):
+        former = nut_friction(reference, SCREW, nut, OIL, axial_load=LOADS, screw_speed=SPEED, **parts)
+    found = friction(NUTS[kind], LOADS, **parts)
+    for name in ("screw_torque", "nut_torque", "drive_torque", "efficiency", "valid"):
+        assert np.array_equal(getattr(former, name), getattr(found, name), equal_nan=name == "efficiency"), name
+    assert tuple(former.contributions) == (*MECHANISMS, "seals")
+    assert former.ball_screw.nut == dataclasses.replace(NUTS[kind], **parts)

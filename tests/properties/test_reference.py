@@ -316,11 +316,11 @@ def test_quadrants(r):
         gap = quadrant.shaft_power - into_the_load - heat
         assert np.all(np.abs(gap) <= 1e-11 * (lifted + heat))
     forward, back = r.quadrants["drives forward"], r.quadrants["is back-driven forward"]
-    assert np.all(forward.shaft_torque == r.drive_torque)
-    assert np.all(r.quadrants["drives in reverse"].shaft_torque == -r.drive_torque)
+    moving = r.screw_speed > 0
+    assert np.all(r.drive_torque == np.where(moving, forward.shaft_torque, r.ideal_torque))
+    assert np.all(r.quadrants["drives in reverse"].shaft_torque == -forward.shaft_torque)
     assert np.all(back.shaft_torque == -r.holding_torque)
     assert np.all(r.quadrants["is back-driven in reverse"].shaft_torque == r.holding_torque)
-    moving = r.screw_speed > 0
     useful = (lifted / np.where(moving, forward.shaft_power, 1.0))[moving]
     assert useful == pytest.approx(forward.efficiency[moving], rel=1e-12)
     # a shaft that has to push along with the load makes no use of it

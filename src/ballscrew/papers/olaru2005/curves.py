@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ballscrew.equations.transmission import efficiency
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import MECHANISMS
 from ballscrew.friction.validity import REASONS
@@ -95,10 +96,12 @@ def _over_load(model: FrictionModel) -> Mapping[str, xr.Dataset]:
         model,
         case.SCREW,
         case.OIL,
-        outputs=("screw_torque", "efficiency", "contact_load"),
+        outputs=("screw_torque", "ideal_torque", "efficiency", "contact_load"),
         axial_load=case.LOADS,
         screw_speed=case.SCREW_SPEED,
     ).drop_vars("screw_speed")
+    # by (36) as it is printed, which begins at zero, where a result has none
+    load["efficiency"] = load["efficiency"].copy(data=efficiency(load["ideal_torque"], load["screw_torque"]))
     result = model(case.SCREW, case.OIL, axial_load=case.LOADS, screw_speed=case.SCREW_SPEED)
     for reason in ("skid", "elastic_regime"):
         fails = ~np.asarray(result.validity[reason])

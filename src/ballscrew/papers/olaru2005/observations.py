@@ -14,6 +14,7 @@ from ballscrew.components.contact import RaceState
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import equilibrium, friction
+from ballscrew.equations.transmission import efficiency
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import (
     MECHANISMS,
@@ -193,6 +194,8 @@ def _load_curve(model: FrictionModel, screw: BallScrew, oil: Lubricant) -> LoadC
     heavy = at_loads(np.linspace(dividing, case.AXIAL_LOAD, 2001))
     limits = {reason: _largest_failing(at_loads, reason, dividing) for reason in ("skid", "elastic_regime")}
     ends = at_loads(np.array([limits["skid"], limits["elastic_regime"]]))
+    # by (36) as it is printed, which begins at zero, where a result has none
+    eta = efficiency(light.ideal_torque, light.screw_torque)
 
     def exponent(load: float) -> float:
         pair = at_loads(load * np.array([0.99, 1.0])).screw_torque
@@ -204,9 +207,9 @@ def _load_curve(model: FrictionModel, screw: BallScrew, oil: Lubricant) -> LoadC
         torque_at_top=float(curve.screw_torque[-1]),
         exponent_at_20=exponent(dividing),
         exponent_at_top=exponent(case.AXIAL_LOAD),
-        efficiency_without_load=float(light.efficiency[0]),
-        efficiency_at_20=float(light.efficiency[-1]),
-        efficiency_rises=bool(np.all(np.diff(light.efficiency) > 0)),
+        efficiency_without_load=float(eta[0]),
+        efficiency_at_20=float(eta[-1]),
+        efficiency_rises=bool(np.all(np.diff(eta) > 0)),
         plateau=Range(float(heavy.efficiency.min()), float(heavy.efficiency.max())),
         skid_limit=limits["skid"] * share,
         efficiency_at_skid_limit=float(ends.efficiency[0]),
