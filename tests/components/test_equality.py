@@ -7,7 +7,6 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.components.catalogue import catalogue
-from ballscrew.friction.nut_parts import NutParts
 
 ROW = catalogue()["rexroth-40x10x6-6-double"]
 MAKERS = {
@@ -20,7 +19,8 @@ MAKERS = {
     "corrected": bs.FrictionModel.corrected,
     "reference": bs.FrictionModel.reference,
     "nut": lambda: bs.DoubleNut(1000.0),
-    "nut parts": lambda: NutParts(nut=bs.DoubleNut(1000.0), losses={"seals": bs.Seals(0.1)}),
+    "nut with losses": lambda: bs.DoubleNut(1000.0, losses={"seals": bs.Seals(0.1)}),
+    "screw with a nut": lambda: ROW.screw(nut=bs.DoubleNut(1000.0)),
     "bodies": lambda: bs.Bodies.of(ROW.screw()),
 }
 

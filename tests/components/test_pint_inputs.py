@@ -14,9 +14,9 @@ import ballscrew as bs
 from ballscrew.components import nut_losses
 from ballscrew.components.catalogue import catalogue
 from ballscrew.components.installation import Ends, Installation, Limits
+from ballscrew.components.nut import Scatter
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.friction.law_names import LAWS
-from ballscrew.friction.nut_parts import NutParts, Scatter
 from ballscrew.quantities import fields_of
 from ballscrew.sizing.checks import checks
 from ballscrew.solvers.load_distribution import ball_loads
@@ -35,12 +35,13 @@ def test_a_speed_without_an_angle_is_refused(unit):
 
 
 SCREW = catalogue()["rexroth-40x10x6-6-double"].screw()
+PRELOADED = dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=1e3))
 MODEL = bs.FrictionModel.corrected()
 GRADE = bs.Lubricant.from_grade("ISO VG 100")
 POINT = {"axial_load": 5e3, "screw_speed": 60.0}
 IN_UNITS = {"axial_load": 5 * U.kN, "screw_speed": 60 * 30 / math.pi * U.rpm}
 #: What is wanted of a screw or a result, and what only results have, is not given by anybody.
-RESULTS = {"ContactConditions", "Contact", "RaceState", "FrictionResult", "NutFriction", "BallLoads"}
+RESULTS = {"ContactConditions", "Contact", "RaceState", "BallFriction", "FrictionResult", "BallLoads"}
 
 #: A part of each class that has quantities for fields.
 PARTS = [
@@ -127,10 +128,9 @@ def torque(result):
 #: Each takes the operating point as it is given, and returns numbers.
 CALLS = {
     "model": lambda **point: torque(MODEL(SCREW, OIL, **point)),
-    "nut_friction": lambda **point: torque(bs.nut_friction(MODEL, SCREW, bs.DoubleNut(preload=1e3), OIL, **point)),
-    "nut parts": lambda **point: torque(NutParts(nut=bs.SingleNut()).friction(MODEL, SCREW, OIL, **point)),
+    "model of a nut": lambda **point: torque(MODEL(PRELOADED, OIL, **point)),
     "sweep": lambda **point: torque(bs.sweep(MODEL, SCREW, OIL, **point)),
-    "sweep of a nut": lambda **point: torque(bs.sweep(MODEL, SCREW, OIL, nut=NutParts(nut=bs.SingleNut()), **point)),
+    "sweep of a nut": lambda **point: torque(bs.sweep(MODEL, SCREW, OIL, nut=bs.DoubleNut(1e3), **point)),
     "derivatives": lambda **point: torque(bs.derivatives(MODEL, SCREW, OIL, by=["axial_load"], **point)),
 }
 ONE_POINT = {

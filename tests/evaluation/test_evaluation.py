@@ -50,7 +50,8 @@ DIFFERENCES = {
     "nut_sliding_force": lambda r: r.screw.tangential_force,
     "screw_sliding_force": lambda r: r.screw.tangential_force,
     "back_driving_efficiency": lambda r: 1.0,
-    "holding_torque": lambda r: r.drive_torque,
+    "holding_torque": lambda r: r.ideal_torque + r.screw_torque,
+    "residual": lambda r: 1.0,
 }
 #: What settles in the balance of the slip is as accurate as the balance: in units of its largest value.
 SETTLED = ("creep_speed", "pure_rolling_offset", "lateral_slip_speed")

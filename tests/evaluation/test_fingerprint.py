@@ -16,16 +16,20 @@ from ballscrew.equations import film
 from ballscrew.evaluation import evaluation as evaluations
 from ballscrew.evaluation.evaluation import Evaluation
 from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.friction.nut_parts import NutParts
 from ballscrew.papers.olaru2005 import OIL, SCREW
+from ballscrew.tracing.tape import CannotRecordError
 
 POINTS = {"axial_load": [500.0, 2000.0], "screw_speed": 30.0}
 MODEL = bs.FrictionModel.olaru2005()
 FILMS = np.array([0.0, 1.0, 3.0])
 
 
-def evaluation(model=MODEL, nut=None, screw=SCREW, **points):
-    return Evaluation.of(Plan.of(Configuration(model, screw, OIL, nut), None, POINTS | points), "numpy")
+def with_nut(nut):
+    return dataclasses.replace(SCREW, nut=nut)
+
+
+def evaluation(model=MODEL, screw=SCREW, **points):
+    return Evaluation.of(Plan.of(Configuration(model, screw, OIL), None, POINTS | points), "numpy")
 
 
 def fingerprint_of(friction, **options):
@@ -190,40 +194,59 @@ def test_the_code_of_methods_counts():
 
 
 NUTS = {
-    "single": NutParts(nut=bs.SingleNut()),
-    "double": NutParts(nut=bs.DoubleNut(preload=1000.0)),
-    "ball by ball": NutParts(nut=bs.SingleNut(), bodies={}),
+    "row": bs.SingleNut(),
+    "single": bs.SingleNut(angle_under_load=True),
+    "double": bs.DoubleNut(preload=1000.0),
+    "ball by ball": bs.SingleNut(bodies=bs.Bodies()),
+    "double, ball by ball": bs.DoubleNut(preload=1000.0, bodies=bs.Bodies()),
 }
 
 
 @pytest.mark.parametrize("kind", NUTS)
 def test_an_equation_of_the_package_counts(kind, monkeypatch):
-    """A whole nut is never recorded; one equation of shipped laws is changed under the same version."""
-    before = evaluation(nut=NUTS[kind])
+    """Balls one by one are never recorded; one equation of shipped laws is changed under the same version."""
+    screw = with_nut(NUTS[kind])
+    before = evaluation(screw=screw)
     assert before.identity.unknown == ""
-    assert evaluation(nut=NUTS[kind]).fingerprint == before.fingerprint
+    assert ("the model itself" in before.reason) == ("ball by ball" in kind)
+    assert evaluation(screw=screw).fingerprint == before.fingerprint
     before.fill(before.empty(2), slice(0, 2))
-    assert evaluation(nut=NUTS[kind]).fingerprint == before.fingerprint
+    assert evaluation(screw=screw).fingerprint == before.fingerprint
     thickness = film.minimum_film_thickness
     monkeypatch.setattr(film, "minimum_film_thickness", lambda *given: 1.1 * thickness(*given))
-    assert evaluation(nut=NUTS[kind]).fingerprint != before.fingerprint
+    assert evaluation(screw=screw).fingerprint != before.fingerprint
 
 
 def test_the_source_of_the_package_counts(monkeypatch):
-    before = evaluation(nut=NUTS["single"]).fingerprint
+    """Of what is not recorded."""
+    screw = with_nut(NUTS["ball by ball"])
+    before = evaluation(screw=screw).fingerprint
     monkeypatch.setattr(evaluations, "package_digest", lambda: "another source")
-    assert evaluation(nut=NUTS["single"]).fingerprint != before
+    assert evaluation(screw=screw).fingerprint != before
 
 
-def test_losses_of_a_nut_count():
-    def losses(scale):
-        def seal(conditions):
+@pytest.mark.parametrize("kind", NUTS)
+def test_losses_of_a_nut_count(kind):
+    def fingerprint(scale):
+        def seal(screw, lubricant, screw_speed):
             return scale
 
-        return NutParts(nut=bs.SingleNut(), losses={"seals": seal})
+        return evaluation(screw=with_nut(dataclasses.replace(NUTS[kind], losses={"seals": seal}))).fingerprint
 
-    assert evaluation(nut=losses(0.1)).fingerprint != evaluation(nut=losses(0.2)).fingerprint
-    assert evaluation(nut=losses(0.1)).fingerprint == evaluation(nut=losses(0.1)).fingerprint
+    assert fingerprint(0.1) != fingerprint(0.2)
+    assert fingerprint(0.1) == fingerprint(0.1)
+
+
+def test_balls_that_differ_are_not_recorded():
+    """A nut whose balls are alike is; one whose balls are solved one by one has no tape and no kernel."""
+    for kind, nut in NUTS.items():
+        subject = Configuration(MODEL, with_nut(nut), OIL)
+        plan = Plan.of(subject, ["screw_torque"], POINTS)
+        if not nut.one_by_one:
+            assert plan.recorded().outputs, kind
+            continue
+        with pytest.raises(CannotRecordError, match="solved one by one, on plain arrays"):
+            plan.recorded()
 
 
 def test_what_is_varied_does_not_count():
@@ -247,7 +270,10 @@ def test_what_a_law_computes_with_besides_values_cannot_be_known():
 
     for law, why in ((reading, "open"), (locked, "lock")):
         model = dataclasses.replace(MODEL, friction=law)
-        made = [Evaluation.of(Plan.of(Configuration(model, SCREW, OIL, NUTS["single"]), None, POINTS)) for _ in "ab"]
+        made = [
+            Evaluation.of(Plan.of(Configuration(model, with_nut(NUTS["ball by ball"]), OIL), None, POINTS))
+            for _ in "ab"
+        ]
         assert made[0].fingerprint != made[1].fingerprint
         assert why in made[0].identity.unknown
 
@@ -275,7 +301,6 @@ import numpy as np
 import ballscrew as bs
 from ballscrew.evaluation.evaluation import Evaluation
 from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.friction.nut_parts import NutParts
 from ballscrew.papers.olaru2005 import OIL, SCREW
 
 NAMES = {"dry", "mixed", "full film", "boundary"}
@@ -292,11 +317,12 @@ class Law:
 
 model = dataclasses.replace(bs.FrictionModel.reference(), friction=Law())
 points = {"axial_load": [500.0, 2000.0], "screw_speed": 30.0}
+double = dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=1000.0, bodies=bs.Bodies()))
 if "late" in sys.argv:  # modules that are loaded already change nothing
     import ballscrew.cli.main, ballscrew.uncertainty.bands
 for subject in (
     Configuration(model, SCREW, OIL),
-    Configuration(bs.FrictionModel.reference(), SCREW, OIL, NutParts(nut=bs.DoubleNut(preload=1000.0), bodies={})),
+    Configuration(bs.FrictionModel.reference(), double, OIL),
 ):
     made = Evaluation.of(Plan.of(subject, None, points), "numpy")
     print(made.fingerprint, made.identity.unknown)

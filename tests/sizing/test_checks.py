@@ -215,7 +215,7 @@ def test_ratings_without_a_pitch_circle_use_the_nominal_diameter():
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"axial_load": -1.0}, "operation.axial_load: must not be negative"),
+        ({"axial_load": math.nan}, "operation.axial_load: must be a finite number"),
         ({"dynamic_load_rating": 0.0}, "checks.dynamic_load_rating: must be positive"),
         ({"static_load_rating": -2.0}, "checks.static_load_rating: must be positive"),
         ({"root_diameter": math.nan}, "checks.root_diameter: must be positive"),
@@ -225,6 +225,18 @@ def test_ratings_without_a_pitch_circle_use_the_nominal_diameter():
 def test_nonsense_is_refused(changes, words):
     with pytest.raises(bs.InputError, match=words):
         table(**changes)
+
+
+@pytest.mark.parametrize("nut", [SingleNut(), DoubleNut(2000.0)])
+def test_loads_and_speed_count_by_their_size(nut):
+    """A load of the other sign presses the other flanks as much: no check is passed by a sign."""
+    plain, turned = (
+        table(nut=nut, axial_load=sign * 5000.0, largest_load=sign * 9000.0, screw_speed=sign * 1000 * RPM)
+        for sign in (1, -1)
+    )
+    assert turned == plain
+    with pytest.raises(bs.InputError, match="checks.largest_load: is below the mean load"):
+        table(largest_load=-4000.0)
 
 
 def test_an_installation_wants_sane_values():

@@ -18,7 +18,6 @@ from hypothesis import strategies as st
 
 import ballscrew as bs
 from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.friction.nut_parts import NutParts
 from ballscrew.sweeps.store import UnfinishedSweepError
 from ballscrew.sweeps.store_plan import BLOCK_BYTES, Blocks
 from support.stores import AXES, KILLED, KILLED_BLOCKS, MODEL, blocks_of, files, started, stop_at, times
@@ -85,13 +84,17 @@ def test_cf_attributes_are_in_the_files(swept, tmp_path):
     )
 
 
-def test_a_whole_nut(seed_screw, seed_oil, tmp_path):
-    parts = NutParts(nut=bs.SingleNut())
+@pytest.mark.parametrize(
+    "nut",
+    [bs.SingleNut(angle_under_load=True), bs.DoubleNut(1000.0), bs.SingleNut(bodies=bs.Bodies())],
+    ids=["angle under load", "double", "ball by ball"],
+)
+def test_a_whole_nut(nut, seed_screw, seed_oil, tmp_path):
     axes = {"axial_load": np.linspace(10, 4000, 40), "screw_speed": [1.0, 60.0]}
     found = bs.sweep(
-        bs.FrictionModel.corrected(), seed_screw, seed_oil, nut=parts, to=tmp_path / "m.zarr", block_size=9, **axes
+        bs.FrictionModel.corrected(), seed_screw, seed_oil, nut=nut, to=tmp_path / "m.zarr", block_size=9, **axes
     )
-    expected = bs.sweep(bs.FrictionModel.corrected(), seed_screw, seed_oil, nut=parts, **axes)
+    expected = bs.sweep(bs.FrictionModel.corrected(), seed_screw, seed_oil, nut=nut, **axes)
     xr.testing.assert_identical(found.load(), expected)
 
 

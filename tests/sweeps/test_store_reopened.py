@@ -15,7 +15,6 @@ import xarray as xr
 import ballscrew as bs
 from ballscrew.evaluation.evaluation import Evaluation
 from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.friction.nut_parts import NutParts
 from ballscrew.kernels import kernel as kernels
 from ballscrew.sweeps import store as stores
 from ballscrew.sweeps.store import Store
@@ -114,12 +113,12 @@ def test_the_values_of_a_law_count(seed_screw, seed_oil, tmp_path):
 
 
 def test_an_equation_of_the_package_counts(seed_screw, seed_oil, tmp_path, monkeypatch):
-    """Of a whole nut, which is not recorded: one equation is changed under the same version."""
+    """Of a nut whose balls differ, which is not recorded: one equation is changed under the same version."""
     from ballscrew.equations import film
 
     def swept():
         points = {"axial_load": [500.0, 1000.0], "screw_speed": 30.0}
-        nut = NutParts(nut=bs.SingleNut())
+        nut = bs.SingleNut(bodies=bs.Bodies())
         return bs.sweep(bs.FrictionModel.corrected(), seed_screw, seed_oil, nut=nut, to=tmp_path / "m.zarr", **points)
 
     swept()

@@ -18,7 +18,6 @@ from ballscrew.components.lubrication import houpert_rolling
 from ballscrew.components.mixed_friction import BalanSharing
 from ballscrew.errors import InputError
 from ballscrew.evaluation.comparison import Candidate
-from ballscrew.friction.nut_parts import NutParts
 from ballscrew.references import bibliography
 from ballscrew.studies import band as interface
 from ballscrew.uncertainty.bands import band, band_along
@@ -235,16 +234,16 @@ def test_a_curve_goes_through_the_band(drive):
 
 def test_a_whole_nut(seed_screw, seed_oil):
     """A double nut with a load: its samples are those of the nut, evaluated one by one."""
-    parts = NutParts(nut=bs.DoubleNut(preload=1000.0))
+    screw = dataclasses.replace(seed_screw, nut=bs.DoubleNut(preload=1000.0))
     model = bs.FrictionModel.reference()
     found = band(
-        model, seed_screw, seed_oil, nut=parts, uncertain={"viscosity": LogNormal(0.1, 1.3)}, samples=8,
+        model, screw, seed_oil, uncertain={"viscosity": LogNormal(0.1, 1.3)}, samples=8,
         keep_samples=True, alternatives=[candidate(model, "rolling", houpert_rolling)], **POINT,
     )  # fmt: skip
     ratio = math.exp(found.alternatives["rolling"][0].shift)
     for viscosity, torque in zip(found.samples["viscosity"], found.samples["screw_torque"], strict=True):
         oil = dataclasses.replace(seed_oil, viscosity=viscosity)
-        own = float(parts.friction(model, seed_screw, oil, **POINT).screw_torque)
+        own = float(model(screw, oil, **POINT).screw_torque)
         assert min(abs(torque / own - 1), abs(torque / own / ratio - 1)) < 1e-9
 
 

@@ -1,5 +1,6 @@
 """Sensitivity of the friction model: against SALib and SciPy, and what it says in odd cases."""
 
+import dataclasses
 import itertools
 import math
 import warnings
@@ -13,7 +14,6 @@ from ballscrew.evaluation.plan import Configuration
 from ballscrew.friction.model import (
     FrictionModel,
 )
-from ballscrew.friction.nut_parts import NutParts
 from ballscrew.uncertainty import sobol
 from ballscrew.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
 from ballscrew.uncertainty.sensitivity import METHODS, sensitivity
@@ -255,12 +255,31 @@ def test_a_distribution_beyond_the_bounds_is_cut():
     )
 
 
-def test_a_whole_nut():
-    nut = NutParts(nut=bs.DoubleNut(preload=2500.0))
+def double_nut(**parts):
+    return dataclasses.replace(CATALOGUE.screw, nut=bs.DoubleNut(preload=2500.0, **parts))
+
+
+@pytest.mark.parametrize("parts", [{}, {"bodies": bs.Bodies()}], ids=["rigid", "elastic"])
+def test_a_whole_nut(parts):
+    screw = double_nut(**parts)
     uncertain = {"preload": Normal(2500.0, 250.0), "friction.boundary_friction_coefficient": Uniform(0.08, 0.2)}
-    found = found_of(uncertain, nut=nut, output="remaining_preload", samples=16)
+    found = found_of(uncertain, screw=screw, output="remaining_preload", samples=16)
     assert found.first_order["preload"].value == 1
-    assert found_of(uncertain, nut=nut, method="morris", samples=8).inputs[-1] in uncertain
+    assert found_of(uncertain, screw=screw, method="morris", samples=8).inputs[-1] in uncertain
+
+
+def test_local_effects_of_a_rigid_nut():
+    """By the preload too: the slope is that of differences, as the nut is solved by steps that are recorded."""
+    uncertain = {"preload": Normal(2500.0, 250.0), "friction.boundary_friction_coefficient": Uniform(0.08, 0.2)}
+    found = found_of(uncertain, screw=double_nut(), method="local")
+    step = 0.25
+    model = dataclasses.replace(MODEL, friction=dataclasses.replace(MODEL.friction, boundary_friction_coefficient=0.14))
+    torques = [
+        model(dataclasses.replace(CATALOGUE.screw, nut=bs.DoubleNut(preload)), CATALOGUE.oil, **POINT).screw_torque
+        for preload in (2500.0 - step, 2500.0 + step)
+    ]
+    slope = (torques[1] - torques[0]) / (2 * step)
+    assert found.effect["preload"].value == pytest.approx(250.0 * slope, rel=1e-6)
 
 
 # -- bad input ------------------------------------------------------------------------------------
@@ -296,8 +315,8 @@ def test_a_whole_nut():
             '{"viscosity": LogNormal(0.1, 1.3)}',
         ),
         (
-            {"method": "local", "nut": NutParts(nut=bs.DoubleNut(preload=2500.0))},
-            'sensitivity.method: has no derivatives of a whole nut (local) · take method="sobol" or "morris"',
+            {"method": "local", "screw": double_nut(bodies=bs.Bodies())},
+            'sensitivity.method: has no derivatives where balls differ (local) · take method="sobol" or "morris"',
         ),
     ],
 )
@@ -308,8 +327,6 @@ def test_faults(changes, line):
 
 
 def test_a_law_that_cannot_be_differentiated():
-    import dataclasses
-
     def rolling(*args, **named):
         return np.asarray(MODEL.rolling(*args, **named), dtype=float)
 

@@ -14,7 +14,6 @@ from ballscrew.components.nut import DoubleNut, OversizeBallNut
 from ballscrew.errors import InputError
 from ballscrew.friction.calibrations import calibrated, calibration
 from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.nut_friction import nut_friction
 from ballscrew.studies import validation
 from ballscrew.validation import entries as base
 from ballscrew.validation.entries import Band, Conditions, Entry, Point, trends
@@ -89,7 +88,7 @@ def test_a_row_is_the_nut_at_its_preload(found):
     def torque(name, nut, share):
         row = catalogue()[name]
         nut = nut(preload=share * row.dynamic_load_rating)
-        return nut_friction(reference, row.screw(), nut, oil, axial_load=0.0, screw_speed=100 * RPM).screw_torque
+        return reference(row.screw(nut=nut), oil, axial_load=0.0, screw_speed=100 * RPM).screw_torque
 
     double = {point.name: point for point in found["rexroth-double-nut", None].points}["40x10x6-6 at 10 %"]
     assert double.value == pytest.approx(torque("rexroth-40x10x6-6-double", DoubleNut, 0.10), rel=1e-12)

@@ -27,8 +27,8 @@ from ballscrew.kernels.emission import kernel_text
 from ballscrew.tracing.grid import Split, split
 from ballscrew.tracing.program import Program, Source
 
-#: Most recordings that are kept, and most steps of all of them together, some 400 bytes each.
-MOST_RECORDINGS, MOST_STEPS = 256, 300_000
+#: Most recordings that are kept, and most steps of all of them together, some 600 bytes each (assembly aside).
+MOST_RECORDINGS, MOST_STEPS = 256, 150_000
 #: An array with more numbers than this in a part is not compared call by call.
 MOST_NUMBERS = 1000
 

@@ -119,14 +119,15 @@ def checks(
     """The checks of a screw at one operating point, all of them every time; one without its inputs says so.
 
     ``axial_load`` is the mean load, which tires the screw, always in one direction; ``largest_load`` (the mean where
-    None) may break it. The ratings are those of one nut body or half, as are the loaded balls of the screw.
+    None) may break it. Loads and speed count by their size, whatever their signs. The ratings are those of one nut body or half, as are the loaded balls of the screw.
     ``half_loads`` are the axial forces at the mean load on the loaded flanks and, if they carry any, on the relieved
     ones; where they are not known, those of the closed formula of :func:`loads_of_halves` are taken.
     ``maximum_pressure`` is that of the most loaded contact. Without a ``root_diameter`` that of the groove is taken.
-    Raises :class:`~ballscrew.errors.InputError` for values that are not positive, loads and speed below zero, and a
-    largest load below the mean.
+    Raises :class:`~ballscrew.errors.InputError` for values that are not positive, and a largest load below the mean.
     """
     OperatingState(axial_load=axial_load, screw_speed=screw_speed)
+    axial_load, screw_speed = abs(axial_load), abs(screw_speed)
+    largest_load = None if largest_load is None else abs(largest_load)
     _raise_for_nonsense(axial_load, largest_load, dynamic_load_rating, static_load_rating, root_diameter)
     largest = axial_load if largest_load is None else largest_load
     at_mean = loads_of_halves(nut, axial_load) if half_loads is None else half_loads
