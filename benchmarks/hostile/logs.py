@@ -19,6 +19,7 @@ from benchmarks.hostile.tally import Outcome, Tally
 from ballscrew.cases import case_file
 from ballscrew.errors import InputError
 from ballscrew.studies import fit as fits
+from ballscrew.studies.fit_log import Options, steady_log
 from support.fit_logs import FRICTION, HEADINGS, OFFSET, PAPER, columns
 
 COUNT, SECONDS = 300, 120.0
@@ -247,7 +248,8 @@ def attempt(seed: int, number: int, _: int) -> Outcome:
     free = chosen(rng, ([FRICTION], [FRICTION, OFFSET]))
     try:
         case = case_file.build(tomllib.loads(PAPER), None, Path())
-        found = fits.fit(case, path, fits.Options(free=free, keep_going=bool(number % 2)))
+        options = Options(free=free, keep_going=bool(number % 2))
+        found = fits.fit(case, steady_log(case, path, options), options)
     except InputError:
         return Outcome(refused=1)
     except Exception as error:

@@ -37,6 +37,8 @@ PAUSE = 2.0
 #: Of a hundred requests, and requests of each kind that differ in their numbers.
 SHARES = {"run": 50, "sweep": 20, "band": 8, "compare": 6, "catalogue": 15, "report": 1}
 DIFFERENT = {"run": 12, "sweep": 6, "band": 4, "compare": 4, "catalogue": 4, "report": 2}
+#: Diameters in mm that the catalogue has: a search without a row is refused.
+DIAMETERS = (16, 20, 32, 40)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -49,7 +51,7 @@ class Question:
     @property
     def address(self) -> str:
         """Path and query."""
-        more = {"catalogue": f"?words={16 + 8 * self.number}x", "report": "?kind=html"}
+        more = {"catalogue": f"?words={DIAMETERS[self.number % len(DIAMETERS)]}x", "report": "?kind=html"}
         return f"/api/v1/{self.kind}{more.get(self.kind, '')}"
 
     @property

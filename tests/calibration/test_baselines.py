@@ -72,10 +72,16 @@ def test_robust_lines_do_not_depend_on_units_and_pass_by_outliers():
     np.testing.assert_allclose(found, true, rtol=0.02)
     again, larger = robust_linear(columns * [1e3, 1, 1], 1e3 * values)
     np.testing.assert_allclose(again, found * [1, 1e3, 1e3], rtol=1e-6)
-    assert larger == pytest.approx(1e6 * cost, rel=1e-6)
+    assert larger == pytest.approx(1e3 * cost, rel=1e-6)
 
 
 def test_a_column_of_zeros_is_left_alone():
     columns = np.stack([np.ones(50), np.zeros(50)], axis=1)
     found, _ = robust_linear(columns, np.linspace(0.9, 1.1, 50))
     assert found == pytest.approx([1.0, 0.0])
+
+
+def test_the_largest_floats_have_a_robust_line():
+    found, cost = robust_linear(np.ones((50, 1)), 1e300 * np.linspace(0.9, 1.1, 50))
+    assert found == pytest.approx([1e300], rel=1e-6)
+    assert np.isfinite(cost)

@@ -58,10 +58,10 @@ def test_gaps_are_left_out_and_counted(fit, log):
     whole = np.all([np.isfinite(values) for values in data.values()], axis=0)
     done = fit(log(data), "--json")
     found = document_of(done)
-    assert found["rows"]["left_out"] == {"a value is missing": int((~whole).sum())}
+    assert found["rows"]["left_out"] == {"a value is missing or impossible": int((~whole).sum())}
     assert found["rows"]["used"] == int(whole.sum())
     assert found["estimates"][FRICTION]["value"] == pytest.approx(TRUE_FRICTION, abs=0.01)
-    assert "a value is missing" in fit(log(data)).stdout
+    assert "a value is missing or impossible" in fit(log(data)).stdout
 
 
 def test_an_empty_column_that_is_not_needed_does_not_harm(fit, log):

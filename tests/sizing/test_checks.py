@@ -235,7 +235,7 @@ def test_loads_and_speed_count_by_their_size(nut):
         for sign in (1, -1)
     )
     assert turned == plain
-    with pytest.raises(bs.InputError, match="checks.largest_load: is below the mean load"):
+    with pytest.raises(bs.InputError, match=r"checks\.largest_load: is below the mean load"):
         table(largest_load=-4000.0)
 
 

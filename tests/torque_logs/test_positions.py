@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ballscrew.torque_logs import reading
-from ballscrew.torque_logs.positions import feed_rate
+from ballscrew.torque_logs.positions import FeedRates, feed_rate
 from support.log_texts import RPM, lines_of
 
 
@@ -68,6 +68,46 @@ def test_a_log_with_a_position_has_a_speed(read):
     assert steady.left_out["speed changes"] > 0
 
 
+@pytest.mark.parametrize("noise", [1e-6, 1e-5])
+def test_pieces_make_no_difference(noise, read):
+    """Noise of the position that takes lines of 17 and 65 rows; gaps, a clock that begins anew and a missing value."""
+    head, *rows = log_text(noise).splitlines()
+    rows = [*rows[:997], *rows[1500:2003], "5,00;;1000;0,5", *rows[2003:], *rows[:700]]
+    text = "\n".join([head, *rows]) + "\n"
+    whole = read(text, lead=0.005)
+    for chunk in (5, 61, 997, 4000):
+        found = read(text, lead=0.005, chunk=chunk)
+        assert found.notes == whole.notes
+        for name, values in whole.columns.items():
+            np.testing.assert_array_equal(getattr(found, name), values)
+
+
+def test_pieces_make_no_difference_to_a_log_that_is_thinned(read):
+    """The first rows, as many as are held, tell how wide the lines are, and the notes say so."""
+    text = log_text(1e-5)
+    logs = [read(text, lead=0.005, held=1000, chunk=chunk) for chunk in (70, 999, 1000, 1001, 5000)]
+    assert any("as the noise in the first 1000 allows" in note for note in logs[0].notes)
+    for log in logs:
+        assert len(log) == 1000
+        assert log.notes == logs[0].notes
+        np.testing.assert_array_equal(log.line, logs[0].line)
+        np.testing.assert_array_equal(log.screw_speed, logs[0].screw_speed)
+        np.testing.assert_array_equal(log.motion.slope, logs[0].motion.slope)
+
+
+def test_a_position_that_is_lost_holds_back_few_rows():
+    rates, waiting = FeedRates(100), 0
+    for first in range(0, 10_000, 50):
+        time = 0.01 * np.arange(first, first + 50)
+        position = np.where(time < 20, 0.05 * time, np.nan)
+        given = rates.add({"time": time, "position": position})
+        np.testing.assert_allclose(given["feed_rate"][given["time"] < 20], 0.05, rtol=1e-6)
+        assert np.isnan(given["feed_rate"][given["time"] >= 20]).all()
+        waiting += 50 - given["time"].size
+        assert waiting <= 150
+    assert rates.end()["time"].size == waiting
+
+
 def test_a_position_needs_the_time_and_the_lead(tmp_path):
     path = tmp_path / "log.csv"
     path.write_text(log_text(), encoding="utf-8")
@@ -90,3 +130,16 @@ def test_long_rests_do_not_smooth_the_strokes():
     assert np.abs(speed[middle]) == pytest.approx(0.05, rel=0.02)
     rest = np.convolve(np.abs(moves) > 0, np.ones(21), "same") == 0
     assert np.max(np.abs(speed[rest])) < 5e-4
+
+
+def test_what_is_the_same_in_every_row_needs_the_same(read):
+    text = "load [N];torque [N m]\n1000;0.5\n1100;0.6\n"
+    assert lines_of(read, text, columns={"position": "0 mm"}) == [
+        "--column position: needs the lead · give the lead of the screw, or a column with its speed",
+        "--column position: gives no speed without the time · give a column with the time, or the speed",
+    ]
+    text = "load [N];speed [rpm]\n1000;50\n1100;60\n"
+    assert lines_of(read, text, columns={"current": "2 A"}) == [
+        '--column current: needs the torque constant · give --torque-constant "0.5 N m/A"'
+    ]
+    assert read(text, columns={"current": "2 A"}, torque_constant=0.5).torque.tolist() == [1.0, 1.0]

@@ -389,7 +389,7 @@ def test_gaps_are_counted(read):
     )
     assert log.rows == 9
     clean = log.cleaned()
-    assert clean.left_out == {"a value is missing": 6}
+    assert clean.left_out == {"a value is missing or impossible": 6}
     assert in_display_units(clean) == EXPECTED
 
 

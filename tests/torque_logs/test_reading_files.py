@@ -161,6 +161,18 @@ def test_a_spreadsheet(tmp_path):
     assert line.startswith('log.xlsx row 8, column "n [rpm]": is not a number (True)')
 
 
+@pytest.mark.parametrize("above", [[], [[0, 100, 1000, 0.5, 30]]])
+def test_a_spreadsheet_without_rows_below_its_headings(above, tmp_path):
+    path = tmp_path / "log.xlsx"
+    book = openpyxl.Workbook()
+    for row in [*above, HEADINGS.strip().split(",")]:
+        book.active.append(row)
+    book.save(path)
+    assert lines_of(reading.read, path) == [
+        "log.xlsx: has no rows below its headings · give one row for each measurement"
+    ]
+
+
 def test_times_of_a_spreadsheet(tmp_path):
     path = tmp_path / "log.xlsx"
     book = openpyxl.Workbook()

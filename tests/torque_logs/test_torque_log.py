@@ -120,7 +120,7 @@ def test_names_nearly_right():
 def test_none_is_a_value_that_is_missing():
     log = TorqueLog.of({"axial_load": [1, None, 3, 4], "screw_speed": 5.0, "torque": [1.0] * 4}).cleaned()
     assert log.line.tolist() == [1, 3, 4]
-    assert log.left_out == {"a value is missing": 1}
+    assert log.left_out == {"a value is missing or impossible": 1}
 
 
 # -- gaps, rest, thinning -------------------------------------------------------------------------
@@ -132,8 +132,8 @@ def test_every_row_is_used_or_counted():
     log = TorqueLog.of(data).cleaned(most=500)
     assert len(log) == 500
     assert log.rows == 2000 == len(log) + sum(log.left_out.values())
-    assert log.left_out["a value is missing"] == 286
-    assert set(log.left_out) == {"a value is missing", "speed changes", "at rest", "thinned"}
+    assert log.left_out["a value is missing or impossible"] == 286
+    assert set(log.left_out) == {"a value is missing or impossible", "speed changes", "at rest", "thinned"}
 
 
 def test_rows_without_temperature_go_unless_there_is_none_at_all():

@@ -114,9 +114,9 @@ def efficiency_pair(conditions: Conditions, torque: Vector) -> Baseline:
 
 
 def robust_linear(columns: Vector, values: Vector) -> tuple[Vector, float]:
-    """Coefficients of a linear model by the two losses of :mod:`~ballscrew.calibration.robust`, the first loss in SI.
+    """Coefficients of a linear model by the two losses of :mod:`~ballscrew.calibration.robust`.
 
-    Iteratively reweighted least squares.
+    With them the root of the first loss, in the unit of the values. Iteratively reweighted least squares.
     """
     scale = np.linalg.norm(columns, axis=0)
     scale[scale == 0] = 1.0
@@ -134,9 +134,10 @@ def robust_linear(columns: Vector, values: Vector) -> tuple[Vector, float]:
         return found, scatter_of(scaled @ found - values, values) if held is None else held
 
     found, scatter = fitted(np.linalg.lstsq(scaled, values, rcond=None)[0], pseudo_huber)
-    cost = scatter**2 * float(np.sum(pseudo_huber(((scaled @ found - values) / scatter) ** 2)[0]))
+    # the root, for a square of the scatter may be beyond all floats
+    loss = scatter * float(np.sqrt(np.sum(pseudo_huber(((scaled @ found - values) / scatter) ** 2)[0])))
     found, _ = fitted(found, biweight, scatter)
-    return found / scale, cost
+    return found / scale, loss
 
 
 ALL: Sequence[Callable[[Conditions, Vector], Baseline]] = (stribeck, efficiency_pair)

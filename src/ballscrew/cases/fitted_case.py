@@ -21,7 +21,6 @@ from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
 from ballscrew.cases.provenance import of_case, references
 from ballscrew.components.materials import Lubricant
-from ballscrew.errors import Fault, InputError
 from ballscrew.files import atomic_write
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.uncertainty.distributions import normal_half_width
@@ -31,16 +30,6 @@ _HEAD = "A calibrated model, written by ballscrew fit. Numbers that are not iden
 CONSTANT_INPUT = f"losses.{CONSTANT_LOSS}.{CONSTANT_TORQUE.name}"
 #: Digits of a fitted number: enough to give the same torques.
 _DIGITS = 12
-
-
-def check(to: Path, case: Path) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` if the name is that of no case file, or of the case itself."""
-    if to.resolve() == case.resolve():
-        raise InputError(
-            Fault("--to", "is the case itself", str(to), "choose another name: its comments would be lost")
-        )
-    if to.suffix.lower() != ".toml":
-        raise InputError(Fault("--to", "is no case file", str(to), "end it in .toml; a picture is --picture"))
 
 
 def save(to: Path, tables: Mapping[str, Any], folder: Path, case: Case, found: CalibratedModel) -> None:

@@ -78,21 +78,19 @@ def fit(
     to see how well the model predicts, beside two descriptions without physics. The last lines say where to
     measure next.
     """
-    from ballscrew.cases import case_file, fitted_case
-    from ballscrew.cli.fit_options import options
-    from ballscrew.cli.progress import progress
-    from ballscrew.figures import files
-    from ballscrew.files import check_writable
-    from ballscrew.output.documents import fit as documents
-    from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.output.text import fit as text
-    from ballscrew.studies import fit as studies
+    from ballscrew.cases import case_file
 
     tables = case_file.override(case_file.read(case), settings or [])
     loaded = case_file.build(tables, model, case.parent, allow_code=allow_code)
+
+    # pandas is slow to import: only for a good case
+    from ballscrew.cli.fit_options import check_to, options
+    from ballscrew.cli.progress import progress
+    from ballscrew.figures import files
+    from ballscrew.studies.fit_log import steady_log
+
     if to is not None:
-        fitted_case.check(to, case)
-        check_writable("--to", to)
+        check_to(to, case)
     if picture is not None:
         files.check_picture(picture, "--picture")
     chosen = options(
@@ -100,7 +98,16 @@ def fit(
         inertia=inertia, torque_constant=torque_constant, holdout=holdout, seed=seed, keep_going=keep_going,
     )  # fmt: skip
     with progress("fit") as done:
-        report = studies.fit(loaded, log, chosen, done)
+        steady = steady_log(loaded, log, chosen, done)
+        # solvers are slow to import: only for a log that can be fitted to
+        from ballscrew.studies import fit as studies
+
+        report = studies.fit(loaded, steady, chosen)
+    from ballscrew.cases import fitted_case
+    from ballscrew.output.documents import fit as documents
+    from ballscrew.output.json_text import as_json as json_text
+    from ballscrew.output.text import fit as text
+
     if verbose:
         say_engine(report.model.response.evaluation.attributes)
     if as_json:

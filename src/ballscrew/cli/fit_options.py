@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any, cast, get_args
 
 from ballscrew import units
 from ballscrew.cases.case import Case
-from ballscrew.errors import Fault, nearest, raise_if_any
+from ballscrew.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.evaluation.outputs import inputs_of
+from ballscrew.files import check_writable
 from ballscrew.quantities import Quantity
-from ballscrew.studies.fit import CONDITIONS, Options, Range, free_quantities
+from ballscrew.studies.fit_log import CONDITIONS, Options, Range
 from ballscrew.torque_logs.log_rows import INERTIA, TORQUE_CONSTANT, Kind
 
 #: The number that is fitted by default.
@@ -39,7 +41,7 @@ def options(
     conditions = {name: q for name, (_, q) in inputs_of(case.model, case.screw, case.lubricant).items()}
     found = Options(
         free=names,
-        bounds=_ranges("--bounds", bounds, free_quantities(case, names), faults),
+        bounds=_ranges("--bounds", bounds, _bounded(case, names) if bounds else {}, faults),
         limits=_ranges("--limits", limits, {n: conditions[n] for n in CONDITIONS if n in conditions}, faults),
         inertia=_number("--inertia", inertia, INERTIA, faults),
         torque_constant=_number("--torque-constant", torque_constant, TORQUE_CONSTANT, faults),
@@ -53,6 +55,24 @@ def options(
         faults.append(Fault("--kind", "unknown kind of torque", kind, "friction or drive"))
     raise_if_any(faults)
     return found
+
+
+def check_to(to: Path, case: Path) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` if no case file can be written there, or if it is the case itself."""
+    if to.resolve() == case.resolve():
+        raise InputError(
+            Fault("--to", "is the case itself", str(to), "choose another name: its comments would be lost")
+        )
+    if to.suffix.lower() != ".toml":
+        raise InputError(Fault("--to", "is no case file", str(to), "end it in .toml; a picture is --picture"))
+    check_writable("--to", to)
+
+
+def _bounded(case: Case, names: Sequence[str]) -> Mapping[str, Quantity]:
+    """Quantities of the free numbers, which bounds need."""
+    from ballscrew.studies.fit import free_quantities  # slow to import: only where bounds are given
+
+    return free_quantities(case, names)
 
 
 def _ranges(option: str, given: Sequence[str], known: Mapping[str, Quantity], faults: list[Fault]) -> dict[str, Range]:

@@ -11,6 +11,9 @@ from typing import Any
 @contextlib.contextmanager
 def progress(what: str) -> Generator[Callable[[int, int], None]]:
     """A progress bar on the error stream, for ``done(finished, total)`` points; silent where nobody looks."""
+    if not sys.stderr.isatty():
+        yield _silent
+        return
     from rich.console import Console
     from rich.progress import Progress, Task, TextColumn
 
@@ -20,6 +23,10 @@ def progress(what: str) -> Generator[Callable[[int, int], None]]:
             return super().render(task)
 
     columns = (*Progress.get_default_columns(), Rate(""))
-    with Progress(*columns, console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as bar:
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(what, total=None)
         yield lambda finished, total: bar.update(task, completed=finished, total=total)
+
+
+def _silent(*_: int) -> None:
+    """Nothing, for nobody looks."""

@@ -19,7 +19,8 @@ from ballscrew.cases.case import Case
 from ballscrew.figures import style
 from ballscrew.output.text import fit as text
 from ballscrew.quantities import Quantity
-from ballscrew.studies.fit import CONDITIONS, FitReport
+from ballscrew.studies.fit import FitReport
+from ballscrew.studies.fit_log import CONDITIONS
 from ballscrew.torque_logs.log_rows import quantities
 
 #: More points than this are a blot.

@@ -119,7 +119,8 @@ def checks(
     """The checks of a screw at one operating point, all of them every time; one without its inputs says so.
 
     ``axial_load`` is the mean load, which tires the screw, always in one direction; ``largest_load`` (the mean where
-    None) may break it. Loads and speed count by their size, whatever their signs. The ratings are those of one nut body or half, as are the loaded balls of the screw.
+    None) may break it. Loads and speed count by their size, whatever their signs. The ratings are those of one
+    nut body or half, as are the loaded balls of the screw.
     ``half_loads`` are the axial forces at the mean load on the loaded flanks and, if they carry any, on the relieved
     ones; where they are not known, those of the closed formula of :func:`loads_of_halves` are taken.
     ``maximum_pressure`` is that of the most loaded contact. Without a ``root_diameter`` that of the groove is taken.

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
+from collections.abc import Mapping, Sequence
 
 from ballscrew import units
 from ballscrew.calibration.calibrated_model import CalibratedModel
@@ -17,34 +16,12 @@ from ballscrew.errors import Fault, InputError
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.quantities import Quantity
 from ballscrew.records import Record
-from ballscrew.torque_logs import reading
-from ballscrew.torque_logs.log_rows import Kind
+from ballscrew.studies.fit_log import Options
 from ballscrew.torque_logs.torque_log import TorqueLog
 
-#: The quantities that describe a test.
-CONDITIONS = ("axial_load", "screw_speed", "temperature")
 #: Options of the command line by the fields in which the fit finds faults.
 _OPTIONS: Mapping[str, str] = {f"fit.{name}": f"--{name}" for name in ("free", "holdout", "kind", "seed")}
 _LIMITS = "fit.limits."
-Range = tuple[float, float]
-
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class Options:
-    """Settings of a fit; numbers in SI."""
-
-    free: Sequence[str]
-    bounds: Mapping[str, Range] = dataclasses.field(default_factory=dict[str, Range])
-    #: Ranges for the next test, by condition.
-    limits: Mapping[str, Range] = dataclasses.field(default_factory=dict[str, Range])
-    #: Headings of the log by column.
-    columns: Mapping[str, str] = dataclasses.field(default_factory=dict[str, str])
-    kind: Kind = "unknown"
-    inertia: float | None = None
-    torque_constant: float | None = None
-    holdout: float = 0.2
-    seed: int = 0
-    keep_going: bool = False
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -57,15 +34,11 @@ class FitReport:
     log: TorqueLog
 
 
-def fit(case: Case, path: Path, options: Options, done: Callable[[int, int], None] | None = None) -> FitReport:
-    """Fit of a case to the log in a file. Raises ``InputError`` that names options of the command line.
+def fit(case: Case, log: TorqueLog, options: Options) -> FitReport:
+    """Fit of a case to a log. Raises ``InputError`` that names options of the command line.
 
-    A distribution that the case gives a free number is its prior.
+    A distribution that the case gives a free number is its prior. :mod:`~ballscrew.studies.fit_log` reads the log.
     """
-    log = reading.read(
-        path, options.columns, torque_constant=options.torque_constant, lead=float(case.screw.lead),
-        keep_going=options.keep_going, done=done,
-    )  # fmt: skip
     subject = Configuration(case.model, case.screw, case.lubricant)
     known = free_quantities(case, options.free)
     priors = {

@@ -41,7 +41,7 @@ from ballscrew.errors import (
 )
 from ballscrew.evaluation.evaluation import Engine, Evaluation
 from ballscrew.evaluation.plan import Plan
-from ballscrew.sweeps.store_check import LAYOUT, ROOT, Contents, Damage, stored_plan
+from ballscrew.sweeps.store_check import LAYOUT, ROOT, Contents, Damage, file_in_place_of_a_folder, stored_plan
 from ballscrew.sweeps.store_entries import refuse_unsafe
 from ballscrew.sweeps.store_layout import lay_out
 from ballscrew.sweeps.store_plan import Blocks, checksum, description_of, differences, sealed
@@ -183,7 +183,7 @@ class Store:
             if not new and (rows or (self.own / LAYOUT).exists()):  # else a process was killed as it began
                 _log.warning("%s: written again: %s", self.path, _named(others))
             self._lay_out()
-        bad = {damage.block for damage in of_blocks}
+        bad = {damage.block for damage in of_blocks if damage.block is not None}
         if bad:
             blocks = f"{len(bad)} block{'s are' if len(bad) > 1 else ' is'}"
             _log.warning("%s: %s computed again: %s", self.path, blocks, _named(of_blocks))
@@ -329,11 +329,14 @@ def _checked(path: str | os.PathLike[str], plan: Plan) -> Path:
 def stopping_cleanly(store: Store) -> Generator[None]:
     """Remove temporary files when the work stops, and report how many blocks are finished.
 
-    A full disk or a lost cluster raises :class:`UnfinishedSweepError`; an interrupt carries the text as a note.
+    A full disk or a lost cluster raises :class:`UnfinishedSweepError`; an interrupt carries the text as a note. A file
+    in place of a folder raises :class:`~ballscrew.errors.InputError`: it may be one of the user, and is not removed.
     """
     try:
         yield
     except OSError as error:
+        if isinstance(error, FileExistsError | NotADirectoryError):
+            _refuse_file(store, error)
         remedy = "make room and run the same again" if error.errno in FULL else "run the same again"
         why = error.strerror or str(error) or type(error).__name__
         raise UnfinishedSweepError(error.errno, _stopped(store, f" ({why})", remedy)) from error
@@ -342,6 +345,15 @@ def stopping_cleanly(store: Store) -> Generator[None]:
         raise
     finally:
         store.clear()
+
+
+def _refuse_file(store: Store, error: OSError) -> None:
+    """Raise for a file in the place of a folder, which the same sweep would meet again."""
+    for name in (error.filename, error.filename2):
+        file = None if name is None else file_in_place_of_a_folder(Path(os.fsdecode(name)), store.path)
+        if file is not None and not file.is_relative_to(store.own / "temporary"):
+            remedy = "remove the file and run the same again"
+            raise InputError(Fault(WHERE, "has a file in place of a folder", str(file), remedy)) from None
 
 
 def _named(damaged: Sequence[Damage]) -> str:

@@ -14,7 +14,7 @@ from typing import Any
 
 from ballscrew.errors import Fault, InputError
 from ballscrew.sweeps.store_plan import FORMAT, Blocks, is_plan, read_sealed
-from ballscrew.sweeps.store_rows import BYTES, FALSE, OTHER, OWN, WHERE, Content, cells_of, row
+from ballscrew.sweeps.store_rows import BYTES, FALSE, OTHER, OWN, WHERE, Content, cells_of, row, unreadable
 
 #: The metadata of the dataset, and of each variable.
 ROOT = "zarr.json"
@@ -25,6 +25,8 @@ READERS = 4
 #: Blocks that wait for a reader.
 BATCH = 1000
 _FOREIGN = "is there and is not the store of a sweep"
+#: Remedies for what is not to be filled but only checked.
+_A_STORE, _A_COPY = "give the folder of a store", "take a copy of the store, or sweep again under another name"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -63,13 +65,13 @@ def verify(store: str | os.PathLike[str]) -> Verification:
 
     Nothing is changed: the sweep that filled the store computes damaged blocks again
     (``bs.sweep(…, to=…, verify=True)``, ``ballscrew sweep … --verify``). CRC-32 finds damage by accident, not a change
-    on purpose. Raises :class:`~ballscrew.errors.InputError` for a folder that is not the store of a sweep, or
-    whose plan is damaged.
+    on purpose. Raises :class:`~ballscrew.errors.InputError` for a folder that is not the store of a sweep, whose plan
+    is damaged, or whose checksums cannot be read.
     """
     path = Path(store).absolute()
-    document = stored_plan(path)
+    document = stored_plan(path, foreign=_A_STORE, damaged=_A_COPY)
     if document is None:
-        raise InputError(Fault(WHERE, "is not the store of a sweep", str(path), "give the folder of a store"))
+        raise InputError(Fault(WHERE, "is not the store of a sweep", str(path), _A_STORE))
     if document["format"] != FORMAT:
         remedy = f"give a store of format {FORMAT}"
         raise InputError(Fault(WHERE, "is a store of another version", f"{path}: format {document['format']}", remedy))
@@ -79,32 +81,51 @@ def verify(store: str | os.PathLike[str]) -> Verification:
     return Verification(path, contents.blocks.count, len(rows), damaged, contents.is_complete)
 
 
-def stored_plan(folder: Path) -> dict[str, Any] | None:
+def stored_plan(folder: Path, *, foreign: str = "choose another name", damaged: str = OTHER) -> dict[str, Any] | None:
     """The document of the store in a folder; None where there is no store yet.
 
-    Raises :class:`~ballscrew.errors.InputError` where something else is: it is not touched.
+    Raises :class:`~ballscrew.errors.InputError` where something else is, with the remedy ``foreign``, and for a plan
+    that is ``damaged``: it is not touched.
     """
     path = folder / OWN / "plan.json"
     try:
-        text = path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        # without a plan there may be what a process left that was killed as it began
-        names = {path.name for path in folder.iterdir()} if folder.exists() else set[str]()
-        if not names - {OWN}:
+        try:
+            text = path.read_text(encoding="utf-8")
+        except (FileNotFoundError, NotADirectoryError):
+            _refuse_without_plan(folder, foreign, damaged)
             return None
-        if OWN in names:
-            raise InputError(Fault(WHERE, "has lost its plan", str(path), OTHER)) from None
-        raise InputError(Fault(WHERE, _FOREIGN, str(folder), "choose another name")) from None
-    except NotADirectoryError:
-        if not folder.exists():
-            return None  # it is above that there is none, as making the folder will say
-        raise InputError(Fault(WHERE, _FOREIGN, str(folder), "choose another name")) from None
+    except InputError:
+        raise
     except (OSError, ValueError) as error:
-        raise InputError(Fault(WHERE, "cannot be read", f"{path}: {error}", OTHER)) from None
+        raise unreadable(path, error, damaged) from None
     document = read_sealed("plan", text)
     if document is None or not is_plan(document):
-        raise InputError(Fault(WHERE, "has a damaged plan", str(path), OTHER))
+        raise InputError(Fault(WHERE, "has a damaged plan", str(path), damaged))
     return document
+
+
+def _refuse_without_plan(folder: Path, foreign: str, damaged: str) -> None:
+    """Raise for a folder that has something else than a plan in it.
+
+    Nothing may be there, or what a process left that was killed as it began.
+    """
+    if not folder.exists():
+        return  # perhaps it is above that there is none, as making the folder will say
+    if not folder.is_dir():
+        raise InputError(Fault(WHERE, _FOREIGN, str(folder), foreign))
+    if (folder / OWN).is_file():
+        raise InputError(Fault(WHERE, "has a file in place of a folder", str(folder / OWN), damaged))
+    names = {path.name for path in folder.iterdir()}
+    if OWN in names and names != {OWN}:
+        raise InputError(Fault(WHERE, "has lost its plan", str(folder / OWN / "plan.json"), damaged))
+    if names - {OWN}:
+        raise InputError(Fault(WHERE, _FOREIGN, str(folder), foreign))
+
+
+def file_in_place_of_a_folder(path: Path, store: Path) -> Path | None:
+    """The file on the way to a folder in a store, or in its place."""
+    way = [folder for folder in (path, *path.parents) if folder.is_relative_to(store)]
+    return next((folder for folder in reversed(way) if folder.is_file()), None)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -145,32 +166,43 @@ class Contents:
         return f"{name}/{self.blocks.key(number)}"
 
     def rows(self) -> dict[int, bytes]:
-        """The rows of the finished blocks; damaged ones are left out."""
+        """The rows of the finished blocks; damaged ones are left out.
+
+        Raises :class:`~ballscrew.errors.InputError` where nobody may read them: they may all be good.
+        """
         found: dict[int, bytes] = {}
-        missing = FileNotFoundError, NotADirectoryError
-        with contextlib.suppress(*missing, IsADirectoryError), (self.own / "blocks.csv").open("rb") as file:
-            next(file, None)
-            self._add(found, file)
+        table = self.own / "blocks.csv"
+        missing = FileNotFoundError, NotADirectoryError, IsADirectoryError
+        try:
+            with contextlib.suppress(*missing), table.open("rb") as file:
+                next(file, None)
+                self._add(found, file)
+        except OSError as error:
+            raise unreadable(table, error) from None
         for entry in self._entries():
             if entry.is_file(follow_symlinks=False):
-                with contextlib.suppress(*missing):
+                with contextlib.suppress(OSError):  # ``_unread_rows`` says which
                     self._add(found, [Path(entry.path).read_bytes()], entry.name)
         return found
 
     def _entries(self) -> Iterator[os.DirEntry[str]]:
         """The entries of the folder with the rows of single blocks."""
-        with contextlib.suppress(FileNotFoundError, NotADirectoryError), os.scandir(self.own / "blocks") as entries:
-            yield from entries
+        folder = self.own / "blocks"
+        try:
+            with contextlib.suppress(FileNotFoundError, NotADirectoryError), os.scandir(folder) as entries:
+                yield from entries
+        except OSError as error:
+            raise unreadable(folder, error) from None
 
-    def _rows_without_file(self) -> list[Damage]:
-        """The blocks with a folder or a link in place of the file of their row."""
-        return [
-            Damage(f"{OWN}/blocks/{entry.name}", "is not a file", int(entry.name))
-            for entry in self._entries()
-            if entry.name.isdecimal()
-            and int(entry.name) < self.blocks.count
-            and not entry.is_file(follow_symlinks=False)
-        ]
+    def _unread_rows(self, rows: Mapping[int, bytes]) -> list[Damage]:
+        """The blocks with a folder or a link in place of the file of their row, or with one that cannot be read."""
+        is_blocked = not self.is_complete and (self.own / "blocks").is_file()
+        found = [Damage(f"{OWN}/blocks", "is a file and no folder")] if is_blocked else []
+        for entry in self._entries():
+            number = int(entry.name) if entry.name.isdecimal() else self.blocks.count
+            if number < self.blocks.count and number not in rows and (problem := _unread(entry)):
+                found.append(Damage(f"{OWN}/blocks/{entry.name}", problem, number))
+        return found
 
     def _add(self, found: dict[int, bytes], lines: Any, name: str | None = None) -> None:
         for line in lines:
@@ -196,7 +228,7 @@ class Contents:
                     found.append(Damage(key, problem, number))
             return found
 
-        numbers, damaged = list(rows), self._rows_without_file()
+        numbers, damaged = list(rows), self._unread_rows(rows)
         with ThreadPoolExecutor(READERS) as pool:
             for first in range(0, len(numbers), BATCH):  # a store may have millions
                 damaged += itertools.chain.from_iterable(pool.map(of_block, numbers[first : first + BATCH]))
@@ -219,6 +251,8 @@ class Contents:
             layout = None if document is None else {key: Content(*noted) for key, noted in document.items()}
         except FileNotFoundError:
             return [Damage(f"{OWN}/{LAYOUT}", "is missing")]
+        except PermissionError as error:
+            return [Damage(f"{OWN}/{LAYOUT}", f"cannot be read: {error.strerror}")]
         except (OSError, ValueError, TypeError):
             layout = None
         if layout is None:
@@ -235,6 +269,17 @@ class Contents:
         return found
 
 
+def _unread(entry: os.DirEntry[str]) -> str:
+    """Problem of the file of a row; none where it was read."""
+    if not entry.is_file(follow_symlinks=False):
+        return "is not a file"
+    try:
+        Path(entry.path).read_bytes()
+    except OSError as error:
+        return f"cannot be read: {error.strerror or error}"
+    return ""
+
+
 def _problem(path: Path, key: str, noted: Content, *, checksums: bool) -> str:
     """Problem of a file; a chunk of nothing but the fill value has no bytes and no file."""
     try:
@@ -244,7 +289,13 @@ def _problem(path: Path, key: str, noted: Content, *, checksums: bool) -> str:
         if state.st_size != noted.bytes:
             return f"has {state.st_size} bytes, not {noted.bytes}"
         return "has another checksum" if checksums and Content.of(key, path.read_bytes()) != noted else ""
-    except (FileNotFoundError, NotADirectoryError):
+    except NotADirectoryError:
+        store = path.parents[key.count("/")]
+        file = file_in_place_of_a_folder(path.parent, store)
+        return "is missing" + (
+            "" if file is None else f": {file.relative_to(store).as_posix()} is a file and no folder"
+        )
+    except FileNotFoundError:
         return "is missing" if noted.bytes else ""
     except OSError as error:
         return f"cannot be read: {error.strerror or error}"

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ballscrew.errors import Fault, InputError
-from ballscrew.sweeps.store_rows import OTHER, OWN, WHERE
+from ballscrew.sweeps.store_rows import OWN, WHERE, unreadable
 
 
 def refuse_unsafe(folder: Path, *, trust: bool) -> None:
@@ -34,7 +34,7 @@ def refuse_unsafe(folder: Path, *, trust: bool) -> None:
             if entry.is_dir(follow_symlinks=False):
                 _refuse_foreign(Path(entry.path), entry.stat(follow_symlinks=False), trust=trust)
     except OSError as error:
-        raise InputError(Fault(WHERE, "cannot be read", f"{folder}: {error.strerror or error}", OTHER)) from None
+        raise unreadable(Path(error.filename or folder), error) from None
 
 
 def opened_as_file(path: Path) -> int:

@@ -20,6 +20,8 @@ from ballscrew.errors import (
 #: The field that errors name, and the remedy for a store that exists already.
 WHERE = "sweep.to"
 OTHER = "choose another name, or remove it"
+#: The remedy for files without the right to read them.
+READABLE = "make it readable"
 #: The folder of metadata of this package in a store.
 OWN = ".ballscrew"
 #: Suffixes of the headings of columns: sizes of chunks, and counts of false truth values.
@@ -37,6 +39,13 @@ class Content(NamedTuple):
         """That of a file under its path in the store: the same content elsewhere has another checksum."""
         view = memoryview(content).cast("B") if len(content) else b""
         return cls(len(view), f"{zlib.crc32(view, zlib.crc32(key.encode())):08x}")
+
+
+def unreadable(path: Path, error: OSError | ValueError, remedy: str = OTHER) -> InputError:
+    """The error of a file of a store that cannot be read; without the right to, the remedy is to get it."""
+    why = getattr(error, "strerror", None) or str(error)
+    remedy = READABLE if isinstance(error, PermissionError) else remedy
+    return InputError(Fault(WHERE, "cannot be read", f"{path}: {why}", remedy))
 
 
 def count_false(path: Path) -> dict[str, tuple[int, int]]:

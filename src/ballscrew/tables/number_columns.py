@@ -37,7 +37,7 @@ def column_numbers(
         given = ~np.isnan(values)
     else:
         values = _plain_numbers(array, decimal)
-        given = np.array([not is_missing(cell) for cell in array])
+        given = np.array([not is_missing(cell) for cell in array], dtype=bool)  # of no cells, too
     values = heading.offset + heading.scale * values if heading.unit else np.full(values.shape, np.nan)
     return values, np.flatnonzero(given & ~within_bounds(quantity.info, values))
 

@@ -19,7 +19,7 @@ from ballscrew.torque_logs.repeats import repeated_rows
 Log = TypeVar("Log", bound=LogRows)
 
 #: Reasons for leaving rows out.
-GAPS, REST, RAMPS, THINNED = "a value is missing", "at rest", "speed changes", "thinned"
+GAPS, REST, RAMPS, THINNED = "a value is missing or impossible", "at rest", "speed changes", "thinned"
 REPEATED = "repeats an earlier row"
 #: Fewer rows than these tell nothing; fewer than those tell little.
 LEAST_ROWS, FEW_ROWS = 3, 30

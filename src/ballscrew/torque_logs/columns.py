@@ -32,7 +32,7 @@ from ballscrew.tables.headings import (
     unused,
 )
 from ballscrew.tables.sheets import Record
-from ballscrew.torque_logs.log_rows import Kind, quantities
+from ballscrew.torque_logs.log_rows import Kind, quantities, within
 
 #: The headings stand within this many rows: loggers write about themselves first.
 WITHIN = 60
@@ -88,9 +88,9 @@ _SPEEDS = ("screw_speed", "feed_rate", "position")
 _QUANTITIES: Mapping[str, Quantity] = {
     **quantities(),
     **{name: dataclasses.replace(quantities()["torque"], name=name) for name in ("friction_torque", "drive_torque")},
-    "current": Quantity("current", "A", Info("I", "current of the motor that makes torque")),
-    "position": Quantity("position", "m", Info("x", "position of the nut along the screw", "mm")),
-    "feed_rate": Quantity("feed_rate", "m/s", Info("v", "speed of the nut along the screw", "m/min")),
+    "current": Quantity("current", "A", within(1e6, Info("I", "current of the motor that makes torque"))),
+    "position": Quantity("position", "m", within(1e6, Info("x", "position of the nut along the screw", "mm"))),
+    "feed_rate": Quantity("feed_rate", "m/s", within(1e6, Info("v", "speed of the nut along the screw", "m/min"))),
 }
 COLUMNS = tuple(
     Column(
@@ -145,7 +145,7 @@ class Layout:
     @property
     def torque(self) -> str:
         """The column that has the torque, or the current."""
-        return next(name for name in TORQUES if name in self.headings)
+        return next(name for name in TORQUES if name in self.headings or name in self.constants)
 
 
 def temperatures_among(unused: Sequence[str]) -> list[str]:

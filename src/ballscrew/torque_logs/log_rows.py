@@ -33,20 +33,29 @@ TORQUE_CONSTANT = Quantity("torque_constant", "N m/A", Info("k_T", "torque of th
 Time = Annotated[Any, Unit("s")]
 
 
+def within(limit: float, info: Info) -> Info:
+    """The same with bounds to both sides."""
+    return dataclasses.replace(info, at_least=-limit, at_most=limit, hint="check the number and its unit")
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class LogRows:
     """Rows of a log of torque in SI: arrays of equal length, one number for each row.
 
+    The bounds lie far beyond all machines: what loggers write for no value (9.9e37) is no measurement.
+
     Raises :class:`~ballscrew.errors.InputError` if the lengths differ.
     """
 
-    axial_load: Annotated[Force, Info("F", "axial load; positive where a positive speed works against it", "N")]
-    screw_speed: Annotated[AngularSpeed, Info(r"\omega", "speed of the screw, negative in reverse", "rpm")]
-    torque: Annotated[Torque, Info("M", "measured torque", "N m")]
+    axial_load: Annotated[
+        Force, within(1e12, Info("F", "axial load; positive where a positive speed works against it", "N"))
+    ]
+    screw_speed: Annotated[AngularSpeed, within(1e9, Info(r"\omega", "speed of the screw, negative in reverse", "rpm"))]
+    torque: Annotated[Torque, within(1e6, Info("M", "measured torque", "N m"))]
     temperature: Annotated[
         Temperature | None, Info("T", "temperature of the oil", "degC", above=0, hint="not colder than absolute zero")
     ] = None
-    time: Annotated[Time | None, Info("t", "time", "s")] = None
+    time: Annotated[Time | None, within(1e18, Info("t", "time", "s"))] = None
     #: Numbers of the rows in the file, or in the arrays given, from 1.
     line: Any = None
     kind: Kind = "unknown"

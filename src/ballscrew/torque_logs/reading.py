@@ -9,9 +9,10 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ballscrew.errors import LINES_AT_MOST, Fault, InputError, raise_if_any
 from ballscrew.tables.sheets import unreadable
@@ -20,7 +21,7 @@ from ballscrew.torque_logs.columns import TEMPERATURE, TORQUES, Layout, layout, 
 from ballscrew.torque_logs.log_rows import REQUIRED
 from ballscrew.torque_logs.motion import Floats
 from ballscrew.torque_logs.numbers import NumberReader
-from ballscrew.torque_logs.positions import feed_rate
+from ballscrew.torque_logs.positions import FeedRates
 from ballscrew.torque_logs.reservoir_sampler import ReservoirSampler
 from ballscrew.torque_logs.sources import source_of
 from ballscrew.torque_logs.text_files import Piece, size_of
@@ -77,7 +78,7 @@ def _read(
         raise InputError(Fault(str(path), "is empty", "", "give a table with headings and rows"))
     place = layout(path, source.found, columns)
     _check_factors(place, *factors)
-    log, numbers = _gathered(place, source.pieces(place, chunk), factors, keep_going, held)
+    log, numbers, rates = _gathered(place, source.pieces(place, chunk), factors, keep_going, held)
     digest = source.digest()
     notes = [f"columns not used: {', '.join(place.unused)}"] if place.unused else []
     if TEMPERATURE not in place.headings and (others := temperatures_among(place.unused)):
@@ -85,10 +86,10 @@ def _read(
     if numbers.errors:
         kinds, count = ", ".join(sorted(numbers.errors)), sum(numbers.errors.values())
         notes.append(f"{count} cells hold errors of a spreadsheet ({kinds}): they count as missing")
-    if "position" in place.headings:
-        notes.append(
-            "the speed is that of the position over the time, from straight lines through the rows around each"
-        )
+    if rates is not None:
+        told = "the speed is that of the position over the time, from straight lines through "
+        chosen = f", as the noise in the first {held} allows" if rates.rows > held else ""
+        notes.append(f"{told}{2 * rates.lines.half_width + 1} rows{chosen}")
     if source.empty_bytes:
         notes.append(f"the file ends with {source.empty_bytes} empty bytes, which are left out")
     if done is not None:
@@ -104,15 +105,19 @@ def _check_factors(place: Layout, torque_constant: float | None, lead: float | N
         ("feed_rate", lead, "give the lead of the screw, or a column with its speed"),
         ("position", lead, "give the lead of the screw, or a column with its speed"),
     ):
-        if name in place.headings and factor is None:
+        if (where := _place_of(name, place)) and factor is None:
             needs = "torque constant" if name == "current" else "lead"
-            faults.append(
-                Fault(f'{place.file} column "{place.headings[name].written}"', f"needs the {needs}", "", option)
-            )
-    if "position" in place.headings and "time" not in place.headings:
-        where = f'{place.file} column "{place.headings["position"].written}"'
+            faults.append(Fault(where, f"needs the {needs}", "", option))
+    if (where := _place_of("position", place)) and not _place_of("time", place):
         faults.append(Fault(where, "gives no speed without the time", "", "give a column with the time, or the speed"))
     raise_if_any(faults)
+
+
+def _place_of(name: str, place: Layout) -> str:
+    """The place of a column in messages; empty where there is none."""
+    if name in place.headings:
+        return f'{place.file} column "{place.headings[name].written}"'
+    return f"--column {name}" if name in place.constants else ""
 
 
 def _gathered(
@@ -121,16 +126,29 @@ def _gathered(
     factors: tuple[float | None, float | None],
     keep_going: bool,
     held: int,
-) -> tuple[TorqueLog, NumberReader]:
+) -> tuple[TorqueLog, NumberReader, FeedRates | None]:
+    torque_constant, lead = factors
     cells, gathering, cut_off = NumberReader(place, keep_going), ReservoirSampler(held), 0
+    rates = FeedRates(held) if "position" in {*place.headings, *place.constants} else None
+
+    def gather(rows: dict[str, NDArray[Any]]) -> None:
+        good = rows.pop("good")
+        if "feed_rate" in rows and lead is not None:
+            rows["screw_speed"] = 2 * np.pi / lead * rows.pop("feed_rate")
+        line = rows.pop("line")[good]
+        gathering.add({name: column[good] for name, column in rows.items()}, line)
+
     for piece in pieces:
         raw = {name: piece.cells[heading.place] for name, heading in place.headings.items()}
         values, good = cells.numbers(raw, piece.line, piece.cut_off)
-        named = _named(values, place, piece.line.size, factors)
+        named = _named(values, place, piece.line.size, torque_constant)
         if piece.cut_off and good.size and _lacks(named, -1):
             good[-1] = False
             cut_off = 1
-        gathering.add({name: column[good] for name, column in named.items()}, piece.line[good])
+        rows = {**named, "line": piece.line, "good": good}
+        gather(rows if rates is None else rates.add(rows))
+    if rates is not None and rates.rows:
+        gather(rates.end())
     if not keep_going:
         raise_if_any(cells.faults)
     if not gathering.rows:
@@ -140,22 +158,17 @@ def _gathered(
     log = gathering.log(TORQUES[place.torque])
     counts = {**log.left_out, UNREADABLE: cells.bad_rows, CUT_OFF: cut_off}
     left_out = {reason: count for reason, count in counts.items() if count}
-    return dataclasses.replace(log, left_out=left_out, rows=gathering.rows + cells.bad_rows + cut_off), cells
+    return dataclasses.replace(log, left_out=left_out, rows=gathering.rows + cells.bad_rows + cut_off), cells, rates
 
 
 def _named(
-    values: Mapping[str, Floats], place: Layout, rows: int, factors: tuple[float | None, float | None]
-) -> dict[str, Floats]:
-    """The columns of a log from those of a file."""
+    values: Mapping[str, Floats], place: Layout, rows: int, torque_constant: float | None
+) -> dict[str, NDArray[Any]]:
+    """The columns of a log from those of a file; a feed rate or a position in place of the speed stays."""
     constants = {name: np.full(rows, value) for name, value in place.constants.items()}
     found = {**constants, **values}
-    torque_constant, lead = factors
     if "current" in found and torque_constant is not None:
         found["torque"] = torque_constant * found.pop("current")
-    if "position" in found:
-        found["feed_rate"] = feed_rate(found["time"], found.pop("position"))[0]
-    if "feed_rate" in found and lead is not None:
-        found["screw_speed"] = 2 * np.pi / lead * found.pop("feed_rate")
     for name in TORQUES:
         if name in found:
             found["torque"] = found.pop(name)
@@ -163,7 +176,7 @@ def _named(
 
 
 def _lacks(named: Mapping[str, Floats], row: int) -> bool:
-    return any(bool(np.isnan(named[name][row])) for name in REQUIRED)
+    return any(bool(np.isnan(named[name][row])) for name in (*REQUIRED, "feed_rate", "position") if name in named)
 
 
 def _check_filled(place: Layout, gathering: ReservoirSampler) -> None:
