@@ -89,8 +89,6 @@ def test_memory_stays(server, serve):
 
 def test_what_is_kept_is_bounded():
     """No cache has a case or a text of a request as its key: a thousand different ones leave as many entries as one."""
-    from ballscrew.friction.nut_parts import NutParts
-
     from ballscrew.components.nut import SingleNut
     from ballscrew.evaluation.outputs import _outputs, known_outputs
 
