@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import subprocess
 import sys
@@ -13,7 +14,6 @@ from ballscrew.figures import files
 from ballscrew.figures import validation as figures
 from ballscrew.friction.calibrations import PARAMETERS, calibrated, calibration
 from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.nut_friction import nut_friction
 from ballscrew.output.text import validation as text_of
 from ballscrew.studies import validation
 from ballscrew.validation.entries import DESCRIPTORS, Conditions, trends
@@ -209,8 +209,8 @@ def _chain_share(kind, nut, percents) -> float:
         if row.nut != kind:
             continue
         for percent in percents:
-            braced = nut(preload=percent / 100 * row.dynamic_load_rating)
-            r = nut_friction(model, row.screw(), braced, at.lubricant, axial_load=0.0, screw_speed=at.screw_speed)
+            screw = dataclasses.replace(row.screw(), nut=nut(preload=percent / 100 * row.dynamic_load_rating))
+            r = model(screw, at.lubricant, axial_load=0.0, screw_speed=at.screw_speed)
             shares.append(float(r.contributions["ball_to_ball"] / r.screw_torque))
     return sum(shares) / len(shares)
 

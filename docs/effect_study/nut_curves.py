@@ -16,7 +16,7 @@ from ballscrew.components.nut import Bodies, Deviations, DoubleNut, Nut, Oversiz
 from ballscrew.components.nut_losses import DOUBLE_NUT_DRAG, OVERSIZE_BALL_DRAG, JISDrag, RexrothDrag
 from ballscrew.components.screw import BallScrew
 from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.nut_friction import NutFriction, nut_friction
+from ballscrew.friction.result import FrictionResult
 from ballscrew.solvers.load_distribution import BallLoads, ball_loads
 from effect_study.cases import RPM
 
@@ -71,7 +71,7 @@ def distribution_curves() -> DistributionCurves:
 def nuts() -> Mapping[str, Nut]:
     """Nuts to compare, by name."""
     return {
-        "single nut, no preload": SingleNut(),
+        "single nut, no preload": SingleNut(angle_under_load=True),
         "double nut": DoubleNut(preload=preload()),
         "single nut, oversize balls": OversizeBallNut(preload=preload()),
     }
@@ -82,7 +82,7 @@ class PreloadCurves(NamedTuple):
 
     axial_load: Values
     loads: Mapping[str, BallLoads]
-    friction: Mapping[str, NutFriction]
+    friction: Mapping[str, FrictionResult]
 
 
 @functools.cache
@@ -90,8 +90,9 @@ def preload_curves() -> PreloadCurves:
     """Curves from no load to well beyond lift-off of the second half."""
     load = np.linspace(0.0, 4.0, 81) * preload()
     oil = Lubricant.from_grade(GRADE, temperature=TEMPERATURE)
+    model = FrictionModel.reference()
     friction = {
-        words: nut_friction(FrictionModel.reference(), row().screw(), nut, oil, axial_load=load, screw_speed=SPEED)
+        words: model(dataclasses.replace(row().screw(), nut=nut), oil, axial_load=load, screw_speed=SPEED)
         for words, nut in nuts().items()
     }
     return PreloadCurves(load, {words: result.loads for words, result in friction.items()}, friction)
@@ -118,10 +119,8 @@ def drag_curves(model: FrictionModel) -> DragCurves:
     for words, nut in nuts().items():
         if isinstance(nut, SingleNut):
             continue
-        torques = [
-            nut_friction(model, _with_lead(row_, lead), nut, oil, axial_load=0.0, screw_speed=DRAG_SPEED).screw_torque
-            for lead in leads
-        ]
+        screws = [dataclasses.replace(_with_lead(row_, lead), nut=nut) for lead in leads]
+        torques = [model(screw, oil, axial_load=0.0, screw_speed=DRAG_SPEED).screw_torque for screw in screws]
         found[words] = np.array(torques) / (preload() * d_0)
     rexroth = {
         words: RexrothDrag(coefficient)(preload(), d_0, row_.ball_circle, row_.lead) / (preload() * d_0)

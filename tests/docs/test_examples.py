@@ -37,6 +37,22 @@ def test_the_examples_of_a_page_run(page, tmp_path, monkeypatch, capsys):
     capsys.readouterr()
 
 
+def test_the_recipe_for_a_simulator_has_the_friction_of_the_nut(capsys):
+    """Without load it is that of the preload, by the model itself; the page states it."""
+    (page,) = (page for page in PAGES if name(page) == "docs/howto/simulator_table.md")
+    (block,) = examples(page)
+    names = {"__name__": "example"}
+    exec(compile(block.text, str(page), "exec"), names)
+    stated = block.text.split("  # ")[1].splitlines()[0]
+    torque, unit = capsys.readouterr().out.splitlines()[0].split(maxsplit=1)
+    assert f"{float(torque):.3g} {unit}" == stated == "0.0598 N m"
+    table = names["table"]
+    at_rest = table.sel(axial_load=0, screw_speed=0)
+    assert at_rest["screw_torque"] > 0
+    assert at_rest["drive_torque"] == 0
+    assert (table["drive_torque"].values == -table["drive_torque"].values[::-1, ::-1]).all()
+
+
 @pytest.mark.parametrize("page", pages(), ids=name)
 def test_what_does_not_run_says_why(page):
     marked = [block for block in blocks(page) if block.not_run]

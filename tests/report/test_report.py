@@ -18,6 +18,7 @@ import pytest
 
 from ballscrew.cases import case_file
 from ballscrew.cli import report
+from ballscrew.components.nut_losses import ConstantTorque
 from ballscrew.errors import InputError
 from ballscrew.friction.result import FrictionResult
 from ballscrew.output import bibliography
@@ -277,7 +278,7 @@ def test_ratings_that_nobody_lists_are_called_computed(content):
         assert (words in paragraph.lower()) == said
 
 
-def test_torque_that_a_fit_found_besides_stands_beside_the_torque():
+def test_torque_that_a_fit_found_besides_is_a_part_of_the_torque():
     fit = {
         "log": "rig_log.csv",
         "constant_torque": "0.08 N m",
@@ -286,8 +287,15 @@ def test_torque_that_a_fit_found_besides_stands_beside_the_torque():
         "covariance": [[1e-6]],
         "holdout_rms": "0.0155 N m",
     }
-    found = contents.content(dataclasses.replace(case_of("rig"), fit=fit), samples=SAMPLES)
-    assert "Not in it: 0.08 N m" in found.sections[0].blocks[0].text
+    plain = case_of("rig")
+    nut = dataclasses.replace(plain.screw.nut, losses={"constant": ConstantTorque(0.08)})
+    case = dataclasses.replace(plain, screw=dataclasses.replace(plain.screw, nut=nut), fit=fit)
+    found = contents.content(case, samples=SAMPLES)
+    (table,) = next(s for s in found.sections if s.title == "Where the torque comes from").blocks
+    assert ("constant", "0.08 N m") in [row[:2] for row in table.rows]
+    (own,) = next(s for s in content_of("rig").sections if s.title == "Where the torque comes from").blocks
+    alone, together = (float(rows[-1][1].split()[0]) for rows in (own.rows, table.rows))
+    assert together == pytest.approx(alone + 0.08, abs=1e-4)
     beware = next(section for section in found.sections if section.title == "What to beware of")
     assert "not compared with measurements" not in str(beware)
     assert "not compared with measurements" in str(

@@ -293,7 +293,7 @@ def test_lines_of_cases_at_fault(server, name):
         ("sweep", {"vary": {"axial_load": "1:2:0 N"}}, ["sweep", "--vary", "axial_load=1:2:0 N"]),
         ("sweep", {"vary": {"axial_load": "1:2:2.5 N"}}, ["sweep", "--vary", "axial_load=1:2:2.5 N"]),
         ("sweep", {"vary": {"axial_load": "1, two N"}}, ["sweep", "--vary", "axial_load=1, two N"]),
-        ("sweep", {"vary": {"axial_load": "-1 N"}}, ["sweep", "--vary", "axial_load=-1 N"]),
+        ("sweep", {"vary": {"lead": "-1 mm"}}, ["sweep", "--vary", "lead=-1 mm"]),
         ("sweep", {"outputs": ["eficiency"]}, ["sweep", "--output", "eficiency"]),
         ("band", {"samples": 1}, ["run", "--band", "--samples", "1"]),
         ("band", {"level": 2.0}, ["run", "--band", "--level", "2"]),

@@ -89,13 +89,11 @@ def test_memory_stays(server, serve):
 
 def test_what_is_kept_is_bounded():
     """No cache has a case or a text of a request as its key: a thousand different ones leave as many entries as one."""
-    from ballscrew.friction.nut_parts import NutParts
-
     from ballscrew.components.nut import SingleNut
     from ballscrew.evaluation.outputs import _outputs, known_outputs
 
-    known_outputs(NutParts(nut=SingleNut()))
+    known_outputs(SingleNut())
     before = _outputs.cache_info().currsize
     for _ in range(100):
-        known_outputs(NutParts(nut=SingleNut()))
+        known_outputs(SingleNut())
     assert _outputs.cache_info().currsize == before

@@ -8,6 +8,8 @@ import sys
 from collections.abc import Callable
 from typing import Any, TypeVar
 
+from ballscrew.evaluation import recordings
+
 Argument = TypeVar("Argument")
 Result = TypeVar("Result")
 
@@ -28,12 +30,16 @@ def keep_loaded() -> None:
 
 
 def releasing(work: Callable[[Argument], Result]) -> Callable[[Argument], Result]:
-    """The work, and after it a collection of its cycles (figures, tapes), whose memory goes back to the system."""
+    """The work; after it its cycles (figures, tapes) are collected, and their memory goes back to the system.
+
+    Recordings are dropped, too: each case of a user has its own, which few will ask for again.
+    """
 
     def released(argument: Argument) -> Result:
         try:
             return work(argument)
         finally:
+            recordings.forget()
             gc.collect()
             if _TRIM is not None:
                 _TRIM(0)
