@@ -63,6 +63,7 @@ PARTS = [
 ]
 PARTS += [
     nut_losses.EfficiencyDrag(0.9),
+    nut_losses.ConstantTorque(0.2),
     *(
         getattr(nut_losses, name)()
         for name in ("JISDrag", "RexrothDrag", "Seals", "LipSeals", "Churning", "HarrisChurning", "Recirculation")
