@@ -282,9 +282,7 @@ def test_every_input_in_the_file_exists(seed_screw):
         name
         for slot, laws in LAWS.items()
         for law in laws.values()
-        for name in inputs_of(
-            dataclasses.replace(model, **{slot: law() if isinstance(law, type) else law}), screw, oil
-        )
+        for name in inputs_of(dataclasses.replace(model, **{slot: law() if isinstance(law, type) else law}), screw, oil)
     }
     assert set(default_uncertainties()) - names == {"viscosity_of_grade"}
 

@@ -88,7 +88,7 @@ def _si(raw: object, quantity: Quantity, may_vary: bool = False) -> float:
 
 def read_preload(raw: object) -> float:
     """A preload in N, or as a share of the dynamic load rating."""
-    if isinstance(raw, str) and "%" in raw and not _PERCENT_OF_FORCE.search(raw):
+    if isinstance(raw, str) and is_share(raw):
         return Share(_si(without_percent(raw), PERCENT, may_vary=True) / 100)
     bare = units.parse("", raw, PERCENT)
     if not isinstance(bare, Fault) and 0 < bare <= 100:
@@ -97,6 +97,11 @@ def read_preload(raw: object) -> float:
             "fault", "{problem}", {"problem": "needs a unit", "given": str(raw), "remedy": remedy}
         )
     return _si(raw, NUT_FIELDS["preload"], may_vary=True)
+
+
+def is_share(raw: str) -> bool:
+    """Return whether a preload is written as a share of the dynamic load rating."""
+    return "%" in raw and not _PERCENT_OF_FORCE.search(raw)
 
 
 def without_percent(raw: str) -> str:

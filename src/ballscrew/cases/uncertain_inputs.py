@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ballscrew.cases.case import Case
-from ballscrew.cases.fields import without_percent
+from ballscrew.cases.fields import is_share, without_percent
 from ballscrew.cases.nut_kinds import PERCENT
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew
@@ -170,7 +170,7 @@ def parse_distributions(
 
 def _written(raw: Any, quantity: Quantity, screw: BallScrew) -> UncertainValue | Fault | None:
     """The uncertain value in a text; a share of the dynamic load rating becomes a force by the preload of the screw."""
-    if quantity.name != "preload" or not isinstance(raw, str) or "%" not in raw:
+    if quantity.name != "preload" or not isinstance(raw, str) or not is_share(raw):
         return parse_uncertain(raw, quantity)
     written = parse_uncertain(without_percent(raw), PERCENT)
     if not isinstance(written, UncertainValue) or written.distribution is None:
