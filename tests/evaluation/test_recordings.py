@@ -158,7 +158,7 @@ def test_every_number_counts(name):
         {"sweep": {"friction.decay": 2.0}},
         {"sweep": {"axial_load": 100.0}},
     ],
-    ids=str,
+    ids=lambda change: "-".join(name for part in change.values() for name in part),
 )
 def test_a_changed_constant_is_recorded_anew(change):
     first = swept(MODELS["corrected"])
