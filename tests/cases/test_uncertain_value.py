@@ -116,7 +116,7 @@ REFUSED = [
     ("screw.starts=1 ± 0.5", "screw.starts: is a whole number, which has no distribution"),
     ("screw.ball_material.young_modulus=206 GPa ± 5 GPa", "screw.ball_material.young_modulus: takes no distribution"),
     ("screw.dynamic_load_rating=50 kN ± 1 kN", "screw.dynamic_load_rating: takes no distribution"),
-    ("bodies.screw_diameter=30 mm ± 1 mm", "bodies.screw_diameter: takes no distribution"),
+    ("deviations.lead=1 um ± 0.1 um", "deviations.lead: takes no distribution"),
     ("lubricant.viscosity=0.1 Pa s ± 20 blobs", "lubricant.viscosity: unknown unit (0.1 Pa s ± 20 blobs)"),
     ("model.friction.decay=1.4 ± 1 mm", "model.friction.decay: takes no unit"),
 ]

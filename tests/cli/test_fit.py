@@ -140,11 +140,15 @@ def test_a_case_file_is_written_whole(fit, log):
     assert calibration["settings"]["seed"] == 3
     assert calibration["settings"]["holdout"] == 0.1
     assert calibration["settings"]["free"] == [FRICTION, "constant_torque"]
-    assert calibration["numbers"] == [f"friction.{FRICTION}"]
-    assert calibration["covariance"] == [[pytest.approx(estimate["std"] ** 2)]]
-    torque, unit = calibration["constant_torque"].split(maxsplit=1)
-    assert unit == "N m"
-    assert float(torque) == pytest.approx(said["estimates"]["constant_torque"]["value"], rel=1e-5)
+    assert calibration["numbers"] == [f"friction.{FRICTION}", "losses.constant.constant_torque"]
+    constant = said["estimates"]["constant_torque"]
+    variances = [calibration["covariance"][i][i] for i in range(2)]
+    assert variances == [pytest.approx(one["std"] ** 2) for one in (estimate, constant)]
+    # the constant torque is a loss of the nut, and so in all answers
+    assert tables["losses"]["constant"]["law"] == "known"
+    value, half = (part.removesuffix(" N m") for part in tables["losses"]["constant"]["constant_torque"].split(" ± "))
+    assert float(value) == pytest.approx(constant["value"], rel=1e-11)
+    assert float(half) == pytest.approx(1.959964 * constant["std"], rel=1e-6)
 
 
 def test_a_fit_is_not_lost_for_want_of_a_next_test(fit, log):
@@ -362,7 +366,7 @@ def test_several_faults_are_told_at_once(fit, log):
     assert len(refused(fit(log(), *options), "--kind")) == 3
 
 
-def test_a_whole_nut_is_refused(fit, log):
-    lines = refused(fit(log(), case=EXAMPLES / "catalogue_screw.toml"), "a whole nut cannot be fitted yet")
+def test_a_nut_whose_balls_differ_is_refused(fit, log):
+    lines = refused(fit(log(), case=EXAMPLES / "catalogue_screw.toml"), "knows no nuts whose balls differ")
     assert len(lines) == 1
-    assert "leave out [nut]" in lines[0]
+    assert "leave out [bodies] and [deviations]" in lines[0]
