@@ -14,7 +14,7 @@ from ballscrew.components import laws
 from ballscrew.equations import film
 from ballscrew.evaluation import recordings
 from ballscrew.evaluation.outputs import OPERATION
-from ballscrew.evaluation.plan import Plan
+from ballscrew.evaluation.plan import Configuration, Plan
 from ballscrew.evaluation.recordings import UnknownPartError, key_of
 from ballscrew.papers.olaru2005 import OIL, SCREW
 
