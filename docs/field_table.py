@@ -11,13 +11,13 @@ from typing import Any
 from ballscrew import units
 from ballscrew.cases.fields import example_of
 from ballscrew.cases.nut_kinds import ENDS, LISTED, LOSSES, NUTS
-from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.materials import Lubricant, Material, grades
 from ballscrew.components.nut import Bodies, Scatter
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import Quantity, fields_of
+from ballscrew.sizing.installation import Installation, Limits
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "feed_drive.toml"
 

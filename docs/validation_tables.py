@@ -8,13 +8,13 @@ import subprocess
 import sys
 from pathlib import Path
 
-from ballscrew.components.catalogue import catalogue
 from ballscrew.components.nut import DoubleNut, OversizeBallNut
 from ballscrew.figures import files
 from ballscrew.figures import validation as figures
 from ballscrew.friction.calibrations import PARAMETERS, calibrated, calibration
 from ballscrew.friction.model import FrictionModel
 from ballscrew.output.text import validation as text_of
+from ballscrew.sizing.catalogue import catalogue
 from ballscrew.studies import validation
 from ballscrew.validation.entries import DESCRIPTORS, Conditions, trends
 

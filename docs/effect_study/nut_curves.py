@@ -10,13 +10,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.components.catalogue import CatalogueRow, catalogue
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Bodies, Deviations, DoubleNut, Nut, OversizeBallNut, SingleNut
 from ballscrew.components.nut_losses import DOUBLE_NUT_DRAG, OVERSIZE_BALL_DRAG, JISDrag, RexrothDrag
 from ballscrew.components.screw import BallScrew
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import FrictionResult
+from ballscrew.sizing.catalogue import CatalogueRow, catalogue
 from ballscrew.solvers.load_distribution import BallLoads, ball_loads
 from effect_study.cases import RPM
 

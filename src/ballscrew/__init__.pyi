@@ -3,7 +3,6 @@
 from ballscrew._version import __version__ as __version__
 from ballscrew.calibration.calibrated_model import CalibratedModel as CalibratedModel
 from ballscrew.calibration.fit import fit as fit
-from ballscrew.components.catalogue import catalogue as catalogue
 from ballscrew.components.lubrication import HamrockDowson as HamrockDowson
 from ballscrew.components.materials import Lubricant as Lubricant
 from ballscrew.components.materials import Material as Material
@@ -24,6 +23,7 @@ from ballscrew.evaluation.evaluator import evaluator as evaluator
 from ballscrew.friction.model import FrictionModel as FrictionModel
 from ballscrew.friction.nut_friction import nut_friction as nut_friction
 from ballscrew.friction.result import FrictionResult as FrictionResult
+from ballscrew.sizing.catalogue import catalogue as catalogue
 from ballscrew.sweeps.store_check import verify as verify
 from ballscrew.sweeps.sweep import sweep as sweep
 from ballscrew.torque_logs.torque_log import TorqueLog as TorqueLog

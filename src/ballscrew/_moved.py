@@ -20,6 +20,8 @@ _FOLDERS = ("ballscrew.analyses", "ballscrew.engine", "ballscrew.interfaces")
 _OLD = frozenset(
     {"analyses", "engine", "interfaces", "assembly", "calibrations", "faults", "model", "result", "validity"}
 )
+#: Old paths within packages that are still there.
+_WITHIN = frozenset({"ballscrew.components.catalogue", "ballscrew.components.installation"})
 
 
 @functools.cache
@@ -82,7 +84,7 @@ class _MovedModules:
     """Finds old module paths, before the other finders: they would load a second copy of what is in a moved folder."""
 
     def find_spec(self, fullname: str, *_: Any) -> ModuleSpec | None:
-        if not fullname.startswith("ballscrew.") or fullname.split(".")[1] not in _OLD:
+        if not fullname.startswith("ballscrew.") or (fullname.split(".")[1] not in _OLD and fullname not in _WITHIN):
             return None
         if fullname in _FOLDERS:
             return ModuleSpec(fullname, _loader(_EmptyPackage()), is_package=True)

@@ -11,7 +11,6 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.cases import case_file
-from ballscrew.components.catalogue import catalogue
 from ballscrew.components.laws import Hysteresis
 from ballscrew.components.materials import grades
 from ballscrew.components.operating_state import OperatingState
@@ -19,6 +18,7 @@ from ballscrew.components.screw import BallScrew
 from ballscrew.friction.model import presets
 from ballscrew.friction.plausibility import IMPLAUSIBLE, implausible, named_parts
 from ballscrew.quantities import fields_of, quantities_of
+from ballscrew.sizing.catalogue import catalogue
 from ballscrew.studies import validation
 
 ROOT = Path(__file__).parents[2]

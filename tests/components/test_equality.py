@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.components.catalogue import catalogue
+from ballscrew.sizing.catalogue import catalogue
 
 ROW = catalogue()["rexroth-40x10x6-6-double"]
 MAKERS = {

@@ -12,13 +12,13 @@ import xarray as xr
 
 import ballscrew as bs
 from ballscrew.components import nut_losses
-from ballscrew.components.catalogue import catalogue
-from ballscrew.components.installation import Ends, Installation, Limits
 from ballscrew.components.nut import Scatter
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.friction.law_names import LAWS
 from ballscrew.quantities import fields_of
+from ballscrew.sizing.catalogue import catalogue
 from ballscrew.sizing.checks import checks
+from ballscrew.sizing.installation import Ends, Installation, Limits
 from ballscrew.solvers.load_distribution import ball_loads
 from ballscrew.uncertainty.bands import band_along
 from support.synthetic_logs import OIL

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from ballscrew.components.catalogue import CatalogueRow
 from ballscrew.equations import geometry, life, rating
+from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.checks import RATING_CONFORMITY, ratings_of
 
 RELATIVE = 1e-13

@@ -9,8 +9,8 @@ import pytest
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 
-from ballscrew.components.installation import Ends
 from ballscrew.equations import geometry, shaft
+from ballscrew.sizing.installation import Ends
 
 RELATIVE = 1e-13
 RPM = math.tau / 60

@@ -11,6 +11,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.components.conditions import Motion
 from ballscrew.components.frame import helix_frame
+from ballscrew.friction.balls import ball_contacts
 from ballscrew.solvers.four_point_slip import PARTS, FlankPair, FourPointBall, four_point_slip
 from oracles.contact_integral import contact_integral
 from oracles.free_ball import BallResistances
@@ -43,7 +44,7 @@ def pair(part, load, friction, resistances, share=1.0):
     frame = helix_frame(part)
     v = frame.entrainment_speed(1.0)
     with np.errstate(all="ignore"):  # no load, no film
-        contacts = dry(friction).contacts(part, OIL, frame, load, (Motion(v, 0 * v, 0 * v),) * 2)
+        contacts = ball_contacts(dry(friction).contact_laws, part, OIL, frame, load, (Motion(v, 0 * v, 0 * v),) * 2)
     forces = (resistances.screw_rolling_force, resistances.nut_rolling_force)
     moments = (resistances.screw_elastic_moment, resistances.nut_elastic_moment)
     contacts = [

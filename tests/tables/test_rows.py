@@ -12,10 +12,10 @@ import xlsxwriter
 
 from ballscrew import units
 from ballscrew.cases.catalogue import COLUMNS
-from ballscrew.components.catalogue import CatalogueRow
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import Fault, InputError
 from ballscrew.quantities import fields_of
+from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.studies.validation import columns_of
 from ballscrew.tables import decimals, rows
 from ballscrew.tables.headings import Column, heading_of

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ballscrew.components.catalogue import catalogue
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import DoubleNut, OversizeBallNut
 from ballscrew.errors import InputError
 from ballscrew.friction.calibrations import calibrated, calibration
 from ballscrew.friction.model import FrictionModel
+from ballscrew.sizing.catalogue import catalogue
 from ballscrew.studies import validation
 from ballscrew.validation import entries as base
 from ballscrew.validation.entries import Band, Conditions, Entry, Point, trends

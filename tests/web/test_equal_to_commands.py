@@ -13,9 +13,9 @@ import typer.testing
 from ballscrew import units
 from ballscrew.cases import case_file
 from ballscrew.cli import main
-from ballscrew.components.catalogue import catalogue
 from ballscrew.errors import InputError
 from ballscrew.quantities import Info, Quantity
+from ballscrew.sizing.catalogue import catalogue
 from ballscrew.studies import validation
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))

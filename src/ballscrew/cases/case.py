@@ -8,8 +8,6 @@ from typing import Any, NamedTuple
 
 from ballscrew import units
 from ballscrew.cases.nut_kinds import LISTED
-from ballscrew.components.catalogue import CatalogueRow
-from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Nut
 from ballscrew.components.operating_state import OperatingState
@@ -18,6 +16,8 @@ from ballscrew.friction.calibrations import Calibration
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.plausibility import implausible, named_parts
 from ballscrew.records import Record
+from ballscrew.sizing.catalogue import CatalogueRow
+from ballscrew.sizing.installation import Installation, Limits
 from ballscrew.uncertainty.distributions import Distribution
 
 #: The limits of the checks where a case gives none.

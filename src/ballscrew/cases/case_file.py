@@ -28,8 +28,6 @@ from ballscrew.cases.schema import (
     name_of_law,
 )
 from ballscrew.cases.sections import Sections, validated_sections
-from ballscrew.components.catalogue import CatalogueRow
-from ballscrew.components.installation import Installation
 from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.nut import Nut
 from ballscrew.components.operating_state import OperatingState
@@ -41,6 +39,8 @@ from ballscrew.friction.calibrations import calibrated, calibration
 from ballscrew.friction.law_names import coefficients
 from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import fields_of
+from ballscrew.sizing.catalogue import CatalogueRow
+from ballscrew.sizing.installation import Installation
 from ballscrew.units import in_display_units
 
 #: Bytes of a case file at most, and bits of a whole number in it: no float is larger.

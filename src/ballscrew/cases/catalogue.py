@@ -10,10 +10,10 @@ from typing import Any
 from ballscrew import units
 from ballscrew._version import __version__
 from ballscrew.cases.nut_kinds import LISTED, NUTS, kind_in
-from ballscrew.components.catalogue import CONFORMITY_DOUBT, TURNS_WITHOUT_LOAD, CatalogueRow, catalogue
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, InputError, closest, nearest, raise_if_any
 from ballscrew.quantities import Quantity, fields_of, quantities_of
+from ballscrew.sizing.catalogue import CONFORMITY_DOUBT, TURNS_WITHOUT_LOAD, CatalogueRow, catalogue
 from ballscrew.tables import column_names
 from ballscrew.tables.headings import Column
 from ballscrew.tables.rows import Row, made, read

@@ -6,11 +6,11 @@ import re
 from collections.abc import Mapping
 
 from ballscrew.components import nut_losses
-from ballscrew.components.catalogue import CatalogueRow
-from ballscrew.components.installation import Ends
 from ballscrew.components.nut import DoubleNut, Nut, OffsetLeadNut, OversizeBallNut, SingleNut
 from ballscrew.components.nut_losses import ParasiticLaw
 from ballscrew.quantities import Info, Quantity, fields_of
+from ballscrew.sizing.catalogue import CatalogueRow
+from ballscrew.sizing.installation import Ends
 
 #: The names of the kinds of nut stand here and nowhere else.
 NUTS: Mapping[str, type[Nut]] = {

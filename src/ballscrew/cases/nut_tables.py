@@ -13,15 +13,15 @@ from ballscrew.cases.case import PreloadNote
 from ballscrew.cases.nut_kinds import ENDS, LOSSES, NUT_FIELDS, NUTS, Share
 from ballscrew.cases.schema import law_of
 from ballscrew.cases.sections import Sections
-from ballscrew.components.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow
-from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.nut import Bodies, Nut, Scatter, SingleNut
 from ballscrew.components.nut_losses import ParasiticLaw
 from ballscrew.components.screw import SINGLE_NUT, BallScrew
 from ballscrew.equations import geometry
 from ballscrew.errors import MISSING, Fault, InputError, nearest
 from ballscrew.quantities import fields_of
+from ballscrew.sizing.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow
 from ballscrew.sizing.checks import Ratings, ratings_of
+from ballscrew.sizing.installation import Installation, Limits
 
 #: The nut of a case that names one without preload.
 SINGLE = SingleNut(angle_under_load=True)

@@ -20,7 +20,6 @@ from ballscrew.cases.fields import EXAMPLES as EXAMPLES
 from ballscrew.cases.fields import defaults_of, json_of, read_preload, section_of
 from ballscrew.cases.law_import import OUTSIDE, law_from_outside, with_plain_numbers
 from ballscrew.cases.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS
-from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.materials import TEMPERATURE, Lubricant, Material, grades
 from ballscrew.components.nut import Bodies, DoubleNut, Scatter
 from ballscrew.components.operating_state import OperatingState
@@ -32,6 +31,7 @@ from ballscrew.friction.law_names import LAWS as LAWS
 from ballscrew.friction.law_names import coefficients
 from ballscrew.friction.model import FrictionModel, presets
 from ballscrew.quantities import Quantity, fields_of
+from ballscrew.sizing.installation import Installation, Limits
 
 MODELS = presets()
 DEFAULT_MODEL = "reference"

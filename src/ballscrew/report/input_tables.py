@@ -10,7 +10,6 @@ from ballscrew.cases import catalogue
 from ballscrew.cases.case_file import Case
 from ballscrew.cases.nut_kinds import ENDS, LISTED, kind_of
 from ballscrew.cases.schema import LAWS, name_of_law
-from ballscrew.components.installation import Limits
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import MATERIALS, BallScrew
@@ -18,6 +17,7 @@ from ballscrew.friction.law_names import coefficients
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.report.blocks import Table
 from ballscrew.report.blocks import value as value_of
+from ballscrew.sizing.installation import Limits
 from ballscrew.uncertainty.uncertain_value import describe_distribution
 
 #: Where a value is from, in a word; :data:`FROM_IN_WORDS` says what is meant.

@@ -9,8 +9,6 @@ import numpy as np
 
 from ballscrew._arrays import as_array
 from ballscrew._deprecated import RenamedAttribute
-from ballscrew.components.catalogue import CatalogueRow
-from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.nut import Nut, SingleNut
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import BallScrew
@@ -19,6 +17,8 @@ from ballscrew.errors import Fault, accepts_units, raise_if_any, shown
 from ballscrew.friction.validity import LARGEST_PRESSURE
 from ballscrew.quantities import AngularSpeed, Force, Length, Pressure, Ratio
 from ballscrew.records import Record
+from ballscrew.sizing.catalogue import CatalogueRow
+from ballscrew.sizing.installation import Installation, Limits
 
 #: With this conformity the formulas of ISO3408-5 give the ratings of catalogues (HIWIN2016), whose grooves have 0.54.
 RATING_CONFORMITY = 0.52

@@ -12,10 +12,10 @@ from ballscrew.cases import case_file, catalogue, descriptions, nut_tables
 from ballscrew.cases.case import Case
 from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.cases.option_faults import in_options
-from ballscrew.components.catalogue import CatalogueRow
 from ballscrew.components.nut import Nut, OversizeBallNut
 from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.records import Record
+from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.checks import Check, Ratings, checks, ratings_of
 from ballscrew.studies.run import NutState, Run, with_nut
 

@@ -147,8 +147,8 @@ class Run:
         if share <= LARGEST_PRELOAD_SHARE:
             return []
         text = (
-            f"preload {units.shown(self.nut.preload, NUT_FIELDS['preload'])} is {share:.3g} times the dynamic load rating "
-            f"{units.shown(rating, LISTED['dynamic_load_rating'])}, {source}: vendors give a nut "
+            f"preload {units.shown(self.nut.preload, NUT_FIELDS['preload'])} is {share:.3g} times "
+            f"the dynamic load rating {units.shown(rating, LISTED['dynamic_load_rating'])}, {source}: vendors give a nut "
             f"{LARGEST_PRELOAD_SHARE:g} times that at most; check the number and its unit"
         )
         return [

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.components.catalogue import CatalogueRow
 from ballscrew.components.conditions import ContactConditions, Motion
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Bodies, DoubleNut, Nut, OversizeBallNut, SingleNut
@@ -19,6 +18,7 @@ from ballscrew.errors import Fault, InputError
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Torque, fields_of
+from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.checks import ratings_of
 from ballscrew.solvers.load_distribution import ball_loads
 from ballscrew.validation.entries import Band, Conditions, Point, UpperLimitOnly, Values

@@ -18,8 +18,8 @@ from starlette.requests import ClientDisconnect, Request
 from ballscrew.cases import case_file
 from ballscrew.cases.case_file import Case
 from ballscrew.cases.schema import read_table
-from ballscrew.components.catalogue import catalogue
 from ballscrew.errors import Fault, InputError, raise_if_any
+from ballscrew.sizing.catalogue import catalogue
 from ballscrew.web.problems import Refused
 
 #: A case file has one or two kilobytes.

@@ -9,7 +9,7 @@ from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel
 
 from ballscrew.cases.schema import json_schema
-from ballscrew.components.catalogue import catalogue
+from ballscrew.sizing.catalogue import catalogue
 from ballscrew.web import problems
 from ballscrew.web.answer_parts import Problem
 from ballscrew.web.bodies import BandBody, SweepBody

@@ -12,9 +12,7 @@ from ballscrew import units
 from ballscrew._version import __version__
 from ballscrew.cases.nut_kinds import LISTED, LOSSES, NUT_FIELDS
 from ballscrew.cases.schema import DEFAULT_MODEL, LAWS, MODELS
-from ballscrew.components.catalogue import catalogue
 from ballscrew.components.contact import RaceState
-from ballscrew.components.installation import Installation, Limits
 from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.nut import Bodies, Scatter
 from ballscrew.components.operating_state import OperatingState
@@ -26,6 +24,8 @@ from ballscrew.friction.result import MECHANISMS, FrictionResult
 from ballscrew.friction.validity import NUT_REASONS
 from ballscrew.papers.olaru2005 import case as paper
 from ballscrew.quantities import Info, Quantity, fields_of, quantities_of
+from ballscrew.sizing.catalogue import catalogue
+from ballscrew.sizing.installation import Installation, Limits
 from ballscrew.solvers.load_distribution import BallLoads
 
 #: Units of inches and pounds, by the metric units that they replace; other units are the same in both.
