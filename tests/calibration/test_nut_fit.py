@@ -114,3 +114,17 @@ def test_the_fitted_torque_of_seals_is_in_all_that_follows():
     assert found.band(500.0, 20.0).value == pytest.approx(with_it, rel=1e-9)
     again = fit(MODEL, found.screw, OIL, nut_log(TRUTH, 3, 0.0), [PRELOAD, SEALS])
     assert again.estimates[SEALS].value == pytest.approx(seals, rel=1e-6)
+
+
+def test_rows_past_lift_off_are_said():
+    found = fit(MODEL, SCREW, OIL, nut_log(WITHOUT_SEALS, 2, 2 * LIFT_OFF, rows=200), [PRELOAD])
+    said = [record for record in found.warning_records if record.id == "fit.lift_off"]
+    assert len(said) == 1
+    assert said[0].value == pytest.approx(LIFT_OFF, rel=0.1)
+    loads = nut_log(WITHOUT_SEALS, 2, 2 * LIFT_OFF, rows=200)["axial_load"]
+    assert f"at {np.sum(loads >= said[0].value)} of 200 rows" in said[0].text
+    assert not [
+        r
+        for r in fit(MODEL, SCREW, OIL, nut_log(WITHOUT_SEALS, 2, 0.0), [PRELOAD]).warning_records
+        if "lift_off" in r.id
+    ]

@@ -13,8 +13,8 @@ import ballscrew as bs
 from ballscrew.components import laws
 from ballscrew.equations import film
 from ballscrew.evaluation import recordings
-from ballscrew.evaluation.outputs import OPERATION, inputs_of
-from ballscrew.evaluation.plan import Plan
+from ballscrew.evaluation.outputs import OPERATION
+from ballscrew.evaluation.plan import Configuration, Plan
 from ballscrew.evaluation.recordings import UnknownPartError, key_of
 from ballscrew.papers.olaru2005 import OIL, SCREW
 
@@ -126,22 +126,19 @@ def test_every_number_counts(name):
     """Of screw, oil, model and laws: changed in its last place, it is another recording."""
     model = MODELS[name]
     roomy = dataclasses.replace(SCREW, lead=0.020)  # for one start more
-    parts = {"screw": roomy, "lubricant": OIL, "model": model}
-    seen = {key_of(tuple(parts.values()))}
-    inputs = inputs_of(model, roomy, OIL)
-    for field, (part, _) in inputs.items():
-        law, _, coefficient = field.rpartition(".")
-        owner = getattr(parts.get(part), law) if law else parts.get(part)
-        value = None if owner is None else getattr(owner, coefficient)
+    subject = Configuration(model, dataclasses.replace(roomy, nut=bs.DoubleNut(1000.0, 0.01)), OIL)
+    seen = {key_of(subject)}
+    names = [name for name in subject.inputs if name not in OPERATION and not name.startswith("nut.")]
+    unset = 0
+    for name in names:
+        value = subject.value_of(name)
         if value is None:
+            unset += 1
             continue
         to = value + 1 if isinstance(value, int) else np.nextafter(value, 0 if value else 1)
-        changed = dataclasses.replace(owner, **{coefficient: float(to) if isinstance(value, float) else to})
-        owner = dataclasses.replace(parts[part], **{law: changed}) if law else changed
-        seen.add(key_of(tuple({**parts, part: owner}.values())))
-    varied = [n for n in inputs if n not in OPERATION]
-    unset = sum(getattr(model, n) is None for n in ("ball_to_ball_force", "pure_rolling_offset"))
-    assert len(seen) == 1 + len(varied) - unset
+        seen.add(key_of(subject.changed({name: float(to) if isinstance(value, float) else to})))
+    assert len(seen) == 1 + len(names) - unset
+    assert unset <= 2
 
 
 @pytest.mark.parametrize(

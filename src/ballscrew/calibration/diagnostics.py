@@ -10,6 +10,7 @@ from ballscrew.calibration.fit_result import AS_GIVEN, CALIBRATED, MINIMUM_DEGRE
 from ballscrew.calibration.problem import CONSTANT_TORQUE
 from ballscrew.calibration.robust import autocorrelation_lag, minimum_scatter
 from ballscrew.records import Record
+from ballscrew.solvers.load_distribution import ball_loads
 
 #: A share of outliers beyond which they are no longer a few.
 MANY_OUTLIERS = 0.1
@@ -28,7 +29,15 @@ MAXIMUM_RATIO = 100.0
 def warning_records(found: FitResult) -> list[Record]:
     """Reasons not to trust the estimates, the gravest first."""
     odd = found.subject.implausible({})
-    return [*odd, *_not_identified(found), *_of_bounds(found), *_of_priors(found), *_of_rows(found), *_trends(found)]
+    return [
+        *odd,
+        *_not_identified(found),
+        *_of_bounds(found),
+        *_of_priors(found),
+        *_of_preload(found),
+        *_of_rows(found),
+        *_trends(found),
+    ]
 
 
 def _warning(
@@ -124,6 +133,22 @@ def _of_priors(found: FitResult) -> list[Record]:
         for e in found.estimates.values()
         if e.prior_share > PRIOR_SHARE
     ]  # fmt: skip
+
+
+def _of_preload(found: FitResult) -> list[Record]:
+    """Rows at which the load has lifted the relieved balls off, where the preload was fitted."""
+    nut = found.screw.nut
+    if not {"preload", "nut.preload", "oversize", "nut.oversize"} & set(found.response.names):
+        return []
+    most = float(np.asarray(ball_loads(found.screw, nut, 0.0).lift_off_load))
+    lifted = int(np.count_nonzero(np.abs(found.rows.log.axial_load) >= most))
+    if not lifted:
+        return []
+    text = (
+        f"at {lifted} of {len(found.rows.log)} rows the load lifts the relieved balls off (from {most:.4g} N on): "
+        "those rows tell nothing of the preload"
+    )
+    return [_warning("lift_off", "axial_load", text, most, unit="N")]
 
 
 def _of_rows(found: FitResult) -> list[Record]:

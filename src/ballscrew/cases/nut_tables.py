@@ -77,7 +77,7 @@ def root_diameter(screw: BallScrew, listed: Mapping[str, float]) -> float:
     )
 
 
-def _dynamic_rating(screw: BallScrew, row: CatalogueRow | None, listed: Mapping[str, float]) -> tuple[float, str]:
+def dynamic_rating(screw: BallScrew, row: CatalogueRow | None, listed: Mapping[str, float]) -> tuple[float, str]:
     """The dynamic load rating of one nut body and where it is from. Raises ``InputError`` where there is none."""
     if "dynamic_load_rating" in listed:
         return listed["dynamic_load_rating"], "as listed"
@@ -151,7 +151,7 @@ def _nut(
     if screw is None:
         return None, ()  # its own faults are there already
     try:
-        rating, source = _dynamic_rating(screw, row, listed)
+        rating, source = dynamic_rating(screw, row, listed)
     except InputError:
         remedy = 'add dynamic_load_rating = "… kN" to [screw], or give a force'
         given = str(table["preload"])

@@ -14,9 +14,12 @@ import numpy as np
 
 from ballscrew import units
 from ballscrew.cases.case import Case
+from ballscrew.cases.nut_kinds import LISTED, NUT_FIELDS
+from ballscrew.cases.nut_tables import dynamic_rating
 from ballscrew.components.contact import RaceState
 from ballscrew.components.nut import Nut
 from ballscrew.components.traits import traits_of
+from ballscrew.errors import InputError
 from ballscrew.friction.result import QUADRANTS, FrictionResult, Quadrant
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Quantity, quantities_of
@@ -33,6 +36,10 @@ OF_ONE_BALL = frozenset(
         "ball_friction_moment",
     }
 )  # fmt: skip
+
+
+#: The largest share of the dynamic load rating by which vendors preload a nut (Rexroth2006: 2 to 10 %).
+LARGEST_PRELOAD_SHARE = 0.1 * (1 + 1e-9)
 
 
 class Touching(NamedTuple):
@@ -127,10 +134,34 @@ class Run:
         """The conditions of the model that fail, and the loss of the preload."""
         return [*self.conditions, *self._lost()]
 
+    def _heavy_preload(self) -> list[Record]:
+        """A preload beyond what vendors give a nut of this rating."""
+        if self.nut is None or self.nut.preload <= 0:
+            return []
+        case = self.case
+        try:
+            rating, source = dynamic_rating(case.screw, case.row, case.listed)
+        except InputError:  # of a geometry that no standard has ratings for
+            return []
+        share = self.nut.preload / rating
+        if share <= LARGEST_PRELOAD_SHARE:
+            return []
+        text = (
+            f"preload {units.shown(self.nut.preload, NUT_FIELDS['preload'])} is {share:.3g} times the dynamic load rating "
+            f"{units.shown(rating, LISTED['dynamic_load_rating'])}, {source}: vendors give a nut "
+            f"{LARGEST_PRELOAD_SHARE:g} times that at most; check the number and its unit"
+        )
+        return [
+            Record(
+                id="run.preload_above_rating", subject="nut.preload", text=text, severity="warning", holds=False,
+                value=share, limit=LARGEST_PRELOAD_SHARE,
+            )
+        ]  # fmt: skip
+
     @property
     def conditions(self) -> list[Record]:
-        """The warnings of the friction."""
-        return units.in_display_units_of(self.friction.warning_records)
+        """The warnings of the friction, and a preload beyond the ratings."""
+        return [*units.in_display_units_of(self.friction.warning_records), *self._heavy_preload()]
 
     def _skid(self, moving: bool) -> list[Record]:
         share = self.rolling_share
