@@ -25,7 +25,7 @@ def report(
         typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set operation.axial_load="4 kN".'),
     ] = None,
     samples: Annotated[
-        int | None, typer.Option("--samples", metavar="N", help="Of the band: 16384; of a whole nut 1024.")
+        int | None, typer.Option("--samples", metavar="N", help="Of the band: 16384; where balls differ 1024.")
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:

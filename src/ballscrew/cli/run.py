@@ -19,7 +19,7 @@ def run(
         bool, typer.Option("--band", help="How far off the results may be: uncertain inputs, and other laws.")
     ] = False,
     samples: Annotated[
-        int | None, typer.Option("--samples", metavar="N", help="With --band: samples, 16384; of a whole nut 1024.")
+        int | None, typer.Option("--samples", metavar="N", help="With --band: samples, 16384; where balls differ 1024.")
     ] = None,
     level: Annotated[
         float | None, typer.Option("--level", metavar="SHARE", help="With --band: share in the band, 0.95.")
