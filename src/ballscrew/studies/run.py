@@ -148,8 +148,8 @@ class Run:
             return []
         text = (
             f"preload {units.shown(self.nut.preload, NUT_FIELDS['preload'])} is {share:.3g} times "
-            f"the dynamic load rating {units.shown(rating, LISTED['dynamic_load_rating'])}, {source}: vendors give a nut "
-            f"{LARGEST_PRELOAD_SHARE:g} times that at most; check the number and its unit"
+            f"the dynamic load rating {units.shown(rating, LISTED['dynamic_load_rating'])}, {source}: "
+            f"vendors give a nut {LARGEST_PRELOAD_SHARE:g} times that at most; check the number and its unit"
         )
         return [
             Record(
