@@ -3,6 +3,9 @@
 from ballscrew._version import __version__ as __version__
 from ballscrew.calibration.calibrated_model import CalibratedModel as CalibratedModel
 from ballscrew.calibration.fit import fit as fit
+from ballscrew.calibration.preload_change import PreloadChange as PreloadChange
+from ballscrew.calibration.preload_change import preload_change as preload_change
+from ballscrew.calibration.preload_change import preload_of_torque as preload_of_torque
 from ballscrew.components.catalogue import catalogue as catalogue
 from ballscrew.components.lubrication import HamrockDowson as HamrockDowson
 from ballscrew.components.materials import Lubricant as Lubricant
