@@ -5,7 +5,7 @@ from ballscrew.calibration.calibrated_model import CalibratedModel as Calibrated
 from ballscrew.calibration.fit import fit as fit
 from ballscrew.calibration.preload_change import PreloadChange as PreloadChange
 from ballscrew.calibration.preload_change import preload_change as preload_change
-from ballscrew.calibration.preload_change import preload_of_torque as preload_of_torque
+from ballscrew.calibration.preload_of_torque import preload_of_torque as preload_of_torque
 from ballscrew.components.catalogue import catalogue as catalogue
 from ballscrew.components.lubrication import HamrockDowson as HamrockDowson
 from ballscrew.components.materials import Lubricant as Lubricant

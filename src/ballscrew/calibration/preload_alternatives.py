@@ -5,37 +5,40 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ballscrew.calibration.calibrated_model import CalibratedModel
-from ballscrew.calibration.fit import CONSTANT_LOSS, points_of, with_constant_torque
-from ballscrew.calibration.preload_estimate import (
-    LOGGED_TEMPERATURE,
+from ballscrew.calibration.fit import CONSTANT_LOSS, with_constant_torque
+from ballscrew.calibration.preload_posterior import (
     PRELOAD,
-    UNKNOWN_TEMPERATURE,
-    chosen_rows,
+    VISCOSITY,
+    Readings,
+    errors_of_sensor,
     torque_of_model,
 )
 from ballscrew.calibration.problem import CONSTANT_TORQUE
 from ballscrew.calibration.response import resolve_input
-from ballscrew.calibration.robust import Vector
+from ballscrew.calibration.robust import BIWEIGHT_CUTOFF, Vector, noise_of
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import InputError
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.quantities import Quantity
+from ballscrew.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.uncertainty.distributions import Distribution, allowed
 
 #: A cause explains a log as well as the preload if it is off by no more than this many times as much.
 AS_WELL = 1.05
 #: A number is looked for between this share and this multiple of what it is; an oil within so many kelvin.
 FACTOR, KELVIN = 20.0, 60.0
+#: Rounds in which outliers are found.
+ROUNDS = 3
 #: Steps of the differences, as a share of that range.
-STEP_SHARE = 1e-5
+_STEP_SHARE = 1e-5
 #: The interval that holds 95 % of a distribution.
 _LEVEL = 0.025, 0.975
-BOUNDARY_FRICTION, VISCOSITY = "boundary_friction_coefficient", "viscosity"
+BOUNDARY_FRICTION = "boundary_friction_coefficient"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -59,201 +62,195 @@ class Alternative:
         return self.rms <= AS_WELL * self.rms_of_preload
 
 
-class _Cause(NamedTuple):
+@dataclasses.dataclass(frozen=True)
+class _Cause:
+    """A number with the change of it that is looked for, from 0."""
+
     name: str
     quantity: Quantity
-    start: float
     low: float
     high: float
-    #: The torque of the rows with this value, from a subject.
-    torque: Callable[[Configuration, float], Vector]
+    #: The subject and how much warmer the oil is, with a change of the number.
+    changed: Callable[[Configuration, float], tuple[Configuration, float]]
     value: Callable[[float], float]
     instead_of: float
     plausible: Callable[[float], bool | None]
 
 
-def alternatives(found: CalibratedModel, preload: float, uncertain: Mapping[str, Distribution]) -> list[Alternative]:
-    """What else could explain a log than the preload that its fit found, were the preload as given.
+@dataclasses.dataclass(frozen=True)
+class CountedRows:
+    """The rows of a log that count."""
 
-    Each number is fitted by itself, beside the errors of the sensor and a viscosity that the fit left open, to the
-    rows that counted for the fit.
+    log: Readings
+    scatter: Vector
+    kept: NDArray[np.bool_]
+
+    def residuals(self, subject: Configuration, warmer: float) -> Vector:
+        """Residuals in units of the scatter, the errors of the sensor taken out of them."""
+        torque = torque_of_model(subject, self.log.points, self.log.weights, warmer)
+        if not np.isfinite(torque[self.kept]).all():
+            return np.full(np.count_nonzero(self.kept), 1e3)
+        factor = np.where(self.kept, 1 / self.scatter, 0.0)
+        torque = np.where(self.kept, torque, self.log.torque)
+        off = torque + self.log.sensor.columns @ errors_of_sensor(self.log, torque, factor) - self.log.torque
+        return (off / self.scatter)[self.kept]
+
+    def rms(self, subject: Configuration, warmer: float) -> float:
+        """Root mean square of the residuals, N m."""
+        off = self.residuals(subject, warmer) * self.scatter[self.kept]
+        return float(np.sqrt(np.mean(off**2)))
+
+
+def rows_that_count(log: Readings, subject: Configuration, warmer: float) -> CountedRows:
+    """The rows of a log but for outliers, with their scatter about what the numbers that were found give."""
+    torque = torque_of_model(subject, log.points, log.weights, warmer)
+    torque = np.where(np.isfinite(torque), torque, 0.0)
+    scatter, kept = log.fit.solution.noise.of(log.torque), np.ones(torque.size, dtype=bool)
+    for _ in range(ROUNDS):
+        off = torque + log.sensor.columns @ errors_of_sensor(log, torque, kept / scatter) - log.torque
+        scatter = noise_of(off, log.torque).of(log.torque)
+        kept = np.abs(off) < BIWEIGHT_CUTOFF * scatter
+    return CountedRows(log, scatter, kept)
+
+
+def alternatives(
+    log: Readings,
+    subject: Configuration,
+    warmer: float,
+    preload: float,
+    rows: CountedRows,
+    uncertain: Mapping[str, Distribution],
+) -> list[Alternative]:
+    """What else could explain a log than the preload that it told, were the preload as given.
+
+    ``subject`` and ``warmer`` are what all logs together told. Each number is fitted by itself, beside the errors of
+    the sensor and a temperature that was not logged, to the rows that count.
     """
-    log = found.rows.log
-    chosen = chosen_rows(len(log))
-    chosen = chosen[~found.rows.outlying[chosen]]
-    points = {name: values[chosen] for name, values in points_of(log, found.lubricant).items()}
-    weights = found.rows.convention.weights(log.axial_load, log.screw_speed)[:, chosen]
-    rows = _Rows(log.torque[chosen], found.rows.scatter[chosen], found.problem.sensor_columns[chosen], _wander(found))
-    held = found.subject.changed({PRELOAD: preload})
-    of_preload = rows.rms(torque_of_model(found.subject, points, weights))
+    held = subject.changed({PRELOAD: preload})
+    of_preload = rows.rms(subject, warmer)
     made: list[Alternative] = []
-    for cause in _causes(found, points, weights, uncertain):
-        value, rms = _explained(cause, held, rows, found)
+    for cause in _causes(log, subject, warmer, uncertain):
+        change, rms = _explained(cause, held, rows)
         made.append(
             Alternative(
-                cause.name, cause.quantity, cause.value(value), cause.instead_of, rms, of_preload,
-                cause.plausible(value),
+                cause.name, cause.quantity, cause.value(change), cause.instead_of, rms, of_preload,
+                cause.plausible(change),
             )
         )  # fmt: skip
     return made
 
 
-@dataclasses.dataclass(frozen=True)
-class _Rows:
-    """Measured torques, their scatter, and the columns of the sensor's errors with what is known of these."""
-
-    torque: Vector
-    scatter: Vector
-    columns: Vector
-    known: Vector
-
-    def residuals(self, torque: Vector) -> Vector:
-        """Residuals in units of the scatter, the errors of the sensor taken out of them."""
-        off = (torque - self.torque) / self.scatter
-        if not self.columns.shape[1] or not np.isfinite(off).all():
-            return np.where(np.isfinite(off), off, 1e3)
-        stacked = np.vstack([self.columns / self.scatter[:, np.newaxis], self.known])
-        right = np.concatenate([off, np.zeros(self.known.shape[0])])
-        return right - stacked @ np.linalg.lstsq(stacked, right, rcond=None)[0]
-
-    def rms(self, torque: Vector) -> float:
-        """Root mean square of the residuals, N m."""
-        off = self.residuals(torque)[: self.torque.size] * self.scatter
-        return float(np.sqrt(np.mean(off**2)))
-
-
-def _wander(found: CalibratedModel) -> Vector:
-    """What is known of the errors of the sensor, as rows beside those of the log."""
-    free, deviations = found.problem.free, found.problem.deviations
-    known: list[Vector] = []
-    for place, prior in deviations.items():
-        row = np.zeros(len(found.problem.parameters) - free)
-        row[place - free] = 1 / getattr(prior, "deviation")  # noqa: B009  (normal ones are the only kind here)
-        known.append(row)
-    return np.array(known).reshape(len(known), len(found.problem.parameters) - free)
-
-
 def _causes(
-    found: CalibratedModel, points: Mapping[str, Any], weights: Vector, uncertain: Mapping[str, Distribution]
+    log: Readings, subject: Configuration, warmer: float, uncertain: Mapping[str, Distribution]
 ) -> list[_Cause]:
-    subject = found.subject
-    causes: list[_Cause] = []
+    causes = [_by_oil(log, subject, warmer), _by_constant_torque(log, subject, warmer)]
     try:
         name = resolve_input(subject, BOUNDARY_FRICTION)
     except InputError:  # a law of one's own, without such a number
-        pass
-    else:
-        causes.append(_by_number(found, name, points, weights, uncertain))
-    if TEMPERATURE.name in points:
-        causes.append(_by_temperature(found, points, weights))
-    else:
-        causes.append(_by_number(found, VISCOSITY, points, weights, uncertain))
-    causes.append(_by_constant_torque(subject, points, weights))
+        return causes
+    if float(subject.value_of(name)) > 0:
+        causes.insert(0, _by_number(log, subject, warmer, name, uncertain.get(name)))
     return causes
 
 
 def _by_number(
-    found: CalibratedModel, name: str, points: Mapping[str, Any], weights: Vector, uncertain: Mapping[str, Distribution]
+    log: Readings, subject: Configuration, warmer: float, name: str, distribution: Distribution | None
 ) -> _Cause:
-    quantity, now = found.subject.inputs[name][1], float(found.subject.value_of(name))
-    if name in found.response.names:  # as it was in the case
-        now = float(found.response.start[found.response.names.index(name)])
+    quantity, now = subject.inputs[name][1], float(subject.value_of(name))
     low, high = allowed(quantity.info)
-    distribution = uncertain.get(name)
 
-    def plausible(logarithm: float) -> bool | None:
+    def plausible(change: float) -> bool | None:
         if distribution is None:
             return None
-        ends = (float(distribution.quantile(share)) for share in _LEVEL)
-        first, last = ends
-        return first <= now * math.exp(logarithm) <= last
+        first, last = (float(distribution.quantile(share)) for share in _LEVEL)
+        return first <= now * math.exp(change) <= last
 
     return _Cause(
-        name.rpartition(".")[2],
-        quantity,
-        0.0,
-        max(-math.log(FACTOR), math.log(low / now) if low > 0 else -math.inf),
-        min(math.log(FACTOR), math.log(high / now)),
-        lambda one, x: torque_of_model(one.changed({name: now * math.exp(x)}), points, weights),
-        lambda x: now * math.exp(x),
-        now,
-        plausible,
+        name=name.rpartition(".")[2],
+        quantity=quantity,
+        low=max(-math.log(FACTOR), math.log(low) - math.log(now) if low > 0 else -math.inf),
+        high=min(math.log(FACTOR), math.log(high) - math.log(now)),
+        changed=lambda one, change: (one.changed({name: now * math.exp(change)}), warmer),
+        value=lambda change: now * math.exp(change),
+        instead_of=float(log.fit.subject.value_of(name)),
+        plausible=plausible,
     )
 
 
-def _by_temperature(found: CalibratedModel, points: Mapping[str, Any], weights: Vector) -> _Cause:
-    low, high = allowed(TEMPERATURE.info)
-    rows = points[TEMPERATURE.name]
-    usual = UNKNOWN_TEMPERATURE if found.rows.log.temperature is None else LOGGED_TEMPERATURE
-    mean = float(np.mean(rows))
-    return _Cause(
-        TEMPERATURE.name, TEMPERATURE, 0.0,
-        max(-KELVIN, low - float(np.min(rows))), min(KELVIN, high - float(np.max(rows))),
-        lambda one, x: torque_of_model(_at_grade(one, found), points, weights, x),
-        lambda x: mean + x, mean, lambda x: abs(x) <= usual,
-    )  # fmt: skip
+def _by_oil(log: Readings, subject: Configuration, warmer: float) -> _Cause:
+    """A temperature; of an oil without a grade the viscosity that it makes."""
+    usual = NORMAL_95 * log.temperature_deviation
+    graded = TEMPERATURE.name in log.points
+    rows = np.atleast_1d(log.points[TEMPERATURE.name]) + warmer if graded else np.zeros(1)
+    low, high = allowed(TEMPERATURE.info) if graded else (-math.inf, math.inf)
+    oil, mean = subject.lubricant, float(np.mean(rows))
+    fall = float(oil.temperature_coefficient)
 
-
-def _at_grade(subject: Configuration, found: CalibratedModel) -> Configuration:
-    """The subject with the oil of the case, where the fit had found another viscosity: the temperature replaces it."""
-    if VISCOSITY not in found.response.names:
-        return subject
-    start = found.response.start[found.response.names.index(VISCOSITY)]
-    return subject.changed({VISCOSITY: float(start)})
-
-
-def _by_constant_torque(subject: Configuration, points: Mapping[str, Any], weights: Vector) -> _Cause:
-    known = subject.nut.losses.get(CONSTANT_LOSS)
-    now = float(getattr(known, CONSTANT_TORQUE.name, 0.0))
-    losses = _torque_of_losses(subject)
-    usual = float(np.max(np.abs(torque_of_model(subject, points, np.abs(weights))))) or 1.0
-
-    def plausible(torque: float) -> bool | None:
-        # no more can be lost than what the seals have; where the case has none, nobody knows
-        return None if losses == 0 else -losses <= torque - now <= losses
+    def value(change: float) -> float:
+        return mean + change if graded else float(oil.viscosity) * math.exp(-fall * (warmer + change))
 
     return _Cause(
-        CONSTANT_TORQUE.name, CONSTANT_TORQUE, now, now - 10 * usual, now + 10 * usual,
-        lambda one, x: torque_of_model(with_constant_torque(one, x), points, weights),
-        lambda x: x, now, plausible,
-    )  # fmt: skip
+        name=TEMPERATURE.name if graded else VISCOSITY,
+        quantity=TEMPERATURE if graded else subject.inputs[VISCOSITY][1],
+        low=max(-KELVIN, low - float(np.min(rows))),
+        high=min(KELVIN, high - float(np.max(rows))),
+        changed=lambda one, change: (one, warmer + change),
+        value=value,
+        instead_of=mean - warmer if graded else float(oil.viscosity),
+        plausible=lambda change: abs(warmer + change) <= usual,
+    )
 
 
-def _torque_of_losses(subject: Configuration) -> float:
+def _by_constant_torque(log: Readings, subject: Configuration, warmer: float) -> _Cause:
+    now = float(getattr(subject.nut.losses.get(CONSTANT_LOSS), CONSTANT_TORQUE.name, 0.0))
     result = subject.model(subject.screw, subject.lubricant, axial_load=0.0, screw_speed=1.0)
-    return float(sum(abs(float(result.contributions[name])) for name in subject.nut.losses))
+    losses = float(sum(abs(float(result.contributions[name])) for name in subject.nut.losses))
+    widest = 10 * max(float(np.max(np.abs(log.torque))), log.friction)
+
+    def plausible(change: float) -> bool | None:
+        # no more can be lost than what the seals have; where the case has none, nobody knows
+        return None if losses == 0 else -losses <= change <= losses
+
+    return _Cause(
+        name=CONSTANT_TORQUE.name,
+        quantity=CONSTANT_TORQUE,
+        low=-widest,
+        high=widest,
+        changed=lambda one, change: (with_constant_torque(one, now + change), warmer),
+        value=lambda change: now + change,
+        instead_of=now,
+        plausible=plausible,
+    )
 
 
-def _explained(cause: _Cause, held: Configuration, rows: _Rows, found: CalibratedModel) -> tuple[float, float]:
-    """The value that explains the rows best, and the root mean square of what it leaves, N m."""
-    from scipy.optimize import least_squares
+def _explained(cause: _Cause, held: Configuration, rows: CountedRows) -> tuple[float, float]:
+    """The change that explains the rows best, and the root mean square of what it leaves, N m."""
+    from scipy.optimize import least_squares  # slow to import: for those only who fit
 
-    # a viscosity that the log left open stays open, but for a cause that stands in its place
-    open_viscosity = VISCOSITY in found.response.names and cause.name not in (VISCOSITY, TEMPERATURE.name)
-    viscosity = float(held.lubricant.viscosity)
-    place = found.response.names.index(VISCOSITY) if VISCOSITY in found.response.names else 0
+    # a temperature that was not logged stays open, but for the oil as a cause
+    unknown = rows.log.fit.rows.log.temperature is None or rows.log.fit.lubricant.grade is None
+    opened = unknown and cause.name not in (TEMPERATURE.name, VISCOSITY)
+    deviation = rows.log.temperature_deviation
 
-    def torque(x: Vector) -> Vector:
-        subject = held.changed({VISCOSITY: viscosity * math.exp(x[1])}) if open_viscosity else held
-        return cause.torque(subject, float(x[0]))
+    def at(x: Vector) -> tuple[Configuration, float]:
+        subject, there = cause.changed(held, float(x[0]))
+        return subject, there + (deviation * float(x[1]) if opened else 0.0)
 
     def residuals(x: Vector) -> Vector:
-        off = rows.residuals(torque(x))
-        if not open_viscosity:
-            return off
-        values = found.solution.values.copy()
-        values[place] = viscosity * math.exp(x[1])
-        return np.concatenate([off, found.priors.residuals(values)])
+        subject, there = at(x)
+        known = [there / deviation] if opened else []
+        return np.concatenate([rows.residuals(subject, there), known])
 
-    start, low, high = [cause.start], [cause.low], [cause.high]
-    if open_viscosity:
-        start, low, high = [*start, 0.0], [*low, -math.log(FACTOR)], [*high, math.log(FACTOR)]
-    step = STEP_SHARE * (np.array(high) - np.array(low))
+    low, high = [cause.low], [cause.high]
+    if opened:
+        low, high = [*low, -KELVIN / deviation], [*high, KELVIN / deviation]
+    step = _STEP_SHARE * (np.array(high) - np.array(low))
 
     def slopes(x: Vector) -> Vector:
         each = np.diag(step)
         return np.stack([(residuals(x + h) - residuals(x - h)) / (2 * np.max(h)) for h in each], axis=1)
 
     options: Any = {"jac": slopes}  # SciPy's types know only names
-    best = least_squares(residuals, start, bounds=(low, high), x_scale=1e3 * step, xtol=1e-6, ftol=1e-8, **options).x
-    return float(best[0]), rows.rms(torque(best))
+    start = np.zeros(len(low))
+    best = least_squares(residuals, start, bounds=(low, high), x_scale=1e3 * step, xtol=1e-5, ftol=1e-7, **options).x
+    return float(best[0]), rows.rms(*at(best))

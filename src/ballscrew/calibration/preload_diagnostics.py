@@ -7,7 +7,8 @@ import dataclasses
 import numpy as np
 
 from ballscrew.calibration.fit_result import Rows
-from ballscrew.calibration.preload_estimate import PRELOAD, PreloadEstimate
+from ballscrew.calibration.preload_estimate import PreloadEstimate
+from ballscrew.calibration.preload_posterior import MINIMUM_SAMPLES, MODEL_ERROR, MODEL_PARTS, PRELOAD, Posterior
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.quantities import Force, Quantity
 from ballscrew.records import Record
@@ -16,17 +17,24 @@ from ballscrew.records import Record
 TEMPERATURE_DIFFERENCE = 5.0
 #: A preload above this share of the dynamic load rating is more than vendors allow.
 HIGHEST_SHARE = 0.1
-#: Warnings of a fit that say nothing of a preload, or that a service says in its own words.
-_NOT_SAID = {"fit.no_holdout", "fit.prior", "fit.viscosity_free", "fit.temperature_unused", "fit.autocorrelated"}
+#: A misfit of a log that is seldom chance, and a number so many standard deviations from what is known of it, are said.
+MISFIT_SHARE, LARGEST_SCORE = 1e-3, 2.0
+#: Warnings of the fit of the preload alone that hold whatever the other numbers are.
+_SAID = {"fit.scatter", "fit.outliers", "fit.not_converged", "fit.at_bound", "fit.one_sided", "fit.not_identified"}
 
 
 def warning_records(
-    new: PreloadEstimate, worn: PreloadEstimate, subject: Configuration, dynamic_load_rating: Force | None
+    new: PreloadEstimate,
+    worn: PreloadEstimate,
+    subject: Configuration,
+    dynamic_load_rating: Force | None,
+    found: Posterior,
 ) -> list[Record]:
     """Reasons not to trust the preloads, the gravest first."""
     logs = {label: one for label, one in (("new", new), ("worn", worn)) if one.fit is not None}
     return [
         *(record for label, one in logs.items() for record in _of_fit(label, one)),
+        *_of_numbers(found, list(logs)),
         *_of_ratings({"new": new, "worn": worn}, subject, dynamic_load_rating),
         *(record for label, one in logs.items() for record in _of_lift_off(label, one)),
         *_of_temperatures(logs, subject),
@@ -46,7 +54,7 @@ def _rows(one: PreloadEstimate) -> Rows:
 
 def _of_fit(label: str, one: PreloadEstimate) -> list[Record]:
     assert one.fit is not None
-    said = [record for record in one.fit.warning_records if record.id not in _NOT_SAID]
+    said = [record for record in one.fit.warning_records if record.id in _SAID]
     return [
         dataclasses.replace(
             record,
@@ -56,6 +64,35 @@ def _of_fit(label: str, one: PreloadEstimate) -> list[Record]:
         )
         for record in said
     ]
+
+
+def _of_numbers(found: Posterior, labels: list[str]) -> list[Record]:
+    from scipy.special import chdtri  # slow to import: for those only who fit
+
+    records: list[Record] = []
+    if not found.effective_samples >= MINIMUM_SAMPLES:
+        text = "hardly any numbers that are known for such a screw explain the logs: no preload is told"
+        records.append(
+            _record("not_sampled", "preload", text, value=found.effective_samples, limit=float(MINIMUM_SAMPLES))
+        )
+    limit = float(chdtri(MODEL_PARTS, MISFIT_SHARE))
+    for label, one in zip(labels, found.preloads, strict=True):
+        misfit = float(one.misfit[found.best])
+        if misfit > limit:
+            text = (
+                f"{label} log: with no preload does the model follow the torques, by more than the {MODEL_ERROR:.0%} "
+                "that it is taken to be off: is this the screw, and is the kind of torque right?"
+            )
+            records.append(_record("misfit", f"{label}.torque", text, value=misfit, limit=limit))
+    for name, score in found.mean_scores().items():
+        if abs(score) > LARGEST_SCORE:
+            where = "above" if score > 0 else "below"
+            text = (
+                f"the logs ask for a {name.rpartition('.')[2].replace('_', ' ')} {abs(score):.1f} standard deviations "
+                f"{where} what is known of it: is this the screw, or does the model miss something?"
+            )
+            records.append(_record("beyond_known", name, text, value=score, limit=LARGEST_SCORE))
+    return records
 
 
 def _of_ratings(
@@ -98,7 +135,7 @@ def _of_temperatures(logs: dict[str, PreloadEstimate], subject: Configuration) -
     for label in logs:
         if label not in known:
             text = (
-                f"{label} log: no temperature: the viscosity is fitted, within what 10 K either way make of it; "
+                f"{label} log: no temperature: it is found from how the torque goes with the speed, 10 K either way; "
                 "log the temperature of the nut"
             )
             records.append(_record("no_temperature", f"{label}.temperature", text))

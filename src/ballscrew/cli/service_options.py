@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ballscrew import units
-from ballscrew.calibration.preload_estimate import PRELOAD
+from ballscrew.calibration.preload_posterior import PRELOAD
 from ballscrew.cases.case import Case
 from ballscrew.cli.fit_options import options
 from ballscrew.components.materials import TEMPERATURE

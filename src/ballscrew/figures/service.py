@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,8 +12,10 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from ballscrew import units
+from ballscrew.calibration.fit import points_of
 from ballscrew.calibration.fit_result import Rows
 from ballscrew.calibration.preload_estimate import PreloadEstimate
+from ballscrew.calibration.preload_posterior import torque_of_model
 from ballscrew.calibration.robust import Vector
 from ballscrew.cases.case import Case
 from ballscrew.cases.descriptions import model_text, nut_text
@@ -46,13 +50,14 @@ def _torques(panel: Axes, report: ServiceReport) -> None:
             continue
         rows, colour = one.fit.rows, _COLOURS[label]
         x = np.abs(rows.log.screw_speed)
-        measured = _measured(rows, one.fit.constant_torque)
+        along = np.geomspace(float(x.min()), float(x.max()), _POINTS) if np.ptp(x) > 0 else x[:1]
+        curve = _friction(one, {**_usual(rows), "screw_speed": along})
+        # rows of other loads and temperatures are shown by what they are off the curve
+        own = points_of(rows.log, one.fit.lubricant)
+        measured = rows.friction + one.fit.constant_torque - rows.residuals * rows.direction
+        measured += _friction(one, {**_usual(rows), "screw_speed": x}) - _friction(one, own)
         some = _some(rows)
         panel.plot(units.from_si(x[some], speed), measured[some], ".", ms=3, alpha=0.5, color=colour)
-        along = np.geomspace(float(x.min()), float(x.max()), _POINTS) if np.ptp(x) > 0 else x[:1]
-        load = float(np.median(np.abs(rows.log.axial_load)))
-        warm = one.fit.lubricant.grade is not None and one.temperature is not None
-        curve = one.fit.predict(np.full(along.size, load), along, one.temperature if warm else None)
         panel.plot(units.from_si(along, speed), curve, color=colour, label=label)
         widest = max(widest, float(np.quantile(measured, 0.99)), float(np.max(curve)))
         if np.ptp(x) > 0 and x.max() > 20 * x.min():
@@ -66,9 +71,23 @@ def _torques(panel: Axes, report: ServiceReport) -> None:
     panel.legend()
 
 
-def _measured(rows: Rows, constant: float) -> Vector:
-    """The friction torque of each row: that of the model less what it is off by."""
-    return rows.friction + constant - rows.residuals * rows.direction
+def _usual(rows: Rows) -> dict[str, Any]:
+    """The median load and the mean temperature of a log."""
+    found: dict[str, Any] = {"axial_load": float(np.median(np.abs(rows.log.axial_load)))}
+    if rows.log.temperature is not None:
+        found["temperature"] = float(np.mean(rows.log.temperature))
+    return found
+
+
+def _friction(one: PreloadEstimate, points: Mapping[str, Any]) -> Vector:
+    """The friction torque with the preload and the numbers that were found."""
+    assert one.subject is not None
+    graded = one.subject.lubricant.grade is not None
+    there = {"temperature": one.subject.lubricant.temperature, **points} if graded else dict(points)
+    if not graded:
+        there.pop("temperature", None)
+    size = np.broadcast_arrays(*there.values())
+    return torque_of_model(one.subject, dict(zip(there, size, strict=True)), np.array([[0.0], [1.0]]), one.warmer)
 
 
 def _some(rows: Rows) -> NDArray[np.int64]:

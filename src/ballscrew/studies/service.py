@@ -7,8 +7,10 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from ballscrew import units
-from ballscrew.calibration.preload_change import PreloadChange, preload_change, preload_of_torque
-from ballscrew.calibration.preload_estimate import PRELOAD, PreloadEstimate
+from ballscrew.calibration.preload_change import PreloadChange, preload_change
+from ballscrew.calibration.preload_estimate import PreloadEstimate
+from ballscrew.calibration.preload_of_torque import preload_of_torque
+from ballscrew.calibration.preload_posterior import PRELOAD
 from ballscrew.cases.case import Case
 from ballscrew.cases.uncertain_inputs import all_of, joint_of
 from ballscrew.components.materials import TEMPERATURE

@@ -8,7 +8,8 @@ from typing import Any
 from ballscrew import units
 from ballscrew.calibration.preload_alternatives import Alternative
 from ballscrew.calibration.preload_change import PreloadChange
-from ballscrew.calibration.preload_estimate import PRELOAD, PreloadEstimate
+from ballscrew.calibration.preload_estimate import PreloadEstimate
+from ballscrew.calibration.preload_posterior import PRELOAD
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
 from ballscrew.cases.provenance import of_case
@@ -53,7 +54,7 @@ def verdicts(case: Case, report: ServiceReport) -> list[Record]:
         return [_of_reading(case, report)]
     change = report.change
     before = "the nominal preload" if change.new.fit is None else "the preload"
-    if not math.isfinite(change.ratio_deviation):
+    if not change.logarithm.told:
         text = "the preload cannot be told from this: see the warnings"
         return [Record(id="service.preload_left", subject=PRELOAD, text=text, severity="warning")]
     low, high = change.ratio_interval()
@@ -113,21 +114,23 @@ def _estimate(one: PreloadEstimate) -> dict[str, Any]:
         "preload": one.preload,
         "low": low,
         "high": high,
-        "deviation_of_logarithm": {"statistical": one.statistical, **one.own, **one.common},
+        "deviation_of_logarithm": math.sqrt(one.logarithm.total_variance),
+        "shares": dict(one.shares),
         "temperature": one.temperature,
         "rows": None if rows is None else len(rows.log),
         "rows_beyond_lift_off": one.rows_beyond_lift_off,
-        "residual_rms": None if one.fit is None else one.fit.residual_rms,
+        "residual_rms": one.residual_rms,
     }
 
 
 def _change(change: PreloadChange) -> dict[str, Any]:
     low, high = change.ratio_interval()
     return {
-        "ratio": {"value": change.ratio, "low": low, "high": high, "effects": dict(change.ratio_effects)},
+        "ratio": {"value": change.ratio, "low": low, "high": high, "shares": dict(change.ratio_shares)},
         "tolerance": change.tolerance,
         "probability_of_loss": change.probability_of_loss,
         "verdict": change.verdict,
+        "scores": dict(change.scores),
         "alternatives": [
             {
                 "name": one.name, "value": one.value, "instead_of": one.instead_of, "unit": one.quantity.unit,

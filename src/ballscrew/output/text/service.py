@@ -8,7 +8,6 @@ from rich.console import Console
 from rich.table import Table
 
 from ballscrew import units
-from ballscrew.calibration.preload_change import PreloadChange
 from ballscrew.calibration.preload_estimate import PreloadEstimate
 from ballscrew.cases.case import Case
 from ballscrew.cases.descriptions import design, model_text, nut_text
@@ -72,7 +71,7 @@ def _preloads(case: Case, report: ServiceReport) -> Table:
             "–" if one.temperature is None else units.shown(one.temperature, TEMPERATURE, 3),
             units.shown(one.preload, quantity),
             _interval(one, case),
-            "–" if one.fit is None else units.shown(one.fit.residual_rms, TORQUE, 2),
+            "–" if one.fit is None else units.shown(one.residual_rms, TORQUE, 2),
         )
     return table
 
@@ -91,33 +90,18 @@ def _interval(one: PreloadEstimate, case: Case) -> str:
 
 def causes(report: ServiceReport) -> list[str]:
     """What the interval comes from, the largest cause first."""
-    effects = _effects_of_change(report.change) if report.change is not None else _effects_of(report.preload)
-    total = math.fsum(effect**2 for effect in effects.values())
-    if not math.isfinite(total) or total == 0:
-        return []
-    shares = sorted(((effect**2 / total, name) for name, effect in effects.items()), reverse=True)
-    named = [f"{name} ({share:.0%})" for share, name in shares[:_MOST_CAUSES] if share >= _LEAST_CAUSE]
-    return [f"the interval comes from: {', '.join(named)}"]
-
-
-def _effects_of_change(change: PreloadChange) -> dict[str, float]:
-    found = {spoken(name): effect for name, effect in change.ratio_effects.items()}
-    for label, one in (("new", change.new), ("worn", change.worn)):
-        scatter = "tolerance of the nominal preload" if one.fit is None else f"scatter of the {label} log"
-        found[scatter] = one.statistical
-        found |= {f"{spoken(name)} of the {label} log": effect for name, effect in one.own.items()}
-    return found
-
-
-def _effects_of(one: PreloadEstimate | None) -> dict[str, float]:
-    if one is None:
-        return {}
-    effects = {"the reading": one.statistical, **one.own, **one.common}
-    return {spoken(name): effect for name, effect in effects.items()}
+    of = report.change.ratio_shares if report.change is not None else {}
+    of = report.preload.shares if report.preload is not None else of
+    shares = sorted(((share, name) for name, share in of.items() if math.isfinite(share)), reverse=True)
+    named = [f"{spoken(name)} ({share:.0%})" for share, name in shares[:_MOST_CAUSES] if share >= _LEAST_CAUSE]
+    return [f"most of the interval is from: {', '.join(named)}"] if named else []
 
 
 def caption(case: Case, report: ServiceReport) -> str:
     """The caption of the picture."""
     said = verdicts(case, report)[0].text
-    curves = "Dots: friction torque measured; lines: the model with the preload found, at the median load of each log"
+    curves = (
+        "Lines: the model with the preload found, at the median load and the mean temperature of each log; "
+        "dots: what was measured, moved there by the model"
+    )
     return f"{design(case)}. {said}. {curves}; bars: 95 % intervals."
