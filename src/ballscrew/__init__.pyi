@@ -3,9 +3,6 @@
 from ballscrew._version import __version__ as __version__
 from ballscrew.calibration.calibrated_model import CalibratedModel as CalibratedModel
 from ballscrew.calibration.fit import fit as fit
-from ballscrew.calibration.preload_change import PreloadChange as PreloadChange
-from ballscrew.calibration.preload_change import preload_change as preload_change
-from ballscrew.calibration.preload_of_torque import preload_of_torque as preload_of_torque
 from ballscrew.components.catalogue import catalogue as catalogue
 from ballscrew.components.lubrication import HamrockDowson as HamrockDowson
 from ballscrew.components.materials import Lubricant as Lubricant
@@ -24,6 +21,9 @@ from ballscrew.evaluation.derivatives import derivatives as derivatives
 from ballscrew.friction.model import FrictionModel as FrictionModel
 from ballscrew.friction.nut_friction import nut_friction as nut_friction
 from ballscrew.friction.result import FrictionResult as FrictionResult
+from ballscrew.service.preload_change import PreloadChange as PreloadChange
+from ballscrew.service.preload_change import preload_change as preload_change
+from ballscrew.service.preload_of_torque import preload_of_torque as preload_of_torque
 from ballscrew.sweeps.store_check import verify as verify
 from ballscrew.sweeps.sweep import sweep as sweep
 from ballscrew.torque_logs.torque_log import TorqueLog as TorqueLog

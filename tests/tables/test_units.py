@@ -11,7 +11,12 @@ from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault
 from ballscrew.quantities import quantities_of
 
-KNOWN = {**quantities_of(BallScrew), **quantities_of(Lubricant), **quantities_of(OperatingState), "temperature": TEMPERATURE}
+KNOWN = {
+    **quantities_of(BallScrew),
+    **quantities_of(Lubricant),
+    **quantities_of(OperatingState),
+    "temperature": TEMPERATURE,
+}
 
 
 @pytest.mark.parametrize(

@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ballscrew import units
-from ballscrew.calibration.preload_posterior import PRELOAD
 from ballscrew.cases.case import Case
 from ballscrew.cli.fit_options import options
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.errors import Fault, raise_if_any
 from ballscrew.quantities import Quantity, fields_of
+from ballscrew.service.posterior import PRELOAD
 from ballscrew.studies.fit import Options
 from ballscrew.studies.service import TORQUE, Reading
 from ballscrew.uncertainty.distributions import Normal

@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 from ballscrew import units
 from ballscrew.calibration.fit import points_of
 from ballscrew.calibration.fit_result import Rows
-from ballscrew.calibration.preload_estimate import PreloadEstimate
-from ballscrew.calibration.preload_posterior import torque_of_model
 from ballscrew.calibration.robust import Vector
 from ballscrew.cases.case import Case
 from ballscrew.cases.descriptions import model_text, nut_text
@@ -24,6 +22,8 @@ from ballscrew.figures import style
 from ballscrew.output.documents.service import preload_quantity
 from ballscrew.output.text import service as text
 from ballscrew.quantities import Quantity, fields_of
+from ballscrew.service.estimate import PreloadEstimate
+from ballscrew.service.posterior import torque_of_model
 from ballscrew.studies.service import ServiceReport
 
 #: More points than this are a blot.
@@ -83,7 +83,7 @@ def _friction(one: PreloadEstimate, points: Mapping[str, Any]) -> Vector:
     """The friction torque with the preload and the numbers that were found."""
     assert one.subject is not None
     graded = one.subject.lubricant.grade is not None
-    there = {"temperature": one.subject.lubricant.temperature, **points} if graded else dict(points)
+    there: dict[str, Any] = {"temperature": one.subject.lubricant.temperature, **points} if graded else dict(points)
     if not graded:
         there.pop("temperature", None)
     size = np.broadcast_arrays(*there.values())

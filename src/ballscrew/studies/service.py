@@ -7,16 +7,16 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from ballscrew import units
-from ballscrew.calibration.preload_change import PreloadChange, preload_change
-from ballscrew.calibration.preload_estimate import PreloadEstimate
-from ballscrew.calibration.preload_of_torque import preload_of_torque
-from ballscrew.calibration.preload_posterior import PRELOAD
 from ballscrew.cases.case import Case
 from ballscrew.cases.uncertain_inputs import all_of, joint_of
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import Fault, InputError
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Quantity, quantities_of
+from ballscrew.service.estimate import PreloadEstimate
+from ballscrew.service.posterior import PRELOAD
+from ballscrew.service.preload_change import PreloadChange, preload_change
+from ballscrew.service.preload_of_torque import preload_of_torque
 from ballscrew.studies.fit import Options as FitOptions
 from ballscrew.torque_logs import reading
 from ballscrew.torque_logs.torque_log import TorqueLog

@@ -6,16 +6,16 @@ import math
 from typing import Any
 
 from ballscrew import units
-from ballscrew.calibration.preload_alternatives import Alternative
-from ballscrew.calibration.preload_change import PreloadChange
-from ballscrew.calibration.preload_estimate import PreloadEstimate
-from ballscrew.calibration.preload_posterior import PRELOAD
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
 from ballscrew.cases.provenance import of_case
 from ballscrew.evaluation.outputs import inputs_of
 from ballscrew.quantities import Quantity
 from ballscrew.records import Record, documents
+from ballscrew.service.alternatives import Alternative
+from ballscrew.service.estimate import PreloadEstimate
+from ballscrew.service.posterior import PRELOAD
+from ballscrew.service.preload_change import PreloadChange
 from ballscrew.studies.service import TORQUE, ServiceReport
 
 #: Three words for what became of the preload.

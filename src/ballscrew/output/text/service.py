@@ -8,13 +8,13 @@ from rich.console import Console
 from rich.table import Table
 
 from ballscrew import units
-from ballscrew.calibration.preload_estimate import PreloadEstimate
 from ballscrew.cases.case import Case
 from ballscrew.cases.descriptions import design, model_text, nut_text
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.output.documents.service import preload_quantity, verdicts
 from ballscrew.output.text.fit import spoken
 from ballscrew.output.text.tables import table_of
+from ballscrew.service.estimate import PreloadEstimate
 from ballscrew.studies.service import TORQUE, ServiceReport
 
 #: Causes of an interval that are named.

@@ -7,11 +7,11 @@ import dataclasses
 import numpy as np
 
 from ballscrew.calibration.fit_result import Rows
-from ballscrew.calibration.preload_estimate import PreloadEstimate
-from ballscrew.calibration.preload_posterior import MINIMUM_SAMPLES, MODEL_ERROR, MODEL_PARTS, PRELOAD, Posterior
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.quantities import Force, Quantity
 from ballscrew.records import Record
+from ballscrew.service.estimate import PreloadEstimate
+from ballscrew.service.posterior import MINIMUM_SAMPLES, MODEL_ERROR, MODEL_PARTS, PRELOAD, Posterior
 
 #: A difference between the temperatures of two logs that is said, K.
 TEMPERATURE_DIFFERENCE = 5.0

@@ -47,14 +47,14 @@ MODEL_ERROR, MODEL_PARTS = 0.02, 10
 MOST_GROUPS, LOAD_GROUPS, GROUP_ROWS = 12, 4, 3
 #: Samples of a round, a power of two, and rounds at most: each draws from where the ones before found the weight, until
 #: there are as many effective samples as are enough.
-SAMPLES, ROUNDS, ENOUGH = 512, 12, 300
+SAMPLES, ROUNDS, ENOUGH = 512, 24, 300
 #: Preloads over that of the first fit between which the logarithm is tabulated, and how finely.
 LEAST, MOST, NODES, FINE = 0.05, 4.0, 9, 161
 #: The samples of a round are spread this much wider than the weight of the last one, those of a temperature that was
 #: not logged from the beginning.
 _WIDER, _WIDER_TEMPERATURE = 1.15, 2.0
 #: Few samples tell variances better than how numbers go together: of that so much is believed.
-_BELIEVED = 0.7
+_BELIEVED = 0.95
 #: Share of the samples drawn from what was known in every round, so that no weight runs away.
 _FROM_PRIOR = 0.2
 #: With fewer samples of even weight than these, what is found is not to be used.
@@ -269,6 +269,7 @@ def posterior(
     mean, root = np.zeros(count), np.eye(count)
     for i, deviation in enumerate(deviations):
         root[len(names) + i, len(names) + i] = _WIDER_TEMPERATURE if deviation > LOGGED_TEMPERATURE / NORMAL_95 else 1.0
+    weights, believed = np.full(SAMPLES, np.nan), np.zeros(SAMPLES)
     proposals: list[tuple[Vector, Vector]] = []
     drawn: list[Vector] = []
     found: list[list[Conditional]] = []
@@ -288,11 +289,13 @@ def posterior(
             ]
         )
         every = np.concatenate(drawn)
-        evidence = np.concatenate([np.sum([one.evidence for one in each], axis=0) for each in found])
-        density = logsumexp([_density(every, *one) for one in proposals], axis=0) - math.log(len(proposals))
-        known = _normal(every)
-        weights = evidence + known - density
-        weights = np.exp(weights - logsumexp(weights)) if np.isfinite(weights).any() else np.full(len(every), np.nan)
+        believed = np.concatenate([np.sum([one.evidence for one in each], axis=0) for each in found]) + _normal(every)
+        density = np.asarray(logsumexp([_density(every, *one) for one in proposals], axis=0))
+        logarithms = believed - density
+        weights = (
+            np.exp(logarithms - np.max(logarithms)) if np.isfinite(logarithms).any() else np.full(len(every), np.nan)
+        )
+        weights /= np.sum(weights)
         if not np.isfinite(weights).all():
             break
         if 1 / np.sum(weights**2) >= ENOUGH:
@@ -301,7 +304,7 @@ def posterior(
         flat = _flattened(weights)
         mean = flat @ every
         spread = (every - mean).T @ ((every - mean) * flat[:, np.newaxis])
-        spread = np.where(np.eye(count) > 0, spread + 0.02, _BELIEVED * spread)
+        spread = np.where(np.eye(count) > 0, spread + 1e-3, _BELIEVED * spread)
         root = _WIDER * np.linalg.cholesky(spread)
     every = np.concatenate(drawn)
     scores = np.hstack([every[:, : len(names)] @ mixing.T, every[:, len(names) :]])
@@ -314,7 +317,7 @@ def posterior(
         preloads=[
             Conditional(*(np.concatenate(part) for part in zip(*one, strict=True))) for one in zip(*found, strict=True)
         ],
-        best=int(np.argmax(evidence + known)),
+        best=int(np.argmax(believed)),
     )
 
 
@@ -346,7 +349,7 @@ def _mixing(names: Sequence[str], joint: JointNormal | None) -> Vector:
         covariance = joint.covariance[np.ix_(kept, kept)]
         deviations = np.sqrt(np.diagonal(covariance))
         correlation[np.ix_(places, places)] = covariance / np.outer(deviations, deviations)
-    return np.linalg.cholesky(correlation + 1e-9 * np.eye(len(names)))
+    return np.asarray(np.linalg.cholesky(correlation + 1e-9 * np.eye(len(names))), dtype=np.float64)
 
 
 def _normal(scores: Vector) -> Vector:
@@ -355,7 +358,7 @@ def _normal(scores: Vector) -> Vector:
 
 def _density(scores: Vector, mean: Vector, root: Vector) -> Vector:
     """The logarithm of the density that samples were drawn from, but for a constant."""
-    off = np.linalg.solve(root, (scores - mean).T).T
+    off = np.asarray(np.linalg.solve(root, (scores - mean).T).T, dtype=np.float64)
     other = _normal(off) - np.linalg.slogdet(root)[1]
     return np.logaddexp(math.log(_FROM_PRIOR) + _normal(scores), math.log(1 - _FROM_PRIOR) + other)
 
@@ -374,4 +377,4 @@ def errors_of_sensor(one: Readings, torque: Vector, factor: Vector) -> Vector:
     """The errors of the sensor that are most probable if the model has these torques, rows weighted by factors."""
     stacked = np.vstack([factor[:, np.newaxis] * one.sensor.columns, one.sensor.known])
     right = np.concatenate([factor * (one.torque - torque), np.zeros(one.sensor.known.shape[0])])
-    return np.linalg.lstsq(stacked, right, rcond=None)[0]
+    return np.asarray(np.linalg.lstsq(stacked, right, rcond=None)[0], dtype=np.float64)

@@ -10,18 +10,6 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from ballscrew.calibration.fit import fit
-from ballscrew.calibration.preload_alternatives import Alternative, alternatives, rows_that_count
-from ballscrew.calibration.preload_diagnostics import warning_records
-from ballscrew.calibration.preload_estimate import Mixture, PreloadEstimate
-from ballscrew.calibration.preload_posterior import (
-    MINIMUM_SAMPLES,
-    PRELOAD,
-    VISCOSITY,
-    Groups,
-    Posterior,
-    Readings,
-    posterior,
-)
 from ballscrew.calibration.problem import CONSTANT_TORQUE
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew
@@ -31,6 +19,18 @@ from ballscrew.evaluation.plan import Configuration
 from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import Force, MomentOfInertia
 from ballscrew.records import Record
+from ballscrew.service.alternatives import Alternative, alternatives, rows_that_count
+from ballscrew.service.diagnostics import warning_records
+from ballscrew.service.estimate import Mixture, PreloadEstimate
+from ballscrew.service.posterior import (
+    MINIMUM_SAMPLES,
+    PRELOAD,
+    VISCOSITY,
+    Groups,
+    Posterior,
+    Readings,
+    posterior,
+)
 from ballscrew.torque_logs.log_rows import Kind
 from ballscrew.torque_logs.torque_log import TorqueLog
 from ballscrew.uncertainty.default_uncertainties import NORMAL_95, default_distributions
@@ -120,10 +120,10 @@ def preload_change(
     ``joint`` those among them that a calibration left correlated. They are unknowns beside the preloads, the same for
     both logs, and so is, for each log by itself, its oil temperature: 2 K either way where the log has it and the oil a
     grade, otherwise 10 K. A hotter oil then shows in how the torque goes with the speed, or makes the interval wider
-    (:mod:`ballscrew.calibration.preload_posterior`).
+    (:mod:`ballscrew.service.posterior`).
 
-    The answer is a sample of the posterior, the same for one ``seed``. ``tolerance`` is the share of the preload that may be lost;
-    ``dynamic_load_rating`` (N) is what the preload is judged by.
+    ``tolerance`` is the share of the preload that may be lost; ``dynamic_load_rating`` (N) is what the preload is
+    judged by. The answer is made of samples, the same for the same ``seed``.
 
     Raises :class:`~ballscrew.errors.InputError` for a nut without preload, balls that differ, a tolerance out of
     (0, 1), one log given twice, and all that a fit raises.

@@ -11,13 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.calibration.fit import CONSTANT_LOSS, with_constant_torque
-from ballscrew.calibration.preload_posterior import (
-    PRELOAD,
-    VISCOSITY,
-    Readings,
-    errors_of_sensor,
-    torque_of_model,
-)
 from ballscrew.calibration.problem import CONSTANT_TORQUE
 from ballscrew.calibration.response import resolve_input
 from ballscrew.calibration.robust import BIWEIGHT_CUTOFF, Vector, noise_of
@@ -25,6 +18,13 @@ from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import InputError
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.quantities import Quantity
+from ballscrew.service.posterior import (
+    PRELOAD,
+    VISCOSITY,
+    Readings,
+    errors_of_sensor,
+    torque_of_model,
+)
 from ballscrew.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.uncertainty.distributions import Distribution, allowed
 
@@ -127,7 +127,7 @@ def alternatives(
     the sensor and a temperature that was not logged, to the rows that count.
     """
     held = subject.changed({PRELOAD: preload})
-    of_preload = rows.rms(subject, warmer)
+    _, of_preload = _explained(_by_number(log, subject, warmer, PRELOAD, None), subject, rows)
     made: list[Alternative] = []
     for cause in _causes(log, subject, warmer, uncertain):
         change, rms = _explained(cause, held, rows)
