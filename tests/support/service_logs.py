@@ -72,7 +72,7 @@ def pair(
     """
     true, random = another_screw(model, seed), np.random.default_rng([seed, 4])
     preload, day = PRELOAD * math.exp(random.normal(0, 0.1)), WARM + (0 if logged or warmer else random.normal(0, 5, 2))
-    days = np.broadcast_to(day, 2) + [0.0, warmer]
+    days = np.broadcast_to(day, 2) + np.array([0.0, warmer])
     errors = [sensor_error(2 * seed + i) if logged else None for i in range(2)]
     new, worn = (
         log(true, share * preload, 2 * seed + i, temperature=float(days[i]), sensor_error=errors[i], **options)
