@@ -23,6 +23,9 @@ from ballscrew.evaluation.evaluator import evaluator as evaluator
 from ballscrew.friction.model import FrictionModel as FrictionModel
 from ballscrew.friction.nut_friction import nut_friction as nut_friction
 from ballscrew.friction.result import FrictionResult as FrictionResult
+from ballscrew.service.preload_change import PreloadChange as PreloadChange
+from ballscrew.service.preload_change import preload_change as preload_change
+from ballscrew.service.preload_of_torque import preload_of_torque as preload_of_torque
 from ballscrew.sizing.catalogue import catalogue as catalogue
 from ballscrew.sweeps.store_check import verify as verify
 from ballscrew.sweeps.sweep import sweep as sweep

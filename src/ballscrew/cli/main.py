@@ -28,6 +28,7 @@ from ballscrew.cli import (
     schema,
     sensitivity,
     serve,
+    service,
     sweep,
     validate,
 )
@@ -68,6 +69,7 @@ for command in (
     report.report,
     sensitivity.sensitivity,
     serve.serve,
+    service.service,
     validate.validate,
     schema.schema,
     cite.cite,

@@ -1,0 +1,147 @@
+"""``ballscrew service --json``: the document of a service; all in SI."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from ballscrew import units
+from ballscrew.cases import case_file
+from ballscrew.cases.case import Case
+from ballscrew.cases.provenance import of_case
+from ballscrew.evaluation.outputs import inputs_of
+from ballscrew.quantities import Quantity
+from ballscrew.records import Record, documents
+from ballscrew.service.alternatives import Alternative
+from ballscrew.service.estimate import PreloadEstimate
+from ballscrew.service.posterior import PRELOAD
+from ballscrew.service.preload_change import PreloadChange
+from ballscrew.studies.service import TORQUE, ServiceReport
+
+#: Three words for what became of the preload.
+VERDICTS = {"lost": "preload lost", "kept": "preload kept", "open": "lost or kept cannot be told"}
+
+
+def document(case: Case, report: ServiceReport) -> dict[str, Any]:
+    """Inputs, preloads, the share that is left, what else could be, warnings and provenance."""
+    results: dict[str, Any] = {name: _estimate(one) for name, one in report.estimates.items()}
+    if report.change is not None:
+        results |= _change(report.change)
+    if report.reading is not None:
+        results |= {"torque": report.reading.torque, "screw_speed": report.reading.screw_speed}
+    return {
+        "inputs": case_file.inputs(case),
+        "results": results,
+        "units": {
+            "preload": "N", "torque": TORQUE.unit, "rms": TORQUE.unit, "screw_speed": "rad/s", "temperature": "K",
+            "ratio": "1",
+        },
+        "warnings": documents(report.change.warning_records if report.change is not None else []),
+        "verdicts": documents(verdicts(case, report)),
+        "checks": [],
+        "provenance": {**of_case(case), "logs": _logs(report)},
+    }  # fmt: skip
+
+
+def preload_quantity(case: Case) -> Quantity:
+    """The quantity of a preload, with its display unit."""
+    return inputs_of(case.model, case.screw, case.lubricant)[PRELOAD][1]
+
+
+def verdicts(case: Case, report: ServiceReport) -> list[Record]:
+    """What became of the preload, and each cause that would explain the log as well."""
+    if report.change is None:
+        return [_of_reading(case, report)]
+    change = report.change
+    before = "the nominal preload" if change.new.fit is None else "the preload"
+    if not change.logarithm.told:
+        text = "the preload cannot be told from this: see the warnings"
+        return [Record(id="service.preload_left", subject=PRELOAD, text=text, severity="warning")]
+    low, high = change.ratio_interval()
+    limit = 1 - change.tolerance
+    text = (
+        f"{VERDICTS[change.verdict]}: {change.ratio:.0%} of {before} is left ({low:.0%} to {high:.0%}), less than "
+        f"{limit:.4g} of it with a probability of {probability(change.probability_of_loss)}"
+    ).replace(f"{limit:.4g} of it", f"{limit:.0%} of it")
+    holds = {"lost": False, "kept": True, "open": None}[change.verdict]
+    severity = "warning" if change.verdict == "lost" else "info"
+    records = [
+        Record(
+            id="service.preload_left", subject=PRELOAD, text=text, severity=severity, holds=holds,
+            value=change.ratio, limit=limit,
+        )
+    ]  # fmt: skip
+    return [*records, *(_of_alternative(one) for one in change.alternatives)]
+
+
+def probability(share: float) -> str:
+    """``12 %``; of what is nearly certain or nearly impossible only that."""
+    if share > 0.999:
+        return "more than 99.9%"
+    if share < 0.001:
+        return "less than 0.1%"
+    return f"{share:.1%}" if share > 0.99 or share < 0.01 else f"{share:.0%}"
+
+
+def _of_alternative(one: Alternative) -> Record:
+    name = one.name.replace("_", " ")
+    value, instead = (units.shown(x, one.quantity, 3) for x in (one.value, one.instead_of))
+    fits = "explains it as well" if one.explains else "does not explain it"
+    off = f"off by {units.shown(one.rms, TORQUE, 3)}, with another preload {units.shown(one.rms_of_preload, TORQUE, 3)}"
+    within = {True: "within", False: "beyond", None: ""}[one.plausible]
+    known = f"; {within} what is known of it" if within else "; nothing is known of it"
+    text = f"{name} {value} instead of {instead} {fits} ({off}){known if one.explains else ''}"
+    return Record(
+        id="service.alternative", subject=one.name, text=text, value=one.value, limit=one.instead_of,
+        unit=one.quantity.unit, holds=one.explains,
+    )  # fmt: skip
+
+
+def _of_reading(case: Case, report: ServiceReport) -> Record:
+    assert report.preload is not None
+    quantity = preload_quantity(case)
+    value, low, high = (units.shown(x, quantity) for x in (report.preload.preload, *report.preload.interval()))
+    return Record(
+        id="service.preload", subject=PRELOAD, text=f"preload {value} ({low} to {high})",
+        value=report.preload.preload, unit="N",
+    )  # fmt: skip
+
+
+def _estimate(one: PreloadEstimate) -> dict[str, Any]:
+    low, high = one.interval()
+    rows = None if one.fit is None else one.fit.rows
+    return {
+        "preload": one.preload,
+        "low": low,
+        "high": high,
+        "deviation_of_logarithm": math.sqrt(one.logarithm.total_variance),
+        "shares": dict(one.shares),
+        "temperature": one.temperature,
+        "rows": None if rows is None else len(rows.log),
+        "rows_beyond_lift_off": one.rows_beyond_lift_off,
+        "residual_rms": one.residual_rms,
+    }
+
+
+def _change(change: PreloadChange) -> dict[str, Any]:
+    low, high = change.ratio_interval()
+    return {
+        "ratio": {"value": change.ratio, "low": low, "high": high, "shares": dict(change.ratio_shares)},
+        "tolerance": change.tolerance,
+        "probability_of_loss": change.probability_of_loss,
+        "verdict": change.verdict,
+        "scores": dict(change.scores),
+        "alternatives": [
+            {
+                "name": one.name, "value": one.value, "instead_of": one.instead_of, "unit": one.quantity.unit,
+                "rms": one.rms, "rms_of_preload": one.rms_of_preload, "explains": one.explains,
+                "plausible": one.plausible,
+            }
+            for one in change.alternatives
+        ],
+    }  # fmt: skip
+
+
+def _logs(report: ServiceReport) -> list[dict[str, Any]]:
+    sources = [one.fit.rows.log.source for one in report.estimates.values() if one.fit is not None]
+    return [{"log": source[0], "sha256": source[1]} for source in sources if source is not None]

@@ -1,0 +1,168 @@
+"""Diagnostics of a service: records of what its preloads do not show."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from ballscrew.calibration.fit_result import Rows
+from ballscrew.evaluation.plan import Configuration
+from ballscrew.quantities import Force, Quantity
+from ballscrew.records import Record
+from ballscrew.service.estimate import PreloadEstimate
+from ballscrew.service.posterior import MINIMUM_SAMPLES, MODEL_ERROR, MODEL_PARTS, PRELOAD, Posterior
+
+#: A difference between the temperatures of two logs that is said, K.
+TEMPERATURE_DIFFERENCE = 5.0
+#: A preload above this share of the dynamic load rating is more than vendors allow.
+HIGHEST_SHARE = 0.1
+#: A misfit of a log that is seldom chance, and a number so many standard deviations from what is known of it, are said.
+MISFIT_SHARE, LARGEST_SCORE = 1e-3, 2.0
+#: Warnings of the fit of the preload alone that hold whatever the other numbers are.
+_SAID = {"fit.scatter", "fit.outliers", "fit.not_converged", "fit.at_bound", "fit.one_sided", "fit.not_identified"}
+
+
+def warning_records(
+    new: PreloadEstimate,
+    worn: PreloadEstimate,
+    subject: Configuration,
+    dynamic_load_rating: Force | None,
+    found: Posterior,
+) -> list[Record]:
+    """Reasons not to trust the preloads, the gravest first."""
+    logs = {label: one for label, one in (("new", new), ("worn", worn)) if one.fit is not None}
+    return [
+        *(record for label, one in logs.items() for record in _of_fit(label, one)),
+        *_of_numbers(found, list(logs)),
+        *_of_ratings({"new": new, "worn": worn}, subject, dynamic_load_rating),
+        *(record for label, one in logs.items() for record in _of_lift_off(label, one)),
+        *_of_temperatures(logs, subject),
+        *(record for label, one in logs.items() for record in _of_directions(label, one)),
+    ]
+
+
+def _record(name: str, subject: str, text: str, **more: object) -> Record:
+    fields: dict[str, object] = {"severity": "warning", "holds": False, **more}
+    return Record(id=f"service.{name}", subject=subject, text=text, **fields)  # pyright: ignore[reportArgumentType]
+
+
+def _rows(one: PreloadEstimate) -> Rows:
+    assert one.fit is not None
+    return one.fit.rows
+
+
+def _of_fit(label: str, one: PreloadEstimate) -> list[Record]:
+    assert one.fit is not None
+    said = [record for record in one.fit.warning_records if record.id in _SAID]
+    return [
+        dataclasses.replace(
+            record,
+            subject=f"{label}.{record.subject}",
+            text=f"{label} log: {record.text}",
+            template=f"{label} log: {record.template}" if record.template else "",
+        )
+        for record in said
+    ]
+
+
+def _of_numbers(found: Posterior, labels: list[str]) -> list[Record]:
+    from scipy.special import chdtri  # slow to import: for those only who fit
+
+    records: list[Record] = []
+    if not found.effective_samples >= MINIMUM_SAMPLES:
+        text = "hardly any numbers that are known for such a screw explain the logs: no preload is told"
+        records.append(
+            _record("not_sampled", "preload", text, value=found.effective_samples, limit=float(MINIMUM_SAMPLES))
+        )
+    limit = float(chdtri(MODEL_PARTS, MISFIT_SHARE))
+    for label, one in zip(labels, found.preloads, strict=True):
+        misfit = float(one.misfit[found.best])
+        if misfit > limit:
+            text = (
+                f"{label} log: with no preload does the model follow the torques, by more than the {MODEL_ERROR:.0%} "
+                "that it is taken to be off: is this the screw, and is the kind of torque right?"
+            )
+            records.append(_record("misfit", f"{label}.torque", text, value=misfit, limit=limit))
+    for name, score in found.mean_scores().items():
+        if abs(score) > LARGEST_SCORE:
+            where = "above" if score > 0 else "below"
+            text = (
+                f"the logs ask for a {name.rpartition('.')[2].replace('_', ' ')} {abs(score):.1f} standard deviations "
+                f"{where} what is known of it: is this the screw, or does the model miss something?"
+            )
+            records.append(_record("beyond_known", name, text, value=score, limit=LARGEST_SCORE))
+    return records
+
+
+def _of_ratings(
+    both: dict[str, PreloadEstimate], subject: Configuration, dynamic_load_rating: Force | None
+) -> list[Record]:
+    if dynamic_load_rating is None:
+        return []
+    quantity: Quantity = subject.inputs[PRELOAD][1]
+    limit = HIGHEST_SHARE * float(dynamic_load_rating)
+    return [
+        _record(
+            "preload_above_rating", f"{label}.preload",
+            f"{label} preload {one.preload:.4g} N is more than {HIGHEST_SHARE:.0%} of the dynamic load rating, "
+            f"{limit:.4g} N: it costs life; look at the nut and the units of the log",
+            value=one.preload, limit=limit, unit="N",
+            template=f"{label} preload {{0}} is more than {HIGHEST_SHARE:.0%} of the dynamic load rating, {{1}}: "
+            "it costs life; look at the nut and the units of the log",
+            quantities=((one.preload, quantity), (limit, quantity)),
+        )
+        for label, one in both.items()
+        if one.preload > limit
+    ]  # fmt: skip
+
+
+def _of_lift_off(label: str, one: PreloadEstimate) -> list[Record]:
+    beyond, rows = one.rows_beyond_lift_off, len(_rows(one).log)
+    if not beyond:
+        return []
+    text = (
+        f"{label} log: the load takes the preload off one side in {beyond} of {rows} rows, which tell nothing of it: "
+        f"{rows - beyond} rows do"
+    )
+    return [_record("lift_off", f"{label}.axial_load", text, value=float(beyond), limit=0.0)]
+
+
+def _of_temperatures(logs: dict[str, PreloadEstimate], subject: Configuration) -> list[Record]:
+    graded = subject.lubricant.grade is not None
+    records: list[Record] = []
+    known = {label: one.temperature for label, one in logs.items() if one.temperature is not None}
+    for label in logs:
+        if label not in known:
+            text = (
+                f"{label} log: no temperature: it is found from how the torque goes with the speed, 10 K either way; "
+                "log the temperature of the nut"
+            )
+            records.append(_record("no_temperature", f"{label}.temperature", text))
+        elif not graded:
+            text = (
+                f"{label} log: its temperatures are not used, as the oil has a viscosity and no grade that changes "
+                "with it: give [lubricant] a grade"
+            )
+            records.append(_record("temperature_unused", f"{label}.temperature", text))
+    if len(known) == 2:
+        warmer = known["worn"] - known["new"]
+        if abs(warmer) > TEMPERATURE_DIFFERENCE:
+            how = f"the worn log is {abs(warmer):.0f} K {'hotter' if warmer > 0 else 'colder'} than the new one"
+            end = "the oil's grade accounts for it" if graded else "give [lubricant] a grade to account for it"
+            severity = "info" if graded else "warning"
+            records.append(
+                _record(
+                    "temperatures_differ", "temperature", f"{how}: {end}", severity=severity, value=warmer,
+                    limit=TEMPERATURE_DIFFERENCE, unit="K",
+                )
+            )  # fmt: skip
+    return records
+
+
+def _of_directions(label: str, one: PreloadEstimate) -> list[Record]:
+    log = _rows(one).log
+    if np.any(log.forward) and np.any(log.backward):
+        return []
+    text = f"{label} log: one direction only: a zero error of the sensor counts as friction; measure in both"
+    return [_record("one_direction", f"{label}.screw_speed", text)]

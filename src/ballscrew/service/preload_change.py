@@ -1,0 +1,295 @@
+"""The preload of a nut then and now: from two logs of its torque, or from one log and the nominal preload."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from ballscrew.calibration.fit import fit
+from ballscrew.calibration.problem import CONSTANT_TORQUE
+from ballscrew.components.materials import TEMPERATURE, Lubricant
+from ballscrew.components.screw import BallScrew
+from ballscrew.errors import Fault, InputError, accepts_units, nearest, raise_if_any
+from ballscrew.evaluation.outputs import OPERATION
+from ballscrew.evaluation.plan import Configuration
+from ballscrew.friction.model import FrictionModel
+from ballscrew.quantities import Force, MomentOfInertia
+from ballscrew.records import Record
+from ballscrew.service.alternatives import Alternative, alternatives, rows_that_count
+from ballscrew.service.diagnostics import warning_records
+from ballscrew.service.estimate import Mixture, PreloadEstimate
+from ballscrew.service.posterior import (
+    MINIMUM_SAMPLES,
+    PRELOAD,
+    VISCOSITY,
+    Groups,
+    Posterior,
+    Readings,
+    posterior,
+)
+from ballscrew.torque_logs.log_rows import Kind
+from ballscrew.torque_logs.torque_log import TorqueLog
+from ballscrew.uncertainty.default_uncertainties import NORMAL_95, default_distributions
+from ballscrew.uncertainty.distributions import Distribution
+
+if TYPE_CHECKING:
+    from ballscrew.uncertainty.sampling import JointNormal
+
+Verdict = Literal["lost", "kept", "open"]
+#: A preload is called lost, or kept, with this probability.
+CERTAIN = 0.95
+#: Φ(1).
+ONE_DEVIATION = 0.8413447460685429
+#: What a service may fit to each log.
+FREE = PRELOAD, CONSTANT_TORQUE.name
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class PreloadChange:
+    """Result of :func:`preload_change`."""
+
+    new: PreloadEstimate
+    worn: PreloadEstimate
+    #: The logarithm of the ratio: errors that both preloads share have gone from it.
+    logarithm: Mixture
+    #: By unknown, the share of its variance that goes along with it.
+    ratio_shares: Mapping[str, float]
+    #: The means of the numbers of the model that the logs ask for, in standard deviations from what is known of them.
+    scores: Mapping[str, float]
+    #: The loss that is put up with, as a share of the preload.
+    tolerance: float
+    #: Other causes, had the preload stayed as it was.
+    alternatives: Sequence[Alternative]
+    warning_records: Sequence[Record] = ()
+
+    @property
+    def ratio(self) -> float:
+        """The preload left, as a share of the preload before: the median."""
+        return math.exp(self.logarithm.quantile(0.5))
+
+    def ratio_interval(self, level: float = 0.95) -> tuple[float, float]:
+        """The interval of the ratio; NaN where one of the preloads is not told."""
+        return self.logarithm.interval(level)
+
+    @property
+    def probability_of_loss(self) -> float:
+        """Probability that less than 1 − tolerance of the preload is left; NaN where one of them is not told."""
+        return self.logarithm.share_below(math.log(1 - self.tolerance))
+
+    @property
+    def verdict(self) -> Verdict:
+        """``"lost"`` or ``"kept"`` where that has a probability of :data:`CERTAIN`, otherwise ``"open"``."""
+        probability = self.probability_of_loss
+        return "lost" if probability >= CERTAIN else "kept" if probability <= 1 - CERTAIN else "open"
+
+    @property
+    def warnings(self) -> list[str]:
+        """The texts of the warnings."""
+        return [record.text for record in self.warning_records]
+
+
+@accepts_units("service")
+def preload_change(
+    model: FrictionModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    new: Any,
+    worn: Any,
+    *,
+    free: Sequence[str] = (PRELOAD,),
+    uncertain: Mapping[str, Distribution] | None = None,
+    joint: JointNormal | None = None,
+    tolerance: float = 0.1,
+    kind: Kind = "unknown",
+    inertia: MomentOfInertia | None = None,
+    dynamic_load_rating: Force | None = None,
+    seed: int = 0,
+    done: Callable[[int, int], None] | None = None,
+) -> PreloadChange:
+    """Preload of a nut in a log of its torque when new and in one when worn, N, and the share that is left.
+
+    ``new`` and ``worn`` are logs as :func:`~ballscrew.calibration.fit.fit` takes them; None for ``new`` stands for the
+    nominal preload of the screw with its tolerance. ``free`` may have ``"constant_torque"`` beside ``"nut.preload"``:
+    seals that lose another torque in each log.
+
+    ``uncertain`` are the distributions of the numbers of the model (by default those of ``data/uncertainties.toml``),
+    ``joint`` those among them that a calibration left correlated. They are unknowns beside the preloads, the same for
+    both logs, and so is, for each log by itself, its oil temperature: 2 K either way where the log has it and the oil a
+    grade, otherwise 10 K. A hotter oil then shows in how the torque goes with the speed, or makes the interval wider
+    (:mod:`ballscrew.service.posterior`).
+
+    ``tolerance`` is the share of the preload that may be lost; ``dynamic_load_rating`` (N) is what the preload is
+    judged by. The answer is made of samples, the same for the same ``seed``.
+
+    Raises :class:`~ballscrew.errors.InputError` for a nut without preload, balls that differ, a tolerance out of
+    (0, 1), one log given twice, and all that a fit raises.
+    """
+    subject = with_preload(Configuration(model, screw, lubricant))
+    raise_if_any(_faults_of_options(free, tolerance))
+    known = held_numbers(subject, uncertain)
+    logs = {"new": new, "worn": worn}
+    logs = {label: TorqueLog.of(data) for label, data in logs.items() if data is not None}
+    raise_if_any(_faults_of_logs(logs))
+    readings = {label: _read(subject, log, label, free, kind, inertia, done) for label, log in logs.items()}
+    fits = [one.fit for one in readings.values()]
+    found = posterior(subject, {n: Groups.of(one.fit) for n, one in readings.items()}, fits, known, joint, seed)
+    labels = list(readings)
+    estimates = {label: _estimate(subject, found, readings[label], place) for place, label in enumerate(labels)}
+    then, now = estimates.get("new") or _nominal(subject, uncertain), estimates["worn"]
+    logarithm = now.logarithm.less(then.logarithm)
+    other: list[Alternative] = []
+    if logarithm.told and now.subject is not None:
+        one = readings["worn"]
+        preload = float(then.preload) if then.subject is None else float(then.subject.value_of(PRELOAD) or math.nan)
+        other = alternatives(
+            one, now.subject, now.warmer, preload, rows_that_count(one, now.subject, now.warmer), known
+        )
+    change = PreloadChange(
+        new=then,
+        worn=now,
+        logarithm=logarithm,
+        ratio_shares=_shares(found, logarithm, then if "new" not in labels else None),
+        scores=found.mean_scores(),
+        tolerance=tolerance,
+        alternatives=other,
+    )
+    records = warning_records(then, now, subject, dynamic_load_rating, found)
+    return dataclasses.replace(change, warning_records=tuple(records))
+
+
+def _shares(found: Posterior, logarithm: Mixture, nominal: PreloadEstimate | None) -> dict[str, float]:
+    """What the variance of the ratio goes along with."""
+    shares = found.shares(logarithm.mean, logarithm.variance)
+    if nominal is not None and logarithm.told:
+        shares["nominal preload"] = float(nominal.logarithm.variance[0] / logarithm.total_variance)
+    return shares
+
+
+def with_preload(subject: Configuration) -> Configuration:
+    """The subject with a nut that is described by its preload. Raises ``InputError`` for one that has none."""
+    nut: Any = subject.nut
+    remedy = 'give one: type = "double" (or "oversize", "offset") and preload = "4 kN"'
+    if not hasattr(nut, "preload"):
+        raise InputError(Fault("nut", "has no preload", type(nut).__name__, remedy))
+    if nut.preload is None:
+        loads = subject.model(subject.screw, subject.lubricant, axial_load=0.0, screw_speed=1.0).loads
+        subject = subject.changed({PRELOAD: float(loads.remaining_preload)})
+    preload: Any = subject.value_of(PRELOAD)
+    if np.ndim(preload):
+        raise InputError(Fault(PRELOAD, "is an array", "", "give one number"))
+    if not preload > 0:
+        raise InputError(Fault("nut", "has no preload", f"{float(preload):g} N", remedy))
+    return subject
+
+
+def held_numbers(subject: Configuration, uncertain: Mapping[str, Distribution] | None) -> dict[str, Distribution]:
+    """The distributions of numbers of the model; conditions and preloads, which a log tells, are not among them.
+
+    Nor is the viscosity of an oil without a grade: the temperature of each log stands for it.
+    """
+    if uncertain is None:
+        usual = default_distributions(subject.model, subject.screw, subject.lubricant, exact={TEMPERATURE.name})
+        uncertain = {name: distribution for name, (distribution, _) in usual.items()}
+    conditions = {*OPERATION, TEMPERATURE.name, "preload", PRELOAD, "oversize", "nut.oversize"}
+    if subject.lubricant.grade is None:
+        conditions.add(VISCOSITY)
+    unknown = [name for name in uncertain if name not in subject.inputs]
+    raise_if_any([Fault(f"service.uncertain.{n}", "unknown name", "", nearest(n, subject.inputs)) for n in unknown])
+    return {name: distribution for name, distribution in uncertain.items() if name not in conditions}
+
+
+def _faults_of_options(free: Sequence[str], tolerance: Any) -> list[Fault]:
+    faults: list[Fault] = []
+    if isinstance(free, str) or PRELOAD not in free:
+        faults.append(Fault("service.free", f"must have {PRELOAD} in it", str(free), f'free=["{PRELOAD}"]'))
+    else:
+        remedy = f"{' and '.join(FREE)} can be fitted; a distribution of a number in the case makes it unknown, too"
+        faults += [
+            Fault("service.free", "is not fitted to each log", name, remedy) for name in free if name not in FREE
+        ]
+    if not isinstance(tolerance, int | float) or not 0 < tolerance < 1:
+        faults.append(Fault("service.tolerance", "must lie between 0 and 1", str(tolerance), "0.1 is usual"))
+    return faults
+
+
+def _faults_of_logs(logs: Mapping[str, TorqueLog]) -> list[Fault]:
+    if "worn" not in logs:
+        return [Fault("service.worn", "missing", "", "give the log that is asked about")]
+    digests = [log.source[1] for log in logs.values() if log.source is not None]
+    if len(digests) < 2 or digests[0] != digests[1]:
+        return []
+    names = ", ".join(log.source[0] for log in logs.values() if log.source is not None)
+    remedy = "give the log of the new screw and that of the worn one"
+    return [Fault("service", "both logs are the same file", names, remedy)]
+
+
+def _read(
+    subject: Configuration,
+    log: TorqueLog,
+    label: str,
+    free: Sequence[str],
+    kind: Kind,
+    inertia: MomentOfInertia | None,
+    done: Callable[[int, int], None] | None,
+) -> Readings:
+    """The rows of a log, with a first fit of the preload alone. Faults name the log."""
+    try:
+        found = fit(
+            subject.model, subject.screw, subject.lubricant, log, free, kind=kind, inertia=inertia, holdout=0.0,
+            done=done,
+        )  # fmt: skip
+    except InputError as error:
+        name = label if log.source is None else log.source[0]
+        raise InputError(*(dataclasses.replace(f, where=f"{name}: {f.where}") for f in error.faults)) from None
+    return Readings.of(found)
+
+
+def _statistical(one: Readings) -> float:
+    """Standard deviation of the logarithm of the preload by the scatter of the rows, alike and neighbouring ones
+    looked at; NaN where the log does not tell the preload.
+    """
+    from scipy.special import stdtrit  # slow to import: for those only who fit
+
+    estimate = one.fit.estimates[PRELOAD]
+    if estimate.std is None or not estimate.value > 0:
+        return math.nan
+    student = float(stdtrit(estimate.degrees_of_freedom, 0.975)) / NORMAL_95
+    return student * estimate.std / estimate.value
+
+
+def _estimate(subject: Configuration, found: Posterior, one: Readings, place: int) -> PreloadEstimate:
+    log, first = one.fit.rows.log, one.fit.estimates[PRELOAD].value
+    each = found.preloads[place]
+    warmer = float(found.warmer[place][found.best])
+    there = {**found.number_at_best(), PRELOAD: first * math.exp(each.mean[found.best])}
+    subject = subject.changed(there)
+    told = found.effective_samples >= MINIMUM_SAMPLES
+    statistical = _statistical(one) if told else math.nan
+    logarithm = Mixture(found.weights, math.log(max(first, 1e-300)) + each.mean, each.variance + statistical**2)
+    loads = subject.model(subject.screw, subject.lubricant, axial_load=0.0, screw_speed=1.0).loads
+    return PreloadEstimate(
+        logarithm=logarithm,
+        shares=found.shares(logarithm.mean, logarithm.variance),
+        subject=subject,
+        warmer=warmer,
+        fit=one.fit,
+        residual_rms=rows_that_count(one, subject, warmer).rms(subject, warmer),
+        temperature=None if log.temperature is None else float(np.mean(log.temperature)),
+        rows_beyond_lift_off=int(np.count_nonzero(np.abs(log.axial_load) >= float(loads.lift_off_load))),
+    )
+
+
+def _nominal(subject: Configuration, uncertain: Mapping[str, Distribution] | None) -> PreloadEstimate:
+    """The preload of the case with its tolerance."""
+    preload = float(subject.value_of(PRELOAD) or math.nan)
+    given = None if uncertain is None else uncertain.get("preload", uncertain.get(PRELOAD))
+    if uncertain is None:
+        given = default_distributions(subject.model, subject.screw, subject.lubricant)["preload"][0]
+    if given is None:
+        return PreloadEstimate(logarithm=Mixture.of(math.log(preload), 0.0))
+    low, high = (float(given.quantile(share)) for share in (1 - ONE_DEVIATION, ONE_DEVIATION))
+    return PreloadEstimate(logarithm=Mixture.of(math.log(preload), (high - low) / 2 / preload))

@@ -1,0 +1,120 @@
+"""The service of a nut: the preload left, from two logs, from one against the case, or from a torque without load."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+from ballscrew import units
+from ballscrew.cases.case import Case
+from ballscrew.cases.uncertain_inputs import all_of, joint_of
+from ballscrew.components.materials import TEMPERATURE
+from ballscrew.errors import Fault, InputError
+from ballscrew.friction.result import FrictionResult
+from ballscrew.quantities import Quantity, quantities_of
+from ballscrew.service.estimate import PreloadEstimate
+from ballscrew.service.posterior import PRELOAD
+from ballscrew.service.preload_change import PreloadChange, preload_change
+from ballscrew.service.preload_of_torque import preload_of_torque
+from ballscrew.studies.fit import Options as FitOptions
+from ballscrew.torque_logs import reading
+from ballscrew.torque_logs.torque_log import TorqueLog
+from ballscrew.uncertainty.default_uncertainties import default_distributions
+from ballscrew.uncertainty.distributions import Distribution
+
+TORQUE: Quantity = quantities_of(FrictionResult)["screw_torque"]
+#: Options of the command line by the fields in which a service finds faults.
+_OPTIONS: Mapping[str, str] = {
+    "service.tolerance": "--tolerance", "service.torque": "--torque", "service.screw_speed": "--speed",
+    "service.free": "--free", "lubricant.temperature": "--temperature",
+}  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True)
+class Reading:
+    """A torque without load, SI."""
+
+    torque: float
+    screw_speed: float
+    #: Standard deviation of the torque.
+    torque_deviation: float = 0.0
+    temperature: float | None = None
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ServiceReport:
+    """The answer of a service: a change of the preload, or the preload of a single reading."""
+
+    change: PreloadChange | None = None
+    preload: PreloadEstimate | None = None
+    reading: Reading | None = None
+
+    @property
+    def estimates(self) -> dict[str, PreloadEstimate]:
+        """The preloads by the names they have in the document."""
+        if self.change is not None:
+            return {"new": self.change.new, "worn": self.change.worn}
+        return {} if self.preload is None else {"preload": self.preload}
+
+
+def of_logs(
+    case: Case,
+    paths: Sequence[Path],
+    options: FitOptions,
+    tolerance: float,
+    done: Callable[[int, int], None] | None = None,
+) -> ServiceReport:
+    """The change between the logs of two files, or from the case to that of one."""
+    logs: list[TorqueLog | None] = [
+        reading.read(
+            path, options.columns, torque_constant=options.torque_constant, lead=float(case.screw.lead),
+            keep_going=options.keep_going, done=done,
+        )
+        for path in paths
+    ]  # fmt: skip
+    if len(logs) == 1:
+        logs.insert(0, None)
+    new, worn = logs
+    uncertain = distributions(case)
+    try:
+        change = preload_change(
+            case.model, case.screw, case.lubricant, new, worn,
+            free=[PRELOAD, *(name for name in options.free if name not in (PRELOAD, "preload"))],
+            uncertain=uncertain, joint=joint_of(case, all_of(case)), tolerance=tolerance,
+            kind=options.kind, inertia=options.inertia,
+            dynamic_load_rating=case.listed.get("dynamic_load_rating"), done=done,
+        )  # fmt: skip
+    except InputError as error:
+        raise InputError(*(_with_option(fault) for fault in error.faults)) from None
+    records = tuple(units.in_display_units_of(change.warning_records))
+    return ServiceReport(dataclasses.replace(change, warning_records=records))
+
+
+def of_torque(case: Case, measured: Reading) -> ServiceReport:
+    """The preload of a torque without load."""
+    try:
+        found = preload_of_torque(
+            case.model, case.screw, case.lubricant,
+            torque=measured.torque, screw_speed=measured.screw_speed, temperature=measured.temperature,
+            torque_deviation=measured.torque_deviation, uncertain=distributions(case),
+            joint=joint_of(case, all_of(case)),
+        )  # fmt: skip
+    except InputError as error:
+        raise InputError(*(_with_option(fault) for fault in error.faults)) from None
+    return ServiceReport(preload=found, reading=measured)
+
+
+def distributions(case: Case) -> dict[str, Distribution]:
+    """The uncertain numbers of a case, the temperature left to the logs, and what a grade then leaves open instead."""
+    found = {name: one.distribution for name, one in all_of(case).items() if name != TEMPERATURE.name}
+    if not case.fit and case.lubricant.grade is not None:
+        exact = {*case.exact, TEMPERATURE.name}
+        usual = default_distributions(case.model, case.screw, case.lubricant, given=found, exact=exact)
+        found |= {name: distribution for name, (distribution, _) in usual.items()}
+    return found
+
+
+def _with_option(fault: Fault) -> Fault:
+    """The fault, with the option of the command line that it is in."""
+    return dataclasses.replace(fault, where=_OPTIONS.get(fault.where, fault.where))
