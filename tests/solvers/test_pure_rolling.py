@@ -275,16 +275,18 @@ def test_a_point_does_not_see_its_neighbours(anywhere):
     """The number of steps is fixed, so a hard point in an array cannot move an easy one."""
     found = outcome(anywhere)
     part = slice(123, 457)
-    again = outcome(
-        dataclasses.replace(
-            anywhere,
-            ball_screw=dataclasses.replace(anywhere.ball_screw, ball_diameter=anywhere.ball_screw.ball_diameter[part]),
-            screw=cut(anywhere.screw, part),
-            nut=cut(anywhere.nut, part),
-            frame=cut(anywhere.frame, part),
-            ball_chain=type(anywhere.ball_chain)(*(x[part] for x in anywhere.ball_chain)),
-        )
+    ball = anywhere.kinds[0].friction
+    some = dataclasses.replace(
+        ball,
+        ball_diameter=ball.ball_diameter[part],
+        screw=cut(ball.screw, part),
+        nut=cut(ball.nut, part),
+        frame=cut(ball.frame, part),
+        ball_chain=type(ball.ball_chain)(*(x[part] for x in ball.ball_chain)),
     )
+    kind = dataclasses.replace(anywhere.kinds[0], friction=some)
+    screw = dataclasses.replace(anywhere.ball_screw, ball_diameter=anywhere.ball_screw.ball_diameter[part])
+    again = outcome(dataclasses.replace(anywhere, ball_screw=screw, frame=some.frame, kinds=(kind,)))
     assert np.allclose(again.screw_offset, found.screw_offset[part], rtol=1e-13, atol=1e-15)
 
 
