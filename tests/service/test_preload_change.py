@@ -115,9 +115,8 @@ def test_alternatives_say_what_a_number_would_have_to_be():
     assert set(by_name) == {"boundary_friction_coefficient", "temperature", "constant_torque"}
     one = by_name["boundary_friction_coefficient"]
     assert one.instead_of == given
-    # the first log was made with the number of the case, and the preload is held at what it tells: without load a
-    # per cent of it, which is what it is known to, is worth a tenth of the friction coefficient
-    assert one.value == pytest.approx(0.7 * given, rel=0.2)
+    # the first log was made with the number of the case, and the preload is held at what it tells
+    assert one.value == pytest.approx(0.7 * given, rel=0.1)
     assert one.explains
     assert one.plausible is None
     assert one.rms == pytest.approx(0.006, rel=0.2)

@@ -124,7 +124,7 @@ def alternatives(
     """What else could explain a log than the preload that it told, were the preload as given.
 
     ``subject`` and ``warmer`` are what all logs together told. Each number is fitted by itself, beside the errors of
-    the sensor and a temperature that was not logged, to the rows that count.
+    the sensor and what is not known of the temperature, to the rows that count.
     """
     held = subject.changed({PRELOAD: preload})
     _, of_preload = _explained(_by_number(log, subject, warmer, PRELOAD, None), subject, rows)
@@ -227,9 +227,8 @@ def _explained(cause: _Cause, held: Configuration, rows: CountedRows) -> tuple[f
     """The change that explains the rows best, and the root mean square of what it leaves, N m."""
     from scipy.optimize import least_squares  # slow to import: for those only who fit
 
-    # a temperature that was not logged stays open, but for the oil as a cause
-    unknown = rows.log.fit.rows.log.temperature is None or rows.log.fit.lubricant.grade is None
-    opened = unknown and cause.name not in (TEMPERATURE.name, VISCOSITY)
+    # the temperature stays open as far as it is not known, but for the oil as a cause
+    opened = cause.name not in (TEMPERATURE.name, VISCOSITY)
     deviation = rows.log.temperature_deviation
 
     def at(x: Vector) -> tuple[Configuration, float]:
