@@ -11,6 +11,8 @@ from ballscrew.components.mixed_friction import LoadSharing
 from ballscrew.components.nut import Bodies, Deviations, DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
 from ballscrew.components.nut_losses import Recirculation, Seals
 from ballscrew.errors import InputError
+from ballscrew.friction.balls import ball_friction, idle_ball_friction
+from ballscrew.friction.law_names import LAWS
 from ballscrew.friction.nut_friction import nut_friction
 from ballscrew.friction.result import MECHANISMS
 from ballscrew.friction.validity import NUT_REASONS
@@ -417,3 +419,22 @@ def test_the_former_call_is_the_model_with_a_warning(kind):
         assert np.array_equal(getattr(former, name), getattr(found, name), equal_nan=name == "efficiency"), name
     assert tuple(former.contributions) == (*MECHANISMS, "seals")
     assert former.ball_screw.nut == dataclasses.replace(NUTS[kind], **parts)
+
+
+IDLE_SLOTS = ("slip", "ball_force", "ball_chain", "race_torques", "frame", "friction")
+
+
+@pytest.mark.parametrize("name", ["olaru2005", "corrected", "reference"])
+@pytest.mark.parametrize(("slot", "law"), [(slot, law) for slot in IDLE_SLOTS for law in LAWS[slot]])
+def test_a_ball_that_is_lifted_off_has_the_friction_of_one_without_load(name, slot, law):
+    """The limit that the sum uses past lift-off is what the laws give without load."""
+    made = LAWS[slot][law]
+    changes = {slot: made() if isinstance(made, type) else made}
+    model = dataclasses.replace(MODELS[name], **changes, **({"pure_rolling_offset": None} if slot == "slip" else {}))
+    frame, imposed = model.laws.frame(SCREW), model.imposed_ball_force(SCREW)
+    with np.errstate(all="ignore"):  # no load, no film
+        limit = ball_friction(model, SCREW, OIL, frame, np.float64(0.0), SPEED, imposed)
+    idle = idle_ball_friction(model, SCREW, frame, SPEED, imposed)
+    assert idle.screw_torque == pytest.approx(limit.screw_torque, rel=1e-12, abs=1e-18)
+    assert idle.nut_torque == pytest.approx(limit.nut_torque, rel=1e-12, abs=1e-18)
+    assert dict(idle.contributions) == pytest.approx(dict(limit.contributions), rel=1e-12, abs=1e-18)

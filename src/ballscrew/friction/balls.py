@@ -36,25 +36,29 @@ MECHANISMS: Mapping[str, str] = {
 class BallModel(Protocol):
     """What the friction of a ball needs of a model: its laws, to be called, and two numbers."""
 
-    # attributes of a frozen dataclass: read-only
     @property
-    def laws(self) -> Any:  # noqa: D102
+    def laws(self) -> Any:
+        """The laws by slot, to be called."""
         ...
 
     @property
-    def contact_laws(self) -> Any:  # noqa: D102
+    def contact_laws(self) -> Any:
+        """The laws of one contact, to be called."""
         ...
 
     @property
-    def slip(self) -> Any:  # noqa: D102
+    def slip(self) -> Any:
+        """The slip law, with its traits."""
         ...
 
     @property
-    def ball_friction_coefficient(self) -> Ratio:  # noqa: D102
+    def ball_friction_coefficient(self) -> Ratio:
+        """Friction coefficient between balls."""
         ...
 
     @property
-    def pure_rolling_offset(self) -> Ratio | None:  # noqa: D102
+    def pure_rolling_offset(self) -> Ratio | None:
+        """Offset of the lines of pure rolling, where it is imposed."""
         ...
 
     def imposed_ball_force(self, screw: BallScrew) -> Force:

@@ -289,7 +289,7 @@ class FrictionResult:
     @property
     def ball_chain(self) -> BallChain:
         """Moment and braking force of the neighbouring balls of a ball with two contacts."""
-        return self.kinds[0].friction.ball_chain  # pyright: ignore  (those with four contacts have none)
+        return self.kinds[0].friction.ball_chain  # pyright: ignore[reportAttributeAccessIssue, reportUnknownVariableType, reportUnknownMemberType]
 
     @property
     def converged(self) -> Mask:

@@ -44,7 +44,7 @@ def warning_records(
 
 def _record(name: str, subject: str, text: str, **more: object) -> Record:
     fields: dict[str, object] = {"severity": "warning", "holds": False, **more}
-    return Record(id=f"service.{name}", subject=subject, text=text, **fields)  # pyright: ignore[reportArgumentType]
+    return Record(id=f"service.{name}", subject=subject, text=text, **fields)  # pyright: ignore[reportArgumentType]  (of mixed types)
 
 
 def _rows(one: PreloadEstimate) -> Rows:
