@@ -24,6 +24,19 @@ AllowCode = Annotated[
     bool, typer.Option("--allow-code", help='Let the case name laws of your own, "module:name", and run their code.')
 ]
 Verbose = Annotated[bool, typer.Option("--verbose", help="Say on the error stream what evaluates the model, and why.")]
+#: Options of logs.
+TorqueKind = Annotated[
+    str | None,
+    typer.Option("--kind", metavar="KIND", help="Of torque: friction or drive; if left out, the model tells."),
+]
+TorqueConstant = Annotated[
+    str | None, typer.Option("--torque-constant", metavar="VALUE", help='Of a motor current: "0.5 N m/A".')
+]
+Inertia = Annotated[
+    str | None,
+    typer.Option("--inertia", metavar="VALUE", help='What the torque accelerates, at the screw: "2e-3 kg m^2".'),
+]
+KeepGoing = Annotated[bool, typer.Option("--keep-going", help="Leave faulty rows out, and say how many.")]
 
 
 def say_engine(attributes: Mapping[str, Any]) -> None:

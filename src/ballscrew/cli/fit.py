@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, Verbose, say_engine
+from ballscrew.cli.common_options import AllowCode, Inertia, KeepGoing, TorqueConstant, TorqueKind, Verbose, say_engine
 
 
 def fit(
@@ -28,21 +28,13 @@ def fit(
         list[str] | None,
         typer.Option("--bounds", metavar="NAME=LOW:HIGH", help='boundary_friction_coefficient="0.05:0.2".'),
     ] = None,
-    kind: Annotated[
-        str | None,
-        typer.Option("--kind", metavar="KIND", help="Of torque: friction or drive; if left out, the model tells."),
-    ] = None,
+    kind: TorqueKind = None,
     column: Annotated[
         list[str] | None,
         typer.Option("--column", metavar="NAME=HEADING", help='A heading by hand: torque="M_ist [N m]".'),
     ] = None,
-    torque_constant: Annotated[
-        str | None, typer.Option("--torque-constant", metavar="VALUE", help='Of a motor current: "0.5 N m/A".')
-    ] = None,
-    inertia: Annotated[
-        str | None,
-        typer.Option("--inertia", metavar="VALUE", help='What the torque accelerates, at the screw: "2e-3 kg m^2".'),
-    ] = None,
+    torque_constant: TorqueConstant = None,
+    inertia: Inertia = None,
     limits: Annotated[
         list[str] | None,
         typer.Option("--limits", metavar="NAME=LOW:HIGH", help='Of the next test: screw_speed="10:3000 rpm".'),
@@ -51,7 +43,7 @@ def fit(
         float, typer.Option("--holdout", metavar="SHARE", help="Of the operating points, predicted and not fitted.")
     ] = 0.2,
     seed: Annotated[int, typer.Option("--seed", metavar="N", help="Of what is held out.")] = 0,
-    keep_going: Annotated[bool, typer.Option("--keep-going", help="Leave faulty rows out, and say how many.")] = False,
+    keep_going: KeepGoing = False,
     model: Annotated[str | None, typer.Option("--model", metavar="NAME", help="{models}; wins over the file.")] = None,
     settings: Annotated[
         list[str] | None,

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode
+from ballscrew.cli.common_options import AllowCode, Inertia, KeepGoing, TorqueConstant, TorqueKind
 
 
 def service(
@@ -37,22 +37,14 @@ def service(
         list[str] | None,
         typer.Option("--free", metavar="NAMES", help="What to fit beside the preload, with commas: constant_torque."),
     ] = None,
-    kind: Annotated[
-        str | None,
-        typer.Option("--kind", metavar="KIND", help="Of torque: friction or drive; if left out, the model tells."),
-    ] = None,
+    kind: TorqueKind = None,
     column: Annotated[
         list[str] | None,
         typer.Option("--column", metavar="NAME=HEADING", help='A heading by hand, of both logs: load="0 N".'),
     ] = None,
-    torque_constant: Annotated[
-        str | None, typer.Option("--torque-constant", metavar="VALUE", help='Of a motor current: "0.5 N m/A".')
-    ] = None,
-    inertia: Annotated[
-        str | None,
-        typer.Option("--inertia", metavar="VALUE", help='What the torque accelerates, at the screw: "2e-3 kg m^2".'),
-    ] = None,
-    keep_going: Annotated[bool, typer.Option("--keep-going", help="Leave faulty rows out, and say how many.")] = False,
+    torque_constant: TorqueConstant = None,
+    inertia: Inertia = None,
+    keep_going: KeepGoing = False,
     model: Annotated[str | None, typer.Option("--model", metavar="NAME", help="{models}; wins over the file.")] = None,
     settings: Annotated[
         list[str] | None,
