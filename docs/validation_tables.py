@@ -211,7 +211,7 @@ def _chain_share(kind, nut, percents) -> float:
         for percent in percents:
             screw = dataclasses.replace(row.screw(), nut=nut(preload=percent / 100 * row.dynamic_load_rating))
             r = model(screw, at.lubricant, axial_load=0.0, screw_speed=at.screw_speed)
-            shares.append(float(r.contributions["ball_to_ball"] / r.screw_torque))
+            shares.append(float((r.contributions["ball_to_ball"] + r.contributions["chain_braking"]) / r.screw_torque))
     return sum(shares) / len(shares)
 
 

@@ -24,7 +24,8 @@ def test_power_in_is_power_dissipated(d_m, d_w, alpha, f):
         dissipation.hydrodynamic_rolling_power(F_RS, F_RN, v, v)
         + dissipation.contact_moment_power(M_CS, M_CN, at_screw, at_nut)
         + dissipation.contact_moment_power(M_ERS, M_ERN, at_screw, at_nut)
-        + dissipation.ball_chain_power(M_B, ball, F_B, orbital * L)
+        + dissipation.ball_rubbing_power(M_B, ball)
+        + dissipation.chain_braking_power(F_B, orbital * L)
     )
     braking = F_B + M_B * math.cos(alpha) / L
     torque, _ = race_torques(d_m, d_w, alpha, braking)
@@ -37,4 +38,5 @@ def test_powers_are_forces_times_speeds():
     assert dissipation.creep_power(0.3, 0.2, 1e-3, -2e-3) == pytest.approx(-1e-4, rel=1e-12)
     assert dissipation.spin_power(2e-4, 40.0) == pytest.approx(8e-3, rel=1e-14)
     assert dissipation.torsion_power(0.5, 4e-3) == pytest.approx(2e-3, rel=1e-14)
-    assert dissipation.ball_chain_power(3e-6, 400.0, 0.02, 0.5) == pytest.approx(0.0112, rel=1e-14)
+    assert dissipation.ball_rubbing_power(3e-6, 400.0) == pytest.approx(0.0012, rel=1e-14)
+    assert dissipation.chain_braking_power(0.02, 0.5) == pytest.approx(0.01, rel=1e-14)

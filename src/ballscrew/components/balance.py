@@ -27,7 +27,7 @@ class Resistances(NamedTuple):
             share * F_Rn,
             share * M_s,
             share * M_n,
-            BallChain(share * chain.moment, share * chain.braking_force),
+            BallChain(share * chain.moment, share * chain.braking_force, share * chain.net_braking_force),
         )
 
 

@@ -197,8 +197,17 @@ class Hysteresis(ByValue):
 class BallChain(NamedTuple):
     """Moment and force along the path that its neighbours exert on a ball."""
 
+    #: Moment of the rubbing surfaces of the neighbours.
     moment: Torque
+    #: Force against the motion: the net push of the neighbours, and what a curved chain makes of the moment.
     braking_force: Force
+    #: The net push alone, as on a straight path; None where all of the braking force is that.
+    net_push: Force | None = None
+
+    @property
+    def net_braking_force(self) -> Force:
+        """Net push of the neighbours against the motion."""
+        return self.braking_force if self.net_push is None else self.net_push
 
 
 @law_traits(excluded="leaves one of the two neighbours out")
@@ -219,7 +228,27 @@ def two_neighbours(
     braking_force = equilibrium.chain_braking_force(
         ball_to_ball_force, moment, frame.path_radius, frame.rolling_plane_cosine
     )
-    return BallChain(moment, braking_force)
+    return BallChain(moment, braking_force, ball_to_ball_force)
+
+
+@law_traits(alternative=True)
+def opposed_neighbours(
+    ball_friction_coefficient: Ratio, ball_to_ball_force: Force, ball_diameter: Length, frame: Frame
+) -> BallChain:
+    """Both neighbours rub and press equally: what the one pushes, the other holds, and no net braking is left."""
+    moment = 2 * friction.ball_friction_moment(ball_friction_coefficient, ball_to_ball_force, ball_diameter)
+    nothing = 0 * ball_to_ball_force
+    braking_force = equilibrium.chain_braking_force(nothing, moment, frame.path_radius, frame.rolling_plane_cosine)
+    return BallChain(moment, braking_force, nothing)
+
+
+@law_traits(excluded="leaves the contact of the balls out: holds where spacers part them")
+def parted_neighbours(
+    ball_friction_coefficient: Ratio, ball_to_ball_force: Force, ball_diameter: Length, frame: Frame
+) -> BallChain:
+    """No ball touches another, as with a spacer ball after every loaded one."""
+    nothing = 0 * ball_to_ball_force
+    return BallChain(nothing * ball_diameter, nothing, nothing)
 
 
 @law_traits(alternative=True)
@@ -234,7 +263,11 @@ class ProportionalBallForce(ByValue):
     """A force that grows with the load of the ball; an imposed one does not count.
 
     The load of a ball is that of its contacts with one race: one on two contacts, the sum of both flank
-    pairs on four. The default is about the paper's 1 N / z at the paper's load; no measured value is known.
+    pairs on four. No measured value is known. The default is an estimate of its order: neighbours whose contact
+    angles differ by one or two degrees want to travel at speeds that differ by two thousandths, where the spin in their
+    contacts, which sets how stiffly creep is held, is a hundredth; so they press on each other with about a tenth
+    of what friction can hold. Known to a factor of three at best. The paper's 1 N / z is 0.0002 at the paper's load,
+    where it is a net braking force.
     """
 
     share_of_load: Annotated[
@@ -243,10 +276,10 @@ class ProportionalBallForce(ByValue):
             "F_B/Q",
             "force between balls in units of the ball's load",
             at_least=0,
-            hint="the paper has about 0.0002",
+            hint="0.0075, of known order only; the paper's net force is about 0.0002",
             usual=(0.0, 0.5),
         ),
-    ] = 0.0002
+    ] = 0.0075
 
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model.ball_force", self))

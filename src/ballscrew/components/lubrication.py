@@ -81,15 +81,27 @@ def ideal_inlet(conditions: ContactConditions) -> InletFactors:
 @law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
 class Inlet(ByValue):
-    """An inlet that its own shear heats (Gupta1992) and that may not be full (BibouletHoupertLines2010).
+    """An inlet that its own shear heats (Gupta1992) and that may not be full.
 
-    The heating thins the film and the rolling force alike; missing oil lowers the rolling force only.
+    The heating thins the film and the rolling force alike; missing oil lowers the rolling force only. The oil that the
+    balls push aside does not flow back in time at high speed and viscosity (SKF2018: kinematic replenishment); a
+    supply that is known to be short is told by ``inlet_film_ratio`` (BibouletHoupertLines2010).
     """
 
     inlet_film_ratio: Annotated[
         Ratio,
         Info("S", "film where the inlet begins / fully flooded film", above=0, hint="1e6 for a flooded inlet"),
     ] = 1e6
+    replenishment_constant: Annotated[
+        Ratio,
+        Info(
+            "K_rs",
+            "constant of replenishment of the track; zero: always full",
+            at_least=0,
+            hint="3e-8 for an oil bath or jet, 6e-8 for grease or oil-air",
+            usual=(0.0, 1e-6),
+        ),
+    ] = 3e-8
 
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model.inlet", self))
@@ -106,7 +118,12 @@ class Inlet(ByValue):
             conditions.thermal_loading_parameter,
             slide_to_roll,
         )
-        return InletFactors(heating, heating * rolling.rolling_starvation_factor(self.inlet_film_ratio))
+        oil = conditions.lubricant
+        replenished = rolling.replenishment_factor(
+            oil.viscosity / oil.density, v, conditions.ball_diameter, self.replenishment_constant
+        )
+        supplied = rolling.rolling_starvation_factor(self.inlet_film_ratio)
+        return InletFactors(heating, heating * supplied * replenished)
 
 
 # -- rolling --------------------------------------------------------------------------------------

@@ -59,12 +59,19 @@ def contact_moment_power(
     return M_s * Omega_s + M_n * Omega_n
 
 
-def ball_chain_power(
-    ball_friction_moment: Torque, ball_rotation: AngularSpeed, ball_to_ball_force: Force, orbital_speed: Speed
-) -> Power:
-    r"""Power lost between balls, and in pushing the chain along.
+def ball_rubbing_power(ball_friction_moment: Torque, ball_rotation: AngularSpeed) -> Power:
+    r"""Power lost between the rubbing surfaces of neighbouring balls.
 
-    .. math:: P = M_B \omega_b + F_B v_o
+    .. math:: P = M_B \omega_b
     """
-    M_B, omega_b, F_B, v_o = ball_friction_moment, ball_rotation, ball_to_ball_force, orbital_speed
-    return M_B * omega_b + F_B * v_o
+    M_B, omega_b = ball_friction_moment, ball_rotation
+    return M_B * omega_b
+
+
+def chain_braking_power(net_braking_force: Force, orbital_speed: Speed) -> Power:
+    r"""Power lost in pushing the chain of balls along.
+
+    .. math:: P = F_B v_o
+    """
+    F_B, v_o = net_braking_force, orbital_speed
+    return F_B * v_o

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ballscrew._arrays import namespace
-from ballscrew.quantities import Force, Length, Pressure, PressureCoefficient, Ratio, Torque
+from ballscrew.quantities import Force, KinematicViscosity, Length, Pressure, PressureCoefficient, Ratio, Speed, Torque
 
 #: Takes the place of a zero below a fraction: at rest and without load a share, 0/0, becomes zero.
 SMALLEST = 1e-300
@@ -278,6 +278,26 @@ def rolling_starvation_factor(inlet_film_ratio: Ratio) -> Ratio:
     """
     S = inlet_film_ratio
     return (S**2 + 162.8 * S) / (S**2 + 193.1 * S + 1257)
+
+
+def replenishment_factor(
+    kinematic_viscosity: KinematicViscosity,
+    entrainment_speed: Speed,
+    ball_diameter: Length,
+    replenishment_constant: Ratio,
+) -> Ratio:
+    r"""Reduction factor of the rolling force by oil that flows back into the track too late.
+
+    .. math:: \phi_{rs} = \exp\left(-K_{rs}\, \nu\, n (d + D) \sqrt{\frac{K_Z}{2 (D - d)}}\right)
+
+    SKF2018, in mm²/s, rpm and mm; as recalled, with K_Z = 4.4 of angular-contact ball bearings, and corroborated for
+    the form and K_rs. A bearing's d + D is twice its mean diameter, and n d_m of one is 4 v 60/(2π) of its
+    entrainment speed; its D − d is taken as d_w/0.3. One at rest.
+    """
+    nu, v, d_w, K_rs = 1e6 * kinematic_viscosity, entrainment_speed, 1e3 * ball_diameter, replenishment_constant
+    xp = namespace(nu, v, d_w, K_rs)
+    speed = 2 * 4 * v * 60 / (2 * xp.pi) * 1e3
+    return xp.exp(-K_rs * nu * speed * xp.sqrt(4.4 * 0.3 / (2 * d_w)))
 
 
 def hysteresis_moment(loss_factor: Ratio, contact_load: Force, semi_minor_axis: Length) -> Torque:

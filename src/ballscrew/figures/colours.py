@@ -25,4 +25,5 @@ MECHANISM_COLOURS: Mapping[str, str] = {
     "spin": RED,
     "helix": BLUE,
     "ball_to_ball": PURPLE,
+    "chain_braking": YELLOW,
 }

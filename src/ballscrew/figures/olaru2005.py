@@ -132,7 +132,7 @@ def parts_over_speed(data: xr.Dataset) -> Figure:
     # areas are not simplified when they are written: fewer points where the curves are smooth
     sparse = np.r_[0:20, 20 : len(_rpm(data)) : 5]
     for panel, model in _panels(data, panels):
-        names = ("ball_to_ball", "elastic_hysteresis", "hydrodynamic_rolling", "curvature")
+        names = ("ball_to_ball", "chain_braking", "elastic_hysteresis", "hydrodynamic_rolling", "curvature")
         parts = [model[f"parts_contribution_{name}"].to_numpy() for name in names]
         panel.stackplot(
             _rpm(data)[sparse],

@@ -30,6 +30,7 @@ MECHANISMS: Mapping[str, str] = {
     "spin": "spin slip",
     "helix": "helix slip",
     "ball_to_ball": "ball to ball",
+    "chain_braking": "braking of the ball chain",
 }
 
 
@@ -77,7 +78,7 @@ class BallFriction:
     screw: RaceState
     nut: RaceState
     ball_chain: BallChain
-    ball_to_ball_force: Annotated[Force, Info("F_B", "net braking force between neighbouring balls")]
+    ball_to_ball_force: Annotated[Force, Info("F_B", "force between neighbouring balls")]
     spin_moment: Annotated[Torque, Info("M_P", "moment about the contact normals, the same at both contacts", "N mm")]
     lateral_force: Annotated[Force, Info("F_L", "friction across the path, the same at both contacts")]
     rolling_share: Annotated[
@@ -119,13 +120,15 @@ class BallFriction:
         M_ERs, M_ERn = s.elastic_resistance_moment, n.elastic_resistance_moment
         M_Cs, M_Cn = s.curvature_friction_moment, n.curvature_friction_moment
         # adding zero gives the parts that depend on less the shape of the operating point
-        M_B, F_B = chain.moment + zero, chain.braking_force + zero
+        M_B, F_net = chain.moment + zero, chain.net_braking_force + zero
+        of_moment = chain.braking_force - chain.net_braking_force + zero
         nothing = BallChain(zero, zero)
         parts = {
             "hydrodynamic_rolling": Resistances(F_Rs, F_Rn, zero, zero, nothing),
             "elastic_hysteresis": Resistances(zero, zero, M_ERs, M_ERn, nothing),
             "curvature": Resistances(zero, zero, M_Cs, M_Cn, nothing),
-            "ball_to_ball": Resistances(zero, zero, zero, zero, BallChain(M_B, F_B)),
+            "ball_to_ball": Resistances(zero, zero, zero, zero, BallChain(M_B, of_moment)),
+            "chain_braking": Resistances(zero, zero, zero, zero, BallChain(zero, F_net)),
         }
         torques = {mechanism: self._screw_torque_of(part) for mechanism, part in parts.items()}
         torques["spin"] = zero + equilibrium.spin_torque(self.spin_moment, self.frame.rolling_plane_sine)
@@ -174,8 +177,9 @@ class BallFriction:
             + dissipation.creep_power(s.sliding_force, n.sliding_force, A_s, A_n),
             "spin": dissipation.spin_power(self.spin_moment, s.spin + n.spin),
             "helix": dissipation.torsion_power(self.lateral_force, s.lateral_slip_speed + n.lateral_slip_speed),
-            "ball_to_ball": dissipation.ball_chain_power(
-                chain.moment, ball, self.ball_to_ball_force, kinematics.orbital_speed(orbit, frame.path_radius)
+            "ball_to_ball": dissipation.ball_rubbing_power(chain.moment, ball),
+            "chain_braking": dissipation.chain_braking_power(
+                chain.net_braking_force, kinematics.orbital_speed(orbit, frame.path_radius)
             ),
         }
 
@@ -251,15 +255,18 @@ def idle_ball_friction(
     share = 1.0 if traits_of(model.slip).curvature_alone else 0.0
     F_B = laws.ball_force(imposed_ball_force, np.float64(0.0))
     chain = laws.ball_chain(model.ball_friction_coefficient, F_B, d_w, frame)
-    carried = Resistances(0.0, 0.0, 0.0, 0.0, chain).scaled(share)
-    forces = ball_forces(carried, d_w, frame)
-    torques = laws.race_torques(forces.screw_tangential_force, forces.nut_tangential_force, 0.0, 0.0, frame)
-    nothing = dict.fromkeys(MECHANISMS, 0.0)
+    net = chain.net_braking_force
+    both, braking = (
+        laws.race_torques(forces.screw_tangential_force, forces.nut_tangential_force, 0.0, 0.0, frame)
+        for part in (chain, BallChain(0 * chain.moment, net, net))
+        for forces in [ball_forces(Resistances(0.0, 0.0, 0.0, 0.0, part).scaled(share), d_w, frame)]
+    )
+    parts = {**dict.fromkeys(MECHANISMS, 0.0), "ball_to_ball": both.screw - braking.screw, "chain_braking": braking.screw}
     return IdleBallFriction(
-        screw_torque=torques.screw,
-        nut_torque=torques.nut,
-        contributions={**nothing, "ball_to_ball": torques.screw},
-        dissipation={**nothing, "ball_to_ball": torques.screw * screw_speed},
+        screw_torque=both.screw,
+        nut_torque=both.nut,
+        contributions=parts,
+        dissipation={mechanism: torque * screw_speed for mechanism, torque in parts.items()},
     )
 
 

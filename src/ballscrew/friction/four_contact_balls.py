@@ -106,10 +106,18 @@ def four_contact_friction(
         pairs.append(LoadedFlanks(load, at_angle.contact_angle, *contacts))
     frame = laws.frame(screw)
     F_B = laws.ball_force(imposed_ball_force, both)
-    moment = laws.ball_chain(model.ball_friction_coefficient, F_B, screw.ball_diameter, frame).moment
+    chain = laws.ball_chain(model.ball_friction_coefficient, F_B, screw.ball_diameter, frame)
     one, other = (FlankPair(pair.screw, pair.nut, pair.angle) for pair in pairs)
     slip = four_point_slip(
-        FourPointBall(one, other, moment, F_B, screw.ball_diameter, frame.lead_angle, frame.path_radius)
+        FourPointBall(
+            one,
+            other,
+            chain.moment,
+            chain.net_braking_force,
+            screw.ball_diameter,
+            frame.lead_angle,
+            frame.path_radius,
+        )
     )
     found = FourContactFriction(
         flanks=(pairs[0], pairs[1]),

@@ -34,6 +34,7 @@ LAWS: Mapping[str, Mapping[str, Any]] = {
     "friction": {
         "zhou-hoeprich": mixed_friction.ZhouHoeprich,
         "load-sharing": mixed_friction.LoadSharing,
+        "run-in": mixed_friction.RunInSharing,
         "balan": mixed_friction.BalanSharing,
         "greenwood-tripp": mixed_friction.GreenwoodTrippSharing,
     },
@@ -50,7 +51,12 @@ LAWS: Mapping[str, Mapping[str, Any]] = {
     },
     "elastic_resistance": {"snare": laws.snare_resistance, "hysteresis": laws.Hysteresis},
     "slip": {"curvature": curvature_slip, "line": line_slip, "ellipse": ellipse_slip},
-    "ball_chain": {"one-neighbour": laws.one_neighbour, "two-neighbours": laws.two_neighbours},
+    "ball_chain": {
+        "one-neighbour": laws.one_neighbour,
+        "two-neighbours": laws.two_neighbours,
+        "opposed-neighbours": laws.opposed_neighbours,
+        "parted-neighbours": laws.parted_neighbours,
+    },
     "ball_force": {"imposed": laws.imposed_ball_force, "proportional": laws.ProportionalBallForce},
     "race_torques": {"printed": laws.printed_race_torques, "balanced": laws.balanced_race_torques},
     "ideal_torque": {"printed": laws.printed_ideal_torque, "virtual-work": laws.virtual_work_torque},

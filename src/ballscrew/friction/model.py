@@ -26,6 +26,7 @@ from ballscrew.components.laws import (
     HertzLaw,
     IdealTorqueLaw,
     InletLaw,
+    ProportionalBallForce,
     RaceTorqueLaw,
     RollingLaw,
     balanced_race_torques,
@@ -33,6 +34,7 @@ from ballscrew.components.laws import (
     houpert_hertz,
     imposed_ball_force,
     one_neighbour,
+    opposed_neighbours,
     printed_ideal_torque,
     printed_race_torques,
     snare_resistance,
@@ -49,7 +51,7 @@ from ballscrew.components.lubrication import (
 )
 from ballscrew.components.lubrication import literal_film_parameter as printed_film_parameter
 from ballscrew.components.materials import Lubricant
-from ballscrew.components.mixed_friction import LoadSharing, ZhouHoeprich
+from ballscrew.components.mixed_friction import RunInSharing, ZhouHoeprich
 from ballscrew.components.nut import Nut
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.outside_laws import usable
@@ -170,8 +172,10 @@ class FrictionModel(ByValue):
     def reference(cls) -> FrictionModel:
         """The physics that the paper leaves out, and the model to use unless the paper is the question.
 
-        :meth:`corrected`, and: rolling force in all regimes, fully flooded (BibouletHoupert2010);
-        heat of the inlet (Gupta1992); asperities and film that share the load (ZhouHoeprich1991);
+        :meth:`corrected`, and: rolling force in all regimes (BibouletHoupert2010);
+        heat of the inlet (Gupta1992), and oil that flows back too late (SKF2018); asperities and film that share
+        the load between run-in surfaces (ZhouHoeprich1991); neighbouring balls that press on each other in proportion
+        to their load, and rub, without a net braking force;
         spin and the helix's lateral slip beside the curvature, over the whole ellipse and in
         balance; a ball that friction cannot carry along skids, in balance, and is flagged.
         """
@@ -181,10 +185,11 @@ class FrictionModel(ByValue):
             hertz=exact_hertz,
             film=HamrockDowson(),
             inlet=Inlet(),
-            friction=LoadSharing(),
+            friction=RunInSharing(),
             rolling=biboulet_houpert_rolling,
             slip=ellipse_slip,
-            ball_chain=two_neighbours,
+            ball_chain=opposed_neighbours,
+            ball_force=ProportionalBallForce(),
             race_torques=balanced_race_torques,
             ideal_torque=virtual_work_torque,
         )

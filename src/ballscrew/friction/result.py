@@ -252,8 +252,8 @@ class FrictionResult:
         return self._ball.entrainment_speed
 
     @lazy
-    def ball_to_ball_force(self) -> Annotated[Force, Info("F_B", "net braking force between neighbouring balls")]:
-        """Net braking force between neighbouring balls."""
+    def ball_to_ball_force(self) -> Annotated[Force, Info("F_B", "force between neighbouring balls")]:
+        """Force between neighbouring balls; what of it brakes the ball is a matter of the law of the ball chain."""
         return self._ball.ball_to_ball_force
 
     @lazy

@@ -143,7 +143,7 @@ class Resistance(NamedTuple):
 
 
 def resistances_of(contacts: Sequence[SlippingContact], ball: Ball) -> list[Resistance]:
-    """Hydrodynamic rolling, elastic hysteresis, and neighbours; the powers of :mod:`~oracles.free_ball`."""
+    """Hydrodynamic rolling, elastic hysteresis, rubbing neighbours, and their braking; the powers of :mod:`~oracles.free_ball`."""
     rho, L = ball.radius, ball.path_radius
     rolling: list[Any] = [0.0, 0, 0.0, 0.0, 0.0]
     hysteresis: list[Any] = [0.0, 0, 0.0, 0.0, 0]
@@ -166,16 +166,17 @@ def resistances_of(contacts: Sequence[SlippingContact], ball: Ball) -> list[Resi
     apart = forward.inputs.contact_angle + backward.inputs.contact_angle
     M_B = ball.friction_moment / xp.sqrt(1 - 4 * share * (1 - share) * xp.sin(apart / 2) ** 2)
     shares = ((share, forward), (1 - share, backward))
-    neighbours = (
+    rubbing = (
         0,
         M_B / rho * sum(part * contact.sine for part, contact in shares),
         M_B / rho * sum(part * contact.cosine for part, contact in shares),
-        M_B / L * sum(part * contact.rolling_cosine for part, contact in shares) + ball.chain_force,
+        M_B / L * sum(part * contact.rolling_cosine for part, contact in shares),
     )
     return [
         Resistance(rolling[0], tuple(rolling[1:])),
         Resistance(hysteresis[0], tuple(hysteresis[1:])),
-        Resistance(0.0, neighbours),
+        Resistance(0.0, rubbing),
+        Resistance(0.0, (0, 0, 0, ball.chain_force)),
     ]
 
 

@@ -50,7 +50,9 @@ ROUNDING = 1e-13
 #: Imbalance, in units of friction times load, that counts as balanced.
 TOLERANCE = 1e-2
 #: The mechanisms, in the order of the powers.
-PARTS = ("hydrodynamic_rolling", "elastic_hysteresis", "curvature", "spin", "helix", "ball_to_ball")
+PARTS = (
+    "hydrodynamic_rolling", "elastic_hysteresis", "curvature", "spin", "helix", "ball_to_ball", "chain_braking",
+)  # fmt: skip
 
 
 class FlankPair(NamedTuple):
@@ -67,7 +69,7 @@ class FourPointBall(NamedTuple):
     forward: FlankPair
     backward: FlankPair
     ball_friction_moment: Torque
-    ball_to_ball_force: Force
+    net_braking_force: Force
     ball_diameter: Length
     lead_angle: Angle
     path_radius: Length
@@ -114,7 +116,7 @@ def four_point_slip(ball: FourPointBall) -> FourPointSlip:
                 pair.contact_angle,
             )
     common = Ball(
-        ball.ball_friction_moment, ball.ball_to_ball_force, ball.ball_diameter / 2, ball.lead_angle, ball.path_radius
+        ball.ball_friction_moment, ball.net_braking_force, ball.ball_diameter / 2, ball.lead_angle, ball.path_radius
     )
     *parts, nut_torque, share, residual, axis_angle = in_blocks(_solve_slip, *inputs, *common)
     return FourPointSlip(dict(zip(PARTS, parts, strict=True)), nut_torque, share, residual, axis_angle)
@@ -162,7 +164,7 @@ def _solve_slip(*numbers: Any) -> list[Any]:
         others = [share * part.power(at) for part in resistances]
         power = sum(slipping) + sum(others)
         size = xp.sqrt(sum(slope**2 for slope in slopes)) / capacity
-        return _Iterate(at, [*others[:2], *slipping, others[2]], power, size, Freedoms(*_solved(seconds, slopes)))
+        return _Iterate(at, [*others[:2], *slipping, *others[2:]], power, size, Freedoms(*_solved(seconds, slopes)))
 
     middle, *alone = (iterate(start, NEWTON_SHARES[0]) for start in _starts(contacts, ball))
     best = _better(xp, _better(xp, middle, alone[0]), alone[1])

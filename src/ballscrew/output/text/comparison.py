@@ -23,6 +23,7 @@ SHORT: Mapping[str, str] = {
     "spin": "spin",
     "helix": "helix",
     "ball_to_ball": "balls",
+    "chain_braking": "chain",
 }
 PRINTED_MARK = "†"
 PRINTED_WORDS = "the paper's own form, known to be incomplete or misprinted: shown, but in no spread of laws"
