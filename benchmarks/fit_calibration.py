@@ -1,19 +1,23 @@
-"""The named calibration ``rexroth-2006``, fitted once to the rows shipped.
+"""The named calibrations, fitted once to the rows shipped.
 
-Two numbers: the boundary friction coefficient, and the ball-to-ball force in units of the load of a ball. Least squares
-of (model − middle) / half the band over all no-load torques of ``rexroth-double-nut`` (7 and 10 %) and
-``rexroth-single-nut`` (5 %), all with the same weight. Nothing else is fitted, and nothing by hand.
+``rexroth-2006-rubbing`` has one number, the force between balls in units of the load of a ball; ``rexroth-2006`` two,
+that and the boundary friction coefficient. Least squares of (model − middle) / half the band over all no-load torques
+of ``rexroth-double-nut`` (7 and 10 %) and ``rexroth-single-nut`` (5 %), all with the same weight. Nothing else is
+fitted, and nothing by hand.
 
-    python benchmarks/fit_calibration.py            print the fit
-    python benchmarks/fit_calibration.py --write    and store it in src/ballscrew/data/calibrations.toml
-    python benchmarks/fit_calibration.py --rivals   other pairs and another objective beside it, as Markdown
+    python benchmarks/fit_calibration.py            print the fits
+    python benchmarks/fit_calibration.py --write    and store them in src/ballscrew/data/calibrations.toml
+    python benchmarks/fit_calibration.py --rivals   other numbers and another objective beside them, as Markdown
+    python benchmarks/fit_calibration.py --left-out rows of one size class or of one kind of nut left out of the fit
+                                                    and predicted, as Markdown; with --write into docs/left_out.md
 """
 
 from __future__ import annotations
 
 import argparse
 import dataclasses
-from collections.abc import Callable, Sequence
+import json
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -21,16 +25,20 @@ import numpy as np
 from scipy.optimize import least_squares
 
 import ballscrew
+from ballscrew.components.laws import two_neighbours
+from ballscrew.components.mixed_friction import LoadSharing
 from ballscrew.friction.calibrations import PARAMETERS, with_parameters
 from ballscrew.friction.model import FrictionModel
 from ballscrew.studies import validation
 from ballscrew.validation.entries import Conditions, Entry, Point
 from ballscrew.validation.sets import SETS
 
-NAME = "rexroth-2006"
 FITTED = ("rexroth-double-nut", "rexroth-single-nut")
 OBJECTIVE = "least squares of (model - middle) / half the band, every row with the same weight"
-START = (0.12, 0.001)
+START = (0.12, 0.0075)
+#: Ends of the size classes: nominal diameters in m.
+CLASSES = {"up to 25 mm": (0.0, 0.0251), "32 to 50 mm": (0.0251, 0.0501), "63 mm and more": (0.0501, 1.0)}
+PAGE = Path(__file__).parents[1] / "docs" / "left_out.md"
 TOML = Path(__file__).parents[1] / "src" / "ballscrew" / "data" / "calibrations.toml"
 
 
@@ -86,6 +94,11 @@ def declared(boundary: float, share: float) -> FrictionModel:
     return with_parameters(FrictionModel.reference(), boundary, share)
 
 
+def rubbing(share: float) -> FrictionModel:
+    """The reference model with one number."""
+    return declared(BOUNDARY, share)
+
+
 def _of_one_pair(boundary: float, share: float) -> FrictionModel:
     return declared(boundary, share / 2)
 
@@ -94,8 +107,16 @@ def _frictions(boundary: float, full_film: float) -> FrictionModel:
     return _with_full_film(FrictionModel.reference(), boundary, full_film)
 
 
-def _thick(boundary: float, share: float) -> FrictionModel:
-    return _with_full_film(declared(boundary, share), boundary, 0.05)
+def _thin(boundary: float, share: float) -> FrictionModel:
+    return _with_full_film(declared(boundary, share), boundary, 0.02)
+
+
+def _as_new(boundary: float, share: float) -> FrictionModel:
+    return dataclasses.replace(declared(boundary, share), friction=LoadSharing(boundary))
+
+
+def _braking(boundary: float, share: float) -> FrictionModel:
+    return dataclasses.replace(declared(boundary, share), ball_chain=two_neighbours)
 
 
 def _with_full_film(model: FrictionModel, boundary: float, full_film: float) -> FrictionModel:
@@ -111,22 +132,25 @@ def _boundary_alone(boundary: float) -> FrictionModel:
     return _with_full_film(reference, boundary, reference.friction.full_film_friction_coefficient)  # type: ignore[attr-defined]  (the slot is a protocol)
 
 
-def _share_alone(share: float) -> FrictionModel:
-    return declared(0.12, share)
-
-
 BOTH = ("µ₀", "F_B/Q")
-DECLARED = Rival("declared: µ₀ and F_B/Q", BOTH, START, declared)
+BOUNDARY = float(FrictionModel.reference().friction.boundary_friction_coefficient)  # type: ignore[attr-defined]  (the slot is a protocol)
+#: What is stored, by name.
+DECLARED = {
+    "rexroth-2006-rubbing": Rival("F_B/Q alone", BOTH[1:], START[1:], rubbing),
+    "rexroth-2006": Rival("µ₀ and F_B/Q", BOTH, START, declared),
+}
+FIELDS = dict(zip(BOTH, PARAMETERS, strict=True))
 RIVALS = (
-    DECLARED,
-    Rival("the same, least squares of model / middle − 1", BOTH, START, declared, relative),
-    Rival("the same with a full-film friction of 0.05", BOTH, START, _thick),
+    *(rival._replace(words=f"declared: {rival.words}") for rival in DECLARED.values()),
+    Rival("µ₀ and F_B/Q, least squares of model / middle − 1", BOTH, START, declared, relative),
+    Rival("the same with a full-film friction of 0.02", BOTH, START, _thin),
+    Rival("the same with surfaces as new", BOTH, START, _as_new),
+    Rival("the same with a net braking force F_B beside the rubbing", BOTH, (0.12, 0.001), _braking),
     Rival(
         "the same, with the load of one flank pair on four contacts", BOTH, START, declared, in_half_bands, _of_one_pair
     ),
     Rival("µ₀ and full-film friction µ_f", ("µ₀", "µ_f"), (0.12, 0.05), _frictions),
     Rival("µ₀ alone", ("µ₀",), (0.12,), _boundary_alone),
-    Rival("F_B/Q alone", ("F_B/Q",), (0.001,), _share_alone),
 )
 
 
@@ -139,11 +163,12 @@ class Fit(NamedTuple):
     cost: float
 
 
-def fit(rival: Rival) -> Fit:
-    """Least squares; the covariance is that of the linear model at the end, with the variance of the residuals."""
+def fit(rival: Rival, kept: Callable[[Entry, Point], bool] = lambda *_: True) -> Fit:
+    """Least squares; the covariance is that of the linear model at the end, of what is not at its bound."""
 
     def residuals(x: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-        return np.array([rival.residual(point) for point in points(rival.entries(*map(float, x)))])
+        found = rival.entries(*map(float, x))
+        return np.array([rival.residual(point) for entry in found for point in entry.points if kept(entry, point)])
 
     scale = np.array(rival.start)
     found = least_squares(
@@ -151,29 +176,60 @@ def fit(rival: Rival) -> Fit:
     )
     n, cost = found.fun.size, float(found.fun @ found.fun)
     variance = cost / (n - found.x.size)
-    return Fit(found.x, variance * np.linalg.inv(found.jac.T @ found.jac), n, cost)
+    return Fit(found.x, variance * np.linalg.pinv(found.jac.T @ found.jac), n, cost)
 
 
-def toml_text(found: Fit) -> str:
-    """The calibration as it is stored."""
-    (a, b), (c, d) = found.covariance.tolist()
-    lines = [
-        "# Fitted by a command and stored as it came out; nothing here is typed by hand.",
-        f"[{NAME}]",
-        'model = "reference"',
-        *(f"{name} = {value:.9g}" for name, value in zip(PARAMETERS, found.values, strict=True)),
-        "# covariance of the two, in their order",
-        f"covariance = [[{a:.6e}, {b:.6e}], [{c:.6e}, {d:.6e}]]",
-        f"rows = {found.rows}",
-        f"cost = {found.cost:.6f}",
-        f'objective = "{OBJECTIVE}"',
-        f'version = "{ballscrew.__version__}"',
-        'command = "python benchmarks/fit_calibration.py --write"',
-        "",
-        f"[{NAME}.data]",
-        *(f'"{SETS[name].file}" = "{validation.fingerprint(SETS[name].file)}"' for name in FITTED),
-    ]
-    return "\n".join(lines) + "\n"
+def toml_text(found: Mapping[str, Fit]) -> str:
+    """The calibrations as they are stored."""
+    lines = ["# Fitted by a command and stored as it came out; nothing here is typed by hand."]
+    for name, one in found.items():
+        fitted = [FIELDS[symbol] for symbol in DECLARED[name].names]
+        values = dict(zip(PARAMETERS, (BOUNDARY, START[1]), strict=True)) | dict(zip(fitted, one.values, strict=True))
+        rows = ", ".join("[" + ", ".join(f"{number:.6e}" for number in row) + "]" for row in one.covariance.tolist())
+        lines += [
+            f"[{name}]",
+            'model = "reference"',
+            *(f"{field} = {value:.9g}" for field, value in values.items()),
+            f"fitted = {json.dumps(fitted)}",
+            "# covariance of what was fitted, in that order",
+            f"covariance = [{rows}]",
+            f"rows = {one.rows}",
+            f"cost = {one.cost:.6f}",
+            f'objective = "{OBJECTIVE}"',
+            f'version = "{ballscrew.__version__}"',
+            'command = "python benchmarks/fit_calibration.py --write"',
+            "",
+            f"[{name}.data]",
+            *(f'"{SETS[one].file}" = "{validation.fingerprint(SETS[one].file)}"' for one in FITTED),
+            "",
+        ]
+    return "\n".join(lines[:-1]) + "\n"
+
+
+def _of_class(low: float, high: float) -> Callable[[Entry, Point], bool]:
+    return lambda _, point: low <= point.descriptors["size"] < high
+
+
+def left_out_table() -> str:
+    """Rows left out of a fit and predicted by it, class by class and kind by kind."""
+    groups: dict[str, Callable[[Entry, Point], bool]] = {name: _of_class(*ends) for name, ends in CLASSES.items()}
+    groups |= {f"all of {name}": lambda entry, _, name=name: entry.data.name == name for name in FITTED}
+    heading = ["left out", "calibration", "values of the fit without it", "rows", "predicted: mean ratio", "in band"]
+    lines = [heading, ["---"] * len(heading)]
+    for words, group in groups.items():
+        for name, rival in DECLARED.items():
+            found = fit(rival, lambda entry, point, group=group: not group(entry, point))
+            sets = rival.entries(*map(float, found.values))
+            for entry in sets:
+                told = [point for point in entry.points if group(entry, point)]
+                if told:
+                    ratios = [point.ratio for point in told]
+                    values = ", ".join(f"{n} = {v:.3g}" for n, v in zip(rival.names, found.values, strict=True))
+                    share = np.mean([bool(point.in_band) for point in told])
+                    mean = f"{np.mean(ratios):.3f} ± {np.std(ratios, ddof=1):.3f}"
+                    told_of = f"{words}, {entry.data.name}" if words in CLASSES else words
+                    lines.append([told_of, name, values, str(len(told)), mean, f"{share:.0%}".replace("%", " %")])
+    return "".join("| " + " | ".join(line) + " |\n" for line in lines)
 
 
 def rivals_table() -> str:
@@ -199,11 +255,18 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--write", action="store_true", help="store the fit in data/calibrations.toml")
     parser.add_argument("--rivals", action="store_true", help="other pairs beside it, as Markdown")
+    parser.add_argument("--left-out", action="store_true", help="rows left out and predicted, as Markdown")
     chosen = parser.parse_args(arguments)
     if chosen.rivals:
         print(rivals_table(), end="")
         return
-    text = toml_text(fit(DECLARED))
+    if chosen.left_out:
+        text = left_out_table()
+        print(text, end="")
+        if chosen.write:
+            PAGE.write_text(text, encoding="utf-8")
+        return
+    text = toml_text({name: fit(rival) for name, rival in DECLARED.items()})
     print(text, end="")
     if chosen.write:
         TOML.write_text(text, encoding="utf-8")

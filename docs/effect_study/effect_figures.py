@@ -24,7 +24,15 @@ LOAD, LEAD = "axial load F (N)", "lead P$_h$ (mm)"
 #: Parts of the torque, from bottom to top of a stack.
 STACK: Mapping[str, str] = {
     mechanism: style.MECHANISM_COLOURS[mechanism]
-    for mechanism in ("ball_to_ball", "chain_braking", "elastic_hysteresis", "hydrodynamic_rolling", "curvature", "spin", "helix")
+    for mechanism in (
+        "ball_to_ball",
+        "chain_braking",
+        "elastic_hysteresis",
+        "hydrodynamic_rolling",
+        "curvature",
+        "spin",
+        "helix",
+    )
 }
 MODEL_LINES: Mapping[str, tuple[str, Any, str]] = {
     "olaru2005": ("as printed", ":", style.GREY),

@@ -16,7 +16,7 @@ from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, raise_if_any
 from ballscrew.evaluation.outputs import inputs_of
-from ballscrew.friction.calibrations import PARAMETERS, Calibration
+from ballscrew.friction.calibrations import Calibration
 from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import Quantity
 from ballscrew.uncertainty.default_uncertainties import default_distributions
@@ -86,8 +86,9 @@ def joint_of(case: Case, inputs: Mapping[str, Uncertain]) -> JointNormal | None:
         found = _joint_of_fit(case.fit, inputs_of(case.model, case.screw, case.lubricant), faults)
         raise_if_any(faults)
     elif case.calibration is not None:
-        mean = np.array([getattr(case.calibration, field) for field in PARAMETERS])
-        found = JointNormal(tuple(PARAMETERS.values()), mean, np.array(case.calibration.covariance))
+        parameters = case.calibration.parameters
+        mean = np.array([getattr(case.calibration, field) for field in parameters])
+        found = JointNormal(tuple(parameters.values()), mean, np.array(case.calibration.covariance))
     else:
         found = None
     if found is None:
@@ -137,7 +138,7 @@ def quantity_of(case: Case, name: str) -> Quantity:
 def _of_calibration(calibration: Calibration, known: Mapping[str, Any]) -> dict[str, Uncertain]:
     """The parameters of a calibration with their standard errors."""
     found: dict[str, Uncertain] = {}
-    for (field, name), error in zip(PARAMETERS.items(), calibration.standard_errors, strict=True):
+    for (field, name), error in zip(calibration.parameters.items(), calibration.standard_errors, strict=True):
         distribution = Normal(getattr(calibration, field), error)
         reason = "as the fit left it"
         found[name] = Uncertain(

@@ -103,9 +103,9 @@ class RunInSharing(ByValue):
     .. math:: \lambda_e = \left(\lambda^4 + \lambda_r^4\right)^{1/4}
 
     so that thick films are as before, and friction below :math:`\lambda_r` is nearly the same at all sizes, which is
-    what the tables of vendors show (docs/validation). The default gives asperities a third of the load there, and was chosen by the trend of those tables with size, not by their mean. No
-    measured value of :math:`\lambda_r` is known. Not for new surfaces, nor for far lower speeds than those run in at:
-    there :class:`LoadSharing` holds.
+    what the tables of vendors show (docs/validation). The default gives asperities a third of the load there. It
+    was chosen by the trend of those tables with size, not by their mean; no measured value is known. Not for new
+    surfaces, nor for far lower speeds than those run in at: there :class:`LoadSharing` holds.
     """
 
     boundary_friction_coefficient: Boundary = 0.12

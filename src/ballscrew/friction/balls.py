@@ -261,7 +261,11 @@ def idle_ball_friction(
         for part in (chain, BallChain(0 * chain.moment, net, net))
         for forces in [ball_forces(Resistances(0.0, 0.0, 0.0, 0.0, part).scaled(share), d_w, frame)]
     )
-    parts = {**dict.fromkeys(MECHANISMS, 0.0), "ball_to_ball": both.screw - braking.screw, "chain_braking": braking.screw}
+    parts = {
+        **dict.fromkeys(MECHANISMS, 0.0),
+        "ball_to_ball": both.screw - braking.screw,
+        "chain_braking": braking.screw,
+    }
     return IdleBallFriction(
         screw_torque=both.screw,
         nut_torque=both.nut,

@@ -1,4 +1,4 @@
-"""Named calibrations: two numbers of a model, fitted once to rows that are shipped, and how sure the fit is of them.
+"""Named calibrations: one or two numbers of a model, fitted once to rows that are shipped, and how sure the fit is.
 
 ``benchmarks/fit_calibration.py`` fits them and writes ``data/calibrations.toml``; nothing else does.
 """
@@ -20,7 +20,7 @@ from ballscrew.friction.law_names import coefficients
 from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import Ratio
 
-#: The two numbers, in the order of the covariance, and where they stand in a model.
+#: The numbers that a calibration sets, and where they stand in a model.
 PARAMETERS: Mapping[str, str] = {
     "boundary_friction_coefficient": "friction.boundary_friction_coefficient",
     "share_of_load": "ball_force.share_of_load",
@@ -36,6 +36,8 @@ class Calibration(ByValue):
     model: str
     boundary_friction_coefficient: float
     share_of_load: float
+    #: The numbers that were fitted, in the order of the covariance; others are those of the model.
+    fitted: Sequence[str]
     covariance: Sequence[Sequence[float]]
     #: How many values were fitted, and what is left: the sum of the squares of (model − middle) / half the band.
     rows: int
@@ -47,13 +49,20 @@ class Calibration(ByValue):
     command: str
 
     @property
-    def standard_errors(self) -> tuple[float, float]:
-        """Standard errors of the two numbers."""
-        return math.sqrt(self.covariance[0][0]), math.sqrt(self.covariance[1][1])
+    def parameters(self) -> Mapping[str, str]:
+        """The fitted numbers, and where they stand in a model."""
+        return {name: PARAMETERS[name] for name in self.fitted}
 
     @property
-    def correlation(self) -> float:
-        """Correlation of the errors of the two numbers."""
+    def standard_errors(self) -> tuple[float, ...]:
+        """Standard errors of the fitted numbers."""
+        return tuple(math.sqrt(row[i]) for i, row in enumerate(self.covariance))
+
+    @property
+    def correlation(self) -> float | None:
+        """Correlation of the errors of two numbers; None of one."""
+        if len(self.fitted) < 2:
+            return None
         one, other = self.standard_errors
         return self.covariance[0][1] / (one * other)
 
@@ -75,7 +84,7 @@ def calibration(name: str) -> Calibration:
 
 
 def calibrated(model: FrictionModel, found: Calibration) -> FrictionModel:
-    """The model with the two numbers of a calibration.
+    """The model with the numbers of a calibration.
 
     Raises :class:`~ballscrew.errors.InputError` for a model that has no boundary friction, or whose force between the
     balls is imposed.

@@ -143,7 +143,7 @@ class Resistance(NamedTuple):
 
 
 def resistances_of(contacts: Sequence[SlippingContact], ball: Ball) -> list[Resistance]:
-    """Hydrodynamic rolling, elastic hysteresis, rubbing neighbours, and their braking; the powers of :mod:`~oracles.free_ball`."""
+    """Rolling, elastic hysteresis, neighbours that rub, and their braking; the powers of :mod:`~oracles.free_ball`."""
     rho, L = ball.radius, ball.path_radius
     rolling: list[Any] = [0.0, 0, 0.0, 0.0, 0.0]
     hysteresis: list[Any] = [0.0, 0, 0.0, 0.0, 0]
