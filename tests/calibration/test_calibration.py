@@ -72,10 +72,12 @@ def test_the_stored_numbers_belong_to_the_rows_shipped(script):
 
 
 def test_the_file_is_as_the_command_writes_it(script):
-    found = script.Fit(
-        np.array([STORED.boundary_friction_coefficient, STORED.share_of_load]),
-        np.array(STORED.covariance), STORED.rows, STORED.cost,
-    )  # fmt: skip
+    found = {
+        name: script.Fit(
+            np.array([getattr(one, field) for field in one.fitted]), np.array(one.covariance), one.rows, one.cost
+        )
+        for name, one in calibrations().items()
+    }
     assert script.toml_text(found) == script.TOML.read_text(encoding="utf-8")
     assert tomllib.loads(script.toml_text(found)).keys() == calibrations().keys()
 
@@ -109,5 +111,5 @@ def test_models_that_it_does_not_fit_are_refused():
         calibrated(dataclasses.replace(reference, ball_to_ball_force=0.1), STORED)
     with pytest.raises(InputError, match="share_of_load: must not be negative"):
         with_parameters(reference, 0.1, -1.0)
-    with pytest.raises(InputError, match=r'unknown calibration \(rexroth\) · did you mean "rexroth-2006"'):
+    with pytest.raises(InputError, match=r'unknown calibration \(rexroth\) · did you mean "rexroth-2006'):
         calibration("rexroth")

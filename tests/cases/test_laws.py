@@ -134,11 +134,11 @@ FAULTS = {
     "coefficient of another law": (
         {"friction": {"law": "balan", "decay": 1.9}},
         'model.friction.decay: no coefficient of the law "balan" · it belongs to friction.law = "zhou-hoeprich" or '
-        '"load-sharing"; balan has boundary_friction_coefficient, full_film_friction_coefficient',
+        '"load-sharing" or "run-in"; balan has boundary_friction_coefficient, full_film_friction_coefficient',
     ),
     "misspelt coefficient": (
         {"friction": {"decai": 1.9}},
-        'model.friction.decai: no coefficient of the law "load-sharing" · did you mean "decay"? load-sharing has ',
+        'model.friction.decai: no coefficient of the law "run-in" · did you mean "decay"? run-in has ',
     ),
     "law without coefficients": (
         {"hertz": {"k": 3}},
@@ -196,7 +196,7 @@ def test_settings(example, ballscrew):
     run = ("run", example, "--json", "--model", "reference")
     found = model_inputs(ballscrew(*run, "--set", "model.rolling=houpert", "--set", "model.friction.decay=1.9"))
     assert found["rolling"] == "houpert"
-    assert (found["friction"]["law"], found["friction"]["decay"]) == ("load-sharing", 1.9)
+    assert (found["friction"]["law"], found["friction"]["decay"]) == ("run-in", 1.9)
     law = ["--set", "model.friction=greenwood-tripp", "--set", "model.friction.asperity_radius=20 um"]
     found = model_inputs(ballscrew(*run, *law))
     assert (found["friction"]["law"], found["friction"]["asperity_radius"]) == ("greenwood-tripp", pytest.approx(2e-5))
@@ -217,7 +217,7 @@ def test_a_coefficient_for_a_law_that_the_file_names(example, tmp_path, ballscre
     [
         ("model.rolling=houprt", 'model.rolling: unknown law (houprt) · did you mean "houpert"?'),
         ("model.friction=3", "model.friction: must be the name of a law, or a table (3)"),
-        ("model.friction.asperity_radius=1 um", 'model.friction.asperity_radius: no coefficient of the law "load-sh'),
+        ("model.friction.asperity_radius=1 um", 'model.friction.asperity_radius: no coefficient of the law "run-in"'),
         ("model.pure_rolling_offset=0.34", "model.pure_rolling_offset: can only be imposed where curvature is the"),
     ],
 )

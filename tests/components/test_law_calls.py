@@ -37,7 +37,8 @@ def test_a_friction_law_of_the_film_parameter_alone():
 
 
 def test_a_friction_law_of_conditions_and_another_film_parameter(contact):
-    law = REFERENCE.friction
+    law = bs.LoadSharing()
+    contact = dataclasses.replace(contact, friction_coefficient=law(contact))
     new = law(dataclasses.replace(contact, film_parameter=0.3))
     with pytest.warns(DeprecationWarning, match="ContactConditions"):
         assert law(0.3, contact, None) == new
@@ -87,7 +88,8 @@ def test_a_law_can_read_what_the_laws_before_it_found(seed_screw, seed_oil):
         seen.update(vars(conditions))
         return 1e5 * conditions.minimum_film_thickness
 
-    full_film = dataclasses.replace(REFERENCE, rolling=rolling_of_the_film, full_film=lambda c: 0.03)
+    inlet = bs.Inlet(replenishment_constant=0.0)
+    full_film = dataclasses.replace(REFERENCE, rolling=rolling_of_the_film, full_film=lambda c: 0.03, inlet=inlet)
     result = full_film(seed_screw, seed_oil, **POINT)
     assert result.nut.hydrodynamic_rolling_force == pytest.approx(
         1e5 * result.nut.minimum_film_thickness * result.nut.inlet_film_factor, rel=1e-4

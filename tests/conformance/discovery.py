@@ -87,6 +87,7 @@ DIMENSIONAL_FITS = {
     "rheology.roelands_viscosity": "the logarithm is that of a viscosity in Pa s, and a number is in 1/Pa",
     "rating.screw_turn_rating": "fit of a force to powers of a length and a number, in millimetres and newtons",
     "rating.static_load_factor": "the 27.74 is in N/mm^2, a property of steel",
+    "rolling.replenishment_factor": "fit of a bearing maker in millimetres and revolutions a minute",
     "rolling.elastic_resistance_moment": "fit of a moment to powers of a length and a force",
 }
 

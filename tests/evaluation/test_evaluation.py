@@ -49,6 +49,7 @@ DIFFERENCES = {
     "nut_tangential_force": lambda r: r.screw.tangential_force,
     "nut_sliding_force": lambda r: r.screw.tangential_force,
     "screw_sliding_force": lambda r: r.screw.tangential_force,
+    "lateral_force": lambda r: r.screw.friction_coefficient * r.contact_load,
     "back_driving_efficiency": lambda r: 1.0,
     "holding_torque": lambda r: r.ideal_torque + r.screw_torque,
     "residual": lambda r: 1.0,

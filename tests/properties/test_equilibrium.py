@@ -41,7 +41,7 @@ def contact_moments(r):
 def test_action_is_reaction(case, model, ball_to_ball_force):
     """Screw and nut torque differ by what pushes the balls along: M_S − M_N = z F_B L."""
     r = case(with_braking(model, ball_to_ball_force))
-    expected = case.screw.loaded_balls * r.ball_to_ball_force * r.frame.path_radius
+    expected = case.screw.loaded_balls * r.net_braking_force * r.frame.path_radius
     assert close(r.screw_torque - r.nut_torque, expected, scale=torque_scale(r))
 
 
@@ -57,7 +57,7 @@ def test_defect_of_the_printed_torques(case, ball_to_ball_force):
     """The paper leaves the contact moments off the races: action and reaction miss each other by −z M cos α."""
     r = case(with_braking(olaru2005, ball_to_ball_force))
     z, alpha = case.screw.loaded_balls, case.screw.contact_angle
-    pushing = z * r.ball_to_ball_force * r.frame.path_radius
+    pushing = z * r.net_braking_force * r.frame.path_radius
     defect = -z * contact_moments(r) * math.cos(alpha)
     assert close(r.screw_torque - r.nut_torque, pushing + defect, scale=torque_scale(r))
 

@@ -103,11 +103,11 @@ def test_a_row_is_the_nut_at_its_preload(found):
 @pytest.mark.parametrize(
     ("name", "kind", "n", "mean", "share"),
     [
-        ("rexroth-double-nut", None, 24, 0.647, 7 / 24),
-        ("rexroth-single-nut", None, 18, 0.765, 9 / 18),
-        ("rexroth-double-nut", "rexroth-2006", 24, 1.035, 23 / 24),
-        ("rexroth-single-nut", "rexroth-2006", 18, 1.004, 17 / 18),
-        ("thk-jis", None, 1, 0.407, 0.0),
+        ("rexroth-double-nut", None, 24, 0.866, 23 / 24),
+        ("rexroth-single-nut", None, 18, 0.865, 16 / 18),
+        ("rexroth-double-nut", "rexroth-2006", 24, 1.009, 23 / 24),
+        ("rexroth-single-nut", "rexroth-2006", 18, 0.997, 1.0),
+        ("thk-jis", None, 1, 0.538, 0.0),
         ("balan-2015", None, 12, 0.773, None),
         ("hiwin-ratings", None, 14, 0.999, None),
         ("hiwin-stiffness", None, 14, 1.080, None),

@@ -288,16 +288,15 @@ def replenishment_factor(
 ) -> Ratio:
     r"""Reduction factor of the rolling force by oil that flows back into the track too late.
 
-    .. math:: \phi_{rs} = \exp\left(-K_{rs}\, \nu\, n (d + D) \sqrt{\frac{K_Z}{2 (D - d)}}\right)
+    .. math:: \phi_{rs} = \exp\left(-1.963 \cdot 10^{9} K_{rs} \frac{\nu v}{\sqrt{d_w}}\right)
 
-    SKF2018, in mm²/s, rpm and mm; as recalled, with K_Z = 4.4 of angular-contact ball bearings, and corroborated for
-    the form and K_rs. A bearing's d + D is twice its mean diameter, and n d_m of one is 4 v 60/(2π) of its
-    entrainment speed; its D − d is taken as d_w/0.3. One at rest.
+    SKF2018 for bearings, :math:`\exp(-K_{rs} \nu n (d + D) \sqrt{K_Z / (2 (D - d))})` in mm²/s, rpm and mm, as recalled
+    and corroborated for its form and K_rs; K_Z is 4.4, that of angular-contact ball bearings, as recalled. A
+    bearing's n (d + D) is 240 v/π of its entrainment speed v, and its D − d is taken as d_w/0.3. One at rest.
     """
-    nu, v, d_w, K_rs = 1e6 * kinematic_viscosity, entrainment_speed, 1e3 * ball_diameter, replenishment_constant
+    nu, v, d_w, K_rs = kinematic_viscosity, entrainment_speed, ball_diameter, replenishment_constant
     xp = namespace(nu, v, d_w, K_rs)
-    speed = 2 * 4 * v * 60 / (2 * xp.pi) * 1e3
-    return xp.exp(-K_rs * nu * speed * xp.sqrt(4.4 * 0.3 / (2 * d_w)))
+    return xp.exp(-1.963e9 * K_rs * nu * v / xp.sqrt(d_w))
 
 
 def hysteresis_moment(loss_factor: Ratio, contact_load: Force, semi_minor_axis: Length) -> Torque:

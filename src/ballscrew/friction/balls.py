@@ -98,6 +98,11 @@ class BallFriction:
         """Friction torque of the ball on the nut."""
         return self.nut.friction_torque
 
+    @property
+    def net_braking_force(self) -> Force:
+        """Net push of the neighbours against the motion."""
+        return self.ball_chain.net_braking_force
+
     @lazy
     def ball_friction_moment(
         self,

@@ -40,6 +40,7 @@ class FourContactFriction:
     nut_torque: Torque
     rolling_share: Ratio
     ball_to_ball_force: Force
+    net_braking_force: Force
     skids: Mask
     converged: Mask
 
@@ -126,6 +127,7 @@ def four_contact_friction(
         nut_torque=slip.nut_torque,
         rolling_share=slip.rolling_share,
         ball_to_ball_force=slip.rolling_share * F_B,
+        net_braking_force=slip.rolling_share * chain.net_braking_force,
         skids=slip.rolling_share != 1,
         converged=slip.converged,
     )

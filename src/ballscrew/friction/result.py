@@ -257,6 +257,11 @@ class FrictionResult:
         return self._ball.ball_to_ball_force
 
     @lazy
+    def net_braking_force(self) -> Annotated[Force, Info("F_net", "net braking force of the neighbours of a ball")]:
+        """Net push of the neighbours of a ball against its motion: what screw and nut torque differ by."""
+        return self._ball.net_braking_force
+
+    @lazy
     def spin_moment(
         self,
     ) -> Annotated[Torque, Info("M_P", "moment about the contact normals, the same at both contacts", "N mm")]:
