@@ -100,12 +100,13 @@ class RunInSharing(ByValue):
     contact has at least the film parameter at which wear ends, :math:`\lambda_r`. The share is that of
     ZhouHoeprich1991 at
 
-    .. math:: \lambda_e = \left(\lambda^4 + \lambda_r^4\right)^{1/4}
+    .. math:: \lambda_e = \left(\lambda^4 + \lambda_r^4\right)^{1/4} \frac{\lambda}{\lambda + \lambda_0}
 
     so that thick films are as before, and friction below :math:`\lambda_r` is nearly the same at all sizes, which is
     what the tables of vendors show (docs/validation). The default gives asperities a third of the load there. It
-    was chosen by the trend of those tables with size, not by their mean; no measured value is known. Not for new
-    surfaces, nor for far lower speeds than those run in at: there :class:`LoadSharing` holds.
+    was chosen by the trend of those tables with size, not by their mean; no measured value is known. At rest
+    asperities carry everything, as in SKF2018: where the film parameter falls to :math:`\lambda_0`, below 1 rpm in usual
+    screws, friction rises to the boundary value. Not for new surfaces: there :class:`LoadSharing` holds.
     """
 
     boundary_friction_coefficient: Boundary = 0.12
@@ -122,13 +123,25 @@ class RunInSharing(ByValue):
             usual=(0.0, 3.0),
         ),
     ] = 0.7
+    lost_film_parameter: Annotated[
+        Ratio,
+        Info(
+            r"\lambda_0",
+            "film parameter below which run-in surfaces touch as new ones",
+            above=0,
+            hint="0.005: below 1 rpm",
+            usual=(1e-4, 0.1),
+        ),
+    ] = 0.005
 
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model.friction", self))
 
     def __call__(self, conditions: ContactConditions) -> Ratio:
         """Friction coefficient."""
-        worn = mixed_lubrication.run_in_film_parameter(conditions.film_parameter, self.run_in_film_parameter)
+        worn = mixed_lubrication.run_in_film_parameter(
+            conditions.film_parameter, self.run_in_film_parameter, self.lost_film_parameter
+        )
         share = mixed_lubrication.asperity_load_share_zhou_hoeprich(worn, self.decay, self.exponent)
         return _shared(self, share, conditions)
 

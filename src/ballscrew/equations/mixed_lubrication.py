@@ -18,20 +18,21 @@ def asperity_load_share_zhou_hoeprich(film_parameter: Ratio, decay: Ratio, expon
     return xp.exp(-B * lam**C)
 
 
-def run_in_film_parameter(film_parameter: Ratio, worn_film_parameter: Ratio) -> Ratio:
-    r"""Film parameter of surfaces that have run in at the conditions at hand.
+def run_in_film_parameter(film_parameter: Ratio, worn_film_parameter: Ratio, lost_film_parameter: Ratio) -> Ratio:
+    r"""Film parameter of surfaces that have run in.
 
-    .. math:: \lambda_e = \left(\lambda^4 + \lambda_r^4\right)^{1/4}
+    .. math:: \lambda_e = \left(\lambda^4 + \lambda_r^4\right)^{1/4} \frac{\lambda}{\lambda + \lambda_0}
 
     A closure of this package, not a published law: asperities wear until the film parameter is λ_r, and no
-    further. λ for thick films, λ_r for thin ones; the sum is smooth and stays within 19 % of the larger.
+    further; where next to no film is left, λ ≪ λ_0, the worn surfaces touch as any others. λ for thick films, about λ_r
+    for thin ones, zero at rest; it never falls with λ.
     """
-    lam, lam_r = film_parameter, worn_film_parameter
-    # one factor out of the root: no overflow where the film is infinite, without load
-    xp = namespace(lam, lam_r)
+    lam, lam_r, lam_0 = film_parameter, worn_film_parameter, lost_film_parameter
+    # the larger one before the root: no overflow where the film is infinite, without load
+    xp = namespace(lam, lam_r, lam_0)
     larger, smaller = xp.maximum(lam, lam_r), xp.minimum(lam, lam_r)
-    ratio = smaller / xp.maximum(larger, 1e-300)
-    return larger * (1 + ratio**4) ** 0.25
+    worn = larger * (1 + (smaller / xp.maximum(larger, 1e-300)) ** 4) ** 0.25
+    return worn * (1 - lam_0 / (xp.maximum(lam, 1e-300) + lam_0))
 
 
 def asperity_load_share_balan(film_parameter: Ratio) -> Ratio:
