@@ -20,6 +20,8 @@ from ballscrew.components.screw import BallScrew as BallScrew
 from ballscrew.errors import InputError as InputError
 from ballscrew.evaluation.derivatives import derivatives as derivatives
 from ballscrew.evaluation.evaluator import evaluator as evaluator
+from ballscrew.friction.breakaway import Breakaway as Breakaway
+from ballscrew.friction.breakaway import breakaway as breakaway
 from ballscrew.friction.model import FrictionModel as FrictionModel
 from ballscrew.friction.nut_friction import nut_friction as nut_friction
 from ballscrew.friction.result import FrictionResult as FrictionResult

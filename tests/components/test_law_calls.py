@@ -11,6 +11,8 @@ import ballscrew as bs
 from ballscrew.components import laws, lubrication
 from ballscrew.components.contact import Contact
 from ballscrew.components.laws import InletFactors
+from ballscrew.components.lubrication import Inlet
+from ballscrew.components.mixed_friction import LoadSharing
 from ballscrew.equations import film, rolling
 
 POINT = {"axial_load": 4000.0, "screw_speed": 60.0}
@@ -37,7 +39,7 @@ def test_a_friction_law_of_the_film_parameter_alone():
 
 
 def test_a_friction_law_of_conditions_and_another_film_parameter(contact):
-    law = bs.LoadSharing()
+    law = LoadSharing()
     contact = dataclasses.replace(contact, friction_coefficient=law(contact))
     new = law(dataclasses.replace(contact, film_parameter=0.3))
     with pytest.warns(DeprecationWarning, match="ContactConditions"):
@@ -88,7 +90,7 @@ def test_a_law_can_read_what_the_laws_before_it_found(seed_screw, seed_oil):
         seen.update(vars(conditions))
         return 1e5 * conditions.minimum_film_thickness
 
-    inlet = bs.Inlet(replenishment_constant=0.0)
+    inlet = Inlet(replenishment_constant=0.0)
     full_film = dataclasses.replace(REFERENCE, rolling=rolling_of_the_film, full_film=lambda c: 0.03, inlet=inlet)
     result = full_film(seed_screw, seed_oil, **POINT)
     assert result.nut.hydrodynamic_rolling_force == pytest.approx(

@@ -105,8 +105,8 @@ class RunInSharing(ByValue):
     so that thick films are as before, and friction below :math:`\lambda_r` is nearly the same at all sizes, which is
     what the tables of vendors show (docs/validation). The default gives asperities a third of the load there. It
     was chosen by the trend of those tables with size, not by their mean; no measured value is known. At rest
-    asperities carry everything, as in SKF2018: where the film parameter falls to :math:`\lambda_0`, below 1 rpm in usual
-    screws, friction rises to the boundary value. Not for new surfaces: there :class:`LoadSharing` holds.
+    asperities carry everything, as in SKF2018: where the film parameter falls to :math:`\lambda_0`, below 1 rpm in
+    usual screws, friction rises to the boundary value. Not for new surfaces: there :class:`LoadSharing` holds.
     """
 
     boundary_friction_coefficient: Boundary = 0.12
