@@ -63,7 +63,9 @@ def numbers() -> dict[str, str]:
     """Numbers that replace the names in double braces in the pages."""
     found: dict[str, str] = {}
     steps = {name: effects(case) for name, case in CASES.items()}
-    for i, key in enumerate(("rolling", "inlet", "sharing", "boundary", "spin", "ellipse", "helix"), start=1):
+    for i, key in enumerate(
+        ("rolling", "inlet", "sharing", "boundary", "runin", "spin", "ellipse", "helix", "balls"), start=1
+    ):
         found[key] = ", ".join(_step(steps[name], i, case.title) for name, case in CASES.items())
     reference, corrected = FrictionModel.reference(), FrictionModel.corrected()
     for name, case in CASES.items():

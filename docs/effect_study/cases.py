@@ -16,7 +16,7 @@ from typing import Any
 from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.components.lubrication import Inlet, houpert_rolling
 from ballscrew.components.materials import Lubricant
-from ballscrew.components.mixed_friction import LoadSharing
+from ballscrew.components.mixed_friction import LoadSharing, RunInSharing
 from ballscrew.components.screw import BallScrew
 from ballscrew.friction.model import PAPER_FRICTION, FrictionModel
 from ballscrew.friction.result import MECHANISMS, FrictionResult
@@ -63,7 +63,7 @@ PAPER = Case(
         "axial_load": "F = 4000 N",
         "screw_speed": "n = 600 rpm",
         "oil": "viscosity 0.1 Pa s",
-        "assumed": "E′ 226 GPa, α_p 22 1/GPa, F_B = 1/z N",
+        "assumed": "E′ 226 GPa, α_p 22 1/GPa",
     },
     screw=paper.SCREW,
     oil=paper.OIL,
@@ -81,7 +81,7 @@ CATALOGUE = Case(
         "axial_load": "F = 5000 N, a tenth of C_a",
         "screw_speed": "n = 600 rpm",
         "oil": "ISO VG 100 at 40 °C",
-        "assumed": "E′ 226 GPa, roughness as in the paper, F_B = 1/z N",
+        "assumed": "E′ 226 GPa, roughness as in the paper",
     },
     screw=BallScrew(
         pitch_circle_diameter=0.0414,
@@ -120,12 +120,18 @@ def steps() -> tuple[Step, ...]:
     paper_boundary = LoadSharing(boundary_friction_coefficient=PAPER_FRICTION.boundary_friction_coefficient)
     changes: tuple[tuple[str, str, dict[str, Any]], ...] = (
         ("rolling", "rolling force in all regimes, fully flooded", {"rolling": reference.rolling}),
-        ("inlet heat", "heating of the inlet", {"inlet": reference.inlet}),
+        ("inlet heat", "heating of the inlet, and oil that flows back too late", {"inlet": reference.inlet}),
         ("load sharing", "asperities and film share the load, µ_0 still 0.2", {"friction": paper_boundary}),
-        ("µ_0 0.12", "boundary friction 0.12 instead of 0.2", {"friction": reference.friction}),
+        ("µ_0 0.12", "boundary friction 0.12 instead of 0.2", {"friction": LoadSharing()}),
+        ("run-in", "surfaces that have run in", {"friction": reference.friction}),
         ("spin", "spin, on a line across the contact", {"slip": line_slip}),
         ("ellipse", "the whole ellipse instead of the line", {"slip": spin_over_ellipse}),
-        ("helix", "lateral slip of the helix", {"slip": reference.slip, "name": reference.name}),
+        ("helix", "lateral slip of the helix", {"slip": reference.slip}),
+        (
+            "balls",
+            "balls that press on each other in proportion to their load",
+            {"ball_chain": reference.ball_chain, "ball_force": reference.ball_force, "name": reference.name},
+        ),
     )
     found = [Step("corrected", "the paper, corrected", so_far)]
     for short, description, change in changes:
@@ -197,7 +203,7 @@ def sensitivities(case: Case) -> tuple[Sensitivity, ...]:
     at_reference = float(case.result(reference).screw_torque)
 
     def friction(**coefficients: float) -> FrictionModel:
-        return dataclasses.replace(reference, friction=LoadSharing(**coefficients))
+        return dataclasses.replace(reference, friction=RunInSharing(**coefficients))
 
     def torques(*models: FrictionModel) -> tuple[float, ...]:
         return tuple(float(case.result(model).screw_torque) for model in models)
@@ -212,7 +218,6 @@ def sensitivities(case: Case) -> tuple[Sensitivity, ...]:
             for height in heights
         )
 
-    z = case.screw.loaded_balls
     found = (
         (
             "boundary friction µ_0",
@@ -235,13 +240,19 @@ def sensitivities(case: Case) -> tuple[Sensitivity, ...]:
         ("roughness of the races", "0.3 µm", "0.15, 0.5 µm", rough(0.15e-6, 0.5e-6)),
         (
             "friction of the full film",
-            "0.02",
-            "0.05 (SKF2018)",
-            torques(friction(full_film_friction_coefficient=0.05)),
+            "0.05",
+            "0.02 (Olaru2005), 0.1 (transmission fluids, SKF2018)",
+            torques(*(friction(full_film_friction_coefficient=mu) for mu in (0.02, 0.1))),
+        ),
+        (
+            "running in of the surfaces: λ_r",
+            "0.7",
+            "0 (new), 1.4",
+            torques(*(friction(run_in_film_parameter=lam) for lam in (0.0, 1.4))),
         ),
         (
             "oil supply of the inlet",
-            "flooded",
+            "an oil bath",
             "S = 10, and the law of Houpert1987",
             torques(
                 dataclasses.replace(reference, inlet=Inlet(inlet_film_ratio=10.0)),
@@ -250,11 +261,10 @@ def sensitivities(case: Case) -> tuple[Sensitivity, ...]:
         ),
         (
             "ball-to-ball force",
-            "1/z N",
-            "0, 5/z N, Q/500",
+            "0.0075 Q",
+            "0, 0.0225 Q",
             torques(
-                *(dataclasses.replace(reference, ball_to_ball_force=total / z) for total in (0.0, 5.0)),
-                dataclasses.replace(reference, ball_force=ProportionalBallForce(share_of_load=0.002)),
+                *(dataclasses.replace(reference, ball_force=ProportionalBallForce(share)) for share in (0.0, 0.0225))
             ),
         ),
     )

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ballscrew.components.laws import RollingLaw
 from ballscrew.components.lubrication import aihara_rolling, biboulet_houpert_rolling, houpert_rolling, olaru_rolling
-from ballscrew.components.mixed_friction import GreenwoodTrippSharing, LoadSharing
+from ballscrew.components.mixed_friction import GreenwoodTrippSharing, LoadSharing, RunInSharing
 from ballscrew.equations import mixed_lubrication, slip
 from ballscrew.friction.model import PAPER_FRICTION, FrictionModel
 from ballscrew.friction.result import FrictionResult
@@ -159,7 +159,8 @@ def share_curves() -> ShareCurves:
     coefficients = {
         "clamped, µ_0 0.2 (the paper)": printed(at_film),
         "shared, µ_0 0.2": high(at_film),
-        "shared, µ_0 0.12 (reference)": sharing(at_film),
+        "shared, µ_0 0.12": sharing(at_film),
+        "shared, run in (reference)": RunInSharing()(at_film),
     }
     return ShareCurves(lam, shares, coefficients)
 

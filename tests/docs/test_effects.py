@@ -69,11 +69,11 @@ def test_every_step_is_valid(case):
 
 
 def test_signs_of_the_effects(found):
-    """Rolling in all regimes, sharing, spin, the ellipse and the helix add; heat and less boundary friction take."""
+    """Rolling in all regimes, sharing, slip and rubbing balls add; heat, less boundary friction and running in take."""
     _, by_name = found
     signs = {name: math.copysign(1, effect.added) for name, effect in by_name.items() if name != "corrected"}
     less = {name for name, sign in signs.items() if sign < 0}
-    assert less == {"inlet heat", "µ_0 0.12"}
+    assert less == {"inlet heat", "µ_0 0.12", "run-in"}
 
 
 def test_effects_touch_the_parts_they_should(found):
@@ -81,20 +81,20 @@ def test_effects_touch_the_parts_they_should(found):
     for before, after, still in (
         ("corrected", "rolling", ("elastic_hysteresis", "ball_to_ball")),
         ("inlet heat", "load sharing", ("hydrodynamic_rolling", "elastic_hysteresis", "ball_to_ball")),
-        ("µ_0 0.12", "spin", ("hydrodynamic_rolling", "elastic_hysteresis", "ball_to_ball")),
+        ("run-in", "spin", ("hydrodynamic_rolling", "elastic_hysteresis", "ball_to_ball")),
         ("ellipse", "helix", ("hydrodynamic_rolling", "elastic_hysteresis", "ball_to_ball")),
     ):
         for part in still:
             assert by_name[before].parts[part] == by_name[after].parts[part]
     for name, effect in by_name.items():
-        assert (effect.parts["helix"] > 0) == (name == "helix")
-        assert (effect.parts["spin"] > 0) == (name in {"spin", "ellipse", "helix"})
+        assert (effect.parts["helix"] > 0) == (name in {"helix", "balls"})
+        assert (effect.parts["spin"] > 0) == (name in {"spin", "ellipse", "helix", "balls"})
 
 
 def test_spin_and_helix_matter_more_with_open_grooves_and_a_steep_lead():
     close, open_ = ({effect.short: effect for effect in effects(case)} for case in (PAPER, CATALOGUE))
     for name in ("spin", "helix"):
-        assert open_[name].added / open_["µ_0 0.12"].torque > 3 * close[name].added / close["µ_0 0.12"].torque
+        assert open_[name].added / open_["run-in"].torque > 3 * close[name].added / close["run-in"].torque
 
 
 @BY_NAME
@@ -153,7 +153,7 @@ def test_no_load_and_no_speed_give_what_the_page_on_validity_says(case):
         assert not unloaded.validity["skid"]
         assert np.isnan(unloaded.efficiency)
         parts = {part for part, torque in unloaded.contributions.items() if torque}
-        assert parts == (set() if name == "reference" else {"ball_to_ball"})
+        assert parts == (set() if name == "reference" else {"ball_to_ball", "chain_braking"})
         at_rest, slow = case.result(model, screw_speed=0.0), case.result(model, screw_speed=1e-6)
         assert at_rest.warnings == []
         assert at_rest.contributions["hydrodynamic_rolling"] == 0
@@ -199,7 +199,7 @@ def test_the_slip_picture_is_that_of_the_integral(case):
             float(s.elastic_resistance_moment),
             float(n.elastic_resistance_moment),
             float(result.ball_friction_moment),
-            float(result.ball_to_ball_force),
+            float(result.net_braking_force),
         ),
         screw_speed=case.screw_speed,
     )
