@@ -9,7 +9,7 @@ fitted, and nothing by hand.
     python benchmarks/fit_calibration.py --write    and store them in src/ballscrew/data/calibrations.toml
     python benchmarks/fit_calibration.py --rivals   other numbers and another objective beside them, as Markdown
     python benchmarks/fit_calibration.py --left-out rows of one size class or of one kind of nut left out of the fit
-                                                    and predicted, as Markdown; with --write into docs/left_out.md
+                                                    and predicted, as Markdown; with --write into docs/left_out.inc
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ OBJECTIVE = "least squares of (model - middle) / half the band, every row with t
 START = (0.12, 0.0075)
 #: Ends of the size classes: nominal diameters in m.
 CLASSES = {"up to 25 mm": (0.0, 0.0251), "32 to 50 mm": (0.0251, 0.0501), "63 mm and more": (0.0501, 1.0)}
-PAGE = Path(__file__).parents[1] / "docs" / "left_out.md"
+PAGE = Path(__file__).parents[1] / "docs" / "left_out.inc"
 TOML = Path(__file__).parents[1] / "src" / "ballscrew" / "data" / "calibrations.toml"
 
 

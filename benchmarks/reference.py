@@ -22,6 +22,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))  # the contact integral is an oracle of theirs
 
 import ballscrew as bs
+from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.components.mixed_friction import ZhouHoeprich
 from ballscrew.components.screw import BallScrew
 from ballscrew.friction.result import FrictionResult
@@ -89,7 +90,7 @@ def dry(model: bs.FrictionModel) -> bs.FrictionModel:
         full_film=None,
         rolling=lambda conditions: 0 * conditions.contact_load,
         elastic_resistance=lambda conditions: 0 * conditions.contact_load,
-        ball_to_ball_force=0.0,
+        ball_force=ProportionalBallForce(0.0),
     )
 
 
@@ -110,7 +111,7 @@ def judge(cases: Box, result: FrictionResult, i: int, *, alone: bool) -> Contact
         s.elastic_resistance_moment,
         n.elastic_resistance_moment,
         result.ball_friction_moment,
-        result.ball_to_ball_force,
+        result.net_braking_force,
     )
     asked = (float(np.broadcast_to(part, np.shape(result.contact_load))[i]) / share for part in carried)
     return contact_integral(

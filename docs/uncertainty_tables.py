@@ -6,7 +6,6 @@ import dataclasses
 from pathlib import Path
 
 from ballscrew.cases import case_file
-from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.components.nut import DoubleNut, Nut, OversizeBallNut
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.figures import band as figures
@@ -69,7 +68,7 @@ def coverage_table() -> str:
         for name in _SETS:
             places = list(coverage(model, name))
             counts = " | ".join(f"{places.count(place)} of {len(places)}" for place in ("in", "below", "above"))
-            label = "calibrated" if model.ball_force is not FrictionModel.reference().ball_force else "reference"
+            label = "reference" if model == FrictionModel.reference() else "calibrated"
             lines.append(f"| {name} | {label} | {counts} |")
     return "\n".join(lines) + "\n"
 
@@ -97,5 +96,5 @@ def _case(model: FrictionModel, values: Values, nut: type[Nut], percent: int) ->
         operation=OperatingState(axial_load=0.0, screw_speed=at.screw_speed),
         sweep={},
         oil={"grade": at.grade, "temperature": at.temperature},
-        calibration=calibration("rexroth-2006") if isinstance(model.ball_force, ProportionalBallForce) else None,
+        calibration=None if model == FrictionModel.reference() else calibration("rexroth-2006"),
     )

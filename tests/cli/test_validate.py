@@ -276,7 +276,7 @@ def test_picture_shows_axes_case_and_all_ratios():
     for said in (
         "100 rpm, ISO VG 100 at 25 degC",
         "Model reference",
-        "boundary friction 0.142",
+        "boundary friction 0.143",
         "0.002 of the load",
         "Not drawn, too few sizes: thk-jis (as it is: 0.41",
     ):

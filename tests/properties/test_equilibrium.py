@@ -22,13 +22,14 @@ from support.strategies import (
     powers,
     screws,
     torque_scale,
+    with_ball_force,
     without_losses_of_rolling,
 )
 from support.strategies import ball_forces as braking
 
 
 def with_braking(model, ball_to_ball_force):
-    return dataclasses.replace(model, ball_to_ball_force=ball_to_ball_force)
+    return with_ball_force(model, ball_to_ball_force)
 
 
 def contact_moments(r):

@@ -13,7 +13,16 @@ from ballscrew.equations import friction, hertz, kinematics
 from ballscrew.friction.validity import (
     LARGEST_PURE_ROLLING_OFFSET,
 )
-from support.strategies import both_models, cases, close, constant_friction, fitting_cases, floats, powers
+from support.strategies import (
+    both_models,
+    cases,
+    close,
+    constant_friction,
+    fitting_cases,
+    floats,
+    powers,
+    with_ball_force,
+)
 
 #: Where the asperities' share has fallen to 0.02, with the paper's coefficients.
 THRESHOLD = 1.8298234138683820
@@ -142,7 +151,7 @@ def test_offset_and_traction_are_inverse(Y, traction):
 @given(fitting_cases(), both_models, floats(0.0, 1.0), powers(1e-3, 1.0))
 def test_torque_rises_with_the_force_between_balls(case, model, force, more):
     """M_S rises with F_B."""
-    less, greater = (case(dataclasses.replace(model, ball_to_ball_force=F)) for F in (force, force + more))
+    less, greater = (case(with_ball_force(model, F)) for F in (force, force + more))
     assert greater.screw_torque > less.screw_torque
 
 

@@ -18,7 +18,7 @@ from ballscrew.friction.result import MECHANISMS
 from ballscrew.friction.validity import NUT_REASONS
 from ballscrew.solvers.load_distribution import ball_loads
 from support.nut_cases import KINDS, nut_case
-from support.strategies import MODELS, RPM, constant_friction, reference, without_losses_of_rolling
+from support.strategies import MODELS, RPM, constant_friction, reference, with_ball_force, without_losses_of_rolling
 
 OIL = bs.Lubricant(viscosity=0.1, pressure_viscosity_coefficient=2e-8)
 PRELOADED = {"double": DoubleNut(1500.0, 0.01), "offset": OffsetLeadNut(1500.0), "oversize": OversizeBallNut(1500.0)}
@@ -118,7 +118,7 @@ def test_balls_one_by_one_are_all_of_a_kind(kind):
 @pytest.mark.parametrize("kind", ["single", "double"])
 def test_twice_the_balls_with_twice_the_load_have_twice_the_torque(kind):
     """Invariant 5: additive in balls at fixed load and ball-to-ball force."""
-    model = dataclasses.replace(reference, ball_to_ball_force=0.02)
+    model = with_ball_force(reference, 0.02)
     one = friction(NUTS[kind], LOADS, model=model)
     twice = dataclasses.replace(NUTS[kind], preload=3000.0) if kind == "double" else NUTS[kind]
     other = friction(twice, 2 * LOADS, model=model, part=screw(loaded_balls=120))
@@ -128,9 +128,7 @@ def test_twice_the_balls_with_twice_the_load_have_twice_the_torque(kind):
 def test_unequal_balls_sum_ball_by_ball():
     deviations = Deviations.scattered(60, seed=3, ball_diameter=5e-7, lead=1e-6)
     r = friction(SINGLE, 3000.0, deviations=deviations, bodies=Bodies.of(SCREW))
-    by_ball = dataclasses.replace(
-        reference, contact_load=lambda axial_load, *_: axial_load, ball_to_ball_force=1 / SCREW.loaded_balls
-    )
+    by_ball = dataclasses.replace(reference, contact_load=lambda axial_load, *_: axial_load)
     total = 0.0
     for load, angle in zip(r.loads.forward_load, r.loads.forward_angle, strict=True):
         part = screw(loaded_balls=1, contact_angle=float(angle) if load > 0 else math.pi / 4)
@@ -146,7 +144,7 @@ def test_unequal_balls_sum_ball_by_ball():
 @pytest.mark.parametrize("ball_force", [0.0, 0.05])
 def test_torques_on_screw_and_nut(kind, ball_force):
     """Invariant 1: M_S − M_N is what the balls that carry load push each other along with, and the parts sum to M_S."""
-    model = dataclasses.replace(reference, ball_to_ball_force=ball_force)
+    model = with_ball_force(reference, ball_force)
     r = friction(NUTS[kind], np.array([50.0, 1500.0, 9000.0]), model=model)
     assert tuple(r.contributions) == tuple(MECHANISMS)
     assert sum(r.contributions.values()) == pytest.approx(r.screw_torque, rel=RELATIVE)

@@ -88,7 +88,7 @@ def test_energy(of, request):
 def test_action_is_reaction(of, request):
     """M_S − M_N = z F_B L, skidding balls included."""
     r = request.getfixturevalue(of)
-    pushing = r.ball_screw.loaded_balls * r.ball_to_ball_force * r.frame.path_radius
+    pushing = r.ball_screw.loaded_balls * r.net_braking_force * r.frame.path_radius
     assert np.all(np.abs(r.screw_torque - r.nut_torque - pushing) <= RELATIVE * np.abs(r.screw_torque))
 
 

@@ -30,6 +30,7 @@ from support.strategies import (
     screws,
     speeds,
     torque_scale,
+    with_ball_force,
 )
 
 OUTPUTS = known_outputs()
@@ -109,7 +110,7 @@ def test_units(case, model, length, force, time):
 @given(cases, all_models, st.integers(2, 7))
 def test_balls_add_up(case, model, factor):
     """Torque is additive in the balls: twice the balls under twice the load have twice the torque."""
-    model = dataclasses.replace(model, ball_to_ball_force=0.02)
+    model = with_ball_force(model, 0.02)
     r = case(model)
     more = case(model, axial_load=factor * case.axial_load, loaded_balls=factor * case.screw.loaded_balls)
     assert close(more.contact_load, r.contact_load)
@@ -163,7 +164,7 @@ def test_rest_is_the_limit_of_slow_motion(case, model):
 @pytest.mark.parametrize(("axial_load", "screw_speed"), [(0.0, 0.0), (0.0, 60.0), (1000.0, 0.0)])
 def test_limits_are_numbers(axial_load, screw_speed, screw, oil, model, ball_to_ball_force):
     """No load and no speed give limits, never NaN, in all but the efficiencies of a load that there is not."""
-    model = dataclasses.replace(model, ball_to_ball_force=ball_to_ball_force)
+    model = with_ball_force(model, ball_to_ball_force)
     r = model(screw, oil, axial_load=axial_load, screw_speed=screw_speed)
     for name, output in OUTPUTS.items():
         undefined = axial_load == 0 and name in EFFICIENCIES  # nothing is driven, and nothing drives
@@ -259,9 +260,7 @@ def test_on_a_huge_pitch_circle_both_contacts_are_alike(case, model):
     )
     # the entrainment speed stays what it was
     speed = case.screw_speed * case.screw.pitch_circle_diameter / screw.pitch_circle_diameter
-    r = dataclasses.replace(model, ball_to_ball_force=0.0)(
-        screw, case.oil, axial_load=case.axial_load, screw_speed=speed
-    )
+    r = with_ball_force(model, 0.0)(screw, case.oil, axial_load=case.axial_load, screw_speed=speed)
     for name, output in OUTPUTS.items():
         other = OUTPUTS.get("nut_" + name.removeprefix("screw_"))
         if name.startswith("screw_") and other is not None:

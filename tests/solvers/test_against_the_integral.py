@@ -15,6 +15,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.components.frame import bearing_frame
+from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.components.mixed_friction import ZhouHoeprich
 from oracles.contact_integral import contact_integral
 from oracles.tractions import Coulomb
@@ -75,7 +76,7 @@ def test_without_a_helix_it_is_the_bearing_of_the_integral():
         friction=dry,
         rolling=lambda conditions: 0 * conditions.contact_load,
         elastic_resistance=lambda conditions: 0 * conditions.contact_load,
-        ball_to_ball_force=0.0,
+        ball_force=ProportionalBallForce(0.0),
     )
     rng, errors = np.random.default_rng(12), []
     while len(errors) < 60:

@@ -11,6 +11,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.components.conditions import Motion
 from ballscrew.components.frame import helix_frame
+from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.friction.balls import ball_contacts
 from ballscrew.solvers.four_point_slip import PARTS, FlankPair, FourPointBall, four_point_slip
 from oracles.contact_integral import contact_integral
@@ -36,7 +37,7 @@ def dry(friction=FRICTION):
         rolling=lambda conditions: 0 * conditions.contact_load,
         elastic_resistance=lambda c: 0 * c.contact_load,
         contact_load=lambda axial_load, *_: axial_load,
-        ball_to_ball_force=0.0,
+        ball_force=ProportionalBallForce(0.0),
     )
 
 

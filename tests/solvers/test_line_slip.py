@@ -133,7 +133,7 @@ def test_energy_and_action(on_the_line):
     assert 0.05 < np.mean(r.rolling_share < 1) < 0.9
     assert np.all(np.isfinite(r.screw_torque))
     assert np.all(np.abs(r.screw_torque * r.screw_speed - r.friction_power) <= 1e-12 * np.abs(r.friction_power))
-    pushing = r.ball_screw.loaded_balls * r.ball_to_ball_force * r.frame.path_radius
+    pushing = r.ball_screw.loaded_balls * r.net_braking_force * r.frame.path_radius
     assert np.all(np.abs(r.screw_torque - r.nut_torque - pushing) <= 1e-12 * r.screw_torque)
     assert sum(r.contributions.values()) == pytest.approx(r.screw_torque, rel=1e-12)
     assert np.all(r.contributions["helix"] == 0)

@@ -215,7 +215,7 @@ def test_skid_saturates_and_still_balances():
         assert np.allclose(side.curvature_friction_moment[driven], most[driven], rtol=1e-14)
         assert np.allclose(side.pure_rolling_offset[dragged], 1, rtol=1e-14)
         assert np.allclose(side.curvature_friction_moment[dragged], -most[dragged], rtol=1e-13)
-    pushing = r.ball_screw.loaded_balls * r.ball_to_ball_force * r.frame.path_radius
+    pushing = r.ball_screw.loaded_balls * r.net_braking_force * r.frame.path_radius
     scale = sum(np.abs(part) for part in r.contributions.values()) + np.abs(r.nut_torque)
     assert np.all(np.abs(r.screw_torque - r.nut_torque - pushing) <= 1e-12 * scale)
     assert np.all(np.abs(r.screw_torque * r.screw_speed - r.friction_power) <= 1e-12 * scale * r.screw_speed)

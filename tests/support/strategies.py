@@ -7,6 +7,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 import ballscrew as bs
+from ballscrew.components.laws import imposed_ball_force, opposed_neighbours, two_neighbours
 from ballscrew.friction.result import FrictionResult
 
 RPM = math.pi / 30
@@ -179,6 +180,11 @@ def constant_friction(coefficient):
 
 def without_losses_of_rolling(model: bs.FrictionModel) -> bs.FrictionModel:
     """A model in which only sliding in the contacts is left."""
-    return dataclasses.replace(
-        model, rolling=no_rolling_resistance, elastic_resistance=no_elastic_resistance, ball_to_ball_force=0.0
-    )
+    alone = dataclasses.replace(model, rolling=no_rolling_resistance, elastic_resistance=no_elastic_resistance)
+    return with_ball_force(alone, 0.0)
+
+
+def with_ball_force(model: bs.FrictionModel, force) -> bs.FrictionModel:
+    """A model whose neighbouring balls rub and brake with an imposed force."""
+    chain = two_neighbours if model.ball_chain is opposed_neighbours else model.ball_chain
+    return dataclasses.replace(model, ball_force=imposed_ball_force, ball_chain=chain, ball_to_ball_force=force)

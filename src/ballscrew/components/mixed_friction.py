@@ -139,9 +139,10 @@ class RunInSharing(ByValue):
 
     def __call__(self, conditions: ContactConditions) -> Ratio:
         """Friction coefficient."""
-        worn = mixed_lubrication.run_in_film_parameter(
-            conditions.film_parameter, self.run_in_film_parameter, self.lost_film_parameter
-        )
+        # no share is left long before 1000, and without load the film parameter is infinite
+        film_parameter = conditions.film_parameter
+        bounded = namespace(film_parameter).minimum(film_parameter, 1000.0)
+        worn = mixed_lubrication.run_in_film_parameter(bounded, self.run_in_film_parameter, self.lost_film_parameter)
         share = mixed_lubrication.asperity_load_share_zhou_hoeprich(worn, self.decay, self.exponent)
         return _shared(self, share, conditions)
 

@@ -25,14 +25,10 @@ def run_in_film_parameter(film_parameter: Ratio, worn_film_parameter: Ratio, los
 
     A closure of this package, not a published law: asperities wear until the film parameter is λ_r, and no
     further; where next to no film is left, λ ≪ λ_0, the worn surfaces touch as any others. λ for thick films, about λ_r
-    for thin ones, zero at rest; it never falls with λ.
+    for thin ones, zero at rest; it never falls with λ. For a finite λ.
     """
     lam, lam_r, lam_0 = film_parameter, worn_film_parameter, lost_film_parameter
-    # the larger one before the root: no overflow where the film is infinite, without load
-    xp = namespace(lam, lam_r, lam_0)
-    larger, smaller = xp.maximum(lam, lam_r), xp.minimum(lam, lam_r)
-    worn = larger * (1 + (smaller / xp.maximum(larger, 1e-300)) ** 4) ** 0.25
-    return worn * (1 - lam_0 / (xp.maximum(lam, 1e-300) + lam_0))
+    return (lam**4 + lam_r**4) ** 0.25 * lam / (lam + lam_0)
 
 
 def asperity_load_share_balan(film_parameter: Ratio) -> Ratio:
