@@ -11,7 +11,7 @@ from pathlib import Path
 from ballscrew.components.nut import DoubleNut, OversizeBallNut
 from ballscrew.figures import files
 from ballscrew.figures import validation as figures
-from ballscrew.friction.calibrations import PARAMETERS, calibrated, calibration
+from ballscrew.friction.calibrations import calibrated, calibration, calibrations
 from ballscrew.friction.model import FrictionModel
 from ballscrew.output.text import validation as text_of
 from ballscrew.sizing.catalogue import catalogue
@@ -130,18 +130,18 @@ def definitions_table() -> str:
 
 
 def calibration_table() -> str:
-    """The two calibrated numbers, their errors, and the residuals."""
-    stored = calibration(validation.DEFAULT_CALIBRATION)
-    lines = [["number", "where", "value", "standard error"], ["---"] * 4]
-    for (name, where), error in zip(PARAMETERS.items(), stored.standard_errors, strict=True):
-        lines.append([SYMBOLS[name], f"`{where}`", f"{getattr(stored, name):.4g}", f"{error:.1g}"])
-    (a, b), (_, d) = stored.covariance
-    words = [
-        f"\nCovariance: {a:.3g}, {b:.3g}, {d:.3g} (µ₀ µ₀, µ₀ F_B/Q, F_B/Q F_B/Q);",
-        f"correlation {stored.correlation:.2f}. {stored.rows} rows; objective: {stored.objective};",
-        f"its sum is {stored.cost:.2f}. Command: `{stored.command}`.",
-    ]
-    return _table(lines) + " ".join(words) + "\n"
+    """The calibrated numbers, their errors, and what is left."""
+    lines = [["calibration", "number", "where", "value", "standard error"], ["---"] * 5]
+    words: list[str] = []
+    for stored in calibrations().values():
+        for (name, where), error in zip(stored.parameters.items(), stored.standard_errors, strict=True):
+            value = f"{getattr(stored, name):.4g}"
+            lines.append([f"`{stored.name}`", SYMBOLS[name], f"`{where}`", value, f"{error:.1g}"])
+        alike = "" if stored.correlation is None else f", correlation of the two {stored.correlation:.2f}"
+        words.append(f"`{stored.name}`: {stored.rows} rows, sum of squares {stored.cost:.2f}{alike}.")
+    first = next(iter(calibrations().values()))
+    said = f"\nObjective: {first.objective}. {' '.join(words)} Command: `{first.command}`."
+    return _table(lines) + said + "\n"
 
 
 def trends_table() -> str:
