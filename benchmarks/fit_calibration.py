@@ -39,6 +39,7 @@ START = (0.12, 0.0075)
 #: Ends of the size classes: nominal diameters in m.
 CLASSES = {"up to 25 mm": (0.0, 0.0251), "32 to 50 mm": (0.0251, 0.0501), "63 mm and more": (0.0501, 1.0)}
 PAGE = Path(__file__).parents[1] / "docs" / "left_out.inc"
+RATIOS = Path(__file__).parents[1] / "src" / "ballscrew" / "data" / "validation" / "ratios.csv"
 TOML = Path(__file__).parents[1] / "src" / "ballscrew" / "data" / "calibrations.toml"
 
 
@@ -232,6 +233,23 @@ def left_out_table() -> str:
     return "".join("| " + " | ".join(line) + " |\n" for line in lines)
 
 
+def ratios_text(found: Mapping[str, Fit]) -> str:
+    """Model / middle of the band, row by row, as it is stored for :mod:`ballscrew.validation.nearest`."""
+    models = {"uncalibrated": FrictionModel.reference()}
+    models |= {name: DECLARED[name].model(*map(float, one.values)) for name, one in found.items()}
+    by_model = {name: [(e, p) for e in entries(model) for p in e.points] for name, model in models.items()}
+    lines = [
+        "# reference model / middle of the vendor's band; no load, 100 rpm, ISO VG 100 at 25 degC; sizes in m",
+        f"# written by: python benchmarks/fit_calibration.py --write, version {ballscrew.__version__}",
+        ",".join(["set", "row", "size", "lead", *models]),
+    ]
+    for together in zip(*by_model.values(), strict=True):
+        entry, point = together[0]
+        place = [f"{point.descriptors[name]:.6g}" for name in ("size", "lead")]
+        lines.append(",".join([entry.data.name, point.name, *place, *(f"{p.ratio:.4f}" for _, p in together)]))
+    return "\n".join(lines) + "\n"
+
+
 def rivals_table() -> str:
     """What other pairs and another objective would have given."""
     heading = ["fitted", "values", *(f"{name}: mean ratio, in band" for name in FITTED), "half bands off, rms"]
@@ -266,10 +284,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
         if chosen.write:
             PAGE.write_text(text, encoding="utf-8")
         return
-    text = toml_text({name: fit(rival) for name, rival in DECLARED.items()})
-    print(text, end="")
+    found = {name: fit(rival) for name, rival in DECLARED.items()}
+    print(toml_text(found), end="")
     if chosen.write:
-        TOML.write_text(text, encoding="utf-8")
+        TOML.write_text(toml_text(found), encoding="utf-8")
+        RATIOS.write_text(ratios_text(found), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -62,7 +62,7 @@ def test_integral_and_model_agree_on_what_skids(tables):
     """Up to the little that the model keeps in reserve for curvature, and never the other way round."""
     _, skids, unseen = tables[1]["notes"]
     by_model, by_both = (int(word) for word in skids.split() if word.isdigit())
-    assert by_model >= 100
+    assert by_model >= 80
     assert by_both >= 0.98 * by_model
     assert unseen == "0 skid by the integral alone"
 

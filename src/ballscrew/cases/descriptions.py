@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from typing import Any
 
 from ballscrew import units
@@ -14,9 +15,12 @@ from ballscrew.components.nut import Bodies, Nut
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import BallScrew
 from ballscrew.components.traits import traits_of
+from ballscrew.friction.calibrations import calibrated
 from ballscrew.friction.law_names import coefficients
+from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import fields_of, quantities_of
+from ballscrew.validation.nearest import near_rows
 
 #: Temperature of an oil of a grade where none is given, K.
 DEFAULT_TEMPERATURE = 313.15
@@ -152,13 +156,19 @@ def _of_usual_size(bodies: Bodies) -> bool:
 
 
 def _against_vendors(case: Case, nut: Nut) -> list[str]:
-    """The first result of ``ballscrew validate``, where it concerns the case."""
+    """What ``ballscrew validate`` says of nuts like this one, where the model is the one it was run with."""
     preloaded = getattr(nut, "preload", 0.0) or getattr(nut, "oversize", 0.0)
-    if not preloaded or case.calibration is not None or case.fit:
+    fitted = case.calibration
+    compared = FrictionModel.reference() if fitted is None else calibrated(FrictionModel.reference(), fitted)
+    if not preloaded or case.fit or case.model != compared:
         return []
+    near = near_rows(dataclasses.replace(case.screw, nut=nut), None if fitted is None else fitted.name)
+    if near is None:
+        return []
+    how = "without calibration" if fitted is None else f"calibrated ({fitted.name})"
     return [
-        "vendors state more torque of preloaded nuts without load than the model as it is (ballscrew validate), "
-        'model.calibration = "rexroth-2006" meets their tables'
+        f"no-load torque, model / vendor: {near.mean:.2f} ± {near.scatter:.2f} for the {len(near.rows)} rows of "
+        f"{near.data} most like this nut, {how} (ballscrew validate)"
     ]
 
 

@@ -1,0 +1,62 @@
+"""The rows of a vendor that are most like a nut, and how the model compares with them."""
+
+from __future__ import annotations
+
+import csv
+import functools
+import math
+from collections.abc import Mapping, Sequence
+from importlib import resources
+from typing import NamedTuple
+
+import numpy as np
+
+from ballscrew.components.nut import DoubleNut, Nut, OffsetLeadNut, OversizeBallNut
+from ballscrew.components.screw import BallScrew
+
+#: Rows that count as near.
+NEAREST = 6
+#: The set of a kind of nut.
+_SETS: Mapping[type[Nut], str] = {
+    DoubleNut: "rexroth-double-nut",
+    OffsetLeadNut: "rexroth-double-nut",
+    OversizeBallNut: "rexroth-single-nut",
+}
+#: The column of the model as it is.
+UNCALIBRATED = "uncalibrated"
+
+
+class NearRows(NamedTuple):
+    """The reference model against the rows of a vendor nearest in size and lead: model / middle of the band."""
+
+    data: str
+    rows: Sequence[str]
+    mean: float
+    scatter: float
+
+
+def near_rows(screw: BallScrew, calibration: str | None = None) -> NearRows | None:
+    """The rows of a vendor most like a preloaded screw, by diameter and lead over diameter.
+
+    The ratios are those of the reference model, with a calibration by its name or without, as
+    ``benchmarks/fit_calibration.py --write`` stored them; no load, 100 rpm. None for a nut that no set is about, and
+    for a calibration that was not stored.
+    """
+    name = _SETS.get(type(screw.nut))
+    rows = [row for row in _ratios() if row["set"] == name]
+    column = calibration or UNCALIBRATED
+    if not rows or column not in rows[0]:
+        return None
+    place = math.log(float(np.mean(screw.pitch_circle_diameter))), math.log(float(np.mean(screw.lead)))
+    distances = [
+        math.hypot(math.log(float(row["size"])) - place[0], math.log(float(row["lead"])) - place[1]) for row in rows
+    ]
+    near = [rows[i] for i in np.argsort(distances, kind="stable")[:NEAREST]]
+    ratios = [float(row[column]) for row in near]
+    return NearRows(str(name), [row["row"] for row in near], float(np.mean(ratios)), float(np.std(ratios, ddof=1)))
+
+
+@functools.cache
+def _ratios() -> Sequence[Mapping[str, str]]:
+    text = resources.files("ballscrew").joinpath("data/validation/ratios.csv").read_text(encoding="utf-8")
+    return list(csv.DictReader(line for line in text.splitlines() if not line.startswith("#")))

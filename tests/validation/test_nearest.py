@@ -1,0 +1,62 @@
+"""The rows of a vendor nearest to a nut: stored ratios, found again, and said beside a result."""
+
+import numpy as np
+import pytest
+
+import ballscrew as bs
+from ballscrew.friction.calibrations import calibrated, calibrations
+from ballscrew.friction.model import FrictionModel
+from ballscrew.studies import validation
+from ballscrew.validation.entries import Conditions
+from ballscrew.validation.nearest import _ratios, near_rows
+from ballscrew.validation.sets import SETS
+
+DRIVE = bs.catalogue()["rexroth-40x10x6-6-double"]
+
+
+@pytest.mark.parametrize("column", ["uncalibrated", *calibrations()])
+def test_the_stored_ratios_are_those_of_the_model(column):
+    """If this was meant to move: python benchmarks/fit_calibration.py --write."""
+    model = FrictionModel.reference()
+    model = model if column == "uncalibrated" else calibrated(model, calibrations()[column])
+    for name, shipped in (("rexroth-double-nut", 3), ("rexroth-single-nut", 5)):
+        values = validation.shipped_rows(SETS[name])[shipped]
+        stored = {row["row"]: float(row[column]) for row in _ratios() if row["set"] == name}
+        for point in SETS[name].evaluate(model, values, Conditions()):
+            assert stored[point.name] == pytest.approx(point.ratio, abs=1e-4)
+
+
+def test_the_row_itself_is_the_nearest():
+    near = near_rows(DRIVE.screw(nut=bs.DoubleNut(preload=4000.0)))
+    assert near.data == "rexroth-double-nut"
+    assert near.rows[:2] == ["40x10x6-6 at 7 %", "40x10x6-6 at 10 %"]
+    ratios = [float(row["uncalibrated"]) for row in _ratios() if row["row"] in near.rows and row["set"] == near.data]
+    assert near.mean == pytest.approx(np.mean(ratios), rel=1e-12)
+    oversize = near_rows(DRIVE.screw(nut=bs.OversizeBallNut(preload=2000.0)), "rexroth-2006")
+    assert oversize.data == "rexroth-single-nut"
+
+
+def test_nuts_and_calibrations_without_rows_have_none():
+    assert near_rows(DRIVE.screw()) is None
+    assert near_rows(DRIVE.screw(nut=bs.DoubleNut(preload=1.0)), "mine") is None
+
+
+def test_it_is_said_beside_a_result(ballscrew, tmp_path):
+    case = tmp_path / "nut.toml"
+    case.write_text(
+        '[screw]\ncatalogue = "rexroth-40x10x6-6-double"\n[nut]\ntype = "double"\npreload = "7 %"\n'
+        '[lubricant]\ngrade = "ISO VG 100"\n[operation]\naxial_load = "1 kN"\nscrew_speed = "100 rpm"\n'
+        '[model]\nname = "reference"\n',
+        encoding="utf-8",
+    )
+    plain = " ".join(ballscrew("run", case).stdout.split())
+    assert "no-load torque, model / vendor: 0.8" in plain
+    assert "for the 6 rows of rexroth-double-nut most like this nut, without calibration" in plain
+    fitted = " ".join(ballscrew("run", case, "--set", "model.calibration=rexroth-2006-rubbing").stdout.split())
+    assert "calibrated (rexroth-2006-rubbing)" in fitted
+    changed = ballscrew("run", case, "--set", "model.friction=load-sharing").stdout
+    assert "model / vendor" not in changed
+
+
+def test_every_row_of_the_sets_is_stored():
+    assert [row["set"] for row in _ratios()] == ["rexroth-double-nut"] * 24 + ["rexroth-single-nut"] * 18
