@@ -95,8 +95,6 @@ def test_the_reference_model_for_people(example, ballscrew):
         part = f"{float(r.contributions[mechanism]):.4g} N m"
         shown = any(line.startswith(words) and part in line and "█" in line for line in text.splitlines())
         assert shown or not r.contributions[mechanism]
-            line.startswith(words) and part in line and "█" in line for line in text.splitlines()
-        )
     assert f"back-drives: the load turns the screw; {float(r.holding_torque):.4g} N m on the shaft hold it" in text
     rows = {line[:26].strip(): line[26:].split() for line in text.splitlines()}
     for name, quadrant in r.quadrants.items():
