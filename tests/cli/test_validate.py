@@ -278,7 +278,7 @@ def test_picture_shows_axes_case_and_all_ratios():
         "Model reference",
         "boundary friction 0.143",
         "0.011 of the load",
-        "Not drawn, too few sizes: thk-jis (as it is: 0.41",
+        "Not drawn, too few sizes: thk-jis (as it is: 0.54",
     ):
         assert said in words
 
