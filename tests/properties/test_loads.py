@@ -68,9 +68,9 @@ def test_balls_are_pressed_and_never_pulled(drawn):
     assert np.all(r.remaining_preload >= 0)
     for load, angle in ((r.forward_load, r.forward_angle), (r.backward_load, r.backward_angle)):
         assert np.all((angle[load > 0] > 0) & (angle[load > 0] < math.pi / 2))
-    # a load pushes the screw in; rounding of a place is 1e-18 m
-    assert np.all(r.deflection >= -1e-16)
-    assert np.all(r.deflection[(case.load == 0) & (case.preload > 0)] <= 1e-16)
+    # a load pushes the screw in; 1e-13 of the heaviest preload moves a stiff nut by some 1e-16 m
+    assert np.all(r.deflection >= -1e-15)
+    assert np.all(r.deflection[(case.load == 0) & (case.preload > 0)] <= 1e-15)
     assert np.all(r.rigidity[size > 0] > 0)
 
 
@@ -238,7 +238,7 @@ def test_stiff_bodies_are_rigid(kind, scatter):
     def difference(stiffer):
         # E A grows with the square of the diameters: what a bar is called is of no matter to its balls
         wider = {name: stiffer * getattr(case.bodies, name) for name in vars(case.bodies) if name.endswith("diameter")}
-        r = solved(case, bodies=dataclasses.replace(case.bodies, **wider))
+        r = solved(case, bodies=dataclasses.replace(case.bodies, **wider, swelling=False))
         return np.max(np.abs(r.forward_load - rigid.forward_load) / hold)
 
     some, few = difference(30), difference(300)
@@ -285,12 +285,13 @@ def test_beyond_lift_off_an_oversize_nut_is_a_single_nut_with_interference(scatt
     for i in range(0, 100, 5):
         one = case.one(i)
         preload = max(float(one.preload), 1.0)
-        nut = OversizeBallNut(preload)
-        load = max(one.load, 4 * preload)
+        nut, load = OversizeBallNut(preload), max(one.load, 4 * preload)
+        excess = (preload / (z * math.sin(alpha[i]) * c_phi[i])) ** (2 / 3) / pair_constant(one.screw) ** (2 / 3)
+        if elastic:  # bodies that swell need more oversize for a preload than rigid ones
+            nut = OversizeBallNut(oversize=excess)
         r = solved(one, nut=nut, load=load, constant_contact_angle=constant)
         if np.any(r.backward_load > 0):
             continue
-        excess = (preload / (z * math.sin(alpha[i]) * c_phi[i])) ** (2 / 3) / pair_constant(one.screw) ** (2 / 3)
         scattered = one.deviations or Deviations(np.zeros(10), 0.0)
         # ball by ball, or all as one
         bigger = Deviations(scattered.ball_diameter + excess, scattered.lead)

@@ -44,7 +44,7 @@ class _Sized(Protocol):
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class Bodies(ByValue):
-    """The bodies of screw and nut between the balls, as bars, and where the load enters them.
+    """The bodies of screw and nut between the balls: bars, and tubes that swell, and where the load enters them.
 
     A diameter that is not given has the usual size for the screw (:meth:`sized`).
     Raises :class:`~ballscrew.errors.InputError` for diameters that are not positive or do not fit.
@@ -66,6 +66,8 @@ class Bodies(ByValue):
     ] = None
     #: Whether screw and nut are held on the same side of the balls: one is pulled where the other is pushed.
     same_side: bool = True
+    #: Whether the balls widen the nut and shrink the shaft radially, too.
+    swelling: bool = True
 
     def __post_init__(self) -> None:
         faults = faults_of("bodies", self, optional=tuple(fields_of(Bodies)))
