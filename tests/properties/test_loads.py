@@ -9,7 +9,7 @@ import pytest
 
 from ballscrew.components.nut import Deviations, DoubleNut, OversizeBallNut, SingleNut
 from ballscrew.quantities import quantities_of
-from ballscrew.solvers.load_distribution import TOLERANCE, BallLoads, ball_loads
+from ballscrew.solvers.load_distribution import TOLERANCE, BallLoads, _radial_stiffness, ball_loads
 from support.nut_cases import KINDS, nut_case
 
 #: 4 kinds × elastic or not × scatter or not × side, and this many points of each: ten thousand and more.
@@ -318,3 +318,44 @@ def test_halves_far_apart_and_near_carry_alike_on_rigid_bodies():
     far = solved(case)
     assert np.array_equal(near.forward_load, far.forward_load)
     assert np.array_equal(near.deflection, far.deflection)
+
+
+@pytest.mark.parametrize("kind", ["oversize", "double"])
+def test_the_work_of_the_load_is_stored_in_balls_and_rings(kind):
+    """Energy with swelling: ∫F dx from rest is Σ 2/5 Q δ of the balls and ½ N²/k_r of the rings; bars are stiff."""
+    case = nut_case(kind, 1, 31, elastic=True, balls=12).one(0)
+    preload = float(case.preload)
+    bodies = dataclasses.replace(case.bodies, screw_diameter=1e3, nut_inner_diameter=1e-6)
+    k_r, K = float(_radial_stiffness(case.screw, bodies)), pair_constant(case.screw)
+
+    def stored(r):
+        loads, angles = (
+            np.stack([getattr(r, f"{side}_{what}") for side in ("forward", "backward")]) for what in ("load", "angle")
+        )
+        radial = loads * np.where(loads > 0, np.cos(angles), 0.0)
+        halves = radial.sum(axis=0).reshape(case.nut.halves, -1).sum(axis=1)
+        return np.sum(0.4 * loads ** (5 / 3) / K ** (2 / 3)) + np.sum(halves**2) / (2 * k_r)
+
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    loads = np.append(0.75 * preload * (nodes + 1), [0.0, 1.5 * preload])
+    results = [solved(case, load=float(load), bodies=bodies) for load in loads]
+    # ∫F dx = F x at the end less ∫x dF
+    within = 0.75 * preload * np.sum(weights * [float(r.deflection) for r in results[:-2]])
+    work = 1.5 * preload * float(results[-1].deflection) - within
+    assert work == pytest.approx(stored(results[-1]) - stored(results[-2]), rel=2e-4)
+    rigid = [solved(case, load=float(load), bodies=dataclasses.replace(bodies, swelling=False)) for load in loads[-2:]]
+    assert float(rigid[1].deflection) < float(results[-1].deflection)
+
+
+@pytest.mark.parametrize("kind", ["single", "double", "offset"])
+def test_a_thinner_nut_gives_way_more(kind):
+    """Not one with oversize balls: what a small load adds to one flank it takes from the other of the same ball."""
+    case = nut_case(kind, 30, 33, elastic=True, balls=15)
+    wide = solved(case, bodies=dataclasses.replace(case.bodies, nut_inner_diameter=1e-3))
+    d_c = case.screw.pitch_circle_diameter + case.screw.ball_diameter
+    thin_nut = dataclasses.replace(case.bodies, nut_inner_diameter=1e-3, nut_outer_diameter=1.05 * d_c)
+    thin = solved(case, bodies=thin_nut)
+    bars = solved(case, bodies=dataclasses.replace(case.bodies, nut_inner_diameter=1e-3, swelling=False))
+    held = (case.load > 0) | (case.preload > 0)
+    for stiffer, softer in ((bars, wide), (wide, thin)):
+        assert np.all(softer.rigidity[held] < stiffer.rigidity[held] * (1 + 1e-9))

@@ -9,7 +9,7 @@ from typing import Annotated, Any, NamedTuple, Protocol, TypeAlias, cast
 import numpy as np
 
 from ballscrew._arrays import ByValue
-from ballscrew.errors import MISSING, Fault, accepts_units, faults_of, is_concrete, raise_if_any
+from ballscrew.errors import MISSING, Fault, InputError, accepts_units, faults_of, is_concrete, raise_if_any
 from ballscrew.quantities import Count, Force, Info, Length, Torque, fields_of
 
 _PRELOAD = Info(
@@ -40,6 +40,8 @@ class _Sized(Protocol):
     def pitch_circle_diameter(self) -> Any: ...
     @property
     def ball_diameter(self) -> Any: ...
+    @property
+    def contact_angle(self) -> Any: ...
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -83,7 +85,10 @@ class Bodies(ByValue):
         return cls(same_side=same_side).sized(screw)
 
     def sized(self, screw: _Sized) -> Bodies:
-        """These bodies with the usual sizes for a screw where none is given."""
+        """These bodies with the usual sizes for a screw where none is given.
+
+        Raises :class:`~ballscrew.errors.InputError` for a nut that swells and has no wall around its balls.
+        """
         d_m, d_w = screw.pitch_circle_diameter, screw.ball_diameter
         usual = {
             "screw_diameter": d_m - d_w,
@@ -91,7 +96,11 @@ class Bodies(ByValue):
             "nut_inner_diameter": d_m + d_w,
         }
         missing = {name: value for name, value in usual.items() if getattr(self, name) is None}
-        return dataclasses.replace(self, **missing) if missing else self
+        whole = dataclasses.replace(self, **missing) if missing else self
+        if self.swelling and np.any(whole.nut_outer_diameter <= d_m + d_w * np.cos(screw.contact_angle)):
+            remedy = "give the outer diameter of the nut, or let it not swell (swelling = false)"
+            raise InputError(Fault("bodies.nut_outer_diameter", "leaves no wall around the balls", "", remedy))
+        return whole
 
 
 class Deviations(NamedTuple):

@@ -41,11 +41,11 @@ class AxialRigidity:
     Not the rigidity of the balls one by one, which is :attr:`~ballscrew.friction.result.FrictionResult.loads`.
     """
 
-    balls_and_tracks: Annotated[Stiffness, Info("R_{b/t}", "rigidity of balls and tracks, all alike", "N/um")]
-    widening: Annotated[Stiffness, Info("R_{n/s}", "rigidity by the widening of nut and shaft", "N/um")]
-    nut: Annotated[Stiffness, Info("R_{nu}", "rigidity of the nut, ISO 3408-4", "N/um")]
+    balls_and_tracks: Annotated[Stiffness, Info("R_{b/t}", "rigidity of balls and tracks, R_b/t", "N/um")]
+    widening: Annotated[Stiffness, Info("R_{n/s}", "rigidity by the widening of nut and shaft, R_n/s", "N/um")]
+    nut: Annotated[Stiffness, Info("R_{nu}", "rigidity of the nut by ISO 3408-4, R_nu", "N/um")]
     nut_corrected: Annotated[
-        Stiffness, Info("R_{nu,ar}", "rigidity of the nut corrected for accuracy, as catalogues print it", "N/um")
+        Stiffness, Info("R_{nu,ar}", "rigidity of the nut corrected for accuracy, R_nu,ar", "N/um")
     ]
     shaft: Annotated[Stiffness, Info("R_s", "rigidity of the shaft where it is least", "N/um")]
     bearings: Annotated[Stiffness, Info("R_b", "rigidity of the support bearings", "N/um")]
@@ -88,12 +88,14 @@ def rigidity_iso3408(
     nut = screw.nut
     if accuracy_factor is None and installation is not None:
         accuracy_factor = installation.accuracy_factor
+    raise_if_any(_faults(screw, nut_outer_diameter, accuracy_factor, axial_load, installation, distance_to_bearing))
     size = _outer_diameter(screw, nut, nut_outer_diameter, nominal_diameter)
-    raise_if_any(_faults(screw, size, accuracy_factor, axial_load, installation, distance_to_bearing))
     preload = float(preload_of(screw, nut))
     assumed = list(size.assumed)
     load = 0.0 if axial_load is None else abs(float(axial_load))
     R_bt, R_ns = _balls_and_tracks(screw, preload, load), _widening(screw, size.nut_outer_diameter)
+    if R_ns != R_ns:
+        assumed.append("no rigidity of the nut: the usual one has no wall around these balls, give nut_outer_diameter")
     if preload > 0:
         R_ns = 2 * R_ns
         assumed.append("R_b/t up to the load that relieves one half (from memory of ISO 3408-4)")
@@ -103,7 +105,7 @@ def rigidity_iso3408(
         assumed.append(
             "widening of a nut with oversize balls as of two halves; a ball on both flanks widens it less under load"
         )
-    R_nu = float(rigidity.series_rigidity(R_bt, R_ns)) if R_bt == R_bt else math.nan
+    R_nu = float(rigidity.series_rigidity(R_bt, R_ns))
     factor = None if accuracy_factor is None else float(accuracy_factor)
     corrected = math.nan if factor is None else float(rigidity.rigidity_corrected_for_accuracy(factor, R_nu))
     R_s, R_b, words = _shaft(screw, installation, distance_to_bearing)
@@ -156,7 +158,9 @@ def _balls_and_tracks(screw: BallScrew, preload: float, load: float) -> float:
 
 
 def _widening(screw: BallScrew, nut_outer_diameter: float) -> float:
-    """R_n/s of one nut body."""
+    """R_n/s of one nut body; NaN for one without a wall around the balls."""
+    if not nut_outer_diameter > _nut_force_diameter(screw):
+        return math.nan
     compliance = rigidity.radial_compliance(
         nut_outer_diameter,
         _nut_force_diameter(screw),
@@ -220,7 +224,7 @@ def _outer_diameter(screw: BallScrew, nut: Nut, given: Length | None, nominal: L
 
 def _faults(
     screw: BallScrew,
-    size: _Sizes,
+    outer: Length | None,
     factor: Ratio | None,
     load: Force | None,
     installation: Installation | None,
@@ -231,10 +235,11 @@ def _faults(
         faults.append(Fault("rigidity.screw", "must be one screw", "an array", "call once for each"))
         return faults
     least = _nut_force_diameter(screw)
-    if not size.nut_outer_diameter > least:
-        given = shown(size.nut_outer_diameter, "m")
+    if outer is not None and not outer > least:
         remedy = f"more than {least:.6g} m, where the balls press on it"
-        faults.append(Fault("rigidity.nut_outer_diameter", "must exceed the ball circle", given, remedy))
+        faults.append(
+            Fault("rigidity.nut_outer_diameter", "leaves no wall around the balls", shown(outer, "m"), remedy)
+        )
     if factor is not None and not 0 < factor <= 1:
         faults.append(Fault("rigidity.accuracy_factor", "must be above 0 and at most 1", f"{factor:g}", "0.5 to 0.6"))
     if load is not None and not np.isfinite(load):

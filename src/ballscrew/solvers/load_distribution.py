@@ -292,9 +292,7 @@ def _radial_stiffness(screw: BallScrew, bodies: Bodies) -> Stiffness:
         shaft.poisson_ratio,
     )
     step = screw.ball_diameter * np.sin(screw.lead_angle) / screw.starts
-    # balls press on a ring: without a wall around it there is none that swells
-    stiff = rigidity.radial_stiffness(compliance, screw.loaded_balls * step)
-    return np.where(np.asarray(whole.nut_outer_diameter) > inside, stiff, np.nan)
+    return rigidity.radial_stiffness(compliance, screw.loaded_balls * step)
 
 
 def _by_ball(deviation: Any, balls: int) -> Field:
