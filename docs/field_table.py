@@ -68,7 +68,7 @@ def _lines(title: str, cls: type) -> Iterator[str]:
     if cls is Bodies:
         yield (
             "\nAlso `same_side = false` where screw and nut are held on opposite sides of the balls, and"
-            " `swelling = false` for bodies that are bars alone. The nut of a row has the outer diameter of the row."
+            " `swelling = false` for bodies that are bars alone."
         )
     if cls is Installation:
         yield f"\nAnd `ends`, which is needed, too: {', '.join(f'`{name}`' for name in ENDS)}."

@@ -103,7 +103,7 @@ def assumptions(case: Case, ball_to_ball_force: float | None = None) -> list[str
     bodies = (
         "screw and nut rigid between the balls"
         if case.nut.bodies is None
-        else "screw and nut elastic" + (", of a usual size" if _of_usual_size(case.nut.bodies) else _of_row(case))
+        else "screw and nut elastic" + (", of a usual size" if _of_usual_size(case.nut.bodies) else "")
     )
     return [*common, bodies, *map(str, case.notes), *_against_vendors(case, case.nut)]
 
@@ -145,15 +145,6 @@ def without_preload(case: Case) -> list[str]:
     if case.nut is not None or kind in ("", "single"):
         return []
     return [f'without preload: the row is a {kind} nut, and none is given; add type = "{kind}" and a preload to [nut]']
-
-
-def _of_row(case: Case) -> str:
-    """The outer diameter of the nut, where it is that of the row and from elsewhere."""
-    row, bodies = case.row, None if case.nut is None else case.nut.bodies
-    if row is None or bodies is None or bodies.nut_outer_diameter != row.nut_outer_diameter:
-        return ""
-    width = units.shown(row.nut_outer_diameter, fields_of(Bodies)["nut_outer_diameter"])
-    return f", nut {width} wide" + (f" ({row.nut_outer_diameter_source})" if row.nut_outer_diameter_source else "")
 
 
 def _of_usual_size(bodies: Bodies) -> bool:

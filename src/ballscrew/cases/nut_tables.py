@@ -105,7 +105,7 @@ def nut_of(
     if len(faults) > before or nut is None:
         return None, ()
     made = {
-        "bodies": None if bodies is None else Bodies(**{**_outer_diameter(screw, row), **bodies}),
+        "bodies": None if bodies is None else Bodies(**bodies),
         "deviations": None if scatter is None else Scatter(**scatter),
         "losses": losses,
     }
@@ -116,14 +116,6 @@ def nut_of(
     except InputError as error:
         faults += error.faults
     return nut, notes
-
-
-def _outer_diameter(screw: BallScrew | None, row: CatalogueRow | None) -> dict[str, float]:
-    """The outer diameter of the nut that a row lists, where the screw is that of the row."""
-    if row is None or screw is None or row.nut_outer_diameter is None:
-        return {}
-    same = row.ball_circle == screw.pitch_circle_diameter and row.ball_diameter == screw.ball_diameter
-    return {"nut_outer_diameter": row.nut_outer_diameter} if same else {}
 
 
 def _nut(

@@ -113,6 +113,11 @@ class CatalogueRow(ByValue):
             raise InputError(
                 Fault(f"{where}.ball_diameter", problem, given, "check the unit; {bound} or more", bound, "m")
             )
+        bound = self.ball_circle + self.ball_diameter
+        if self.nut_outer_diameter is not None and self.nut_outer_diameter <= bound:
+            problem, given = "leaves no wall around the balls", shown(self.nut_outer_diameter, "m")
+            remedy = "check the unit and the column; above {bound}"
+            raise InputError(Fault(f"{where}.nut_outer_diameter", problem, given, remedy, bound, "m"))
         if self.lead > LARGEST_LEAD * self.ball_circle:
             given, bound = shown(self.lead, "m"), LARGEST_LEAD * self.ball_circle
             problem = "too large for the pitch circle"

@@ -326,11 +326,14 @@ def with_nut(case: Case, nut: Nut) -> Run:
 
 def _rigidity(case: Case, screw: BallScrew, load: float) -> AxialRigidity:
     """The rigidity by ISO 3408-4 of the nut of a case, and of its shaft where it is known."""
-    row = case.row
+    row, bodies = case.row, screw.nut.bodies
+    same = row is not None and row.ball_circle == screw.pitch_circle_diameter
+    listed = row.nut_outer_diameter if row is not None and same else None
     return rigidity_iso3408(
         screw,
         axial_load=load,
-        nominal_diameter=None if row is None else row.nominal_diameter,
+        nut_outer_diameter=listed if bodies is None or bodies.nut_outer_diameter is None else None,
+        nominal_diameter=row.nominal_diameter if row is not None and same else None,
         installation=case.installation,
     )
 
