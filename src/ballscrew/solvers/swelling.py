@@ -56,23 +56,20 @@ def widened_balance(
     springs: BallSprings, bars: Bars, swelling: Swelling, load: Field, scale: Field, start: Field
 ) -> Widened:
     """The displacements of a chain of bars, and the gaps of its bodies, that carry a load, from a start."""
-    bodies = len(swelling.members)
-    gap = np.zeros((bodies, load.size))
-    x = chain_balance(springs, bars, load, scale, start)
-    here, left = springs, np.zeros_like(gap)
-    for _ in range(STEPS):
+    x, here, gap = start, springs, np.zeros((len(swelling.members), load.size))
+    left = np.zeros_like(gap)
+    for tried in range(STEPS):
         push = here.radial_push(x)
         left = swelling.sums(push.force) - swelling.stiffness * gap
-        if not np.any(_size(left) > BALANCED * scale + ROUNDING * _size(swelling.sums(push.force))):
+        # the displacements to start at carry no load yet
+        if tried and not np.any(_size(left) > BALANCED * scale + ROUNDING * _size(swelling.sums(push.force))):
             break
-        slope = here.forces(x)[1]
-        moved = _moved_by_gaps(swelling, bars, slope, push.cross)
+        moved = _moved_by_gaps(swelling, bars, here.forces(x)[1], push.cross)
         matrix = _matrix(swelling, push.slope, push.cross, moved)
         step = np.linalg.solve(matrix, left.T[..., None])[..., 0].T
         gap = gap + step
-        x = x + np.einsum("bip,bp->ip", moved, step)
         here = springs.widened(swelling.gaps(gap))
-        x = chain_balance(here, bars, load, scale, x)
+        x = chain_balance(here, bars, load, scale, x + np.einsum("bip,bp->ip", moved, step))
     return Widened(here, x, _size(left))
 
 
