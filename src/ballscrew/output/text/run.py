@@ -81,6 +81,7 @@ def print_run(run: Run) -> None:
     console.print(_quadrants(run.quadrants, float(friction.axial_load) != 0))
     if run.nut is not None:
         console.print(_loads(run.nut))
+        console.print(_rigidity(run.nut))
         for text in run.nut.rigidity.assumed:
             line(f"rigidity: {text}", "dim")
     console.print(_contacts(run))
@@ -146,8 +147,13 @@ def _loads(nut: NutState) -> Table:
     for name in stiffness_fields(nut):
         table.add_row(_LOADS[name].info.meaning, "", shown_or_dash(float(getattr(nut.loads, name)), _LOADS[name]))
     table.add_row(_PRESSURE.info.meaning, "", "", shown_or_dash(nut.maximum_pressure, _PRESSURE))
+    return table
+
+
+def _rigidity(nut: NutState) -> Table:
+    table = table_of("\nRigidity by ISO 3408-4", "", "")
     for meaning, value in rigidity_rows(nut.rigidity):
-        table.add_row(meaning, "", value)
+        table.add_row(meaning, value)
     return table
 
 
