@@ -66,7 +66,10 @@ def _lines(title: str, cls: type) -> Iterator[str]:
         listed = ", ".join(f"`{name}`" for name in LISTED)
         yield f"\nAlso `catalogue`, `catalogue_file`, and what catalogues list: {listed}."
     if cls is Bodies:
-        yield "\nAlso `same_side = false` where screw and nut are held on opposite sides of the balls."
+        yield (
+            "\nAlso `same_side = false` where screw and nut are held on opposite sides of the balls, and"
+            " `swelling = false` for bodies that are bars alone."
+        )
     if cls is Installation:
         yield f"\nAnd `ends`, which is needed, too: {', '.join(f'`{name}`' for name in ENDS)}."
     if cls is Lubricant:

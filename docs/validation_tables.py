@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import math
 import subprocess
 import sys
 from pathlib import Path
@@ -17,6 +18,7 @@ from ballscrew.output.text import validation as text_of
 from ballscrew.sizing.catalogue import catalogue
 from ballscrew.studies import validation
 from ballscrew.validation.entries import DESCRIPTORS, Conditions, trends
+from ballscrew.validation.rows import ACCURACY_FACTOR, OTHER_FACTORS
 
 SCRIPT = Path(__file__).parents[1] / "benchmarks" / "fit_calibration.py"
 SYMBOLS = {"boundary_friction_coefficient": "µ₀", "share_of_load": "F_B/Q"}
@@ -73,7 +75,7 @@ SHORT = {
     "balan-2015": "rolling torque of balls between rings, measured",
     "hiwin-ratings": "HIWIN: dynamic load rating by ISO 3408-5",
     "hiwin-stiffness": "HIWIN: rigidity without preload",
-    "rexroth-rigidity": "Rexroth: rigidity of preloaded double nuts",
+    "rexroth-rigidity": "Rexroth: rigidity R_nu,ar of preloaded double nuts",
 }
 
 
@@ -183,6 +185,18 @@ def numbers() -> dict[str, str]:
     values |= {"double_jis": f"{double['jis']:.2f}", "double_efficiency": f"{double['efficiency']:.2f}"}
     ratings = by_key["hiwin-ratings", False].points
     off = [p for p in ratings if abs(p.ratio - 1) > C_A or abs(p.definitions["static"] - 1) > C_0A]
+    rigid = by_key["rexroth-rigidity", False]
+    values |= {"rigidity_mean": _spread(rigid), "rigidity_n": str(len(rigid.counted))}
+    values["rigidity_scatter"] = _relative_scatter([point.ratio for point in rigid.points])
+    for key, name in (("elastic", "elastic_bodies"), ("rigid", "rigid_bodies")):
+        values[f"rigidity_{key}"] = f"{rigid.mean_definitions[name]:.2f}"
+    values["rigidity_elastic_scatter"] = _relative_scatter([p.definitions["elastic_bodies"] for p in rigid.points])
+    for factor in OTHER_FACTORS:
+        values[f"rigidity_factor_{100 * factor:.0f}"] = f"{rigid.mean_definitions[f'factor_{factor:g}']:.2f}"
+    values["rigidity_factor"] = f"{ACCURACY_FACTOR:g}"
+    values["rigidity_highest"] = ", ".join(
+        f"{point.name} {point.ratio:.2f}" for point in sorted(rigid.points, key=lambda p: -p.ratio)[:3]
+    )
     values["chain_share"] = _percent(_chain_share("double", DoubleNut, (7, 10)))
     values["chain_share_single"] = _percent(_chain_share("oversize-balls", OversizeBallNut, (5,)))
     values["ratings_good"] = f"{len(ratings) - len(off)} of {len(ratings)}"
@@ -225,6 +239,12 @@ def _mean(entry) -> str:
 
 def _spread(entry) -> str:
     return f"{entry.mean_ratio:.2f} ± {entry.std_ratio:.2f}" if len(entry.counted) > 1 else f"{entry.mean_ratio:.2f}"
+
+
+def _relative_scatter(ratios) -> str:
+    mean = sum(ratios) / len(ratios)
+    scatter = math.sqrt(sum((ratio - mean) ** 2 for ratio in ratios) / (len(ratios) - 1)) / mean
+    return f"{100 * scatter:.1f} %"
 
 
 def _percent(share: float) -> str:

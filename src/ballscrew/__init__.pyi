@@ -29,6 +29,8 @@ from ballscrew.service.preload_change import PreloadChange as PreloadChange
 from ballscrew.service.preload_change import preload_change as preload_change
 from ballscrew.service.preload_of_torque import preload_of_torque as preload_of_torque
 from ballscrew.sizing.catalogue import catalogue as catalogue
+from ballscrew.sizing.rigidity import AxialRigidity as AxialRigidity
+from ballscrew.sizing.rigidity import rigidity_iso3408 as rigidity_iso3408
 from ballscrew.sweeps.store_check import verify as verify
 from ballscrew.sweeps.sweep import sweep as sweep
 from ballscrew.torque_logs.torque_log import TorqueLog as TorqueLog

@@ -235,6 +235,8 @@ def test_own_rows_as_the_vendors_list_them(ballscrew):
         process = ballscrew("catalogue", "list", "--rows", DATA / name, "--json")
         assert process.returncode == 0, process.stderr
         first = json.loads(process.stdout)["rows"][0]["row"]
+        # the vendor's table has no outer diameter of the nut; the row shipped has that of a standard, and says so
+        assert first.pop("nut_outer_diameter") is None
         for field, value in first.items():
             expected = getattr(ROWS[like], field)
             assert value == (None if expected is None else pytest.approx(expected, rel=1e-12)), field
@@ -351,3 +353,16 @@ def test_a_case_is_loaded_by_its_path_as_text():
     assert case_file.load(str(path)).screw == case_file.load(path).screw
     with pytest.raises(bs.InputError, match=r"nowhere\.toml: does not exist"):
         case_file.load("nowhere.toml")
+
+
+def test_outer_diameters_of_nuts_say_where_they_are_from(ballscrew, tmp_path):
+    """Rows shipped name the standard; a column of one's own is the vendor's, whatever it is called."""
+    given = [row for row in ROWS.values() if row.nut_outer_diameter is not None]
+    assert len(given) == 28
+    assert all(row.nut_outer_diameter_source.startswith("DIN 69051-5") for row in given)
+    assert all(row.nut_outer_diameter > row.ball_circle + row.ball_diameter for row in given)
+    assert all(not row.nut_outer_diameter_source for row in ROWS.values() if row.nut_outer_diameter is None)
+    for heading in ("D1 [mm]", "D_1 (mm)", "nut_outer_diameter_mm"):
+        (tmp_path / "own.csv").write_text(f"d0 [mm],Ph [mm],Dw [mm],i,{heading}\n40,10,6,4,63\n", encoding="utf-8")
+        process = ballscrew("catalogue", "list", "--rows", tmp_path / "own.csv", "--json")
+        assert json.loads(process.stdout)["rows"][0]["row"]["nut_outer_diameter"] == pytest.approx(0.063)

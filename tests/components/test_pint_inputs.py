@@ -41,7 +41,16 @@ GRADE = bs.Lubricant.from_grade("ISO VG 100")
 POINT = {"axial_load": 5e3, "screw_speed": 60.0}
 IN_UNITS = {"axial_load": 5 * U.kN, "screw_speed": 60 * 30 / math.pi * U.rpm}
 #: What is wanted of a screw or a result, and what only results have, is not given by anybody.
-RESULTS = {"ContactConditions", "Contact", "RaceState", "BallFriction", "FrictionResult", "BallLoads", "Breakaway"}
+RESULTS = {
+    "AxialRigidity",
+    "Breakaway",
+    "ContactConditions",
+    "Contact",
+    "RaceState",
+    "BallFriction",
+    "FrictionResult",
+    "BallLoads",
+}
 
 #: A part of each class that has quantities for fields.
 PARTS = [

@@ -63,7 +63,8 @@ class TwoBodies:
     """Screw and nut as two rows of nodes with bars between them, a ball between each pair of nodes.
 
     The screw is pushed at its first node; the nut is held at its first or at its last one. Unknown are the
-    places of all nodes, and of a braced nut the gap between its halves. Nothing of the solver is used.
+    places of all nodes, what each half opens radially, and of a braced nut the gap between its halves. Nothing of the
+    solver is used.
     """
 
     part: bs.BallScrew
@@ -85,26 +86,37 @@ class TwoBodies:
         self.held = 0 if b.same_side else n - 1
         self.softness = approach_at_one_newton(self.part)
         self.A = (self.part.screw_conformity + self.part.nut_conformity - 1) * self.part.ball_diameter
+        # halves: the first n/2 balls and the others, or all
+        self.halves = 2 if np.any(self.facing < 0) and np.any(self.facing > 0) else 1
+        # Lamé: what a tube opens and a solid shaft shrinks by, by a pressure of one
+        D, d, E, nu = b.nut_outer_diameter, self.part.pitch_circle_diameter, STEEL.young_modulus, 0.3
+        d_c, D_c = (d + sign * self.part.ball_diameter * math.cos(self.part.contact_angle) for sign in (-1, 1))
+        tube = D_c / 2 / E * ((D**2 + D_c**2) / (D**2 - D_c**2) + nu)
+        area = math.pi * step * n / self.halves
+        self.opening = (tube / (area * D_c) + d_c / 2 / E * (1 - nu) / (area * d_c)) if b.swelling else 0.0
 
-    def flank(self, facing, apart, gap):
-        """Load and axial force of one flank pair each."""
+    def flank(self, facing, apart, gap, opened):
+        """Load, axial and radial force of one flank pair each."""
         alpha, c_phi = self.part.contact_angle, math.cos(self.part.lead_angle)
         xi = facing * (apart - self.lead_error - np.where(self.facing < 0, gap, 0.0)) * c_phi
-        s = np.hypot(self.A * math.cos(alpha), self.A * math.sin(alpha) + xi)
+        across = self.A * math.cos(alpha) - opened
+        s = np.hypot(across, self.A * math.sin(alpha) + xi)
         # beyond the radial plane there is no flank
         delta = np.where(self.A * math.sin(alpha) + xi > 0, np.maximum(s - self.A + self.excess, 0.0), 0.0)
         load = (delta / self.softness) ** 1.5
-        return load, facing * load * (self.A * math.sin(alpha) + xi) / s * c_phi
+        return load, facing * load * (self.A * math.sin(alpha) + xi) / s * c_phi, load * across / s
 
-    def balls(self, apart, gap):
-        pairs = [self.flank(self.facing, apart, gap)]
+    def balls(self, apart, gap, opened):
+        by_ball = np.repeat(opened, len(self.facing) // self.halves)
+        pairs = [self.flank(self.facing, apart, gap, by_ball)]
         if self.both_flanks:
-            pairs.append(self.flank(-self.facing, apart, gap))
+            pairs.append(self.flank(-self.facing, apart, gap, by_ball))
         return pairs
 
-    def left(self, on_screw, on_nut, gap, force):
-        """Forces left at the nodes of screw and nut; at the held node, its place instead."""
-        through = sum(axial for _, axial in self.balls(on_screw - on_nut, gap))
+    def left(self, on_screw, on_nut, gap, opened, force):
+        """Forces left at the nodes of screw and nut, at the held node its place, and what is left of the openings."""
+        pairs = self.balls(on_screw - on_nut, gap, opened)
+        through, radial = sum(pair[1] for pair in pairs), sum(pair[2] for pair in pairs)
         at_screw, at_nut = -through, through.copy()
         at_screw[0] += force
         for at, places, bars in ((at_screw, on_screw, self.on_screw), (at_nut, on_nut, self.on_nut)):
@@ -112,12 +124,14 @@ class TwoBodies:
             at[:-1] += passed
             at[1:] -= passed
         at_nut[self.held] = on_nut[self.held] * 1e9
-        return np.concatenate([at_screw, at_nut])
+        openings = (opened - self.opening * radial.reshape(self.halves, -1).sum(axis=1)) * 1e9
+        return np.concatenate([at_screw, at_nut, openings])
 
     def solve(self, force, braced_by=None, gap=0.0):
-        """Places of screw and nut, and the gap; with a preload the gap is found."""
+        """Places of screw and nut, the gap, and what opens; with a preload the gap is found."""
         n, um = len(self.facing), 1e-6
-        start = (-2.0 if force < 0 else 2.0) * np.ones(2 * n + (braced_by is not None))
+        last = 2 * n + self.halves
+        start = (-2.0 if force < 0 else 2.0) * np.ones(last + (braced_by is not None))
         start[n:] = 0.0
         if braced_by is not None:
             start[: n // 2], start[n // 2 : n], start[-1] = 2.0, 0.0, 4.0
@@ -125,11 +139,11 @@ class TwoBodies:
         def left(unknowns):
             x = unknowns * um
             free_gap = x[-1] if braced_by is not None else gap
-            found = self.left(x[:n], x[n : 2 * n], free_gap, force)
+            found = self.left(x[:n], x[n : 2 * n], free_gap, x[2 * n : last], force)
             if braced_by is None:
                 return found
-            forward = sum(axial[self.facing > 0].sum() for _, axial in self.balls(x[:n] - x[n : 2 * n], free_gap))
-            return np.append(found, forward - braced_by)
+            pairs = self.balls(x[:n] - x[n : 2 * n], free_gap, x[2 * n : last])
+            return np.append(found, sum(pair[1][self.facing > 0].sum() for pair in pairs) - braced_by)
 
         for _ in range(30):
             step = root(left, start, method="hybr", options={"xtol": 1e-14, "maxfev": 20_000})
@@ -138,18 +152,35 @@ class TwoBodies:
             start = step.x
         assert np.max(np.abs(step.fun)) < 1e-5
         x = step.x * um
-        return x[:n], x[n : 2 * n], x[-1] if braced_by is not None else gap
+        return x[:n], x[n : 2 * n], x[-1] if braced_by is not None else gap, x[2 * n : last]
+
+    def excess_of(self, preload):
+        """What balls on both flanks, all alike, are too big by to carry a preload on each without load."""
+        balls, alpha, c_phi = len(self.facing), self.part.contact_angle, math.cos(self.part.lead_angle)
+
+        def left(unknowns):
+            opened, excess = unknowns * 1e-6
+            across, along = self.A * math.cos(alpha) - opened, self.A * math.sin(alpha)
+            s = math.hypot(across, along)
+            load = (max(s - self.A + excess, 0.0) / self.softness) ** 1.5
+            return [
+                balls * load * along / s * c_phi - preload,
+                (opened - 2 * balls * self.opening * load * across / s) * 1e9,
+            ]
+
+        return root(left, [0.1, 2.0], options={"xtol": 1e-14}).x[1] * 1e-6
 
 
 def scattered(balls, seed):
     return Deviations.scattered(balls, seed=seed, ball_diameter=3e-7, lead=4e-7)
 
 
+@pytest.mark.parametrize("swelling", [False, True])
 @pytest.mark.parametrize("same_side", [True, False])
 @pytest.mark.parametrize("scatter", [False, True])
 @pytest.mark.parametrize("nut", [SingleNut(), OversizeBallNut(180.0), DoubleNut(180.0, 0.03), OffsetLeadNut(180.0)])
 @pytest.mark.parametrize("load", [60.0, 700.0, -60.0, -700.0])
-def test_two_elastic_bodies_node_by_node(nut, scatter, same_side, load):
+def test_two_elastic_bodies_node_by_node(nut, scatter, same_side, swelling, load):
     """Seven balls, bodies so thin that loads differ by half: places, loads, angles, deflection and rigidity.
 
     A load of the other sign presses on the other flanks of a single nut.
@@ -157,13 +188,15 @@ def test_two_elastic_bodies_node_by_node(nut, scatter, same_side, load):
     part = screw(loaded_balls=7, lead=0.040, screw_conformity=0.56, nut_conformity=0.56)
     halves = 2 if isinstance(nut, DoubleNut | OffsetLeadNut) else 1
     n = 7 * halves
-    bodies = Bodies(screw_diameter=5e-4, nut_outer_diameter=0.0440030, nut_inner_diameter=0.0440, same_side=same_side)
+    bodies = Bodies(
+        screw_diameter=5e-4,
+        nut_outer_diameter=0.0440030,
+        nut_inner_diameter=0.0440,
+        same_side=same_side,
+        swelling=swelling,
+    )
     deviations = scattered(n, 5) if scatter else Deviations(np.zeros(n), np.zeros(n))
     excess = deviations.ball_diameter.copy()
-    if isinstance(nut, OversizeBallNut):
-        excess += approach_at_one_newton(part) * (180 / (7 * math.sin(math.pi / 4) * math.cos(part.lead_angle))) ** (
-            2 / 3
-        )
     model = TwoBodies(
         part,
         bodies,
@@ -173,9 +206,11 @@ def test_two_elastic_bodies_node_by_node(nut, scatter, same_side, load):
         lead_error=deviations.lead,
         spacing=getattr(nut, "spacing", 0.0),
     )
+    if isinstance(nut, OversizeBallNut):
+        excess += model.excess_of(180.0)
     gap, rest = 0.0, 0.0
     if halves == 2:
-        *braced, gap = model.solve(0.0, braced_by=180.0)
+        *braced, gap, _ = model.solve(0.0, braced_by=180.0)
         rest = braced[0][0] - braced[1][model.held]
     elif isinstance(nut, OversizeBallNut):
         braced = model.solve(0.0)
@@ -187,8 +222,8 @@ def test_two_elastic_bodies_node_by_node(nut, scatter, same_side, load):
         rest = side * np.min(touch / math.cos(part.lead_angle) + side * deviations.lead)
 
     def state(force):
-        on_screw, on_nut, _ = model.solve(force, gap=gap)
-        return on_screw[0] - on_nut[model.held] - rest, model.balls(on_screw - on_nut, gap)
+        on_screw, on_nut, _, opened = model.solve(force, gap=gap)
+        return on_screw[0] - on_nut[model.held] - rest, model.balls(on_screw - on_nut, gap, opened)
 
     r = ball_loads(part, nut, load, bodies=bodies, deviations=deviations)
     travel, pairs = state(load)
@@ -218,10 +253,10 @@ def test_balls_alike_share_alike():
 
 
 @pytest.mark.parametrize("same_side", [True, False])
-def test_one_ball_knows_no_bodies(same_side):
+def test_one_ball_knows_no_bars(same_side):
     part = screw(loaded_balls=1)
     rigid = ball_loads(part, SingleNut(), 80.0)
-    elastic = ball_loads(part, SingleNut(), 80.0, bodies=Bodies.of(part, same_side=same_side))
+    elastic = ball_loads(part, SingleNut(), 80.0, bodies=Bodies(same_side=same_side, swelling=False))
     assert elastic.forward_load == pytest.approx(rigid.forward_load, rel=1e-12)
     assert elastic.deflection == pytest.approx(rigid.deflection, rel=1e-12)
     assert elastic.rigidity == pytest.approx(rigid.rigidity, rel=1e-12)

@@ -348,14 +348,19 @@ def _inputs_of_nut(nut: Nut, screw: BallScrew) -> dict[str, Any]:
     own = {name: value for name, value in _numbers(nut).items() if value is not None}
     return {
         "nut": {"type": kind_of(nut), **own},
-        **({} if bodies is None else {"bodies": {**_numbers(bodies), "same_side": bodies.same_side}}),
+        **(
+            {}
+            if bodies is None
+            else {"bodies": {**_numbers(bodies), "same_side": bodies.same_side, "swelling": bodies.swelling}}
+        ),
         **({} if scatter is None else {"deviations": _numbers(scatter)}),
         **({"losses": {slot: _law(slot, law) for slot, law in nut.losses.items()}} if nut.losses else {}),
     }
 
 
 def _mounting(mounted: Installation) -> dict[str, Any]:
-    return {**_numbers(mounted), "ends": next(name for name, known in ENDS.items() if known is mounted.ends)}
+    numbers = {name: value for name, value in _numbers(mounted).items() if value is not None}
+    return {**numbers, "ends": next(name for name, known in ENDS.items() if known is mounted.ends)}
 
 
 def _law(slot: str, law: Any) -> str | dict[str, Any]:

@@ -146,7 +146,9 @@ def show_text(row: CatalogueRow) -> str:
     lines = [f"{row.name} ({row.source}){kind}", "", "Listed"]
     unlisted = assumed(row)
     lines += [
-        _line(q, getattr(row, n)) for n, q in _FIELDS.items() if n not in unlisted and getattr(row, n) is not None
+        _line(q, getattr(row, n)) + (_source_of_nut(row) if n == "nut_outer_diameter" else "")
+        for n, q in _FIELDS.items()
+        if n not in unlisted and getattr(row, n) is not None
     ]
     lines += ["", "Derived"]
     lines += [
@@ -155,6 +157,10 @@ def show_text(row: CatalogueRow) -> str:
     ]
     lines += ["", "Assumed", *(f"  {words}" for words in unlisted.values())]
     return "\n".join(lines)
+
+
+def _source_of_nut(row: CatalogueRow) -> str:
+    return f" ({row.nut_outer_diameter_source})" if row.nut_outer_diameter_source else ""
 
 
 def _line(quantity: Quantity, value: Any) -> str:

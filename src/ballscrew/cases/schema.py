@@ -110,6 +110,7 @@ def sections() -> Mapping[str, type[BaseModel]]:
     file = Annotated[str, Field(description="table with the row, beside the case file, in place of the rows shipped")]
     preload = json_of(NUT_FIELDS["preload"], None) | {"examples": ["3 kN", "7 %"]}
     same_side = Annotated[bool, Field(strict=True, description="whether screw and nut are held on the same side")]
+    swelling = Annotated[bool, Field(strict=True, description="whether the balls widen the nut and shrink the screw")]
     return {
         "screw": section_of(
             "Screw", screw, BallScrew, required=True, uncertain=fields_of(BallScrew),
@@ -135,7 +136,10 @@ def sections() -> Mapping[str, type[BaseModel]]:
             type=(_one_of(NUTS, "kind of nut"), None),
             preload=(Annotated[Any, BeforeValidator(read_preload), WithJsonSchema(preload)], None),
         ),
-        "bodies": section_of("Bodies", fields_of(Bodies), Bodies, required=False, same_side=(same_side, None)),
+        "bodies": section_of(
+            "Bodies", fields_of(Bodies), Bodies, required=False,
+            same_side=(same_side, None), swelling=(swelling, None),
+        ),
         "deviations": section_of("Deviations", fields_of(Scatter), Scatter, required=False),
         "losses": section_of("Losses", {}, Scatter, required=False, **{slot: _slot(slot) for slot in LOSSES}),
         "installation": section_of(

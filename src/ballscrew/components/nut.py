@@ -9,7 +9,7 @@ from typing import Annotated, Any, NamedTuple, Protocol, TypeAlias, cast
 import numpy as np
 
 from ballscrew._arrays import ByValue
-from ballscrew.errors import MISSING, Fault, accepts_units, faults_of, is_concrete, raise_if_any
+from ballscrew.errors import MISSING, Fault, InputError, accepts_units, faults_of, is_concrete, raise_if_any
 from ballscrew.quantities import Count, Force, Info, Length, Torque, fields_of
 
 _PRELOAD = Info(
@@ -40,11 +40,13 @@ class _Sized(Protocol):
     def pitch_circle_diameter(self) -> Any: ...
     @property
     def ball_diameter(self) -> Any: ...
+    @property
+    def contact_angle(self) -> Any: ...
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class Bodies(ByValue):
-    """The bodies of screw and nut between the balls, as bars, and where the load enters them.
+    """The bodies of screw and nut between the balls: bars, and tubes that swell, and where the load enters them.
 
     A diameter that is not given has the usual size for the screw (:meth:`sized`).
     Raises :class:`~ballscrew.errors.InputError` for diameters that are not positive or do not fit.
@@ -66,6 +68,8 @@ class Bodies(ByValue):
     ] = None
     #: Whether screw and nut are held on the same side of the balls: one is pulled where the other is pushed.
     same_side: bool = True
+    #: Whether the balls widen the nut and shrink the shaft radially, too.
+    swelling: bool = True
 
     def __post_init__(self) -> None:
         faults = faults_of("bodies", self, optional=tuple(fields_of(Bodies)))
@@ -81,7 +85,10 @@ class Bodies(ByValue):
         return cls(same_side=same_side).sized(screw)
 
     def sized(self, screw: _Sized) -> Bodies:
-        """These bodies with the usual sizes for a screw where none is given."""
+        """These bodies with the usual sizes for a screw where none is given.
+
+        Raises :class:`~ballscrew.errors.InputError` for a nut that swells and has no wall around its balls.
+        """
         d_m, d_w = screw.pitch_circle_diameter, screw.ball_diameter
         usual = {
             "screw_diameter": d_m - d_w,
@@ -89,7 +96,11 @@ class Bodies(ByValue):
             "nut_inner_diameter": d_m + d_w,
         }
         missing = {name: value for name, value in usual.items() if getattr(self, name) is None}
-        return dataclasses.replace(self, **missing) if missing else self
+        whole = dataclasses.replace(self, **missing) if missing else self
+        if self.swelling and np.any(whole.nut_outer_diameter <= d_m + d_w * np.cos(screw.contact_angle)):
+            remedy = "give the outer diameter of the nut, or let it not swell (swelling = false)"
+            raise InputError(Fault("bodies.nut_outer_diameter", "leaves no wall around the balls", "", remedy))
+        return whole
 
 
 class Deviations(NamedTuple):

@@ -13,7 +13,7 @@ from ballscrew.evaluation.outputs import known_outputs
 from ballscrew.friction.result import MECHANISMS, FrictionResult
 from ballscrew.output.text import band
 from ballscrew.output.text import check as check_text
-from ballscrew.output.text.run import SHORT, stiffness_fields
+from ballscrew.output.text.run import SHORT, rigidity_rows, stiffness_fields
 from ballscrew.quantities import quantities_of
 from ballscrew.records import Record
 from ballscrew.report.blocks import Bar, Block, Bullets, Paragraph, Table, sentence
@@ -54,6 +54,7 @@ def results(run: Run) -> list[Table]:
         rows.insert(1, ("torque without load", value_of(run.nut.preload_drag, _TORQUE)))
         stiff = [_row(run.nut.loads, name, _LOADS) for name in stiffness_fields(run.nut)]
         stiff.append(_row(run.nut, "maximum_pressure", _ONE))
+        stiff += rigidity_rows(run.nut.rigidity)
         whose = "Contacts of the most loaded ball"
     tables = [Table("Torque, efficiency and power", ("", "value"), rows)]
     if stiff:

@@ -27,7 +27,14 @@ LARGEST_LEAD = 10
 #: How good the default conformity is.
 CONFORMITY_DOUBT = 0.01
 
-_OPTIONAL = ("pitch_circle_diameter", "root_diameter", "dynamic_load_rating", "static_load_rating", "rigidity")
+_OPTIONAL = (
+    "pitch_circle_diameter",
+    "root_diameter",
+    "dynamic_load_rating",
+    "static_load_rating",
+    "rigidity",
+    "nut_outer_diameter",
+)
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -88,6 +95,11 @@ class CatalogueRow(ByValue):
             hint="300 N/um to 3000 N/um",
         ),
     ] = None
+    nut_outer_diameter: Annotated[
+        Length | None, Info("D_1", "outer diameter of the nut body", "mm", above=0, hint="about 1.5 d_0")
+    ] = None
+    #: Where the outer diameter of the nut is from, if not from the source of the row.
+    nut_outer_diameter_source: str = ""
     #: How the nut is braced, by the name that the interfaces know it by; nothing where the catalogue does not say.
     nut: str = ""
     source: str = ""
@@ -101,6 +113,11 @@ class CatalogueRow(ByValue):
             raise InputError(
                 Fault(f"{where}.ball_diameter", problem, given, "check the unit; {bound} or more", bound, "m")
             )
+        bound = self.ball_circle + self.ball_diameter
+        if self.nut_outer_diameter is not None and self.nut_outer_diameter <= bound:
+            problem, given = "leaves no wall around the balls", shown(self.nut_outer_diameter, "m")
+            remedy = "check the unit and the column; above {bound}"
+            raise InputError(Fault(f"{where}.nut_outer_diameter", problem, given, remedy, bound, "m"))
         if self.lead > LARGEST_LEAD * self.ball_circle:
             given, bound = shown(self.lead, "m"), LARGEST_LEAD * self.ball_circle
             problem = "too large for the pitch circle"
@@ -174,7 +191,15 @@ def catalogue() -> Mapping[str, CatalogueRow]:
     """
     text = resources.files("ballscrew").joinpath("data/screws.toml").read_text(encoding="utf-8")
     rows = {
-        name: CatalogueRow(name=name, nut=table["nut"], source=table["source"], **fields)
+        name: CatalogueRow(
+            name=name,
+            nut=table["nut"],
+            source=table["source"],
+            nut_outer_diameter_source=table.get("nut_outer_diameter_source", "")
+            if "nut_outer_diameter" in fields
+            else "",
+            **fields,
+        )
         for table in tomllib.loads(text)["catalogue"]
         for name, fields in table["rows"].items()
     }

@@ -9,7 +9,7 @@ from typing import Annotated, Any, cast
 
 from ballscrew._arrays import ByValue
 from ballscrew.errors import Fault, faults_of, raise_if_any
-from ballscrew.quantities import Array, Density, DiameterSpeed, Info, Length, Pressure, Ratio, Unit
+from ballscrew.quantities import Array, Density, DiameterSpeed, Info, Length, Pressure, Ratio, Stiffness, Unit
 
 
 class Ends(enum.Enum):
@@ -59,9 +59,30 @@ class Installation(ByValue):
             r"\rho_s", "density of the shaft", "kg/m^3", above=0, hint="steel has 7850 kg/m^3", usual=(1500.0, 20000.0)
         ),
     ] = 7850.0
+    bearing_rigidity: Annotated[
+        Stiffness | None,
+        Info(
+            "R_b",
+            "axial rigidity of the support bearing at a fixed end",
+            "N/um",
+            above=0,
+            hint="catalogues of bearings have 300 N/um to 3000 N/um",
+            usual=(1e7, 1e11),
+        ),
+    ] = None
+    accuracy_factor: Annotated[
+        Ratio | None,
+        Info(
+            "f_{ar}",
+            "share of the rigidity of the nut that its accuracy grade leaves, ISO 3408-4",
+            above=0,
+            at_most=1,
+            hint="0.5 to 0.6",
+        ),
+    ] = None
 
     def __post_init__(self) -> None:
-        faults = faults_of("installation", self)
+        faults = faults_of("installation", self, optional=("bearing_rigidity", "accuracy_factor"))
         if not isinstance(cast("Any", self.ends), Ends):
             known = ", ".join(f"Ends.{ends.name}" for ends in Ends)
             faults.append(Fault("installation.ends", "must be one of Ends", repr(self.ends), f"known: {known}"))

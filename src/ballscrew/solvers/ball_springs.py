@@ -43,6 +43,17 @@ class FlankLoads(NamedTuple):
     slope: Field
 
 
+class RadialPush(NamedTuple):
+    """Radial force of the balls apart, its slope by the gap between screw and nut, and by the axial displacement.
+
+    The last is also what the gap takes from the axial force: both are derivatives of one energy.
+    """
+
+    force: Field
+    slope: Field
+    cross: Field
+
+
 class BallSprings(NamedTuple):
     """The springs of the balls: one flank pair each, or two."""
 
@@ -79,6 +90,41 @@ class BallSprings(NamedTuple):
         loads = [self.loads(flanks, displacement) for flanks in self.flanks]
         force, slope = sum(pair.axial_force for pair in loads), sum(pair.slope for pair in loads)
         return self.balls * force, self.balls * slope
+
+    def radial_push(self, displacement: Field) -> RadialPush:
+        """Radial force of each ball on nut and screw, and its slopes."""
+        A, alpha, c_phi = self.centre_distance, self.contact_angle, self.lead_cosine
+        total = [0 * displacement] * 3
+        for flanks in self.flanks:
+            there = self.loads(flanks, displacement)
+            sine = there.sine
+            delta = (there.load / self.load_deflection) ** (2 / 3)
+            stiffness, cosine = 1.5 * self.load_deflection * np.sqrt(delta), np.sqrt(1 - sine**2)
+            if self.constant_angle:
+                turning = 0 * delta
+            else:
+                xi = flanks.facing * displacement * c_phi + flanks.offset
+                turning = there.load / deflection.loaded_centre_distance(A, alpha, xi)
+            parts = (
+                there.load * cosine,
+                -(stiffness * cosine**2 + turning * sine**2),
+                flanks.facing * c_phi * (stiffness - turning) * sine * cosine,
+            )
+            total = [so_far + self.balls * part for so_far, part in zip(total, parts, strict=True)]
+        return RadialPush(*total)
+
+    def widened(self, gap: Field) -> BallSprings:
+        """The springs of grooves that a radial gap at each ball has moved apart: another distance and angle."""
+        A, alpha = self.centre_distance, self.contact_angle
+        if self.constant_angle:
+            return self._with_excess(-gap * np.cos(alpha))
+        across, along = A * np.cos(alpha) - gap, A * np.sin(alpha)
+        distance = np.hypot(across, along)
+        moved = self._with_excess(-gap * (2 * A * np.cos(alpha) - gap) / (A + distance))
+        return moved._replace(centre_distance=distance, contact_angle=np.arctan2(along, across))
+
+    def _with_excess(self, more: Field) -> BallSprings:
+        return self._replace(flanks=tuple(each._replace(excess=each.excess + more) for each in self.flanks))
 
     def touch(self, flanks: Flanks) -> Field:
         """Displacement across the path at which a flank pair just touches."""

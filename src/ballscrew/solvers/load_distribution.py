@@ -10,14 +10,15 @@ Screw and nut body are bars between neighbouring balls. The displacements of two
 differ by the stretch of both bars, so that all of them are those of a chain of springs (the two
 bodies in series) with a spring to ground at each ball. Where screw and nut are held on the same side,
 the load enters at the first ball; where they are held on opposite sides, it enters at both ends, in
-the ratio of the flexibilities of screw and nut. :mod:`ballscrew.solvers.ball_springs` solves it. Between
+the ratio of the flexibilities of screw and nut. :mod:`ballscrew.solvers.ball_springs` solves it. The balls also widen
+the nut and shrink the screw, each nut body by one gap (:mod:`ballscrew.solvers.swelling`). Between
 rigid bodies all balls of a kind are alike, and :mod:`ballscrew.solvers.rigid_nut` has the answer in a fixed
 number of steps.
 
 A load of either sign: a negative one presses on the backward flanks, those of a single nut or of the second
 half of a double nut, and relieves the forward ones. It enters where a positive one enters.
 
-Left out: bending and tilt of the nut, radial play, swelling of the nut, friction and inertia of the
+Left out: bending and tilt of the nut, radial play, swelling that differs along a nut body, friction and inertia of the
 balls, and the change of K with the contact angle.
 """
 
@@ -32,7 +33,7 @@ from ballscrew._arrays import as_array, in_blocks, lazy, map_blocks, namespace
 from ballscrew.components.frame import helix_frame
 from ballscrew.components.nut import Bodies, Deviations, Nut, OversizeBallNut
 from ballscrew.components.screw import BallScrew, Raceway
-from ballscrew.equations import deflection, geometry, hertz
+from ballscrew.equations import deflection, geometry, hertz, rigidity
 from ballscrew.errors import Fault, accepts_units, is_concrete, raise_if_any, si_value
 from ballscrew.quantities import Angle, Force, Info, Length, LoadDeflection, Mask, Ratio, Stiffness
 from ballscrew.solvers.ball_springs import Field
@@ -136,7 +137,8 @@ def ball_loads(
 
     Without ``bodies`` screw and nut are rigid between the balls; with them, and with ``deviations``, the
     number of balls must be one number. Without both, every operation is elementwise and can be recorded.
-    ``constant_contact_angle`` keeps the angle without load.
+    ``constant_contact_angle`` keeps the angle without load. Bodies that swell take what a ball's given oversize gives
+    before its flanks are pressed: their preload is less than :func:`preload_of`, that of rigid ones.
     Raises :class:`~ballscrew.errors.InputError` for balls that cannot be counted one by one.
     """
     c_phi = namespace(screw.lead_angle).cos(screw.lead_angle)
@@ -186,7 +188,14 @@ def _one_by_one(
     if deviations is not None:
         deviations = Deviations(*(si_value(f"deviations.{n}", v, "m") for n, v in deviations._asdict().items()))
     raise_if_any(_faults(screw, halves, deviations))
-    numbers = [*point, getattr(nut, "spacing", 0.0), *_bodies(screw, bodies)]
+    oversize = getattr(nut, "oversize", None)
+    numbers = [
+        *point,
+        getattr(nut, "spacing", 0.0),
+        *_bodies(screw, bodies),
+        np.inf if bodies is None or not bodies.swelling else _radial_stiffness(screw, bodies),
+        np.nan if oversize is None else oversize,
+    ]
     shape = np.broadcast_shapes(*(np.shape(number) for number in numbers))
     flat = [np.broadcast_to(np.asarray(number, dtype=float), shape).reshape(-1) for number in numbers]
     balls = int(screw.loaded_balls)
@@ -195,6 +204,7 @@ def _one_by_one(
         halves=halves,
         oversize=isinstance(nut, OversizeBallNut),
         elastic=bodies is not None,
+        swells=bodies is not None and bodies.swelling,
         same_side=bodies is None or bodies.same_side,
         constant_angle=constant_angle,
         scatters=deviations is not None,
@@ -266,6 +276,23 @@ def _bodies(screw: BallScrew, bodies: Bodies | None) -> tuple[Any, Any, Any]:
     core = np.pi / 4 * whole.screw_diameter**2
     tube = np.pi / 4 * (whole.nut_outer_diameter**2 - whole.nut_inner_diameter**2)
     return screw.screw_material.young_modulus * core, screw.nut_material.young_modulus * tube, step
+
+
+def _radial_stiffness(screw: BallScrew, bodies: Bodies) -> Stiffness:
+    """Radial force of the balls of one nut body over the gap that it opens between nut and screw."""
+    whole: Any = bodies.sized(screw)
+    nut, shaft = screw.nut_material, screw.screw_material
+    inside = rigidity.nut_force_diameter(screw.pitch_circle_diameter, screw.ball_diameter, screw.contact_angle)
+    compliance = rigidity.radial_compliance(
+        whole.nut_outer_diameter,
+        inside,
+        nut.young_modulus,
+        nut.poisson_ratio,
+        shaft.young_modulus,
+        shaft.poisson_ratio,
+    )
+    step = screw.ball_diameter * np.sin(screw.lead_angle) / screw.starts
+    return rigidity.radial_stiffness(compliance, screw.loaded_balls * step)
 
 
 def _by_ball(deviation: Any, balls: int) -> Field:

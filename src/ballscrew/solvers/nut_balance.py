@@ -23,6 +23,7 @@ from ballscrew.solvers.ball_springs import (
     tridiagonal,
 )
 from ballscrew.solvers.rigid_nut import PICOMETRE, RigidNut, rigid_lift_off_load
+from ballscrew.solvers.swelling import Swelling, excess_at_rest, preload_of_oversize, widened_balance, widened_response
 
 #: Imbalance of a ball between its bars that rounding may leave, in the same units.
 LARGEST_OF_A_BALL = 1e-6
@@ -37,6 +38,7 @@ class NutCase(NamedTuple):
     halves: int
     oversize: bool
     elastic: bool
+    swells: bool
     same_side: bool
     constant_angle: bool
     scatters: bool
@@ -58,6 +60,8 @@ class NutPoint(NamedTuple):
     screw_bar: Field
     nut_bar: Field
     step: Field
+    radial_stiffness: Field
+    oversize: Field
 
     @property
     def direction(self) -> Field:
@@ -84,18 +88,31 @@ class NutPoint(NamedTuple):
         return self.approach(force) / (np.sin(self.contact_angle) * self.lead_cosine)
 
 
+class Balance(NamedTuple):
+    """The springs as they are in a balance, the displacement of the screw at each ball, and a radial imbalance left."""
+
+    springs: BallSprings
+    displacement: Field
+    radial_imbalance: Force
+
+
 def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
     """A block of operating points, the ball axis first."""
-    point = NutPoint(*numbers)
-    springs, bars = _springs(case, point), _bars(case, point)
-    at_rest = _first_touch(point, springs)
+    point = _with_preload(case, NutPoint(*numbers))
+    without_load, bars = _springs(case, point), _bars(case, point)
+    swelling = _swelling(case, point)
+    rest = Balance(without_load, _first_touch(point, without_load), 0 * point.load)
     if case.halves == 2:
-        springs, at_rest = _braced(case, point, springs, bars)
+        without_load, rest = _braced(case, point, without_load, bars, swelling)
     elif case.oversize:
-        at_rest = _balance(case, point, springs, bars, 0 * point.load) if case.scatters else 0 * at_rest
-    found = _balance(case, point, springs, bars, point.load)
+        if case.scatters:
+            rest = _balance(case, point, without_load, bars, swelling, 0 * point.load)
+        else:
+            rest = rest._replace(displacement=0 * rest.displacement)
+    springs, found, radial_imbalance = _balance(case, point, without_load, bars, swelling, point.load)
     if not (case.halves == 2 or case.oversize):
-        found = np.where(point.load != 0, found, at_rest)
+        found = np.where(point.load != 0, found, rest.displacement)
+    at_rest = rest.displacement
     forward, backward = _by_facing(springs, found)
     # without load and preload balls just touch; what rounding makes of that is no load
     works = np.abs(point.load) + point.preload > 0
@@ -105,12 +122,13 @@ def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
     on_forward, on_backward = (np.sum(springs.balls * force, axis=0) for _, _, force in (forward, backward))
     imbalance = np.abs(on_forward - on_backward - point.load)
     if case.halves == 2:
-        braced = np.where(springs.flanks[0].facing > 0, springs.forces(at_rest)[0], 0.0).sum(axis=0)
+        braced = np.where(rest.springs.flanks[0].facing > 0, rest.springs.forces(at_rest)[0], 0.0).sum(axis=0)
         # without preload the halves just touch, or nearly
         imbalance = np.maximum(imbalance, np.where(point.preload > 0, np.abs(braced - point.preload), 0.0))
     relative = imbalance / point.forces_at_work
     if case.elastic:
-        of_balls = chain_imbalance(springs, bars, point.load, found) / point.forces_at_work
+        of_balls = np.maximum(chain_imbalance(springs, bars, point.load, found), radial_imbalance)
+        of_balls = of_balls / point.forces_at_work
         relative = np.where(of_balls > LARGEST_OF_A_BALL, of_balls, relative)
     return (
         forward[0],
@@ -118,9 +136,9 @@ def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
         forward[1],
         backward[1],
         _travel(case, point, bars, found, point.load) - _travel(case, point, bars, at_rest, 0 * point.load),
-        1 / _compliance(case, point, bars, springs.forces(found)[1]),
+        1 / _compliance(case, point, springs, bars, swelling, found),
         np.where(point.load < 0, on_forward, on_backward),
-        _lift_off_load(case, point, springs),
+        _lift_off_load(case, point, without_load),
         np.where(works, relative, 0.0),
     )
 
@@ -151,11 +169,16 @@ def _springs(case: NutCase, point: NutPoint) -> BallSprings:
         forward = forward * point.direction
     excess = np.broadcast_to(case.excess, forward.shape)
     if case.oversize:
-        excess = excess + point.approach(point.preload)
+        excess = excess + _oversize(case, point)
     shift = -case.lead_error * point.lead_cosine
     pairs = [Flanks(forward, forward * shift, excess)]
     if case.oversize:
         pairs.append(Flanks(-forward, -forward * shift, excess))
+    return _plain_springs(case, point, tuple(pairs))
+
+
+def _plain_springs(case: NutCase, point: NutPoint, pairs: tuple[Flanks, ...]) -> BallSprings:
+    """Balls in grooves that nothing has widened."""
     return BallSprings(
         load_deflection=point.load_deflection,
         centre_distance=point.centre_distance,
@@ -163,7 +186,7 @@ def _springs(case: NutCase, point: NutPoint) -> BallSprings:
         lead_cosine=point.lead_cosine,
         balls=np.ones_like(point.load),
         constant_angle=case.constant_angle,
-        flanks=tuple(pairs),
+        flanks=pairs,
     )
 
 
@@ -175,35 +198,76 @@ def _bars(case: NutCase, point: NutPoint) -> Bars:
     return Bars(point.link / lengths, share)
 
 
-def _balance(case: NutCase, point: NutPoint, springs: BallSprings, bars: Bars, load: Field) -> Field:
+def _swelling(case: NutCase, point: NutPoint) -> Swelling | None:
+    """The bodies of the nut, each of which swells by itself."""
+    if not case.swells:
+        return None
+    return Swelling(point.radial_stiffness, np.repeat(np.eye(case.halves), case.balls, axis=1))
+
+
+def _with_preload(case: NutCase, point: NutPoint) -> NutPoint:
+    """The point with the preload that balls of a given oversize make where they widen the nut."""
+    if not (case.swells and case.oversize and np.any(np.isfinite(point.oversize))):
+        return point
+    plain = _plain_springs(case, point, ())
+    balls, most = point.loaded_balls, point.preload
+    return point._replace(preload=preload_of_oversize(point.oversize, point.radial_stiffness, plain, balls, most))
+
+
+def _oversize(case: NutCase, point: NutPoint) -> Length:
+    """What balls on both flanks are too big by for their grooves without load."""
+    if not case.swells:
+        return point.approach(point.preload)
+    return excess_at_rest(point.preload, point.radial_stiffness, _plain_springs(case, point, ()), point.loaded_balls)
+
+
+def _balance(
+    case: NutCase, point: NutPoint, springs: BallSprings, bars: Bars, swelling: Swelling | None, load: Field
+) -> Balance:
     """Displacement of the screw at each ball."""
     forces, guess = point.forces_at_work, point.displacement(point.forces_at_work)
     if not case.elastic:
-        return rigid_balance(springs, load, forces, guess)
+        return Balance(springs, rigid_balance(springs, load, forces, guess), 0 * load)
     start = rigid_balance(springs.of_kinds(case.balls), load, forces, guess, START)
-    return chain_balance(
-        springs, bars, load, forces, np.broadcast_to(start[0], (len(springs.flanks[0].facing), load.size))
-    )
+    start = np.broadcast_to(start[0], (len(springs.flanks[0].facing), load.size))
+    if swelling is None:
+        return Balance(springs, chain_balance(springs, bars, load, forces, start), 0 * load)
+    return Balance(*widened_balance(springs, bars, swelling, load, forces, start))
 
 
-def _braced(case: NutCase, point: NutPoint, springs: BallSprings, bars: Bars) -> tuple[BallSprings, Field]:
-    """A double nut with its halves braced by the preload, and the displacements then.
+def _braced(
+    case: NutCase, point: NutPoint, springs: BallSprings, bars: Bars, swelling: Swelling | None
+) -> tuple[BallSprings, Balance]:
+    """A double nut with its halves braced by the preload, not yet widened, and its balance without load.
 
     Each half by itself carries the preload, which enters at its inner end.
     """
     n = case.balls
     one, other = springs.of(slice(None, n)), springs.of(slice(n, None))
     alone = point._replace(load=0 * point.load)
-    before = _balance(case, alone, one, bars.of(slice(None, n - 1), 0.0), point.preload)
+    of_one, of_other = (None, None) if swelling is None else (swelling.of(slice(None, n)), swelling.of(slice(n, None)))
+    first = _balance(case, alone, one, bars.of(slice(None, n - 1), 0.0), of_one, point.preload)
+    before = first.displacement
     if case.scatters:
-        behind = _balance(case, alone, other, bars.of(slice(n, None), 1.0), -point.preload)
+        second = _balance(case, alone, other, bars.of(slice(n, None), 1.0), of_other, -point.preload)
+        behind = second.displacement
     else:
-        behind = -before[::-1]
+        second, behind = first, -before[::-1]
     stretch = point.preload / bars.stiffness[n - 1] if case.elastic else 0.0
     gap = before[-1] - behind[0] + stretch
     facing, offset, excess = springs.flanks[0]
-    braced = Flanks(facing, offset + np.where(facing < 0, gap * point.lead_cosine, 0.0), excess)
-    return springs._replace(flanks=(braced,)), np.concatenate([before, behind + gap])
+    braced = springs._replace(
+        flanks=(Flanks(facing, offset + np.where(facing < 0, gap * point.lead_cosine, 0.0), excess),)
+    )
+    at_rest, widened = np.concatenate([before, behind + gap]), braced
+    if swelling is not None:
+        push = np.concatenate([_push(first), _push(second)])
+        widened = braced.widened(swelling.gaps(swelling.sums(push) / swelling.stiffness))
+    return braced, Balance(widened, at_rest, 0 * point.load)
+
+
+def _push(balance: Balance) -> Field:
+    return balance.springs.radial_push(balance.displacement).force
 
 
 def _first_touch(point: NutPoint, springs: BallSprings) -> Field:
@@ -219,15 +283,22 @@ def _travel(case: NutCase, point: NutPoint, bars: Bars, x: Field, load: Field) -
     return beta * x[0] + (1 - beta) * x[-1] + load * _parallel_compliance(case, point, bars)
 
 
-def _compliance(case: NutCase, point: NutPoint, bars: Bars, slope: Field) -> Ratio:
+def _compliance(
+    case: NutCase, point: NutPoint, springs: BallSprings, bars: Bars, swelling: Swelling | None, found: Field
+) -> Ratio:
     """Slope of the travel by the load, from those of the balls' forces by their displacements."""
+    slope = springs.forces(found)[1]
     if not case.elastic:
         return 1 / np.sum(slope, axis=0)
     beta = bars.first_share
     right = np.zeros_like(slope)
     right[0] += beta
     right[-1] += 1 - beta
-    moved = tridiagonal(bars.stiffness, slope, right)
+    moved = (
+        tridiagonal(bars.stiffness, slope, right)
+        if swelling is None
+        else widened_response(springs, bars, swelling, found, right)
+    )
     return beta * moved[0] + (1 - beta) * moved[-1] + _parallel_compliance(case, point, bars)
 
 
@@ -246,10 +317,10 @@ def _lift_off_load(case: NutCase, point: NutPoint, springs: BallSprings) -> Forc
         nut = RigidNut(*point[: len(RigidNut._fields)])
         return rigid_lift_off_load(nut, oversize=case.oversize, constant_angle=case.constant_angle)
     if case.elastic:
-        case = case._replace(elastic=False)
+        case = case._replace(elastic=False, swells=False)
         springs = _springs(case, point)
         if case.halves == 2:
-            springs, _ = _braced(case, point, springs, _bars(case, point))
+            springs, _ = _braced(case, point, springs, _bars(case, point), None)
     ahead = point.direction
     lets_go = [np.where(each.facing == -ahead, each.offset - springs.touch(each), -np.inf) for each in springs.flanks]
     lifted = ahead * np.maximum.reduce(lets_go).max(axis=0) / point.lead_cosine

@@ -210,7 +210,9 @@ def checked(name: str, case: Case, notes: Sequence[str] = ()) -> Checked:
         limits=case.limits,
     )
     of_ratings = [f"{name.replace('_', ' ')} computed from the geometry: none is listed" for name in stand_ins]
-    assumptions = [*notes, *descriptions.assumptions(run.case), *of_ratings, descriptions.left_out(run.case)]
+    of_rigidity = [f"rigidity: {text}" for text in run.nut.rigidity.assumed]
+    assumptions = [*notes, *descriptions.assumptions(run.case), *of_ratings, *of_rigidity]
+    assumptions.append(descriptions.left_out(run.case))
     return Checked(name, case, run, run.nut, computed, found, list(dict.fromkeys(filter(None, assumptions))))
 
 

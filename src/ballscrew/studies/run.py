@@ -18,12 +18,14 @@ from ballscrew.cases.nut_kinds import LISTED, NUT_FIELDS
 from ballscrew.cases.nut_tables import dynamic_rating
 from ballscrew.components.contact import RaceState
 from ballscrew.components.nut import Nut
+from ballscrew.components.screw import BallScrew
 from ballscrew.components.traits import traits_of
 from ballscrew.errors import InputError
 from ballscrew.friction.result import QUADRANTS, FrictionResult, Quadrant
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Quantity, quantities_of
 from ballscrew.records import Record
+from ballscrew.sizing.rigidity import AxialRigidity, rigidity_iso3408
 from ballscrew.solvers.load_distribution import BallLoads, preload_of
 
 _KNOWN = quantities_of(FrictionResult)
@@ -67,6 +69,8 @@ class NutState:
     #: Torque of the nut without load: the sum of preload and losses.
     preload_drag: float
     loads: BallLoads
+    #: Rigidity by ISO 3408-4, and the deflection of the drive.
+    rigidity: AxialRigidity
     #: Greatest contact pressure of all balls, Pa.
     maximum_pressure: float
     #: The flank that carries the load, and the one that it relieves; None where no ball touches.
@@ -312,10 +316,25 @@ def with_nut(case: Case, nut: Nut) -> Run:
             preload=float(preload_of(screw, nut)),
             preload_drag=float(friction(0.0, speed).screw_torque),
             loads=loads,
+            rigidity=_rigidity(case, screw, load),
             maximum_pressure=float(found.maximum_pressure),
             loaded=loaded,
             relieved=relieved,
         ),
+    )
+
+
+def _rigidity(case: Case, screw: BallScrew, load: float) -> AxialRigidity:
+    """The rigidity by ISO 3408-4 of the nut of a case, and of its shaft where it is known."""
+    row, bodies = case.row, screw.nut.bodies
+    same = row is not None and row.ball_circle == screw.pitch_circle_diameter
+    listed = row.nut_outer_diameter if row is not None and same else None
+    return rigidity_iso3408(
+        screw,
+        axial_load=load,
+        nut_outer_diameter=listed if bodies is None or bodies.nut_outer_diameter is None else None,
+        nominal_diameter=row.nominal_diameter if row is not None and same else None,
+        installation=case.installation,
     )
 
 

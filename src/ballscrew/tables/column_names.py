@@ -52,6 +52,10 @@ NAMES: Mapping[str, tuple[str, ...]] = {
         "stiffness", "Rnu", "K", "nut rigidity", "nut stiffness", "axial stiffness", "rigidity_10pct",
         "Steifigkeit", "Mutternsteifigkeit", "axiale Steifigkeit",
     ),
+    "nut_outer_diameter": (
+        "D1", "nut diameter", "nut outside diameter", "outer diameter of the nut", "Mutterdurchmesser",
+        "Mutteraußendurchmesser", "Außendurchmesser Mutter",
+    ),
     "nut": ("nut type", "kind of nut", "Mutterart", "Muttertyp", "Mutter"),
     "source": ("Quelle",),
 }  # fmt: skip

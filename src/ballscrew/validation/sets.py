@@ -139,8 +139,8 @@ SETS: Mapping[str, ValidationSet] = {
         ),
         ValidationSet(
             name="rexroth-rigidity",
-            title="rigidity of double nuts without load",
-            details="screw and nut elastic, preloads of 7 and 10 %",
+            title="rigidity R_nu,ar of double nuts by ISO 3408-4",
+            details=f"factor for accuracy {rows.ACCURACY_FACTOR:g}, preloads of 7 and 10 %",
             reference="against the catalogue",
             source=_REXROTH,
             file="rexroth-double-nut.csv",

@@ -11,6 +11,7 @@ from ballscrew.components.operating_state import OperatingState
 from ballscrew.friction.result import QUADRANTS, FrictionResult
 from ballscrew.quantities import Quantity, fields_of, quantities_of
 from ballscrew.records import documents
+from ballscrew.sizing.rigidity import AxialRigidity
 from ballscrew.solvers.load_distribution import BallLoads
 from ballscrew.studies.run import Flank, NutState, Run
 
@@ -20,6 +21,7 @@ _LOADS = quantities_of(BallLoads)
 #: The loads that all balls have in common.
 OF_LOADS: Mapping[str, Quantity] = {name: quantity for name, quantity in _LOADS.items() if name not in _OF_BALLS}
 _KNOWN = quantities_of(FrictionResult)
+_RIGIDITY = quantities_of(AxialRigidity)
 #: Inputs, which are no results.
 _OPERATION = fields_of(OperatingState)
 #: The results that have the units of the fields of a quadrant.
@@ -76,6 +78,11 @@ def loads(nut: NutState) -> dict[str, Any]:
         "preload_is_lost": nut.preload_is_lost,
         "loaded_flank": _flank(nut.loaded),
         "relieved_flank": _flank(nut.relieved),
+        "axial_rigidity": {
+            **{name: getattr(nut.rigidity, name) for name in _RIGIDITY},
+            "accuracy_factor": nut.rigidity.accuracy_factor,
+            "assumed": list(nut.rigidity.assumed),
+        },
         "balls": {"count": nut.loads.balls, **{name: getattr(nut.loads, name) for name in _OF_BALLS}},
     }
 
@@ -92,5 +99,6 @@ def _load_units() -> dict[str, Any]:
         **{name: quantity.unit for name, quantity in OF_LOADS.items()},
         "loaded_flank": flank,
         "relieved_flank": flank,
+        "axial_rigidity": {name: quantity.unit for name, quantity in _RIGIDITY.items()},
         "balls": {name: _LOADS[name].unit for name in _OF_BALLS},
     }

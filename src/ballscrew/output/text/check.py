@@ -10,7 +10,7 @@ from ballscrew.cases import descriptions, nut_tables
 from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.components.screw import BallScrew
 from ballscrew.friction.result import FrictionResult
-from ballscrew.output.text.run import stiffness_fields
+from ballscrew.output.text.run import rigidity_rows, stiffness_fields
 from ballscrew.output.text.tables import shown_or_dash
 from ballscrew.output.wrapping import beside, wrapped
 from ballscrew.quantities import Info, Quantity, quantities_of
@@ -97,7 +97,8 @@ def _stiffness(nut: NutState) -> list[str]:
         for n in stiffness_fields(nut)
     ]
     pressure = _RESULT["maximum_pressure"]
-    return [*lines, _line(pressure.info.meaning, shown_or_dash(nut.maximum_pressure, pressure))]
+    lines.append(_line(pressure.info.meaning, shown_or_dash(nut.maximum_pressure, pressure)))
+    return [*lines, *(_line(meaning, value) for meaning, value in rigidity_rows(nut.rigidity))]
 
 
 def _ratings(found: Checked) -> list[str]:

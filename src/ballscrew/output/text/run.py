@@ -16,6 +16,7 @@ from ballscrew.friction.result import MECHANISMS, FrictionResult, Quadrant
 from ballscrew.output.text.tables import shown_or_dash, table_of
 from ballscrew.quantities import quantities_of
 from ballscrew.records import Record
+from ballscrew.sizing.rigidity import RECALLED_ACCURACY_FACTORS, AxialRigidity
 from ballscrew.solvers.load_distribution import BallLoads
 from ballscrew.studies.run import NutState, Run
 
@@ -49,6 +50,7 @@ SHORT: Mapping[str, str] = {
 }
 _BAR_WIDTH = 24
 _KNOWN, _LOADS, _CONTACT = quantities_of(FrictionResult), quantities_of(BallLoads), quantities_of(RaceState)
+_RIGIDITY = quantities_of(AxialRigidity)
 _TORQUE, _PRESSURE = _KNOWN["screw_torque"], quantities_of(FrictionResult)["maximum_pressure"]
 
 
@@ -79,6 +81,9 @@ def print_run(run: Run) -> None:
     console.print(_quadrants(run.quadrants, float(friction.axial_load) != 0))
     if run.nut is not None:
         console.print(_loads(run.nut))
+        console.print(_rigidity(run.nut))
+        for text in run.nut.rigidity.assumed:
+            line(f"rigidity: {text}", "dim")
     console.print(_contacts(run))
 
 
@@ -143,6 +148,28 @@ def _loads(nut: NutState) -> Table:
         table.add_row(_LOADS[name].info.meaning, "", shown_or_dash(float(getattr(nut.loads, name)), _LOADS[name]))
     table.add_row(_PRESSURE.info.meaning, "", "", shown_or_dash(nut.maximum_pressure, _PRESSURE))
     return table
+
+
+def _rigidity(nut: NutState) -> Table:
+    table = table_of("\nRigidity by ISO 3408-4", "", "")
+    for meaning, value in rigidity_rows(nut.rigidity):
+        table.add_row(meaning, value)
+    return table
+
+
+def rigidity_rows(found: AxialRigidity) -> list[tuple[str, str]]:
+    """Rigidities by ISO 3408-4 and the deflection of the drive, what is known of them."""
+    rows = [
+        (quantity.info.meaning, units.shown(float(getattr(found, name)), quantity))
+        for name, quantity in _RIGIDITY.items()
+        if math.isfinite(float(getattr(found, name)))
+    ]
+    if found.accuracy_factor is not None or not math.isfinite(found.nut):
+        return rows
+    most, least = RECALLED_ACCURACY_FACTORS
+    ends = " to ".join(units.shown(factor * found.nut, _RIGIDITY["nut"]) for factor in (least, most))
+    meaning = f"R_nu,ar, {least:g} to {most:g} of it by accuracy grade (from memory)"
+    return [*rows[:3], (meaning, ends), *rows[3:]]
 
 
 def stiffness_fields(nut: NutState) -> list[str]:

@@ -22,7 +22,11 @@ WORDS: Mapping[str, str] = {
     "tangent_at_30": "tangent at 30 % of the rating",
     "double_nut_at_10": "double nut at a preload of 10 %, rigid bodies",
     "double_nut_at_10_elastic": "double nut at a preload of 10 %, elastic bodies",
-    "rigid_bodies": "rigid bodies",
+    "uncorrected": "R_nu, without the factor for accuracy",
+    "factor_0.55": "R_nu,ar with a factor for accuracy of 0.55",
+    "factor_0.6": "R_nu,ar with a factor for accuracy of 0.6",
+    "rigid_bodies": "tangent without load, rigid bodies",
+    "elastic_bodies": "tangent without load, elastic bodies",
 }
 
 

@@ -1,0 +1,257 @@
+"""Axial rigidity by ISO 3408-4: nut, shaft, support bearings, and the deflection of the whole drive."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+from typing import Annotated, NamedTuple
+
+import numpy as np
+
+from ballscrew.components.nut import Nut, OversizeBallNut
+from ballscrew.components.screw import BallScrew
+from ballscrew.equations import rigidity
+from ballscrew.errors import Fault, accepts_units, is_concrete, raise_if_any, shown
+from ballscrew.quantities import Force, Info, Length, Ratio, Stiffness
+from ballscrew.sizing.installation import Ends, Installation
+from ballscrew.solvers.load_distribution import pair_load_deflection, preload_of
+
+#: Outer diameters of nuts by DIN 69051-5, m, by nominal diameter: for leads below COARSE_LEAD, and from there on.
+#: HIWIN2017, table 5.5 (double nuts DDB). TBI MOTION prints the same for its nuts "DIN 69051 form B".
+DIN_69051_5 = {
+    0.016: (0.028, 0.028),
+    0.020: (0.036, 0.036),
+    0.025: (0.040, 0.040),
+    0.032: (0.050, 0.050),
+    0.040: (0.063, 0.063),
+    0.050: (0.075, 0.075),
+    0.063: (0.090, 0.095),
+    0.080: (0.105, 0.125),
+}
+COARSE_LEAD = 0.020
+#: Factors for accuracy that ISO 3408-4 has by grade, greatest and least; from memory, the default of nothing.
+RECALLED_ACCURACY_FACTORS = (0.6, 0.5)
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class AxialRigidity:
+    """Outcome: the rigidities that ISO 3408-4 defines, and the deflection of a drive. NaN is what is not known.
+
+    Not the rigidity of the balls one by one, which is :attr:`~ballscrew.friction.result.FrictionResult.loads`.
+    """
+
+    balls_and_tracks: Annotated[Stiffness, Info("R_{b/t}", "rigidity of balls and tracks, R_b/t", "N/um")]
+    widening: Annotated[Stiffness, Info("R_{n/s}", "rigidity by the widening of nut and shaft, R_n/s", "N/um")]
+    nut: Annotated[Stiffness, Info("R_{nu}", "rigidity of the nut by ISO 3408-4, R_nu", "N/um")]
+    nut_corrected: Annotated[
+        Stiffness, Info("R_{nu,ar}", "rigidity of the nut corrected for accuracy, R_nu,ar", "N/um")
+    ]
+    shaft: Annotated[Stiffness, Info("R_s", "rigidity of the shaft where it is least", "N/um")]
+    bearings: Annotated[Stiffness, Info("R_b", "rigidity of the support bearings", "N/um")]
+    drive: Annotated[Stiffness, Info("R", "rigidity of nut, shaft and bearings in series", "N/um")]
+    deflection: Annotated[Length, Info("x", "axial deflection of nut, shaft and bearings by the load", "um")]
+    #: Number that turns R_nu into R_nu,ar; None where none was given.
+    accuracy_factor: float | None = None
+    #: In words, what stands for what was not given, and what could not be read in a source.
+    assumed: Sequence[str] = ()
+
+
+class _Sizes(NamedTuple):
+    """What the widening depends on besides the screw."""
+
+    nut_outer_diameter: float
+    assumed: Sequence[str]
+
+
+@accepts_units("rigidity")
+def rigidity_iso3408(
+    screw: BallScrew,
+    *,
+    axial_load: Force | None = None,
+    nut_outer_diameter: Length | None = None,
+    nominal_diameter: Length | None = None,
+    accuracy_factor: Ratio | None = None,
+    installation: Installation | None = None,
+    distance_to_bearing: Length | None = None,
+) -> AxialRigidity:
+    """Rigidity of a screw with its nut by ISO 3408-4, of its shaft, and the deflection of the drive under a load.
+
+    A nut without preload needs ``axial_load``: its rigidity is load over deflection. Without ``nut_outer_diameter``
+    that of the nut's bodies is taken, or else that of DIN 69051-5 for the nominal diameter, by default the pitch circle
+    (:func:`usual_nut_outer_diameter`). ``accuracy_factor`` is f_ar, by the accuracy grade, by default that of the
+    installation; without it R_nu,ar is NaN, and the drive has R_nu. The shaft is that of ``installation``;
+    ``distance_to_bearing`` is from the nut to the bearing that holds the shaft, by default where the shaft gives way
+    most: its whole length held at one end, half of it held at both. The contact angle stays that without load.
+    Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
+    """
+    nut = screw.nut
+    if accuracy_factor is None and installation is not None:
+        accuracy_factor = installation.accuracy_factor
+    raise_if_any(_faults(screw, nut_outer_diameter, accuracy_factor, axial_load, installation, distance_to_bearing))
+    size = _outer_diameter(screw, nut, nut_outer_diameter, nominal_diameter)
+    preload = float(preload_of(screw, nut))
+    assumed = list(size.assumed)
+    load = 0.0 if axial_load is None else abs(float(axial_load))
+    R_bt, R_ns = _balls_and_tracks(screw, preload, load), _widening(screw, size.nut_outer_diameter)
+    if R_ns != R_ns:
+        assumed.append("no rigidity of the nut: the usual one has no wall around these balls, give nut_outer_diameter")
+    if preload > 0:
+        R_ns = 2 * R_ns
+        assumed.append("R_b/t up to the load that relieves one half (from memory of ISO 3408-4)")
+    elif not load:
+        assumed.append("no rigidity of the nut: without preload it takes a load")
+    if isinstance(nut, OversizeBallNut):
+        assumed.append(
+            "widening of a nut with oversize balls as of two halves; a ball on both flanks widens it less under load"
+        )
+    R_nu = float(rigidity.series_rigidity(R_bt, R_ns))
+    factor = None if accuracy_factor is None else float(accuracy_factor)
+    corrected = math.nan if factor is None else float(rigidity.rigidity_corrected_for_accuracy(factor, R_nu))
+    R_s, R_b, words = _shaft(screw, installation, distance_to_bearing)
+    assumed += words
+    if factor is None and installation is not None:
+        assumed.append("drive with R_nu, not R_nu,ar: no accuracy factor is given")
+    compliances = (1 / (R_nu if factor is None else corrected), 1 / R_s, 0.0 if math.isnan(R_b) else 1 / R_b)
+    drive = 1 / sum(compliances)
+    return AxialRigidity(
+        balls_and_tracks=R_bt,
+        widening=R_ns,
+        nut=R_nu,
+        nut_corrected=corrected,
+        shaft=R_s,
+        bearings=R_b,
+        drive=drive,
+        deflection=math.nan if axial_load is None else float(axial_load) / drive,
+        accuracy_factor=factor,
+        assumed=tuple(assumed),
+    )
+
+
+def usual_nut_outer_diameter(nominal_diameter: Length, lead: Length) -> float:
+    """Outer diameter of the nut by DIN 69051-5; between its sizes a line, beyond them the wall of the last one."""
+    column = int(lead >= COARSE_LEAD)
+    sizes = np.array(list(DIN_69051_5))
+    walls = np.array([each[column] for each in DIN_69051_5.values()]) - sizes
+    return float(nominal_diameter) + float(np.interp(float(nominal_diameter), sizes, walls))
+
+
+# -- parts ----------------------------------------------------------------------------------------
+
+
+def loaded_length(screw: BallScrew) -> float:
+    """Axial length of the thread that the loaded balls of one nut body fill: whole balls in each turn."""
+    turn = math.floor(math.pi * screw.pitch_circle_diameter / (screw.ball_diameter * math.cos(screw.lead_angle)))
+    return float(screw.loaded_balls / turn * screw.lead / screw.starts)
+
+
+def _balls_and_tracks(screw: BallScrew, preload: float, load: float) -> float:
+    """R_b/t of a preloaded nut, or at the load of one without preload; NaN without both."""
+    lever = math.sin(screw.contact_angle) * math.cos(screw.lead_angle)
+    force = preload if preload > 0 else load
+    if not force:
+        return math.nan
+    approach = (force / (screw.loaded_balls * float(pair_load_deflection(screw)) * lever)) ** (2 / 3)
+    if preload > 0:
+        return float(rigidity.preloaded_ball_track_rigidity(preload, approach / lever))
+    return float(rigidity.ball_track_rigidity(load, approach / lever))
+
+
+def _widening(screw: BallScrew, nut_outer_diameter: float) -> float:
+    """R_n/s of one nut body; NaN for one without a wall around the balls."""
+    if not nut_outer_diameter > _nut_force_diameter(screw):
+        return math.nan
+    compliance = rigidity.radial_compliance(
+        nut_outer_diameter,
+        _nut_force_diameter(screw),
+        screw.nut_material.young_modulus,
+        screw.nut_material.poisson_ratio,
+        screw.screw_material.young_modulus,
+        screw.screw_material.poisson_ratio,
+    )
+    stiffness = rigidity.radial_stiffness(compliance, loaded_length(screw))
+    return float(rigidity.widening_rigidity(stiffness, screw.contact_angle, screw.lead_angle))
+
+
+def _nut_force_diameter(screw: BallScrew) -> float:
+    return float(rigidity.nut_force_diameter(screw.pitch_circle_diameter, screw.ball_diameter, screw.contact_angle))
+
+
+def _shaft(
+    screw: BallScrew, installation: Installation | None, distance: Length | None
+) -> tuple[float, float, Sequence[str]]:
+    """Rigidity of shaft and of bearings, and what is assumed; NaN where they are not known."""
+    if installation is None:
+        return math.nan, math.nan, ()
+    E, l = float(screw.screw_material.young_modulus), float(installation.unsupported_length)  # noqa: E741  (l is the formula's letter)
+    d_c = float(rigidity.shaft_force_diameter(screw.pitch_circle_diameter, screw.ball_diameter, screw.contact_angle))
+    both = installation.ends is Ends.FIXED_FIXED
+    at = float(distance) if distance is not None else l / 2 if both else l
+    assumed: list[str] = []
+    if distance is None:
+        assumed.append(
+            f"nut {'in the middle of the shaft' if both else 'at the end of the shaft'}, where it gives way most"
+        )
+    if installation.ends is Ends.SUPPORTED_SUPPORTED:
+        assumed.append("one of the two supports holds the shaft axially")
+    R_s = float(
+        rigidity.shaft_rigidity_held_at_both_ends(E, d_c, at, l)
+        if both
+        else rigidity.shaft_rigidity_held_at_one_end(E, d_c, at)
+    )
+    if installation.bearing_rigidity is None:
+        return R_s, math.nan, [*assumed, "support bearings rigid: no rigidity of theirs is given"]
+    R_b = float(installation.bearing_rigidity)
+    if not both:
+        return R_s, R_b, assumed
+    # each stretch of the shaft with its bearing; what they give more than the shaft alone is that of the bearings
+    stretches = [float(rigidity.shaft_rigidity_held_at_one_end(E, d_c, part)) for part in (at, l - at)]
+    together = sum(float(rigidity.series_rigidity(stretch, R_b)) for stretch in stretches)
+    return R_s, 1 / (1 / together - 1 / R_s), assumed
+
+
+def _outer_diameter(screw: BallScrew, nut: Nut, given: Length | None, nominal: Length | None) -> _Sizes:
+    """The outer diameter of the nut: given, of its bodies, or of the standard's series."""
+    of_bodies = None if nut.bodies is None else nut.bodies.nut_outer_diameter
+    known = of_bodies if given is None else given
+    if known is not None:
+        return _Sizes(float(known), ())
+    size = float(screw.pitch_circle_diameter if nominal is None else nominal)
+    usual = usual_nut_outer_diameter(size, screw.lead)
+    beyond = "" if min(DIN_69051_5) <= size <= max(DIN_69051_5) else ", its last size with the same wall"
+    return _Sizes(usual, (f"nut {1000 * usual:.4g} mm wide, DIN 69051-5{beyond}: none is given",))
+
+
+def _faults(
+    screw: BallScrew,
+    outer: Length | None,
+    factor: Ratio | None,
+    load: Force | None,
+    installation: Installation | None,
+    distance: Length | None,
+) -> list[Fault]:
+    faults: list[Fault] = []
+    if not all(is_concrete(number) and np.ndim(number) == 0 for number in (screw.loaded_balls, screw.lead)):
+        faults.append(Fault("rigidity.screw", "must be one screw", "an array", "call once for each"))
+        return faults
+    least = _nut_force_diameter(screw)
+    if outer is not None and not outer > least:
+        remedy = f"more than {least:.6g} m, where the balls press on it"
+        faults.append(
+            Fault("rigidity.nut_outer_diameter", "leaves no wall around the balls", shown(outer, "m"), remedy)
+        )
+    if factor is not None and not 0 < factor <= 1:
+        faults.append(Fault("rigidity.accuracy_factor", "must be above 0 and at most 1", f"{factor:g}", "0.5 to 0.6"))
+    if load is not None and not np.isfinite(load):
+        faults.append(Fault("rigidity.axial_load", "must be a finite number", f"{load:g}", "give a force"))
+    if distance is not None:
+        if installation is None:
+            faults.append(Fault("rigidity.distance_to_bearing", "has no shaft", "", "give an installation, too"))
+        elif not 0 < distance < installation.unsupported_length and not (
+            distance == installation.unsupported_length and installation.ends is not Ends.FIXED_FIXED
+        ):
+            length = shown(installation.unsupported_length, "m")
+            faults.append(
+                Fault("rigidity.distance_to_bearing", "must lie on the shaft", shown(distance, "m"), f"below {length}")
+            )
+    return faults

@@ -1,0 +1,134 @@
+r"""The radial swelling of nut and shaft under the balls of a nut, and the balance with it.
+
+The balls of a nut body push nut and screw apart with :math:`N = \sum Q \cos\alpha`. By Lamé's cylinders
+(:mod:`ballscrew.equations.rigidity`) a gap :math:`u = N / k_r` opens between them, the same along the body: a wall as
+thick as a nut's carries the push of one ball over a turn and more. The gap moves the grooves apart. It is a spring like
+the others, so that energy is kept, and the forces on nut and screw stay opposite and equal.
+
+Each half of a preloaded nut has a gap of its own. The gaps are found by Newton's method around the balance of the
+chain of balls; by the symmetry of the energy one slope serves for both.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ballscrew.quantities import Force
+from ballscrew.solvers.ball_springs import BallSprings, Bars, Field, chain_balance, tridiagonal
+
+#: Imbalance of the radial forces that counts as none, in units of the forces at work, and steps of the search at most.
+BALANCED, STEPS = 1e-13, 40
+#: Rounding of a sum of radial forces, in units of itself.
+ROUNDING = 1e-15
+
+
+class Swelling(NamedTuple):
+    """Radial stiffness of each nut body, and which balls are of which (the bodies first, then the balls)."""
+
+    stiffness: Field
+    members: Field
+
+    def of(self, rows: slice) -> Swelling:
+        """The one nut body that has these balls."""
+        members = self.members[:, rows]
+        return Swelling(self.stiffness, members[members.any(axis=1)])
+
+    def gaps(self, by_body: Field) -> Field:
+        """The gap at each ball from those of the bodies."""
+        return np.einsum("bi,bp->ip", self.members, by_body)
+
+    def sums(self, by_ball: Field) -> Field:
+        """Sums over the balls of each body."""
+        return np.einsum("bi,ip->bp", self.members, by_ball)
+
+
+class Widened(NamedTuple):
+    """A balance with swelling: the springs of the grooves as they are then, the displacements, and what is left."""
+
+    springs: BallSprings
+    displacement: Field
+    imbalance: Force
+
+
+def widened_balance(
+    springs: BallSprings, bars: Bars, swelling: Swelling, load: Field, scale: Field, start: Field
+) -> Widened:
+    """The displacements of a chain of bars, and the gaps of its bodies, that carry a load, from a start."""
+    x, here, gap = start, springs, np.zeros((len(swelling.members), load.size))
+    left = np.zeros_like(gap)
+    for tried in range(STEPS):
+        push = here.radial_push(x)
+        left = swelling.sums(push.force) - swelling.stiffness * gap
+        # the displacements to start at carry no load yet
+        if tried and not np.any(_size(left) > BALANCED * scale + ROUNDING * _size(swelling.sums(push.force))):
+            break
+        moved = _moved_by_gaps(swelling, bars, here.forces(x)[1], push.cross)
+        matrix = _matrix(swelling, push.slope, push.cross, moved)
+        step = np.linalg.solve(matrix, left.T[..., None])[..., 0].T
+        gap = gap + step
+        here = springs.widened(swelling.gaps(gap))
+        x = chain_balance(here, bars, load, scale, x + np.einsum("bip,bp->ip", moved, step))
+    return Widened(here, x, _size(left))
+
+
+def widened_response(springs: BallSprings, bars: Bars, swelling: Swelling, displacement: Field, right: Field) -> Field:
+    """Displacements by small forces at the balls, chain and gaps together."""
+    push, slope = springs.radial_push(displacement), springs.forces(displacement)[1]
+    alone = tridiagonal(bars.stiffness, slope, right)
+    moved = _moved_by_gaps(swelling, bars, slope, push.cross)
+    matrix = _matrix(swelling, push.slope, push.cross, moved)
+    step = np.linalg.solve(matrix, swelling.sums(push.cross * alone).T[..., None])[..., 0].T
+    return alone + np.einsum("bip,bp->ip", moved, step)
+
+
+def _moved_by_gaps(swelling: Swelling, bars: Bars, slope: Field, cross: Field) -> Field:
+    """Displacement of the balls by the gap of each body: bodies, balls, points."""
+    return np.stack([tridiagonal(bars.stiffness, slope, body[:, None] * cross) for body in swelling.members])
+
+
+def _matrix(swelling: Swelling, slope: Field, cross: Field, moved: Field) -> Field:
+    """Slopes of the radial imbalance of each body by the gap of each, with the sign that a spring has; points first."""
+    own = np.einsum("bi,ip->pb", swelling.members, slope)
+    through = np.einsum("bi,ip,cip->pbc", swelling.members, cross, moved)
+    stiffness = np.broadcast_to(swelling.stiffness, (slope.shape[-1],))
+    diagonal = np.eye(len(swelling.members)) * (stiffness[:, None, None] - own[:, :, None])
+    return diagonal - through
+
+
+def _size(by_body: Field) -> Force:
+    return np.max(np.abs(by_body), axis=0)
+
+
+def excess_at_rest(
+    preload: Field,
+    radial_stiffness: Field,
+    springs: BallSprings,
+    loaded_balls: Field,
+) -> Field:
+    """What balls on both flanks of both bodies are too big by, so that each flank carries the preload without load."""
+    A, alpha, c_phi, K = springs.centre_distance, springs.contact_angle, springs.lead_cosine, springs.load_deflection
+    across, along = A * np.cos(alpha), A * np.sin(alpha)
+    # both flanks push apart: 2 N = 2 F / (tan α' cos φ), and tan α' = along / (across - u); linear in u
+    push = 2 * preload / (c_phi * radial_stiffness)
+    if springs.constant_angle:
+        sine, gap = np.sin(alpha), push * np.cos(alpha) / np.sin(alpha)
+        opened = gap * np.cos(alpha)
+    else:
+        gap = push * across / (along + push)
+        distance = np.hypot(across - gap, along)
+        sine, opened = along / distance, gap * (2 * across - gap) / (A + distance)
+    return (preload / (loaded_balls * sine * c_phi * K)) ** (2 / 3) + opened
+
+
+def preload_of_oversize(
+    oversize: Field, radial_stiffness: Field, springs: BallSprings, loaded_balls: Field, most: Field
+) -> Field:
+    """The preload that balls of an oversize make where the bodies swell: less than ``most``, that of rigid ones."""
+    low, high = np.zeros_like(most), np.array(most, dtype=float)
+    for _ in range(80):
+        middle = (low + high) / 2
+        too_much = excess_at_rest(middle, radial_stiffness, springs, loaded_balls) > oversize
+        low, high = np.where(too_much, low, middle), np.where(too_much, middle, high)
+    return (low + high) / 2
