@@ -1,5 +1,6 @@
 """What all tests share: the paper's screw, its oil, the models, and how hypothesis runs."""
 
+import gc
 import importlib.util
 import math
 import os
@@ -8,6 +9,8 @@ from pathlib import Path
 
 # One thread of BLAS a worker, set before NumPy is loaded: with a worker on each processor, more would compete.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+# Tests start many processes. Without bytecode each of them compiles the package anew, and each worker the tests.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 import pytest
 from hypothesis import settings
@@ -99,6 +102,18 @@ def seed_oil() -> bs.Lubricant:
 def model(request: pytest.FixtureRequest) -> bs.FrictionModel:
     """Each of the three models in turn."""
     return MODELS[request.param]()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_xdist_auto_num_workers():
+    """One worker more than processors: a test that waits for a browser or a process leaves its own to another."""
+    return (yield) + (0 if "PYTEST_XDIST_AUTO_NUM_WORKERS" in os.environ else 1)
+
+
+def pytest_collection_finish():
+    """What is loaded by now lives to the end: without it, the garbage collector has a tenth of the work."""
+    gc.collect()
+    gc.freeze()
 
 
 def pytest_collection_modifyitems(items):

@@ -20,7 +20,7 @@ TRUTH = dataclasses.replace(
 )
 WITHOUT_SEALS = dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=TRUE_PRELOAD))
 #: Logs of each kind, and of those that ``make test-all`` runs.
-SEEDS, MANY = 20, 200
+SEEDS, MANY = 10, 200
 #: How often intervals that are right fail a test of ``SEEDS`` logs.
 FALSE_ALARM = 1e-3
 #: The load at which the relieved half of the true nut lifts off, about.

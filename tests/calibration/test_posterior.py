@@ -26,7 +26,7 @@ def found():
 
 @pytest.fixture(scope="module")
 def samples(found):
-    return found.posterior(steps=1000, seed=1)
+    return found.posterior(steps=500, seed=1)
 
 
 def test_where_the_model_is_nearly_a_straight_line_the_errors_are_those_of_the_curvature(found, samples):
@@ -73,7 +73,7 @@ def test_a_prior_alone_is_sampled_where_the_log_says_nothing():
     name = "lubricant.heat_capacity"
     columns = log(truth(), rows=30, both=False, outliers=0, drift=0)
     given = fit(PAPER, SCREW, OIL, columns, [FRICTION, name], priors={name: bs.Normal(2000.0, 30.0)}, holdout=0)
-    drawn = given.posterior(steps=600, seed=2)
+    drawn = given.posterior(steps=300, seed=2)
     effective = drawn.samples[name].size / drawn.autocorrelation_time
     assert drawn.samples[name].mean() == pytest.approx(2000, abs=4 * 30 / np.sqrt(effective))
     assert drawn.samples[name].std() == pytest.approx(30, rel=4 / np.sqrt(2 * effective))

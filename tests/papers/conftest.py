@@ -1,5 +1,6 @@
 """Lends the tests the script that writes the table of equations."""
 
+import functools
 import importlib.util
 from pathlib import Path
 from types import ModuleType
@@ -11,10 +12,12 @@ SCRIPT = Path(__file__).resolve().parents[2] / "docs" / "make_equation_table.py"
 
 @pytest.fixture(scope="session")
 def equation_table() -> ModuleType:
-    """The script, as a module."""
+    """The script, as a module that reads all files once."""
     spec = importlib.util.spec_from_file_location("make_equation_table", SCRIPT)
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
+    # each parses every file of the package or of the tests
+    module.functions, module.tests = functools.cache(module.functions), functools.cache(module.tests)
     return module

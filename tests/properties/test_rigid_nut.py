@@ -14,7 +14,7 @@ from ballscrew.components.nut import Bodies, Deviations, DoubleNut, OffsetLeadNu
 from ballscrew.equations import deflection
 from ballscrew.solvers.load_distribution import ball_loads, pair_load_deflection
 from ballscrew.tracing.gradient import partials
-from ballscrew.tracing.program import Interpreter, Program
+from ballscrew.tracing.program import Program
 from ballscrew.tracing.tape import Tape
 from support.nut_cases import KINDS, nut_case
 
@@ -279,7 +279,7 @@ def recorded(kind, constant, slopes=False):
 def played(program, points):
     results = {name: np.full(points.shape[1], 99.0) for name in (*program.outputs, *program.constants)}
     with np.errstate(all="ignore"):
-        Interpreter(program).run(list(points), results)
+        program.interpreter.run(list(points), results)
     return results
 
 
@@ -340,14 +340,15 @@ def test_derivatives_are_those_of_differences(kind, constant, by):
     slopes, row = played(recorded(kind, constant, slopes=True), at), INPUTS.index(by)
     scale = np.maximum(np.abs(at[row]), at[1] if by == "load" and kind != "single" else 0.0)
 
-    def difference(name, step):
+    def differences(step):
         more, less = at.copy(), at.copy()
         more[row], less[row] = at[row] + step * scale, at[row] - step * scale
-        values = [outcome(kind, constant, *moved)[name] + 0 * at[0] for moved in (more, less)]
-        return (values[0] - values[1]) / (2 * step * scale)
+        above, below = outcome(kind, constant, *more), outcome(kind, constant, *less)
+        return {name: (above[name] - below[name]) / (2 * step * scale) for name in above}
 
+    ones, twos = differences(1e-4), differences(2e-4)
     for name, value in outcome(kind, constant, *at).items():
-        one, two = difference(name, 1e-4), difference(name, 2e-4)
+        one, two = ones[name] + 0 * at[0], twos[name] + 0 * at[0]
         expected = one + (one - two) / 3
         # without a number there is no slope: 1e-300 of nothing
         size = np.abs(expected) + np.max(np.abs(value)) / scale + 1e-300
