@@ -19,7 +19,7 @@ import types
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from itertools import chain
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -31,6 +31,8 @@ from ballscrew.tracing.program import Program, Source
 MOST_RECORDINGS, MOST_STEPS = 256, 150_000
 #: An array with more numbers than this in a part is not compared call by call.
 MOST_NUMBERS = 1000
+
+T = TypeVar("T")
 
 _PACKAGE = __name__.partition(".")[0]
 #: The rooms whose functions and constants are in a recording.
@@ -49,6 +51,13 @@ class Recording:
         self.program = program
         self._cuts: dict[tuple[int, ...], Split] = {}
         self._texts: dict[Hashable, str] = {}
+        self._made: dict[str, Any] = {}
+
+    def once(self, name: str, make: Callable[[], T]) -> T:
+        """Something else that is made of the program once."""
+        if name not in self._made:
+            self._made[name] = make()
+        return self._made[name]
 
     def cut(self, groups: Sequence[int]) -> Split:
         """The program cut along rows and columns."""
@@ -65,6 +74,14 @@ class Recording:
         if key not in self._texts:
             self._texts[key] = kernel_text(program, sources, masks, watched=watched)
         return self._texts[key]
+
+
+def kept(key: Any) -> Recording | None:
+    """The recording that is kept with an equal key."""
+    try:
+        return _kept.get(key_of(key))
+    except UnknownPartError:
+        return None
 
 
 def recording(key: Callable[[], Any], record: Callable[[], Program]) -> Recording:

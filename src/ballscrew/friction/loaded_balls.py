@@ -115,6 +115,8 @@ class _OfABall:
 
     def __getattr__(self, name: str) -> Any:
         values = getattr(self._part, name)
+        if not isinstance(self._place, np.ndarray | np.integer):  # on a tape
+            return np.take_along_axis(values, self._place, axis=-1)
         if np.ndim(values) == 0:
             return values
         along = np.broadcast_to(values, (*np.shape(self._place), np.shape(values)[-1]))
@@ -279,4 +281,4 @@ def _with_ball_axis(part: Any) -> Any:
 
 
 def _last_axis(value: Any) -> Any:
-    return value[..., None] if np.ndim(value) else value
+    return value[..., None] if isinstance(value, np.ndarray) and value.ndim else value

@@ -10,6 +10,7 @@ room to spare, so that a point's result does not depend on where blocks begin an
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -61,13 +62,15 @@ def kernel_text(
     *,
     lanes: int | None = None,
     watched: bool = False,
+    reduced: Mapping[str, Any] | None = None,
 ) -> str:
     """The module with the kernel of a program.
 
     ``sources`` has the origin of the values of each input, ``masks`` whether the array of each output
     holds truth values. A ``watched`` kernel has one more output, the ends of what it reads, so that inputs need not be
     read twice to be checked: for each input over points :data:`ENDS_OF_EACH` vectors of integers, the least and the
-    greatest bits by lane over all whole vectors. Raises :class:`UnknownOperationError`.
+    greatest bits by lane over all whole vectors. Outputs that are ``reduced``, by ``numpy.sum`` or ``numpy.max`` over
+    the rows, have a place for each column, and room for a vector more. Raises :class:`UnknownOperationError`.
     """
     w = Writer(lanes or lanes_for(program))
     outputs = list(program.outputs)
@@ -77,13 +80,18 @@ def kernel_text(
     results = [
         emitter.as_mask(program.outputs[n]) if masks[n] else emitter.as_number(program.outputs[n]) for n in outputs
     ]
+    for j, name in enumerate(outputs):
+        if reduced and name in reduced:
+            _emit_reduction(w, j, reduced[name], results[j])
+    whole = [j for j, name in enumerate(outputs) if not (reduced and name in reduced)]
+    outputs, results = [outputs[j] for j in whole], [results[j] for j in whole]
     types = [f"<{w.lanes} x i8>" if masks[name] else w.doubles for name in outputs]
     stored = [
         w.instruction(f"zext {w.masks} {result} to {kind}") if masks[name] else result
         for name, result, kind in zip(outputs, results, types, strict=True)
     ]
-    _emit_stores_and_loop_ends(w, types, stored)
-    lines = [*w.lines, *_emit_ends(w, seen, len(outputs)), "  ret void"]
+    _emit_stores_and_loop_ends(w, types, stored, whole)
+    lines = [*w.lines, *_emit_ends(w, seen, len(program.outputs)), "  ret void"]
     return "\n".join(
         [
             elementary.definitions(w.lanes),
@@ -92,7 +100,7 @@ def kernel_text(
             f"  %spare = alloca {w.doubles}, align 64",
             f"  store {w.doubles} zeroinitializer, ptr %spare",
             *_pointers("input", len(sources)),
-            *_pointers("output", len(outputs)),
+            *_pointers("output", len(program.outputs)),
             *(random.emit_key_schedule() if "random" in sources else []),
             *(line for i in seen for line in _ends_of_nothing(w, i)),
             *lines,
@@ -198,10 +206,31 @@ def _emit_loops_and_loads(w: Writer, sources: Sequence[Source], seen: Sequence[i
 _ARRAYS = ("points", "columns")
 
 
-def _emit_stores_and_loop_ends(w: Writer, types: Sequence[str], values: Sequence[Value]) -> None:
+def _emit_reduction(w: Writer, output: int, function: Any, value: Value) -> None:
+    """Emit the sum or the greatest value, NaN if one is, over the rows so far: of the first row the value itself."""
+    address = w.instruction(f"getelementptr double, ptr %output{output}, i64 %column")
+    before = w.instruction(f"load {w.doubles}, ptr {address}, align 8")
+    if function is np.sum:
+        found = w.exact("fadd", before, value)
+    elif function is np.max:
+        keeps = w.on_masks("or", w.compare("oge", before, value), w.compare("uno", before, before))
+        found = w.choose(keeps, before, value)
+    else:
+        raise UnknownOperationError(function.__name__)
+    is_first = w.instruction("icmp eq i64 %row, %row_start")
+    found = w.instruction(f"select i1 {is_first}, {w.doubles} {value}, {w.doubles} {found}")
+    w.lines.append(f"  store {w.doubles} {found}, ptr {address}, align 8")
+
+
+def _emit_stores_and_loop_ends(
+    w: Writer, types: Sequence[str], values: Sequence[Value], outputs: Sequence[int]
+) -> None:
     """Emit the stores of the results, non-temporal where asked for, and the ends of the loops."""
     elements = ["i8" if kind.endswith("i8>") else "double" for kind in types]
-    addresses = [w.instruction(f"getelementptr {kind}, ptr %output{j}, i64 %place") for j, kind in enumerate(elements)]
+    addresses = [
+        w.instruction(f"getelementptr {kind}, ptr %output{j}, i64 %place")
+        for j, kind in zip(outputs, elements, strict=True)
+    ]
     stores = list(zip(types, values, addresses, elements, strict=True))
     w.lines += ["  br i1 %is_full, label %store_all, label %store_some", "store_all:"]
     w.lines += ["  br i1 %stream, label %store_past_cache, label %store_to_cache", "store_past_cache:"]

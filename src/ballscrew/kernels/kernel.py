@@ -90,10 +90,11 @@ class Kernel:
         first: int = 0,
         seed: int = 0,
         past_cache: bool | None = None,
+        tile: int | None = None,
     ) -> None:
         """Evaluate a rectangle of the grid; both slices hold at least one number.
 
-        ``past_cache`` says whether the results outgrow the cache; by default their sizes decide.
+        ``tile`` is the number of columns that are worked on at a time. ``past_cache`` says whether the results outgrow the cache; by default their sizes decide.
 
         Results and inputs over points are contiguous arrays that begin at place ``first`` of the
         flattened grid; inputs over rows and columns are whole; random ones are None.
@@ -118,7 +119,7 @@ class Kernel:
             columns.start,
             columns.stop,
             row_length,
-            COLUMN_TILE if "columns" in self.sources else columns.stop - columns.start,
+            tile or (COLUMN_TILE if "columns" in self.sources else columns.stop - columns.start),
             seed,
             aligned and past_cache,
             (ctypes.c_void_p * len(places))(*places),

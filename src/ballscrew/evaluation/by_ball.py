@@ -1,0 +1,251 @@
+"""Nuts whose balls differ: their loads are solved on arrays, the friction under them is recorded, and compiled.
+
+The recording has two levels: what each operating point has, and what each of its balls has, whose loads and contact
+angles are inputs like any other. Sums and greatest values over the balls lead from the second to the first
+(:mod:`ballscrew.tracing.reductions`). The program is cut there, and its first part along points and balls: what does
+not depend on the ball is evaluated once for each point, by NumPy, and what does in one loop over balls and points.
+
+All plain numbers of the parts are inputs, so that nothing is recorded again when one changes: they cost nothing at any
+ball. Constants are exponents of laws, which are folded, and materials.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import threading
+from collections import OrderedDict
+from collections.abc import Hashable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew._arrays import as_array
+from ballscrew.components.materials import TEMPERATURE
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.evaluation.engines import ASKED_FOR, PAYS, Engine, why_numpy, worth_compiling
+from ballscrew.evaluation.outputs import OF_LOADS, OPERATION, Output
+from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.evaluation.recordings import Recording, UnknownPartError, kept, key_of, recording
+from ballscrew.friction.loaded_balls import loads_of
+from ballscrew.kernels import kernel as kernels
+from ballscrew.kernels.buffers import aligned_array
+from ballscrew.kernels.emission import UnknownOperationError, kernel_text, lanes_for
+from ballscrew.kernels.kernel import Kernel
+from ballscrew.solvers.load_distribution import BallLoads, KindLoads
+from ballscrew.tracing.grid import Split, split
+from ballscrew.tracing.merging import merged_program
+from ballscrew.tracing.program import Program, Source
+from ballscrew.tracing.reductions import Stages, cut_at_reductions, reduced
+from ballscrew.tracing.steps import COLUMNS, ROWS
+from ballscrew.tracing.tape import CannotRecordError, Tape
+
+#: What each ball has of the solved loads.
+OF_BALLS = ("forward_load", "backward_load", "forward_angle", "backward_angle")
+#: Balls at all points that have to be asked for, in one call or in several, before a recording is made.
+ENOUGH_TO_RECORD = 100_000
+#: Operating points of a kernel that are worked on at a time, ball after ball.
+TILE = 128
+#: Numbers of balls that are evaluated in a block: large enough for the steps of NumPy at the points, small enough
+#: for the cache.
+BLOCK_OF_BALLS = 2**18
+#: Most structures of which it is counted how much has been asked for.
+_MOST_COUNTED = 256
+
+
+def inputs_by_ball(subject: Configuration, varying: Sequence[str] = ()) -> tuple[str, ...]:
+    """The names of all numbers of a configuration that are inputs of its recording, the operating point first.
+
+    An exponent of a law is a constant, unless it varies: folded into the powers, it costs nothing.
+    """
+    seen: set[str] = set()
+    found: list[str] = []
+    for name, (part, _) in subject.inputs.items():
+        own = name.removeprefix("nut.") if part == "nut" else name
+        is_exponent = part == "model" and name.rpartition(".")[2].endswith("exponent") and name not in varying
+        if part == "operation" or name == TEMPERATURE.name or own in seen or is_exponent:
+            continue
+        seen.add(own)
+        if subject.value_of(name) is not None:
+            found.append(own)
+    return (*OPERATION, *found)
+
+
+class ByBall:
+    """The outputs of a plan for a nut whose balls differ, made ready by one of the engines."""
+
+    def __init__(self, plan: Plan, names: tuple[str, ...], made_of: Recording, engine: Engine, reason: str) -> None:
+        self.engine: Engine = engine
+        self.reason = reason
+        self.names = names
+        self._stages, self._cut = made_of.once("stages", lambda: _stages(made_of.program, names))
+        self._program = made_of.program
+        self._before = None if engine == "compiled" else self._cut.points.interpreter.with_own_buffers()
+        self._of_points = self._cut.columns.interpreter.with_own_buffers()
+        self._behind = self._stages.behind.interpreter.with_own_buffers()
+        self._sources: list[Source] = [source for source, _ in self._cut.tables]
+        self._text = "" if engine == "numpy" else _text(made_of, self._stages, self._cut)
+        self._kernel = None if engine == "numpy" else Kernel.of(self._text, self._sources)
+        self._spare = lanes_for(self._cut.points)
+
+    @property
+    def formulas(self) -> str:
+        """All formulas as they are evaluated, as text."""
+        return f"{self._text}\n{self._program.text}"
+
+    def evaluate(self, subject: Configuration, points: Mapping[str, Any], results: Mapping[str, NDArray[Any]]) -> None:
+        """Evaluate at points into arrays of results. Raises what the solver of the loads raises."""
+        count = len(next(iter(results.values())))
+        changed = subject.changed({name: values for name, values in points.items() if name not in OPERATION})
+        with np.errstate(all="ignore"):
+            loads = loads_of(changed.screw, as_array(points[OPERATION[0]]))
+            of_points = [points[name] if name in OPERATION else changed.value_of(name) for name in self.names]
+            of_points += [getattr(loads, name) for name in OF_LOADS]
+            of_balls = [_balls_first(getattr(loads, name), count) for name in OF_BALLS]
+            tables = self._tables(of_points, count)
+            inputs = [
+                tables[name] if source == "columns" else of_balls[int(name) - len(of_points)]
+                for source, name in self._cut.tables
+            ]
+            values, done = self._over_balls(inputs, len(of_balls[0]), count)
+            found = reduced(self._stages.reductions, values, done)
+            self._behind.run([*of_points, *([None] * len(OF_BALLS)), *found], results)
+
+    def _tables(self, of_points: Sequence[Any], count: int) -> dict[str, NDArray[np.float64]]:
+        """What does not depend on the ball, for each point."""
+        program = self._cut.columns
+        masks = {i for i, step in program.steps if step.is_mask}
+        found = {n: np.empty(count, dtype=bool if i in masks else float) for n, i in program.outputs.items()}
+        if found:
+            self._of_points.run([*of_points, *([None] * len(OF_BALLS))], found)
+        return {name: values.astype(float, copy=False) for name, values in found.items()}
+
+    def _over_balls(
+        self, inputs: Sequence[NDArray[np.float64]], balls: int, count: int
+    ) -> tuple[dict[str, NDArray[Any]], dict[str, NDArray[Any]]]:
+        """What each ball has, by name, and what is reduced already."""
+        sums = self._stages.sums
+        names = list(self._cut.points.outputs)
+        if self._kernel is not None:
+            found = {n: aligned_array(count + self._spare if n in sums else balls * count, float) for n in names}
+            self._kernel(
+                slice(0, balls), slice(0, count), count, inputs, list(found.values()), past_cache=False, tile=TILE
+            )
+            values = {name: held.reshape(balls, count) for name, held in found.items() if name not in sums}
+            return values, {name: held[:count] for name, held in found.items() if name in sums}
+        assert self._before is not None, "a kernel, or NumPy"
+        found = {name: np.empty(balls * count) for name in names}
+        whole = [values.reshape(-1) if values.ndim > 1 else np.tile(values, balls) for values in inputs]
+        if names:
+            self._before.run(whole, found)
+        return {name: held.reshape(balls, count) for name, held in found.items()}, {}
+
+
+def by_ball(plan: Plan, engine: Engine | None, times: int = 1) -> ByBall | str:
+    """A plan for a nut whose balls differ, made ready; or the reason why the model itself has to evaluate it.
+
+    Without an ``engine`` little work is left to the model itself, until so much of its kind has been asked for that a
+    recording pays.
+    """
+    names = inputs_by_ball(plan.subject, plan.varying)
+    work = plan.total * times * plan.subject.balls
+    try:
+        structure = _structure(plan.subject, names)
+        key = ("by ball", structure, plan.outputs, names)
+        if engine is None and kept(key) is None and _asked.add(structure, work) < ENOUGH_TO_RECORD:
+            return "the model itself, on plain arrays: the work is too short to record it"
+    except UnknownPartError:
+        key = object()  # what a law from outside computes is not known: it is recorded anew
+        if engine is None and work < ENOUGH_TO_RECORD:
+            return "the model itself, on plain arrays: the work is too short to record it"
+    try:
+        made_of = recording(lambda: key, lambda: _recorded(plan, names))
+        stages, cut = made_of.once("stages", lambda: _stages(made_of.program, names))
+        why = why_numpy(engine)
+        if engine != "numpy" and kernels.available():
+            text = _text(made_of, stages, cut)
+            if engine or worth_compiling(cut.points, max(work, ENOUGH_TO_RECORD), text):
+                return ByBall(plan, names, made_of, "compiled", ASKED_FOR if engine else PAYS)
+        return ByBall(plan, names, made_of, "numpy", why)
+    except UnknownOperationError as unknown:
+        if engine != "compiled":
+            return ByBall(plan, names, made_of, "numpy", f"{unknown} is not known to kernels")
+        return f"{unknown} is not known to kernels"
+    except CannotRecordError as error:
+        return f"the model itself, on plain arrays: {error}"
+
+
+def _structure(subject: Configuration, names: Sequence[str]) -> Hashable:
+    """A configuration as a key, without the numbers that are inputs and without what only the loads depend on."""
+    asides = {*names, "bodies", "deviations"}
+
+    def of(part: Any, prefix: str = "") -> Hashable:
+        laws = [f for f in dataclasses.fields(part) if f"{prefix}{f.name}" not in asides]
+        return type(part), *((f.name, of_field(getattr(part, f.name), f.name)) for f in laws)
+
+    def of_field(value: Any, name: str) -> Hashable:
+        if name == "nut":
+            return of(value)
+        if name == "losses":
+            return tuple((n, of_law(law, f"losses.{n}.")) for n, law in value.items())
+        return of_law(value, f"{name}.") if name in subject.model.laws_with_coefficients else key_of(value)
+
+    def of_law(law: Any, prefix: str) -> Hashable:
+        key_of(law)  # raises for one from outside
+        return of(law, prefix) if dataclasses.is_dataclass(law) else key_of(law)
+
+    return of(subject.model), of(subject.screw), of(subject.lubricant)
+
+
+def _recorded(plan: Plan, names: Sequence[str]) -> Program:
+    """The outputs wanted as a program of all inputs, the results of the solver for the nut, and those for each ball."""
+    subject = plan.subject
+    groups = [COLUMNS] * (len(names) + len(OF_LOADS)) + [ROWS | COLUMNS] * len(OF_BALLS)
+    nonnegative = [subject.is_nonnegative(name) for name in names] + [False] * len(OF_LOADS) + [True] * len(OF_BALLS)
+    tape = Tape(len(groups), groups, nonnegative, reduces=True)
+    traced = [tape.value(i) for i in range(tape.inputs)]
+    points = dict(zip(names, traced, strict=False))
+    of_nut = dict(zip(OF_LOADS, traced[len(names) :], strict=False))
+    of_balls = dict(zip(OF_BALLS, traced[-len(OF_BALLS) :], strict=True))
+    with subject.recording(by_ball=True):
+        loads = BallLoads(kinds=(KindLoads(balls=1.0, **of_balls),), one_by_one=True, **of_nut)
+        result = subject.under(loads, points)
+        return merged_program(tape, {name: output.read(result) for name, output in plan.wanted.items()})
+
+
+def _stages(program: Program, names: Sequence[str]) -> tuple[Stages, Split]:
+    groups = [COLUMNS] * (len(names) + len(OF_LOADS)) + [ROWS | COLUMNS] * len(OF_BALLS)
+    stages = cut_at_reductions(program, groups)
+    return stages, split(stages.before, groups)
+
+
+def _text(made_of: Recording, stages: Stages, cut: Split) -> str:
+    """The assembly of what each ball has."""
+    sources: list[Source] = [source for source, _ in cut.tables]
+    masks = dict.fromkeys(cut.points.outputs, False)
+    return made_of.once("text", lambda: kernel_text(cut.points, sources, masks, reduced=stages.sums))
+
+
+def _balls_first(values: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+    """Values of the balls at each point, or the same at all of them, with the ball axis first."""
+    first = np.moveaxis(values, -1, 0)
+    return np.ascontiguousarray(np.broadcast_to(first[:, None] if first.ndim == 1 else first, (len(first), count)))
+
+
+class _Asked:
+    """How much has been asked for, by structure."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._counted: OrderedDict[Hashable, int] = OrderedDict()
+
+    def add(self, structure: Hashable, work: int) -> int:
+        with self._lock:
+            total = self._counted.pop(structure, 0) + work
+            self._counted[structure] = total
+            if len(self._counted) > _MOST_COUNTED:
+                self._counted.popitem(last=False)
+            return total
+
+
+_asked = _Asked()
