@@ -98,7 +98,7 @@ class ByBall:
         count = len(next(iter(results.values())))
         changed = subject.changed({name: values for name, values in points.items() if name not in OPERATION})
         with np.errstate(all="ignore"):
-            loads = loads_of(changed.screw, as_array(points[OPERATION[0]]))
+            loads = loads_of(changed.screw, as_array(points[OPERATION[0]]), compiled=self.engine == "compiled")
             of_points = [points[name] if name in OPERATION else changed.value_of(name) for name in self.names]
             of_points += [getattr(loads, name) for name in OF_LOADS]
             of_balls = [_balls_first(getattr(loads, name), count) for name in OF_BALLS]

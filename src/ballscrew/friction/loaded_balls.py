@@ -123,11 +123,12 @@ class _OfABall:
         return np.take_along_axis(along, np.asarray(self._place)[..., None], axis=-1)[..., 0][()]
 
 
-def loads_of(screw: BallScrew, axial_load: Force) -> BallLoads:
+def loads_of(screw: BallScrew, axial_load: Force, *, compiled: bool = False) -> BallLoads:
     """The loads of the balls of a screw with its nut. Raises :class:`~ballscrew.errors.InputError` as the solver."""
     nut = screw.nut
     bodies = None if nut.bodies is None else nut.bodies.sized(screw)
-    return ball_loads(screw, nut, axial_load, bodies=bodies, deviations=nut.deviations_of(screw.loaded_balls))
+    deviations = nut.deviations_of(screw.loaded_balls)
+    return ball_loads(screw, nut, axial_load, bodies=bodies, deviations=deviations, compiled=compiled)
 
 
 def row_of_balls(model: BallModel, screw: BallScrew, lubricant: Lubricant, state: OperatingState) -> LoadedBalls:

@@ -76,7 +76,7 @@ def kernel_text(
     outputs = list(program.outputs)
     seen = [i for i, source in enumerate(sources) if source == "points"] if watched else []
     values = dict(enumerate(_emit_loops_and_loads(w, sources, seen)))
-    emitter = _StepEmitter(w, program, values)
+    emitter = StepEmitter(w, program, values)
     results = [
         emitter.as_mask(program.outputs[n]) if masks[n] else emitter.as_number(program.outputs[n]) for n in outputs
     ]
@@ -99,8 +99,8 @@ def kernel_text(
             "entry:",
             f"  %spare = alloca {w.doubles}, align 64",
             f"  store {w.doubles} zeroinitializer, ptr %spare",
-            *_pointers("input", len(sources)),
-            *_pointers("output", len(program.outputs)),
+            *pointers("input", len(sources)),
+            *pointers("output", len(program.outputs)),
             *(random.emit_key_schedule() if "random" in sources else []),
             *(line for i in seen for line in _ends_of_nothing(w, i)),
             *lines,
@@ -112,7 +112,7 @@ def kernel_text(
     )
 
 
-def _pointers(name: str, count: int) -> list[str]:
+def pointers(name: str, count: int) -> list[str]:
     """The arrays behind the table of their addresses: ``%input0``, ``%input1``, …"""
     lines: list[str] = []
     for i in range(count):
@@ -255,7 +255,7 @@ def _emit_stores_and_loop_ends(
     w.lines += ["  br i1 %is_last_tile, label %done, label %tile_loop", "done:"]
 
 
-class _StepEmitter:
+class StepEmitter:
     """The steps of a program as instructions."""
 
     def __init__(self, w: Writer, program: Program, values: dict[int, Value]) -> None:

@@ -126,6 +126,19 @@ class Kernel:
             (ctypes.c_void_p * len(ends))(*ends),
         )
 
+    def at_addresses(
+        self,
+        rows: slice,
+        columns: slice,
+        row_length: int,
+        tile: int,
+        inputs: Sequence[NDArray[np.float64]],
+        results: Sequence[NDArray[np.float64]],
+    ) -> None:
+        """Run over a rectangle, of contiguous arrays whose extents are the caller's affair."""
+        tables = [(ctypes.c_void_p * len(arrays))(*(_address(a, 0) for a in arrays)) for arrays in (inputs, results)]
+        self._function(rows.start, rows.stop, columns.start, columns.stop, row_length, tile, 0, False, *tables)
+
     def at_one_point(self, inputs: NDArray[np.float64], results: Sequence[NDArray[Any]]) -> Callable[[], None]:
         """A call that reads one point from ``inputs`` and writes it into ``results``, with next to nothing left to do.
 

@@ -123,7 +123,7 @@ def _reduced(tape: Tape, function: Any, args: Sequence[Any], kwargs: Mapping[str
     return tape.value(tape.record(function, tape.value(values.index), *places))
 
 
-_MASKS = {
+MASKS = {
     np.equal, np.not_equal, np.less, np.less_equal, np.greater, np.greater_equal,
     np.isfinite, np.isnan, np.isinf, np.logical_and, np.logical_or, np.logical_xor, np.logical_not,
 }  # fmt: skip
@@ -195,7 +195,7 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
             inputs = (Traced(self.tape, self.powers, 1.0, self.zero), inputs[1])  # the scale does not matter
         if not _takes_floats(ufunc, tuple(map(_is_mask, inputs))):
             raise CannotRecordError(f"numpy.{ufunc.__name__} takes no real numbers")
-        is_mask = ufunc in _MASKS or (ufunc in _TRUTH and all(map(_is_mask, inputs)))
+        is_mask = ufunc in MASKS or (ufunc in _TRUTH and all(map(_is_mask, inputs)))
         return self.tape.value(self.tape.record(ufunc, *map(_constant, inputs), is_mask=is_mask))
 
     def __array_function__(
