@@ -24,7 +24,7 @@ from ballscrew._arrays import as_array
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.evaluation.engines import ASKED_FOR, PAYS, Engine, why_numpy, worth_compiling
-from ballscrew.evaluation.outputs import OF_LOADS, OPERATION, Output
+from ballscrew.evaluation.outputs import NUT_OUTPUTS, OF_LOADS, OPERATION, Output, known_outputs
 from ballscrew.evaluation.plan import Configuration, Plan
 from ballscrew.evaluation.recordings import Recording, UnknownPartError, kept, key_of, recording
 from ballscrew.friction.loaded_balls import loads_of
@@ -35,7 +35,7 @@ from ballscrew.kernels.kernel import Kernel
 from ballscrew.solvers.load_distribution import BallLoads, KindLoads
 from ballscrew.tracing.grid import Split, split
 from ballscrew.tracing.merging import merged_program
-from ballscrew.tracing.program import Program, Source
+from ballscrew.tracing.program import Program, Source, required_steps
 from ballscrew.tracing.reductions import Stages, cut_at_reductions, reduced
 from ballscrew.tracing.steps import COLUMNS, ROWS
 from ballscrew.tracing.tape import CannotRecordError, Tape
@@ -49,6 +49,9 @@ TILE = 128
 #: Numbers of balls that are evaluated in a block: large enough for the steps of NumPy at the points, small enough
 #: for the cache.
 BLOCK_OF_BALLS = 2**18
+#: Outputs that are recorded together.
+_USUAL = frozenset({*NUT_OUTPUTS, "drive_torque", "holding_torque", "self_locking", "minimum_film_parameter"})
+_USUAL_PARTS = ("contribution_", "validity_")
 #: Most structures of which it is counted how much has been asked for.
 _MOST_COUNTED = 256
 
@@ -82,11 +85,11 @@ class ByBall:
         self._program = made_of.program
         self._before = None if engine == "compiled" else self._cut.points.interpreter.with_own_buffers()
         self._of_points = self._cut.columns.interpreter.with_own_buffers()
-        self._behind = self._stages.behind.interpreter.with_own_buffers()
+        self._behind = made_of.once(f"behind {plan.outputs}", lambda: _of(self._stages.behind, plan.outputs)).interpreter
         self._sources: list[Source] = [source for source, _ in self._cut.tables]
         self._text = "" if engine == "numpy" else _text(made_of, self._stages, self._cut)
         self._kernel = None if engine == "numpy" else Kernel.of(self._text, self._sources)
-        self._spare = lanes_for(self._cut.points)
+        self._spare = _lanes(self._cut.points)
 
     @property
     def formulas(self) -> str:
@@ -148,10 +151,11 @@ def by_ball(plan: Plan, engine: Engine | None, times: int = 1) -> ByBall | str:
     recording pays.
     """
     names = inputs_by_ball(plan.subject, plan.varying)
+    wanted = _recorded_outputs(plan)
     work = plan.total * times * plan.subject.balls
     try:
         structure = _structure(plan.subject, names)
-        key = ("by ball", structure, plan.outputs, names)
+        key = ("by ball", structure, tuple(wanted), names)
         if engine is None and kept(key) is None and _asked.add(structure, work) < ENOUGH_TO_RECORD:
             return "the model itself, on plain arrays: the work is too short to record it"
     except UnknownPartError:
@@ -159,7 +163,7 @@ def by_ball(plan: Plan, engine: Engine | None, times: int = 1) -> ByBall | str:
         if engine is None and work < ENOUGH_TO_RECORD:
             return "the model itself, on plain arrays: the work is too short to record it"
     try:
-        made_of = recording(lambda: key, lambda: _recorded(plan, names))
+        made_of = recording(lambda: key, lambda: _recorded(plan.subject, wanted, names))
         stages, cut = made_of.once("stages", lambda: _stages(made_of.program, names))
         why = why_numpy(engine)
         if engine != "numpy" and kernels.available():
@@ -197,9 +201,18 @@ def _structure(subject: Configuration, names: Sequence[str]) -> Hashable:
     return of(subject.model), of(subject.screw), of(subject.lubricant)
 
 
-def _recorded(plan: Plan, names: Sequence[str]) -> Program:
+def _recorded_outputs(plan: Plan) -> Mapping[str, Output]:
+    """The outputs that are recorded: the usual ones, where those of the plan are among them, or just these.
+
+    What a few sums more cost at each ball is saved by having one recording and one kernel for most purposes.
+    """
+    known = known_outputs(plan.subject.nut)
+    usual = {n: output for n, output in known.items() if n in _USUAL or n.startswith(_USUAL_PARTS)}
+    return usual if usual.keys() >= set(plan.outputs) else plan.wanted
+
+
+def _recorded(subject: Configuration, wanted: Mapping[str, Output], names: Sequence[str]) -> Program:
     """The outputs wanted as a program of all inputs, the results of the solver for the nut, and those for each ball."""
-    subject = plan.subject
     groups = [COLUMNS] * (len(names) + len(OF_LOADS)) + [ROWS | COLUMNS] * len(OF_BALLS)
     nonnegative = [subject.is_nonnegative(name) for name in names] + [False] * len(OF_LOADS) + [True] * len(OF_BALLS)
     tape = Tape(len(groups), groups, nonnegative, reduces=True)
@@ -210,7 +223,7 @@ def _recorded(plan: Plan, names: Sequence[str]) -> Program:
     with subject.recording(by_ball=True):
         loads = BallLoads(kinds=(KindLoads(balls=1.0, **of_balls),), one_by_one=True, **of_nut)
         result = subject.under(loads, points)
-        return merged_program(tape, {name: output.read(result) for name, output in plan.wanted.items()})
+        return merged_program(tape, {name: output.read(result) for name, output in wanted.items()})
 
 
 def _stages(program: Program, names: Sequence[str]) -> tuple[Stages, Split]:
@@ -219,11 +232,25 @@ def _stages(program: Program, names: Sequence[str]) -> tuple[Stages, Split]:
     return stages, split(stages.before, groups)
 
 
+def _of(program: Program, outputs: Sequence[str]) -> Program:
+    """Some of the outputs of a program."""
+    found = {name: program.outputs[name] for name in outputs if name in program.outputs}
+    constants = {name: program.constants[name] for name in outputs if name in program.constants}
+    steps = required_steps(dict(program.steps), found.values())
+    return dataclasses.replace(program, steps=steps, outputs=found, constants=constants)
+
+
 def _text(made_of: Recording, stages: Stages, cut: Split) -> str:
     """The assembly of what each ball has."""
     sources: list[Source] = [source for source, _ in cut.tables]
     masks = dict.fromkeys(cut.points.outputs, False)
-    return made_of.once("text", lambda: kernel_text(cut.points, sources, masks, reduced=stages.sums))
+    lanes = _lanes(cut.points)
+    return made_of.once("text", lambda: kernel_text(cut.points, sources, masks, lanes=lanes, reduced=stages.sums))
+
+
+def _lanes(program: Program) -> int:
+    """The number of points in a vector: most inputs are tables of a tile, which stay in the cache."""
+    return lanes_for(dataclasses.replace(program, inputs=len(OF_BALLS)))
 
 
 def _balls_first(values: NDArray[np.float64], count: int) -> NDArray[np.float64]:

@@ -9,6 +9,7 @@ room to spare, so that a point's result does not depend on where blocks begin an
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -256,13 +257,19 @@ def _emit_stores_and_loop_ends(
 
 
 class StepEmitter:
-    """The steps of a program as instructions."""
+    """The steps of a program as instructions.
+
+    What divides several times is inverted once: a vector of quotients takes as long as a dozen products.
+    """
 
     def __init__(self, w: Writer, program: Program, values: dict[int, Value]) -> None:
         self.w = w
         self.values = values
         self.nonnegative = program.nonnegative
         self.is_mask = {i: step.is_mask for i, step in program.steps}
+        divisors = [step.operands[1] for _, step in program.steps if step.function is np.divide]
+        self.shared = {divisor for divisor, times in Counter(divisors).items() if times > 1}
+        self.inverted: dict[tuple[str, Operand], Value] = {}
         for i, step in program.steps:
             self.values[i] = self._emit(step)
 
@@ -302,6 +309,8 @@ class StepEmitter:
         numbers = [self._number(operand) for operand in operands]
         if function is np.log and operands[0][1] in self.nonnegative:
             return w.call(elementary.LOG_OF_NONNEGATIVE, *numbers)
+        if function is np.divide and operands[1] in self.shared and operands[0] != operands[1]:
+            return self._product_with_inverse(*operands, numbers)
         if function in _ARITHMETIC:
             return w.arithmetic(_ARITHMETIC[function], numbers[0], numbers[1])
         if function in _RELATIONS:
@@ -320,6 +329,14 @@ class StepEmitter:
         if function.__name__ in elementary.NAMES:
             return w.call(function.__name__, *numbers)
         raise UnknownOperationError(function.__name__)
+
+    def _product_with_inverse(
+        self, above: tuple[str, Operand], below: tuple[str, Operand], numbers: Sequence[Value]
+    ) -> Value:
+        if below not in self.inverted:
+            self.inverted[below] = self.w.arithmetic("fdiv", _ONE, numbers[1])
+        inverse = self.inverted[below]
+        return inverse if above == ("constant", 1.0) else self.w.arithmetic("fmul", numbers[0], inverse)
 
     def _extreme(self, relation: str, operands: Sequence[tuple[str, Operand]], numbers: list[Value]) -> Value:
         """The larger or smaller of two; NaN if either is."""
