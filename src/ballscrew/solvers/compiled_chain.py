@@ -42,7 +42,7 @@ def compiled_chain_balance(springs: BallSprings, bars: Bars, load: Field, scale:
     """The displacements at which a chain of bars carries a load."""
     found = _balanced(springs, bars, load, scale, start, STEPS)
     x, force, slope = found.displacement, found.force, found.slope
-    x = x + np.where(slope > 0, (load - force) / np.where(slope > 0, slope, 1.0), 0.0)
+    x += np.where(slope > 0, (load - force) / np.where(slope > 0, slope, 1.0), 0.0)
     if not found.settled.all():
         open_ = np.flatnonzero(~found.settled)
         among = np.resize(open_, max(open_.size, FEWEST_POINTS))
@@ -85,7 +85,7 @@ def compiled_response(bars: Bars, slope: Field) -> Field:
     """The displacements of a chain of linear springs under a force of one, which enters as a load does."""
     count = slope.shape[-1]
     share = np.broadcast_to(bars.first_share, (count,))
-    chains = Chains(np.zeros_like(slope), bars.stiffness, share, 1 - share, np.zeros(count), 0.0)
+    chains = Chains(np.broadcast_to(0.0, slope.shape), bars.stiffness, share, 1 - share, np.zeros(count), 0.0)
     kernel = _linear_kernel(_sources([slope, bars.stiffness]))
     return balanced_chains(kernel, [slope], chains, 1).displacement  # the first step is the answer
 

@@ -220,7 +220,7 @@ def _one_by_one(
             parts[block.start // size] = solved(case, *(n if n.size == 1 else n[block] for n in flat))
 
     map_blocks(solve, flat[0].size, block_size=size)
-    joined = [np.concatenate(part, axis=-1) for part in zip(*parts, strict=True)]
+    joined = parts[0] if len(parts) == 1 else [np.concatenate(part, axis=-1) for part in zip(*parts, strict=True)]
     joined = [np.broadcast_to(part, (*part.shape[:-1], flat[0].size))[..., :count] for part in joined]
     # a preload below zero has no distribution
     meaningless = (np.isnan(flat[0]) | ~(flat[1] >= 0))[:count]
