@@ -12,8 +12,6 @@ ball. Constants are exponents of laws, which are folded, and materials.
 from __future__ import annotations
 
 import dataclasses
-import threading
-from collections import OrderedDict
 from collections.abc import Hashable, Mapping, Sequence
 from typing import Any
 
@@ -26,7 +24,7 @@ from ballscrew.components.operating_state import OperatingState
 from ballscrew.evaluation.engines import ASKED_FOR, PAYS, Engine, why_numpy, worth_compiling
 from ballscrew.evaluation.outputs import NUT_OUTPUTS, OF_LOADS, OPERATION, Output, known_outputs
 from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.evaluation.recordings import Recording, UnknownPartError, kept, key_of, recording
+from ballscrew.evaluation.recordings import Recording, Structures, UnknownPartError, key_of
 from ballscrew.friction.loaded_balls import loads_of
 from ballscrew.kernels import kernel as kernels
 from ballscrew.kernels.buffers import aligned_array
@@ -52,8 +50,7 @@ BLOCK_OF_BALLS = 2**18
 #: Outputs that are recorded together.
 _USUAL = frozenset({*NUT_OUTPUTS, "drive_torque", "holding_torque", "self_locking", "minimum_film_parameter"})
 _USUAL_PARTS = ("contribution_", "validity_")
-#: Most structures of which it is counted how much has been asked for.
-_MOST_COUNTED = 256
+_structures = Structures()
 
 
 def inputs_by_ball(subject: Configuration, varying: Sequence[str] = ()) -> tuple[str, ...]:
@@ -153,30 +150,36 @@ def by_ball(plan: Plan, engine: Engine | None, times: int = 1) -> ByBall | str:
     names = inputs_by_ball(plan.subject, plan.varying)
     wanted = _recorded_outputs(plan)
     work = plan.total * times * plan.subject.balls
+    why = "the model itself, on plain arrays: the work is too short to record it"
+    key = _key(plan.subject, tuple(wanted), names)
+    made_of = None if key is None else _structures.get(key)
+    asked = work if key is None else _structures.asked(key, work)
+    if made_of is None and engine is None and asked < ENOUGH_TO_RECORD:
+        return why
     try:
-        structure = _structure(plan.subject, names)
-        key = ("by ball", structure, tuple(wanted), names)
-        if engine is None and kept(key) is None and _asked.add(structure, work) < ENOUGH_TO_RECORD:
-            return "the model itself, on plain arrays: the work is too short to record it"
-    except UnknownPartError:
-        key = object()  # what a law from outside computes is not known: it is recorded anew
-        if engine is None and work < ENOUGH_TO_RECORD:
-            return "the model itself, on plain arrays: the work is too short to record it"
-    try:
-        made_of = recording(lambda: key, lambda: _recorded(plan.subject, wanted, names))
+        if made_of is None:
+            program = _recorded(plan.subject, wanted, names)
+            made_of = Recording(program) if key is None else _structures.add(key, program)
         stages, cut = made_of.once("stages", lambda: _stages(made_of.program, names))
         why = why_numpy(engine)
         if engine != "numpy" and kernels.available():
             text = _text(made_of, stages, cut)
-            if engine or worth_compiling(cut.points, max(work, ENOUGH_TO_RECORD), text):
+            if engine or worth_compiling(cut.points, asked, text):
                 return ByBall(plan, names, made_of, "compiled", ASKED_FOR if engine else PAYS)
         return ByBall(plan, names, made_of, "numpy", why)
     except UnknownOperationError as unknown:
-        if engine != "compiled":
-            return ByBall(plan, names, made_of, "numpy", f"{unknown} is not known to kernels")
-        return f"{unknown} is not known to kernels"
+        why = f"{unknown} is not known to kernels"
+        return why if engine == "compiled" else ByBall(plan, names, made_of, "numpy", why)
     except CannotRecordError as error:
         return f"the model itself, on plain arrays: {error}"
+
+
+def _key(subject: Configuration, outputs: tuple[str, ...], names: tuple[str, ...]) -> Hashable | None:
+    """All that a recording depends on; None where a law from outside may compute something else each time."""
+    try:
+        return _structure(subject, names), outputs, names
+    except UnknownPartError:
+        return None
 
 
 def _structure(subject: Configuration, names: Sequence[str]) -> Hashable:
@@ -257,22 +260,3 @@ def _balls_first(values: NDArray[np.float64], count: int) -> NDArray[np.float64]
     """Values of the balls at each point, or the same at all of them, with the ball axis first."""
     first = np.moveaxis(values, -1, 0)
     return np.ascontiguousarray(np.broadcast_to(first[:, None] if first.ndim == 1 else first, (len(first), count)))
-
-
-class _Asked:
-    """How much has been asked for, by structure."""
-
-    def __init__(self) -> None:
-        self._lock = threading.Lock()
-        self._counted: OrderedDict[Hashable, int] = OrderedDict()
-
-    def add(self, structure: Hashable, work: int) -> int:
-        with self._lock:
-            total = self._counted.pop(structure, 0) + work
-            self._counted[structure] = total
-            if len(self._counted) > _MOST_COUNTED:
-                self._counted.popitem(last=False)
-            return total
-
-
-_asked = _Asked()

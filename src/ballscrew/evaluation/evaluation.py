@@ -188,7 +188,9 @@ class Evaluation:
             self.plan.check({name: ends(np.array(pairs)) for name, pairs in found.items()})
 
     def _usual_block(self, total: int, threads: int | None) -> int:
-        if self.engine == "numpy" or self._block_size < SMALLEST_BLOCK:
+        if self._block_size < SMALLEST_BLOCK and self.engine == "compiled":
+            return min(self._block_size, math.ceil(total / (threads or processors())))
+        if self.engine == "numpy":
             return self._block_size
         fair = math.ceil(total / (BLOCKS_PER_THREAD * (threads or processors())))
         size = min(max(fair, SMALLEST_BLOCK), self._block_size)

@@ -29,6 +29,8 @@ from ballscrew.tracing.program import Program, Source
 
 #: Most recordings that are kept, and most steps of all of them together, some 600 bytes each (assembly aside).
 MOST_RECORDINGS, MOST_STEPS = 256, 150_000
+#: Most recordings by structure.
+MOST_STRUCTURES = 16
 #: An array with more numbers than this in a part is not compared call by call.
 MOST_NUMBERS = 1000
 
@@ -76,14 +78,6 @@ class Recording:
         return self._texts[key]
 
 
-def kept(key: Any) -> Recording | None:
-    """The recording that is kept with an equal key."""
-    try:
-        return _kept.get(key_of(key))
-    except UnknownPartError:
-        return None
-
-
 def recording(key: Callable[[], Any], record: Callable[[], Program]) -> Recording:
     """A recording that was made with an equal key, or a new one.
 
@@ -96,10 +90,40 @@ def recording(key: Callable[[], Any], record: Callable[[], Program]) -> Recordin
     return _kept.get(held) or _kept.add(held, Recording(record()))
 
 
+class Structures:
+    """Recordings of which all numbers are inputs, by structure: they serve every case of a kind, and are not dropped.
+
+    It is counted how much was asked for of each structure.
+    """
+
+    def __init__(self) -> None:
+        self._kept = _Kept(most=MOST_STRUCTURES)
+        self._lock = threading.Lock()
+        self._asked: OrderedDict[Hashable, int] = OrderedDict()
+
+    def get(self, key: Hashable) -> Recording | None:
+        """The recording of a structure."""
+        return self._kept.get(key)
+
+    def add(self, key: Hashable, program: Program) -> Recording:
+        """Keep the recording of a structure."""
+        return self._kept.add(key, Recording(program))
+
+    def asked(self, key: Hashable, work: int) -> int:
+        """Count work of a structure that was asked for, and return all of it."""
+        with self._lock:
+            total = self._asked.pop(key, 0) + work
+            self._asked[key] = total
+            if len(self._asked) > MOST_RECORDINGS:
+                self._asked.popitem(last=False)
+            return total
+
+
 class _Kept:
     """The recordings that were used last, as long as the package stays as it was."""
 
-    def __init__(self) -> None:
+    def __init__(self, most: int = MOST_RECORDINGS) -> None:
+        self._most = most
         self._lock = threading.Lock()
         self._found: OrderedDict[Hashable, Recording] = OrderedDict()
         self._steps = 0
@@ -120,7 +144,7 @@ class _Kept:
             if key not in self._found:
                 self._found[key] = made
                 self._steps += len(made.program.steps)
-            while len(self._found) > 1 and (len(self._found) > MOST_RECORDINGS or self._steps > MOST_STEPS):
+            while len(self._found) > 1 and (len(self._found) > self._most or self._steps > MOST_STEPS):
                 _, oldest = self._found.popitem(last=False)
                 self._steps -= len(oldest.program.steps)
             return self._found[key]
