@@ -12,7 +12,7 @@ ball. Constants are exponents of laws, which are folded, and materials.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ballscrew._arrays import as_array
 from ballscrew.components.materials import TEMPERATURE
-from ballscrew.components.operating_state import OperatingState
+from ballscrew.evaluation.axes import ends
 from ballscrew.evaluation.engines import ASKED_FOR, PAYS, Engine, why_numpy, worth_compiling
 from ballscrew.evaluation.outputs import NUT_OUTPUTS, OF_LOADS, OPERATION, Output, known_outputs
 from ballscrew.evaluation.plan import Configuration, Plan
@@ -82,7 +82,9 @@ class ByBall:
         self._program = made_of.program
         self._before = None if engine == "compiled" else self._cut.points.interpreter.with_own_buffers()
         self._of_points = self._cut.columns.interpreter.with_own_buffers()
-        self._behind = made_of.once(f"behind {plan.outputs}", lambda: _of(self._stages.behind, plan.outputs)).interpreter
+        self._behind = made_of.once(
+            f"behind {plan.outputs}", lambda: _of(self._stages.behind, plan.outputs)
+        ).interpreter
         self._sources: list[Source] = [source for source, _ in self._cut.tables]
         self._text = "" if engine == "numpy" else _text(made_of, self._stages, self._cut)
         self._kernel = None if engine == "numpy" else Kernel.of(self._text, self._sources)
@@ -92,6 +94,18 @@ class ByBall:
     def formulas(self) -> str:
         """All formulas as they are evaluated, as text."""
         return f"{self._text}\n{self._program.text}"
+
+    def evaluator_of(self, plan: Plan) -> Callable[..., None]:
+        """The evaluator of a slice of the flattened grid, into arrays that begin at the given place; it notes ends."""
+
+        def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int, found: Mapping[str, Any]) -> None:
+            points = plan.points(part)
+            for name, noted in found.items():
+                noted.append(ends(points[name]))
+            here = {name: values[part.start - first : part.stop - first] for name, values in results.items()}
+            self.evaluate(plan.subject, plan.fixed | points, here)
+
+        return evaluate
 
     def evaluate(self, subject: Configuration, points: Mapping[str, Any], results: Mapping[str, NDArray[Any]]) -> None:
         """Evaluate at points into arrays of results. Raises what the solver of the loads raises."""
@@ -141,13 +155,13 @@ class ByBall:
         return {name: held.reshape(balls, count) for name, held in found.items()}, {}
 
 
-def by_ball(plan: Plan, engine: Engine | None, times: int = 1) -> ByBall | str:
+def by_ball(plan: Plan, engine: Engine | None, times: int = 1, varying: Sequence[str] | None = None) -> ByBall | str:
     """A plan for a nut whose balls differ, made ready; or the reason why the model itself has to evaluate it.
 
-    Without an ``engine`` little work is left to the model itself, until so much of its kind has been asked for that a
-    recording pays.
+    ``varying`` names the inputs that vary where it is not the axes of the plan. Without an ``engine`` little work is
+    left to the model itself, until so much of its kind has been asked for that a recording pays.
     """
-    names = inputs_by_ball(plan.subject, plan.varying)
+    names = inputs_by_ball(plan.subject, plan.varying if varying is None else varying)
     wanted = _recorded_outputs(plan)
     work = plan.total * times * plan.subject.balls
     why = "the model itself, on plain arrays: the work is too short to record it"
@@ -160,18 +174,26 @@ def by_ball(plan: Plan, engine: Engine | None, times: int = 1) -> ByBall | str:
         if made_of is None:
             program = _recorded(plan.subject, wanted, names)
             made_of = Recording(program) if key is None else _structures.add(key, program)
-        stages, cut = made_of.once("stages", lambda: _stages(made_of.program, names))
-        why = why_numpy(engine)
+        return _by_an_engine(plan, engine, names, made_of, asked)
+    except CannotRecordError as error:
+        return f"the model itself, on plain arrays: {error}"
+
+
+def _by_an_engine(
+    plan: Plan, engine: Engine | None, names: tuple[str, ...], made_of: Recording, asked: int
+) -> ByBall | str:
+    stages, cut = made_of.once("stages", lambda: _stages(made_of.program, names))
+    why = why_numpy(engine)
+    try:
         if engine != "numpy" and kernels.available():
             text = _text(made_of, stages, cut)
             if engine or worth_compiling(cut.points, asked, text):
                 return ByBall(plan, names, made_of, "compiled", ASKED_FOR if engine else PAYS)
-        return ByBall(plan, names, made_of, "numpy", why)
     except UnknownOperationError as unknown:
         why = f"{unknown} is not known to kernels"
-        return why if engine == "compiled" else ByBall(plan, names, made_of, "numpy", why)
-    except CannotRecordError as error:
-        return f"the model itself, on plain arrays: {error}"
+        if engine == "compiled":
+            return why
+    return ByBall(plan, names, made_of, "numpy", why)
 
 
 def _key(subject: Configuration, outputs: tuple[str, ...], names: tuple[str, ...]) -> Hashable | None:

@@ -199,20 +199,10 @@ class Evaluation:
 
 
 def _by_ball(plan: Plan, ready: ByBall) -> Evaluation:
-    def evaluator_of(plan: Plan) -> _BlockEvaluator:
-        def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int, found: _Ends) -> None:
-            points = plan.points(part)
-            for name, noted in found.items():
-                noted.append(ends(points[name]))
-            here = {name: values[part.start - first : part.stop - first] for name, values in results.items()}
-            ready.evaluate(plan.subject, plan.fixed | points, here)
-
-        return evaluate
-
     # the loads are solved by code of the package, and the numbers of the parts are inputs
     identify = functools.partial(_fingerprint, plan, ready.engine, None, lambda: ready.formulas)
     block = max(1, BLOCK_OF_BALLS // plan.subject.balls)
-    return Evaluation(plan, ready.engine, ready.reason, identify, evaluator_of, block, 1)
+    return Evaluation(plan, ready.engine, ready.reason, identify, ready.evaluator_of, block, 1)
 
 
 def _by_numpy(plan: Plan, program: Program | None, reason: str) -> Evaluation:

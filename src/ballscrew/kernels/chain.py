@@ -246,4 +246,3 @@ def _text(program: Program, sources: Sequence[Source], lanes: int) -> str:
             "",
         ]
     )
-

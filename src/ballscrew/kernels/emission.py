@@ -310,7 +310,7 @@ class StepEmitter:
         if function is np.log and operands[0][1] in self.nonnegative:
             return w.call(elementary.LOG_OF_NONNEGATIVE, *numbers)
         if function is np.divide and operands[1] in self.shared and operands[0] != operands[1]:
-            return self._product_with_inverse(*operands, numbers)
+            return self._product_with_inverse(operands[0], operands[1], numbers)
         if function in _ARITHMETIC:
             return w.arithmetic(_ARITHMETIC[function], numbers[0], numbers[1])
         if function in _RELATIONS:

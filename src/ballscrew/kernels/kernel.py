@@ -94,7 +94,8 @@ class Kernel:
     ) -> None:
         """Evaluate a rectangle of the grid; both slices hold at least one number.
 
-        ``tile`` is the number of columns that are worked on at a time. ``past_cache`` says whether the results outgrow the cache; by default their sizes decide.
+        ``tile`` is the number of columns that are worked on at a time. ``past_cache`` says whether the results outgrow
+        the cache; by default their sizes decide.
 
         Results and inputs over points are contiguous arrays that begin at place ``first`` of the
         flattened grid; inputs over rows and columns are whole; random ones are None.

@@ -27,7 +27,7 @@ TILE = 128
 
 
 class CarriedLoads(NamedTuple):
-    """Of each ball its loads and contact angles on both flanks, and the slope of its force; sums of the axial forces."""
+    """Of each ball its loads and contact angles on both flanks, and its slope; sums of the axial forces."""
 
     forward_load: Field
     backward_load: Field
@@ -69,16 +69,14 @@ def compiled_loads(springs: BallSprings, displacement: Field, works: Field) -> C
     """The loads of balls at these displacements; none where a point does not work."""
     links, count = displacement.shape
     inputs = [displacement, works, *_numbers(springs)]
-    sources = ("points", "columns", *_sources(inputs[2:]))
+    sources: tuple[Source, ...] = ("points", "columns", *_sources(inputs[2:]))
     kernel, sums, spare = _load_kernel(len(springs.flanks), springs.constant_angle, sources)
     found = {n: np.empty(count + spare if n in sums else links * count) for n in CarriedLoads._fields}
     whole = [np.ascontiguousarray(_whole(number, links, count)) for number in inputs]
     kernel(
         slice(0, links), slice(0, count), count, whole, list(found.values()), past_cache=False, tile=TILE
     )  # fmt: skip
-    return CarriedLoads(
-        *(held[:count] if name in sums else held.reshape(links, count) for name, held in found.items())
-    )
+    return CarriedLoads(*(held[:count] if name in sums else held.reshape(links, count) for name, held in found.items()))
 
 
 def compiled_response(bars: Bars, slope: Field) -> Field:
@@ -92,7 +90,8 @@ def compiled_response(bars: Bars, slope: Field) -> Field:
 
 def _numbers(springs: BallSprings) -> list[Field]:
     """The numbers of springs, in the order of :func:`_made_of`."""
-    return [*springs[: springs._fields.index("constant_angle")], *(part for each in springs.flanks for part in each)]
+    K, A, alpha, c_phi, balls, _, flanks = springs
+    return [K, A, alpha, c_phi, balls, *(part for each in flanks for part in each)]
 
 
 def _made_of(constant_angle: bool, K: Any, A: Any, alpha: Any, c_phi: Any, balls: Any, *parts: Any) -> BallSprings:
@@ -116,7 +115,10 @@ def _chain_kernel(flanks: int, constant_angle: bool, sources: tuple[Source, ...]
 
 @functools.cache
 def _linear_kernel(sources: tuple[Source, ...]) -> Kernel:
-    return chain_kernel(verbatim_program(2, lambda x, slope: {"force": slope * x, "slope": slope + 0.0}), sources)
+    def formula(x: Any, slope: Any) -> Mapping[str, Any]:
+        return {"force": slope * x, "slope": slope + 0.0}
+
+    return chain_kernel(verbatim_program(2, formula), sources)
 
 
 @functools.cache
@@ -138,16 +140,16 @@ def _load_kernel(
         return {name: found[name] for name in CarriedLoads._fields}
 
     program = _recorded(flanks, 2, formula)
-    sums = dict.fromkeys(("on_forward", "on_backward"), np.sum)
+    sums: dict[str, Any] = {"on_forward": np.sum, "on_backward": np.sum}
     text = kernel_text(program, sources, dict.fromkeys(program.outputs, False), reduced=sums)
     return Kernel.of(text, sources), sums, lanes_for(program)
 
 
 def _sources(numbers: Sequence[Field]) -> tuple[Source, ...]:
     def of(number: Field) -> Source:
-        if number.ndim == 1:
-            return "columns"
-        return "rows" if number.shape[-1] == 1 else "points"
+        if number.ndim > 1 and number.shape[-1] == 1:
+            return "rows"
+        return "columns" if number.ndim == 1 else "points"
 
     return tuple(map(of, numbers))
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ballscrew.quantities import Force, Length, Ratio
 from ballscrew.solvers.ball_springs import (
@@ -106,7 +107,7 @@ def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
         found = np.where(point.load != 0, found, at_rest)
     # without load and preload balls just touch; what rounding makes of that is no load
     works = np.abs(point.load) + point.preload > 0
-    carried = compiled_loads(springs, found, 1.0 * works) if case.compiled else _carried(springs, found, works)
+    carried = compiled_loads(springs, found, works.astype(float)) if case.compiled else _carried(springs, found, works)
     imbalance = np.abs(carried.on_forward - carried.on_backward - point.load)
     if case.halves == 2:
         braced = np.where(springs.flanks[0].facing > 0, springs.forces(at_rest)[0], 0.0).sum(axis=0)
@@ -127,7 +128,7 @@ def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
     )
 
 
-def _carried(springs: BallSprings, displacement: Field, works: Field) -> CarriedLoads:
+def _carried(springs: BallSprings, displacement: Field, works: NDArray[np.bool_]) -> CarriedLoads:
     """Loads and contact angles of the flank pairs that face forwards, and of those that face backwards."""
     loads = [(flanks.facing, springs.loads(flanks, displacement)) for flanks in springs.flanks]
 

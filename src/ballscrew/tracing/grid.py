@@ -61,7 +61,7 @@ def split(program: Program, groups: Sequence[int]) -> Split:
     nonnegative = frozenset(number[i] for i in program.nonnegative if i in number)
     points = Program(len(tabled), tuple(renumbered), outputs, program.constants, nonnegative)
     kinds: dict[int, Source] = {ROWS: "rows", COLUMNS: "columns", ROWS | COLUMNS: "points"}
-    sources = [(kinds[group[i]], str(i)) for i in tabled]
+    sources: list[tuple[Source, str]] = [(kinds[group[i]], str(i)) for i in tabled]
     return Split(tables(ROWS), tables(COLUMNS), points, tuple(sources))
 
 

@@ -1,7 +1,7 @@
 """Programs with reductions over the rows of a grid, cut there: what each point needs, and what each column needs.
 
-The steps before a reduction have a value at each point (row and column), those behind it one for each column. No
-reduction is of what has been reduced before (:mod:`ballscrew.tracing.tape` refuses that), so that a program is cut once.
+The steps before a reduction have a value at each point (row and column), those behind it one for each column. Nothing
+is reduced twice (:mod:`ballscrew.tracing.tape` refuses that), so that a program is cut once.
 """
 
 from __future__ import annotations

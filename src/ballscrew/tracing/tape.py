@@ -21,27 +21,14 @@ from typing import Any
 
 import numpy as np
 
+from ballscrew.tracing.cannot_record import CannotRecordError as CannotRecordError
+from ballscrew.tracing.cannot_record import NoAttributeError
+from ballscrew.tracing.cannot_record import why_not_recorded as why_not_recorded
 from ballscrew.tracing.logarithms import folds_into_exponent, logarithm, sum_of_logarithms
 from ballscrew.tracing.steps import COLUMNS, REDUCED, REDUCTIONS, ROWS, Step, choose
 
 #: Whole powers up to this one are multiplied out.
 HIGHEST_WHOLE_POWER = 8
-
-
-class CannotRecordError(TypeError):
-    """Asked of a traced value: what only numbers or plain arrays can do."""
-
-
-class _NoAttributeError(CannotRecordError, AttributeError):
-    """Asked of a traced value: a method or an attribute of plain arrays."""
-
-
-def why_not_recorded(error: BaseException) -> CannotRecordError | None:
-    """Cause of an error that is an operation that cannot be recorded."""
-    below: BaseException | None = error
-    while below is not None and not isinstance(below, CannotRecordError):
-        below = below.__cause__ or below.__context__
-    return below
 
 
 class Tape:
@@ -224,7 +211,7 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
 
     def __getattr__(self, name: str) -> Any:
         """Operators and functions of NumPy are recorded, methods of arrays are not."""
-        raise _NoAttributeError(f"a traced value has no attribute {name!r}")
+        raise NoAttributeError(f"a traced value has no attribute {name!r}")
 
     def _no_number(self, *_: Any, **__: Any) -> Any:
         """A traced value has no numbers yet; a law that needs them is evaluated on plain arrays."""

@@ -18,7 +18,6 @@ from ballscrew.studies import band as bands
 from ballscrew.studies import run as runs
 from ballscrew.web.templates import fill_records, filled, template
 
-
 #: Runs that are kept: the page asks for the drawing of what it has just asked the numbers of.
 _MOST_RUNS = 4
 _runs: OrderedDict[str, runs.Run] = OrderedDict()
