@@ -40,8 +40,9 @@ from ballscrew.tracing.tape import CannotRecordError, Tape
 
 #: What each ball has of the solved loads.
 OF_BALLS = ("forward_load", "backward_load", "forward_angle", "backward_angle")
-#: Balls at all points that have to be asked for, in one call or in several, before a recording is made.
-ENOUGH_TO_RECORD = 100_000
+#: Balls at all points that have to be asked for, in one call or in several, before a recording is made; that of balls
+#: with four contacts has ten times as many steps.
+ENOUGH_TO_RECORD, ENOUGH_OF_FOUR_CONTACTS = 100_000, 1_000_000
 #: Operating points of a kernel that are worked on at a time, ball after ball.
 TILE = 128
 #: Numbers of balls that are evaluated in a block: large enough for the steps of NumPy at the points, small enough
@@ -110,6 +111,13 @@ class ByBall:
     def evaluate(self, subject: Configuration, points: Mapping[str, Any], results: Mapping[str, NDArray[Any]]) -> None:
         """Evaluate at points into arrays of results. Raises what the solver of the loads raises."""
         count = len(next(iter(results.values())))
+        if count == 1:  # two, so that sums have the same order as among others
+            twice = {name: np.repeat(values, 2) if np.ndim(values) else values for name, values in points.items()}
+            found = {name: np.repeat(held, 2) for name, held in results.items()}
+            self.evaluate(subject, twice, found)
+            for name, held in results.items():
+                held[...] = found[name][:1]
+            return
         changed = subject.changed({name: values for name, values in points.items() if name not in OPERATION})
         with np.errstate(all="ignore"):
             loads = loads_of(changed.screw, as_array(points[OPERATION[0]]), compiled=self.engine == "compiled")
@@ -168,7 +176,8 @@ def by_ball(plan: Plan, engine: Engine | None, times: int = 1, varying: Sequence
     key = _key(plan.subject, tuple(wanted), names)
     made_of = None if key is None else _structures.get(key)
     asked = work if key is None else _structures.asked(key, work)
-    if made_of is None and engine is None and asked < ENOUGH_TO_RECORD:
+    enough = ENOUGH_TO_RECORD if plan.subject.nut.contacts_per_ball == 2 else ENOUGH_OF_FOUR_CONTACTS
+    if made_of is None and engine is None and asked < enough:
         return why
     try:
         if made_of is None:

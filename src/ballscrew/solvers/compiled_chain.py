@@ -146,12 +146,8 @@ def _load_kernel(
 
 
 def _sources(numbers: Sequence[Field]) -> tuple[Source, ...]:
-    def of(number: Field) -> Source:
-        if number.ndim > 1 and number.shape[-1] == 1:
-            return "rows"
-        return "columns" if number.ndim == 1 else "points"
-
-    return tuple(map(of, numbers))
+    kinds: dict[tuple[bool, bool], Source] = {(True, False): "points", (True, True): "rows"}
+    return tuple(kinds.get((number.ndim > 1, number.shape[-1] == 1), "columns") for number in numbers)
 
 
 def _whole(number: Field, links: int, count: int) -> Field:
