@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ballscrew.kernels.buffers import aligned_array
 from ballscrew.kernels.chain import Balanced, Chains, balanced_chains, chain_kernel
 from ballscrew.kernels.emission import kernel_text, lanes_for
 from ballscrew.kernels.kernel import Kernel
@@ -71,7 +72,7 @@ def compiled_loads(springs: BallSprings, displacement: Field, works: Field) -> C
     inputs = [displacement, works, *_numbers(springs)]
     sources: tuple[Source, ...] = ("points", "columns", *_sources(inputs[2:]))
     kernel, sums, spare = _load_kernel(len(springs.flanks), springs.constant_angle, sources)
-    found = {n: np.empty(count + spare if n in sums else links * count) for n in CarriedLoads._fields}
+    found = {n: aligned_array(count + spare if n in sums else links * count, float) for n in CarriedLoads._fields}
     whole = [np.ascontiguousarray(_whole(number, links, count)) for number in inputs]
     kernel(
         slice(0, links), slice(0, count), count, whole, list(found.values()), past_cache=False, tile=TILE
