@@ -96,6 +96,9 @@ class Structures:
     It is counted how much was asked for of each structure.
     """
 
+    #: How many recordings were made.
+    made = 0
+
     def __init__(self) -> None:
         self._kept = _Kept(most=MOST_STRUCTURES)
         self._lock = threading.Lock()
@@ -107,6 +110,7 @@ class Structures:
 
     def add(self, key: Hashable, program: Program) -> Recording:
         """Keep the recording of a structure."""
+        Structures.made += 1
         return self._kept.add(key, Recording(program))
 
     def asked(self, key: Hashable, work: int) -> int:
