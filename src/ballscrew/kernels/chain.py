@@ -59,7 +59,9 @@ def balanced_chains(kernel: Kernel, inputs: Sequence[Field], chains: Chains, ste
     """Balance chains by a kernel of :func:`chain_kernel`, in so many steps at most."""
     links, count = chains.start.shape
     wide = -(-count // LANES) * LANES
-    moved = aligned_array((links + 1) * wide, float).reshape(links + 1, wide)  # with a link behind the last one, whose bar has no stiffness
+    moved = aligned_array((links + 1) * wide, float).reshape(
+        links + 1, wide
+    )  # with a link behind the last one, whose bar has no stiffness
     moved[:links, :count], moved[:links, count:], moved[links] = chains.start, chains.start[:, -1:], 0.0
     bars = np.vstack([chains.bars, np.zeros((1, chains.bars.shape[-1]))])
     bars = _padded(bars, wide) if kernel.sources[-1] == "points" else bars
