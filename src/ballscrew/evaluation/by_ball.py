@@ -163,11 +163,19 @@ class ByBall:
         return {name: held.reshape(balls, count) for name, held in found.items()}, {}
 
 
-def by_ball(plan: Plan, engine: Engine | None, times: int = 1, varying: Sequence[str] | None = None) -> ByBall | str:
+def by_ball(
+    plan: Plan,
+    engine: Engine | None,
+    times: int = 1,
+    varying: Sequence[str] | None = None,
+    *,
+    always: bool = False,
+) -> ByBall | str:
     """A plan for a nut whose balls differ, made ready; or the reason why the model itself has to evaluate it.
 
     ``varying`` names the inputs that vary where it is not the axes of the plan. Without an ``engine`` little work is
-    left to the model itself, until so much of its kind has been asked for that a recording pays.
+    left to the model itself, unless it is ``always`` recorded, until so much of its kind has been asked for that a
+    recording pays.
     """
     names = inputs_by_ball(plan.subject, plan.varying if varying is None else varying)
     wanted = _recorded_outputs(plan)
@@ -177,7 +185,7 @@ def by_ball(plan: Plan, engine: Engine | None, times: int = 1, varying: Sequence
     made_of = None if key is None else _structures.get(key)
     asked = work if key is None else _structures.asked(key, work)
     enough = ENOUGH_TO_RECORD if plan.subject.nut.contacts_per_ball == 2 else ENOUGH_OF_FOUR_CONTACTS
-    if made_of is None and engine is None and asked < enough:
+    if made_of is None and engine is None and not always and asked < enough:
         return why
     try:
         if made_of is None:

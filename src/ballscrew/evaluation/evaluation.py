@@ -89,10 +89,11 @@ class Evaluation:
         self._row_length = row_length
 
     @classmethod
-    def of(cls, plan: Plan, engine: SweepEngine | None = None, times: int = 1) -> Evaluation:
+    def of(cls, plan: Plan, engine: SweepEngine | None = None, times: int = 1, *, recorded: bool = False) -> Evaluation:
         """Make a plan ready; the engine is chosen by the size of the work and by what is compiled already.
 
-        ``times`` says how often all of it will be evaluated (see :meth:`at`).
+        ``times`` says how often all of it will be evaluated (see :meth:`at`). ``recorded`` records balls that differ
+        however little work it is.
 
         Raises :class:`~ballscrew.errors.InputError` for an engine that cannot be had.
         """
@@ -100,7 +101,7 @@ class Evaluation:
         if engine == "model":
             return _by_numpy(plan, None, f"the model itself: {ASKED_FOR}")
         if plan.subject.nut.one_by_one and type(plan) is Plan:
-            ready = by_ball(plan, engine, times)
+            ready = by_ball(plan, engine, times, always=recorded)
             if isinstance(ready, ByBall):
                 return _by_ball(plan, ready)
             if engine == "compiled":
@@ -108,7 +109,7 @@ class Evaluation:
             return _by_numpy(plan, None, ready)
         program: Program | None = None
         try:
-            made_of = recorded(plan)
+            made_of = recording_of(plan)
             program = made_of.program
             points = plan.total * times
             why = why_numpy(engine)
@@ -242,7 +243,7 @@ def _fingerprint(plan: Plan, engine: Engine, program: Program | None, formulas: 
     return fingerprint_of(held)
 
 
-def recorded(plan: Plan, groups: Sequence[int] | None = None) -> Recording:
+def recording_of(plan: Plan, groups: Sequence[int] | None = None) -> Recording:
     """The model as a program of the varying inputs of a plan, in groups where asked for; kept where it can be."""
 
     def key() -> Any:
@@ -352,7 +353,7 @@ class _Grid(_Kernels):
             groups.append(sum(COLUMNS if is_inner else ROWS for is_inner in dims) or ROWS)
         if ROWS | COLUMNS in groups or WORTH_CUTTING * (columns + plan.total // columns) > plan.total:
             return None
-        made_of = recorded(plan, groups)
+        made_of = recording_of(plan, groups)
         cut = made_of.cut(groups)
         entries = len(cut.rows.outputs) * (plan.total // columns) + len(cut.columns.outputs) * columns
         return None if entries > MOST_ENTRIES else cls(plan, made_of, cut, columns)

@@ -23,9 +23,9 @@ from ballscrew.tracing.steps import Operand, Step, choose
 #: Lanes of a vector, for programs of at most so many steps: a short program waits for its longest chain of
 #: operations, and many lanes keep the machine busy meanwhile; a long one runs out of registers and takes long to
 #: compile.
-LANES = ((1000, 32), (10_000, 16))
+LANES = ((1000, 32), (20_000, 16))
 FEWEST_LANES = 8
-#: A program with more inputs than this runs out of cache lines, and has the next fewer lanes.
+#: A short program with more inputs than this runs out of cache lines, and has half as many lanes.
 FEW_INPUTS = 12
 
 _ARITHMETIC = {np.add: "fadd", np.subtract: "fsub", np.multiply: "fmul", np.divide: "fdiv"}
@@ -53,7 +53,8 @@ class UnknownOperationError(Exception):
 def lanes_for(program: Program) -> int:
     """The number of points in a vector."""
     lanes = next((lanes for steps, lanes in LANES if len(program.steps) <= steps), FEWEST_LANES)
-    return lanes if program.inputs <= FEW_INPUTS else max(lanes // 2, FEWEST_LANES)
+    is_short = len(program.steps) <= LANES[0][0]
+    return lanes // 2 if is_short and program.inputs > FEW_INPUTS else lanes
 
 
 def kernel_text(

@@ -131,8 +131,7 @@ class Bars(NamedTuple):
 
 def over_balls(values: Field) -> Field:
     """The sum over the balls, in the same order whatever the number of points and their places in memory."""
-    wide = np.ascontiguousarray(values if values.shape[-1] > 1 else np.repeat(values, 2, axis=-1))
-    return np.sum(wide, axis=0)[: values.shape[-1]]
+    return np.sum(np.ascontiguousarray(values.T), axis=-1)
 
 
 def _some(values: Field, points: NDArray[np.intp]) -> Field:
