@@ -7,13 +7,15 @@ and olaru2005() beside it.
 - ``sweep``: a million points over load, speed and preload, compiled, against the model on NumPy arrays.
 - ``gradient``: the torque and its derivatives by eight inputs, against the torque alone, both compiled.
 - ``second call``: what a sweep of ten points takes when the same one was asked for before.
-- ``elastic``: points of an elastic nut, all balls one by one, in a second.
+- ``elastic``: ten thousand points of an elastic nut, all balls one by one, compiled, against the model on NumPy
+  arrays; and twelve hundred points of a map of loads and speeds, as a page has them.
 - ``band``: 100,000 samples; ``fit``: 10,000 rows with the preload and a friction coefficient free.
 """
 
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import json
 import statistics
 import time
@@ -35,6 +37,8 @@ MODELS = {"olaru2005": bs.FrictionModel.olaru2005(), "reference": bs.FrictionMod
 SIDE = 100
 #: Points of the model itself, which a million would keep busy for minutes.
 OF_THE_MODEL = 40_000
+#: Loaded balls of each half of the elastic nut, and points of the model itself with it.
+BALLS_OF_A_HALF, OF_THE_ELASTIC_MODEL = 54, 1000
 BY = (
     "axial_load", "screw_speed", "nut.preload", "viscosity", "ball_diameter", "screw_conformity", "contact_angle",
     "screw_roughness",
@@ -106,13 +110,37 @@ def second_call(model: bs.FrictionModel) -> dict[str, float]:
     return {"first_s": first, "second_s": min(seconds(work) for _ in range(5))}
 
 
-def elastic(model: bs.FrictionModel) -> dict[str, float]:
-    """Rate of an elastic nut."""
+def elastic(model: bs.FrictionModel, rounds: int) -> dict[str, float]:
+    """Rates of an elastic nut, compiled and by the model, their ratio, and milliseconds of a map."""
     nut = bs.DoubleNut(preload=PRELOAD, bodies=bs.Bodies())
-    load, speed = np.random.default_rng(2).uniform([[100.0], [1.0]], [[20e3], [100.0]], (2, 1000))
-    screw = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=nut)
-    took = seconds(lambda: model(screw, OIL, axial_load=load, screw_speed=speed).screw_torque)
-    return {"points_per_second": load.size / took}
+    subject = Configuration(model, dataclasses.replace(SCREW, nut=nut, loaded_balls=BALLS_OF_A_HALF), OIL)
+    outputs = ("screw_torque", "efficiency", "valid")
+
+    def scattered(number: int) -> dict[str, Any]:
+        load, speed = np.random.default_rng(2).uniform([[100.0], [1.0]], [[20e3], [100.0]], (2, number))
+        return {"axial_load": xr.DataArray(load, dims="point"), "screw_speed": xr.DataArray(speed, dims="point")}
+
+    side = {"axial_load": np.linspace(100.0, 20e3, 40), "screw_speed": np.linspace(1.0, 100.0, 30)}
+    compiled, arrays, page = (
+        Evaluation.of(Plan.of(subject, outputs, points), engine)
+        for points, engine in (
+            (scattered(10_000), "compiled"), (scattered(OF_THE_ELASTIC_MODEL), "model"), (side, "compiled"),
+        )
+    )  # fmt: skip
+    found: list[tuple[float, ...]] = []
+    for _ in range(rounds + 1):
+        found.append(
+            tuple(
+                seconds(lambda e=e: e.fill(e.empty(e.plan.total), slice(0, e.plan.total))) / e.plan.total
+                for e in (compiled, arrays, page)
+            )
+        )
+    fast, slow, of_page = np.array(found[1:]).T  # the first round warms up
+    return {
+        "points_per_second": 1 / statistics.median(fast),
+        "over_numpy": statistics.median(slow / fast),
+        "page_ms": 1e3 * page.plan.total * statistics.median(of_page),
+    }
 
 
 def band(model: bs.FrictionModel) -> dict[str, float]:
@@ -152,7 +180,7 @@ def main() -> None:
             "sweep": sweep(model, options.rounds),
             "gradient": gradient(model, options.rounds),
             "second call": second_call(model),
-            "elastic": elastic(model),
+            "elastic": elastic(model, options.rounds),
             "band": band(model),
             "fit": fit(model),
         }

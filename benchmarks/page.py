@@ -21,7 +21,11 @@ from collections.abc import Iterator
 
 from playwright.sync_api import Page, sync_playwright
 
-CASES = {"the paper's screw": "#A=paper", "a double nut": "#A=rexroth-40x10x6-6-double"}
+CASES = {
+    "the paper's screw": "#A=paper",
+    "a double nut": "#A=rexroth-40x10x6-6-double",
+    "an elastic double nut": "#A=rexroth-40x10x6-6-double&A.bodies.same_side=true",
+}
 SIZE = (1360, 900)
 #: Seconds that a browser has to calm down after its start, and the page to be drawn.
 CALM, DRAWN = 3.0, 5.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,7 @@ from ballscrew.errors import (
     raise_if_any,
 )
 from ballscrew.evaluation.axes import ends
+from ballscrew.evaluation.by_ball import BLOCK_OF_BALLS, ByBall, by_ball
 from ballscrew.evaluation.engines import (
     ASKED_FOR,
     PAYS,
@@ -39,8 +40,9 @@ from ballscrew.kernels.buffers import ALIGNMENT, aligned_array
 from ballscrew.kernels.emission import UnknownOperationError, lanes_for
 from ballscrew.kernels.kernel import Kernel
 from ballscrew.kernels.watched import WatchedKernel
-from ballscrew.tracing.grid import COLUMNS, ROWS, Split, inner_axes
+from ballscrew.tracing.grid import Split, inner_axes, rectangles
 from ballscrew.tracing.program import Program, Source
+from ballscrew.tracing.steps import COLUMNS, ROWS
 from ballscrew.tracing.tape import CannotRecordError
 
 #: Fewest columns of a grid: a short row is mostly its beginning and its end.
@@ -87,19 +89,27 @@ class Evaluation:
         self._row_length = row_length
 
     @classmethod
-    def of(cls, plan: Plan, engine: SweepEngine | None = None, times: int = 1) -> Evaluation:
+    def of(cls, plan: Plan, engine: SweepEngine | None = None, times: int = 1, *, recorded: bool = False) -> Evaluation:
         """Make a plan ready; the engine is chosen by the size of the work and by what is compiled already.
 
-        ``times`` says how often all of it will be evaluated (see :meth:`at`).
+        ``times`` says how often all of it will be evaluated (see :meth:`at`). ``recorded`` records balls that differ
+        however little work it is.
 
         Raises :class:`~ballscrew.errors.InputError` for an engine that cannot be had.
         """
         raise_if_any(engine_faults("sweep", engine, SWEEP_ENGINES))
         if engine == "model":
             return _by_numpy(plan, None, f"the model itself: {ASKED_FOR}")
+        if plan.subject.nut.one_by_one and type(plan) is Plan:
+            ready = by_ball(plan, engine, times, always=recorded)
+            if isinstance(ready, ByBall):
+                return _by_ball(plan, ready)
+            if engine == "compiled":
+                raise InputError(Fault("sweep.engine", f"cannot be had: {ready}", engine, 'take engine="numpy"'))
+            return _by_numpy(plan, None, ready)
         program: Program | None = None
         try:
-            made_of = recorded(plan)
+            made_of = recording_of(plan)
             program = made_of.program
             points = plan.total * times
             why = why_numpy(engine)
@@ -179,12 +189,21 @@ class Evaluation:
             self.plan.check({name: ends(np.array(pairs)) for name, pairs in found.items()})
 
     def _usual_block(self, total: int, threads: int | None) -> int:
+        if self._block_size < SMALLEST_BLOCK and self.engine == "compiled":
+            return min(self._block_size, math.ceil(total / (threads or processors())))
         if self.engine == "numpy":
             return self._block_size
         fair = math.ceil(total / (BLOCKS_PER_THREAD * (threads or processors())))
         size = min(max(fair, SMALLEST_BLOCK), self._block_size)
         step = self._row_length if 1 < self._row_length <= size else ALIGNMENT
         return math.ceil(size / step) * step
+
+
+def _by_ball(plan: Plan, ready: ByBall) -> Evaluation:
+    # the loads are solved by code of the package, and the numbers of the parts are inputs
+    identify = functools.partial(_fingerprint, plan, ready.engine, None, lambda: ready.formulas)
+    block = max(1, BLOCK_OF_BALLS // plan.subject.balls)
+    return Evaluation(plan, ready.engine, ready.reason, identify, ready.evaluator_of, block, 1)
 
 
 def _by_numpy(plan: Plan, program: Program | None, reason: str) -> Evaluation:
@@ -224,7 +243,7 @@ def _fingerprint(plan: Plan, engine: Engine, program: Program | None, formulas: 
     return fingerprint_of(held)
 
 
-def recorded(plan: Plan, groups: Sequence[int] | None = None) -> Recording:
+def recording_of(plan: Plan, groups: Sequence[int] | None = None) -> Recording:
     """The model as a program of the varying inputs of a plan, in groups where asked for; kept where it can be."""
 
     def key() -> Any:
@@ -334,7 +353,7 @@ class _Grid(_Kernels):
             groups.append(sum(COLUMNS if is_inner else ROWS for is_inner in dims) or ROWS)
         if ROWS | COLUMNS in groups or WORTH_CUTTING * (columns + plan.total // columns) > plan.total:
             return None
-        made_of = recorded(plan, groups)
+        made_of = recording_of(plan, groups)
         cut = made_of.cut(groups)
         entries = len(cut.rows.outputs) * (plan.total // columns) + len(cut.columns.outputs) * columns
         return None if entries > MOST_ENTRIES else cls(plan, made_of, cut, columns)
@@ -375,20 +394,3 @@ class _Grid(_Kernels):
         """Run the kernel over a part of the flattened grid."""
         for rows, columns in rectangles(part, self.row_length):
             kernel(rows, columns, self.row_length, self.tables, results, first=first)
-
-
-def rectangles(part: slice, row_length: int) -> Iterator[tuple[slice, slice]]:
-    """A part of a flattened grid as rectangles of rows and columns: an end, whole rows, a beginning."""
-    start, stop = part.start, part.stop
-    if start % row_length or stop - start < row_length:
-        row = start // row_length
-        end = min(stop, (row + 1) * row_length)
-        yield slice(row, row + 1), slice(start - row * row_length, end - row * row_length)
-        start = end
-    if whole := (stop - start) // row_length:
-        row = start // row_length
-        yield slice(row, row + whole), slice(0, row_length)
-        start += whole * row_length
-    if start < stop:
-        row = start // row_length
-        yield slice(row, row + 1), slice(0, stop - start)

@@ -15,6 +15,7 @@ from ballscrew._arrays import BLOCK_SIZE, map_blocks
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import MISSING, Fault, InputError, nearest, raise_if_any, without_unit
+from ballscrew.evaluation.by_ball import BLOCK_OF_BALLS, ByBall, by_ball
 from ballscrew.evaluation.derivatives import JAX_INSTEAD, slope_name
 from ballscrew.evaluation.engines import ASKED_FOR, Engine, engine_faults, why_numpy
 from ballscrew.evaluation.outputs import OPERATION, Output
@@ -107,6 +108,9 @@ class Evaluator:
 
     def _prepare(self, plan: Plan, fixed: Mapping[str, Any], by: tuple[str, ...], engine: Engine | None) -> None:
         """Record and compile."""
+        if plan.subject.nut.one_by_one and not by:
+            self._prepare_by_ball(plan, fixed, engine)
+            return
         made_of: Recording | None = None
         try:
             made_of = recording(
@@ -130,6 +134,23 @@ class Evaluator:
             raise InputError(Fault("evaluator.engine", f"cannot be had: {why}", engine, 'take engine="numpy"'))
         self._use("numpy", why, max(1, BLOCK_SIZE // plan.subject.balls))
         self._on_arrays = _played(made_of.program) if made_of else _called(plan, self._quantities, fixed)
+        self._new_on_point = self._point_as_arrays
+
+    def _prepare_by_ball(self, plan: Plan, fixed: Mapping[str, Any], engine: Engine | None) -> None:
+        """Record and compile the friction of balls that differ."""
+        best: Engine = engine or ("compiled" if kernels.available() else "numpy")
+        ready = by_ball(plan, best, varying=self.inputs)
+        if isinstance(ready, str) and engine is None:
+            ready = by_ball(plan, "numpy", varying=self.inputs)
+        if isinstance(ready, str):
+            if engine == "compiled":
+                raise InputError(Fault("evaluator.engine", f"cannot be had: {ready}", engine, 'take engine="numpy"'))
+            self._use("numpy", ready, max(1, BLOCK_SIZE // plan.subject.balls))
+            self._on_arrays = _called(plan, self._quantities, fixed)
+        else:
+            why = ASKED_FOR if engine else why_numpy(None) if ready.engine == "numpy" else "the compiler is installed"
+            self._use(ready.engine, why, max(1, BLOCK_OF_BALLS // plan.subject.balls))
+            self._on_arrays = _by_ball(plan, ready, self._quantities, fixed)
         self._new_on_point = self._point_as_arrays
 
     def _use(self, engine: Engine, reason: str, block_size: int) -> None:
@@ -328,6 +349,20 @@ def _played(program: Program) -> _OnArrays:
     def evaluate(inputs: Sequence[NDArray[np.float64]], results: Mapping[str, NDArray[Any]]) -> None:
         with np.errstate(all="ignore"):
             interpreter.run(inputs, results)
+
+    return evaluate
+
+
+def _by_ball(plan: Plan, ready: ByBall, quantities: Mapping[str, Quantity], fixed: Mapping[str, Any]) -> _OnArrays:
+    """The loads of balls that differ, solved, and the friction under them."""
+
+    def evaluate(inputs: Sequence[NDArray[np.float64]], results: Mapping[str, NDArray[Any]]) -> None:
+        with np.errstate(all="ignore"):
+            points = dict(zip(quantities, inputs, strict=True))
+            inside = np.logical_and.reduce([within_bounds(q.info, points[n]) for n, q in quantities.items()])
+            ready.evaluate(plan.subject, {**fixed, **points}, results)
+            for name, output in plan.wanted.items():
+                results[name][...] = _within(inside, output, results[name])
 
     return evaluate
 

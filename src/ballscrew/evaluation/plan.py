@@ -36,6 +36,7 @@ from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.records import Record
 from ballscrew.references import citations_of
+from ballscrew.solvers.load_distribution import BallLoads
 from ballscrew.tracing.merging import merged_program
 from ballscrew.tracing.program import Program
 from ballscrew.tracing.tape import CannotRecordError, Tape, why_not_recorded
@@ -80,6 +81,14 @@ class Configuration(ByValue):
         operation = {name: points[name] for name in OPERATION}
         return changed.model(changed.screw, changed.lubricant, **operation)
 
+    def under(self, loads: BallLoads, points: Mapping[str, Any]) -> FrictionResult:
+        """The friction under loads of the balls that are known, with these values in place."""
+        bare = dataclasses.replace(self.nut, bodies=None, deviations=None)  # whose loads these are
+        here = Configuration(self.model, dataclasses.replace(self.screw, nut=bare), self.lubricant)
+        here = here.changed({name: values for name, values in points.items() if name not in OPERATION})
+        state = OperatingState(*(points[name] for name in OPERATION))
+        return here.model.under(loads, here.screw, here.lubricant, state)
+
     def changed(self, values: Mapping[str, Any]) -> Configuration:
         """The subject with other values of some inputs, those of the operating point left aside."""
         parts = self.by_section
@@ -121,12 +130,13 @@ class Configuration(ByValue):
             return merged_program(tape, {name: output.read(result) for name, output in wanted.items()})
 
     @contextlib.contextmanager
-    def recording(self) -> Generator[None]:
+    def recording(self, *, by_ball: bool = False) -> Generator[None]:
         """Turn every way in which a law fails to be recorded into one error that says which law, and why.
 
-        What a law raises for another reason is raised as it is.
+        What a law raises for another reason is raised as it is. Balls that differ are recorded ``by_ball`` only
+        (:mod:`ballscrew.evaluation.by_ball`).
         """
-        if self.nut.one_by_one:
+        if self.nut.one_by_one and not by_ball:
             raise CannotRecordError("balls that differ are solved one by one, on plain arrays")
         for slot in SLOTS:
             if not traits_of(getattr(self.model, slot)).recordable:

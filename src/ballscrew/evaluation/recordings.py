@@ -19,7 +19,7 @@ import types
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from itertools import chain
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -29,8 +29,12 @@ from ballscrew.tracing.program import Program, Source
 
 #: Most recordings that are kept, and most steps of all of them together, some 600 bytes each (assembly aside).
 MOST_RECORDINGS, MOST_STEPS = 256, 150_000
+#: Most recordings by structure.
+MOST_STRUCTURES = 16
 #: An array with more numbers than this in a part is not compared call by call.
 MOST_NUMBERS = 1000
+
+T = TypeVar("T")
 
 _PACKAGE = __name__.partition(".")[0]
 #: The rooms whose functions and constants are in a recording.
@@ -49,6 +53,13 @@ class Recording:
         self.program = program
         self._cuts: dict[tuple[int, ...], Split] = {}
         self._texts: dict[Hashable, str] = {}
+        self._made: dict[str, Any] = {}
+
+    def once(self, name: str, make: Callable[[], T]) -> T:
+        """Something else that is made of the program once."""
+        if name not in self._made:
+            self._made[name] = make()
+        return self._made[name]
 
     def cut(self, groups: Sequence[int]) -> Split:
         """The program cut along rows and columns."""
@@ -79,10 +90,44 @@ def recording(key: Callable[[], Any], record: Callable[[], Program]) -> Recordin
     return _kept.get(held) or _kept.add(held, Recording(record()))
 
 
+class Structures:
+    """Recordings of which all numbers are inputs, by structure: they serve every case of a kind, and are not dropped.
+
+    It is counted how much was asked for of each structure.
+    """
+
+    #: How many recordings were made.
+    made = 0
+
+    def __init__(self) -> None:
+        self._kept = _Kept(most=MOST_STRUCTURES)
+        self._lock = threading.Lock()
+        self._asked: OrderedDict[Hashable, int] = OrderedDict()
+
+    def get(self, key: Hashable) -> Recording | None:
+        """The recording of a structure."""
+        return self._kept.get(key)
+
+    def add(self, key: Hashable, program: Program) -> Recording:
+        """Keep the recording of a structure."""
+        Structures.made += 1
+        return self._kept.add(key, Recording(program))
+
+    def asked(self, key: Hashable, work: int) -> int:
+        """Count work of a structure that was asked for, and return all of it."""
+        with self._lock:
+            total = self._asked.pop(key, 0) + work
+            self._asked[key] = total
+            if len(self._asked) > MOST_RECORDINGS:
+                self._asked.popitem(last=False)
+            return total
+
+
 class _Kept:
     """The recordings that were used last, as long as the package stays as it was."""
 
-    def __init__(self) -> None:
+    def __init__(self, most: int = MOST_RECORDINGS) -> None:
+        self._most = most
         self._lock = threading.Lock()
         self._found: OrderedDict[Hashable, Recording] = OrderedDict()
         self._steps = 0
@@ -103,7 +148,7 @@ class _Kept:
             if key not in self._found:
                 self._found[key] = made
                 self._steps += len(made.program.steps)
-            while len(self._found) > 1 and (len(self._found) > MOST_RECORDINGS or self._steps > MOST_STEPS):
+            while len(self._found) > 1 and (len(self._found) > self._most or self._steps > MOST_STEPS):
                 _, oldest = self._found.popitem(last=False)
                 self._steps -= len(oldest.program.steps)
             return self._found[key]

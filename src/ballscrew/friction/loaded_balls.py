@@ -115,17 +115,20 @@ class _OfABall:
 
     def __getattr__(self, name: str) -> Any:
         values = getattr(self._part, name)
+        if not isinstance(self._place, np.ndarray | np.integer):  # on a tape
+            return np.take_along_axis(values, self._place, axis=-1)
         if np.ndim(values) == 0:
             return values
         along = np.broadcast_to(values, (*np.shape(self._place), np.shape(values)[-1]))
         return np.take_along_axis(along, np.asarray(self._place)[..., None], axis=-1)[..., 0][()]
 
 
-def loads_of(screw: BallScrew, axial_load: Force) -> BallLoads:
+def loads_of(screw: BallScrew, axial_load: Force, *, compiled: bool = False) -> BallLoads:
     """The loads of the balls of a screw with its nut. Raises :class:`~ballscrew.errors.InputError` as the solver."""
     nut = screw.nut
     bodies = None if nut.bodies is None else nut.bodies.sized(screw)
-    return ball_loads(screw, nut, axial_load, bodies=bodies, deviations=nut.deviations_of(screw.loaded_balls))
+    deviations = nut.deviations_of(screw.loaded_balls)
+    return ball_loads(screw, nut, axial_load, bodies=bodies, deviations=deviations, compiled=compiled)
 
 
 def row_of_balls(model: BallModel, screw: BallScrew, lubricant: Lubricant, state: OperatingState) -> LoadedBalls:
@@ -279,4 +282,4 @@ def _with_ball_axis(part: Any) -> Any:
 
 
 def _last_axis(value: Any) -> Any:
-    return value[..., None] if np.ndim(value) else value
+    return value[..., None] if isinstance(value, np.ndarray) and value.ndim else value

@@ -60,12 +60,13 @@ from ballscrew.components.traits import traits_of
 from ballscrew.equations.transmission import contact_load as equal_contact_load
 from ballscrew.errors import Fault, accepts_units, faults_of, raise_if_any
 from ballscrew.friction.law_names import fault_of_law
-from ballscrew.friction.loaded_balls import LoadedBalls, balls_under, loads_of, row_of_balls
+from ballscrew.friction.loaded_balls import balls_under, loads_of, row_of_balls
 from ballscrew.friction.plausibility import named_parts
 from ballscrew.friction.result import FrictionResult
 from ballscrew.overflow import overflow_as_input_error
-from ballscrew.quantities import AngularSpeed, Count, Force, Info, Ratio, Temperature, fields_of
+from ballscrew.quantities import AngularSpeed, Force, Info, Ratio, Temperature, fields_of
 from ballscrew.solvers.ellipse_slip import ellipse_slip
+from ballscrew.solvers.load_distribution import BallLoads
 from ballscrew.solvers.pure_rolling import curvature_slip
 from ballscrew.solvers.slip import Slip, SlipLaw
 
@@ -260,14 +261,21 @@ class FrictionModel(ByValue):
         return ContactLaws(**{field.name: getattr(self.laws, field.name) for field in dataclasses.fields(ContactLaws)})
 
     def _evaluate(self, screw: BallScrew, lubricant: Lubricant, state: OperatingState) -> FrictionResult:
+        loads = None if screw.nut.is_row else loads_of(screw, state.axial_load)
+        return self.under(loads, screw, lubricant, state)
+
+    def under(
+        self, loads: BallLoads | None, screw: BallScrew, lubricant: Lubricant, state: OperatingState
+    ) -> FrictionResult:
+        """Friction where the loads of the balls are known; None for a row of equal balls. Nothing is checked."""
         nut, laws = screw.nut, self.laws
-        loads = None if nut.is_row else loads_of(screw, state.axial_load)
         kinds = (
             (row_of_balls(self, screw, lubricant, state),)
             if loads is None
             else balls_under(self, screw, lubricant, state, loads)
         )
-        all_balls = dataclasses.replace(screw, loaded_balls=_sum_of_balls(kinds)) if nut.losses else screw
+        number = 1.0 * nut.halves * screw.loaded_balls
+        all_balls = dataclasses.replace(screw, loaded_balls=number) if nut.losses else screw
         return FrictionResult(
             parts=named_parts(self, screw, lubricant, operation=state),
             ball_screw=screw,
@@ -283,11 +291,6 @@ class FrictionModel(ByValue):
     def imposed_ball_force(self, screw: BallScrew) -> Force:
         """The ball-to-ball force where the load does not set it: the paper's 1 N over the number of balls, or given."""
         return 1 / screw.loaded_balls if self.ball_to_ball_force is None else self.ball_to_ball_force
-
-
-def _sum_of_balls(kinds: tuple[LoadedBalls, ...]) -> Count:
-    """The number of all balls."""
-    return sum(kind.total(1.0) for kind in kinds)
 
 
 #: The slots of the model: its fields that hold a law.

@@ -9,7 +9,9 @@ room to spare, so that a point's result does not depend on where blocks begin an
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -21,9 +23,9 @@ from ballscrew.tracing.steps import Operand, Step, choose
 #: Lanes of a vector, for programs of at most so many steps: a short program waits for its longest chain of
 #: operations, and many lanes keep the machine busy meanwhile; a long one runs out of registers and takes long to
 #: compile.
-LANES = ((1000, 32), (10_000, 16))
+LANES = ((1000, 32), (20_000, 16))
 FEWEST_LANES = 8
-#: A program with more inputs than this runs out of cache lines, and has the next fewer lanes.
+#: A short program with more inputs than this runs out of cache lines, and has half as many lanes.
 FEW_INPUTS = 12
 
 _ARITHMETIC = {np.add: "fadd", np.subtract: "fsub", np.multiply: "fmul", np.divide: "fdiv"}
@@ -51,7 +53,8 @@ class UnknownOperationError(Exception):
 def lanes_for(program: Program) -> int:
     """The number of points in a vector."""
     lanes = next((lanes for steps, lanes in LANES if len(program.steps) <= steps), FEWEST_LANES)
-    return lanes if program.inputs <= FEW_INPUTS else max(lanes // 2, FEWEST_LANES)
+    is_short = len(program.steps) <= LANES[0][0]
+    return lanes // 2 if is_short and program.inputs > FEW_INPUTS else lanes
 
 
 def kernel_text(
@@ -61,29 +64,36 @@ def kernel_text(
     *,
     lanes: int | None = None,
     watched: bool = False,
+    reduced: Mapping[str, Any] | None = None,
 ) -> str:
     """The module with the kernel of a program.
 
     ``sources`` has the origin of the values of each input, ``masks`` whether the array of each output
     holds truth values. A ``watched`` kernel has one more output, the ends of what it reads, so that inputs need not be
     read twice to be checked: for each input over points :data:`ENDS_OF_EACH` vectors of integers, the least and the
-    greatest bits by lane over all whole vectors. Raises :class:`UnknownOperationError`.
+    greatest bits by lane over all whole vectors. Outputs that are ``reduced``, by ``numpy.sum`` or ``numpy.max`` over
+    the rows, have a place for each column, and room for a vector more. Raises :class:`UnknownOperationError`.
     """
     w = Writer(lanes or lanes_for(program))
     outputs = list(program.outputs)
     seen = [i for i, source in enumerate(sources) if source == "points"] if watched else []
     values = dict(enumerate(_emit_loops_and_loads(w, sources, seen)))
-    emitter = _StepEmitter(w, program, values)
+    emitter = StepEmitter(w, program, values)
     results = [
         emitter.as_mask(program.outputs[n]) if masks[n] else emitter.as_number(program.outputs[n]) for n in outputs
     ]
+    for j, name in enumerate(outputs):
+        if reduced and name in reduced:
+            _emit_reduction(w, j, reduced[name], results[j])
+    whole = [j for j, name in enumerate(outputs) if not (reduced and name in reduced)]
+    outputs, results = [outputs[j] for j in whole], [results[j] for j in whole]
     types = [f"<{w.lanes} x i8>" if masks[name] else w.doubles for name in outputs]
     stored = [
         w.instruction(f"zext {w.masks} {result} to {kind}") if masks[name] else result
         for name, result, kind in zip(outputs, results, types, strict=True)
     ]
-    _emit_stores_and_loop_ends(w, types, stored)
-    lines = [*w.lines, *_emit_ends(w, seen, len(outputs)), "  ret void"]
+    _emit_stores_and_loop_ends(w, types, stored, whole)
+    lines = [*w.lines, *_emit_ends(w, seen, len(program.outputs)), "  ret void"]
     return "\n".join(
         [
             elementary.definitions(w.lanes),
@@ -91,8 +101,8 @@ def kernel_text(
             "entry:",
             f"  %spare = alloca {w.doubles}, align 64",
             f"  store {w.doubles} zeroinitializer, ptr %spare",
-            *_pointers("input", len(sources)),
-            *_pointers("output", len(outputs)),
+            *pointers("input", len(sources)),
+            *pointers("output", len(program.outputs)),
             *(random.emit_key_schedule() if "random" in sources else []),
             *(line for i in seen for line in _ends_of_nothing(w, i)),
             *lines,
@@ -104,7 +114,7 @@ def kernel_text(
     )
 
 
-def _pointers(name: str, count: int) -> list[str]:
+def pointers(name: str, count: int) -> list[str]:
     """The arrays behind the table of their addresses: ``%input0``, ``%input1``, …"""
     lines: list[str] = []
     for i in range(count):
@@ -198,10 +208,31 @@ def _emit_loops_and_loads(w: Writer, sources: Sequence[Source], seen: Sequence[i
 _ARRAYS = ("points", "columns")
 
 
-def _emit_stores_and_loop_ends(w: Writer, types: Sequence[str], values: Sequence[Value]) -> None:
+def _emit_reduction(w: Writer, output: int, function: Any, value: Value) -> None:
+    """Emit the sum or the greatest value, NaN if one is, over the rows so far: of the first row the value itself."""
+    address = w.instruction(f"getelementptr double, ptr %output{output}, i64 %column")
+    before = w.instruction(f"load {w.doubles}, ptr {address}, align 8")
+    if function is np.sum:
+        found = w.exact("fadd", before, value)
+    elif function is np.max:
+        keeps = w.on_masks("or", w.compare("oge", before, value), w.compare("uno", before, before))
+        found = w.choose(keeps, before, value)
+    else:
+        raise UnknownOperationError(function.__name__)
+    is_first = w.instruction("icmp eq i64 %row, %row_start")
+    found = w.instruction(f"select i1 {is_first}, {w.doubles} {value}, {w.doubles} {found}")
+    w.lines.append(f"  store {w.doubles} {found}, ptr {address}, align 8")
+
+
+def _emit_stores_and_loop_ends(
+    w: Writer, types: Sequence[str], values: Sequence[Value], outputs: Sequence[int]
+) -> None:
     """Emit the stores of the results, non-temporal where asked for, and the ends of the loops."""
     elements = ["i8" if kind.endswith("i8>") else "double" for kind in types]
-    addresses = [w.instruction(f"getelementptr {kind}, ptr %output{j}, i64 %place") for j, kind in enumerate(elements)]
+    addresses = [
+        w.instruction(f"getelementptr {kind}, ptr %output{j}, i64 %place")
+        for j, kind in zip(outputs, elements, strict=True)
+    ]
     stores = list(zip(types, values, addresses, elements, strict=True))
     w.lines += ["  br i1 %is_full, label %store_all, label %store_some", "store_all:"]
     w.lines += ["  br i1 %stream, label %store_past_cache, label %store_to_cache", "store_past_cache:"]
@@ -226,14 +257,20 @@ def _emit_stores_and_loop_ends(w: Writer, types: Sequence[str], values: Sequence
     w.lines += ["  br i1 %is_last_tile, label %done, label %tile_loop", "done:"]
 
 
-class _StepEmitter:
-    """The steps of a program as instructions."""
+class StepEmitter:
+    """The steps of a program as instructions.
+
+    What divides several times is inverted once: a vector of quotients takes as long as a dozen products.
+    """
 
     def __init__(self, w: Writer, program: Program, values: dict[int, Value]) -> None:
         self.w = w
         self.values = values
         self.nonnegative = program.nonnegative
         self.is_mask = {i: step.is_mask for i, step in program.steps}
+        divisors = [step.operands[1] for _, step in program.steps if step.function is np.divide]
+        self.shared = {divisor for divisor, times in Counter(divisors).items() if times > 1}
+        self.inverted: dict[tuple[str, Operand], Value] = {}
         for i, step in program.steps:
             self.values[i] = self._emit(step)
 
@@ -273,6 +310,8 @@ class _StepEmitter:
         numbers = [self._number(operand) for operand in operands]
         if function is np.log and operands[0][1] in self.nonnegative:
             return w.call(elementary.LOG_OF_NONNEGATIVE, *numbers)
+        if function is np.divide and operands[1] in self.shared and operands[0] != operands[1]:
+            return self._product_with_inverse(operands[0], operands[1], numbers)
         if function in _ARITHMETIC:
             return w.arithmetic(_ARITHMETIC[function], numbers[0], numbers[1])
         if function in _RELATIONS:
@@ -291,6 +330,14 @@ class _StepEmitter:
         if function.__name__ in elementary.NAMES:
             return w.call(function.__name__, *numbers)
         raise UnknownOperationError(function.__name__)
+
+    def _product_with_inverse(
+        self, above: tuple[str, Operand], below: tuple[str, Operand], numbers: Sequence[Value]
+    ) -> Value:
+        if below not in self.inverted:
+            self.inverted[below] = self.w.arithmetic("fdiv", _ONE, numbers[1])
+        inverse = self.inverted[below]
+        return inverse if above == ("constant", 1.0) else self.w.arithmetic("fmul", numbers[0], inverse)
 
     def _extreme(self, relation: str, operands: Sequence[tuple[str, Operand]], numbers: list[Value]) -> Value:
         """The larger or smaller of two; NaN if either is."""

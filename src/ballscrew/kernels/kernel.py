@@ -90,10 +90,12 @@ class Kernel:
         first: int = 0,
         seed: int = 0,
         past_cache: bool | None = None,
+        tile: int | None = None,
     ) -> None:
         """Evaluate a rectangle of the grid; both slices hold at least one number.
 
-        ``past_cache`` says whether the results outgrow the cache; by default their sizes decide.
+        ``tile`` is the number of columns that are worked on at a time. ``past_cache`` says whether the results outgrow
+        the cache; by default their sizes decide.
 
         Results and inputs over points are contiguous arrays that begin at place ``first`` of the
         flattened grid; inputs over rows and columns are whole; random ones are None.
@@ -118,12 +120,25 @@ class Kernel:
             columns.start,
             columns.stop,
             row_length,
-            COLUMN_TILE if "columns" in self.sources else columns.stop - columns.start,
+            tile or (COLUMN_TILE if "columns" in self.sources else columns.stop - columns.start),
             seed,
             aligned and past_cache,
             (ctypes.c_void_p * len(places))(*places),
             (ctypes.c_void_p * len(ends))(*ends),
         )
+
+    def at_addresses(
+        self,
+        rows: slice,
+        columns: slice,
+        row_length: int,
+        tile: int,
+        inputs: Sequence[NDArray[np.float64]],
+        results: Sequence[NDArray[np.float64]],
+    ) -> None:
+        """Run over a rectangle, of contiguous arrays whose extents are the caller's affair."""
+        tables = [(ctypes.c_void_p * len(arrays))(*(_address(a, 0) for a in arrays)) for arrays in (inputs, results)]
+        self._function(rows.start, rows.stop, columns.start, columns.stop, row_length, tile, 0, False, *tables)
 
     def at_one_point(self, inputs: NDArray[np.float64], results: Sequence[NDArray[Any]]) -> Callable[[], None]:
         """A call that reads one point from ``inputs`` and writes it into ``results``, with next to nothing left to do.

@@ -175,6 +175,11 @@ class Bars(NamedTuple):
         return Bars(_some(self.stiffness, points), _some(self.first_share, points))
 
 
+def over_balls(values: Field) -> Field:
+    """The sum over the balls, in the same order whatever the number of points and their places in memory."""
+    return np.sum(np.ascontiguousarray(values.T), axis=-1)
+
+
 def _some(values: Field, points: NDArray[np.intp]) -> Field:
     """Columns of an array, or all of it where the points do not differ."""
     return values if values.shape[-1] == 1 else values[..., points]
@@ -189,7 +194,7 @@ def rigid_balance(springs: BallSprings, load: Field, scale: Field, guess: Field,
 
     def imbalance(here: BallSprings, load: Field, x: Field) -> tuple[Field, Field]:
         force, slope = here.forces(x[None])
-        return force.sum(axis=0) - load, slope.sum(axis=0)
+        return over_balls(force) - load, over_balls(slope)
 
     # twice the guess beyond where the last ball touches, every ball carries more than its share
     touches = [np.max(np.abs(springs.touch(each) - each.offset), axis=0) for each in springs.flanks]
@@ -250,8 +255,8 @@ def chain_balance(springs: BallSprings, bars: Bars, load: Field, scale: Field, s
         x[:, among] = at + share * step
     # a common shift brings the sum of the forces to the load where rounding was in the way of the balls
     force, slope = springs.forces(x)
-    stiffness = np.sum(slope, axis=0)
-    return x + np.where(stiffness > 0, (load - np.sum(force, axis=0)) / np.where(stiffness > 0, stiffness, 1.0), 0.0)
+    stiffness = over_balls(slope)
+    return x + np.where(stiffness > 0, (load - over_balls(force)) / np.where(stiffness > 0, stiffness, 1.0), 0.0)
 
 
 def chain_imbalance(springs: BallSprings, bars: Bars, load: Field, displacement: Field) -> Field:
@@ -279,7 +284,7 @@ def _imbalances(springs: BallSprings, bars: Bars, load: Field, x: Field) -> tupl
 
 
 def _size(left: Field) -> Field:
-    return np.sqrt(np.sum(left**2, axis=0))
+    return np.sqrt(over_balls(left**2))
 
 
 def tridiagonal(bars: Field, grounds: Field, right: Field) -> Field:

@@ -37,6 +37,7 @@ from ballscrew.equations import deflection, geometry, hertz, rigidity
 from ballscrew.errors import Fault, accepts_units, is_concrete, raise_if_any, si_value
 from ballscrew.quantities import Angle, Force, Info, Length, LoadDeflection, Mask, Ratio, Stiffness
 from ballscrew.solvers.ball_springs import Field
+from ballscrew.solvers.compiled_chain import FEWEST_POINTS
 from ballscrew.solvers.nut_balance import NutCase, solved
 from ballscrew.solvers.rigid_nut import KindLoads, RigidLoads, RigidNut, rigid_loads
 
@@ -130,6 +131,7 @@ def ball_loads(
     bodies: Bodies | None = None,
     deviations: Deviations | None = None,
     constant_contact_angle: bool = False,
+    compiled: bool = False,
 ) -> BallLoads:
     """Loads of the balls of a nut under an axial load of either sign; arrays of loads, screws and preloads broadcast.
 
@@ -138,7 +140,9 @@ def ball_loads(
     Without ``bodies`` screw and nut are rigid between the balls; with them, and with ``deviations``, the
     number of balls must be one number. Without both, every operation is elementwise and can be recorded.
     ``constant_contact_angle`` keeps the angle without load. Bodies that swell take what a ball's given oversize gives
-    before its flanks are pressed: their preload is less than :func:`preload_of`, that of rigid ones.
+    before its flanks are pressed: their preload is less than :func:`preload_of`, that of rigid ones. ``compiled``
+    solves balls between elastic bodies by a kernel where the compiler is installed: the same steps, whose sums round
+    otherwise.
     Raises :class:`~ballscrew.errors.InputError` for balls that cannot be counted one by one.
     """
     c_phi = namespace(screw.lead_angle).cos(screw.lead_angle)
@@ -154,7 +158,7 @@ def ball_loads(
     )
     if bodies is None and deviations is None:
         return _alike(nut, point, constant_contact_angle)
-    return _one_by_one(screw, nut, point, bodies, deviations, constant_contact_angle)
+    return _one_by_one(screw, nut, point, bodies, deviations, constant_contact_angle, compiled)
 
 
 def _alike(nut: Nut, point: RigidNut, constant_angle: bool) -> BallLoads:
@@ -182,6 +186,7 @@ def _one_by_one(
     bodies: Bodies | None,
     deviations: Deviations | None,
     constant_angle: bool,
+    compiled: bool,
 ) -> BallLoads:
     """Each ball for itself, in blocks of operating points."""
     halves = nut.halves
@@ -198,6 +203,11 @@ def _one_by_one(
     ]
     shape = np.broadcast_shapes(*(np.shape(number) for number in numbers))
     flat = [np.broadcast_to(np.asarray(number, dtype=float), shape).reshape(-1) for number in numbers]
+    count = flat[0].size
+    if compiled:
+        # what is one number is worked out once; a single point is two, so that sums have one order
+        flat = [each[:1] if np.ndim(n) == 0 else each for n, each in zip(numbers, flat, strict=True)]
+        flat[0] = np.resize(flat[0], max(count, FEWEST_POINTS))
     balls = int(screw.loaded_balls)
     case = NutCase(
         balls=balls,
@@ -210,17 +220,24 @@ def _one_by_one(
         scatters=deviations is not None,
         excess=_by_ball(deviations.ball_diameter if deviations else 0.0, halves * balls),
         lead_error=_by_ball(deviations.lead if deviations else 0.0, halves * balls),
+        compiled=compiled,
     )
-    parts: list[Any] = [None] * -(-flat[0].size // (size := max(1, BLOCK // (halves * balls))))
+    # who asks for kernels comes block by block, with threads of its own
+    size = flat[0].size if compiled else max(1, BLOCK // (halves * balls))
+    parts: list[Any] = [None] * -(-flat[0].size // size)
 
     def solve(block: slice) -> None:
+        alone = block.stop - block.start == 1 and block.start > 0  # with one before it, sums have one order
+        here = slice(block.start - alone, block.stop)
         with np.errstate(all="ignore"):
-            parts[block.start // size] = solved(case, *(number[block] for number in flat))
+            found = solved(case, *(n if n.size == 1 else n[here] for n in flat))
+        parts[block.start // size] = [part[..., 1:] for part in found] if alone else found
 
     map_blocks(solve, flat[0].size, block_size=size)
-    joined = [np.concatenate(part, axis=-1) for part in zip(*parts, strict=True)]
+    joined = parts[0] if len(parts) == 1 else [np.concatenate(part, axis=-1) for part in zip(*parts, strict=True)]
+    joined = [np.broadcast_to(part, (*part.shape[:-1], flat[0].size))[..., :count] for part in joined]
     # a preload below zero has no distribution
-    meaningless = np.isnan(flat[0]) | ~(flat[1] >= 0)
+    meaningless = (np.isnan(flat[0]) | ~(flat[1] >= 0))[:count]
     if np.any(meaningless):
         joined = [np.where(meaningless, np.nan, part) for part in joined]
     by_ball = [np.moveaxis(part, 0, -1).reshape(*shape, part.shape[0]) for part in joined[:4]]

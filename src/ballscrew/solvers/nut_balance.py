@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ballscrew.quantities import Force, Length, Ratio
 from ballscrew.solvers.ball_springs import (
@@ -21,6 +22,13 @@ from ballscrew.solvers.ball_springs import (
     chain_imbalance,
     rigid_balance,
     tridiagonal,
+)
+from ballscrew.solvers.compiled_chain import (
+    CarriedLoads,
+    compiled_chain_balance,
+    compiled_imbalance,
+    compiled_loads,
+    compiled_response,
 )
 from ballscrew.solvers.rigid_nut import PICOMETRE, RigidNut, rigid_lift_off_load
 from ballscrew.solvers.swelling import Swelling, excess_at_rest, preload_of_oversize, widened_balance, widened_response
@@ -44,6 +52,7 @@ class NutCase(NamedTuple):
     scatters: bool
     excess: Field
     lead_error: Field
+    compiled: bool = False
 
 
 class NutPoint(NamedTuple):
@@ -113,38 +122,31 @@ def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
     if not (case.halves == 2 or case.oversize):
         found = np.where(point.load != 0, found, rest.displacement)
     at_rest = rest.displacement
-    forward, backward = _by_facing(springs, found)
     # without load and preload balls just touch; what rounding makes of that is no load
     works = np.abs(point.load) + point.preload > 0
-    forward, backward = (
-        (np.where(works, load, 0.0), angle, np.where(works, force, 0.0)) for load, angle, force in (forward, backward)
-    )
-    on_forward, on_backward = (np.sum(springs.balls * force, axis=0) for _, _, force in (forward, backward))
-    imbalance = np.abs(on_forward - on_backward - point.load)
+    carried = compiled_loads(springs, found, works.astype(float)) if case.compiled else _carried(springs, found, works)
+    imbalance = np.abs(carried.on_forward - carried.on_backward - point.load)
     if case.halves == 2:
         braced = np.where(rest.springs.flanks[0].facing > 0, rest.springs.forces(at_rest)[0], 0.0).sum(axis=0)
         # without preload the halves just touch, or nearly
         imbalance = np.maximum(imbalance, np.where(point.preload > 0, np.abs(braced - point.preload), 0.0))
     relative = imbalance / point.forces_at_work
     if case.elastic:
-        of_balls = np.maximum(chain_imbalance(springs, bars, point.load, found), radial_imbalance)
-        of_balls = of_balls / point.forces_at_work
+        left = (compiled_imbalance if case.compiled else chain_imbalance)(springs, bars, point.load, found)
+        of_balls = np.maximum(left, radial_imbalance) / point.forces_at_work
         relative = np.where(of_balls > LARGEST_OF_A_BALL, of_balls, relative)
     return (
-        forward[0],
-        backward[0],
-        forward[1],
-        backward[1],
+        *carried[:4],
         _travel(case, point, bars, found, point.load) - _travel(case, point, bars, at_rest, 0 * point.load),
-        1 / _compliance(case, point, springs, bars, swelling, found),
-        np.where(point.load < 0, on_forward, on_backward),
+        1 / _compliance(case, point, springs, bars, swelling, found, carried.slope),
+        np.where(point.load < 0, carried.on_forward, carried.on_backward),
         _lift_off_load(case, point, without_load),
         np.where(works, relative, 0.0),
     )
 
 
-def _by_facing(springs: BallSprings, displacement: Field) -> list[tuple[Field, Field, Field]]:
-    """Load, contact angle and axial force of the flank pairs that face forwards, and of those that face backwards."""
+def _carried(springs: BallSprings, displacement: Field, works: NDArray[np.bool_]) -> CarriedLoads:
+    """Loads and contact angles of the flank pairs that face forwards, and of those that face backwards."""
     loads = [(flanks.facing, springs.loads(flanks, displacement)) for flanks in springs.flanks]
 
     def of(facing: int) -> tuple[Field, Field, Field]:
@@ -153,9 +155,11 @@ def _by_facing(springs: BallSprings, displacement: Field) -> list[tuple[Field, F
             load = load + np.where(pair == facing, there.load, 0.0)
             angle = angle + np.where(pair == facing, np.arcsin(there.sine), 0.0)
             force = force + np.where(pair == facing, facing * there.axial_force, 0.0)
-        return load, angle, force
+        return np.where(works, load, 0.0), angle, np.sum(springs.balls * np.where(works, force, 0.0), axis=0)
 
-    return [of(1), of(-1)]
+    forward, backward = of(1), of(-1)
+    slope = springs.balls * sum(there.slope for _, there in loads)
+    return CarriedLoads(forward[0], backward[0], forward[1], backward[1], slope, forward[2], backward[2])
 
 
 def _springs(case: NutCase, point: NutPoint) -> BallSprings:
@@ -184,7 +188,7 @@ def _plain_springs(case: NutCase, point: NutPoint, pairs: tuple[Flanks, ...]) ->
         centre_distance=point.centre_distance,
         contact_angle=point.contact_angle,
         lead_cosine=point.lead_cosine,
-        balls=np.ones_like(point.load),
+        balls=np.ones_like(point.lead_cosine),
         constant_angle=case.constant_angle,
         flanks=pairs,
     )
@@ -194,7 +198,7 @@ def _bars(case: NutCase, point: NutPoint) -> Bars:
     """The bodies between the balls; a double nut has its spacing in the middle."""
     middle = np.arange(1, case.halves * case.balls)[:, None] == case.balls
     lengths = np.where(middle, point.step + point.spacing, point.step)
-    share = np.ones_like(point.load) if case.same_side else point.link / point.screw_bar
+    share = np.ones_like(point.link) if case.same_side else point.link / point.screw_bar
     return Bars(point.link / lengths, share)
 
 
@@ -230,9 +234,10 @@ def _balance(
         return Balance(springs, rigid_balance(springs, load, forces, guess), 0 * load)
     start = rigid_balance(springs.of_kinds(case.balls), load, forces, guess, START)
     start = np.broadcast_to(start[0], (len(springs.flanks[0].facing), load.size))
+    balance = compiled_chain_balance if case.compiled else chain_balance
     if swelling is None:
-        return Balance(springs, chain_balance(springs, bars, load, forces, start), 0 * load)
-    return Balance(*widened_balance(springs, bars, swelling, load, forces, start))
+        return Balance(springs, balance(springs, bars, load, forces, start), 0 * load)
+    return Balance(*widened_balance(springs, bars, swelling, load, forces, start, balance))
 
 
 def _braced(
@@ -244,7 +249,7 @@ def _braced(
     """
     n = case.balls
     one, other = springs.of(slice(None, n)), springs.of(slice(n, None))
-    alone = point._replace(load=0 * point.load)
+    alone = point._replace(load=0 * point.preload)
     of_one, of_other = (None, None) if swelling is None else (swelling.of(slice(None, n)), swelling.of(slice(n, None)))
     first = _balance(case, alone, one, bars.of(slice(None, n - 1), 0.0), of_one, point.preload)
     before = first.displacement
@@ -284,21 +289,27 @@ def _travel(case: NutCase, point: NutPoint, bars: Bars, x: Field, load: Field) -
 
 
 def _compliance(
-    case: NutCase, point: NutPoint, springs: BallSprings, bars: Bars, swelling: Swelling | None, found: Field
+    case: NutCase,
+    point: NutPoint,
+    springs: BallSprings,
+    bars: Bars,
+    swelling: Swelling | None,
+    found: Field,
+    slope: Field,
 ) -> Ratio:
     """Slope of the travel by the load, from those of the balls' forces by their displacements."""
-    slope = springs.forces(found)[1]
     if not case.elastic:
         return 1 / np.sum(slope, axis=0)
     beta = bars.first_share
     right = np.zeros_like(slope)
     right[0] += beta
     right[-1] += 1 - beta
-    moved = (
-        tridiagonal(bars.stiffness, slope, right)
-        if swelling is None
-        else widened_response(springs, bars, swelling, found, right)
-    )
+    if swelling is not None:
+        moved = widened_response(springs, bars, swelling, found, right)
+    elif case.compiled:
+        moved = compiled_response(bars, slope)
+    else:
+        moved = tridiagonal(bars.stiffness, slope, right)
     return beta * moved[0] + (1 - beta) * moved[-1] + _parallel_compliance(case, point, bars)
 
 

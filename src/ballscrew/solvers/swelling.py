@@ -11,6 +11,7 @@ chain of balls; by the symmetry of the energy one slope serves for both.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -53,9 +54,18 @@ class Widened(NamedTuple):
 
 
 def widened_balance(
-    springs: BallSprings, bars: Bars, swelling: Swelling, load: Field, scale: Field, start: Field
+    springs: BallSprings,
+    bars: Bars,
+    swelling: Swelling,
+    load: Field,
+    scale: Field,
+    start: Field,
+    balance: Callable[[BallSprings, Bars, Field, Field, Field], Field] = chain_balance,
 ) -> Widened:
-    """The displacements of a chain of bars, and the gaps of its bodies, that carry a load, from a start."""
+    """The displacements of a chain of bars, and the gaps of its bodies, that carry a load, from a start.
+
+    ``balance`` solves the chain for given gaps.
+    """
     x, here, gap = start, springs, np.zeros((len(swelling.members), load.size))
     left = np.zeros_like(gap)
     for tried in range(STEPS):
@@ -69,7 +79,7 @@ def widened_balance(
         step = np.linalg.solve(matrix, left.T[..., None])[..., 0].T
         gap = gap + step
         here = springs.widened(swelling.gaps(gap))
-        x = chain_balance(here, bars, load, scale, x + np.einsum("bip,bp->ip", moved, step))
+        x = balance(here, bars, load, scale, x + np.einsum("bip,bp->ip", moved, step))
     return Widened(here, x, _size(left))
 
 

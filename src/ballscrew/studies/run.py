@@ -83,6 +83,20 @@ class NutState:
         return self.preload > 0 and float(self.loads.remaining_preload) <= 0
 
 
+class Holding(NamedTuple):
+    """What holds a load."""
+
+    axial_load: float
+    holding_torque: float
+    valid: bool
+
+    @classmethod
+    def of(cls, friction: FrictionResult, place: tuple[int, ...] = ()) -> Holding:
+        """That of a result, at a place of its arrays."""
+        read = (np.asarray(value)[place].item() for value in (friction.holding_torque, friction.valid))
+        return cls(float(np.asarray(friction.axial_load)[place]), *read)
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class Run:
     """Friction of a case at its operating point."""
@@ -90,7 +104,7 @@ class Run:
     case: Case
     friction: FrictionResult
     #: The same at rest: the torque that a brake has to hold.
-    at_rest: FrictionResult
+    at_rest: Holding
     #: The contacts with screw and nut of a ball, of a nut those of the most loaded one.
     contacts: Mapping[str, Mapping[str, float]]
     #: The flanks that this ball touches.
@@ -124,7 +138,7 @@ class Run:
             ]
             return [*found, *self._lost()]
         moving = bool(self.friction.screw_speed)
-        found = _holding(self.friction, "") if moving else []
+        found = _holding(Holding.of(self.friction), "") if moving else []
         return [
             *_quadrant(self.friction),
             *found,
@@ -221,14 +235,14 @@ def _quadrant(friction: FrictionResult) -> list[Record]:
     ]  # fmt: skip
 
 
-def _holding(friction: FrictionResult, place: str) -> list[Record]:
+def _holding(holding: Holding, place: str) -> list[Record]:
     """Whether the load drives, and the torque that holds or lowers it; empty where it is NaN."""
-    held = float(friction.holding_torque)
+    held = holding.holding_torque
     if math.isnan(held):
         return []
-    drives = held * float(friction.axial_load) > 0
+    drives = held * holding.axial_load > 0
     torque, when = units.shown(abs(held), _TORQUE), "at rest" if place else "at this speed"
-    beware = "" if friction.valid else " (outside the model's validity)"
+    beware = "" if holding.valid else " (outside the model's validity)"
     if drives:
         name, text = (
             "back_driving",
@@ -270,7 +284,7 @@ def _of_balls(case: Case) -> Run:
     return Run(
         case=case,
         friction=found,
-        at_rest=friction(0.0) if float(speed) and float(load) else found,
+        at_rest=Holding.of(friction(0.0) if float(speed) and float(load) else found),
         contacts={
             side: {name: float(getattr(state, name)) for name in quantities_of(RaceState)}
             for side, state in (("screw", found.screw), ("nut", found.nut))
@@ -288,10 +302,12 @@ def with_nut(case: Case, nut: Nut) -> Run:
 
     screw = dataclasses.replace(case.screw, nut=nut)
 
-    def friction(load: float, speed: float) -> FrictionResult:
+    def friction(load: Any, speed: Any) -> FrictionResult:
         return case.model(screw, case.lubricant, axial_load=load, screw_speed=speed)
 
     found = friction(load, speed)
+    # at rest, under the opposite load, and without load: together, as a call of the model takes long by itself
+    beside = friction(np.array([load, -load, 0.0]), np.array([0.0, speed, speed]))
     loads, half = found.loads, np.shape(found.loads.balls)[-1] // nut.halves
     flanks = (
         _flank(loads.forward_load[:half], loads.forward_angle[:half], loads.balls[:half]),
@@ -300,12 +316,12 @@ def with_nut(case: Case, nut: Nut) -> Run:
     loaded, relieved = flanks if load >= 0 else flanks[::-1]
     quadrants = found.quadrants
     if nut.one_by_one and float(load):  # another half carries a load of the other sign, and not as this one does
-        reverse = friction(-load, speed).quadrants
+        reverse = {name: _at(one, 1) for name, one in beside.quadrants.items()}
         quadrants = {name: one if one.load_sign * load > 0 else reverse[name] for name, one in quadrants.items()}
     return Run(
         case=dataclasses.replace(case, screw=screw),
         friction=found,
-        at_rest=friction(load, 0.0) if float(speed) and float(load) else found,
+        at_rest=Holding.of(beside, (0,)) if float(speed) and float(load) else Holding.of(found),
         contacts=_most_loaded(found),
         touching=_touching(found),
         rolling_share=math.nan,
@@ -314,7 +330,7 @@ def with_nut(case: Case, nut: Nut) -> Run:
         nut=NutState(
             nut=nut,
             preload=float(preload_of(screw, nut)),
-            preload_drag=float(friction(0.0, speed).screw_torque),
+            preload_drag=float(beside.screw_torque[2]),
             loads=loads,
             rigidity=_rigidity(case, screw, load),
             maximum_pressure=float(found.maximum_pressure),
@@ -336,6 +352,11 @@ def _rigidity(case: Case, screw: BallScrew, load: float) -> AxialRigidity:
         nominal_diameter=row.nominal_diameter if row is not None and same else None,
         installation=case.installation,
     )
+
+
+def _at(quadrant: Quadrant, place: int) -> Quadrant:
+    """A quadrant at one of several points."""
+    return Quadrant(*quadrant[:2], *(np.asarray(value)[place] for value in quadrant[2:]))
 
 
 def _flank(load: Any, angle: Any, balls: Any) -> Flank | None:

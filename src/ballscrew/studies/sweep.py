@@ -247,6 +247,7 @@ def sweep(
         return stream(swept, to, done=done, cluster=cluster, attributes=oil, verify=verify, trust=trust)
     # files of all kinds have the same bits; what is only looked at may be quicker
     few = to is None and math.prod(len(values) for values in plan.axes.values()) <= FEW_POINTS
+    few &= not case.screw.nut.one_by_one  # balls that differ count how often they are asked for
     dataset = sweeps.sweep(
         case.model, case.screw, case.lubricant, outputs=tuple(names),
         engine="model" if few else None, done=done, **varied, **fixed,

@@ -96,7 +96,8 @@ class Store:
         stored = stored_plan(folder)
         chosen = engine or (None if stored is None else stored.get("engine"))
         try:
-            evaluation = Evaluation.of(plan, chosen)
+            # recorded however little it is, so that who goes on with it by the same engine has the same formulas
+            evaluation = Evaluation.of(plan, chosen, recorded=True)
         except InputError as error:
             if engine is None and chosen is not None:
                 begun = Fault(WHERE, f"was begun with the engine {chosen}", str(folder), OTHER)

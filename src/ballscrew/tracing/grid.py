@@ -8,16 +8,13 @@ Powers of products are factors of one group each (:mod:`ballscrew.tracing.tape`)
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from ballscrew.tracing.program import Program, Source, required_steps
-from ballscrew.tracing.steps import Step
-
-#: The groups of inputs.
-ROWS, COLUMNS = 1, 2
+from ballscrew.tracing.steps import COLUMNS, ROWS, Step
 
 
 class Split(NamedTuple):
@@ -26,12 +23,13 @@ class Split(NamedTuple):
     rows: Program
     columns: Program
     points: Program
-    #: For each input of ``points``: its source among the first two programs, and the name of the output there.
+    #: For each input of ``points``: its source among the first two programs, and the name of the output there; or
+    #: else the points themselves, and the number of the input.
     tables: tuple[tuple[Source, str], ...]
 
 
 def split(program: Program, groups: Sequence[int]) -> Split:
-    """Cut a program whose inputs are in the groups given; an input in both groups cannot be cut."""
+    """Cut a program whose inputs are in the groups given; an input in both groups has a value at each point."""
     group = dict(enumerate(groups))
     for i, step in program.steps:
         group[i] = 0
@@ -39,7 +37,7 @@ def split(program: Program, groups: Sequence[int]) -> Split:
             group[i] |= group[int(operand)] if kind == "step" else 0
     inner = [(i, step) for i, step in program.steps if group[i] in (0, ROWS | COLUMNS)]
     read = {int(o) for _, step in inner for kind, o in step.operands if kind == "step"} | {*program.outputs.values()}
-    tabled = sorted(i for i in read if group[i] in (ROWS, COLUMNS))
+    tabled = sorted(i for i in read if group[i] in (ROWS, COLUMNS) or i < program.inputs)
     steps = dict(program.steps)
     masks = {i for i in tabled if i in steps and steps[i].is_mask}
 
@@ -62,7 +60,8 @@ def split(program: Program, groups: Sequence[int]) -> Split:
     outputs = {name: number[i] for name, i in program.outputs.items()}
     nonnegative = frozenset(number[i] for i in program.nonnegative if i in number)
     points = Program(len(tabled), tuple(renumbered), outputs, program.constants, nonnegative)
-    sources: list[tuple[Source, str]] = [("rows" if group[i] == ROWS else "columns", str(i)) for i in tabled]
+    kinds: dict[int, Source] = {ROWS: "rows", COLUMNS: "columns", ROWS | COLUMNS: "points"}
+    sources: list[tuple[Source, str]] = [(kinds[group[i]], str(i)) for i in tabled]
     return Split(tables(ROWS), tables(COLUMNS), points, tuple(sources))
 
 
@@ -73,3 +72,20 @@ def inner_axes(shape: Sequence[int], fewest_columns: int) -> int:
         count += 1
         columns *= shape[-count]
     return count
+
+
+def rectangles(part: slice, row_length: int) -> Iterator[tuple[slice, slice]]:
+    """A part of a flattened grid as rectangles of rows and columns: an end, whole rows, a beginning."""
+    start, stop = part.start, part.stop
+    if start % row_length or stop - start < row_length:
+        row = start // row_length
+        end = min(stop, (row + 1) * row_length)
+        yield slice(row, row + 1), slice(start - row * row_length, end - row * row_length)
+        start = end
+    if whole := (stop - start) // row_length:
+        row = start // row_length
+        yield slice(row, row + whole), slice(0, row_length)
+        start += whole * row_length
+    if start < stop:
+        row = start // row_length
+        yield slice(row, row + 1), slice(0, stop - start)

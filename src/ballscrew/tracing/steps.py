@@ -7,6 +7,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+#: Groups of inputs, a bit for each: rows and columns of a grid, and what has been reduced over the rows.
+ROWS, COLUMNS, REDUCED = 1, 2, 4
+#: Reductions over the rows of each column: sum, greatest value, its place, and the value at a place.
+REDUCTIONS = frozenset({np.sum, np.max, np.argmax, np.take_along_axis})
+
 #: A step's operand: the index of an earlier step, or a constant.
 Operand = int | float | bool
 

@@ -8,7 +8,9 @@ several powers, for both contacts at once. The equations see an array. Powers of
 up, so that x²/x is x, also where x is zero.
 
 Inputs may come in groups (the axes of a grid). A product of powers then becomes one factor for each
-group, so that a factor can be computed once for each value of its axis.
+group, so that a factor can be computed once for each value of its axis. On a tape that ``reduces``, the last axis of
+an array stands for the rows of a grid, and sums and greatest values along it are steps as well
+(:mod:`ballscrew.tracing.reductions`).
 """
 
 from __future__ import annotations
@@ -19,36 +21,29 @@ from typing import Any
 
 import numpy as np
 
+from ballscrew.tracing.cannot_record import CannotRecordError as CannotRecordError
+from ballscrew.tracing.cannot_record import NoAttributeError
+from ballscrew.tracing.cannot_record import why_not_recorded as why_not_recorded
 from ballscrew.tracing.logarithms import folds_into_exponent, logarithm, sum_of_logarithms
-from ballscrew.tracing.steps import Step, choose
+from ballscrew.tracing.steps import COLUMNS, REDUCED, REDUCTIONS, ROWS, Step, choose
 
 #: Whole powers up to this one are multiplied out.
 HIGHEST_WHOLE_POWER = 8
-
-
-class CannotRecordError(TypeError):
-    """Asked of a traced value: what only numbers or plain arrays can do."""
-
-
-class _NoAttributeError(CannotRecordError, AttributeError):
-    """Asked of a traced value: a method or an attribute of plain arrays."""
-
-
-def why_not_recorded(error: BaseException) -> CannotRecordError | None:
-    """Cause of an error that is an operation that cannot be recorded."""
-    below: BaseException | None = error
-    while below is not None and not isinstance(below, CannotRecordError):
-        below = below.__cause__ or below.__context__
-    return below
 
 
 class Tape:
     """The steps recorded so far; the first ones are the inputs."""
 
     def __init__(
-        self, inputs: int, groups: Sequence[int] | None = None, nonnegative: Sequence[bool] | None = None
+        self,
+        inputs: int,
+        groups: Sequence[int] | None = None,
+        nonnegative: Sequence[bool] | None = None,
+        *,
+        reduces: bool = False,
     ) -> None:
         self.inputs = inputs
+        self.reduces = reduces
         self.steps: list[Step | None] = [None] * inputs
         #: The groups of inputs that each step depends on, a bit for each.
         self.groups = [1] * inputs if groups is None else list(groups)
@@ -65,6 +60,8 @@ class Tape:
             self.groups.append(0)
             for kind, operand in coded:
                 self.groups[-1] |= self.groups[int(operand)] if kind == "step" else 0
+            if function in REDUCTIONS:
+                self.groups[-1] = COLUMNS | REDUCED
             self.nonnegative.append(self._is_nonnegative(step))
             self._known[step] = len(self.steps) - 1
         return self._known[step]
@@ -98,12 +95,27 @@ class Tape:
         return step is not None and step.is_mask
 
 
-_MASKS = {
+def _reduced(tape: Tape, function: Any, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
+    """A reduction over the rows, as a step; the value itself where it is the same in all of them."""
+    values, *places = args
+    if dict(kwargs) != {"axis": -1}:
+        raise CannotRecordError(f"numpy.{function.__name__} is recorded along the last axis only")
+    of_rows = isinstance(values, Traced) and bool(tape.groups[values.index] & ROWS)
+    if not of_rows and function in (np.max, np.take_along_axis):
+        return values
+    if not of_rows or tape.groups[values.index] & REDUCED:
+        raise CannotRecordError(f"numpy.{function.__name__} of what is the same in all rows, or reduced before")
+    if _is_mask(values):
+        return tape.value(_reduced(tape, function, (np.where(values, 1.0, 0.0), *places), kwargs).index) != 0
+    return tape.value(tape.record(function, tape.value(values.index), *places))
+
+
+MASKS = {
     np.equal, np.not_equal, np.less, np.less_equal, np.greater, np.greater_equal,
     np.isfinite, np.isnan, np.isinf, np.logical_and, np.logical_or, np.logical_xor, np.logical_not,
 }  # fmt: skip
 #: Functions whose result is not negative where no operand is.
-_KEEP_SIGN = {np.add, np.multiply, np.divide, np.maximum, np.minimum, np.power, choose}
+_KEEP_SIGN = {np.add, np.multiply, np.divide, np.maximum, np.minimum, np.power, choose, np.sum, np.max}
 _TRUTH = {np.bitwise_and, np.bitwise_or, np.bitwise_xor, np.invert}
 
 
@@ -170,13 +182,15 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
             inputs = (Traced(self.tape, self.powers, 1.0, self.zero), inputs[1])  # the scale does not matter
         if not _takes_floats(ufunc, tuple(map(_is_mask, inputs))):
             raise CannotRecordError(f"numpy.{ufunc.__name__} takes no real numbers")
-        is_mask = ufunc in _MASKS or (ufunc in _TRUTH and all(map(_is_mask, inputs)))
+        is_mask = ufunc in MASKS or (ufunc in _TRUTH and all(map(_is_mask, inputs)))
         return self.tape.value(self.tape.record(ufunc, *map(_constant, inputs), is_mask=is_mask))
 
     def __array_function__(
         self, function: Callable[..., Any], types: Any, args: Sequence[Any], kwargs: Mapping[str, Any]
     ) -> Any:  # fmt: skip
         """``where`` becomes a step; ``where(mask, 0.0, product)`` keeps the scale of the product."""
+        if function in REDUCTIONS and self.tape.reduces:
+            return _reduced(self.tape, function, args, kwargs)
         if function is not np.where or len(args) != 3 or kwargs:
             raise CannotRecordError(f"numpy.{function.__name__} cannot be recorded")
         mask, yes, no = args
@@ -197,7 +211,7 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
 
     def __getattr__(self, name: str) -> Any:
         """Operators and functions of NumPy are recorded, methods of arrays are not."""
-        raise _NoAttributeError(f"a traced value has no attribute {name!r}")
+        raise NoAttributeError(f"a traced value has no attribute {name!r}")
 
     def _no_number(self, *_: Any, **__: Any) -> Any:
         """A traced value has no numbers yet; a law that needs them is evaluated on plain arrays."""

@@ -15,10 +15,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ballscrew._arrays import map_blocks
+from ballscrew._arrays import blocks, map_blocks
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import MISSING, Fault, InputError, raise_if_any
+from ballscrew.evaluation.by_ball import BLOCK_OF_BALLS, ByBall, by_ball
 from ballscrew.evaluation.engines import (
     ASKED_FOR,
     PAYS,
@@ -187,6 +188,13 @@ def _by_engine(
     plan: Plan, distributions: Mapping[str, Distribution], samples: int, seed: int, engine: Engine | None
 ) -> tuple[_SampleEvaluator, int, bool, str]:
     """Evaluator of samples, its batch size, whether it is compiled, and the reason."""
+    if plan.subject.nut.one_by_one:
+        ready = by_ball(plan, engine, max(1, samples // plan.total), varying=list(distributions))
+        if isinstance(ready, ByBall):
+            return _ball_by_ball(plan, distributions, ready, seed), NUMPY_STEP, ready.engine == "compiled", ready.reason
+        if engine == "compiled":
+            raise InputError(Fault("monte_carlo.engine", f"cannot be had: {ready}", engine, 'take engine="numpy"'))
+        return _by_numpy(plan, distributions, None, seed), NUMPY_STEP, False, ready
     program: Program | None = None
     try:
         program = _recorded(plan, distributions)
@@ -211,6 +219,19 @@ def _recorded(plan: Plan, distributions: Mapping[str, Distribution]) -> Program:
     tape = Tape(len(distributions))
     drawn = {name: distribution.quantile(tape.value(i)) for i, (name, distribution) in enumerate(distributions.items())}
     return plan.subject.recorded(tape, plan.fixed | drawn, plan.wanted)
+
+
+def _ball_by_ball(plan: Plan, distributions: Mapping[str, Distribution], ready: ByBall, seed: int) -> _SampleEvaluator:
+    size = max(1, BLOCK_OF_BALLS // plan.subject.balls)
+
+    def evaluate(part: slice, results: Mapping[str, NDArray[Any]]) -> None:
+        for block in blocks(part.stop - part.start, size):
+            numbers = random.uniform(slice(part.start + block.start, part.start + block.stop), len(distributions), seed)
+            drawn = zip(distributions.items(), numbers, strict=True)
+            points = {name: distribution.quantile(u) for (name, distribution), u in drawn}
+            ready.evaluate(plan.subject, plan.fixed | points, {name: held[block] for name, held in results.items()})
+
+    return evaluate
 
 
 def _by_numpy(

@@ -103,24 +103,25 @@ async def _disconnected(request: Request) -> None:
         pass
 
 
-async def _of_case(request: Request, work: Callable[[case_file.Case], Response]) -> Response:
-    """Quick work on a case; heavy work where many balls are computed one by one."""
+async def _of_run(request: Request, work: Callable[[runs.Run], Response]) -> Response:
+    """Quick work on the run of a case; heavy work where many balls are computed one by one."""
     body: CaseBody = await read(request, CaseBody)
 
     def quick() -> case_file.Case | Response:
         case = case_of(body.case)
-        return case if limits.balls_of(case) > limits.MANY_BALLS else work(case)
+        many = limits.balls_of(case) > limits.MANY_BALLS
+        return case if many else work(documents.run_of(case, body.case))
 
     found = await _queue(request).quick(quick)
     if isinstance(found, Response):
         return found
-    return await _heavy(request, lambda _: work(found))
+    return await _heavy(request, lambda _: work(documents.run_of(found, body.case)))
 
 
 @router.post("/run", openapi_extra=openapi.body(CaseBody), response_model=answers.Run, responses=openapi.problems_of())
 async def run(request: Request) -> Response:
     """Friction at the operating point of a case: the document of ``ballscrew run --json``, with sentences."""
-    return await _of_case(request, lambda case: _json(documents.run(case)))
+    return await _of_run(request, lambda found: _json(documents.run(found)))
 
 
 @router.post(
@@ -256,7 +257,7 @@ async def drawing(request: Request) -> Response:
     """The ball between its grooves and the slip in its contact, to scale, as SVG."""
     from ballscrew.report.drawing import drawing as drawn
 
-    return await _of_case(request, lambda case: Response(drawn(runs.run(case)), media_type="image/svg+xml"))
+    return await _of_run(request, lambda found: Response(drawn(found), media_type="image/svg+xml"))
 
 
 @router.post(
@@ -269,13 +270,12 @@ async def drawing_template(request: Request) -> Response:
     """The same drawing as a template, to be shown in any units."""
     from ballscrew.report.drawing import drawing as drawn
 
-    def work(case: case_file.Case) -> Response:
-        found = runs.run(case)
+    def work(found: runs.Run) -> Response:
         with units.placeholders() as quantities:
             picture = drawn(found)
         return _json(template(picture, quantities))
 
-    return await _of_case(request, work)
+    return await _of_run(request, work)
 
 
 @router.post("/report", openapi_extra=openapi.body(CaseBody), responses=openapi.text(*KINDS.values()))

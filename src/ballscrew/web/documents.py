@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import json
+import threading
+from collections import OrderedDict
+from collections.abc import Mapping
 from typing import Any
 
 from ballscrew import units
@@ -14,10 +18,29 @@ from ballscrew.studies import band as bands
 from ballscrew.studies import run as runs
 from ballscrew.web.templates import fill_records, filled, template
 
+#: Runs that are kept: the page asks for the drawing of what it has just asked the numbers of.
+_MOST_RUNS = 4
+_runs: OrderedDict[str, runs.Run] = OrderedDict()
+_runs_lock = threading.Lock()
 
-def run(case: case_file.Case) -> dict[str, Any]:
+
+def run_of(case: case_file.Case, tables: Mapping[str, Any]) -> runs.Run:
+    """The run of a case that was made of these tables; of the same tables again it is not computed again."""
+    key = json.dumps(tables, default=repr)
+    with _runs_lock:
+        found = _runs.get(key)
+    if found is None:
+        found = runs.run(case)
+        with _runs_lock:
+            _runs[key] = found
+            if len(_runs) > _MOST_RUNS:
+                _runs.popitem(last=False)
+    return found
+
+
+def run(found: runs.Run) -> dict[str, Any]:
     """The document of a run, and its sentences as texts and as templates."""
-    found = runs.run(case)
+    case = found.case
     with units.placeholders() as quantities:
         document = run_documents.document(found)
         heading, assumptions = title(case), assumed(case, found.ball_to_ball_force)

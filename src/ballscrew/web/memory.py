@@ -32,15 +32,20 @@ def keep_loaded() -> None:
 def releasing(work: Callable[[Argument], Result]) -> Callable[[Argument], Result]:
     """The work; after it its cycles (figures, tapes) are collected, and their memory goes back to the system.
 
-    Recordings are dropped, too: each case of a user has its own, which few will ask for again.
+    Recordings are dropped, too: each case of a user has its own, which few will ask for again. Those that serve every
+    case of a kind stay, and the collector is spared them.
     """
 
     def released(argument: Argument) -> Result:
+        made = recordings.Structures.made
         try:
             return work(argument)
         finally:
             recordings.forget()
-            gc.collect()
+            if recordings.Structures.made == made:
+                gc.collect()
+            else:
+                keep_loaded()
             if _TRIM is not None:
                 _TRIM(0)
 

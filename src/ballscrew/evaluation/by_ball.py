@@ -1,0 +1,301 @@
+"""Nuts whose balls differ: their loads are solved on arrays, the friction under them is recorded, and compiled.
+
+The recording has two levels: what each operating point has, and what each of its balls has, whose loads and contact
+angles are inputs like any other. Sums and greatest values over the balls lead from the second to the first
+(:mod:`ballscrew.tracing.reductions`). The program is cut there, and its first part along points and balls: what does
+not depend on the ball is evaluated once for each point, by NumPy, and what does in one loop over balls and points.
+
+All plain numbers of the parts are inputs, so that nothing is recorded again when one changes: they cost nothing at any
+ball. Constants are exponents of laws, which are folded, and materials.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew._arrays import as_array
+from ballscrew.components.materials import TEMPERATURE
+from ballscrew.evaluation.axes import ends
+from ballscrew.evaluation.engines import ASKED_FOR, PAYS, Engine, why_numpy, worth_compiling
+from ballscrew.evaluation.outputs import NUT_OUTPUTS, OF_LOADS, OPERATION, Output, known_outputs
+from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.evaluation.recordings import Recording, Structures, UnknownPartError, key_of
+from ballscrew.friction.loaded_balls import loads_of
+from ballscrew.kernels import kernel as kernels
+from ballscrew.kernels.buffers import aligned_array
+from ballscrew.kernels.emission import UnknownOperationError, kernel_text, lanes_for
+from ballscrew.kernels.kernel import Kernel
+from ballscrew.solvers.load_distribution import BallLoads, KindLoads
+from ballscrew.tracing.grid import Split, split
+from ballscrew.tracing.merging import merged_program
+from ballscrew.tracing.program import Program, Source, required_steps
+from ballscrew.tracing.reductions import Stages, cut_at_reductions, reduced
+from ballscrew.tracing.steps import COLUMNS, ROWS
+from ballscrew.tracing.tape import CannotRecordError, Tape
+
+#: What each ball has of the solved loads.
+OF_BALLS = ("forward_load", "backward_load", "forward_angle", "backward_angle")
+#: Balls at all points that have to be asked for, in one call or in several, before a recording is made; that of balls
+#: with four contacts has ten times as many steps.
+ENOUGH_TO_RECORD, ENOUGH_OF_FOUR_CONTACTS = 100_000, 1_000_000
+#: Operating points of a kernel that are worked on at a time, ball after ball.
+TILE = 128
+#: Numbers of balls that are evaluated in a block: large enough for the steps of NumPy at the points, small enough
+#: for the cache.
+BLOCK_OF_BALLS = 2**18
+#: Outputs that are recorded together.
+_USUAL = frozenset({*NUT_OUTPUTS, "drive_torque", "holding_torque", "self_locking", "minimum_film_parameter"})
+_USUAL_PARTS = ("contribution_", "validity_")
+_structures = Structures()
+
+
+def inputs_by_ball(subject: Configuration, varying: Sequence[str] = ()) -> tuple[str, ...]:
+    """The names of all numbers of a configuration that are inputs of its recording, the operating point first.
+
+    An exponent of a law is a constant, unless it varies: folded into the powers, it costs nothing.
+    """
+    seen: set[str] = set()
+    found: list[str] = []
+    for name, (part, _) in subject.inputs.items():
+        own = name.removeprefix("nut.") if part == "nut" else name
+        is_exponent = part == "model" and name.rpartition(".")[2].endswith("exponent") and name not in varying
+        if part == "operation" or name == TEMPERATURE.name or own in seen or is_exponent:
+            continue
+        seen.add(own)
+        if subject.value_of(name) is not None:
+            found.append(own)
+    return (*OPERATION, *found)
+
+
+class ByBall:
+    """The outputs of a plan for a nut whose balls differ, made ready by one of the engines."""
+
+    def __init__(self, plan: Plan, names: tuple[str, ...], made_of: Recording, engine: Engine, reason: str) -> None:
+        self.engine: Engine = engine
+        self.reason = reason
+        self.names = names
+        self._stages, self._cut = made_of.once("stages", lambda: _stages(made_of.program, names))
+        self._program = made_of.program
+        self._before = None if engine == "compiled" else self._cut.points.interpreter.with_own_buffers()
+        self._of_points = self._cut.columns.interpreter.with_own_buffers()
+        self._behind = made_of.once(
+            f"behind {plan.outputs}", lambda: _of(self._stages.behind, plan.outputs)
+        ).interpreter
+        self._sources: list[Source] = [source for source, _ in self._cut.tables]
+        self._text = "" if engine == "numpy" else _text(made_of, self._stages, self._cut)
+        self._kernel = None if engine == "numpy" else Kernel.of(self._text, self._sources)
+        self._spare = _lanes(self._cut.points)
+
+    @property
+    def formulas(self) -> str:
+        """All formulas as they are evaluated, as text."""
+        return f"{self._text}\n{self._program.text}"
+
+    def evaluator_of(self, plan: Plan) -> Callable[..., None]:
+        """The evaluator of a slice of the flattened grid, into arrays that begin at the given place; it notes ends."""
+
+        def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int, found: Mapping[str, Any]) -> None:
+            points = plan.points(part)
+            for name, noted in found.items():
+                noted.append(ends(points[name]))
+            here = {name: values[part.start - first : part.stop - first] for name, values in results.items()}
+            self.evaluate(plan.subject, plan.fixed | points, here)
+
+        return evaluate
+
+    def evaluate(self, subject: Configuration, points: Mapping[str, Any], results: Mapping[str, NDArray[Any]]) -> None:
+        """Evaluate at points into arrays of results. Raises what the solver of the loads raises."""
+        count = len(next(iter(results.values())))
+        if count == 1:  # two, so that sums have the same order as among others
+            twice = {name: np.repeat(values, 2) if np.ndim(values) else values for name, values in points.items()}
+            found = {name: np.repeat(held, 2) for name, held in results.items()}
+            self.evaluate(subject, twice, found)
+            for name, held in results.items():
+                held[...] = found[name][:1]
+            return
+        changed = subject.changed({name: values for name, values in points.items() if name not in OPERATION})
+        with np.errstate(all="ignore"):
+            loads = loads_of(changed.screw, as_array(points[OPERATION[0]]), compiled=self.engine == "compiled")
+            of_points = [points[name] if name in OPERATION else changed.value_of(name) for name in self.names]
+            of_points += [getattr(loads, name) for name in OF_LOADS]
+            of_balls = [_balls_first(getattr(loads, name), count) for name in OF_BALLS]
+            tables = self._tables(of_points, count)
+            inputs = [
+                tables[name] if source == "columns" else of_balls[int(name) - len(of_points)]
+                for source, name in self._cut.tables
+            ]
+            values, done = self._over_balls(inputs, len(of_balls[0]), count)
+            found = reduced(self._stages.reductions, values, done)
+            self._behind.run([*of_points, *([None] * len(OF_BALLS)), *found], results)
+
+    def _tables(self, of_points: Sequence[Any], count: int) -> dict[str, NDArray[np.float64]]:
+        """What does not depend on the ball, for each point."""
+        program = self._cut.columns
+        masks = {i for i, step in program.steps if step.is_mask}
+        found = {n: np.empty(count, dtype=bool if i in masks else float) for n, i in program.outputs.items()}
+        if found:
+            self._of_points.run([*of_points, *([None] * len(OF_BALLS))], found)
+        return {name: values.astype(float, copy=False) for name, values in found.items()}
+
+    def _over_balls(
+        self, inputs: Sequence[NDArray[np.float64]], balls: int, count: int
+    ) -> tuple[dict[str, NDArray[Any]], dict[str, NDArray[Any]]]:
+        """What each ball has, by name, and what is reduced already."""
+        sums = self._stages.sums
+        names = list(self._cut.points.outputs)
+        if self._kernel is not None:
+            found = {n: aligned_array(count + self._spare if n in sums else balls * count, float) for n in names}
+            self._kernel(
+                slice(0, balls), slice(0, count), count, inputs, list(found.values()), past_cache=False, tile=TILE
+            )
+            values = {name: held.reshape(balls, count) for name, held in found.items() if name not in sums}
+            return values, {name: held[:count] for name, held in found.items() if name in sums}
+        assert self._before is not None, "a kernel, or NumPy"
+        found = {name: np.empty(balls * count) for name in names}
+        whole = [values.reshape(-1) if values.ndim > 1 else np.tile(values, balls) for values in inputs]
+        if names:
+            self._before.run(whole, found)
+        return {name: held.reshape(balls, count) for name, held in found.items()}, {}
+
+
+def by_ball(
+    plan: Plan,
+    engine: Engine | None,
+    times: int = 1,
+    varying: Sequence[str] | None = None,
+    *,
+    always: bool = False,
+) -> ByBall | str:
+    """A plan for a nut whose balls differ, made ready; or the reason why the model itself has to evaluate it.
+
+    ``varying`` names the inputs that vary where it is not the axes of the plan. Without an ``engine`` little work is
+    left to the model itself, unless it is ``always`` recorded, until so much of its kind has been asked for that a
+    recording pays.
+    """
+    names = inputs_by_ball(plan.subject, plan.varying if varying is None else varying)
+    wanted = _recorded_outputs(plan)
+    work = plan.total * times * plan.subject.balls
+    why = "the model itself, on plain arrays: the work is too short to record it"
+    key = _key(plan.subject, tuple(wanted), names)
+    made_of = None if key is None else _structures.get(key)
+    asked = work if key is None else _structures.asked(key, work)
+    enough = ENOUGH_TO_RECORD if plan.subject.nut.contacts_per_ball == 2 else ENOUGH_OF_FOUR_CONTACTS
+    if made_of is None and engine is None and not always and asked < enough:
+        return why
+    try:
+        if made_of is None:
+            program = _recorded(plan.subject, wanted, names)
+            made_of = Recording(program) if key is None else _structures.add(key, program)
+        return _by_an_engine(plan, engine, names, made_of, asked)
+    except CannotRecordError as error:
+        return f"the model itself, on plain arrays: {error}"
+
+
+def _by_an_engine(
+    plan: Plan, engine: Engine | None, names: tuple[str, ...], made_of: Recording, asked: int
+) -> ByBall | str:
+    stages, cut = made_of.once("stages", lambda: _stages(made_of.program, names))
+    why = why_numpy(engine)
+    try:
+        if engine != "numpy" and kernels.available():
+            text = _text(made_of, stages, cut)
+            if engine or worth_compiling(cut.points, asked, text):
+                return ByBall(plan, names, made_of, "compiled", ASKED_FOR if engine else PAYS)
+    except UnknownOperationError as unknown:
+        why = f"{unknown} is not known to kernels"
+        if engine == "compiled":
+            return why
+    return ByBall(plan, names, made_of, "numpy", why)
+
+
+def _key(subject: Configuration, outputs: tuple[str, ...], names: tuple[str, ...]) -> Hashable | None:
+    """All that a recording depends on; None where a law from outside may compute something else each time."""
+    try:
+        return _structure(subject, names), outputs, names
+    except UnknownPartError:
+        return None
+
+
+def _structure(subject: Configuration, names: Sequence[str]) -> Hashable:
+    """A configuration as a key, without the numbers that are inputs and without what only the loads depend on."""
+    asides = {*names, "bodies", "deviations"}
+
+    def of(part: Any, prefix: str = "") -> Hashable:
+        laws = [f for f in dataclasses.fields(part) if f"{prefix}{f.name}" not in asides]
+        return type(part), *((f.name, of_field(getattr(part, f.name), f.name)) for f in laws)
+
+    def of_field(value: Any, name: str) -> Hashable:
+        if name == "nut":
+            return of(value)
+        if name == "losses":
+            return tuple((n, of_law(law, f"losses.{n}.")) for n, law in value.items())
+        return of_law(value, f"{name}.") if name in subject.model.laws_with_coefficients else key_of(value)
+
+    def of_law(law: Any, prefix: str) -> Hashable:
+        key_of(law)  # raises for one from outside
+        return of(law, prefix) if dataclasses.is_dataclass(law) else key_of(law)
+
+    return of(subject.model), of(subject.screw), of(subject.lubricant)
+
+
+def _recorded_outputs(plan: Plan) -> Mapping[str, Output]:
+    """The outputs that are recorded: the usual ones, where those of the plan are among them, or just these.
+
+    What a few sums more cost at each ball is saved by having one recording and one kernel for most purposes.
+    """
+    known = known_outputs(plan.subject.nut)
+    usual = {n: output for n, output in known.items() if n in _USUAL or n.startswith(_USUAL_PARTS)}
+    return usual if usual.keys() >= set(plan.outputs) else plan.wanted
+
+
+def _recorded(subject: Configuration, wanted: Mapping[str, Output], names: Sequence[str]) -> Program:
+    """The outputs wanted as a program of all inputs, the results of the solver for the nut, and those for each ball."""
+    groups = [COLUMNS] * (len(names) + len(OF_LOADS)) + [ROWS | COLUMNS] * len(OF_BALLS)
+    nonnegative = [subject.is_nonnegative(name) for name in names] + [False] * len(OF_LOADS) + [True] * len(OF_BALLS)
+    tape = Tape(len(groups), groups, nonnegative, reduces=True)
+    traced = [tape.value(i) for i in range(tape.inputs)]
+    points = dict(zip(names, traced, strict=False))
+    of_nut = dict(zip(OF_LOADS, traced[len(names) :], strict=False))
+    of_balls = dict(zip(OF_BALLS, traced[-len(OF_BALLS) :], strict=True))
+    with subject.recording(by_ball=True):
+        loads = BallLoads(kinds=(KindLoads(balls=1.0, **of_balls),), one_by_one=True, **of_nut)
+        result = subject.under(loads, points)
+        return merged_program(tape, {name: output.read(result) for name, output in wanted.items()})
+
+
+def _stages(program: Program, names: Sequence[str]) -> tuple[Stages, Split]:
+    groups = [COLUMNS] * (len(names) + len(OF_LOADS)) + [ROWS | COLUMNS] * len(OF_BALLS)
+    stages = cut_at_reductions(program, groups)
+    return stages, split(stages.before, groups)
+
+
+def _of(program: Program, outputs: Sequence[str]) -> Program:
+    """Some of the outputs of a program."""
+    found = {name: program.outputs[name] for name in outputs if name in program.outputs}
+    constants = {name: program.constants[name] for name in outputs if name in program.constants}
+    steps = required_steps(dict(program.steps), found.values())
+    return dataclasses.replace(program, steps=steps, outputs=found, constants=constants)
+
+
+def _text(made_of: Recording, stages: Stages, cut: Split) -> str:
+    """The assembly of what each ball has."""
+    sources: list[Source] = [source for source, _ in cut.tables]
+    masks = dict.fromkeys(cut.points.outputs, False)
+    lanes = _lanes(cut.points)
+    return made_of.once("text", lambda: kernel_text(cut.points, sources, masks, lanes=lanes, reduced=stages.sums))
+
+
+def _lanes(program: Program) -> int:
+    """The number of points in a vector: most inputs are tables of a tile, which stay in the cache."""
+    return lanes_for(dataclasses.replace(program, inputs=len(OF_BALLS)))
+
+
+def _balls_first(values: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+    """Values of the balls at each point, or the same at all of them, with the ball axis first."""
+    first = np.moveaxis(values, -1, 0)
+    return np.ascontiguousarray(np.broadcast_to(first[:, None] if first.ndim == 1 else first, (len(first), count)))

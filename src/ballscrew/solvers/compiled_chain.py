@@ -1,0 +1,157 @@
+"""Balls between elastic bodies by compiled kernels: their balance, what each carries then, and how far they give way.
+
+The springs are recorded from :class:`~ballscrew.solvers.ball_springs.BallSprings`, step by step as NumPy evaluates
+them. :mod:`ballscrew.kernels.chain` takes the same Newton steps as
+:func:`~ballscrew.solvers.ball_springs.chain_balance`; what would need a part of a step is left to the latter.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ballscrew.kernels.buffers import aligned_array
+from ballscrew.kernels.chain import Balanced, Chains, balanced_chains, chain_kernel
+from ballscrew.kernels.emission import kernel_text, lanes_for
+from ballscrew.kernels.kernel import Kernel
+from ballscrew.solvers.ball_springs import BALANCED, ROUNDING, STEPS, BallSprings, Bars, Field, Flanks, chain_balance
+from ballscrew.tracing.program import Program, Source
+from ballscrew.tracing.verbatim import verbatim_program
+
+#: Fewest points of an operation of NumPy whose sums over the balls do not depend on how many there are.
+FEWEST_POINTS = 2
+#: Points that are worked on at a time, ball after ball.
+TILE = 128
+
+
+class CarriedLoads(NamedTuple):
+    """Of each ball its loads and contact angles on both flanks, and its slope; sums of the axial forces."""
+
+    forward_load: Field
+    backward_load: Field
+    forward_angle: Field
+    backward_angle: Field
+    slope: Field
+    on_forward: Field
+    on_backward: Field
+
+
+def compiled_chain_balance(springs: BallSprings, bars: Bars, load: Field, scale: Field, start: Field) -> Field:
+    """The displacements at which a chain of bars carries a load."""
+    found = _balanced(springs, bars, load, scale, start, STEPS)
+    x, force, slope = found.displacement, found.force, found.slope
+    x += np.where(slope > 0, (load - force) / np.where(slope > 0, slope, 1.0), 0.0)
+    if not found.settled.all():
+        open_ = np.flatnonzero(~found.settled)
+        among = np.resize(open_, max(open_.size, FEWEST_POINTS))
+        slow = chain_balance(springs.at(among), bars.at(among), load[among], scale[among], start[:, among])
+        x[:, open_] = slow[:, : open_.size]
+    return x
+
+
+def compiled_imbalance(springs: BallSprings, bars: Bars, load: Field, displacement: Field) -> Field:
+    """Root of the sum of the squares of what is left of the balance at the balls beyond rounding, N."""
+    return _balanced(springs, bars, load, 0 * load, displacement, 0).imbalance
+
+
+def _balanced(springs: BallSprings, bars: Bars, load: Field, scale: Field, start: Field, steps: int) -> Balanced:
+    links, count = start.shape
+    inputs = _numbers(springs)
+    entering = (bars.first_share * load, (1 - bars.first_share) * load)
+    chains = Chains(start, bars.stiffness, *entering, BALANCED * scale, ROUNDING * np.sqrt(links))
+    kernel = _chain_kernel(len(springs.flanks), springs.constant_angle, _sources([*inputs, bars.stiffness]))
+    return balanced_chains(kernel, [_whole(number, links, count) for number in inputs], chains, steps)
+
+
+def compiled_loads(springs: BallSprings, displacement: Field, works: Field) -> CarriedLoads:
+    """The loads of balls at these displacements; none where a point does not work."""
+    links, count = displacement.shape
+    inputs = [displacement, works, *_numbers(springs)]
+    sources: tuple[Source, ...] = ("points", "columns", *_sources(inputs[2:]))
+    kernel, sums, spare = _load_kernel(len(springs.flanks), springs.constant_angle, sources)
+    found = {n: aligned_array(count + spare if n in sums else links * count, float) for n in CarriedLoads._fields}
+    whole = [np.ascontiguousarray(_whole(number, links, count)) for number in inputs]
+    kernel(
+        slice(0, links), slice(0, count), count, whole, list(found.values()), past_cache=False, tile=TILE
+    )  # fmt: skip
+    return CarriedLoads(*(held[:count] if name in sums else held.reshape(links, count) for name, held in found.items()))
+
+
+def compiled_response(bars: Bars, slope: Field) -> Field:
+    """The displacements of a chain of linear springs under a force of one, which enters as a load does."""
+    count = slope.shape[-1]
+    share = np.broadcast_to(bars.first_share, (count,))
+    chains = Chains(np.broadcast_to(0.0, slope.shape), bars.stiffness, share, 1 - share, np.zeros(count), 0.0)
+    kernel = _linear_kernel(_sources([slope, bars.stiffness]))
+    return balanced_chains(kernel, [slope], chains, 1).displacement  # the first step is the answer
+
+
+def _numbers(springs: BallSprings) -> list[Field]:
+    """The numbers of springs, in the order of :func:`_made_of`."""
+    K, A, alpha, c_phi, balls, _, flanks = springs
+    return [K, A, alpha, c_phi, balls, *(part for each in flanks for part in each)]
+
+
+def _made_of(constant_angle: bool, K: Any, A: Any, alpha: Any, c_phi: Any, balls: Any, *parts: Any) -> BallSprings:
+    pairs = tuple(Flanks(*parts[k : k + 3]) for k in range(0, len(parts), 3))
+    return BallSprings(K, A, alpha, c_phi, balls, constant_angle, pairs)
+
+
+def _recorded(flanks: int, further: int, formula: Callable[..., Mapping[str, Any]]) -> Program:
+    """A formula of some values and the numbers of springs."""
+    return verbatim_program(further + len(BallSprings._fields) - 2 + 3 * flanks, formula)
+
+
+@functools.cache
+def _chain_kernel(flanks: int, constant_angle: bool, sources: tuple[Source, ...]) -> Kernel:
+    def formula(x: Any, *numbers: Any) -> Mapping[str, Any]:
+        force, slope = _made_of(constant_angle, *numbers).forces(x)
+        return {"force": force, "slope": slope}
+
+    return chain_kernel(_recorded(flanks, 1, formula), sources)
+
+
+@functools.cache
+def _linear_kernel(sources: tuple[Source, ...]) -> Kernel:
+    def formula(x: Any, slope: Any) -> Mapping[str, Any]:
+        return {"force": slope * x, "slope": slope + 0.0}
+
+    return chain_kernel(verbatim_program(2, formula), sources)
+
+
+@functools.cache
+def _load_kernel(
+    flanks: int, constant_angle: bool, sources: tuple[Source, ...]
+) -> tuple[Kernel, Mapping[str, Any], int]:
+    """The kernel of what balls carry, what of it is summed over them, and the room it needs beyond the points."""
+
+    def formula(x: Any, works: Any, *numbers: Any) -> Mapping[str, Any]:
+        springs = _made_of(constant_angle, *numbers)
+        pairs = [(each.facing, springs.loads(each, x)) for each in springs.flanks]
+        found: dict[str, Any] = {"slope": springs.balls * sum(there.slope for _, there in pairs)}
+        for side, facing in (("forward", 1), ("backward", -1)):
+            load = sum(np.where(pair == facing, there.load, 0.0) for pair, there in pairs)
+            angle = sum(np.where(pair == facing, np.arcsin(there.sine), 0.0) for pair, there in pairs)
+            force = sum(np.where(pair == facing, facing * there.axial_force, 0.0) for pair, there in pairs)
+            found |= {f"{side}_load": np.where(works != 0, load, 0.0), f"{side}_angle": angle}
+            found[f"on_{side}"] = springs.balls * np.where(works != 0, force, 0.0)
+        return {name: found[name] for name in CarriedLoads._fields}
+
+    program = _recorded(flanks, 2, formula)
+    sums: dict[str, Any] = {"on_forward": np.sum, "on_backward": np.sum}
+    text = kernel_text(program, sources, dict.fromkeys(program.outputs, False), reduced=sums)
+    return Kernel.of(text, sources), sums, lanes_for(program)
+
+
+def _sources(numbers: Sequence[Field]) -> tuple[Source, ...]:
+    kinds: dict[tuple[bool, bool], Source] = {(True, False): "points", (True, True): "rows"}
+    return tuple(kinds.get((number.ndim > 1, number.shape[-1] == 1), "columns") for number in numbers)
+
+
+def _whole(number: Field, links: int, count: int) -> Field:
+    if number.ndim == 1:
+        return np.broadcast_to(number, (count,))
+    return number[:, 0] if number.shape[-1] == 1 else np.broadcast_to(number, (links, count))
