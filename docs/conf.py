@@ -9,6 +9,7 @@ sys.path[:0] = [str(HERE / "_ext"), str(HERE), str(HERE.parent / "tests")]
 import ballscrew  # noqa: E402  (after the path of the extension)
 import effect_tables  # noqa: E402  (likewise)
 import theory_numbers  # noqa: E402  (likewise)
+import bearing_comparison  # noqa: E402  (likewise)
 import validation_tables  # noqa: E402  (likewise)
 
 project = "ballscrew"
@@ -70,6 +71,7 @@ def generate(_app):
     effect_tables.write(generated / "effects")
     nut_tables.write(generated / "nuts")
     validation_tables.write(generated / "validation")
+    bearing_comparison.write(generated / "validation")
     uncertainty_tables.write(generated / "uncertainty")
     sensitivity_figures.write(generated / "sensitivity")
     calibration_pages.write(generated / "calibration")

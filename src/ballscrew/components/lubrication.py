@@ -98,7 +98,7 @@ class Inlet(ByValue):
             "K_rs",
             "constant of replenishment of the track; zero: always full",
             at_least=0,
-            hint="3e-8 for an oil bath or jet, 6e-8 for grease or oil-air",
+            hint="3e-8 for a low oil bath or a jet, 6e-8 for grease or oil-air, 0 for a full bath",
             usual=(0.0, 1e-6),
         ),
     ] = 3e-8

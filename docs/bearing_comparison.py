@@ -1,0 +1,162 @@
+"""The friction of two angular-contact ball bearings by the same contacts, beside the model of a bearing maker.
+
+The maker's model is that of SKF2018 for the frictional moment (rolling, and sliding), with the constants of the series
+72 B(E). Units are millimetres, newtons, revolutions per minute and mm²/s. What no catalogue states is assumed: balls of
+0.3 (D − d), a conformity of 0.52, the roughness of the paper.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import itertools
+import math
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from ballscrew.components.frame import bearing_frame
+from ballscrew.components.laws import ProportionalBallForce
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.mixed_friction import LoadSharing, RunInSharing
+from ballscrew.components.screw import BallScrew
+from ballscrew.figures import files, style
+from ballscrew.friction.model import FrictionModel
+
+#: R_1, R_2, S_1, S_2 of the series 72 B(E), and K_Z; centrifugal terms are below 0.1 % here and left out.
+R_1, R_2, S_1, S_2, K_Z = 4.33e-7, 2.02, 1.82e-2, 0.71, 4.4
+K_RS, MU_BOUNDARY, MU_FILM = 3e-8, 0.12, 0.05
+DENSITY = 870.0
+SPEEDS, VISCOSITIES, SHARES = (30.0, 100.0, 300.0, 1000.0, 3000.0), (20.0, 68.0, 200.0), (0.02, 0.05, 0.10)
+
+
+@dataclasses.dataclass(frozen=True)
+class Bearing:
+    """A bearing: bore and outside diameter in mm, dynamic load rating in N."""
+
+    name: str
+    bore: float
+    outside: float
+    rating: float
+
+    @property
+    def mean(self) -> float:
+        """Mean diameter."""
+        return (self.bore + self.outside) / 2
+
+    @property
+    def screw(self) -> BallScrew:
+        """The bearing as a ball screw, for a frame that leaves the lead out: one row of balls at 40 degrees."""
+        ball = 0.3 * (self.outside - self.bore)
+        return BallScrew(
+            pitch_circle_diameter=1e-3 * self.mean,
+            lead=1.5e-3 * ball,
+            ball_diameter=1e-3 * ball,
+            loaded_balls=math.floor(0.9 * math.pi * self.mean / ball),
+            contact_angle=math.radians(40),
+            screw_conformity=0.52,
+            nut_conformity=0.52,
+        )
+
+
+BEARINGS = Bearing("7205 BE", 25, 52, 15_600), Bearing("7212 BE", 60, 110, 57_200)
+
+
+@dataclasses.dataclass(frozen=True)
+class Point:
+    """Rolling and slip torques of both models at one point, N mm, and the film parameter of ours."""
+
+    bearing: str
+    speed: float
+    viscosity: float
+    share: float
+    film_parameter: float
+    ours: tuple[float, float]
+    maker: tuple[float, float]
+
+
+def of_the_maker(bearing: Bearing, speed: float, viscosity: float, load: float) -> tuple[float, float]:
+    """Rolling and sliding moments under an axial load, N mm."""
+    n, nu, d_m = speed, viscosity, bearing.mean
+    heating = 1 / (1 + 1.84e-9 * (n * d_m) ** 1.28 * nu**0.64)
+    starving = math.exp(-K_RS * nu * n * 2 * d_m * math.sqrt(K_Z / (2 * (bearing.outside - bearing.bore))))
+    rolling = heating * starving * R_1 * d_m**1.97 * (R_2 * load) ** 0.54 * (nu * n) ** 0.6
+    boundary = math.exp(-2.6e-8 * (n * nu) ** 1.4 * d_m)
+    sliding = S_1 * d_m**0.26 * S_2 * load ** (4 / 3) * (boundary * MU_BOUNDARY + (1 - boundary) * MU_FILM)
+    return rolling, sliding
+
+
+@functools.cache
+def points(new: bool = False) -> tuple[Point, ...]:
+    """All points: two bearings at 45 combinations of speed, viscosity and load; of surfaces run in, or new."""
+    reference = FrictionModel.reference()
+    friction = LoadSharing() if new else RunInSharing()
+    # a cage parts the balls
+    model = dataclasses.replace(
+        reference, frame=bearing_frame, ball_force=ProportionalBallForce(0.0), friction=friction
+    )
+    found: list[Point] = []
+    for bearing, speed, viscosity, share in itertools.product(BEARINGS, SPEEDS, VISCOSITIES, SHARES):
+        oil = Lubricant(viscosity=1e-6 * viscosity * DENSITY, density=DENSITY)
+        load = share * bearing.rating
+        r = model(bearing.screw, oil, axial_load=load, screw_speed=speed * math.pi / 30)
+        parts = {name: 1e3 * float(torque) for name, torque in r.contributions.items()}
+        ours = parts["hydrodynamic_rolling"] + parts["elastic_hysteresis"], parts["curvature"] + parts["spin"]
+        maker = of_the_maker(bearing, speed, viscosity, load)
+        found.append(Point(bearing.name, speed, viscosity, share, float(r.screw.film_parameter), ours, maker))
+    return tuple(found)
+
+
+def _ratios(chosen: list[Point]) -> list[np.ndarray]:
+    ours, maker = (np.array([getattr(point, name) for point in chosen]) for name in ("ours", "maker"))
+    return [ours[:, 0] / maker[:, 0], ours[:, 1] / maker[:, 1], ours.sum(axis=1) / maker.sum(axis=1)]
+
+
+def table() -> str:
+    """Ratios of rolling, slip and total to those of the maker, by bearing and by film."""
+    groups = {bearing.name: lambda p, name=bearing.name: p.bearing == name for bearing in BEARINGS}
+    groups |= {
+        "λ below 0.5": lambda p: p.film_parameter < 0.5,
+        "λ from 0.5 to 2": lambda p: 0.5 <= p.film_parameter < 2,
+        "λ above 2": lambda p: p.film_parameter >= 2,
+        "n d_m above 50 000 mm/min": lambda p: p.speed * next(b.mean for b in BEARINGS if b.name == p.bearing) > 5e4,
+    }
+    lines = ["| points | number | rolling | slip | slip, new surfaces | total |", "|---|---:|---:|---:|---:|---:|"]
+    for words, holds in groups.items():
+        chosen = [i for i, point in enumerate(points()) if holds(point)]
+        run_in, new = ([points(state)[i] for i in chosen] for state in (False, True))
+        rolling, slip, total = _ratios(run_in)
+        cells = (rolling, slip, _ratios(new)[1], total)
+        spread = " | ".join(f"{np.mean(each):.2f} ± {np.std(each, ddof=1):.2f}" for each in cells)
+        lines.append(f"| {words} | {len(chosen)} | {spread} |")
+    return "\n".join(lines) + "\n"
+
+
+def picture() -> Figure:
+    """Ratios over the film parameter."""
+    caption = (
+        "Ratio of this model to that of SKF2018, bearings 7205 BE and 7212 BE, axial load 2, 5 and 10 % of C, "
+        "20 to 200 mm²/s, 30 to 3000 rpm; geometry inside the bearings assumed."
+    )
+    figure, panels = style.new_figure(caption, sharey=True)
+    lam = np.array([point.film_parameter for point in points()])
+    rolling, slip, _ = _ratios(list(points()))
+    for panel, values, words in zip(np.ravel(panels), (rolling, slip), ("rolling", "slip"), strict=False):
+        for bearing, marker in zip(BEARINGS, ("o", "s"), strict=True):
+            own = np.array([point.bearing == bearing.name for point in points()])
+            panel.plot(lam[own], values[own], marker, markersize=4, linestyle="none", label=bearing.name)
+        panel.axhline(1.0, color=style.GREY, linewidth=0.8)
+        panel.set_xscale("log")
+        panel.set_xlabel("film parameter λ")
+        panel.set_title(words)
+        panel.legend()
+    np.ravel(panels)[0].set_ylabel("this model / bearing maker's")
+    return figure
+
+
+def write(folder: Path) -> None:
+    """The table as Markdown, the picture as SVG."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "bearings.md").write_text(table(), encoding="utf-8")
+    files.draw(picture, folder / "bearings.svg")
