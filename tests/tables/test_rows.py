@@ -98,6 +98,13 @@ def lines_of(action, *arguments, **options):
         ("Bezeichnung", "name", ""),
         ("Mutterart", "nut", ""),
         ("preload 10 % of Ca [kN]", None, ""),
+        ("D1 [mm]", "nut_outer_diameter", "mm"),
+        ("D_1_mm", "nut_outer_diameter", "mm"),
+        ("D₁ (mm)", "nut_outer_diameter", "mm"),
+        ("Nut outer diameter D1 [mm]", "nut_outer_diameter", "mm"),
+        ("Mutter-Ø D1 [mm]", "nut_outer_diameter", "mm"),
+        ("d1 [mm]", None, ""),  # of the shaft
+        ("nut diameter d1 [mm]", None, ""),
         ("dm [mm]", "pitch_circle_diameter", "mm"),
         ("d_m_mm", "pitch_circle_diameter", "mm"),
         ("d_m", "pitch_circle_diameter", ""),

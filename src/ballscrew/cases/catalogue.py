@@ -26,7 +26,8 @@ _REQUIRED = ("nominal_diameter", "lead", "ball_diameter", "turns")
 
 def _column(name: str, quantity: Quantity | None = None) -> Column:
     names, hints = column_names.NAMES.get(name, ()), column_names.HINTS.get(name, ())
-    return Column(name, quantity, names, name in _REQUIRED, hints, name in column_names.PRODUCTS)
+    capitals = column_names.CAPITALS.get(name, ())
+    return Column(name, quantity, names, name in _REQUIRED, hints, name in column_names.PRODUCTS, capitals)
 
 
 COLUMNS = (

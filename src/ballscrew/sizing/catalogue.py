@@ -27,7 +27,14 @@ LARGEST_LEAD = 10
 #: How good the default conformity is.
 CONFORMITY_DOUBT = 0.01
 
-_OPTIONAL = ("pitch_circle_diameter", "root_diameter", "dynamic_load_rating", "static_load_rating", "rigidity")
+_OPTIONAL = (
+    "pitch_circle_diameter",
+    "root_diameter",
+    "nut_outer_diameter",
+    "dynamic_load_rating",
+    "static_load_rating",
+    "rigidity",
+)
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -88,6 +95,10 @@ class CatalogueRow(ByValue):
             hint="300 N/um to 3000 N/um",
         ),
     ] = None
+    nut_outer_diameter: Annotated[
+        Length | None,
+        Info("D_1", "outer diameter of the nut body", "mm", above=0, hint="about 1.5 times the pitch circle"),
+    ] = None
     #: How the nut is braced, by the name that the interfaces know it by; nothing where the catalogue does not say.
     nut: str = ""
     source: str = ""
@@ -105,6 +116,11 @@ class CatalogueRow(ByValue):
             given, bound = shown(self.lead, "m"), LARGEST_LEAD * self.ball_circle
             problem = "too large for the pitch circle"
             raise InputError(Fault(f"{where}.lead", problem, given, "check the unit; {bound} or less", bound, "m"))
+        bore = self.ball_circle + self.ball_diameter
+        if self.nut_outer_diameter is not None and self.nut_outer_diameter <= bore:
+            given, problem = shown(self.nut_outer_diameter, "m"), "must exceed the bore of the nut"
+            remedy = "give D1 of the nut, not d1 of the shaft; more than {bound}, pitch circle and ball"
+            raise InputError(Fault(f"{where}.nut_outer_diameter", problem, given, remedy, bore, "m"))
 
     @property
     def ball_circle(self) -> Annotated[Length, Info("d_m", "pitch circle diameter that counts", "mm")]:

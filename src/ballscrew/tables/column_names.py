@@ -1,7 +1,8 @@
 """Names of the columns of vendors' tables, in English and German.
 
 A name is enough by itself. A hint is a name of more than one thing ("load rating", "d"): it counts only beside a name.
-Capitals, blanks, hyphens and subscripts do not count; "dia." and "Ø" stand for "diameter", "No." for "number".
+Capitals, blanks, hyphens and subscripts do not count; "dia." and "Ø" stand for "diameter", "No." for "number". Of
+CAPITALS they do: d1 is of the shaft, D1 of the nut.
 """
 
 from __future__ import annotations
@@ -53,6 +54,11 @@ NAMES: Mapping[str, tuple[str, ...]] = {
         "Steifigkeit", "Mutternsteifigkeit", "axiale Steifigkeit",
     ),
     "nut": ("nut type", "kind of nut", "Mutterart", "Muttertyp", "Mutter"),
+    "nut_outer_diameter": (
+        "D1", "nut outer diameter", "nut outside diameter", "nut diameter", "outer diameter of nut", "nut body diameter",
+        "Mutternaußendurchmesser", "Mutteraußendurchmesser", "Außendurchmesser Mutter", "Mutterdurchmesser",
+        "Mutterndurchmesser", "Mutter-Ø",
+    ),
     "source": ("Quelle",),
 }  # fmt: skip
 _RATING = ("load rating", "basic load rating", "axial load rating", "Tragzahl")
@@ -64,5 +70,7 @@ HINTS: Mapping[str, tuple[str, ...]] = {
     "dynamic_load_rating": _RATING,
     "static_load_rating": _RATING,
 }
+#: Names that are others in small letters, as they are without blanks and underscores.
+CAPITALS: Mapping[str, tuple[str, ...]] = {"nut_outer_diameter": ("D1",)}
 #: Columns whose cells may be products: "2x2.5".
 PRODUCTS = ("turns",)

@@ -54,14 +54,19 @@ class Column:
     hints: tuple[str, ...] = ()
     #: Whether a cell may be a product: ``2x2.5``.
     product: bool = False
+    #: Those of the names whose capitals count: ``D1`` is not ``d1``.
+    capitals: tuple[str, ...] = ()
 
     def answers_to(self, name: str) -> bool:
         """Test whether the column has this name."""
-        return bare(name) in self._names
+        return bare(name) in self._names or self._is_in_capitals(name)
+
+    def _is_in_capitals(self, name: str) -> bool:
+        return "".join(_WORD.findall(unicodedata.normalize("NFKC", name))) in self.capitals
 
     @functools.cached_property
     def _names(self) -> frozenset[str]:
-        return frozenset(map(bare, (self.name, *self.aliases)))
+        return frozenset(map(bare, {self.name, *self.aliases} - {*self.capitals}))
 
     def is_named(self, text: str) -> bool:
         """Test whether a text is a name of the column, or two of them, or one and a hint: "Dynamic load rating Ca"."""
@@ -72,8 +77,9 @@ class Column:
         if len(bare(text)) > longest + max(longest, *map(len, hints), 0):
             return False
         for word in list(_WORD.finditer(text))[1:]:
-            halves = {bare(text[: word.start()]), bare(text[word.start() :])}
-            if halves & self._names and halves <= self._names | hints:
+            halves = (text[: word.start()], text[word.start() :])
+            named = [self.answers_to(half) for half in halves]
+            if any(named) and all(own or bare(half) in hints for own, half in zip(named, halves, strict=True)):
                 return True
         return False
 
