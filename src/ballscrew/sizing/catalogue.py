@@ -14,7 +14,8 @@ from ballscrew._arrays import ByValue
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import geometry
 from ballscrew.errors import Fault, InputError, faults_of, nearest, raise_if_any, shown
-from ballscrew.quantities import Angle, Count, Force, Info, Length, Ratio, Stiffness, Unit
+from ballscrew.quantities import Angle, Count, Force, Info, Length, Ratio, Stiffness, Torque, Unit
+from ballscrew.sizing.listed_nut import faults_of_nut, nut_of
 
 #: Turns that carry no load where the balls of a nut leave and enter (ISO3408-5, as it fits the ratings of catalogues).
 TURNS_WITHOUT_LOAD = 0.24
@@ -34,6 +35,9 @@ _OPTIONAL = (
     "dynamic_load_rating",
     "static_load_rating",
     "rigidity",
+    "preload",
+    "preload_share",
+    "seal_torque",
 )
 
 
@@ -99,6 +103,27 @@ class CatalogueRow(ByValue):
         Length | None,
         Info("D_1", "outer diameter of the nut body", "mm", above=0, hint="about 1.5 times the pitch circle"),
     ] = None
+    preload: Annotated[
+        Force | None,
+        Info(
+            "F_pr",
+            "axial preload without external load",
+            "kN",
+            at_least=0,
+            hint="2 to 10 % of the dynamic load rating",
+        ),
+    ] = None
+    preload_share: Annotated[
+        Ratio | None,
+        Info(
+            "p", "preload / dynamic load rating, instead of the preload", at_least=0, at_most=1,
+            hint="vendors have 2 to 10 %",
+        ),
+    ] = None  # fmt: skip
+    seal_torque: Annotated[
+        Torque | None,
+        Info("M_W", "torque of all seals of the nut", at_least=0, hint="rubber: 0.08 N m at 16 mm, 0.4 N m at 40 mm"),
+    ] = None
     #: How the nut is braced, by the name that the interfaces know it by; nothing where the catalogue does not say.
     nut: str = ""
     source: str = ""
@@ -116,11 +141,7 @@ class CatalogueRow(ByValue):
             given, bound = shown(self.lead, "m"), LARGEST_LEAD * self.ball_circle
             problem = "too large for the pitch circle"
             raise InputError(Fault(f"{where}.lead", problem, given, "check the unit; {bound} or less", bound, "m"))
-        bore = self.ball_circle + self.ball_diameter
-        if self.nut_outer_diameter is not None and self.nut_outer_diameter <= bore:
-            given, problem = shown(self.nut_outer_diameter, "m"), "must exceed the bore of the nut"
-            remedy = "give D1 of the nut, not d1 of the shaft; more than {bound}, pitch circle and ball"
-            raise InputError(Fault(f"{where}.nut_outer_diameter", problem, given, remedy, bore, "m"))
+        raise_if_any(faults_of_nut(where, self))
 
     @property
     def ball_circle(self) -> Annotated[Length, Info("d_m", "pitch circle diameter that counts", "mm")]:
@@ -155,7 +176,11 @@ class CatalogueRow(ByValue):
         return geometry.groove_root_diameter(self.ball_circle, self.ball_diameter, self.conformity, self.contact_angle)
 
     def screw(self, **changes: Any) -> BallScrew:
-        """The screw of the row, with the loaded balls of one nut body; ``changes`` are fields of ``BallScrew``."""
+        """The screw of the row, with the loaded balls of one nut body; ``changes`` are fields of ``BallScrew``.
+
+        Where the row lists a preload, its nut has that, with its seals, and with elastic bodies where it lists the
+        outer diameter of the nut. Elsewhere the balls are those of one nut body without preload.
+        """
         fields: dict[str, Any] = {
             "pitch_circle_diameter": self.ball_circle,
             "lead": self.lead,
@@ -166,6 +191,9 @@ class CatalogueRow(ByValue):
             "nut_conformity": self.conformity,
             "starts": self.starts,
         }
+        nut = nut_of(self)
+        if nut is not None:
+            fields["nut"] = nut
         return BallScrew(**{**fields, **changes})
 
 

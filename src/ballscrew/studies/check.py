@@ -16,7 +16,9 @@ from ballscrew.components.nut import Nut, OversizeBallNut
 from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.records import Record
 from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.sizing.checks import Check, Ratings, checks, ratings_of
+from ballscrew.sizing.checks import Check, checks
+from ballscrew.sizing.listed_nut import lists_preload
+from ballscrew.sizing.ratings import Ratings, ratings_of
 from ballscrew.studies.run import NutState, Run, with_nut
 
 #: Defaults of what neither row nor options give.
@@ -178,7 +180,7 @@ def _filled(tables: dict[str, Any], row: CatalogueRow) -> list[str]:
     kind = row.nut or "single"
     fill("nut", "type", kind, f"{kind} nut, {'as listed' if row.nut else 'as the row lists none'}")
     usual = catalogue.EXAMPLE_PRELOADS.get(str(tables["nut"].get("type")))
-    if usual is not None:
+    if usual is not None and not lists_preload(row):
         fill("nut", "preload", usual, f"preload {usual} of C_a, usual for such a nut: none was given")
     return notes
 

@@ -55,10 +55,19 @@ NAMES: Mapping[str, tuple[str, ...]] = {
     ),
     "nut": ("nut type", "kind of nut", "Mutterart", "Muttertyp", "Mutter"),
     "nut_outer_diameter": (
-        "D1", "nut outer diameter", "nut outside diameter", "nut diameter", "outer diameter of nut", "nut body diameter",
-        "Mutternaußendurchmesser", "Mutteraußendurchmesser", "Außendurchmesser Mutter", "Mutterdurchmesser",
-        "Mutterndurchmesser", "Mutter-Ø",
+        "D1", "nut outer diameter", "nut outside diameter", "nut diameter", "outer diameter of nut",
+        "nut body diameter", "Mutternaußendurchmesser", "Mutteraußendurchmesser", "Außendurchmesser Mutter",
+        "Mutterdurchmesser", "Mutterndurchmesser", "Mutter-Ø",
     ),
+    "preload": (
+        "preload force", "axial preload", "Fpr", "Vorspannung", "Vorspannkraft", "axiale Vorspannung",
+    ),
+    "preload_share": ("preload share",),
+    "seal_torque": (
+        "seals", "seal", "torque of seals", "seal friction torque", "seal drag", "wipers", "wiper torque",
+        "Dichtung", "Dichtungen", "Dichtungsmoment", "Dichtungsreibmoment", "Reibmoment der Dichtungen", "Abstreifer",
+    ),
+    "log": ("test log", "log file", "measurement", "Messung", "Messdatei", "Messprotokoll"),
     "source": ("Quelle",),
 }  # fmt: skip
 _RATING = ("load rating", "basic load rating", "axial load rating", "Tragzahl")
@@ -74,3 +83,13 @@ HINTS: Mapping[str, tuple[str, ...]] = {
 CAPITALS: Mapping[str, tuple[str, ...]] = {"nut_outer_diameter": ("D1",)}
 #: Columns whose cells may be products: "2x2.5".
 PRODUCTS = ("turns",)
+#: Columns whose cells may be shares: "7 %", and the column of the share.
+SHARES: Mapping[str, str] = {"preload": "preload_share"}
+#: What the standard seals of a vendor are called, and none.
+STANDARD, NONE = "standard", "none"
+#: Words in place of a number, in small letters.
+WORDS: Mapping[str, Mapping[str, str]] = {
+    "seal_torque": {
+        STANDARD: STANDARD, **dict.fromkeys((NONE, "no", "without", "ohne", "keine", "nein"), NONE),
+    },
+}  # fmt: skip

@@ -19,7 +19,7 @@ from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Torque, fields_of
 from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.sizing.checks import ratings_of
+from ballscrew.sizing.ratings import ratings_of
 from ballscrew.solvers.load_distribution import ball_loads
 from ballscrew.validation.entries import Band, Conditions, Point, UpperLimitOnly, Values
 
@@ -28,7 +28,8 @@ RIGIDITY_LOAD = 0.30
 #: The share of the dynamic load rating that vendors preload double nuts with at most.
 USUAL_PRELOAD = 0.10
 
-_SCREW = tuple(fields_of(CatalogueRow))
+#: What rows state of a screw; a preload is that of a statement.
+_SCREW = tuple(name for name in fields_of(CatalogueRow) if not name.startswith("preload"))
 
 
 # -- screws of a catalogue ------------------------------------------------------------------------
