@@ -65,7 +65,11 @@ def sweep(
         nonlocal before
         case, plan = row
         start = before
-        tell = None if done is None else lambda finished, _: done(start + finished, total)
+
+        def tell(finished: int, _: int) -> None:
+            if done is not None:
+                done(start + finished, total)
+
         found = studies.sweep(case.case, plan, tell, to)
         before += _size(plan)
         return found
@@ -104,7 +108,7 @@ def _with_attributes(
     every = dict.fromkeys(name for own in attributes for name in own)
     for name in every:
         values = [own.get(name) for own in attributes]
-        if all(type(value) is type(values[0]) and np.array_equal(value, values[0]) for value in values):
+        if all(type(value) is type(values[0]) and np.all(value == values[0]) for value in values):
             found.attrs[name] = values[0]
         elif all(value is None or (isinstance(value, int | float) and not isinstance(value, bool)) for value in values):
             numbers = [math.nan if value is None else float(value) for value in values]

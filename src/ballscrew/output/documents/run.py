@@ -43,7 +43,7 @@ def document(run: Run) -> dict[str, Any]:
 
 def list_document(runs: Mapping[str, Run]) -> list[dict[str, Any]]:
     """The documents of the screws of a table with their names, without the loads ball by ball."""
-    listed = [{"name": name, **document(run)} for name, run in runs.items()]
+    listed: list[dict[str, Any]] = [{"name": name, **document(run)} for name, run in runs.items()]
     for each in listed:
         if "loads" in each:
             del each["loads"]["balls"], each["units"]["loads"]["balls"]

@@ -14,7 +14,7 @@ _HEADINGS = ("name", "log", "rows", "number", "value", "95 % interval", "residua
 
 def list_text(reports: Mapping[str, FitReport]) -> str:
     """The numbers of all screws, and below them the warnings of each fit."""
-    lines = [_HEADINGS]
+    lines: list[tuple[str, ...]] = [_HEADINGS]
     for name, report in reports.items():
         model, (log, _) = report.model, report.model.rows.log.source or ("", "")
         first = (name, log, str(len(model.rows.log)))
