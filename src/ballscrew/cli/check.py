@@ -111,7 +111,7 @@ def check(
         typer.echo(json_of(document(screw)) if as_json else text(screw))
         return
     from ballscrew.cli.progress import progress
-    from ballscrew.output import row_tables
+    from ballscrew.table_files import row_tables
 
     if to is not None:
         row_tables.check_path(to)

@@ -98,11 +98,12 @@ def run(
 def _of_rows(cases: OfRows[RowCase], as_json: bool, to: Path | None, keep_going: bool) -> None:
     """Results of each row: one line each, and a table in a file."""
     from ballscrew.cli.progress import progress
-    from ballscrew.output import json_text, row_tables
+    from ballscrew.output import json_text
     from ballscrew.output.documents.run import list_document
     from ballscrew.output.text.run_rows import list_text
     from ballscrew.studies import every_row
     from ballscrew.studies.run import run as run_case
+    from ballscrew.table_files import row_tables
 
     if to is not None:
         row_tables.check_path(to)

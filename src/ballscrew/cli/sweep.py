@@ -82,9 +82,9 @@ def sweep(
     """
     from ballscrew.cases import case_file
     from ballscrew.cli.progress import progress
-    from ballscrew.output import sweep_files
     from ballscrew.output.text import sweep as text
     from ballscrew.studies import sweep as studies
+    from ballscrew.table_files import sweep_files
 
     check_rows(rows, row)
     if rows is None:
@@ -129,9 +129,9 @@ def _of_rows(
 ) -> None:
     """The sweeps of all rows as one dataset."""
     from ballscrew.cli.progress import progress
-    from ballscrew.output import sweep_files
     from ballscrew.output.text import sweep as text
     from ballscrew.studies import sweep_rows
+    from ballscrew.table_files import sweep_files
 
     planned = sweep_rows.plans(cases.found, vary, wanted, to, keep_going)
     with progress("sweep") as done:
