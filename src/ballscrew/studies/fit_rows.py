@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -23,18 +24,22 @@ OptionsOf = Callable[[Case], Options]
 def logs(rows: Mapping[str, RowCase], file: Path, options: OptionsOf, keep_going: bool) -> OfRows[TorqueLog]:
     """The log of each row, by its place, read and cleaned before anything is fitted.
 
-    Raises :class:`~ballscrew.errors.InputError` with the faults of all logs; with ``keep_going`` only if none is good.
+    Rows without a log are left out, with a note. Raises :class:`~ballscrew.errors.InputError` with the faults of all
+    logs; with ``keep_going`` only if none is good.
     """
-    if all(row.log is None for row in rows.values()):
+    without = [row.row.name for row in rows.values() if row.log is None]
+    if len(without) == len(rows):
         remedy = "give each screw the path of its log, beside the table"
         raise InputError(Fault(file.name, 'has no column "log" with a file', "", remedy))
 
-    def read(row: RowCase) -> TorqueLog:
-        if row.log is None:
-            raise InputError(Fault("log", "is empty", "", "give the path of the log of this screw, beside the table"))
-        return steady_log(row.case, row.log, options(row.case))
+    def read(named: tuple[Case, Path]) -> TorqueLog:
+        case, path = named
+        return steady_log(case, path, options(case))
 
-    return every_row.each({row.place: row for row in rows.values()}, read, keep_going=keep_going)
+    named = {row.place: (row.case, row.log) for row in rows.values() if row.log is not None}
+    found = every_row.each(named, read, keep_going=keep_going)
+    notes = [f"{file.name}: no log of {', '.join(without)}"] if without else []
+    return dataclasses.replace(found, notes=[*notes, *found.notes])
 
 
 def fits(
