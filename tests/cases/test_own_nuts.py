@@ -1,5 +1,6 @@
 """Tables of one's own with what is listed of the nut: kind, preload, seals, outer diameter, log."""
 
+import openpyxl
 import pytest
 
 import ballscrew as bs
@@ -139,6 +140,20 @@ def test_bad_tables(text, expected, table):
 def test_a_name_that_the_table_does_not_have(table):
     with pytest.raises(KeyError, match=r"own\.csv: unknown row \(F\) · known: A, B, C, D, E"):
         table(OWN)["F"]
+
+
+def test_shares_of_a_spreadsheet(tmp_path):
+    """A cell in per cent of a spreadsheet is a hundredth of what it shows."""
+    book = openpyxl.Workbook()
+    book.active.append(["name", "d0 [mm]", "Ph [mm]", "Dw [mm]", "i", "Ca [kN]", "Preload [%]", "Nut"])
+    book.active.append(["A", 40, 10, 6, 4, 50, 7, "double"])
+    book.active.append(["B", 40, 10, 6, 4, 50, 0.07, "double"])
+    book.save(tmp_path / "own.xlsx")
+    kept = bs.screws(tmp_path / "own.xlsx", keep_going=True)
+    assert {name: row.preload_share for name, row in kept.items()} == {"A": pytest.approx(0.07)}
+    assert (
+        'own.xlsx row 3, column "Preload [%]": is too small a share of the dynamic load rating (0.07)' in kept.notes[0]
+    )
 
 
 def test_a_preload_and_a_share_of_a_row():

@@ -93,7 +93,9 @@ def refused(process, *expected):
 def test_a_row_counts_before_the_case_and_the_case_for_the_rest(place):
     found = every_row.cases(place / "case.toml", place / "own.csv")
     assert {name: each.case.screw for name, each in found.found.items()} == screws_of(place)
-    only = every_row.cases(place / "case.toml", place / "own.csv", "a", settings=["nut.preload=2 kN", "bodies.same_side=true"])
+    only = every_row.cases(
+        place / "case.toml", place / "own.csv", "a", settings=["nut.preload=2 kN", "bodies.same_side=true"]
+    )
     (name,) = only.found
     assert name == "A"
     assert only.found["A"].case.screw.nut.preload == 2000.0
@@ -274,7 +276,8 @@ def rig(tmp_path):
     # the turns that give as many loaded balls
     size = "40;5;3.175;{};0.515;logs/{}\n".format
     (tmp_path / "rigs.csv").write_text(
-        "name;d0 [mm];Ph [mm];Dw [mm];i;f;log\n" + f"X 1;{size(1.676, 'a.csv')}Y/2;{size(1.676, 'b.csv')}Z;40;5;3;2;;\n",
+        "name;d0 [mm];Ph [mm];Dw [mm];i;f;log\n"
+        + f"X 1;{size(1.676, 'a.csv')}Y/2;{size(1.676, 'b.csv')}Z;40;5;3;2;;\n",
         encoding="utf-8",
     )
     assert bs.screws(tmp_path / "rigs.csv")["X 1"].screw() == made

@@ -104,6 +104,13 @@ def lines_of(action, *arguments, **options):
         ("Nut outer diameter D1 [mm]", "nut_outer_diameter", "mm"),
         ("Mutter-Ø D1 [mm]", "nut_outer_diameter", "mm"),
         ("d1 [mm]", None, ""),  # of the shaft
+        ("Preload Fpr [kN]", "preload", "kN"),
+        ("preload_N", "preload", "N"),
+        ("Vorspannung [%]", "preload", "%"),
+        ("preload_percent", "preload", "%"),
+        ("lead [%]", "lead", "%"),  # to be refused: no share
+        ("Dichtung [Nm]", "seal_torque", "N m"),
+        ("Messung", "log", ""),
         ("nut diameter d1 [mm]", None, ""),
         ("dm [mm]", "pitch_circle_diameter", "mm"),
         ("d_m_mm", "pitch_circle_diameter", "mm"),

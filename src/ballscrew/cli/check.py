@@ -36,7 +36,9 @@ def check(
     preload: Annotated[
         str | None,
         typer.Option(
-            "--preload", metavar="FORCE", help='"3 kN", or "7 %" of C_a; if left out, 7 % (oversize balls 5 %).'
+            "--preload",
+            metavar="FORCE",
+            help='"3 kN", or "7 %" of C_a; if left out, that of the row, or 7 % (oversize balls 5 %).',
         ),
     ] = None,
     length: Annotated[

@@ -5,9 +5,12 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Generator, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+
+if TYPE_CHECKING:
+    from ballscrew.studies.every_row import OfRows, RowCase
 
 #: Stands for the names of the models in help texts; replaced when the help is shown.
 MODEL_NAMES = "{models}"
@@ -55,6 +58,33 @@ def check_rows(rows: Path | None, row: str | None) -> None:
         from ballscrew.errors import Fault, InputError
 
         raise InputError(Fault("--row", "needs a table of screws", row, "add --rows FILE"))
+
+
+def cases_of_rows(
+    case: Path,
+    rows: Path,
+    row: str | None,
+    settings: Sequence[str] | None,
+    model: str | None,
+    *,
+    allow_code: bool,
+    keep_going: bool,
+) -> OfRows[RowCase]:
+    """The case with each screw of a table, or that of one row, in place of its own."""
+    from ballscrew.cli.progress import progress
+    from ballscrew.studies import every_row
+
+    with progress("rows read") as done:
+        return every_row.cases(
+            case,
+            rows,
+            row,
+            settings=settings or [],
+            model=model,
+            allow_code=allow_code,
+            keep_going=keep_going,
+            done=done,
+        )
 
 
 def say_of_rows(notes: Sequence[str], interrupted: bool) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from ballscrew.cli.common_options import say_of_rows
+from ballscrew.cli.common_options import cases_of_rows, say_of_rows
 from ballscrew.errors import Fault, InputError
 from ballscrew.files import check_writable
 
@@ -38,12 +38,10 @@ def fit_rows(
     from ballscrew.output import json_text
     from ballscrew.output.documents import fit as documents
     from ballscrew.output.text import fit_rows as text
-    from ballscrew.studies import every_row, fit_rows
+    from ballscrew.studies import fit_rows
     from ballscrew.table_files import row_tables
 
-    cases = every_row.cases(
-        case, rows, row, settings=settings, model=model, allow_code=allow_code, keep_going=keep_going
-    )
+    cases = cases_of_rows(case, rows, row, settings, model, allow_code=allow_code, keep_going=keep_going)
     paths = fit_rows.files(cases.found, to) if to is not None and not to.suffix else {}
     if to is not None and to.suffix:
         row_tables.check_path(to)
@@ -52,7 +50,8 @@ def fit_rows(
             raise InputError(Fault("--to", "would overwrite the case itself", str(path), "choose another folder"))
     for path in list(paths.values())[:1]:
         check_writable("--to", path)
-    read = fit_rows.logs(cases.found, rows, options, keep_going)
+    with progress("logs") as done:
+        read = fit_rows.logs(cases.found, rows, options, keep_going=keep_going, done=done)
 
     def save(of_row: RowCase, report: FitReport) -> None:
         if paths:

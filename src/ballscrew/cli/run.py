@@ -15,6 +15,7 @@ from ballscrew.cli.common_options import (
     Row,
     Rows,
     Settings,
+    cases_of_rows,
     check_rows,
     say_of_rows,
 )
@@ -59,11 +60,7 @@ def run(
     check_rows(rows, row)
     has_band = band or only_given or (samples, level) != (None, None) or (to is not None and rows is None)
     if rows is not None:
-        from ballscrew.studies import every_row
-
-        cases = every_row.cases(
-            case, rows, row, settings=settings or [], model=model, allow_code=allow_code, keep_going=keep_going
-        )
+        cases = cases_of_rows(case, rows, row, settings, model, allow_code=allow_code, keep_going=keep_going)
         if not has_band:
             _of_rows(cases, as_json, to, keep_going)
             return

@@ -19,6 +19,7 @@ from ballscrew.cli.common_options import (
     Rows,
     Settings,
     Verbose,
+    cases_of_rows,
     check_rows,
     log_on_stderr,
     say_engine,
@@ -90,11 +91,7 @@ def sweep(
     if rows is None:
         loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
     else:
-        from ballscrew.studies import every_row
-
-        cases = every_row.cases(
-            case, rows, row, settings=settings or [], model=model, allow_code=allow_code, keep_going=keep_going
-        )
+        cases = cases_of_rows(case, rows, row, settings, model, allow_code=allow_code, keep_going=keep_going)
         if row is None:
             studies.check_store_options(to, verify=verify, trust=trust)
             with studies.workers(scheduler, to):

@@ -58,6 +58,7 @@ def cases(
     model: str | None = None,
     allow_code: bool = False,
     keep_going: bool = False,
+    done: Done | None = None,
 ) -> OfRows[RowCase]:
     """The case of a file with each screw of a table, or with that of one row, in place of its own.
 
@@ -73,7 +74,7 @@ def cases(
         made = case_file.build(own, model, case.parent, {row.name: row}, allow_code=allow_code)
         return RowCase(row, own, made, screws.logs.get(row.name))
 
-    found = each({place_of(row): row for row in chosen}, built, keep_going=keep_going)
+    found = each({place_of(row): row for row in chosen}, built, keep_going=keep_going, done=done)
     return dataclasses.replace(
         found, found={row.row.name: row for row in found.found.values()}, notes=[*screws.notes, *found.notes]
     )

@@ -21,7 +21,14 @@ _ODD = re.compile(r"[^\w.+-]+")
 OptionsOf = Callable[[Case], Options]
 
 
-def logs(rows: Mapping[str, RowCase], file: Path, options: OptionsOf, keep_going: bool) -> OfRows[TorqueLog]:
+def logs(
+    rows: Mapping[str, RowCase],
+    file: Path,
+    options: OptionsOf,
+    *,
+    keep_going: bool = False,
+    done: Done | None = None,
+) -> OfRows[TorqueLog]:
     """The log of each row, by its place, read and cleaned before anything is fitted.
 
     Rows without a log are left out, with a note. Raises :class:`~ballscrew.errors.InputError` with the faults of all
@@ -37,7 +44,7 @@ def logs(rows: Mapping[str, RowCase], file: Path, options: OptionsOf, keep_going
         return steady_log(case, path, options(case))
 
     named = {row.place: (row.case, row.log) for row in rows.values() if row.log is not None}
-    found = every_row.each(named, read, keep_going=keep_going)
+    found = every_row.each(named, read, keep_going=keep_going, done=done)
     notes = [f"{file.name}: no log of {', '.join(without)}"] if without else []
     return dataclasses.replace(found, notes=[*notes, *found.notes])
 
