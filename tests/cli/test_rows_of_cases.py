@@ -110,6 +110,14 @@ def test_sizes_of_bodies_of_the_case_are_of_its_own_screw(place):
     assert made["nut"] == {"preloda": "1 kN"}  # no field of any nut: a fault of the case, to be found
 
 
+def test_a_share_of_a_rating_that_is_not_listed_is_that_of_python(place):
+    """The rating follows from the geometry: what the case says of the surfaces does not count."""
+    (place / "own.csv").write_text(TABLE.replace("50,3", ""), encoding="utf-8")
+    found = every_row.cases(place / "case.toml", place / "own.csv", "A").found["A"].case.screw
+    assert found.nut_roughness == 0.2e-6
+    assert found.nut.preload == bs.screws(place / "own.csv")["A"].screw().nut.preload
+
+
 # -- run ------------------------------------------------------------------------------------------
 
 
@@ -167,6 +175,10 @@ def test_faulty_rows(ballscrew, place):
         (("sweep", "case.toml", "--rows", "own.csv", "--scheduler", "tcp://a:1"), "--scheduler: needs a store"),
         (("fit", "--case", "case.toml"), "fit: needs a log · give a file, or --rows FILE with a column log"),
         (("fit", "a.csv", "--case", "case.toml", "--rows", "own.csv"), "LOG: does not go with --rows (a.csv)"),
+        (
+            ("fit", "--case", "case.toml", "--rows", "own.csv", "--to", "a.toml"),
+            "end it in .csv or .xlsx, or give a fo",
+        ),
         (("fit", "--case", "case.toml", "--rows", "own.csv"), 'own.csv: has no column "log" with a file'),
     ],
 )

@@ -27,6 +27,8 @@ from ballscrew.sizing.ratings import Ratings, ratings_of
 
 #: The nut of a case that names one without preload.
 SINGLE = SingleNut(angle_under_load=True)
+#: The geometry that ratings follow from.
+_RATED = ("pitch_circle_diameter", "lead", "ball_diameter", "loaded_balls", "contact_angle", "starts")
 #: What a screw with a nut consists of besides its balls.
 _OF_NUT = ("nut", "bodies", "deviations", "losses")
 
@@ -49,7 +51,7 @@ def row_of(
 def ratings(screw: BallScrew, row: CatalogueRow | None) -> Ratings:
     """The ratings of a screw by its geometry. Raises ``InputError`` for one that no catalogue could have."""
     made = None if row is None else row.screw()
-    same = made is not None and all(getattr(made, name) == getattr(screw, name) for name in fields_of(screw))
+    same = made is not None and all(getattr(made, name) == getattr(screw, name) for name in _RATED)
     return ratings_of(row if row is not None and same else _as_row(screw))
 
 

@@ -42,9 +42,13 @@ def fit_rows(
     from ballscrew.table_files import row_tables
 
     cases = cases_of_rows(case, rows, row, settings, model, allow_code=allow_code, keep_going=keep_going)
-    paths = fit_rows.files(cases.found, to) if to is not None and not to.suffix else {}
-    if to is not None and to.suffix:
+    is_table = to is not None and to.suffix.lower() in row_tables.KINDS and not to.is_dir()
+    if to is not None and not is_table and to.suffix and not to.is_dir():
+        remedy = "end it in .csv or .xlsx, or give a folder for a calibrated case of each"
+        raise InputError(Fault("--to", "unknown kind of file", str(to), remedy))
+    if to is not None and is_table:
         row_tables.check_path(to)
+    paths = {} if to is None or is_table else fit_rows.files(cases.found, to)
     for path in paths.values():
         if path.resolve() == case.resolve():
             raise InputError(Fault("--to", "would overwrite the case itself", str(path), "choose another folder"))
@@ -69,7 +73,7 @@ def fit_rows(
         typer.echo(json_text.as_json(listed))
     else:
         typer.echo(text.list_text(reports))
-    if to is not None and to.suffix:
+    if to is not None and is_table:
         row_tables.write(to, row_tables.of_fits(reports))
     if to is not None:
         typer.echo(f"{to}: {len(reports)} screws", err=True)

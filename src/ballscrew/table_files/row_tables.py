@@ -33,6 +33,8 @@ _OF_RUN = (
     "friction_power",
 )  # fmt: skip
 _DIGITS = 12
+#: Endings of files that are written.
+KINDS = (".csv", ".xlsx")
 
 
 class RowTable(NamedTuple):
@@ -120,7 +122,7 @@ def _of_fit(name: str, report: FitReport) -> _Cells:
 
 def check_path(to: Path) -> None:
     """Raise :class:`~ballscrew.errors.InputError` now for a file that could not be written later."""
-    if to.suffix.lower() not in (".csv", ".xlsx"):
+    if to.suffix.lower() not in KINDS:
         raise InputError(Fault("--to", "unknown kind of file", str(to), "end it in .csv or .xlsx"))
     if to.suffix.lower() == ".xlsx" and importlib.util.find_spec("xlsxwriter") is None:
         raise InputError(Fault("--to", "needs xlsxwriter", str(to), 'pip install "ballscrew[data]"'))
