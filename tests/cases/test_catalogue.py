@@ -315,8 +315,7 @@ def test_a_spreadsheet_of_ones_own(ballscrew, tmp_path):
         (
             "70",
             "46,3",
-            'column "D1 [mm]": must exceed the bore of the nut (46,3) · give D1 of the nut, not d1 of the shaft; '
-            "more than 46.35 mm, pitch circle and ball",
+            'column "D1 [mm]": leaves no wall around the balls (46,3) · check the unit and the column; above 46.35 mm',
         ),
         (";20;", ";1;", 'column "Dw [mm]": too big for the lead: balls of neighbouring turns overlap (6,35) · keep it'),
     ],

@@ -105,7 +105,7 @@ GOOD = "A;40;10;6,35;4;1;50,3;7 %;0,4 N m;70;double;;"
         ("0,4 N m", "0,4", 'column "Seals": needs a unit (0,4) · write "0,4 N m", or the unit in the heading'),
         ("A;40;10;6,35;4;1;50,3;7 %;0,4 N m", "A;41;10;6,35;4;1;50,3;7 %;standard",
          'column "Seals": no standard seals are known of this size (standard) · nearest: 40 mm, any lead; write the'),
-        (";70;", ";46;", 'column "D1 [mm]": must exceed the bore of the nut (46) · give D1 of the nut, not d1 of the'),
+        (";70;", ";46;", 'column "D1 [mm]": leaves no wall around the balls (46) · check the unit and the column'),
         (";1;", ";1,5;", 'column "starts": must be a whole number (1,5)'),
     ],
 )  # fmt: skip

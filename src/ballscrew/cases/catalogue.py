@@ -20,6 +20,7 @@ from ballscrew.sizing.catalogue import (
     CatalogueRow,
     UnknownRowError,
     catalogue,
+    is_shipped,
 )
 from ballscrew.sizing.listed_nut import lists_preload
 from ballscrew.tables import column_names
@@ -303,7 +304,7 @@ def case_text(row: CatalogueRow) -> str:
         *_nut(row),
         "",
         "[bodies]  # elastic screw and nut of a usual size, as ballscrew check takes them; without it they are rigid",
-        *_listed_part(row, "nut_outer_diameter", "nut_outer_diameter"),
+        *([] if is_shipped(row) else _listed_part(row, "nut_outer_diameter", "nut_outer_diameter")),
         "",
         *_seals(row),
         "[lubricant]",

@@ -19,7 +19,7 @@ from ballscrew.components.screw import SINGLE_NUT, BallScrew
 from ballscrew.equations import geometry
 from ballscrew.errors import MISSING, Fault, InputError, nearest
 from ballscrew.quantities import fields_of
-from ballscrew.sizing.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow
+from ballscrew.sizing.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow, is_shipped
 from ballscrew.sizing.installation import Installation, Limits
 from ballscrew.sizing.listed_nut import lists_preload
 from ballscrew.sizing.listed_nut import nut_of as listed_nut
@@ -135,7 +135,9 @@ def _bodies(
     sections: Sections, row: CatalogueRow | None, has_preload: bool, faults: list[Fault]
 ) -> dict[str, Any] | None:
     """The sizes of the bodies; the outer diameter of the nut is that of the row where the section leaves it out."""
-    outer = {} if row is None or row.nut_outer_diameter is None else {"nut_outer_diameter": row.nut_outer_diameter}
+    outer: dict[str, Any] = {}
+    if row is not None and row.nut_outer_diameter is not None and not is_shipped(row):
+        outer = {"nut_outer_diameter": row.nut_outer_diameter}
     if "bodies" in sections:
         return {**outer, **sections.values_of("bodies", faults)}
     return outer if outer and has_preload else None

@@ -20,6 +20,9 @@ from ballscrew.sizing.listed_nut import faults_of_nut, nut_of
 #: Turns that carry no load where the balls of a nut leave and enter (ISO3408-5, as it fits the ratings of catalogues).
 TURNS_WITHOUT_LOAD = 0.24
 
+#: What few catalogues list of the nut, and tables of one's own may.
+_OF_NUT = ("preload", "preload_share", "seal_torque")
+
 #: A ball this much smaller than its pitch circle is a slip of the unit; real ones have a ratio of 5 to 50.
 SMALLEST_BALL = 1e-3
 #: A lead this many times the pitch circle is one, too; the steepest real ones have two to three.
@@ -31,13 +34,10 @@ CONFORMITY_DOUBT = 0.01
 _OPTIONAL = (
     "pitch_circle_diameter",
     "root_diameter",
-    "nut_outer_diameter",
     "dynamic_load_rating",
     "static_load_rating",
     "rigidity",
-    "preload",
-    "preload_share",
-    "seal_torque",
+    "nut_outer_diameter",
 )
 
 
@@ -100,9 +100,13 @@ class CatalogueRow(ByValue):
         ),
     ] = None
     nut_outer_diameter: Annotated[
-        Length | None,
-        Info("D_1", "outer diameter of the nut body", "mm", above=0, hint="about 1.5 times the pitch circle"),
+        Length | None, Info("D_1", "outer diameter of the nut body", "mm", above=0, hint="about 1.5 d_0")
     ] = None
+    #: Where the outer diameter of the nut is from, if not from the source of the row.
+    nut_outer_diameter_source: str = ""
+    #: How the nut is braced, by the name that the interfaces know it by; nothing where the catalogue does not say.
+    nut: str = ""
+    source: str = ""
     preload: Annotated[
         Force | None,
         Info(
@@ -124,19 +128,21 @@ class CatalogueRow(ByValue):
         Torque | None,
         Info("M_W", "torque of all seals of the nut", at_least=0, hint="rubber: 0.08 N m at 16 mm, 0.4 N m at 40 mm"),
     ] = None
-    #: How the nut is braced, by the name that the interfaces know it by; nothing where the catalogue does not say.
-    nut: str = ""
-    source: str = ""
 
     def __post_init__(self) -> None:
         where = self.name or "row"
-        raise_if_any(faults_of(where, self, optional=_OPTIONAL))
+        raise_if_any(faults_of(where, self, optional=(*_OPTIONAL, *_OF_NUT)))
         if self.ball_diameter < SMALLEST_BALL * self.ball_circle:
             problem, given = "too small for the pitch circle", shown(self.ball_diameter, "m")
             bound = SMALLEST_BALL * self.ball_circle
             raise InputError(
                 Fault(f"{where}.ball_diameter", problem, given, "check the unit; {bound} or more", bound, "m")
             )
+        bound = self.ball_circle + self.ball_diameter
+        if self.nut_outer_diameter is not None and self.nut_outer_diameter <= bound:
+            problem, given = "leaves no wall around the balls", shown(self.nut_outer_diameter, "m")
+            remedy = "check the unit and the column; above {bound}"
+            raise InputError(Fault(f"{where}.nut_outer_diameter", problem, given, remedy, bound, "m"))
         if self.lead > LARGEST_LEAD * self.ball_circle:
             given, bound = shown(self.lead, "m"), LARGEST_LEAD * self.ball_circle
             problem = "too large for the pitch circle"
@@ -223,3 +229,8 @@ def catalogue() -> Mapping[str, CatalogueRow]:
         for name, fields in table["rows"].items()
     }
     return _Rows(rows)
+
+
+def is_shipped(row: CatalogueRow) -> bool:
+    """Test whether a row is one of those shipped. Their published numbers are of bodies of a usual size."""
+    return catalogue().get(row.name) is row

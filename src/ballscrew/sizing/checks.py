@@ -18,6 +18,9 @@ from ballscrew.friction.validity import LARGEST_PRESSURE
 from ballscrew.quantities import AngularSpeed, Force, Length, Pressure, Ratio
 from ballscrew.records import Record
 from ballscrew.sizing.installation import Installation, Limits
+from ballscrew.sizing.ratings import RATING_CONFORMITY as RATING_CONFORMITY
+from ballscrew.sizing.ratings import Ratings as Ratings
+from ballscrew.sizing.ratings import ratings_of as ratings_of
 
 HOUR = 3600.0
 

@@ -81,10 +81,6 @@ def faults_of_nut(where: str, row: Listed) -> list[Fault]:
     """Faults of what a row, whose numbers are each within their bounds, lists of its nut."""
     if row.nut and row.nut not in NUTS:
         return [Fault(f"{where}.nut", "unknown kind of nut", row.nut, nearest(row.nut, NUTS))]
-    return [*_of_preload(where, row), *_of_body(where, row)]
-
-
-def _of_preload(where: str, row: Listed) -> list[Fault]:
     if row.preload is not None and row.preload_share is not None:
         given, remedy = f"{row.preload_share:.4g}", "give the force, or the share of the dynamic load rating"
         return [Fault(f"{where}.preload_share", "is given beside the preload", given, remedy)]
@@ -107,12 +103,3 @@ def _of_preload(where: str, row: Listed) -> list[Fault]:
         remedy = "check the number and its unit; {bound} is the rating, and vendors preload by 2 to 10 % of it"
         return [Fault(f"{where}.preload", "exceeds the dynamic load rating", given, remedy, rating, "N")]
     return []
-
-
-def _of_body(where: str, row: Listed) -> list[Fault]:
-    bore = row.ball_circle + row.ball_diameter
-    if row.nut_outer_diameter is None or row.nut_outer_diameter > bore:
-        return []
-    remedy = "give D1 of the nut, not d1 of the shaft; more than {bound}, pitch circle and ball"
-    given = shown(row.nut_outer_diameter, "m")
-    return [Fault(f"{where}.nut_outer_diameter", "must exceed the bore of the nut", given, remedy, bore, "m")]

@@ -53,12 +53,12 @@ NAMES: Mapping[str, tuple[str, ...]] = {
         "stiffness", "Rnu", "K", "nut rigidity", "nut stiffness", "axial stiffness", "rigidity_10pct",
         "Steifigkeit", "Mutternsteifigkeit", "axiale Steifigkeit",
     ),
-    "nut": ("nut type", "kind of nut", "Mutterart", "Muttertyp", "Mutter"),
     "nut_outer_diameter": (
-        "D1", "nut outer diameter", "nut outside diameter", "nut diameter", "outer diameter of nut",
+        "D1", "nut outer diameter", "nut outside diameter", "nut diameter", "outer diameter of the nut",
         "nut body diameter", "Mutternaußendurchmesser", "Mutteraußendurchmesser", "Außendurchmesser Mutter",
         "Mutterdurchmesser", "Mutterndurchmesser", "Mutter-Ø",
     ),
+    "nut": ("nut type", "kind of nut", "Mutterart", "Muttertyp", "Mutter"),
     "preload": (
         "preload force", "axial preload", "Fpr", "Vorspannung", "Vorspannkraft", "axiale Vorspannung",
     ),

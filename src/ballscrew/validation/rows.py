@@ -19,7 +19,7 @@ from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Torque, fields_of
 from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.sizing.ratings import ratings_of
+from ballscrew.sizing.checks import ratings_of
 from ballscrew.solvers.load_distribution import ball_loads
 from ballscrew.validation.entries import Band, Conditions, Point, UpperLimitOnly, Values
 
@@ -28,8 +28,7 @@ RIGIDITY_LOAD = 0.30
 #: The share of the dynamic load rating that vendors preload double nuts with at most.
 USUAL_PRELOAD = 0.10
 
-#: What rows state of a screw; a preload is that of a statement.
-_SCREW = tuple(name for name in fields_of(CatalogueRow) if not name.startswith("preload"))
+_SCREW = tuple(fields_of(CatalogueRow))
 
 
 # -- screws of a catalogue ------------------------------------------------------------------------
@@ -37,7 +36,8 @@ _SCREW = tuple(name for name in fields_of(CatalogueRow) if not name.startswith("
 
 def screw_of(values: Values) -> CatalogueRow:
     """The catalogue row of the values of a row; without a name it is called by its sizes."""
-    fields = {name: values[name] for name in _SCREW if name in values}
+    # a preload is that of a statement, not of the row
+    fields = {name: values[name] for name in _SCREW if name in values and not name.startswith("preload")}
     sizes = "x".join(f"{1000 * values[name]:.6g}" for name in ("nominal_diameter", "lead", "ball_diameter"))
     row = CatalogueRow(name=values.get("name") or f"{sizes}-{values['turns']:g}", **fields)
     row.screw()
