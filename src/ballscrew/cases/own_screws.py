@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew.cases.nut_kinds import LISTED, NUTS
+from ballscrew.components.nut import Bodies
 from ballscrew.quantities import fields_of
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.listed_nut import lists_preload
@@ -36,7 +37,7 @@ def tables_of_row(tables: Mapping[str, Any], row: CatalogueRow, file: Path) -> d
     if isinstance(nut := made.get("nut"), Mapping):
         made["nut"] = _nut(nut, row)
     if isinstance(bodies := made.get("bodies"), Mapping):
-        made["bodies"] = {name: value for name, value in bodies.items() if name == "same_side"}
+        made["bodies"] = {name: value for name, value in bodies.items() if name not in fields_of(Bodies)}
     if isinstance(losses := made.get("losses"), Mapping) and row.seal_torque is not None:
         made["losses"] = {name: value for name, value in losses.items() if name != "seals"}
     return made
