@@ -13,9 +13,9 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.cases import case_file, own_screws
+from ballscrew.cases import case_file
 from ballscrew.errors import Fault, InputError
-from ballscrew.studies import every_row, sweep_rows
+from ballscrew.studies import every_row, own_screws, sweep_rows
 from support.fit_logs import PAPER, TRUE_FRICTION, columns, text_of
 
 TABLE = """\

@@ -12,7 +12,6 @@ from ballscrew.cases import case_file, catalogue, descriptions, nut_tables
 from ballscrew.cases.case import Case
 from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.cases.option_faults import in_options
-from ballscrew.cases.own_screws import tables_of_row
 from ballscrew.components.nut import Nut, OversizeBallNut
 from ballscrew.errors import Fault, InputError
 from ballscrew.records import Record
@@ -21,6 +20,7 @@ from ballscrew.sizing.checks import Check, checks
 from ballscrew.sizing.listed_nut import lists_preload
 from ballscrew.sizing.ratings import Ratings, ratings_of
 from ballscrew.studies.every_row import Done, OfRows, copied, each, place_of
+from ballscrew.studies.own_screws import tables_of_row
 from ballscrew.studies.run import NutState, Run, with_nut
 
 #: Defaults of what neither row nor options give.

@@ -9,9 +9,9 @@ from typing import Any, Generic, TypeVar
 
 from ballscrew.cases import case_file, catalogue
 from ballscrew.cases.case import Case
-from ballscrew.cases.own_screws import tables_of_row
 from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.sizing.catalogue import CatalogueRow
+from ballscrew.studies.own_screws import tables_of_row
 
 T = TypeVar("T")
 R = TypeVar("R")
