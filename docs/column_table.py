@@ -23,9 +23,15 @@ def _lines() -> Iterator[str]:
         meaning = "" if quantity is None else quantity.info.meaning
         needed = "yes" if column.required else "no"
         yield (
-            f"| `{column.name}` | {meaning} | {needed} | {_unit(quantity)} | {_listed(column.aliases)} |"
+            f"| `{column.name}` | {meaning} | {needed} | {_cells(column)} | {_listed(column.aliases)} |"
             f" {_listed(_own_hints(column))} |"
         )
+
+
+def _cells(column: Column) -> str:
+    """The unit of numbers, and what else a cell may be."""
+    words = list(dict.fromkeys(column.words.values()))
+    return ", or ".join([_unit(column.quantity), *(["%"] if column.share else []), *map("`{}`".format, words)])
 
 
 def _unit(quantity: Quantity | None) -> str:

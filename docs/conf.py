@@ -7,9 +7,9 @@ HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE / "_ext"), str(HERE), str(HERE.parent / "tests")]
 
 import ballscrew  # noqa: E402  (after the path of the extension)
+import bearing_comparison  # noqa: E402  (likewise)
 import effect_tables  # noqa: E402  (likewise)
 import theory_numbers  # noqa: E402  (likewise)
-import bearing_comparison  # noqa: E402  (likewise)
 import validation_tables  # noqa: E402  (likewise)
 
 project = "ballscrew"

@@ -199,9 +199,9 @@ def test_json(ballscrew):
 # -- rows of one's own ----------------------------------------------------------------------------
 
 OWN = """\
-Part number;d0 [mm];Ph [mm];Dw [mm];i;Ca [kN];alpha [°];f;Nut;starts
-Größe 1;40;20;6,35;4;50,3;45;0,52;Double;2
-;40;5;3,175;2,5;;;;;
+Part number;d0 [mm];Ph [mm];Dw [mm];i;Ca [kN];D1 [mm];alpha [°];f;Nut;starts
+Größe 1;40;20;6,35;4;50,3;70;45;0,52;Double;2
+;40;5;3,175;2,5;;;;;;
 """
 
 
@@ -314,6 +314,11 @@ def test_a_spreadsheet_of_ones_own(ballscrew, tmp_path):
         ("Ca [kN]", "Ph_mm", 'own.csv column "Ph_mm": means the same as "Ph [mm]"'),
         (OWN, "", "own.csv: is empty"),
         (OWN[OWN.index("Größe") :], "", "own.csv: has no rows below its headings"),
+        (
+            "70",
+            "46,3",
+            'column "D1 [mm]": leaves no wall around the balls (46,3) · check the unit and the column; above 46.35 mm',
+        ),
         (";20;", ";1;", 'column "Dw [mm]": too big for the lead: balls of neighbouring turns overlap (6,35) · keep it'),
     ],
 )

@@ -18,7 +18,7 @@ from ballscrew.cases.schema import NUT_TABLES, json_schema, validated
 from ballscrew.components.nut import Bodies, Deviations
 from ballscrew.components.nut_losses import LipSeals, Seals
 from ballscrew.errors import InputError
-from ballscrew.sizing.checks import ratings_of
+from ballscrew.sizing.ratings import ratings_of
 from ballscrew.studies.run import run
 
 ROOT = Path(__file__).parents[2]

@@ -181,8 +181,8 @@ def test_forbidden_files(example, monkeypatch):
 
 def test_a_full_disk_leaves_the_old_file(tmp_path, example, monkeypatch):
     """What was there stays there, and nothing half-written is left beside it."""
-    from ballscrew.output import sweep_files
     from ballscrew.studies import sweep as sweeps
+    from ballscrew.table_files import sweep_files
 
     target = tmp_path / "map.csv"
     target.write_text("old", encoding="utf-8")

@@ -12,7 +12,7 @@ import ballscrew as bs
 from ballscrew.cases import case_file
 from ballscrew.components.nut import Bodies
 from ballscrew.output.wrapping import WIDTH
-from ballscrew.sizing.checks import ratings_of
+from ballscrew.sizing.ratings import ratings_of
 from ballscrew.studies import check as work
 
 ROOT = Path(__file__).parents[2]

@@ -8,7 +8,7 @@ import pytest
 
 from ballscrew.equations import geometry, life, rating
 from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.sizing.checks import RATING_CONFORMITY, ratings_of
+from ballscrew.sizing.ratings import RATING_CONFORMITY, ratings_of
 
 RELATIVE = 1e-13
 KGF = 9.80665

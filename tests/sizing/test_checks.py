@@ -9,8 +9,9 @@ import ballscrew as bs
 from ballscrew.components.nut import DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
 from ballscrew.equations import life, shaft
 from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.sizing.checks import HOUR, checks, loads_of_halves, mean_load, ratings_of
+from ballscrew.sizing.checks import HOUR, checks, loads_of_halves, mean_load
 from ballscrew.sizing.installation import Ends, Installation, Limits
+from ballscrew.sizing.ratings import ratings_of
 
 RPM = math.tau / 60
 NAMES = (

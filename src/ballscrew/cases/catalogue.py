@@ -9,11 +9,20 @@ from typing import Any
 
 from ballscrew import units
 from ballscrew._version import __version__
-from ballscrew.cases.nut_kinds import LISTED, NUTS, kind_in
+from ballscrew.cases.nut_kinds import LISTED, NUTS, Share, kind_in
+from ballscrew.components.nut_losses import Seals
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, InputError, closest, nearest, raise_if_any
 from ballscrew.quantities import Quantity, fields_of, quantities_of
-from ballscrew.sizing.catalogue import CONFORMITY_DOUBT, TURNS_WITHOUT_LOAD, CatalogueRow, catalogue
+from ballscrew.sizing.catalogue import (
+    CONFORMITY_DOUBT,
+    TURNS_WITHOUT_LOAD,
+    CatalogueRow,
+    UnknownRowError,
+    catalogue,
+    is_shipped,
+)
+from ballscrew.sizing.listed_nut import lists_preload
 from ballscrew.tables import column_names
 from ballscrew.tables.headings import Column
 from ballscrew.tables.rows import Row, made, read
@@ -26,13 +35,24 @@ _REQUIRED = ("nominal_diameter", "lead", "ball_diameter", "turns")
 
 def _column(name: str, quantity: Quantity | None = None) -> Column:
     names, hints = column_names.NAMES.get(name, ()), column_names.HINTS.get(name, ())
-    return Column(name, quantity, names, name in _REQUIRED, hints, name in column_names.PRODUCTS)
+    return Column(
+        name,
+        quantity,
+        names,
+        name in _REQUIRED,
+        hints,
+        product=name in column_names.PRODUCTS,
+        capitals=column_names.CAPITALS.get(name, ()),
+        share=_FIELDS.get(column_names.SHARES.get(name, "")),
+        words=column_names.WORDS.get(name, {}),
+    )
 
 
 COLUMNS = (
     _column("name"),
     *(_column(name, quantity) for name, quantity in _FIELDS.items()),
     _column("nut"),
+    _column("log"),
     _column("source"),
 )
 #: Preloads of the kinds of nut, as catalogues have them.
@@ -42,35 +62,84 @@ _LIST = ("name", "d0 x lead [mm]", "ball [mm]", "turns", "balls/turn", "loaded",
 _TEXTS = (0, len(_LIST) - 1)
 
 
+class Screws(dict[str, CatalogueRow]):
+    """The rows of a table of one's own by name, its notes, and the logs of the rows that have one."""
+
+    def __init__(self, rows: Sequence[CatalogueRow], file: str, notes: Sequence[str], logs: Mapping[str, Path]) -> None:
+        super().__init__({row.name: row for row in rows})
+        self.file, self.notes, self.logs = file, tuple(notes), logs
+
+    def __missing__(self, name: str) -> CatalogueRow:
+        raise UnknownRowError(Fault(self.file, "unknown row", str(name), nearest(str(name), self, most=5)))
+
+
+def screws(path: str | Path, *, keep_going: bool = False) -> Screws:
+    """The rows of a table of screws of one's own, CSV or a spreadsheet, by name: ``screws("mine.csv")["A"].screw()``.
+
+    ``notes`` of what is returned names columns that are not used, and with ``keep_going`` rows that are left out.
+    Raises :class:`~ballscrew.errors.InputError` with all faults of the table; with ``keep_going`` only if no row is
+    good.
+    """
+    path = Path(path)
+    table = read(path, COLUMNS)
+    taken: dict[str, int] = {}
+    logs: dict[str, Path] = {}
+    found, notes = made(table, lambda row: _made(row, path, taken, logs), keep_going)
+    return Screws(found, path.name, notes, logs)
+
+
 def load(path: Path | None, keep_going: bool = False) -> tuple[Mapping[str, CatalogueRow], Sequence[str]]:
     """The rows of a table, or those shipped, by name, and what is to be said of rows left out."""
     if path is None:
         return catalogue(), ()
-    table = read(path, COLUMNS)
-    taken: dict[str, int] = {}
-    found, notes = made(table, lambda row: _made(row, path.name, taken), keep_going)
-    return {row.name: row for row in found}, notes
+    found = screws(path, keep_going=keep_going)
+    return found, found.notes
 
 
-def _made(row: Row, file: str, taken: dict[str, int]) -> CatalogueRow:
+def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path]) -> CatalogueRow:
     """The catalogue row of a row of a table; without a name it is called by its sizes."""
     values = dict(row.values)
+    file, log = path.name, values.pop("log", None)
+    if isinstance(values.get("preload"), Share):
+        values["preload_share"] = float(values.pop("preload"))
     name = values.setdefault("name", _called_by_sizes(values))
     values.setdefault("source", f"{file} row {row.line}")
     faults: list[Fault] = []
     if name in taken:
         faults.append(Fault("row.name", "is given twice", name, f"row {taken[name]} has it, too: name both apart"))
-    kind = kind_in(values.get("nut", ""))
-    if kind and kind not in NUTS:
-        faults.append(Fault("row.nut", "unknown kind of nut", values["nut"], nearest(kind, NUTS)))
+    if isinstance(seals := values.get("seal_torque"), str):
+        values["seal_torque"] = _seal_torque(seals, values, faults)
     try:
-        found = CatalogueRow(**{**values, "nut": kind})
+        found = CatalogueRow(**{**values, "nut": kind_in(values.get("nut", ""))})
         found.screw()
     except InputError as error:
-        raise InputError(*faults, *error.faults) from None
+        # a share stands in the column of the preload
+        of_row = [_in_column(fault, row) for fault in error.faults]
+        raise InputError(*faults, *of_row) from None
     raise_if_any(faults)
     taken[name] = row.line
+    if log is not None:
+        logs[name] = path.parent / log
     return found
+
+
+def _seal_torque(word: str, values: Mapping[str, Any], faults: list[Fault]) -> float | None:
+    """The torque of seals that a word stands for."""
+    if word == column_names.NONE:
+        return 0.0
+    try:
+        return float(Seals.of_table(values["nominal_diameter"], values["lead"]).seal_torque)
+    except InputError as error:
+        remedy = f"{error.faults[0].remedy}; write the torque"
+        faults.append(Fault("row.seal_torque", "no standard seals are known of this size", word, remedy))
+        return None
+
+
+def _in_column(fault: Fault, row: Row) -> Fault:
+    """The fault of a share, in the column of the preload where it stands there."""
+    parent, _, name = fault.where.rpartition(".")
+    column = next((column for column, share in column_names.SHARES.items() if share == name), name)
+    return dataclasses.replace(fault, where=f"{parent}.{column}") if column in row.written else fault
 
 
 def _called_by_sizes(values: Mapping[str, Any]) -> str:
@@ -241,7 +310,9 @@ def case_text(row: CatalogueRow) -> str:
         *_nut(row),
         "",
         "[bodies]  # elastic screw and nut of a usual size, as ballscrew check takes them; without it they are rigid",
+        *([] if is_shipped(row) else _listed_part(row, "nut_outer_diameter", "nut_outer_diameter")),
         "",
+        *_seals(row),
         "[lubricant]",
         'grade = "ISO VG 100"',
         'temperature = "40 degC"',
@@ -258,10 +329,25 @@ def _nut(row: CatalogueRow) -> list[str]:
     """The nut of a row, with a preload as an example where its kind has one."""
     kind = row.nut or "single"
     lines = [_setting("type", f'"{kind}"', "" if row.nut else "the row says nothing of its nut")]
-    if "preload" in fields_of(NUTS[kind]):
+    if lists_preload(row) and row.preload_share is not None:
+        lines.append(
+            _setting("preload", f'"{100 * row.preload_share:.12g} %"', "as listed, of the dynamic load rating")
+        )
+    elif lists_preload(row):
+        lines += _listed_part(row, "preload", "preload")
+    elif "preload" in fields_of(NUTS[kind]):
         comment = "of the dynamic load rating" + ("" if row.dynamic_load_rating else ", computed from the geometry")
         lines.append(_setting("preload", f'"{EXAMPLE_PRELOADS[kind]}"', f"an example: {comment}"))
     return lines
+
+
+def _listed_part(row: CatalogueRow, name: str, key: str) -> list[str]:
+    value = getattr(row, name)
+    return [] if value is None else [_setting(key, _written(value, _FIELDS[name]), "as listed")]
+
+
+def _seals(row: CatalogueRow) -> list[str]:
+    return ["[losses]", *_listed_part(row, "seal_torque", "seals.seal_torque"), ""] if row.seal_torque else []
 
 
 def _setting(name: str, value: str, comment: str) -> str:

@@ -6,19 +6,14 @@ import re
 from collections.abc import Mapping
 
 from ballscrew.components import nut_losses
-from ballscrew.components.nut import DoubleNut, Nut, OffsetLeadNut, OversizeBallNut, SingleNut
+from ballscrew.components.nut import Nut
 from ballscrew.components.nut_losses import ParasiticLaw
 from ballscrew.quantities import Info, Quantity, fields_of
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.installation import Ends
+from ballscrew.sizing.listed_nut import NUTS as NUTS
+from ballscrew.tables.cells import Share as Share
 
-#: The names of the kinds of nut stand here and nowhere else.
-NUTS: Mapping[str, type[Nut]] = {
-    "single": SingleNut,
-    "oversize-balls": OversizeBallNut,
-    "double": DoubleNut,
-    "offset-lead": OffsetLeadNut,
-}
 #: What catalogues call them in words, besides "nut" and "flange". A single nut that is preloaded may be two of the
 #: kinds: nothing is guessed.
 _IN_WORDS: Mapping[str, str] = {
@@ -27,6 +22,8 @@ _IN_WORDS: Mapping[str, str] = {
     "double": "double", "doppel": "double", "preloaded double": "double", "double preloaded": "double",
     "vorgespannte doppel": "double",
     "oversize balls": "oversize-balls", "oversize ball": "oversize-balls", "oversized balls": "oversize-balls",
+    "oversize": "oversize-balls", "oversized": "oversize-balls", "einzel kugelübermass": "oversize-balls",
+    "kugelübermass": "oversize-balls", "übermasskugeln": "oversize-balls", "einzel übermasskugeln": "oversize-balls",
     "single oversize balls": "oversize-balls", "single oversized balls": "oversize-balls",
     "offset lead": "offset-lead", "lead offset": "offset-lead", "offset pitch": "offset-lead",
     "single offset lead": "offset-lead",
@@ -47,10 +44,6 @@ LISTED: Mapping[str, Quantity] = {
 #: All fields of all nuts.
 NUT_FIELDS: Mapping[str, Quantity] = {name: q for cls in NUTS.values() for name, q in fields_of(cls).items()}
 PERCENT = Quantity("preload", "1", Info("p", "share of the dynamic load rating, %", at_least=0, at_most=100))
-
-
-class Share(float):
-    """A preload as a share of the dynamic load rating."""
 
 
 def kind_in(words: str) -> str:

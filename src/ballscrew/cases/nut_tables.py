@@ -19,12 +19,16 @@ from ballscrew.components.screw import SINGLE_NUT, BallScrew
 from ballscrew.equations import geometry
 from ballscrew.errors import MISSING, Fault, InputError, nearest
 from ballscrew.quantities import fields_of
-from ballscrew.sizing.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow
-from ballscrew.sizing.checks import Ratings, ratings_of
+from ballscrew.sizing.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow, is_shipped
 from ballscrew.sizing.installation import Installation, Limits
+from ballscrew.sizing.listed_nut import lists_preload
+from ballscrew.sizing.listed_nut import nut_of as listed_nut
+from ballscrew.sizing.ratings import Ratings, ratings_of
 
 #: The nut of a case that names one without preload.
 SINGLE = SingleNut(angle_under_load=True)
+#: The geometry that ratings follow from.
+_RATED = ("pitch_circle_diameter", "lead", "ball_diameter", "loaded_balls", "contact_angle", "starts")
 #: What a screw with a nut consists of besides its balls.
 _OF_NUT = ("nut", "bodies", "deviations", "losses")
 
@@ -47,7 +51,7 @@ def row_of(
 def ratings(screw: BallScrew, row: CatalogueRow | None) -> Ratings:
     """The ratings of a screw by its geometry. Raises ``InputError`` for one that no catalogue could have."""
     made = None if row is None else row.screw()
-    same = made is not None and all(getattr(made, name) == getattr(screw, name) for name in fields_of(screw))
+    same = made is not None and all(getattr(made, name) == getattr(screw, name) for name in _RATED)
     return ratings_of(row if row is not None and same else _as_row(screw))
 
 
@@ -91,17 +95,26 @@ def nut_of(
     listed: Mapping[str, float],
     faults: list[Fault],
 ) -> tuple[Nut | None, Sequence[PreloadNote]]:
-    """The nut with its bodies, deviations and losses, and a note on its preload; None without such a section.
+    """The nut with its bodies, deviations and losses, and a note on its preload.
 
-    The contact angle of a single nut that a case names follows the load.
+    None without such a section, where the row, too, lists neither preload nor seals. What a section says counts, what
+    it leaves out is that of the row. The contact angle of a single nut that a case names follows the load.
     """
-    if not any(name in sections for name in _OF_NUT):
+    of_row = None if row is None else listed_nut(row)
+    if of_row is None and not any(name in sections for name in _OF_NUT):
         return None, ()
     before = len(faults)
-    nut, notes = _nut(sections, screw, row, listed, faults) if "nut" in sections else (SINGLE_NUT, ())
-    bodies = sections.values_of("bodies", faults) if "bodies" in sections else None
+    has_preload = row is not None and lists_preload(row)
+    if "nut" in sections or has_preload:
+        nut, notes = _nut(sections, screw, row, listed, faults)
+    else:
+        nut, notes = SINGLE_NUT, ()
+    bodies = _bodies(sections, row, has_preload, faults)
     scatter = sections.values_of("deviations", faults) if "deviations" in sections else None
-    losses = _losses(sections, faults) if "losses" in sections else {}
+    losses = {
+        **({} if of_row is None else of_row.losses),
+        **(_losses(sections, faults) if "losses" in sections else {}),
+    }
     if len(faults) > before or nut is None:
         return None, ()
     made = {
@@ -118,6 +131,18 @@ def nut_of(
     return nut, notes
 
 
+def _bodies(
+    sections: Sections, row: CatalogueRow | None, has_preload: bool, faults: list[Fault]
+) -> dict[str, Any] | None:
+    """The sizes of the bodies; the outer diameter of the nut is that of the row where the section leaves it out."""
+    outer: dict[str, Any] = {}
+    if row is not None and row.nut_outer_diameter is not None and not is_shipped(row):
+        outer = {"nut_outer_diameter": row.nut_outer_diameter}
+    if "bodies" in sections:
+        return {**outer, **sections.values_of("bodies", faults)}
+    return outer if outer and has_preload else None
+
+
 def _nut(
     sections: Sections,
     screw: BallScrew | None,
@@ -126,8 +151,8 @@ def _nut(
     faults: list[Fault],
 ) -> tuple[Nut | None, Sequence[PreloadNote]]:
     before = len(faults)
-    table = sections.tables["nut"]
-    values = sections.values_of("nut", faults)
+    table = sections.tables.get("nut", {})
+    values = sections.values_of("nut", faults) if "nut" in sections else {}
     if len(faults) > before:
         return None, ()
     kind = values.pop("type", (row.nut or "single") if row is not None else None)
@@ -137,6 +162,8 @@ def _nut(
         faults.append(Fault("nut.type", "unknown kind of nut", kind, nearest(kind, NUTS)))
     else:
         faults += _misplaced(kind, table)
+        if "preload" in fields_of(NUTS[kind]) and row is not None and not {"preload", "oversize"} & set(values):
+            values |= _preload_of(row)
         if "preload" in fields_of(NUTS[kind]) and not {"preload", "oversize"} & set(values):
             remedy = 'add {nut.preload}"3 kN", or "7 %" of the dynamic load rating'
             faults.append(Fault("nut.preload", MISSING, "", remedy))
@@ -154,11 +181,18 @@ def _nut(
         rating, source = dynamic_rating(screw, row, listed)
     except InputError:
         remedy = 'add dynamic_load_rating = "… kN" to [screw], or give a force'
-        given = str(table["preload"])
+        given = str(table.get("preload", f"{100 * preload:.4g} %"))
         faults.append(Fault("nut.preload", "is a share of a dynamic load rating that is not known", given, remedy))
         return None, ()
     made = {**values, "preload": preload * rating}
     return NUTS[kind](**made), (PreloadNote(preload, rating, source),)
+
+
+def _preload_of(row: CatalogueRow) -> dict[str, float]:
+    """The preload that a row lists."""
+    if row.preload_share is not None:
+        return {"preload": Share(row.preload_share)}
+    return {} if row.preload is None else {"preload": row.preload}
 
 
 def _misplaced(kind: str, table: Mapping[str, Any]) -> list[Fault]:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode
+from ballscrew.cli.common_options import AllowCode, Row, check_rows, say_of_rows
 
 
 def check(
@@ -17,9 +17,12 @@ def check(
     rows: Annotated[
         Path | None,
         typer.Option(
-            "--rows", metavar="FILE", help="A table of your own, .csv or .xlsx; without a name, all its rows."
+            "--rows",
+            metavar="FILE",
+            help="A table of your own, .csv or .xlsx; without a name, all its rows; with a case, each in its place.",
         ),
     ] = None,
+    row: Row = None,
     every: Annotated[bool, typer.Option("--all", help="All rows, one line each.")] = False,
     axial_load: Annotated[
         str | None, typer.Option("--axial-load", metavar="FORCE", help='"5 kN"; a tenth of C_a if left out.')
@@ -33,7 +36,9 @@ def check(
     preload: Annotated[
         str | None,
         typer.Option(
-            "--preload", metavar="FORCE", help='"3 kN", or "7 %" of C_a; if left out, 7 % (oversize balls 5 %).'
+            "--preload",
+            metavar="FORCE",
+            help='"3 kN", or "7 %" of C_a; if left out, that of the row, or 7 % (oversize balls 5 %).',
         ),
     ] = None,
     length: Annotated[
@@ -63,6 +68,9 @@ def check(
     keep_going: Annotated[
         bool, typer.Option("--keep-going", help="Leave faulty rows out, and say which; fails if none is good.")
     ] = False,
+    to: Annotated[
+        Path | None, typer.Option("--to", "-o", metavar="FILE", help="Of many rows: also write them, .csv or .xlsx.")
+    ] = None,
     allow_code: AllowCode = False,
 ) -> None:
     """From a catalogue row or a case to torque, efficiency, stiffness, life, and whether it does.
@@ -70,10 +78,11 @@ def check(
     What is not given is assumed, and the output says what was. The exit code is 0 where a check fails, too: the
     verdict says so; it is 2 only for bad input.
     """
+    from ballscrew.errors import Fault, InputError
     from ballscrew.output.documents.check import document, list_document
     from ballscrew.output.json_text import as_json as json_of
     from ballscrew.output.text.check import list_text, text
-    from ballscrew.studies.check import Options, every_row, one
+    from ballscrew.studies.check import Options, every_row, is_case, one
 
     given = {
         "operation.axial_load": axial_load,
@@ -89,12 +98,33 @@ def check(
     options = Options(
         {key: value for key, value in given.items() if value is not None}, settings or [], model, allow_code
     )
-    if every or name is None:
-        screws, notes = every_row(name, rows, options, keep_going)
-        output = json_of(list_document(screws)) if as_json else list_text(screws)
-    else:
+    check_rows(rows, row)
+    case = name if name is not None and rows is not None and is_case(name) else None
+    if row is not None and case is None:
+        if name is not None:
+            raise InputError(Fault("--row", "is given beside another name", name, "give one of the two"))
+        name = row
+    if to is not None and case is None and not every:
+        row = name
+    many = every or name is None or to is not None or (case is not None and row is None)
+    if not many and name is not None and case is None:
         screw, notes = one(name, rows, options, keep_going)
-        output = json_of(document(screw)) if as_json else text(screw)
-    for note in notes:
-        typer.echo(note, err=True)
-    typer.echo(output)
+        say_of_rows(notes, interrupted=False)
+        typer.echo(json_of(document(screw)) if as_json else text(screw))
+        return
+    from ballscrew.cli.progress import progress
+    from ballscrew.table_files import row_tables
+
+    if to is not None:
+        row_tables.check_path(to)
+    with progress("rows") as done:
+        found = every_row(case if row else name, rows, options, keep_going, row=row, done=done)
+    screws = list(found.found.values())
+    if many:
+        typer.echo(json_of(list_document(screws)) if as_json else list_text(screws))
+    else:
+        typer.echo(json_of(document(screws[0])) if as_json else text(screws[0]))
+    if to is not None:
+        row_tables.write(to, row_tables.of_checks(screws))
+        typer.echo(f"{to}: {len(screws)} screws", err=True)
+    say_of_rows(found.notes, found.interrupted)

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Generator, Mapping
+from collections.abc import Generator, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+
+if TYPE_CHECKING:
+    from ballscrew.studies.every_row import OfRows, RowCase
 
 #: Stands for the names of the models in help texts; replaced when the help is shown.
 MODEL_NAMES = "{models}"
@@ -36,7 +39,60 @@ Inertia = Annotated[
     str | None,
     typer.Option("--inertia", metavar="VALUE", help='What the torque accelerates, at the screw: "2e-3 kg m^2".'),
 ]
+#: Options of tables of screws.
+Rows = Annotated[
+    Path | None,
+    typer.Option(
+        "--rows",
+        metavar="FILE",
+        help="A table of screws of your own, .csv or .xlsx: each in place of that of the case.",
+    ),
+]
+Row = Annotated[str | None, typer.Option("--row", metavar="NAME", help="Only this row of --rows.")]
 KeepGoing = Annotated[bool, typer.Option("--keep-going", help="Leave faulty rows out, and say how many.")]
+
+
+def check_rows(rows: Path | None, row: str | None) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` for a row without a table."""
+    if row is not None and rows is None:
+        from ballscrew.errors import Fault, InputError
+
+        raise InputError(Fault("--row", "needs a table of screws", row, "add --rows FILE"))
+
+
+def cases_of_rows(
+    case: Path,
+    rows: Path,
+    row: str | None,
+    settings: Sequence[str] | None,
+    model: str | None,
+    *,
+    allow_code: bool,
+    keep_going: bool,
+) -> OfRows[RowCase]:
+    """The case with each screw of a table, or that of one row, in place of its own."""
+    from ballscrew.cli.progress import progress
+    from ballscrew.studies import every_row
+
+    with progress("rows read") as done:
+        return every_row.cases(
+            case,
+            rows,
+            row,
+            settings=settings or [],
+            model=model,
+            allow_code=allow_code,
+            keep_going=keep_going,
+            done=done,
+        )
+
+
+def say_of_rows(notes: Sequence[str], interrupted: bool) -> None:
+    """What is to be said of rows on the error stream; after Ctrl-C the command ends as it always does."""
+    for note in notes:
+        typer.echo(note, err=True)
+    if interrupted:
+        raise KeyboardInterrupt
 
 
 def say_engine(attributes: Mapping[str, Any]) -> None:

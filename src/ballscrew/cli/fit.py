@@ -2,20 +2,32 @@
 
 from __future__ import annotations
 
+import functools
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, Inertia, KeepGoing, TorqueConstant, TorqueKind, Verbose, say_engine
+from ballscrew.cli.common_options import (
+    AllowCode,
+    Inertia,
+    KeepGoing,
+    Row,
+    Rows,
+    TorqueConstant,
+    TorqueKind,
+    Verbose,
+    check_rows,
+    say_engine,
+)
 
 
 def fit(
-    log: Annotated[
-        Path,
-        typer.Argument(help="Log of load, speed and torque, perhaps temperature and time: .csv, .xlsx, .mat."),
-    ],
     case: Annotated[Path, typer.Option("--case", metavar="FILE", help="Case file (TOML) of screw, oil and model.")],
+    log: Annotated[
+        Path | None,
+        typer.Argument(help="Log of load, speed and torque, perhaps temperature and time: .csv, .xlsx, .mat."),
+    ] = None,
     free: Annotated[
         list[str] | None,
         typer.Option(
@@ -55,16 +67,26 @@ def fit(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
     to: Annotated[
-        Path | None, typer.Option("--to", "-o", metavar="FILE", help="Write the calibrated model, a case file (.toml).")
+        Path | None,
+        typer.Option(
+            "--to",
+            "-o",
+            metavar="FILE",
+            help="Write the calibrated model, a case file (.toml); with --rows a table (.csv, .xlsx), or a folder.",
+        ),
     ] = None,
     picture: Annotated[
         Path | None,
         typer.Option("--picture", metavar="FILE", help="Draw log and model: .png, .svg or .pdf."),
     ] = None,
+    rows: Rows = None,
+    row: Row = None,
     allow_code: AllowCode = False,
     verbose: Verbose = False,
 ) -> None:
     """Fit numbers of a model to a log, and say which of them the log cannot tell.
+
+    With --rows each screw of a table is fitted by itself, to the file in its column log.
 
     A distribution that the case gives a number is its prior. Part of the operating points is held out
     to see how well the model predicts, beside two descriptions without physics. The last lines say where to
@@ -72,6 +94,21 @@ def fit(
     """
     from ballscrew.cases import case_file
 
+    check_rows(rows, row)
+    _check_log(log, rows, picture)
+    if rows is not None:
+        from ballscrew.cli.fit_options import options
+        from ballscrew.cli.fit_rows import fit_rows
+
+        fit_rows(
+            case, rows, row, functools.partial(
+                options, free=free or [], bounds=bounds or [], limits=limits or [], columns=column or [], kind=kind,
+                inertia=inertia, torque_constant=torque_constant, holdout=holdout, seed=seed, keep_going=keep_going,
+            ),
+            settings=settings or [], model=model, allow_code=allow_code, keep_going=keep_going, as_json=as_json, to=to,
+        )  # fmt: skip
+        return
+    assert log is not None
     tables = case_file.override(case_file.read(case), settings or [])
     loaded = case_file.build(tables, model, case.parent, allow_code=allow_code)
 
@@ -114,3 +151,19 @@ def fit(
 
         files.draw(lambda: figures.picture(loaded, report), picture, "--picture")
         typer.echo(f"{picture}: {len(report.model.rows.log)} rows", err=as_json)
+
+
+def _check_log(log: Path | None, rows: Path | None, picture: Path | None) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` unless there is one log, or a table that names them."""
+    from ballscrew.errors import Fault, InputError, raise_if_any
+
+    if log is None and rows is None:
+        raise InputError(Fault("fit", "needs a log", "", "give a file, or --rows FILE with a column log"))
+    given = {"LOG": log, "--picture": picture}
+    raise_if_any(
+        [
+            Fault(name, "does not go with --rows", str(path), "leave it out; the column log names the logs")
+            for name, path in given.items()
+            if path is not None and rows is not None
+        ]
+    )

@@ -3,11 +3,26 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, CaseFile, ModelName, Settings
+from ballscrew.cli.common_options import (
+    AllowCode,
+    CaseFile,
+    KeepGoing,
+    ModelName,
+    Row,
+    Rows,
+    Settings,
+    cases_of_rows,
+    check_rows,
+    say_of_rows,
+)
+
+if TYPE_CHECKING:
+    from ballscrew.cases.case import Case
+    from ballscrew.studies.every_row import OfRows, RowCase
 
 
 def run(
@@ -28,15 +43,34 @@ def run(
         bool, typer.Option("--only-given", help="With --band: only what the file says is uncertain.")
     ] = False,
     to: Annotated[
-        Path | None, typer.Option("--to", "-o", metavar="FILE", help="With --band: also draw .png, .svg or .pdf.")
+        Path | None,
+        typer.Option(
+            "--to", "-o", metavar="FILE", help="With --rows: .csv, .xlsx; with --band: also draw .png, .svg or .pdf."
+        ),
     ] = None,
+    rows: Rows = None,
+    row: Row = None,
+    keep_going: KeepGoing = False,
     allow_code: AllowCode = False,
 ) -> None:
-    """Friction at the operating point of a case file; with --band how far off it may be."""
-    from ballscrew.cases import case_file
+    """Friction at the operating point of a case file; with --band how far off it may be.
 
-    loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
-    if band or to is not None or only_given or (samples, level) != (None, None):
+    With --rows the same for each screw of a table, one line each; oil, operating point and model are those of the case.
+    """
+    check_rows(rows, row)
+    has_band = band or only_given or (samples, level) != (None, None) or (to is not None and rows is None)
+    if rows is not None:
+        cases = cases_of_rows(case, rows, row, settings, model, allow_code=allow_code, keep_going=keep_going)
+        if not has_band:
+            _of_rows(cases, as_json, to, keep_going)
+            return
+        loaded = _only(cases)
+        say_of_rows(cases.notes, cases.interrupted)
+    else:
+        from ballscrew.cases import case_file
+
+        loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
+    if has_band:
         from ballscrew.cli import band as band_command
         from ballscrew.cli.progress import progress
         from ballscrew.studies.band import Options
@@ -56,3 +90,35 @@ def run(
         typer.echo(json_text.as_json(document(found)))
     else:
         print_run(found)
+
+
+def _of_rows(cases: OfRows[RowCase], as_json: bool, to: Path | None, keep_going: bool) -> None:
+    """Results of each row: one line each, and a table in a file."""
+    from ballscrew.cli.progress import progress
+    from ballscrew.output import json_text
+    from ballscrew.output.documents.run import list_document
+    from ballscrew.output.text.run_rows import list_text
+    from ballscrew.studies import every_row
+    from ballscrew.studies.run import run as run_case
+    from ballscrew.table_files import row_tables
+
+    if to is not None:
+        row_tables.check_path(to)
+    with progress("rows") as done:
+        work = {each.place: each for each in cases.found.values()}
+        ran = every_row.each(work, lambda each: run_case(each.case), keep_going=keep_going, done=done)
+    runs = {work[place].row.name: run for place, run in ran.found.items()}
+    typer.echo(json_text.as_json(list_document(runs)) if as_json else list_text(runs))
+    if to is not None:
+        row_tables.write(to, row_tables.of_runs(runs))
+        typer.echo(f"{to}: {len(runs)} screws", err=True)
+    say_of_rows([*cases.notes, *ran.notes], ran.interrupted)
+
+
+def _only(cases: OfRows[RowCase]) -> Case:
+    """The case of the one row there is."""
+    from ballscrew.errors import Fault, InputError
+
+    if len(cases.found) > 1:
+        raise InputError(Fault("--band", "is of one screw", f"{len(cases.found)} rows", "choose one: --row NAME"))
+    return next(iter(cases.found.values())).case

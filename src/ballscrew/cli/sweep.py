@@ -4,21 +4,30 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from collections.abc import Generator
+from collections.abc import Generator, Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ballscrew.cli.common_options import (
     AllowCode,
     CaseFile,
+    KeepGoing,
     ModelName,
+    Row,
+    Rows,
     Settings,
     Verbose,
+    cases_of_rows,
+    check_rows,
     log_on_stderr,
     say_engine,
+    say_of_rows,
 )
+
+if TYPE_CHECKING:
+    from ballscrew.studies.every_row import OfRows, RowCase
 
 
 def sweep(
@@ -57,10 +66,15 @@ def sweep(
     ] = False,
     model: ModelName = None,
     settings: Settings = None,
+    rows: Rows = None,
+    row: Row = None,
+    keep_going: KeepGoing = False,
     allow_code: AllowCode = False,
     verbose: Verbose = False,
 ) -> None:
     """Friction over ranges of load, speed or anything else.
+
+    With --rows for each screw of a table: one dataset with a dimension screw, in CSV and XLSX a first column.
 
     Without --vary, the axes come from the [sweep] table of the case file, or else are ten loads and
     ten speeds up to those of the case. One output over two axes comes as a table, load down and
@@ -69,11 +83,22 @@ def sweep(
     """
     from ballscrew.cases import case_file
     from ballscrew.cli.progress import progress
-    from ballscrew.output import sweep_files
     from ballscrew.output.text import sweep as text
     from ballscrew.studies import sweep as studies
+    from ballscrew.table_files import sweep_files
 
-    loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
+    check_rows(rows, row)
+    if rows is None:
+        loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
+    else:
+        cases = cases_of_rows(case, rows, row, settings, model, allow_code=allow_code, keep_going=keep_going)
+        if row is None:
+            studies.check_store_options(to, verify=verify, trust=trust)
+            with studies.workers(scheduler, to):
+                _of_rows(cases, vary or [], output or [], to, keep_going=keep_going, verbose=verbose)
+            return
+        say_of_rows(cases.notes, cases.interrupted)
+        (loaded,) = (each.case for each in cases.found.values())
     plan = studies.plan(loaded, vary or [], output or [], to)
     studies.check_store_options(to, verify=verify, trust=trust)
     with _report_interruption(), studies.workers(scheduler, to) as cluster, progress("sweep") as done, log_on_stderr():
@@ -88,6 +113,39 @@ def sweep(
         typer.echo(f"{to}: {text.size(dataset, plan)}, model {loaded.model.label}")
     if beware := text.warning(loaded, plan, dataset, to):
         typer.echo(beware, err=True)
+
+
+def _of_rows(
+    cases: OfRows[RowCase],
+    vary: Sequence[str],
+    wanted: Sequence[str],
+    to: Path | None,
+    *,
+    keep_going: bool,
+    verbose: bool,
+) -> None:
+    """The sweeps of all rows as one dataset."""
+    from ballscrew.cli.progress import progress
+    from ballscrew.output.text import sweep as text
+    from ballscrew.studies import sweep_rows
+    from ballscrew.table_files import sweep_files
+
+    planned = sweep_rows.plans(cases.found, vary, wanted, to, keep_going)
+    with progress("sweep") as done:
+        dataset, swept = sweep_rows.sweep(planned.found, to, keep_going=keep_going, done=done)
+    plan = sweep_rows.plan_of(planned.found)
+    if to is None:
+        sweep_files.write_csv(sys.stdout, dataset, plan)
+    else:
+        sweep_files.write(dataset, plan, to)
+        typer.echo(f"{to}: {text.size(dataset, plan)}, {dataset.sizes[sweep_rows.SCREW]} screws")
+    for place, own in swept.found.items():
+        if verbose:
+            say_engine(own.attrs)
+        row_case, of_row = planned.found[place]
+        if beware := text.warning(row_case.case, of_row, own, to):
+            typer.echo("\n".join(f"{row_case.row.name}: {line}" for line in beware.splitlines()), err=True)
+    say_of_rows([*cases.notes, *planned.notes, *swept.notes], swept.interrupted)
 
 
 @contextlib.contextmanager

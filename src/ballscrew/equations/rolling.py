@@ -290,9 +290,9 @@ def replenishment_factor(
 
     .. math:: \phi_{rs} = \exp\left(-1.963 \cdot 10^{9} K_{rs} \frac{\nu v}{\sqrt{d_w}}\right)
 
-    SKF2018 for bearings, :math:`\exp(-K_{rs} \nu n (d + D) \sqrt{K_Z / (2 (D - d))})` in mm²/s, rpm and mm, as recalled; K_rs
-    and K_Z = 4.4, that of single-row angular-contact ball bearings, are as public programs have them from its tables. A
-    bearing's n (d + D) is 240 v/π of its entrainment speed v, and its D − d is taken as d_w/0.3. One at rest.
+    SKF2018 for bearings, :math:`\exp(-K_{rs} \nu n (d + D) \sqrt{K_Z / (2 (D - d))})` in mm²/s, rpm, mm, as recalled;
+    K_rs and K_Z = 4.4, that of single-row angular-contact ball bearings, are as public programs have them from its
+    tables. A bearing's n (d + D) is 240 v/π of its entrainment speed v, and its D − d is taken as d_w/0.3. One at rest.
     """
     nu, v, d_w, K_rs = kinematic_viscosity, entrainment_speed, ball_diameter, replenishment_constant
     xp = namespace(nu, v, d_w, K_rs)

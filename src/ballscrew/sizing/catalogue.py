@@ -14,10 +14,14 @@ from ballscrew._arrays import ByValue
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import geometry
 from ballscrew.errors import Fault, InputError, faults_of, nearest, raise_if_any, shown
-from ballscrew.quantities import Angle, Count, Force, Info, Length, Ratio, Stiffness, Unit
+from ballscrew.quantities import Angle, Count, Force, Info, Length, Ratio, Stiffness, Torque, Unit
+from ballscrew.sizing.listed_nut import faults_of_nut, nut_of
 
 #: Turns that carry no load where the balls of a nut leave and enter (ISO3408-5, as it fits the ratings of catalogues).
 TURNS_WITHOUT_LOAD = 0.24
+
+#: What few catalogues list of the nut, and tables of one's own may.
+_OF_NUT = ("preload", "preload_share", "seal_torque")
 
 #: A ball this much smaller than its pitch circle is a slip of the unit; real ones have a ratio of 5 to 50.
 SMALLEST_BALL = 1e-3
@@ -103,10 +107,31 @@ class CatalogueRow(ByValue):
     #: How the nut is braced, by the name that the interfaces know it by; nothing where the catalogue does not say.
     nut: str = ""
     source: str = ""
+    preload: Annotated[
+        Force | None,
+        Info(
+            "F_pr",
+            "axial preload without external load",
+            "kN",
+            at_least=0,
+            hint="2 to 10 % of the dynamic load rating",
+        ),
+    ] = None
+    preload_share: Annotated[
+        Ratio | None,
+        Info(
+            "p", "preload / dynamic load rating, instead of the preload", at_least=0, at_most=1,
+            hint="vendors have 2 to 10 %",
+        ),
+    ] = None  # fmt: skip
+    seal_torque: Annotated[
+        Torque | None,
+        Info("M_W", "torque of all seals of the nut", at_least=0, hint="rubber: 0.08 N m at 16 mm, 0.4 N m at 40 mm"),
+    ] = None
 
     def __post_init__(self) -> None:
         where = self.name or "row"
-        raise_if_any(faults_of(where, self, optional=_OPTIONAL))
+        raise_if_any(faults_of(where, self, optional=(*_OPTIONAL, *_OF_NUT)))
         if self.ball_diameter < SMALLEST_BALL * self.ball_circle:
             problem, given = "too small for the pitch circle", shown(self.ball_diameter, "m")
             bound = SMALLEST_BALL * self.ball_circle
@@ -122,6 +147,7 @@ class CatalogueRow(ByValue):
             given, bound = shown(self.lead, "m"), LARGEST_LEAD * self.ball_circle
             problem = "too large for the pitch circle"
             raise InputError(Fault(f"{where}.lead", problem, given, "check the unit; {bound} or less", bound, "m"))
+        raise_if_any(faults_of_nut(where, self))
 
     @property
     def ball_circle(self) -> Annotated[Length, Info("d_m", "pitch circle diameter that counts", "mm")]:
@@ -156,7 +182,11 @@ class CatalogueRow(ByValue):
         return geometry.groove_root_diameter(self.ball_circle, self.ball_diameter, self.conformity, self.contact_angle)
 
     def screw(self, **changes: Any) -> BallScrew:
-        """The screw of the row, with the loaded balls of one nut body; ``changes`` are fields of ``BallScrew``."""
+        """The screw of the row, with the loaded balls of one nut body; ``changes`` are fields of ``BallScrew``.
+
+        Where the row lists a preload, its nut has that, with its seals, and with elastic bodies where it lists the
+        outer diameter of the nut. Elsewhere the balls are those of one nut body without preload.
+        """
         fields: dict[str, Any] = {
             "pitch_circle_diameter": self.ball_circle,
             "lead": self.lead,
@@ -167,6 +197,9 @@ class CatalogueRow(ByValue):
             "nut_conformity": self.conformity,
             "starts": self.starts,
         }
+        nut = nut_of(self)
+        if nut is not None:
+            fields["nut"] = nut
         return BallScrew(**{**fields, **changes})
 
 
@@ -204,3 +237,8 @@ def catalogue() -> Mapping[str, CatalogueRow]:
         for name, fields in table["rows"].items()
     }
     return _Rows(rows)
+
+
+def is_shipped(row: CatalogueRow) -> bool:
+    """Test whether a row is one of those shipped. Their published numbers are of bodies of a usual size."""
+    return catalogue().get(row.name) is row

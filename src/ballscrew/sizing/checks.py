@@ -1,4 +1,4 @@
-"""Ratings of a screw by its geometry, and the checks of its life, strength and speed against their limits."""
+"""The checks of a screw: its life, strength and speed against their limits."""
 
 from __future__ import annotations
 
@@ -12,43 +12,20 @@ from ballscrew._deprecated import RenamedAttribute
 from ballscrew.components.nut import Nut, SingleNut
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import BallScrew
-from ballscrew.equations import geometry, life, rating, shaft
+from ballscrew.equations import geometry, life, shaft
 from ballscrew.errors import Fault, accepts_units, raise_if_any, shown
 from ballscrew.friction.validity import LARGEST_PRESSURE
 from ballscrew.quantities import AngularSpeed, Force, Length, Pressure, Ratio
 from ballscrew.records import Record
-from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.installation import Installation, Limits
+from ballscrew.sizing.ratings import RATING_CONFORMITY as RATING_CONFORMITY
+from ballscrew.sizing.ratings import Ratings as Ratings
+from ballscrew.sizing.ratings import ratings_of as ratings_of
 
-#: With this conformity the formulas of ISO3408-5 give the ratings of catalogues (HIWIN2016), whose grooves have 0.54.
-RATING_CONFORMITY = 0.52
 HOUR = 3600.0
 
 _SINGLE = SingleNut()
 _USUAL = Limits()
-
-
-class Ratings(NamedTuple):
-    """Load ratings of one nut body, or one half."""
-
-    dynamic: Force
-    static: Force
-
-
-def ratings_of(row: CatalogueRow, rating_conformity: Ratio = RATING_CONFORMITY) -> Ratings:
-    """Dynamic and static axial load rating of a row by its geometry; those printed in its catalogue play no part."""
-    d_m, d_w, alpha = row.ball_circle, row.ball_diameter, row.contact_angle
-    phi, f = row.lead_angle, rating_conformity
-    # the standard leaves the lead out of the curvature
-    gamma = geometry.curvature_ratio(d_w, d_m, alpha, lead_angle=0.0)
-    f_c = rating.geometry_factor(rating.contact_angle_factor(alpha), rating.curvature_factor(gamma), f)
-    C_s = rating.screw_turn_rating(f_c, alpha, row.balls_per_turn, d_w, phi)
-    C_i = rating.turn_rating(C_s, rating.turn_rating_ratio(gamma, f, f))
-    k_0 = rating.static_load_factor(gamma, f)
-    return Ratings(
-        dynamic=float(rating.dynamic_load_rating(C_i, row.loaded_turns)),
-        static=float(rating.static_load_rating(k_0, row.balls_per_turn, row.loaded_turns, d_w, alpha, phi)),
-    )
 
 
 @accepts_units("checks")

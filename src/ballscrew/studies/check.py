@@ -13,10 +13,14 @@ from ballscrew.cases.case import Case
 from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.cases.option_faults import in_options
 from ballscrew.components.nut import Nut, OversizeBallNut
-from ballscrew.errors import Fault, InputError, raise_if_any
+from ballscrew.errors import Fault, InputError
 from ballscrew.records import Record
 from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.sizing.checks import Check, Ratings, checks, ratings_of
+from ballscrew.sizing.checks import Check, checks
+from ballscrew.sizing.listed_nut import lists_preload
+from ballscrew.sizing.ratings import Ratings, ratings_of
+from ballscrew.studies.every_row import Done, OfRows, copied, each, place_of
+from ballscrew.studies.own_screws import tables_of_row
 from ballscrew.studies.run import NutState, Run, with_nut
 
 #: Defaults of what neither row nor options give.
@@ -79,35 +83,44 @@ def one(name: str, path: Path | None, options: Options, keep_going: bool) -> tup
     """The checks of a case file or of the row of that name, and notes on rows left out."""
     if path is None and Path(name).suffix.lower() in (".csv", ".xlsx"):
         raise InputError(Fault(name, "is a table, not a case", "", f"write --rows {name}"))
-    if path is None and (Path(name).suffix == ".toml" or "/" in name or Path(name).is_file()):
+    if path is None and is_case(name):
         return _of_case(Path(name), options), ()
     rows, notes = catalogue.load(path, keep_going)
     return _of_row(catalogue.named(rows, name, file=path), options), notes
 
 
 def every_row(
-    name: str | None, path: Path | None, options: Options, keep_going: bool
-) -> tuple[Sequence[Checked], Sequence[str]]:
+    name: str | None,
+    path: Path | None,
+    options: Options,
+    keep_going: bool,
+    *,
+    row: str | None = None,
+    done: Done | None = None,
+) -> OfRows[Checked]:
     """The checks of all rows, or of those with these words, and notes on rows left out.
 
+    A case file in place of the words is checked with the screw of each row, or of one ``row``, in place of its own.
     Raises :class:`~ballscrew.errors.InputError` if there is any fault; with ``keep_going`` only if no row is good.
     """
     rows, notes = catalogue.load(path, keep_going)
-    chosen = catalogue.chosen(rows, name or "", path)
-    found: list[Checked] = []
-    faults: dict[str, Sequence[Fault]] = {}
-    for row in chosen:
-        try:
-            found.append(_of_row(row, options))
-        except InputError as error:
-            faults[f"{row.name} ({row.source})"] = error.faults
-    if faults and not found and len({tuple(map(str, those)) for those in faults.values()}) == 1:
-        raise InputError(*next(iter(faults.values())))  # the options are at fault, not the rows
-    by_row = [dataclasses.replace(f, where=f"{where}, {f.where}") for where, those in faults.items() for f in those]
-    if not (keep_going and found):
-        raise_if_any(by_row)
-    left_out = [f"{len(faults)} of {len(chosen)} rows left out"] if faults else []
-    return found, [*notes, *map(str, by_row), *left_out]
+    case = Path(name) if path is not None and name is not None and is_case(name) else None
+    if row is not None:
+        chosen = [catalogue.named(rows, row, file=path)]
+    else:
+        chosen = catalogue.chosen(rows, "" if case is not None else name or "", path)
+    tables = None if case is None else case_file.read(case)
+
+    def work(row: CatalogueRow) -> Checked:
+        return _of_row(row, options, (tables, case, path) if tables and case and path else None)
+
+    found = each({place_of(row): row for row in chosen}, work, keep_going=keep_going, done=done)
+    return dataclasses.replace(found, notes=[*notes, *found.notes])
+
+
+def is_case(name: str) -> bool:
+    """Test whether a name is that of a case file, not of a row."""
+    return Path(name).suffix == ".toml" or "/" in name or Path(name).is_file()
 
 
 # -- tables ---------------------------------------------------------------------------------------
@@ -128,13 +141,16 @@ def _of_case(path: Path, options: Options) -> Checked:
     return checked(path.name, _built(tables, options, path.parent), notes)
 
 
-def _of_row(row: CatalogueRow, options: Options) -> Checked:
-    """The row with the given options, and defaults elsewhere."""
-    tables: dict[str, Any] = {name: {} for name in ("nut", "bodies", "lubricant", "operation")}
-    tables = _put({"screw": {"catalogue": row.name}, **tables}, options)
+def _of_row(row: CatalogueRow, options: Options, case: tuple[dict[str, Any], Path, Path] | None = None) -> Checked:
+    """The row with the given options, and defaults elsewhere; or with what a case says, its tables, path and rows."""
+    tables: dict[str, Any] = {"screw": {"catalogue": row.name}, "bodies": {}}
+    folder = Path()
+    if case is not None:
+        tables, folder = copied(tables_of_row(case[0], row, case[2])), case[1].parent
+    tables = _put({**tables, **{name: tables.get(name, {}) for name in ("nut", "lubricant", "operation")}}, options)
     notes = _filled(tables, row)
     notes += [text for name, text in catalogue.assumed(row).items() if name != "loaded_turns"]
-    return checked(row.name, _built(tables, options, rows={row.name: row}), notes)
+    return checked(row.name, _built(tables, options, folder, rows={row.name: row}), notes)
 
 
 def _built(
@@ -178,7 +194,7 @@ def _filled(tables: dict[str, Any], row: CatalogueRow) -> list[str]:
     kind = row.nut or "single"
     fill("nut", "type", kind, f"{kind} nut, {'as listed' if row.nut else 'as the row lists none'}")
     usual = catalogue.EXAMPLE_PRELOADS.get(str(tables["nut"].get("type")))
-    if usual is not None:
+    if usual is not None and not lists_preload(row) and "oversize" not in tables["nut"]:
         fill("nut", "preload", usual, f"preload {usual} of C_a, usual for such a nut: none was given")
     return notes
 

@@ -49,7 +49,7 @@ _LONGEST_AXIS = 10_000_000
 #: What of an oil of a grade depends on its temperature.
 OF_TEMPERATURE = ("viscosity", "pressure_viscosity_coefficient", "temperature_coefficient")
 #: Above this, a sweep in memory is refused.
-_MOST_VALUES = 200_000_000
+MOST_VALUES = 200_000_000
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -117,7 +117,7 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
         remedy = "leave out [bodies] and [deviations]"
         faults.append(Fault("sweep.loaded_balls", "cannot be varied where balls differ", "", remedy))
     size = math.prod(len(values) for values in axes.values())
-    if size * len(chosen) > _MOST_VALUES and not is_store(to):
+    if size * len(chosen) > MOST_VALUES and not is_store(to):
         remedy = "take fewer values an axis, or fewer outputs, or write to a folder: --to map.zarr"
         faults.append(Fault("sweep", "too many values", f"{size:,} points", remedy))
     faults += _file_faults(to, [len(values) for values in axes.values()])

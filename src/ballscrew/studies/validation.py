@@ -121,7 +121,7 @@ def _conditions(grade: str | None, temperature: str | None, speed: str | None, f
 
 def columns_of(data: ValidationSet) -> list[Column]:
     """The columns that a table of a set may have."""
-    screw = list(COLUMNS) if data.of_screws else []
+    screw = [column for column in COLUMNS if column.name not in data.columns] if data.of_screws else []
     own = [Column(name, quantity) for name, quantity in data.columns.items()]
     further = [] if not data.conditioned else list(CONDITIONS.items())
     conditions = [Column(name, quantity, _ALIASES.get(name, ())) for name, quantity in further]

@@ -9,10 +9,16 @@ from typing import Any
 from ballscrew import units
 from ballscrew.errors import Fault, as_float, fault_of
 from ballscrew.tables import decimals
-from ballscrew.tables.headings import Heading
+from ballscrew.tables.headings import PERCENT, Heading
 
+#: Marks of a number, at the begin of a cell.
+_DIGITS = tuple("0123456789.,+-−")
 _PRODUCT = re.compile(r"([\d.,]+)\s*[x×*]\s*([\d.,]+)", re.IGNORECASE)
 _NUMBER = re.compile(r"[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|nan|inf(?:inity)?)", re.IGNORECASE)
+
+
+class Share(float):
+    """A share of another number of its row, which stands there in per cent."""
 
 
 def shown(cell: Any) -> str:
@@ -22,29 +28,58 @@ def shown(cell: Any) -> str:
     return " ".join("".join(c if c.isprintable() else " " for c in str(cell)).split())
 
 
-def value_of(where: str, cell: Any, text: str, heading: Heading, decimal: frozenset[str]) -> float | int | Fault:
-    """A number in SI and within the bounds of its quantity, or the fault in it."""
-    quantity = heading.column.quantity
+def value_of(where: str, cell: Any, text: str, heading: Heading, decimal: frozenset[str]) -> float | str | Fault:
+    """A number in SI and within the bounds of its quantity, what a word stands for, or the fault in it."""
+    words = heading.column.words
+    if words and isinstance(cell, str):
+        if (word := words.get(text.casefold())) is not None:
+            return word
+        if not text.startswith(_DIGITS):
+            return Fault(where, "is neither a number nor a word that is known", text, _of_words(heading))
+    if heading.column.share is not None and isinstance(cell, str) and (unit := _unit_behind(text)):
+        # that of the cell comes before that of the heading, and so does what it is of
+        is_share = unit == PERCENT
+        heading = dataclasses.replace(
+            heading, unit=PERCENT if is_share else "", offset=0.0, scale=0.01 if is_share else 1.0
+        )
+    quantity = heading.quantity
     assert quantity is not None
     if isinstance(cell, float | int) and not isinstance(cell, bool):
         value = _converted(where, as_float(cell), text, heading)
     elif isinstance(cell, str):
-        value = _parsed(where, text.replace("−", "-"), heading, decimal)
+        number = text.removesuffix(PERCENT).rstrip() if heading.unit == PERCENT else text
+        value = _parsed(where, number.replace("−", "-"), heading, decimal)
     else:
         value = Fault(
             where, "is not a number", text, "a spreadsheet makes dates of numbers: format the cell as a number"
         )
     fault = value if isinstance(value, Fault) else fault_of("", quantity, value)
     if fault is not None:
+        if heading.unit == PERCENT and fault.bound:
+            fault = dataclasses.replace(fault, problem=fault.problem.replace("{bound}", f"{100 * fault.bound:g} %"))
         fault = units.in_display_units(fault, quantity, fault.given if fault is value else text)
         return dataclasses.replace(fault, where=where, given=text)
     assert not isinstance(value, Fault)
+    if heading.unit == PERCENT:
+        return Share(value)
     return int(value) if quantity.info.whole else value
+
+
+def _unit_behind(text: str) -> str:
+    """What stands behind the digits of a number."""
+    return text.lstrip("".join(_DIGITS)).strip() if text.startswith(_DIGITS) else ""
+
+
+def _of_words(heading: Heading) -> str:
+    quantity = heading.column.quantity
+    assert quantity is not None
+    known = ", ".join(f'"{word}"' for word in dict.fromkeys(heading.column.words.values()))
+    return f"write {units.example_of(quantity)}, or {known}"
 
 
 def _parsed(where: str, text: str, heading: Heading, decimal: frozenset[str]) -> float | Fault:
     """The number of a text; a unit of its own comes before that of the heading."""
-    quantity = heading.column.quantity
+    quantity = heading.quantity
     assert quantity is not None
     product = _PRODUCT.fullmatch(text) if heading.column.product else None
     if product is not None:
@@ -64,7 +99,9 @@ def _parsed(where: str, text: str, heading: Heading, decimal: frozenset[str]) ->
 
 
 def _converted(where: str, number: float, text: str, heading: Heading) -> float | Fault:
-    quantity = heading.column.quantity
+    quantity = heading.quantity
     if quantity is not None and quantity.unit != "1" and not heading.unit:
-        return Fault(where, "needs a unit", text, f'write "{text} {quantity.shown_in}", or the unit in the heading')
+        share = "" if heading.column.share is None else f' or "{text} {PERCENT}"'
+        remedy = f'write "{text} {quantity.shown_in}"{share}, or the unit in the heading'
+        return Fault(where, "needs a unit", text, remedy)
     return heading.offset + heading.scale * number

@@ -1,7 +1,8 @@
 """Names of the columns of vendors' tables, in English and German.
 
 A name is enough by itself. A hint is a name of more than one thing ("load rating", "d"): it counts only beside a name.
-Capitals, blanks, hyphens and subscripts do not count; "dia." and "Ø" stand for "diameter", "No." for "number".
+Capitals, blanks, hyphens and subscripts do not count; "dia." and "Ø" stand for "diameter", "No." for "number". Of
+CAPITALS they do: d1 is of the shaft, D1 of the nut.
 """
 
 from __future__ import annotations
@@ -53,10 +54,20 @@ NAMES: Mapping[str, tuple[str, ...]] = {
         "Steifigkeit", "Mutternsteifigkeit", "axiale Steifigkeit",
     ),
     "nut_outer_diameter": (
-        "D1", "nut diameter", "nut outside diameter", "outer diameter of the nut", "Mutterdurchmesser",
-        "Mutteraußendurchmesser", "Außendurchmesser Mutter",
+        "D1", "nut outer diameter", "nut outside diameter", "nut diameter", "outer diameter of the nut",
+        "nut body diameter", "Mutternaußendurchmesser", "Mutteraußendurchmesser", "Außendurchmesser Mutter",
+        "Mutterdurchmesser", "Mutterndurchmesser", "Mutter-Ø",
     ),
     "nut": ("nut type", "kind of nut", "Mutterart", "Muttertyp", "Mutter"),
+    "preload": (
+        "preload force", "axial preload", "Fpr", "Vorspannung", "Vorspannkraft", "axiale Vorspannung",
+    ),
+    "preload_share": ("preload share",),
+    "seal_torque": (
+        "seals", "seal", "torque of seals", "seal friction torque", "seal drag", "wipers", "wiper torque",
+        "Dichtung", "Dichtungen", "Dichtungsmoment", "Dichtungsreibmoment", "Reibmoment der Dichtungen", "Abstreifer",
+    ),
+    "log": ("test log", "log file", "measurement", "Messung", "Messdatei", "Messprotokoll"),
     "source": ("Quelle",),
 }  # fmt: skip
 _RATING = ("load rating", "basic load rating", "axial load rating", "Tragzahl")
@@ -68,5 +79,17 @@ HINTS: Mapping[str, tuple[str, ...]] = {
     "dynamic_load_rating": _RATING,
     "static_load_rating": _RATING,
 }
+#: Names that are others in small letters, as they are without blanks and underscores.
+CAPITALS: Mapping[str, tuple[str, ...]] = {"nut_outer_diameter": ("D1",)}
 #: Columns whose cells may be products: "2x2.5".
 PRODUCTS = ("turns",)
+#: Columns whose cells may be shares: "7 %", and the column of the share.
+SHARES: Mapping[str, str] = {"preload": "preload_share"}
+#: What the standard seals of a vendor are called, and none.
+STANDARD, NONE = "standard", "none"
+#: Words in place of a number, in small letters.
+WORDS: Mapping[str, Mapping[str, str]] = {
+    "seal_torque": {
+        STANDARD: STANDARD, **dict.fromkeys((NONE, "no", "without", "ohne", "keine", "nein"), NONE),
+    },
+}  # fmt: skip

@@ -28,6 +28,9 @@ LONGEST_HEADING = 200
 #: What stands for nothing in a cell.
 NOTHING = ("", "-", "–", "—")
 
+#: The unit of a share.
+PERCENT = "%"
+
 _BRACKETED = re.compile(r"(?P<name>.*?)[\s_]*[\[(](?P<unit>[^\[\]()]*)[\])]")
 _WORD = re.compile(r"[^\W_]+")
 #: Units as headings have them, and as they stand in case files.
@@ -36,6 +39,7 @@ _UNITS = {
     "in-lb": "in lbf", "lb-in": "in lbf", "ft-lb": "ft lbf", "lb-ft": "ft lbf",
     **dict.fromkeys(units.PER_MINUTE, "rpm"),
     "C": "degC", "F": "degF", "sec": "s",
+    **dict.fromkeys(("pct", "percent", "per cent", "Prozent"), PERCENT),
 }  # fmt: skip
 #: Other spellings: of letters and signs, and of words.
 _LETTERS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "×": " x "})
@@ -54,14 +58,23 @@ class Column:
     hints: tuple[str, ...] = ()
     #: Whether a cell may be a product: ``2x2.5``.
     product: bool = False
+    #: Those of the names whose capitals count: ``D1`` is not ``d1``.
+    capitals: tuple[str, ...] = ()
+    #: The quantity that a cell in per cent is of, where it may be a share: ``7 %``.
+    share: Quantity | None = None
+    #: Words that a cell may have in place of a number, in small letters, and what they stand for.
+    words: Mapping[str, str] = dataclasses.field(default_factory=dict[str, str])
 
     def answers_to(self, name: str) -> bool:
         """Test whether the column has this name."""
-        return bare(name) in self._names
+        return bare(name) in self._names or self._is_in_capitals(name)
+
+    def _is_in_capitals(self, name: str) -> bool:
+        return "".join(_WORD.findall(unicodedata.normalize("NFKC", name))) in self.capitals
 
     @functools.cached_property
     def _names(self) -> frozenset[str]:
-        return frozenset(map(bare, (self.name, *self.aliases)))
+        return frozenset(map(bare, {self.name, *self.aliases} - {*self.capitals}))
 
     def is_named(self, text: str) -> bool:
         """Test whether a text is a name of the column, or two of them, or one and a hint: "Dynamic load rating Ca"."""
@@ -72,8 +85,9 @@ class Column:
         if len(bare(text)) > longest + max(longest, *map(len, hints), 0):
             return False
         for word in list(_WORD.finditer(text))[1:]:
-            halves = {bare(text[: word.start()]), bare(text[word.start() :])}
-            if halves & self._names and halves <= self._names | hints:
+            halves = (text[: word.start()], text[word.start() :])
+            named = [self.answers_to(half) for half in halves]
+            if any(named) and all(own or bare(half) in hints for own, half in zip(named, halves, strict=True)):
                 return True
         return False
 
@@ -95,6 +109,11 @@ class Heading:
     unit: str = ""
     offset: float = 0.0
     scale: float = 1.0
+
+    @property
+    def quantity(self) -> Quantity | None:
+        """What a cell with a plain number is of."""
+        return self.column.share if self.unit == PERCENT else self.column.quantity
 
 
 @functools.lru_cache(maxsize=4096)
@@ -142,6 +161,8 @@ def _unit_behind(written: str, column: Column) -> str:
 def fits(unit: str, column: Column) -> bool:
     """Test whether the numbers of a column may be in this unit."""
     quantity = column.quantity
+    if column.share is not None and spelt(unit) == PERCENT:
+        return True
     return quantity is not None and quantity.unit != "1" and not isinstance(_scale("", spelt(unit), quantity), Fault)
 
 
@@ -204,6 +225,8 @@ def checked(
             known.append(heading)
         elif quantity.unit == "1":
             faults.append(Fault(where, "takes no unit", heading.unit, "it is a plain number; leave the unit out"))
+        elif heading.unit == PERCENT and heading.column.share is not None:
+            known.append(dataclasses.replace(heading, scale=0.01))
         elif heading.unit:
             scale = _scale(where, heading.unit, quantity)
             if isinstance(scale, Fault):
@@ -213,7 +236,13 @@ def checked(
         else:
             cells = [record.cells[heading.place] for record in body if heading.place < len(record.cells)]
             filled = [cell for cell in cells if cell not in NOTHING]
-            if not filled or any(isinstance(cell, str) and units.unit_in(cell.replace(",", ".")) for cell in filled):
+            # in place of numbers with a unit there may be words and shares: each cell is asked for its own
+            of_cells = heading.column.share is not None or bool(heading.column.words)
+            if (
+                not filled
+                or of_cells
+                or any(isinstance(cell, str) and units.unit_in(cell.replace(",", ".")) for cell in filled)
+            ):
                 known.append(heading)
             else:
                 remedy = f'write "{heading.written} [{quantity.shown_in}]"'

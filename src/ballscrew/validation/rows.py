@@ -41,7 +41,8 @@ _SCREW = tuple(fields_of(CatalogueRow))
 
 def screw_of(values: Values) -> CatalogueRow:
     """The catalogue row of the values of a row; without a name it is called by its sizes."""
-    fields = {name: values[name] for name in _SCREW if name in values}
+    # a preload is that of a statement, not of the row
+    fields = {name: values[name] for name in _SCREW if name in values and not name.startswith("preload")}
     sizes = "x".join(f"{1000 * values[name]:.6g}" for name in ("nominal_diameter", "lead", "ball_diameter"))
     row = CatalogueRow(name=values.get("name") or f"{sizes}-{values['turns']:g}", **fields)
     row.screw()

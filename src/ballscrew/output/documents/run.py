@@ -43,6 +43,15 @@ def document(run: Run) -> dict[str, Any]:
     }
 
 
+def list_document(runs: Mapping[str, Run]) -> list[dict[str, Any]]:
+    """The documents of the screws of a table with their names, without the loads ball by ball."""
+    listed: list[dict[str, Any]] = [{"name": name, **document(run)} for name, run in runs.items()]
+    for each in listed:
+        if "loads" in each:
+            del each["loads"]["balls"], each["units"]["loads"]["balls"]
+    return listed
+
+
 def results(run: Run) -> dict[str, Any]:
     """All results in SI, as plain numbers and nested tables."""
     found = run.friction

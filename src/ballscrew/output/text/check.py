@@ -31,7 +31,8 @@ _HEADINGS = ("name", "load", "torque", "eff.", "eff. back", "rigidity", "life", 
 _WIDTH = 66
 
 
-def _quantity(check: Check) -> Quantity:
+def quantity_of(check: Check) -> Quantity:
+    """The quantity of a check, in the unit it is shown in."""
     return Quantity(check.name, check.unit, Info("", check.name, _SHOWN_IN.get(check.unit, "")))
 
 
@@ -39,7 +40,7 @@ def shown(check: Check, value: float | None) -> str:
     """Four digits and the unit, up to a million without an exponent."""
     if value is None or not math.isfinite(value):
         return "–"
-    quantity = _quantity(check)
+    quantity = quantity_of(check)
     rounded = float(f"{value:.4g}") if quantity.unit == "1" else float(units.rounded(value, quantity))
     return f"{rounded:.6g}" + ("" if quantity.unit == "1" else f" {quantity.shown_in}")
 

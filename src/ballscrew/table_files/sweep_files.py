@@ -15,11 +15,13 @@ from ballscrew import units
 from ballscrew.evaluation.outputs import OPERATION
 from ballscrew.files import atomic_write
 from ballscrew.studies.sweep import Plan
+from ballscrew.studies.sweep_rows import SCREW
 
 
 def write_csv(stream: IO[str], dataset: xr.Dataset, plan: Plan) -> None:
     """The rows as CSV, one after the other."""
-    rows = table(dataset, plan, plan.outputs[0]) if plan.is_table else _rows(dataset, plan)
+    is_table = plan.is_table and SCREW not in dataset.dims
+    rows = table(dataset, plan, plan.outputs[0]) if is_table else _rows(dataset, plan)
     csv.writer(stream, lineterminator="\n").writerows(rows)
 
 
@@ -53,9 +55,19 @@ def table(dataset: xr.Dataset, plan: Plan, name: str) -> Iterator[list[Any]]:
 
 
 def _rows(dataset: xr.Dataset, plan: Plan) -> Iterator[list[Any]]:
-    """A heading, then one row a point."""
+    """A heading, then one row a point; of several screws the name of each comes first."""
     names = [*plan.axes, *plan.columns]
-    yield [_heading(plan, name) for name in names]
+    headings = [_heading(plan, name) for name in names]
+    if SCREW not in dataset.dims:
+        yield headings
+        yield from _points(dataset, plan, names)
+        return
+    yield [SCREW, *headings]
+    for number, screw in enumerate(dataset[SCREW].to_numpy().tolist()):
+        yield from ([screw, *row] for row in _points(dataset.isel({SCREW: number}), plan, names))
+
+
+def _points(dataset: xr.Dataset, plan: Plan, names: list[str]) -> Iterator[list[Any]]:
     columns = [_cells(dataset, plan, name).ravel() for name in names]
     yield from (list(row) for row in zip(*(column.tolist() for column in columns), strict=True))
 
@@ -99,6 +111,10 @@ def _inputs(dataset: xr.Dataset, plan: Plan) -> Iterator[list[Any]]:
     for name, value in dataset.attrs.items():
         number = isinstance(value, int | float | np.number) and not isinstance(value, bool)
         yield [name, float(value) if number else str(value), plan.units.get(str(name), "") if number else ""]
+    for name, values in dataset.coords.items():
+        if values.dims == (SCREW,) and name != SCREW:
+            for screw, value in zip(dataset[SCREW].to_numpy().tolist(), values.to_numpy().tolist(), strict=True):
+                yield [f"{name}, {screw}", None if value != value else value, values.attrs.get("units", "")]
 
 
 def _xlsx(dataset: xr.Dataset, plan: Plan) -> bytes:
@@ -109,7 +125,7 @@ def _xlsx(dataset: xr.Dataset, plan: Plan) -> bytes:
     workbook = xlsxwriter.Workbook(buffer, {"in_memory": True, "nan_inf_to_errors": True})
     bold = workbook.add_format({"bold": True})
     sheets: dict[str, Iterator[list[Any]]] = {}
-    if len(plan.axes) == 2:
+    if len(plan.axes) == 2 and SCREW not in dataset.dims:
         sheets |= {name[:31]: table(dataset, plan, name) for name in plan.columns}
     sheets["points"] = _rows(dataset, plan)
     sheets["inputs"] = _inputs(dataset, plan)

@@ -1,0 +1,119 @@
+"""All rows of a table, one after the other: what is computed of each, and which of them are left out, and why."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, Generic, TypeVar
+
+from ballscrew.cases import case_file, catalogue
+from ballscrew.cases.case import Case
+from ballscrew.errors import Fault, InputError, raise_if_any
+from ballscrew.sizing.catalogue import CatalogueRow
+from ballscrew.studies.own_screws import tables_of_row
+
+T = TypeVar("T")
+R = TypeVar("R")
+#: Told how many rows of how many are done.
+Done = Callable[[int, int], None]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class OfRows(Generic[R]):
+    """What was found for each row, by its name, and what is to be said of the others."""
+
+    found: Mapping[str, R]
+    notes: Sequence[str]
+    #: Ctrl-C came before all rows were done.
+    interrupted: bool = False
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class RowCase:
+    """The case of a row: the tables it was built from, and the log that the row names."""
+
+    row: CatalogueRow
+    tables: Mapping[str, Any]
+    case: Case
+    log: Path | None = None
+
+    @property
+    def place(self) -> str:
+        """The name of the row and where it stands, for messages."""
+        return place_of(self.row)
+
+
+def place_of(row: CatalogueRow) -> str:
+    """``A-40x10 (screws.csv row 3)``."""
+    return f"{row.name} ({row.source})"
+
+
+def cases(
+    case: Path,
+    table: Path,
+    name: str | None = None,
+    *,
+    settings: Sequence[str] = (),
+    model: str | None = None,
+    allow_code: bool = False,
+    keep_going: bool = False,
+    done: Done | None = None,
+) -> OfRows[RowCase]:
+    """The case of a file with each screw of a table, or with that of one row, in place of its own.
+
+    Settings are put into each. Raises :class:`~ballscrew.errors.InputError` with the faults of all rows; with
+    ``keep_going`` only if none is good.
+    """
+    tables = case_file.read(case)
+    screws = catalogue.screws(table, keep_going=keep_going)
+    chosen = list(screws.values()) if name is None else [catalogue.named(screws, name, file=table)]
+
+    def built(row: CatalogueRow) -> RowCase:
+        own = case_file.override(copied(tables_of_row(tables, row, table)), settings)
+        made = case_file.build(own, model, case.parent, {row.name: row}, allow_code=allow_code)
+        return RowCase(row, own, made, screws.logs.get(row.name))
+
+    found = each({place_of(row): row for row in chosen}, built, keep_going=keep_going, done=done)
+    return dataclasses.replace(
+        found, found={row.row.name: row for row in found.found.values()}, notes=[*screws.notes, *found.notes]
+    )
+
+
+def copied(value: Any) -> Any:
+    """Nested tables, to be changed."""
+    return {key: copied(item) for key, item in value.items()} if isinstance(value, dict) else value
+
+
+def each(
+    rows: Mapping[str, T], work: Callable[[T], R], *, keep_going: bool = False, done: Done | None = None
+) -> OfRows[R]:
+    """The work for each row, by the words that name the row in messages.
+
+    Raises :class:`~ballscrew.errors.InputError` with the faults of all rows, or with those of one where all are the
+    same; with ``keep_going`` only if no row is good. On Ctrl-C what is done by then is returned, if anything is.
+    """
+    found: dict[str, R] = {}
+    faults: dict[str, Sequence[Fault]] = {}
+    interrupted = False
+    try:
+        for number, (place, row) in enumerate(rows.items(), start=1):
+            try:
+                found[place] = work(row)
+            except InputError as error:
+                faults[place] = error.faults
+            if done is not None:
+                done(number, len(rows))
+    except KeyboardInterrupt:
+        if not found:
+            raise
+        interrupted = True
+    if faults and not found and len({tuple(map(str, those)) for those in faults.values()}) == 1:
+        raise InputError(*next(iter(faults.values())))  # the options or the case are at fault, not the rows
+    by_row = [dataclasses.replace(f, where=f"{place}, {f.where}") for place, those in faults.items() for f in those]
+    if not (keep_going and found):
+        raise_if_any(by_row)
+    notes = [*map(str, by_row), *([f"{len(faults)} of {len(rows)} rows left out"] if faults else [])]
+    if interrupted:
+        notes.append(f"interrupted: {len(found)} of {len(rows)} rows are done, the last is {list(found)[-1]}")
+    return OfRows(found, notes, interrupted)
