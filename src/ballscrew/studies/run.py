@@ -38,6 +38,9 @@ OF_ONE_BALL = frozenset(
 )  # fmt: skip
 
 
+#: Results of a preloaded nut without load.
+OF_IDLE_NUT = ("preload_torque_coefficient", "diameter_drag_coefficient")
+
 #: The largest share of the dynamic load rating by which vendors preload a nut (Rexroth2006: 2 to 10 %).
 LARGEST_PRELOAD_SHARE = 0.1 * (1 + 1e-9)
 
@@ -66,6 +69,8 @@ class NutState:
     preload: float
     #: Torque of the nut without load: the sum of preload and losses.
     preload_drag: float
+    #: That of the balls as coefficients of catalogues, by the names of the result; NaN without preload.
+    drag_coefficients: Mapping[str, float]
     loads: BallLoads
     #: Greatest contact pressure of all balls, Pa.
     maximum_pressure: float
@@ -298,6 +303,7 @@ def with_nut(case: Case, nut: Nut) -> Run:
     if nut.one_by_one and float(load):  # another half carries a load of the other sign, and not as this one does
         reverse = friction(-load, speed).quadrants
         quadrants = {name: one if one.load_sign * load > 0 else reverse[name] for name, one in quadrants.items()}
+    idle = friction(0.0, speed)
     return Run(
         case=dataclasses.replace(case, screw=screw),
         friction=found,
@@ -310,7 +316,8 @@ def with_nut(case: Case, nut: Nut) -> Run:
         nut=NutState(
             nut=nut,
             preload=float(preload_of(screw, nut)),
-            preload_drag=float(friction(0.0, speed).screw_torque),
+            preload_drag=float(idle.screw_torque),
+            drag_coefficients={name: float(getattr(idle, name)) for name in OF_IDLE_NUT},
             loads=loads,
             maximum_pressure=float(found.maximum_pressure),
             loaded=loaded,

@@ -4,14 +4,12 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
 from ballscrew.components.conditions import ContactConditions, Motion
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Bodies, DoubleNut, Nut, OversizeBallNut, SingleNut
-from ballscrew.components.nut_losses import OVERSIZE_BALL_DRAG, EfficiencyDrag, JISDrag, RexrothDrag
 from ballscrew.components.screw import STEEL, BallScrew
 from ballscrew.equations import geometry, hertz, rheology
 from ballscrew.errors import Fault, InputError
@@ -20,6 +18,7 @@ from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Torque, fields_of
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.checks import ratings_of
+from ballscrew.sizing.rules import DRAG_RULES, RULES, Subject, of_model
 from ballscrew.solvers.load_distribution import ball_loads
 from ballscrew.validation.entries import Band, Conditions, Point, UpperLimitOnly, Values
 
@@ -69,14 +68,12 @@ def _drag_laws(
     model: FrictionModel, row: CatalogueRow, preload: float, conditions: Conditions, middle: float, two_contacts: bool
 ) -> dict[str, float]:
     """Torques by the rules of vendors and of first principles, over the middle of the band."""
-    laws: dict[str, Any] = {"jis": JISDrag(), "rexroth": RexrothDrag() if two_contacts else None}
+    subject = Subject(row.nominal_diameter, row.ball_circle, row.lead, preload=preload, oversize_balls=not two_contacts)
+    drags = {name: RULES[name].estimate(subject).drag_torque for name in DRAG_RULES}
     if two_contacts:
         half = model(row.screw(), conditions.lubricant, axial_load=preload, screw_speed=conditions.screw_speed)
-        laws["efficiency"] = EfficiencyDrag(float(half.efficiency))
-    else:
-        laws["rexroth"] = RexrothDrag(OVERSIZE_BALL_DRAG)
-    size = (row.nominal_diameter, row.ball_circle, row.lead)
-    return {name: float(law(preload, *size)) / middle for name, law in laws.items()}
+        drags["efficiency"] = of_model(subject, half.efficiency)
+    return {name: float(drag) / middle for name, drag in drags.items()}
 
 
 def _preloaded(values: Values, percent: int) -> float:
