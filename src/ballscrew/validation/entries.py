@@ -196,6 +196,8 @@ class ValidationSet:
     conditioned: bool = False
     #: Whether the model must know balls with four contacts.
     four_contacts: bool = False
+    #: Of a torque card who measured, when, and what is not stated.
+    card: Mapping[str, Any] | None = None
 
     @property
     def description(self) -> str:
