@@ -217,3 +217,5 @@ RULES: Mapping[str, Rule] = {
 
 #: The rules that give a drag of their own, not one that another of the list has, too.
 DRAG_RULES = ("jis", "rexroth", "hiwin")
+#: The rules that give a friction under load without preload, each once.
+LOADED_RULES = ("constant-efficiency", "lead-angle", "feed-drive-library", "hiwin")

@@ -196,6 +196,10 @@ class ValidationSet:
     conditioned: bool = False
     #: Whether the model must know balls with four contacts.
     four_contacts: bool = False
+    #: Whether each row could be the one screw that was measured, so that only the range of the ratios says something.
+    alternatives: bool = False
+    #: Whether the screws carry a load.
+    loaded: bool = False
     #: Of a torque card who measured, when, and what is not stated.
     card: Mapping[str, Any] | None = None
 
@@ -214,6 +218,8 @@ class RuleEntry:
     mean_ratio: float
     std_ratio: float
     share_in_band: float | None
+    #: Least and greatest ratio.
+    range_ratio: tuple[float, float]
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -241,6 +247,12 @@ class Entry:
         return scatter([point.ratio for point in self.counted])
 
     @property
+    def range_ratio(self) -> tuple[float, float]:
+        """Least and greatest ratio; NaN of nothing."""
+        ratios = [point.ratio for point in self.counted]
+        return (min(ratios), max(ratios)) if ratios else (math.nan, math.nan)
+
+    @property
     def share_in_band(self) -> float | None:
         """Share of the points with a band that lie in theirs; None where no point has one."""
         return _share([point.in_band for point in self.counted])
@@ -252,14 +264,15 @@ class Entry:
 
     def _rule(self, name: str) -> RuleEntry:
         ratios = [point.laws[name] for point in self.points]
+        # to twelve digits: a rule may be the very end of a band
+        values = [float(f"{r * point.band.middle:.12g}") for r, point in zip(ratios, self.points, strict=True)]
         return RuleEntry(
             rule=name,
             n=len(ratios),
             mean_ratio=mean(ratios),
             std_ratio=scatter(ratios),
-            share_in_band=_share(
-                [point.band.holds(r * point.band.middle) for r, point in zip(ratios, self.points, strict=True)]
-            ),
+            range_ratio=(min(ratios), max(ratios)),
+            share_in_band=_share([p.band.holds(value) for value, p in zip(values, self.points, strict=True)]),
         )
 
     @property
