@@ -243,6 +243,14 @@ def numbers() -> dict[str, str]:
         f" {p.definitions['one_ball_less']:.3f} and {p.definitions['static_one_ball_less']:.3f}"
         for p in off
     )
+    for key, fitted in (("raw", False), ("calibrated", True)):
+        charts = by_key["chart-friction", fitted]
+        values |= {f"chart_{key}": f"{charts.mean_ratio:.2f}", f"chart_{key}_share": _percent(charts.share_in_band)}
+        values[f"xjtu_{key}"] = "{:.2f} to {:.2f}".format(*by_key["xjtu", fitted].range_ratio)
+    (low, high) = {(p.band.low, p.band.high) for p in by_key["xjtu", False].points}.pop()
+    values |= {"xjtu_low": f"{low:.2f}", "xjtu_high": f"{high:.2f}"}
+    oversize = [p for p in by_key["xjtu", True].points if "oversize" in p.name]
+    values["xjtu_oversize"] = f"{sum(p.in_band for p in oversize)} of {len(oversize)} calibrated ones lie between them"
     return {f"validation_{key}": value for key, value in values.items()}
 
 

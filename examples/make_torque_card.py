@@ -1,4 +1,4 @@
-"""A SYNTHETIC torque card, ``examples/torque_card.toml``: written by a model, no screw was measured for it."""
+"""A SYNTHETIC torque card, ``torque_cards/synthetic_40x10.toml``: written by a model, no screw was measured for it."""
 
 from pathlib import Path
 
@@ -67,7 +67,7 @@ def main() -> None:
             f'temperature = "{temperature:.1f} degC"',
         ]
     text = HEAD + "\n".join(lines) + "\n"
-    Path(__file__).with_name("torque_card.toml").write_text(text, encoding="utf-8")
+    Path(__file__).with_name("torque_cards").joinpath("synthetic_40x10.toml").write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

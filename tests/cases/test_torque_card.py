@@ -16,7 +16,7 @@ from ballscrew.output.documents import validation as documents
 from ballscrew.output.text import validation as text
 from ballscrew.studies import validation
 
-EXAMPLE = Path(__file__).parents[2] / "examples" / "torque_card.toml"
+EXAMPLE = Path(__file__).parents[2] / "examples" / "torque_cards" / "synthetic_40x10.toml"
 TEXT = EXAMPLE.read_text(encoding="utf-8")
 
 
@@ -104,7 +104,7 @@ def test_a_card_against_the_model():
     """Uncalibrated first; the ratio is that to the mean of both directions, the band theirs and the instrument's."""
     request = validation.request(cards=[EXAMPLE])
     ((entries, notes),) = validation.evaluate(request)
-    assert notes == ["torque_card: synthetic: made by a model, says nothing of a screw"]
+    assert notes == ["synthetic_40x10: synthetic: made by a model, says nothing of a screw"]
     before, after = documents.documents(entries)
     assert (before["calibration"], after["calibration"]) == (None, "rexroth-2006")
     assert before["card"]["made_by"] == "model"
@@ -141,7 +141,7 @@ def test_a_card_as_a_log_and_a_case(tmp_path):
 
 def test_the_example_is_what_its_script_makes(tmp_path, monkeypatch):
     """The format only: its numbers are those of the model of the day it was made."""
-    place = EXAMPLE.with_name("make_torque_card.py")
+    place = EXAMPLE.parents[1] / "make_torque_card.py"
     spec = importlib.util.spec_from_file_location("make_torque_card", place)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)

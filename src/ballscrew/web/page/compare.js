@@ -105,10 +105,10 @@ export function showModels(found) {
   const headings = ["model or law", "friction torque", "change", "efficiency", "valid here"];
   const rules = found.rules.map((rule) => [
     rule.title,
-    data("screw_torque", rule.screw_torque),
+    units.formatted("screw_torque", rule.screw_torque),
     percentage(rule.change),
-    data("efficiency", rule.efficiency),
-    data("screw_torque", rule.drag_torque),
+    units.formatted("efficiency", rule.efficiency),
+    units.formatted("screw_torque", rule.drag_torque),
     rule.source,
   ]);
   const inPlace = "rules of one line that people use in place of a model";
