@@ -54,12 +54,14 @@ def generate(_app):
     import theory_figures
     import uncertainty_tables
     from ballscrew.cli.reproduction import reproduce_olaru2005
+    from card_table import tables as card_tables
     from column_table import column_table
     from field_table import field_table
 
     generated = HERE / "generated"
     generated.mkdir(exist_ok=True)
     pages = {
+        "cards.md": card_tables(),
         "columns.md": column_table(),
         "fields.md": field_table(),
         "slots.md": law_tables.slots_table(),

@@ -16,6 +16,7 @@ from ballscrew.friction.calibrations import calibrated, calibration, calibration
 from ballscrew.friction.model import FrictionModel
 from ballscrew.output.text import validation as text_of
 from ballscrew.sizing.catalogue import catalogue
+from ballscrew.sizing.rules import RULES
 from ballscrew.studies import validation
 from ballscrew.validation.entries import DESCRIPTORS, Conditions, trends
 from ballscrew.validation.rows import ACCURACY_FACTOR, OTHER_FACTORS
@@ -47,6 +48,9 @@ def write(folder: Path) -> None:
         "trends.md": trends_table(),
         "definitions.md": definitions_table(),
         "oil.md": oil_table(),
+        "rules.md": rules_table(),
+        "rule_sources.md": sources_table(),
+        "rule_scatter.md": residuals_after_rules(),
         "rows.txt": "\n\n".join(text_of.text_of(entries, asked) for entries in sets) + "\n",
     }
     for name, text in pages.items():
@@ -56,14 +60,59 @@ def write(folder: Path) -> None:
 
 def summary() -> str:
     """One row for each set and model."""
-    lines = [["set", "model", "n", "mean ratio", "scatter", "in the vendor's band", "other laws, mean ratio"]]
+    lines = [["set", "model", "n", "mean ratio", "scatter", "in the vendor's band"]]
     lines.append(["---"] * len(lines[0]))
     for entry in _entries():
-        laws = ", ".join(f"{text_of.WORDS[name]} {value:.2f}" for name, value in entry.mean_laws.items())
         share = "no band" if entry.share_in_band is None else _percent(entry.share_in_band)
         scatter = f"{entry.std_ratio:.3f}" if len(entry.counted) > 1 else "–"
         who = entry.calibration or "uncalibrated"
-        lines.append([entry.data.name, who, str(len(entry.counted)), f"{entry.mean_ratio:.3f}", scatter, share, laws])
+        ratio = _spread(entry) if entry.data.alternatives else f"{entry.mean_ratio:.3f}"
+        scatter = "alternatives" if entry.data.alternatives else scatter
+        lines.append([entry.data.name, who, str(len(entry.counted)), ratio, scatter, share])
+    return _table(lines)
+
+
+def rules_table() -> str:
+    """Rules of one line over the same rows as the model."""
+    lines = [["set", "what", "mean ratio", "scatter", "in the band"], ["---"] * 5]
+    for entries in found()[1]:
+        if not entries[0].rules:
+            continue
+        name = entries[0].data.name
+        own = [(entry, f"**model, {entry.calibration or 'uncalibrated'}**") for entry in entries]
+        rules = [(rule, text_of.WORDS[rule.rule]) for rule in entries[0].rules]
+        for one, words in [*own, *rules]:
+            mean = f"{one.mean_ratio:.2f}"
+            scatter = "–" if math.isnan(one.std_ratio) else f"{one.std_ratio:.2f}"
+            if entries[0].data.alternatives:
+                mean, scatter = "{:.2f} to {:.2f}".format(*one.range_ratio), "alternatives"
+            lines.append([name, words, mean, scatter, _percent(one.share_in_band)])
+            name = ""
+    return _table(lines)
+
+
+def sources_table() -> str:
+    """The rules of one line with their formulas and sources."""
+    lines = [["rule", "formula", "source", "what was checked", "range"], ["---"] * 5]
+    lines += [[rule.title, rule.formula, rule.source, rule.checked, rule.range] for rule in RULES.values()]
+    return _table(lines)
+
+
+def residuals_after_rules() -> str:
+    """Scatter of the logarithm of the ratio: what a law leaves open once a factor of its own is fitted to the set."""
+    lines = [["set", "what", "factor that is left", "scatter of the ratio about it"], ["---"] * 4]
+    for entries in found()[1]:
+        points = entries[0].points
+        if entries[0].data.alternatives or not entries[0].rules or len(points) < 3:
+            continue
+        name = entries[0].data.name
+        columns = [(f"**model, {e.calibration or 'uncalibrated'}**", [p.ratio for p in e.points]) for e in entries]
+        columns += [(text_of.WORDS[r.rule], [p.laws[r.rule] for p in points]) for r in entries[0].rules]
+        for words, ratios in columns:
+            factor = math.exp(sum(map(math.log, ratios)) / len(ratios))
+            left = math.sqrt(sum((math.log(r / factor)) ** 2 for r in ratios) / (len(ratios) - 1))
+            lines.append([name, words, f"{factor:.2f}", _percent(left)])
+            name = ""
     return _table(lines)
 
 
@@ -72,6 +121,8 @@ SHORT = {
     "rexroth-double-nut": "Rexroth: no-load torque of double nuts",
     "rexroth-single-nut": "Rexroth: no-load torque of single nuts, oversize balls",
     "thk-jis": "THK: no-load torque of a double nut, not fitted",
+    "xjtu": "XJTU: torque of two new screws, sizes that could be theirs",
+    "chart-friction": "THK, HIWIN: friction coefficient of the thread under load",
     "balan-2015": "rolling torque of balls between rings, measured",
     "hiwin-ratings": "HIWIN: dynamic load rating by ISO 3408-5",
     "hiwin-stiffness": "HIWIN: rigidity without preload",
@@ -205,6 +256,14 @@ def numbers() -> dict[str, str]:
         f" {p.definitions['one_ball_less']:.3f} and {p.definitions['static_one_ball_less']:.3f}"
         for p in off
     )
+    for key, fitted in (("raw", False), ("calibrated", True)):
+        charts = by_key["chart-friction", fitted]
+        values |= {f"chart_{key}": f"{charts.mean_ratio:.2f}", f"chart_{key}_share": _percent(charts.share_in_band)}
+        values[f"xjtu_{key}"] = "{:.2f} to {:.2f}".format(*by_key["xjtu", fitted].range_ratio)
+    (low, high) = {(p.band.low, p.band.high) for p in by_key["xjtu", False].points}.pop()
+    values |= {"xjtu_low": f"{low:.2f}", "xjtu_high": f"{high:.2f}"}
+    oversize = [p for p in by_key["xjtu", True].points if "oversize" in p.name]
+    values["xjtu_oversize"] = f"{sum(p.in_band for p in oversize)} of {len(oversize)} calibrated ones lie between them"
     return {f"validation_{key}": value for key, value in values.items()}
 
 
@@ -238,6 +297,8 @@ def _mean(entry) -> str:
 
 
 def _spread(entry) -> str:
+    if entry.data.alternatives:
+        return "{:.2f} to {:.2f}".format(*entry.range_ratio)
     return f"{entry.mean_ratio:.2f} ± {entry.std_ratio:.2f}" if len(entry.counted) > 1 else f"{entry.mean_ratio:.2f}"
 
 

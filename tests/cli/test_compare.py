@@ -191,11 +191,26 @@ def test_where_it_is_not_valid_is_said(example, ballscrew):
     assert all(line.endswith("b") for line in text.splitlines() if line.startswith(" "))
 
 
+def test_rules_of_one_line_stand_beside_the_models(example, found, ballscrew):
+    """By hand at the paper's screw: η = 0.9 costs a ninth of the ideal torque, and no rule knows its drag."""
+    rules = {rule.name: rule for rule in found.rules}
+    ideal = float(found.case.result.ideal_torque)
+    assert rules["constant-efficiency"].screw_torque == pytest.approx(ideal / 9, rel=1e-12)
+    assert rules["constant-efficiency"].efficiency == pytest.approx(0.9, rel=1e-12)
+    assert math.isnan(rules["jis"].screw_torque)
+    assert math.isnan(found.drag_torque)
+    assert all(math.isnan(rule.drag_torque) for rule in found.rules)
+    text = ballscrew("compare", example, "--model", "reference").stdout
+    line = next(line for line in text.splitlines() if line.startswith("constant efficiency 0.9"))
+    assert line.split()[-4:] == [f"{rules['constant-efficiency'].change:+.1%}", "0.9000", "–", "–"]
+    assert "JIS B 1192, drag of the preload: 0.05" in text
+
+
 def test_json(example, found, ballscrew):
     document = document_of(ballscrew("compare", example, "--model", "reference", "--json"))
     assert list(document) == [
         "inputs", "case", "models", "laws", "spread", "units", "reasons",
-        "verdicts", "checks", "warnings", "provenance",
+        "verdicts", "checks", "warnings", "provenance", "rules", "drag_torque",
     ]  # fmt: skip
     assert document["case"] == document["models"][-1]
     assert document["case"]["change"] == 0

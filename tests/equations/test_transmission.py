@@ -122,3 +122,21 @@ def test_holding_torque_is_what_friction_leaves_of_the_load():
     assert transmission.holding_torque(3.18, 0.2) / 3.18 == pytest.approx(
         transmission.back_driving_efficiency(eta), rel=RELATIVE
     )
+
+
+def test_the_friction_coefficient_of_a_vendors_example():
+    """HIWIN: lead angle 4.4°, efficiency 0.938, friction angle 0.286°, which is its line µ = 0.005.
+
+    The digits printed leave 0.05° of lead angle and 0.0005 of efficiency open: 0.006° of friction angle.
+    """
+    mu = transmission.friction_coefficient(math.radians(4.4), 0.938)
+    assert math.degrees(transmission.friction_angle(mu)) == pytest.approx(0.286, abs=6e-3)
+    assert mu == pytest.approx(0.005, abs=1e-4)
+
+
+@pytest.mark.parametrize("angle", [0.5, 4.4, 20.0])
+@pytest.mark.parametrize("mu", [0.001, 0.01, 0.2])
+def test_friction_coefficient_and_classical_efficiency_are_inverse(angle, mu):
+    phi = math.radians(angle)
+    eta = transmission.classical_efficiency(phi, transmission.friction_angle(mu))
+    assert transmission.friction_coefficient(phi, eta) == pytest.approx(mu, rel=1e-12)

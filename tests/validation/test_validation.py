@@ -14,6 +14,7 @@ from ballscrew.errors import InputError
 from ballscrew.friction.calibrations import calibrated, calibration
 from ballscrew.friction.model import FrictionModel
 from ballscrew.sizing.catalogue import catalogue
+from ballscrew.sizing.checks import ratings_of
 from ballscrew.studies import validation
 from ballscrew.validation import entries as base
 from ballscrew.validation.entries import Band, Conditions, Entry, Point, trends
@@ -124,7 +125,7 @@ def test_what_the_documentation_says(found, name, kind, n, mean, share):
 
 def test_only_friction_is_calibrated(found):
     names = {name for name, kind in found if kind is not None}
-    assert names == {"rexroth-double-nut", "rexroth-single-nut", "thk-jis"}
+    assert names == {"rexroth-double-nut", "rexroth-single-nut", "thk-jis", "xjtu", "chart-friction"}
 
 
 def test_the_calibration_reaches_both_kinds_of_nut_with_the_same_numbers(found):
@@ -165,6 +166,58 @@ def test_ratings_of_the_catalogue(found):
     fewer = off["40-16K5"].definitions
     assert abs(fewer["one_ball_less"] - 1) < 0.015
     assert abs(fewer["static_one_ball_less"] - 1) < 0.01
+
+
+# -- rules of one line ----------------------------------------------------------------------------
+
+
+def test_rules_are_counted_as_the_model_is(found):
+    entry = found["rexroth-double-nut", None]
+    rules = {rule.rule: rule for rule in entry.rules}
+    assert list(rules) == ["jis", "rexroth", "hiwin", "efficiency"]
+    ratios = [point.laws["jis"] for point in entry.points]
+    assert rules["jis"].mean_ratio == pytest.approx(np.mean(ratios))
+    assert rules["jis"].std_ratio == pytest.approx(np.std(ratios, ddof=1))
+    inside = [p.band.low <= r * p.band.middle <= p.band.high for r, p in zip(ratios, entry.points, strict=True)]
+    assert rules["jis"].share_in_band == pytest.approx(np.mean(inside))
+    assert rules["rexroth"].share_in_band == 1
+    assert found["balan-2015", None].rules == []
+
+
+def test_the_charts_are_lines_of_the_rules(found):
+    """HIWIN's friction angle is the middle line of its chart, 0.003 the lowest."""
+    rules = {rule.rule: rule for rule in found["chart-friction", None].rules}
+    assert rules["hiwin"].mean_ratio == pytest.approx(1, abs=2e-3)
+    assert rules["lead-angle"].mean_ratio == pytest.approx(0.6, rel=1e-9)
+    assert rules["lead-angle"].share_in_band == 1
+
+
+def test_alternatives_have_a_range(found):
+    entry = found["xjtu", None]
+    ratios = [point.ratio for point in entry.points]
+    assert entry.range_ratio == (min(ratios), max(ratios))
+    assert all(point.band == pytest.approx((0.45705, 0.3985, 0.5156)) for point in entry.points)
+
+
+def test_alternatives_that_a_model_cannot_do_are_left_out():
+    data = SETS["xjtu"]
+    nuts = [
+        values["nut"]
+        for values in validation.shipped_rows(data)
+        for _ in data.evaluate(FrictionModel.olaru2005(), values, Conditions())
+    ]
+    assert set(nuts) == {"double"}
+
+
+def test_alternatives_have_the_rating_that_is_stated():
+    for values in validation.shipped_rows(SETS["xjtu"]):
+        assert ratings_of(screw_of(values)).dynamic == pytest.approx(16400, rel=0.08)
+
+
+def test_an_unknown_nut_is_refused():
+    values = {**validation.shipped_rows(SETS["xjtu"])[0], "nut": "tripple"}
+    with pytest.raises(InputError, match=r"row\.nut: unknown kind of preloaded nut"):
+        SETS["xjtu"].evaluate(FrictionModel.reference(), values, Conditions())
 
 
 # -- what is said of rows together ----------------------------------------------------------------

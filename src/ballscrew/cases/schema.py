@@ -181,15 +181,15 @@ def case_file() -> type[BaseModel]:
 
 def json_schema() -> dict[str, Any]:
     """JSON Schema of a case file."""
-    schema = _without_null(case_file().model_json_schema())
+    schema = without_null(case_file().model_json_schema())
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}
 
 
-def _without_null(schema: Any) -> Any:
+def without_null(schema: Any) -> Any:
     """A schema without defaults of null, which no case file can hold."""
     if isinstance(schema, dict):
-        return {k: _without_null(v) for k, v in schema.items() if not (k == "default" and v is None)}
-    return [_without_null(item) for item in schema] if isinstance(schema, list) else schema
+        return {k: without_null(v) for k, v in schema.items() if not (k == "default" and v is None)}
+    return [without_null(item) for item in schema] if isinstance(schema, list) else schema
 
 
 def validated(section: str, table: Any, faults: list[Fault]) -> dict[str, Any]:

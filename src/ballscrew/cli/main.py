@@ -17,6 +17,7 @@ from typer.core import TyperCommand
 
 from ballscrew import _pint_plugins
 from ballscrew.cli import (
+    card,
     catalogue,
     check,
     cite,
@@ -43,6 +44,7 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 app.add_typer(catalogue.app, name="catalogue")
+app.add_typer(card.app, name="card")
 
 
 class _Command(TyperCommand):

@@ -16,6 +16,10 @@ def validate(
         Path | None,
         typer.Option("--rows", metavar="FILE", help="A table of your own with the columns of the set, .csv or .xlsx."),
     ] = None,
+    card: Annotated[
+        list[Path] | None,
+        typer.Option("--card", metavar="PATH", help="A torque card, or a folder of them, in place of the sets."),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON list, SI units.")] = False,
     to: Annotated[
         Path | None, typer.Option("--to", "-o", metavar="FILE", help="Also draw the ratios: .png, .svg or .pdf.")
@@ -40,7 +44,8 @@ def validate(
     """The model against what vendors and laboratories state.
 
     For each set the ratio model / stated (the middle of the vendor's band), its scatter, the share of rows inside the
-    band, and every row; first the model as it is, then with a named calibration of two numbers.
+    band, and every row; first the model as it is, then with a named calibration. Beside them rules of one line that
+    people use in place of a model.
     """
     from ballscrew.figures import files
     from ballscrew.output import json_text
@@ -57,6 +62,7 @@ def validate(
         grade=grade,
         temperature=temperature,
         speed=speed,
+        cards=card or [],
     )
     if to is not None:
         files.check_picture(to)

@@ -100,3 +100,27 @@ def classical_back_driving_efficiency(lead_angle: Angle, friction_angle: Angle) 
     phi, rho = lead_angle, friction_angle
     xp = namespace(phi, rho)
     return xp.tan(phi - rho) / xp.tan(phi)
+
+
+def friction_coefficient(lead_angle: Angle, efficiency: Ratio) -> Ratio:
+    r"""Friction coefficient of the inclined plane that has this efficiency, screw drives the nut.
+
+    .. math:: \mu = \frac{(1 - \eta) \tan\varphi}{\eta + \left(\tan\varphi\right)^2}
+
+    The inverse of :func:`classical_efficiency` with :math:`\tan\rho = \mu`, as the charts of THKGeneral and HIWIN2017
+    have it: 0.003 to 0.01 for ball screws. It refers to the force of the thread on the pitch circle, and is no
+    friction coefficient of a contact.
+    """
+    phi, eta = lead_angle, efficiency
+    xp = namespace(phi, eta)
+    return (1 - eta) * xp.tan(phi) / (eta + xp.tan(phi) ** 2)
+
+
+def friction_angle(friction_coefficient: Ratio) -> Angle:
+    r"""Friction angle of a friction coefficient.
+
+    .. math:: \rho = \arctan\mu
+    """
+    mu = friction_coefficient
+    xp = namespace(mu)
+    return xp.arctan(mu)

@@ -47,6 +47,22 @@ class Row:
         return tuple(reason for reason, holds in self.result.validity.items() if not holds)
 
 
+class RuleRow(NamedTuple):
+    """A rule of one line on the same screw; NaN where it has no answer."""
+
+    name: str
+    title: str
+    formula: str
+    source: str
+    #: Friction torque under the load, N m, and over that of the case's model, less one.
+    screw_torque: float
+    change: float
+    efficiency: float
+    #: Torque of the preloaded nut without load, N m, and over that of the case's model, less one.
+    drag_torque: float
+    drag_change: float
+
+
 class Spread(NamedTuple):
     """The rows with the least and with the greatest friction torque."""
 
@@ -61,6 +77,10 @@ class Comparison:
     case: Row
     models: Sequence[Row]
     laws: Sequence[Row]
+    #: What people use in place of a model; in no spread.
+    rules: Sequence[RuleRow] = ()
+    #: Torque of the case's preloaded nut without load, N m; NaN without preload.
+    drag_torque: float = math.nan
 
     @property
     def rows(self) -> list[Row]:

@@ -70,7 +70,10 @@ def _judged(entry: Entry) -> str:
     who = "calibrated" if entry.calibration else "as it is"
     scatter = f" ± {entry.std_ratio:.2f}" if np.isfinite(entry.std_ratio) else ""
     share = "" if entry.share_in_band is None else f", {entry.share_in_band:.0%} in band"
-    return f"{who}: {entry.mean_ratio:.2f}{scatter}, n = {len(entry.counted)}{share}".replace("%", " %")
+    ratio = f"{entry.mean_ratio:.2f}{scatter}"
+    if entry.data.alternatives:  # each row could be the one screw: their mean says nothing
+        ratio = "{:.2f} to {:.2f}".format(*entry.range_ratio)
+    return f"{who}: {ratio}, n = {len(entry.counted)}{share}".replace("%", " %")
 
 
 def _panel(panel: Axes, entries: Sequence[Entry], source: str, axis: str) -> None:

@@ -23,6 +23,7 @@ from ballscrew.friction.validity import (
     validity_masks,
     warning_records,
 )
+from ballscrew.friction.vendor_terms import VendorTerms
 from ballscrew.quantities import AngularSpeed, Force, Info, Mask, Power, Pressure, Ratio, Speed, Torque
 from ballscrew.records import Record
 from ballscrew.solvers.load_distribution import BallLoads
@@ -47,7 +48,7 @@ class Quadrant(NamedTuple):
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True, repr=False)
-class FrictionResult:
+class FrictionResult(VendorTerms):
     """Friction of a ball screw at one operating point, or at an array of them.
 
     ``screw_torque``, ``nut_torque`` and ``contributions`` are magnitudes: friction opposes the motion. ``ideal_torque``

@@ -31,7 +31,8 @@ _TORQUE = _ONE["screw_torque"]
 #: The results of a screw, in this order; a nut has no contact load and entrainment speed of all its balls.
 _RESULTS = (
     "screw_torque", "nut_torque", "ideal_torque", "drive_torque", "holding_torque", "efficiency",
-    "back_driving_efficiency", "friction_power", "contact_load", "entrainment_speed",
+    "back_driving_efficiency", "friction_coefficient", "friction_angle", "friction_power", "contact_load",
+    "entrainment_speed",
 )  # fmt: skip
 _OF_CONTACT = (
     "contact_load", "semi_major_axis", "semi_minor_axis", "maximum_pressure", "minimum_film_thickness",

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Callable
 from typing import Any
 
 from ballscrew.cases import case_file
 from ballscrew.cases.schema import LAWS, MODELS, coefficients_of, name_of_law
 from ballscrew.components.traits import traits_of
-from ballscrew.evaluation.comparison import Candidate, Comparison, compare, same_law
+from ballscrew.evaluation.comparison import Candidate, Comparison, RuleRow, compare, same_law
 from ballscrew.overflow import overflow_as_input_error
+from ballscrew.sizing.rules import RULES, Subject
+from ballscrew.solvers.load_distribution import preload_of
 
 
 def candidates(case: case_file.Case) -> tuple[list[Candidate], list[Candidate]]:
@@ -58,7 +61,52 @@ def _coefficients(law: Any) -> dict[str, Any]:
 def comparison(case: case_file.Case, done: Callable[[int, int], None] | None = None) -> Comparison:
     """The comparison of a case; ``done(finished, total)`` reports the progress by rows."""
     models, laws = candidates(case)
-    return compare(case.model, models, laws, case.screw, case.lubricant, case.operation, done)
+    found = compare(case.model, models, laws, case.screw, case.lubricant, case.operation, done)
+    drag = _drag_torque(case)
+    return dataclasses.replace(found, rules=_rules(case, found.case.torque, drag), drag_torque=drag)
+
+
+def _drag_torque(case: case_file.Case) -> float:
+    """Torque of the preloaded nut without load; NaN without preload."""
+    if not float(preload_of(case.screw, case.screw.nut)):
+        return math.nan
+    speed = case.operation.screw_speed
+    return float(case.model(case.screw, case.lubricant, axial_load=0.0, screw_speed=speed).screw_torque)
+
+
+def subject_of(case: case_file.Case) -> Subject:
+    """Sizes, load and preload of a case; the pitch circle stands for a nominal diameter that it does not state."""
+    screw = case.screw
+    nominal = screw.pitch_circle_diameter if case.row is None else case.row.nominal_diameter
+    return Subject(
+        nominal_diameter=float(nominal),
+        pitch_circle_diameter=float(screw.pitch_circle_diameter),
+        lead=float(screw.lead),
+        axial_load=abs(float(case.operation.axial_load)),
+        preload=float(preload_of(screw, screw.nut)),
+        oversize_balls=screw.nut.contacts_per_ball > 2,
+    )
+
+
+def _rules(case: case_file.Case, torque: float, drag: float) -> list[RuleRow]:
+    """The rules of one line on the screw of the case, beside the torques of its model."""
+    subject = subject_of(case)
+    rows: list[RuleRow] = []
+    for rule in RULES.values():
+        found = rule.estimate(subject)
+        friction, idle = float(found.screw_torque), float(found.drag_torque)
+        rows.append(
+            RuleRow(
+                rule.name, rule.title, rule.formula, rule.source, friction, _change(friction, torque),
+                found.efficiency(subject.ideal_torque), idle, _change(idle, drag),
+            )
+        )  # fmt: skip
+    return rows
+
+
+def _change(value: float, reference: float) -> float:
+    """A value over another, less one; NaN where the other is zero."""
+    return value / reference - 1 if reference else math.nan
 
 
 def models_without_nut(case: case_file.Case) -> list[str]:

@@ -40,6 +40,9 @@ OF_ONE_BALL = frozenset(
 )  # fmt: skip
 
 
+#: Results of a preloaded nut without load.
+OF_IDLE_NUT = ("preload_torque_coefficient", "diameter_drag_coefficient")
+
 #: The largest share of the dynamic load rating by which vendors preload a nut (Rexroth2006: 2 to 10 %).
 LARGEST_PRELOAD_SHARE = 0.1 * (1 + 1e-9)
 
@@ -68,6 +71,8 @@ class NutState:
     preload: float
     #: Torque of the nut without load: the sum of preload and losses.
     preload_drag: float
+    #: That of the balls as coefficients of catalogues, by the names of the result; NaN without preload.
+    drag_coefficients: Mapping[str, float]
     loads: BallLoads
     #: Rigidity by ISO 3408-4, and the deflection of the drive.
     rigidity: AxialRigidity
@@ -331,6 +336,7 @@ def with_nut(case: Case, nut: Nut) -> Run:
             nut=nut,
             preload=float(preload_of(screw, nut)),
             preload_drag=float(beside.screw_torque[2]),
+            drag_coefficients={name: float(np.broadcast_to(getattr(beside, name), 3)[2]) for name in OF_IDLE_NUT},
             loads=loads,
             rigidity=_rigidity(case, screw, load),
             maximum_pressure=float(found.maximum_pressure),

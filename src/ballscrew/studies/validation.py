@@ -17,6 +17,7 @@ from ballscrew.components.traits import traits_of
 from ballscrew.errors import Fault, InputError, fault_of, nearest, raise_if_any
 from ballscrew.friction.calibrations import Calibration, calibrated, calibration
 from ballscrew.friction.model import FrictionModel
+from ballscrew.studies import torque_cards
 from ballscrew.tables.headings import Column
 from ballscrew.tables.rows import made, read
 from ballscrew.validation.entries import CONDITIONS, Conditions, Entry, Point, ValidationSet, Values
@@ -42,6 +43,8 @@ class Request:
     conditions: Conditions
     rows: Path | None = None
     keep_going: bool = False
+    #: Torque cards and folders of them, in place of the sets.
+    cards: Sequence[Path] = ()
     #: What is left out of all sets, and why.
     notes: Sequence[str] = ()
 
@@ -56,6 +59,7 @@ def request(
     grade: str | None = None,
     temperature: str | None = None,
     speed: str | None = None,
+    cards: Sequence[Path] = (),
 ) -> Request:
     """The request that options mean. Raises :class:`~ballscrew.errors.InputError` with all faults found."""
     faults = [Fault("validate", "unknown set", name, nearest(name, SETS)) for name in names if name not in SETS]
@@ -64,10 +68,12 @@ def request(
     if rows is not None and len(names) != 1:
         given = ", ".join(names) or "none"
         faults.append(Fault("--rows", "needs exactly one set", given, "name the set whose columns the file has"))
+    has_conditions = grade is not None or temperature is not None or speed is not None
+    if cards and (names or rows is not None or has_conditions):
+        faults.append(Fault("--card", "goes with no set, rows or conditions", "", "a card has its own"))
     conditions = _conditions(grade, temperature, speed, faults)
     raise_if_any(faults)
-    found, notes = _sets(names, MODELS[model])
-    has_conditions = grade is not None or temperature is not None or speed is not None
+    found, notes = _sets(names, MODELS[model]) if not cards else ([], [])
     if has_conditions and not any(data.conditioned for data in found):
         raise InputError(Fault("validate", "oil and speed do not move these sets", ", ".join(names), "leave them out"))
     chosen = calibration(calibration_name or DEFAULT_CALIBRATION)
@@ -79,6 +85,7 @@ def request(
         conditions=conditions,
         rows=rows,
         keep_going=keep_going,
+        cards=cards,
         notes=notes,
     )
 
@@ -132,7 +139,9 @@ def columns_of(data: ValidationSet) -> list[Column]:
 
 
 def evaluate(request: Request) -> Iterator[tuple[list[Entry], list[str]]]:
-    """Each set with its entries, uncalibrated first, and notes on rows left out."""
+    """Each set or card with its entries, uncalibrated first, and notes on rows left out or on the card."""
+    if request.cards:
+        yield from torque_cards.evaluate(request.cards, request.model, request.calibration)
     for data in request.sets:
         models: list[tuple[FrictionModel, str | None]] = [(request.model, None)]
         if data.calibratable and request.calibration is not None:

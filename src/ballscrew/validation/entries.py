@@ -100,6 +100,14 @@ class Band(NamedTuple):
     low: float | None = None
     high: float | None = None
 
+    def holds(self, value: float) -> bool | None:
+        """True where a value lies in the band, ends included; None where there is no band or no value."""
+        return (
+            None
+            if self.low is None or self.high is None or not math.isfinite(value)
+            else self.low <= value <= self.high
+        )
+
 
 class UpperLimitOnly(NamedTuple):
     """A value of which a row states only a maximum: reported, but in no mean."""
@@ -149,8 +157,7 @@ class Point:
     @property
     def in_band(self) -> bool | None:
         """True where the value lies in the band, ends included; None where there is no band or no value."""
-        low, high = self.band.low, self.band.high
-        return None if low is None or high is None or not math.isfinite(self.value) else low <= self.value <= high
+        return self.band.holds(self.value)
 
 
 Evaluation: TypeAlias = Callable[[FrictionModel, Values, Conditions], list[Point]]
@@ -189,11 +196,30 @@ class ValidationSet:
     conditioned: bool = False
     #: Whether the model must know balls with four contacts.
     four_contacts: bool = False
+    #: Whether each row could be the one screw that was measured, so that only the range of the ratios says something.
+    alternatives: bool = False
+    #: Whether the screws carry a load.
+    loaded: bool = False
+    #: Of a torque card who measured, when, and what is not stated.
+    card: Mapping[str, Any] | None = None
 
     @property
     def description(self) -> str:
         """The quantity compared, its details, and the values it is compared with."""
         return ", ".join(filter(None, (self.title, self.details, self.reference)))
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class RuleEntry:
+    """A rule of one line over the same rows as the model."""
+
+    rule: str
+    n: int
+    mean_ratio: float
+    std_ratio: float
+    share_in_band: float | None
+    #: Least and greatest ratio.
+    range_ratio: tuple[float, float]
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -218,14 +244,36 @@ class Entry:
     @property
     def std_ratio(self) -> float:
         """Standard deviation of model / middle, of a sample: divided by n − 1. NaN for less than two points."""
+        return scatter([point.ratio for point in self.counted])
+
+    @property
+    def range_ratio(self) -> tuple[float, float]:
+        """Least and greatest ratio; NaN of nothing."""
         ratios = [point.ratio for point in self.counted]
-        return float(np.std(ratios, ddof=1)) if len(ratios) > 1 else math.nan
+        return (min(ratios), max(ratios)) if ratios else (math.nan, math.nan)
 
     @property
     def share_in_band(self) -> float | None:
         """Share of the points with a band that lie in theirs; None where no point has one."""
-        inside = [point.in_band for point in self.counted if point.in_band is not None]
-        return sum(inside) / len(inside) if inside else None
+        return _share([point.in_band for point in self.counted])
+
+    @property
+    def rules(self) -> list[RuleEntry]:
+        """The rules that have a value for all points, as if each were the model."""
+        return [self._rule(name) for name in self.mean_laws]
+
+    def _rule(self, name: str) -> RuleEntry:
+        ratios = [point.laws[name] for point in self.points]
+        # to twelve digits: a rule may be the very end of a band
+        values = [float(f"{r * point.band.middle:.12g}") for r, point in zip(ratios, self.points, strict=True)]
+        return RuleEntry(
+            rule=name,
+            n=len(ratios),
+            mean_ratio=mean(ratios),
+            std_ratio=scatter(ratios),
+            range_ratio=(min(ratios), max(ratios)),
+            share_in_band=_share([p.band.holds(value) for value, p in zip(values, self.points, strict=True)]),
+        )
 
     @property
     def mean_laws(self) -> dict[str, float]:
@@ -252,6 +300,17 @@ class Entry:
 def mean(numbers: Sequence[float]) -> float:
     """Mean; NaN of nothing."""
     return float(np.mean(numbers)) if len(numbers) else math.nan
+
+
+def scatter(numbers: Sequence[float]) -> float:
+    """Standard deviation of a sample, divided by n − 1; NaN of less than two."""
+    return float(np.std(numbers, ddof=1)) if len(numbers) > 1 else math.nan
+
+
+def _share(inside: Sequence[bool | None]) -> float | None:
+    """Share that is true of those that are known; None where none is."""
+    known = [one for one in inside if one is not None]
+    return sum(known) / len(known) if known else None
 
 
 def _means(found: Sequence[Mapping[str, float]]) -> dict[str, float]:

@@ -4,16 +4,15 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
 
 from ballscrew.components.conditions import ContactConditions, Motion
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Bodies, DoubleNut, Nut, OversizeBallNut, SingleNut
-from ballscrew.components.nut_losses import OVERSIZE_BALL_DRAG, EfficiencyDrag, JISDrag, RexrothDrag
 from ballscrew.components.screw import STEEL, BallScrew
-from ballscrew.equations import geometry, hertz, rheology
+from ballscrew.equations import geometry, hertz, rheology, transmission
 from ballscrew.errors import Fault, InputError
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import FrictionResult
@@ -21,6 +20,7 @@ from ballscrew.quantities import Torque, fields_of
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.checks import ratings_of
 from ballscrew.sizing.rigidity import rigidity_iso3408
+from ballscrew.sizing.rules import CHART_LINES, DRAG_RULES, LOADED_RULES, RULES, Subject, of_model
 from ballscrew.solvers.load_distribution import ball_loads
 from ballscrew.validation.entries import Band, Conditions, Point, UpperLimitOnly, Values
 
@@ -32,6 +32,11 @@ ACCURACY_FACTOR = 0.5
 OTHER_FACTORS = (0.55, 0.6)
 #: The share of the dynamic load rating that vendors preload double nuts with at most.
 USUAL_PRELOAD = 0.10
+
+#: The share of the dynamic load rating at which the friction coefficient is compared with charts that state no load.
+CHART_LOAD = 0.10
+#: Preloaded nuts by the names of case files.
+_BRACED: Mapping[str, type[DoubleNut | OversizeBallNut]] = {"double": DoubleNut, "oversize-balls": OversizeBallNut}
 
 _SCREW = tuple(fields_of(CatalogueRow))
 
@@ -72,17 +77,21 @@ def _unloaded(
 
 
 def _drag_laws(
-    model: FrictionModel, row: CatalogueRow, preload: float, conditions: Conditions, middle: float, two_contacts: bool
+    model: FrictionModel,
+    row: CatalogueRow,
+    preload: float,
+    conditions: Conditions,
+    middle: float,
+    two_contacts: bool,
+    with_model: bool = True,
 ) -> dict[str, float]:
-    """Torques by the rules of vendors and of first principles, over the middle of the band."""
-    laws: dict[str, Any] = {"jis": JISDrag(), "rexroth": RexrothDrag() if two_contacts else None}
-    if two_contacts:
+    """Torques by the rules of vendors, over the middle of the band; and by the model's efficiency under load."""
+    subject = Subject(row.nominal_diameter, row.ball_circle, row.lead, preload=preload, oversize_balls=not two_contacts)
+    drags = {name: RULES[name].estimate(subject).drag_torque for name in DRAG_RULES}
+    if two_contacts and with_model:
         half = model(row.screw(), conditions.lubricant, axial_load=preload, screw_speed=conditions.screw_speed)
-        laws["efficiency"] = EfficiencyDrag(float(half.efficiency))
-    else:
-        laws["rexroth"] = RexrothDrag(OVERSIZE_BALL_DRAG)
-    size = (row.nominal_diameter, row.ball_circle, row.lead)
-    return {name: float(law(preload, *size)) / middle for name, law in laws.items()}
+        drags["efficiency"] = of_model(subject, half.efficiency)
+    return {name: float(drag) / middle for name, drag in drags.items()}
 
 
 def _preloaded(values: Values, percent: int) -> float:
@@ -147,6 +156,57 @@ def worked_example(model: FrictionModel, values: Values, conditions: Conditions)
             band=band,
             descriptors=descriptors,
             laws=laws,
+            warnings=found.warning_records,
+        )
+    ]
+
+
+def plausible_screw(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
+    """No-load torque of a screw that could be the measured one, against what two of its kind had.
+
+    No point of a nut that the model cannot compute.
+    """
+    row, at = screw_of(values), conditions.of(values)
+    kind, preload = str(values["nut"]), float(values["preload"])
+    if kind not in _BRACED:
+        remedy = " or ".join(f'"{name}"' for name in _BRACED)
+        raise InputError(Fault("row.nut", "unknown kind of preloaded nut", kind, f"write {remedy}"))
+    band = _stated(values, "torque")
+    if not model.knows(_BRACED[kind](preload=preload)):
+        return []
+    found, descriptors = _unloaded(model, row, _BRACED[kind](preload=preload), at)
+    two_contacts = kind != "oversize-balls"
+    return [
+        Point(
+            name=row.name,
+            value=float(found.screw_torque),
+            band=band,
+            descriptors=descriptors,
+            laws=_drag_laws(model, row, preload, at, band.middle, two_contacts, with_model=False),
+            warnings=found.warning_records,
+        )
+    ]
+
+
+def chart_friction(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
+    """Friction coefficient of the thread at a tenth of the rating, against the lines of vendors' charts."""
+    row, at = screw_of(values), conditions.of(values)
+    load = CHART_LOAD * float(values["dynamic_load_rating"])
+    found = model(row.screw(), at.lubricant, axial_load=load, screw_speed=at.screw_speed)
+    low, middle, high = CHART_LINES
+    subject = Subject(row.nominal_diameter, row.ball_circle, row.lead, axial_load=load)
+    etas = {name: RULES[name].estimate(subject).efficiency(subject.ideal_torque) for name in LOADED_RULES}
+    film = float(np.min([np.min(pair.screw.film_parameter) for pair in found.pairs]))
+    return [
+        Point(
+            name=row.name,
+            value=float(found.friction_coefficient),
+            band=Band(middle, low, high),
+            descriptors={**_descriptors(row), "film_parameter": film},
+            laws={
+                name: float(transmission.friction_coefficient(row.lead_angle, eta)) / middle
+                for name, eta in etas.items()
+            },
             warnings=found.warning_records,
         )
     ]

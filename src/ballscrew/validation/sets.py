@@ -52,6 +52,11 @@ _OF_RINGS = _quantities(
     Quantity("n", "1", Info("n", "exponent of the speed")),
 )
 
+_OF_PLAUSIBLE_SCREWS = {
+    **_quantities(_positive("preload", "N", "preload")),
+    **_band_columns("torque", "torque without load of the screws measured"),
+}
+
 SETS: Mapping[str, ValidationSet] = {
     found.name: found
     for found in (
@@ -99,6 +104,38 @@ SETS: Mapping[str, ValidationSet] = {
             axes=("size", "steepness"),
             calibratable=True,
             conditioned=True,
+        ),
+        ValidationSet(
+            name="xjtu",
+            title="torque without load of two new screws of one kind, measured",
+            details="size, nut and oil are not stated: each row could be the screw",
+            reference="against the two torques",
+            source="XJTU degradation dataset",
+            file="xjtu.csv",
+            quantity=_torque("N m"),
+            columns=_OF_PLAUSIBLE_SCREWS,
+            required=("nut", *_OF_PLAUSIBLE_SCREWS),
+            evaluate=rows.plausible_screw,
+            axes=("size", "steepness"),
+            calibratable=True,
+            conditioned=True,
+            alternatives=True,
+        ),
+        ValidationSet(
+            name="chart-friction",
+            title="friction coefficient of the thread by the efficiency",
+            details="a tenth of the dynamic load rating",
+            reference="against the lines 0.003, 0.005 and 0.01 of two vendors' charts, which state no load",
+            source="THK A-664, HIWIN BS-08-2-EN-1704-K",
+            file="hiwin.csv",
+            quantity=Quantity("friction_coefficient", "1", Info(r"\mu", "friction coefficient of the thread")),
+            columns={},
+            required=("dynamic_load_rating",),
+            evaluate=rows.chart_friction,
+            axes=("size", "steepness"),
+            calibratable=True,
+            conditioned=True,
+            loaded=True,
         ),
         ValidationSet(
             name="balan-2015",

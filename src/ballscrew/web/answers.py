@@ -149,6 +149,20 @@ ComparedLaw = model(
 )
 
 
+class ComparedRule(Closed):
+    """A rule of one line that people use in place of a model."""
+
+    name: str
+    title: str
+    formula: str
+    source: str
+    screw_torque: Number = Field(description="friction torque under the load, N m; null where the rule has no answer")
+    change: Number = Field(description="friction torque over that of the case, less one")
+    efficiency: Number
+    drag_torque: Number = Field(description="torque of the preloaded nut without load, N m")
+    drag_change: Number = Field(description="torque without load over that of the case, less one")
+
+
 class SpreadEnd(Closed):
     """The least or the greatest torque of some models or laws."""
 
@@ -179,6 +193,8 @@ class Compare(Closed):
     case: ComparedModel  # pyright: ignore[reportInvalidTypeForm]
     models: list[ComparedModel]  # pyright: ignore[reportInvalidTypeForm]
     laws: list[ComparedLaw]  # pyright: ignore[reportInvalidTypeForm]
+    rules: list[ComparedRule]
+    drag_torque: Number = Field(description="torque of the case's preloaded nut without load, N m")
     spread: Spread
     units: dict[str, str]
     reasons: dict[str, str]

@@ -31,12 +31,14 @@ def document(case: case_file.Case, found: Comparison) -> dict[str, Any]:
             "valid_laws": _ends(found.spread_of_laws),
             "change_by_slot": {slot: list(span) for slot, span in found.spans.items()},
         },
-        "units": {"screw_torque": "N m", "contributions": "N m", "holding_torque": "N m"},
+        "units": {"screw_torque": "N m", "contributions": "N m", "holding_torque": "N m", "drag_torque": "N m"},
         "reasons": {reason: text for reason, text in NUT_REASONS.items() if reason in failing},
         "verdicts": documents(verdicts(found)),
         "checks": [],
         "warnings": documents(warnings(found)),
         "provenance": {"version": __version__, "model": case.model.label, "references": case_file.references(case)},
+        "rules": [rule._asdict() for rule in found.rules],
+        "drag_torque": found.drag_torque,
     }
 
 

@@ -57,7 +57,7 @@ def results(run: Run) -> dict[str, Any]:
     found = run.friction
     return {
         **{name: getattr(found, name) for name in run.quantities if name not in _OPERATION},
-        **({} if run.nut is None else {"preload_drag": run.nut.preload_drag}),
+        **({} if run.nut is None else {"preload_drag": run.nut.preload_drag, **run.nut.drag_coefficients}),
         "contributions": dict(found.contributions),
         "quadrants": {name: each._asdict() for name, each in run.quadrants.items()},
         "validity": {reason: bool(mask) for reason, mask in found.validity.items()},

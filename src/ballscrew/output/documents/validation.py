@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections import Counter
 from collections.abc import Sequence
 from typing import Any
@@ -26,6 +27,9 @@ def _document(entry: Entry) -> dict[str, Any]:
         "std_ratio": entry.std_ratio,
         "share_in_band": entry.share_in_band,
         **({"static_mean_ratio": static} if (static := entry.mean_definitions.get("static")) is not None else {}),
+        **({"rules": rules} if (rules := [dataclasses.asdict(rule) for rule in entry.rules]) else {}),
+        **({"alternatives": True, "range_ratio": list(entry.range_ratio)} if entry.data.alternatives else {}),
+        **({} if entry.data.card is None else {"card": dict(entry.data.card)}),
         "verdicts": [],
         "checks": documents_of(checks(entry)),
         "warnings": documents_of(warnings(entry)),

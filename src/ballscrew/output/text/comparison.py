@@ -65,6 +65,9 @@ def print_comparison(case: case_file.Case, found: Comparison) -> None:
     for line, style in _table(case, found):
         say(line, style)
     say("")
+    for line, style in rules_table(found):
+        say(line, style)
+    say("")
     for verdict in verdicts(found):
         label = "laws" if verdict.holds is False else _LABELS[verdict.id]
         say(f"{label:<12} {verdict.text}")
@@ -142,6 +145,32 @@ def _table(case: case_file.Case, found: Comparison) -> list[tuple[str, str | Non
         table.append((title, "dim"))
         table += [(aligned(line), "bold" if row is found.case else None) for row, line in rows]
     return table
+
+
+def rules_table(found: Comparison) -> list[tuple[str, str | None]]:
+    """Rules of one line beside the case: friction torque, efficiency, and the torque of the nut without load."""
+    unit, scale, decimals = _scale(found)
+
+    def cells(torque: float, change: str, efficiency: float, drag: float, drag_change: str) -> list[str]:
+        numbers = [f"{value * scale:.{decimals}f}" if math.isfinite(value) else "–" for value in (torque, drag)]
+        eta = f"{efficiency:.4f}" if math.isfinite(efficiency) else "–"
+        return [numbers[0], change, eta, numbers[1], drag_change]
+
+    own = found.case
+    lines = [
+        ["in place of a model", f"torque, {unit}", "change", "η drive", "no load", "change"],
+        ["this case", *cells(own.torque, "case", float(own.result.efficiency), found.drag_torque, "case")],
+    ]
+    for rule in found.rules:
+        changes = percent(rule.change), percent(rule.drag_change)
+        numbers = cells(rule.screw_torque, changes[0], rule.efficiency, rule.drag_torque, changes[1])
+        lines.append([rule.title, *numbers])
+    widths = [max(len(line[column]) for line in lines) for column in range(len(lines[0]))]
+    table: list[tuple[str, str | None]] = []
+    for place, (title, *numbers) in enumerate(lines):
+        aligned = [cell.rjust(width) for cell, width in zip(numbers, widths[1:], strict=True)]
+        table.append(("  ".join([title.ljust(widths[0]), *aligned]).rstrip(), "bold" if place < 2 else None))
+    return [*table, *((f"{rule.title}: {rule.formula}; {rule.source}", "dim") for rule in found.rules)]
 
 
 def _scale(found: Comparison) -> tuple[str, float, int]:

@@ -23,7 +23,7 @@ from ballscrew.studies.run import NutState, Run
 #: The first results, in this order; a nut has no contact load and entrainment speed of all its balls.
 SHOWN = (
     "screw_torque", "nut_torque", "ideal_torque", "drive_torque", "efficiency", "back_driving_efficiency",
-    "friction_power", "contact_load", "entrainment_speed",
+    "friction_coefficient", "friction_angle", "friction_power", "contact_load", "entrainment_speed",
 )  # fmt: skip
 _FILM = (
     "semi_major_axis", "semi_minor_axis", "maximum_pressure", "minimum_film_thickness", "film_parameter",
@@ -102,6 +102,9 @@ def _results(run: Run) -> Table:
             table.add_row(known.info.meaning, shown_or_dash(getattr(run.friction, name), known))
     if run.nut is not None:
         table.add_row("torque without load", shown_or_dash(run.nut.preload_drag, _TORQUE))
+        for name, value in run.nut.drag_coefficients.items():
+            if math.isfinite(value):
+                table.add_row(_KNOWN[name].info.meaning, shown_or_dash(value, _KNOWN[name]))
     return table
 
 

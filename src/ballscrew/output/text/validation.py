@@ -9,12 +9,16 @@ from ballscrew import units
 from ballscrew.output.wrapping import aligned, wrapped
 from ballscrew.quantities import Quantity
 from ballscrew.studies.validation import Request
-from ballscrew.validation.entries import CONDITIONS, Entry, Point, ValidationSet
+from ballscrew.validation.entries import CONDITIONS, Entry, Point, RuleEntry, ValidationSet
 
 #: What laws and definitions beside the model are called.
 WORDS: Mapping[str, str] = {
-    "jis": "JIS B 1192",
+    "jis": "JIS B 1192 and THK",
     "rexroth": "Rexroth's rule",
+    "hiwin": "HIWIN's rule",
+    "constant-efficiency": "constant efficiency 0.9",
+    "lead-angle": "lead angle, µ = 0.003",
+    "feed-drive-library": "Modelica FeedDriveLibrary, ρ = 0.2°",
     "efficiency": "from the model's efficiency under load",
     "static": "static rating",
     "one_ball_less": "with one ball less a turn",
@@ -38,7 +42,7 @@ def text_of(entries: Sequence[Entry], request: Request) -> str:
         f"  {'; '.join(filter(None, [source_of(data, request), conditions(data, request)]))}",
     ]
     lines += [f"  {_summary(entry)}" for entry in entries]
-    lines += [f"  {line}" for line in _other_means(entries[0])]
+    lines += [f"  {line}" for line in (*_rules(entries[0]), *_other_means(entries[0]))]
     lines += ["", *(f"  {line}" for line in _table(entries))]
     apart = _apart(entries)
     if apart:
@@ -64,7 +68,10 @@ def conditions(data: ValidationSet, request: Request) -> str:
         if quantity is not None
     )
     unless = " unless the row has its own" if request.rows is not None else ""
-    return f"{speed}, {request.conditions.grade} at {temperature}{unless}, no load, no wipers"
+    load = "" if data.loaded else ", no load"
+    if data.alternatives:
+        return f"{speed}, oil by row{load}, no wipers"
+    return f"{speed}, {request.conditions.grade} at {temperature}{unless}{load}, no wipers"
 
 
 def _label(entry: Entry) -> str:
@@ -72,17 +79,33 @@ def _label(entry: Entry) -> str:
 
 
 def _summary(entry: Entry) -> str:
-    share = "" if entry.share_in_band is None else f", {entry.share_in_band:.0%} of rows in their band"
-    scatter = f" ± {entry.std_ratio:.3f}" if math.isfinite(entry.std_ratio) else ""
+    words = _of_alternatives if entry.data.alternatives else _statistics
     missing = len(entry.points) - len(entry.counted)
     lost = f", {missing} without a number" if missing else ""
-    return f"{_label(entry):<27} n = {len(entry.counted)}, mean ratio {entry.mean_ratio:.3f}{scatter}{share}{lost}"
+    return f"{_label(entry):<27} n = {len(entry.counted)}, {words(entry)}{lost}"
+
+
+def _rules(entry: Entry) -> list[str]:
+    """Rules of one line over the same rows."""
+    words = _of_alternatives if entry.data.alternatives else _statistics
+    return [f"{f'rule: {WORDS[one.rule]}':<52} {words(one)}" for one in entry.rules]
+
+
+def _statistics(found: Entry | RuleEntry) -> str:
+    share = "" if found.share_in_band is None else f", {found.share_in_band:.0%} of rows in their band"
+    scatter = f" ± {found.std_ratio:.3f}" if math.isfinite(found.std_ratio) else ""
+    return f"mean ratio {found.mean_ratio:.3f}{scatter}{share}"
+
+
+def _of_alternatives(found: Entry | RuleEntry) -> str:
+    """The range of the ratios of rows that could be the same screw; their mean says nothing."""
+    least, greatest = found.range_ratio
+    return f"ratio {least:.2f} to {greatest:.2f}, {found.share_in_band or 0:.0%} of these screws in the measured band"
 
 
 def _other_means(entry: Entry) -> list[str]:
-    """Mean ratios of other laws and definitions."""
-    found = {**entry.mean_laws, **entry.mean_definitions}
-    return [f"{WORDS[name]:<52} mean ratio {value:.3f}" for name, value in found.items()]
+    """Mean ratios of other definitions."""
+    return [f"{WORDS[name]:<52} mean ratio {value:.3f}" for name, value in entry.mean_definitions.items()]
 
 
 def _table(entries: Sequence[Entry]) -> list[str]:

@@ -103,5 +103,18 @@ export function showModels(found) {
   ];
   const caption = "all models as they are, then this case with one law at a time in place of its own";
   const headings = ["model or law", "friction torque", "change", "efficiency", "valid here"];
-  byId("models").replaceChildren(scrolling("models and laws", table(caption, headings, rows)));
+  const rules = found.rules.map((rule) => [
+    rule.title,
+    units.formatted("screw_torque", rule.screw_torque),
+    percentage(rule.change),
+    units.formatted("efficiency", rule.efficiency),
+    units.formatted("screw_torque", rule.drag_torque),
+    rule.source,
+  ]);
+  const inPlace = "rules of one line that people use in place of a model";
+  const columns = ["rule", "friction torque", "change", "efficiency", "torque without load", "source"];
+  byId("models").replaceChildren(
+    scrolling("models and laws", table(caption, headings, rows)),
+    scrolling("rules of one line", table(inPlace, columns, rules)),
+  );
 }

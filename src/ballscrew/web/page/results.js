@@ -10,6 +10,8 @@ const FIRST = {
   holding_torque: "holding torque",
   efficiency: "efficiency, screw drives",
   back_driving_efficiency: "efficiency, load drives",
+  friction_coefficient: "friction coefficient µ of the thread",
+  friction_angle: "friction angle ρ of the thread",
   friction_power: "heat",
   preload_drag: "torque without load",
 };
