@@ -191,7 +191,9 @@ def by_ball(
         return why
     try:
         if made_of is None:
-            program = _recorded(plan.subject, wanted, names)
+            # a law from outside may ask for the grade of the oil
+            subject = plan.subject if key is None else _without_grade(plan.subject)
+            program = _recorded(subject, wanted, names)
             made_of = Recording(program) if key is None else _structures.add(key, program)
         return _by_an_engine(plan, engine, names, made_of, asked)
     except CannotRecordError as error:
@@ -223,9 +225,15 @@ def _key(subject: Configuration, outputs: tuple[str, ...], names: tuple[str, ...
         return None
 
 
+def _without_grade(subject: Configuration) -> Configuration:
+    """The same with an oil that is its numbers alone."""
+    oil = dataclasses.replace(subject.lubricant, grade=None, temperature=None)
+    return Configuration(subject.model, subject.screw, oil)
+
+
 def _structure(subject: Configuration, names: Sequence[str]) -> Hashable:
     """A configuration as a key, without the numbers that are inputs and without what only the loads depend on."""
-    asides = {*names, "bodies", "deviations"}
+    asides = {*names, "bodies", "deviations", "grade", "temperature", "made_as"}
 
     def of(part: Any, prefix: str = "") -> Hashable:
         laws = [f for f in dataclasses.fields(part) if f"{prefix}{f.name}" not in asides]
