@@ -154,9 +154,11 @@ def test_little_work_is_left_to_the_model_until_it_adds_up():
     nut = dataclasses.replace(NUTS["double"], losses={"pads": bs.Seals(seal_torque=0.1)})
     points = {"axial_load": xr.DataArray(np.full(1000, 2e3), dims="point"), "screw_speed": 40.0}
     reasons: list[str] = []
-    for preload in range(1000, 1000 + 2 * ENOUGH_TO_RECORD // (1000 * 24)):  # another number each time
-        changed = dataclasses.replace(nut, preload=float(preload))
-        reasons.append(Evaluation.of(plan_of(changed, outputs=["screw_torque"], points=points)).reason)
+    for step in range(2 * ENOUGH_TO_RECORD // (1000 * 24)):  # other numbers each time
+        changed = dataclasses.replace(nut, preload=1000.0 + step, bodies=bs.Bodies(screw_diameter=0.03 + 1e-4 * step))
+        oil = bs.Lubricant.from_grade("ISO VG 46", 300.0 + step)
+        subject = Configuration(OLARU, dataclasses.replace(screw_with(changed), lead=0.01 + 1e-4 * step), oil)
+        reasons.append(Evaluation.of(Plan.of(subject, ["screw_torque"], points)).reason)
     assert "too short to record" in reasons[0]
     assert "the model itself" not in reasons[-1]
 

@@ -182,9 +182,9 @@ def test_the_engine_stays_what_it_was(swept, tmp_path, monkeypatch):
         chosen = []
         of = Evaluation.of
 
-        def noted(plan, engine=None, of=of, chosen=chosen):
+        def noted(plan, engine=None, of=of, chosen=chosen, **how):
             chosen.append(engine)
-            return of(plan, engine)
+            return of(plan, engine, **how)
 
         monkeypatch.setattr(Evaluation, "of", noted)
         swept(path)

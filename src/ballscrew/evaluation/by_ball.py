@@ -23,7 +23,7 @@ from ballscrew.components.materials import TEMPERATURE
 from ballscrew.evaluation.axes import ends
 from ballscrew.evaluation.engines import ASKED_FOR, PAYS, Engine, why_numpy, worth_compiling
 from ballscrew.evaluation.outputs import NUT_OUTPUTS, OF_LOADS, OPERATION, Output, known_outputs
-from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.evaluation.plan import Configuration, Plan, read_input
 from ballscrew.evaluation.recordings import Recording, Structures, UnknownPartError, key_of
 from ballscrew.friction.loaded_balls import loads_of
 from ballscrew.kernels import kernel as kernels
@@ -61,13 +61,14 @@ def inputs_by_ball(subject: Configuration, varying: Sequence[str] = ()) -> tuple
     """
     seen: set[str] = set()
     found: list[str] = []
+    parts = subject.by_section
     for name, (part, _) in subject.inputs.items():
         own = name.removeprefix("nut.") if part == "nut" else name
         is_exponent = part == "model" and name.rpartition(".")[2].endswith("exponent") and name not in varying
         if part == "operation" or name == TEMPERATURE.name or own in seen or is_exponent:
             continue
         seen.add(own)
-        if subject.value_of(name) is not None:
+        if read_input(parts[part], name) is not None:
             found.append(own)
     return (*OPERATION, *found)
 
@@ -121,7 +122,8 @@ class ByBall:
         changed = subject.changed({name: values for name, values in points.items() if name not in OPERATION})
         with np.errstate(all="ignore"):
             loads = loads_of(changed.screw, as_array(points[OPERATION[0]]), compiled=self.engine == "compiled")
-            of_points = [points[name] if name in OPERATION else changed.value_of(name) for name in self.names]
+            known, parts = changed.inputs, changed.by_section
+            of_points = [points[n] if n in OPERATION else read_input(parts[known[n][0]], n) for n in self.names]
             of_points += [getattr(loads, name) for name in OF_LOADS]
             of_balls = [_balls_first(getattr(loads, name), count) for name in OF_BALLS]
             tables = self._tables(of_points, count)
@@ -189,7 +191,9 @@ def by_ball(
         return why
     try:
         if made_of is None:
-            program = _recorded(plan.subject, wanted, names)
+            # a law from outside may ask for the grade of the oil
+            subject = plan.subject if key is None else _without_grade(plan.subject)
+            program = _recorded(subject, wanted, names)
             made_of = Recording(program) if key is None else _structures.add(key, program)
         return _by_an_engine(plan, engine, names, made_of, asked)
     except CannotRecordError as error:
@@ -221,9 +225,15 @@ def _key(subject: Configuration, outputs: tuple[str, ...], names: tuple[str, ...
         return None
 
 
+def _without_grade(subject: Configuration) -> Configuration:
+    """The same with an oil that is its numbers alone."""
+    oil = dataclasses.replace(subject.lubricant, grade=None, temperature=None)
+    return Configuration(subject.model, subject.screw, oil)
+
+
 def _structure(subject: Configuration, names: Sequence[str]) -> Hashable:
     """A configuration as a key, without the numbers that are inputs and without what only the loads depend on."""
-    asides = {*names, "bodies", "deviations"}
+    asides = {*names, "bodies", "deviations", "grade", "temperature", "made_as"}
 
     def of(part: Any, prefix: str = "") -> Hashable:
         laws = [f for f in dataclasses.fields(part) if f"{prefix}{f.name}" not in asides]

@@ -111,7 +111,7 @@ class Configuration(ByValue):
 
     def value_of(self, name: str) -> Any:
         """The value an input has where it is not varied."""
-        return _read(self.by_section[self.inputs[name][0]], name)
+        return read_input(self.by_section[self.inputs[name][0]], name)
 
     def is_nonnegative(self, name: str) -> bool:
         """True for an input that may not be negative."""
@@ -353,7 +353,7 @@ def _axes(
     faults += [
         Fault(f"{part}.{name}", "is an array", "", f"give it to the sweep: {name}=[…]")
         for name, (part, _) in known.items()
-        if part != "operation" and name not in varied and np.ndim(_read(parts[part], name))
+        if part != "operation" and name not in varied and np.ndim(read_input(parts[part], name))
     ]
     axes: dict[str, xr.DataArray] = {}
     extremes: dict[str, np.ndarray] = {}
@@ -392,7 +392,7 @@ def _sizes(section: str, axes: Mapping[str, xr.DataArray], wanted: Sequence[str]
     return sizes
 
 
-def _read(part: Any, name: str) -> Any:
+def read_input(part: Any, name: str) -> Any:
     """A field of a part, or ``law.field`` of one of its laws."""
     if isinstance(part, NutParts):
         return part.value_of(name)
