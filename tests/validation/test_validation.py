@@ -58,7 +58,8 @@ def test_rows_shipped_and_the_catalogue_describe_the_same_screws(name):
     for row in rows:
         listed = catalogue()[f"{prefix}-{row.name.lower()}{suffix}"]
         for field in dataclasses.fields(row):
-            if field.name not in ("name", "nut", "source"):
+            # the outer diameter of the nut is not in the vendor's table: the catalogue has that of a standard
+            if field.name not in ("name", "nut", "source", "nut_outer_diameter", "nut_outer_diameter_source"):
                 value = getattr(listed, field.name)
                 assert getattr(row, field.name) == (None if value is None else pytest.approx(value, rel=1e-9))
     assert len(rows) == sum(known.startswith(prefix) and known.endswith(suffix) for known in catalogue())
