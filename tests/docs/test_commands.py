@@ -126,7 +126,23 @@ def done_once(command, place, commands):
     return DONE[command]
 
 
-@pytest.mark.parametrize("page", PAGES, ids=name)
+#: A page of blocks that the build of the docs runs too, where a failure is an error; they take 15 s. What they ask has
+#: tests of its own with the quickest model (tests/cli/test_service.py).
+LONG = ROOT / "docs" / "howto" / "service.md"
+
+
+def test_the_long_page_is_run_by_the_build_of_the_docs():
+    assert all(block.info.startswith("{command}") for block in blocks(LONG) if _typed_in(block))
+    assert "make docs" in (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
+
+
+def _typed_in(block):
+    return block.info == "console" or block.info.startswith("{command}")
+
+
+@pytest.mark.parametrize(
+    "page", [pytest.param(page, marks=[pytest.mark.long] if page == LONG else []) for page in PAGES], ids=name
+)
 def test_the_commands_of_a_page_do_what_it_says(page, place, commands):
     for line, command in EVERY[page]:
         if left_out(command):

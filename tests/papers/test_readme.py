@@ -27,8 +27,12 @@ def test_the_table_of_claims_is_up_to_date(make_readme, text):
     assert make_readme.with_claims(text) == text
 
 
+@pytest.mark.long
 def test_the_table_of_accuracy_is_up_to_date(make_readme, text):
-    """If this fails, run ``make readme``. Other machines may round the last digit the other way."""
+    """If this fails, run ``make readme``; the bounds of accuracy are in ``tests/solvers/test_against_the_integral.py``.
+
+    Other machines may round the last digit the other way.
+    """
     number = re.compile(r"\d+(?:\.\d+)? %|(?<=\| )\d+(?= \|)")
 
     def figures(readme):

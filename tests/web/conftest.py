@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import collections
 import json
 import os
 import re
@@ -12,7 +11,7 @@ import tempfile
 import tomllib
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import httpx
 import psutil
@@ -249,14 +248,14 @@ def browser():
 
 
 @pytest.fixture(scope="session")
-def pages(browser):
-    """Pages that nobody is at, by the options of their contexts; to load plotly.js anew takes a second."""
-    return collections.defaultdict(list)
+def pages(browser) -> list[Page]:
+    """Pages that nobody is at; to load plotly.js in a new one takes a second."""
+    return []
 
 
-def new_page(browser, options: dict[str, Any]) -> Page:
+def new_page(browser) -> Page:
     """A page that waits as long as a slow machine with other work takes."""
-    page = browser.new_context(**options).new_page()
+    page = browser.new_context().new_page()
     page.set_default_timeout(180_000)
     return page
 
@@ -264,23 +263,30 @@ def new_page(browser, options: dict[str, Any]) -> Page:
 @pytest.fixture
 def visit(browser, pages, server):
     """Visitors of the page; afterwards nothing was complained of, and nothing was asked from elsewhere."""
-    visits: list[tuple[str, Visit]] = []
+    visits: list[Visit] = []
 
-    def one(address: str = server.address, **options: Any) -> Visit:
-        settings = {"viewport": {"width": 1360, "height": 900}, **options}
-        free = pages[repr(settings)]
-        page = free.pop() if free else new_page(browser, settings)
-        visits.append((repr(settings), Visit(page, address)))
-        return visits[-1][1]
+    def one(
+        address: str = server.address,
+        *,
+        width: int = 1360,
+        height: int = 900,
+        scheme: Literal["dark", "light"] = "light",
+        motion: Literal["no-preference", "reduce"] = "no-preference",
+    ) -> Visit:
+        page = pages.pop() if pages else new_page(browser)
+        page.set_viewport_size({"width": width, "height": height})
+        page.emulate_media(media="screen", color_scheme=scheme, reduced_motion=motion)
+        visits.append(Visit(page, address))
+        return visits[-1]
 
     yield one
-    for settings, found in visits:
+    for found in visits:
         found.leave()
-        pages[settings].append(found.page)
+        pages.append(found.page)
     complaints = [
-        line for _, found in visits for line in found.complaints if not any(words in line for words in found.expected)
+        line for found in visits for line in found.complaints if not any(words in line for words in found.expected)
     ]
-    outside = [line for _, found in visits for line in found.outside()]
+    outside = [line for found in visits for line in found.outside()]
     assert (complaints, outside) == ([], [])
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import axe_playwright_python
 import pytest
 
-DOUBLE = "rexroth-40x10x6-6-double"
+DOUBLE = "rexroth-16x5x3-4-double"
 AXE = (Path(axe_playwright_python.__file__).parent / "axe.min.js").read_text(encoding="utf-8")
 SIZES = {"desktop": {"width": 1360, "height": 900}, "phone": {"width": 390, "height": 844}}
 OPEN_ALL = "for (const one of document.querySelectorAll('details')) one.open = true"
@@ -31,9 +31,9 @@ PROFILES = [
 
 @pytest.mark.parametrize(("size", "scheme"), PROFILES)
 def test_axe_finds_nothing(visit, size, scheme):
-    here = visit(viewport=SIZES[size], color_scheme=scheme)
+    here = visit(**SIZES[size], scheme=scheme)
     here.expected = ("status of 422",)
-    here.open(f"#A={DOUBLE}&A.operation.axial_load=7+kN&B=paper&band=1&show=A")
+    here.open(f"#A={DOUBLE}&A.operation.axial_load=2+kN&B=paper&band=1&show=A")
     here.page.wait_for_selector("#band-words >> text=95 %")
     here.page.locator("#models-button").click()
     here.page.wait_for_selector("#models table")
@@ -84,21 +84,15 @@ def test_everything_is_reached_by_tab_and_is_seen_to_be(visit):
         assert name in reached
 
 
-def test_the_skip_link_skips(visit):
-    here = visit().open()
-    here.page.keyboard.press("Tab")
-    here.page.keyboard.press("Enter")
-    here.page.keyboard.press("Tab")
-    assert here.page.evaluate("document.querySelector('#results').contains(document.activeElement)")
-
-
-def test_the_skip_link_leaves_the_state_in_the_address(visit):
+def test_the_skip_link_skips_and_leaves_the_state_in_the_address(visit):
     here = visit().open("#A=paper&A.operation.axial_load=1234+N")
     here.page.keyboard.press("Tab")
     here.page.keyboard.press("Enter")
     here.settle()
     assert "1234" in here.page.url
     assert here.page.input_value("#f-operation-axial_load") == "1234"
+    here.page.keyboard.press("Tab")
+    assert here.page.evaluate("document.querySelector('#results').contains(document.activeElement)")
 
 
 def test_focus_stays_when_the_form_is_made_anew(visit):
@@ -180,7 +174,7 @@ WIDTHS = [320, 1024, *(pytest.param(width, marks=pytest.mark.long) for width in 
 
 @pytest.mark.parametrize("width", WIDTHS)
 def test_no_scrolling_to_the_side(visit, width):
-    here = visit(viewport={"width": width, "height": 800})
+    here = visit(width=width, height=800)
     here.open(f"#A={DOUBLE}&B=paper&C=hiwin-40-16k5&D=paper&band=1")
     here.page.evaluate(OPEN_ALL)
     here.page.wait_for_selector("#band-words >> text=95 %")
@@ -194,7 +188,7 @@ def test_no_scrolling_to_the_side(visit, width):
 
 
 def test_the_answer_is_in_sight_of_who_types_on_a_phone(visit):
-    here = visit(viewport=SIZES["phone"]).open()
+    here = visit(**SIZES["phone"]).open()
     here.page.locator("#f-operation-axial_load").focus()
     here.page.keyboard.press("ArrowUp")
     here.settle()
@@ -203,7 +197,7 @@ def test_the_answer_is_in_sight_of_who_types_on_a_phone(visit):
 
 
 def test_nothing_moves_where_motion_is_not_wanted(visit):
-    here = visit(reduced_motion="reduce").open()
+    here = visit(motion="reduce").open()
     here.type("operation.axial_load", "3000")
     assert here.page.evaluate("document.getAnimations().length") == 0
 
@@ -222,7 +216,7 @@ def contrast(one, other):
 
 @pytest.mark.parametrize("scheme", ["dark", pytest.param("light", marks=pytest.mark.long)])
 def test_letters_of_charts_and_drawing_can_be_read(visit, scheme):
-    here = visit(color_scheme=scheme, viewport={"width": 1360, "height": 4000}).open()
+    here = visit(scheme=scheme, height=4000).open()
     here.page.wait_for_selector("#pressure-chart .xtick text")
     back = here.page.evaluate("getComputedStyle(document.querySelector('section')).backgroundColor")
     fills = here.page.evaluate(
@@ -235,18 +229,17 @@ def test_letters_of_charts_and_drawing_can_be_read(visit, scheme):
 
 
 def test_changing_to_dark_redraws(visit):
-    here = visit(color_scheme="light").open()
+    here = visit(scheme="light").open()
     ink = "getComputedStyle(document.querySelector('#torque-chart .xtick text')).fill"
     before = here.page.evaluate(ink)
     here.page.emulate_media(color_scheme="dark")
     here.page.wait_for_function(f"(before) => {ink} !== before", arg=before)
     after = here.page.evaluate(ink)
-    here.page.emulate_media(color_scheme="light")
     assert before != after
 
 
 def test_on_paper_it_is_a_sheet(visit):
-    here = visit(color_scheme="dark").open(f"#A={DOUBLE}&A.operation.axial_load=7+kN")
+    here = visit(scheme="dark").open(f"#A={DOUBLE}&A.operation.axial_load=2+kN")
     here.page.emulate_media(media="print", color_scheme="dark")
     here.page.evaluate("dispatchEvent(new Event('beforeprint'))")
     here.rest(300)
@@ -259,5 +252,3 @@ def test_on_paper_it_is_a_sheet(visit):
     assert contrast(dark, "rgb(255, 255, 255)") > 7
     pages = here.page.pdf(format="A4")
     assert pages.startswith(b"%PDF")
-    here.page.evaluate("dispatchEvent(new Event('afterprint'))")
-    here.page.emulate_media(media="screen", color_scheme="dark")

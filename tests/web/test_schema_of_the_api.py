@@ -22,7 +22,13 @@ from ballscrew.web.server import (
 SLOW = 300
 #: Responses by address and status: not all may be refusals.
 answered: Counter[tuple[str, int]] = Counter()
-FEW = settings(max_examples=6, derandomize=True, deadline=None, suppress_health_check=list(HealthCheck))
+#: Three at random beside those of the description; fifteen in the long run.
+FEW = settings(
+    max_examples=settings.default.max_examples // 33,
+    derandomize=True,
+    deadline=None,
+    suppress_health_check=list(HealthCheck),
+)
 
 
 def described(*phases):
