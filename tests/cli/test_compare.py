@@ -103,7 +103,7 @@ def test_what_the_case_changes_is_a_row_of_its_own(example):
     assert friction.pop("as in reference").boundary_friction_coefficient == 0.12
     assert friction.pop("as in olaru2005").boundary_friction_coefficient == 0.2
     assert {law.boundary_friction_coefficient for law in friction.values()} == {0.15}
-    assert len(friction) == 3
+    assert len(friction) == 4
 
 
 @pytest.mark.parametrize("name", presets())

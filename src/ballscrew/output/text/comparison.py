@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from rich.console import Console
 
@@ -23,8 +23,9 @@ SHORT: Mapping[str, str] = {
     "spin": "spin",
     "helix": "helix",
     "ball_to_ball": "balls",
-    "chain_braking": "chain",
 }
+#: What stands in one column where there is little room: neighbours that rub, and their braking.
+TOGETHER = ("ball_to_ball", "chain_braking")
 PRINTED_MARK = "†"
 PRINTED_WORDS = "the paper's own form, known to be incomplete or misprinted: shown, but in no spread of laws"
 _LEGEND = (
@@ -104,7 +105,11 @@ def mechanisms_in(found: Comparison) -> list[str]:
 def _table(case: case_file.Case, found: Comparison) -> list[tuple[str, str | None]]:
     """The lines of the table and their styles. Headings run over all columns, which Rich's tables cannot."""
     unit, scale, decimals = _scale(found)
-    shown, letters = mechanisms_in(found), reason_letters(found)
+    letters = reason_letters(found)
+    shown: dict[str, Sequence[str]] = {}
+    for name in mechanisms_in(found):
+        names = TOGETHER if name in TOGETHER else (name,)
+        shown[SHORT.get(names[0], name)] = names
 
     def number(value: float) -> str:
         return f"{value * scale:.{decimals}f}" if math.isfinite(value) else "–"
@@ -115,7 +120,7 @@ def _table(case: case_file.Case, found: Comparison) -> list[tuple[str, str | Non
             f" {name_of(row)}",
             number(row.torque),
             "case" if row is found.case else percent(row.change),
-            *(number(float(row.result.contributions[name])) for name in shown),
+            *(number(sum(float(row.result.contributions[name]) for name in names)) for names in shown.values()),
             f"{forward:.4f}" if math.isfinite(forward) else "–",
             "–" if math.isnan(back) else f"{back:.4f}" if back > 0 else "locks",
             "".join(letters[reason] for reason in row.outside),
@@ -125,7 +130,7 @@ def _table(case: case_file.Case, found: Comparison) -> list[tuple[str, str | Non
         f"torque, {unit}",
         "total",
         "change",
-        *(SHORT.get(name, name) for name in shown),
+        *shown,
         "η drive",
         "η load",
         "out",
