@@ -104,7 +104,7 @@ def model(request: pytest.FixtureRequest) -> bs.FrictionModel:
     return MODELS[request.param]()
 
 
-@pytest.hookimpl(wrapper=True)
+@pytest.hookimpl(wrapper=True, optionalhook=True)  # only with pytest-xdist
 @pytest.hookimpl(optionalhook=True)  # only with pytest-xdist
 def pytest_xdist_auto_num_workers():
     """One worker more than processors: a test that waits for a browser or a process leaves its own to another."""
