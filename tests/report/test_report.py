@@ -323,7 +323,7 @@ def test_a_torque_without_a_number_is_a_gap():
 
 
 #: Each of them is much like another case.
-LONG = ("corrected", "nut at rest", "oversize balls")
+LONG = ("corrected", "nut at rest", "nut without load", "oversize balls", "skids")
 
 
 @pytest.mark.parametrize("name", [pytest.param(n, marks=[pytest.mark.long] if n in LONG else []) for n in CASES])
