@@ -285,7 +285,8 @@ def test_temperatures_change_the_oil():
 
 
 def test_derivatives_of_the_fit_are_those_of_its_torque():
-    found = fit(bs.FrictionModel.reference(), SCREW, OIL, log(truth(), rows=50), [FRICTION, "screw_conformity"])
+    reference = bs.FrictionModel.reference()
+    found = fit(reference, SCREW, OIL, log(truth(reference), rows=50), [FRICTION, "screw_conformity"])
     at, problem = found.solution.values, found.problem
     _, slopes = problem.torque(at)
     for i, step in enumerate(1e-6 * problem.scale):
