@@ -141,7 +141,7 @@ def test_pictures(kind, drive, ballscrew, tmp_path):
     assert process.returncode == 0, process.stderr
     begin = {"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}[kind]
     assert (tmp_path / f"band.{kind}").read_bytes().startswith(begin)
-    assert f"band.{kind}: 64 samples of 14 uncertain inputs" in process.stdout
+    assert f"band.{kind}: 64 samples of 16 uncertain inputs" in process.stdout
 
 
 @pytest.mark.parametrize(
@@ -176,6 +176,7 @@ def test_what_a_picture_says(settings, axis, drive):
 ENSEMBLE = {
     ("film", "hamrock-dowson-central"),
     ("friction", "zhou-hoeprich"),
+    ("friction", "load-sharing"),
     ("friction", "balan"),
     ("friction", "greenwood-tripp"),
     ("full_film", "eyring"),
@@ -184,7 +185,6 @@ ENSEMBLE = {
     ("rolling", "houpert"),
     ("rolling", "aihara"),
     ("elastic_resistance", "hysteresis"),
-    ("ball_force", "proportional"),
 }
 
 

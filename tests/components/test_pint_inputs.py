@@ -99,7 +99,7 @@ def with_unit(value, unit):
 
 def test_no_class_is_left_out():
     known = {type(part).__name__ for part in PARTS}
-    assert {c.__name__ for c in classes()} - known - RESULTS <= {"LogRows"}
+    assert {c.__name__ for c in classes()} - known - RESULTS <= {"LogRows", "Setup", "TorquePoint"}  # read from files
 
 
 @pytest.mark.parametrize("part", PARTS, ids=lambda part: type(part).__name__)

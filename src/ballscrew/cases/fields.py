@@ -43,6 +43,8 @@ EXAMPLES: Mapping[str, str | float] = {
     "nut_inner_diameter": "48 mm",
     "lip_friction": "80 N/m",
     "seal_torque": "0.2 N m",
+    "bearing_rigidity": "500 N/um",
+    "accuracy_factor": 0.55,
     "balls": 165,
     "unsupported_length": "1 m",
     "running_time": "20000 h",

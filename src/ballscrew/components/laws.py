@@ -219,7 +219,7 @@ def one_neighbour(
     return BallChain(moment, ball_to_ball_force)
 
 
-@law_traits(alternative=True)
+@law_traits(excluded="brakes with all of the force between balls, as an imposed net force does")
 def two_neighbours(
     ball_friction_coefficient: Ratio, ball_to_ball_force: Force, ball_diameter: Length, frame: Frame
 ) -> BallChain:
@@ -251,13 +251,13 @@ def parted_neighbours(
     return BallChain(nothing * ball_diameter, nothing, nothing)
 
 
-@law_traits(alternative=True)
+@law_traits(excluded="is the number of one screw, and no law")
 def imposed_ball_force(ball_to_ball_force: Force, contact_load: Force) -> Force:
     """The same force at any load, as in the paper."""
     return ball_to_ball_force
 
 
-@law_traits(alternative=True, uses_imposed_force=False)
+@law_traits(excluded="how large the force is, is a matter of its uncertainty", uses_imposed_force=False)
 @dataclasses.dataclass(frozen=True, eq=False)
 class ProportionalBallForce(ByValue):
     """A force that grows with the load of the ball; an imposed one does not count.
