@@ -37,6 +37,7 @@ from ballscrew.evaluation.plan import Configuration, Plan
 from ballscrew.evaluation.recordings import Recording, recording
 from ballscrew.kernels import kernel as kernels
 from ballscrew.kernels.buffers import ALIGNMENT, aligned_array
+from ballscrew.kernels.chain import LANES
 from ballscrew.kernels.emission import UnknownOperationError, lanes_for
 from ballscrew.kernels.kernel import Kernel
 from ballscrew.kernels.watched import WatchedKernel
@@ -190,7 +191,8 @@ class Evaluation:
 
     def _usual_block(self, total: int, threads: int | None) -> int:
         if self._block_size < SMALLEST_BLOCK and self.engine == "compiled":
-            return min(self._block_size, math.ceil(total / (threads or processors())))
+            fair = math.ceil(total / (threads or processors()) / LANES) * LANES
+            return min(self._block_size, fair)
         if self.engine == "numpy":
             return self._block_size
         fair = math.ceil(total / (BLOCKS_PER_THREAD * (threads or processors())))
@@ -202,7 +204,8 @@ class Evaluation:
 def _by_ball(plan: Plan, ready: ByBall) -> Evaluation:
     # the loads are solved by code of the package, and the numbers of the parts are inputs
     identify = functools.partial(_fingerprint, plan, ready.engine, None, lambda: ready.formulas)
-    block = max(1, BLOCK_OF_BALLS // plan.subject.balls)
+    # whole vectors need no copies with room for the last one
+    block = max(1, BLOCK_OF_BALLS // plan.subject.balls // LANES) * LANES
     return Evaluation(plan, ready.engine, ready.reason, identify, ready.evaluator_of, block, 1)
 
 
