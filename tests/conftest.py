@@ -104,7 +104,7 @@ def model(request: pytest.FixtureRequest) -> bs.FrictionModel:
     return MODELS[request.param]()
 
 
-@pytest.hookimpl(wrapper=True)
+@pytest.hookimpl(wrapper=True, optionalhook=True)
 def pytest_xdist_auto_num_workers():
     """One worker more than processors: a test that waits for a browser or a process leaves its own to another."""
     return (yield) + (0 if "PYTEST_XDIST_AUTO_NUM_WORKERS" in os.environ else 1)
