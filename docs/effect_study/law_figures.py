@@ -250,9 +250,8 @@ def load_shares(cases: Cases) -> Figure:
     for index, ((name, share), colour) in enumerate(lines):
         line = style.LINE_STYLES[index % 5]
         panels[0].plot(found.film_parameter, share, ls=line, color=colour, label=name)
-    for (name, mu), (line, colour) in zip(
-        found.coefficients.items(), (("--", style.ORANGE), ("-.", style.PURPLE), ("-", style.BLUE)), strict=True
-    ):
+    looks = (("--", style.ORANGE), ("-.", style.PURPLE), (":", style.GREEN), ("-", style.BLUE))
+    for (name, mu), (line, colour) in zip(found.coefficients.items(), looks, strict=True):
         panels[1].plot(found.film_parameter, mu, ls=line, color=colour, label=mathtext(name))
     at = float(PAPER.result(curves.MODELS["reference"]).screw.film_parameter)
     for panel, title, y in zip(

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from ballscrew.components.nut import OversizeBallNut
 from ballscrew.components.traits import traits_of
 from ballscrew.equations import kinematics, slip
-from ballscrew.studies.run import Run, Touching
+from ballscrew.studies.nut_state import Touching
+from ballscrew.studies.run import Run
 
 Field = NDArray[np.float64]
 #: Heights across the ellipse at which the slip is asked for a change of sign.

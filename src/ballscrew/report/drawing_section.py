@@ -11,7 +11,7 @@ from ballscrew.quantities import fields_of, quantities_of
 from ballscrew.report import svg
 from ballscrew.report.contact_geometry import DrawnBall
 from ballscrew.report.svg import FAINT, GREEN, TEXT, TITLE, Panel, Point
-from ballscrew.studies.run import Touching
+from ballscrew.studies.nut_state import Touching
 
 #: The middle of the ball, and its radius.
 BALL, RADIUS = (122.0, 158.0), 78.0

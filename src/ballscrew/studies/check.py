@@ -20,8 +20,9 @@ from ballscrew.sizing.checks import Check, checks
 from ballscrew.sizing.listed_nut import lists_preload
 from ballscrew.sizing.ratings import Ratings, ratings_of
 from ballscrew.studies.every_row import Done, OfRows, copied, each, place_of
+from ballscrew.studies.nut_state import NutState
 from ballscrew.studies.own_screws import tables_of_row
-from ballscrew.studies.run import NutState, Run, with_nut
+from ballscrew.studies.run import Run, with_nut
 
 #: Defaults of what neither row nor options give.
 GRADE, TEMPERATURE, SPEED, SHARE_OF_RATING = "ISO VG 100", "40 degC", "600 rpm", 0.1

@@ -27,6 +27,7 @@ from ballscrew.quantities import Quantity, quantities_of
 from ballscrew.records import Record
 from ballscrew.sizing.rigidity import AxialRigidity, rigidity_iso3408
 from ballscrew.solvers.load_distribution import BallLoads, preload_of
+from ballscrew.studies.nut_state import Flank, NutState, Touching
 
 _KNOWN = quantities_of(FrictionResult)
 _TORQUE, _DRIVE, _SHARE = (_KNOWN[name] for name in ("holding_torque", "drive_torque", "rolling_share"))
@@ -45,47 +46,6 @@ OF_IDLE_NUT = ("preload_torque_coefficient", "diameter_drag_coefficient")
 
 #: The largest share of the dynamic load rating by which vendors preload a nut (Rexroth2006: 2 to 10 %).
 LARGEST_PRELOAD_SHARE = 0.1 * (1 + 1e-9)
-
-
-class Touching(NamedTuple):
-    """A pair of flanks that a ball touches: 1 is the side that carries the load, -1 the other."""
-
-    side: int
-    angle: float
-    load: float
-
-
-class Flank(NamedTuple):
-    """Loads and contact angles of the balls on one flank: least, mean and greatest."""
-
-    load: tuple[float, float, float]
-    angle: tuple[float, float, float]
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class NutState:
-    """The loads of the balls of a nut, and the torque of the nut without axial load."""
-
-    nut: Nut
-    #: Preload of the nut, N.
-    preload: float
-    #: Torque of the nut without load: the sum of preload and losses.
-    preload_drag: float
-    #: That of the balls as coefficients of catalogues, by the names of the result; NaN without preload.
-    drag_coefficients: Mapping[str, float]
-    loads: BallLoads
-    #: Rigidity by ISO 3408-4, and the deflection of the drive.
-    rigidity: AxialRigidity
-    #: Greatest contact pressure of all balls, Pa.
-    maximum_pressure: float
-    #: The flank that carries the load, and the one that it relieves; None where no ball touches.
-    loaded: Flank | None
-    relieved: Flank | None
-
-    @property
-    def preload_is_lost(self) -> bool:
-        """The load has lifted the balls off the other flank."""
-        return self.preload > 0 and float(self.loads.remaining_preload) <= 0
 
 
 class Holding(NamedTuple):

@@ -17,7 +17,7 @@ from ballscrew.quantities import Info, Quantity, quantities_of
 from ballscrew.sizing.checks import Check
 from ballscrew.solvers.load_distribution import BallLoads
 from ballscrew.studies.check import RATINGS, Checked
-from ballscrew.studies.run import NutState
+from ballscrew.studies.nut_state import NutState
 
 #: The display units of the checks, by SI unit.
 _SHOWN_IN = {"N": "kN", "Pa": "MPa", "s": "h", "rad/s": "rpm", "m rad/s": "mm rpm"}
