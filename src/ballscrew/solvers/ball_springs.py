@@ -54,6 +54,16 @@ class RadialPush(NamedTuple):
     cross: Field
 
 
+class PushedApart(NamedTuple):
+    """Axial force of the balls and its slope by the displacement; their radial push and its slopes, as above."""
+
+    force: Field
+    slope: Field
+    push: Field
+    push_by_opening: Field
+    push_by_displacement: Field
+
+
 class BallSprings(NamedTuple):
     """The springs of the balls: one flank pair each, or two."""
 
@@ -112,6 +122,34 @@ class BallSprings(NamedTuple):
             )
             total = [so_far + self.balls * part for so_far, part in zip(total, parts, strict=True)]
         return RadialPush(*total)
+
+    def pushed_apart(self, displacement: Field, gap: Field) -> PushedApart:
+        """Forces of each ball at a displacement and in grooves that a gap has moved apart, with all slopes."""
+        A, alpha, c_phi = self.centre_distance, self.contact_angle, self.lead_cosine
+        total: list[Field] = [0.0 * displacement] * len(PushedApart._fields)
+        for flanks in self.flanks:
+            xi = flanks.facing * displacement * c_phi + flanks.offset
+            if self.constant_angle:
+                sine, cosine = np.sin(alpha), np.cos(alpha)
+                approach, per_distance = xi * sine - gap * cosine + flanks.excess, 0.0
+            else:
+                across, along = A * np.cos(alpha), A * np.sin(alpha)
+                s = np.sqrt((across - gap) ** 2 + (along + xi) ** 2)
+                sine, cosine = (along + xi) / s, (across - gap) / s
+                approach = (xi * (2 * along + xi) - gap * (2 * across - gap)) / (s + A) + flanks.excess
+                per_distance = 1 / s
+            delta = np.where(sine > 0, np.maximum(approach, 0.0), 0.0)
+            load = deflection.hertz_load(self.load_deflection, delta)
+            stiffness, turning = 1.5 * self.load_deflection * np.sqrt(delta), load * per_distance
+            parts = PushedApart(
+                flanks.facing * c_phi * load * sine,
+                c_phi**2 * (stiffness * sine**2 + turning * cosine**2),
+                load * cosine,
+                -(stiffness * cosine**2 + turning * sine**2),
+                flanks.facing * c_phi * (stiffness - turning) * sine * cosine,
+            )
+            total = [so_far + self.balls * part for so_far, part in zip(total, parts, strict=True)]
+        return PushedApart(*total)
 
     def widened(self, gap: Field) -> BallSprings:
         """The springs of grooves that a radial gap at each ball has moved apart: another distance and angle."""

@@ -14,10 +14,22 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ballscrew.kernels.buffers import aligned_array
-from ballscrew.kernels.chain import Balanced, Chains, balanced_chains, chain_kernel
+from ballscrew.kernels.chain import Balanced, Chains, Rings, balanced_chains, chain_kernel
 from ballscrew.kernels.emission import kernel_text, lanes_for
 from ballscrew.kernels.kernel import Kernel
-from ballscrew.solvers.ball_springs import BALANCED, ROUNDING, STEPS, BallSprings, Bars, Field, Flanks, chain_balance
+from ballscrew.solvers.ball_springs import (
+    BALANCED,
+    ROUNDING,
+    STEPS,
+    BallSprings,
+    Bars,
+    Field,
+    Flanks,
+    PushedApart,
+    chain_balance,
+    chain_imbalance,
+)
+from ballscrew.solvers.swelling import Swelling, Widened, widened_balance
 from ballscrew.tracing.program import Program, Source
 from ballscrew.tracing.verbatim import verbatim_program
 
@@ -52,18 +64,63 @@ def compiled_chain_balance(springs: BallSprings, bars: Bars, load: Field, scale:
     return x
 
 
+def compiled_widened_balance(
+    springs: BallSprings, bars: Bars, swelling: Swelling, load: Field, scale: Field, start: Field
+) -> Widened:
+    """The displacements of such a chain and the gaps of its bodies, and what is left of either balance."""
+    given, chains = _given(springs, bars, load, scale, start)
+    sources = _sources([*_numbers(springs), bars.stiffness])
+    kernel = _widened_kernel(len(springs.flanks), springs.constant_angle, sources)
+    found = balanced_chains(kernel, given, chains, STEPS, _rings(swelling, load.size))
+    x, force, slope, left = found.displacement, found.force, found.slope, found.imbalance
+    gap = found.opening[: len(swelling.members)]
+    x += np.where(slope > 0, (load - force) / np.where(slope > 0, slope, 1.0), 0.0)
+    if not found.settled.all():
+        open_ = np.flatnonzero(~found.settled)
+        among = np.resize(open_, max(open_.size, FEWEST_POINTS))
+        some, links, bodies = springs.at(among), bars.at(among), swelling.at(among)
+        slow = widened_balance(some, links, bodies, load[among], scale[among], start[:, among])
+        widened = some.widened(bodies.gaps(slow.gap))
+        of_balls = chain_imbalance(widened, links, load[among], slow.displacement)
+        x[:, open_], gap[:, open_] = (part[:, : open_.size] for part in (slow.displacement, slow.gap))
+        left[open_] = np.maximum(of_balls, slow.imbalance)[: open_.size]
+    return Widened(gap, x, left)
+
+
+def compiled_widened_response(
+    springs: BallSprings, bars: Bars, swelling: Swelling, displacement: Field, slope: Field
+) -> Field:
+    """The displacements under a further force of one, which enters as a load does, chain and gaps together."""
+    count = displacement.shape[-1]
+    push = springs.radial_push(displacement)
+    share = np.broadcast_to(bars.first_share, (count,))
+    nothing = np.broadcast_to(0.0, slope.shape)
+    chains = Chains(nothing, bars.stiffness, share, 1 - share, np.zeros(count), 0.0)
+    kernel = _linear_widened_kernel(_sources([slope, push.slope, push.cross, bars.stiffness]))
+    given = [slope, push.slope, push.cross]
+    return balanced_chains(kernel, given, chains, 1, _rings(swelling, count)).displacement
+
+
+def _rings(swelling: Swelling, count: int) -> Rings:
+    return Rings(np.broadcast_to(swelling.stiffness, (count,)), int(swelling.members[0].sum()))
+
+
 def compiled_imbalance(springs: BallSprings, bars: Bars, load: Field, displacement: Field) -> Field:
     """Root of the sum of the squares of what is left of the balance at the balls beyond rounding, N."""
     return _balanced(springs, bars, load, 0 * load, displacement, 0).imbalance
 
 
 def _balanced(springs: BallSprings, bars: Bars, load: Field, scale: Field, start: Field, steps: int) -> Balanced:
+    given, chains = _given(springs, bars, load, scale, start)
+    sources = _sources([*_numbers(springs), bars.stiffness])
+    return balanced_chains(_chain_kernel(len(springs.flanks), springs.constant_angle, sources), given, chains, steps)
+
+
+def _given(springs: BallSprings, bars: Bars, load: Field, scale: Field, start: Field) -> tuple[list[Field], Chains]:
     links, count = start.shape
-    inputs = _numbers(springs)
     entering = (bars.first_share * load, (1 - bars.first_share) * load)
     chains = Chains(start, bars.stiffness, *entering, BALANCED * scale, ROUNDING * np.sqrt(links))
-    kernel = _chain_kernel(len(springs.flanks), springs.constant_angle, _sources([*inputs, bars.stiffness]))
-    return balanced_chains(kernel, [_whole(number, links, count) for number in inputs], chains, steps)
+    return [_whole(number, links, count) for number in _numbers(springs)], chains
 
 
 def compiled_loads(springs: BallSprings, displacement: Field, works: Field) -> CarriedLoads:
@@ -112,6 +169,23 @@ def _chain_kernel(flanks: int, constant_angle: bool, sources: tuple[Source, ...]
         return {"force": force, "slope": slope}
 
     return chain_kernel(_recorded(flanks, 1, formula), sources)
+
+
+@functools.cache
+def _widened_kernel(flanks: int, constant_angle: bool, sources: tuple[Source, ...]) -> Kernel:
+    def formula(x: Any, gap: Any, *numbers: Any) -> Mapping[str, Any]:
+        return _made_of(constant_angle, *numbers).pushed_apart(x, gap)._asdict()
+
+    return chain_kernel(_recorded(flanks, 2, formula), sources, on_rings=True)
+
+
+@functools.cache
+def _linear_widened_kernel(sources: tuple[Source, ...]) -> Kernel:
+    def formula(x: Any, gap: Any, slope: Any, by_opening: Any, cross: Any) -> Mapping[str, Any]:
+        force, push = slope * x - cross * gap, cross * x + by_opening * gap
+        return PushedApart(force, slope + 0.0, push, by_opening + 0.0, cross + 0.0)._asdict()
+
+    return chain_kernel(verbatim_program(5, formula), sources, on_rings=True)
 
 
 @functools.cache

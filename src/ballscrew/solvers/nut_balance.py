@@ -29,6 +29,8 @@ from ballscrew.solvers.compiled_chain import (
     compiled_imbalance,
     compiled_loads,
     compiled_response,
+    compiled_widened_balance,
+    compiled_widened_response,
 )
 from ballscrew.solvers.rigid_nut import PICOMETRE, RigidNut, rigid_lift_off_load
 from ballscrew.solvers.swelling import Swelling, excess_at_rest, preload_of_oversize, widened_balance, widened_response
@@ -98,11 +100,14 @@ class NutPoint(NamedTuple):
 
 
 class Balance(NamedTuple):
-    """The springs as they are in a balance, the displacement of the screw at each ball, and a radial imbalance left."""
+    """The springs as they are in a balance, the displacement of the screw at each ball, and what is left of it.
+
+    That is the radial imbalance of bodies that swell, and if it is compiled, that of the balls as well.
+    """
 
     springs: BallSprings
     displacement: Field
-    radial_imbalance: Force
+    left: Force
 
 
 def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
@@ -118,7 +123,7 @@ def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
             rest = _balance(case, point, without_load, bars, swelling, 0 * point.load)
         else:
             rest = rest._replace(displacement=0 * rest.displacement)
-    springs, found, radial_imbalance = _balance(case, point, without_load, bars, swelling, point.load)
+    springs, found, left = _balance(case, point, without_load, bars, swelling, point.load)
     if not (case.halves == 2 or case.oversize):
         found = np.where(point.load != 0, found, rest.displacement)
     at_rest = rest.displacement
@@ -132,8 +137,11 @@ def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
         imbalance = np.maximum(imbalance, np.where(point.preload > 0, np.abs(braced - point.preload), 0.0))
     relative = imbalance / point.forces_at_work
     if case.elastic:
-        left = (compiled_imbalance if case.compiled else chain_imbalance)(springs, bars, point.load, found)
-        of_balls = np.maximum(left, radial_imbalance) / point.forces_at_work
+        if not case.compiled:
+            left = np.maximum(chain_imbalance(springs, bars, point.load, found), left)
+        elif not case.swells:
+            left = compiled_imbalance(springs, bars, point.load, found)
+        of_balls = left / point.forces_at_work
         relative = np.where(of_balls > LARGEST_OF_A_BALL, of_balls, relative)
     return (
         *carried[:4],
@@ -234,10 +242,12 @@ def _balance(
         return Balance(springs, rigid_balance(springs, load, forces, guess), 0 * load)
     start = rigid_balance(springs.of_kinds(case.balls), load, forces, guess, START)
     start = np.broadcast_to(start[0], (len(springs.flanks[0].facing), load.size))
-    balance = compiled_chain_balance if case.compiled else chain_balance
     if swelling is None:
+        balance = compiled_chain_balance if case.compiled else chain_balance
         return Balance(springs, balance(springs, bars, load, forces, start), 0 * load)
-    return Balance(*widened_balance(springs, bars, swelling, load, forces, start, balance))
+    widen = compiled_widened_balance if case.compiled else widened_balance
+    gap, found, left = widen(springs, bars, swelling, load, forces, start)
+    return Balance(springs.widened(swelling.gaps(gap)), found, left)
 
 
 def _braced(
@@ -304,7 +314,9 @@ def _compliance(
     right = np.zeros_like(slope)
     right[0] += beta
     right[-1] += 1 - beta
-    if swelling is not None:
+    if swelling is not None and case.compiled:
+        moved = compiled_widened_response(springs, bars, swelling, found, slope)
+    elif swelling is not None:
         moved = widened_response(springs, bars, swelling, found, right)
     elif case.compiled:
         moved = compiled_response(bars, slope)

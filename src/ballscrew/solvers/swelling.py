@@ -15,6 +15,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ballscrew.quantities import Force
 from ballscrew.solvers.ball_springs import BallSprings, Bars, Field, chain_balance, tridiagonal
@@ -36,6 +37,11 @@ class Swelling(NamedTuple):
         members = self.members[:, rows]
         return Swelling(self.stiffness, members[members.any(axis=1)])
 
+    def at(self, points: NDArray[np.intp]) -> Swelling:
+        """Some of the operating points."""
+        stiffness = self.stiffness
+        return Swelling(stiffness if stiffness.shape[-1] == 1 else stiffness[points], self.members)
+
     def gaps(self, by_body: Field) -> Field:
         """The gap at each ball from those of the bodies."""
         return np.einsum("bi,bp->ip", self.members, by_body)
@@ -46,9 +52,9 @@ class Swelling(NamedTuple):
 
 
 class Widened(NamedTuple):
-    """A balance with swelling: the springs of the grooves as they are then, the displacements, and what is left."""
+    """A balance with swelling: the gaps of the bodies, the displacements, and what is left."""
 
-    springs: BallSprings
+    gap: Field
     displacement: Field
     imbalance: Force
 
@@ -80,7 +86,7 @@ def widened_balance(
         gap = gap + step
         here = springs.widened(swelling.gaps(gap))
         x = balance(here, bars, load, scale, x + np.einsum("bip,bp->ip", moved, step))
-    return Widened(here, x, _size(left))
+    return Widened(gap, x, _size(left))
 
 
 def widened_response(springs: BallSprings, bars: Bars, swelling: Swelling, displacement: Field, right: Field) -> Field:
