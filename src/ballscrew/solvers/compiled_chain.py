@@ -40,7 +40,10 @@ TILE = 128
 
 
 class CarriedLoads(NamedTuple):
-    """Of each ball its loads and contact angles on both flanks, and its slope; sums of the axial forces."""
+    """Of each ball its loads and contact angles on both flanks, and its slopes; sums of the axial forces.
+
+    Slopes of the radial push are left out where nothing swells.
+    """
 
     forward_load: Field
     backward_load: Field
@@ -49,6 +52,8 @@ class CarriedLoads(NamedTuple):
     slope: Field
     on_forward: Field
     on_backward: Field
+    push_by_opening: Field | None = None
+    push_by_displacement: Field | None = None
 
 
 def compiled_chain_balance(springs: BallSprings, bars: Bars, load: Field, scale: Field, start: Field) -> Field:
@@ -88,16 +93,15 @@ def compiled_widened_balance(
 
 
 def compiled_widened_response(
-    springs: BallSprings, bars: Bars, swelling: Swelling, displacement: Field, slope: Field
+    bars: Bars, swelling: Swelling, slope: Field, push_by_opening: Field, push_by_displacement: Field
 ) -> Field:
     """The displacements under a further force of one, which enters as a load does, chain and gaps together."""
-    count = displacement.shape[-1]
-    push = springs.radial_push(displacement)
+    count = slope.shape[-1]
     share = np.broadcast_to(bars.first_share, (count,))
     nothing = np.broadcast_to(0.0, slope.shape)
     chains = Chains(nothing, bars.stiffness, share, 1 - share, np.zeros(count), 0.0)
-    kernel = _linear_widened_kernel(_sources([slope, push.slope, push.cross, bars.stiffness]))
-    given = [slope, push.slope, push.cross]
+    given = [slope, push_by_opening, push_by_displacement]
+    kernel = _linear_widened_kernel(_sources([*given, bars.stiffness]))
     return balanced_chains(kernel, given, chains, 1, _rings(swelling, count)).displacement
 
 
@@ -123,18 +127,18 @@ def _given(springs: BallSprings, bars: Bars, load: Field, scale: Field, start: F
     return [_whole(number, links, count) for number in _numbers(springs)], chains
 
 
-def compiled_loads(springs: BallSprings, displacement: Field, works: Field) -> CarriedLoads:
+def compiled_loads(springs: BallSprings, displacement: Field, works: Field, *, swells: bool = False) -> CarriedLoads:
     """The loads of balls at these displacements; none where a point does not work."""
     links, count = displacement.shape
     inputs = [displacement, works, *_numbers(springs)]
     sources: tuple[Source, ...] = ("points", "columns", *_sources(inputs[2:]))
-    kernel, sums, spare = _load_kernel(len(springs.flanks), springs.constant_angle, sources)
-    found = {n: aligned_array(count + spare if n in sums else links * count, float) for n in CarriedLoads._fields}
+    kernel, names, sums, spare = _load_kernel(len(springs.flanks), springs.constant_angle, swells, sources)
+    found = {n: aligned_array(count + spare if n in sums else links * count, float) for n in names}
     whole = [np.ascontiguousarray(_whole(number, links, count)) for number in inputs]
     kernel(
         slice(0, links), slice(0, count), count, whole, list(found.values()), past_cache=False, tile=TILE
     )  # fmt: skip
-    return CarriedLoads(*(held[:count] if name in sums else held.reshape(links, count) for name, held in found.items()))
+    return CarriedLoads(**{n: held[:count] if n in sums else held.reshape(links, count) for n, held in found.items()})
 
 
 def compiled_response(bars: Bars, slope: Field) -> Field:
@@ -198,9 +202,10 @@ def _linear_kernel(sources: tuple[Source, ...]) -> Kernel:
 
 @functools.cache
 def _load_kernel(
-    flanks: int, constant_angle: bool, sources: tuple[Source, ...]
-) -> tuple[Kernel, Mapping[str, Any], int]:
-    """The kernel of what balls carry, what of it is summed over them, and the room it needs beyond the points."""
+    flanks: int, constant_angle: bool, swells: bool, sources: tuple[Source, ...]
+) -> tuple[Kernel, tuple[str, ...], Mapping[str, Any], int]:
+    """The kernel of what balls carry, its results, which are summed, and the room these need beyond the points."""
+    names = CarriedLoads._fields[: None if swells else -2]
 
     def formula(x: Any, works: Any, *numbers: Any) -> Mapping[str, Any]:
         springs = _made_of(constant_angle, *numbers)
@@ -212,12 +217,15 @@ def _load_kernel(
             force = sum(np.where(pair == facing, facing * there.axial_force, 0.0) for pair, there in pairs)
             found |= {f"{side}_load": np.where(works != 0, load, 0.0), f"{side}_angle": angle}
             found[f"on_{side}"] = springs.balls * np.where(works != 0, force, 0.0)
-        return {name: found[name] for name in CarriedLoads._fields}
+        if swells:  # the springs are widened already
+            pushes = springs.pushed_apart(x, 0.0)
+            found |= {name: getattr(pushes, name) for name in names[-2:]}
+        return {name: found[name] for name in names}
 
     program = _recorded(flanks, 2, formula)
     sums: dict[str, Any] = {"on_forward": np.sum, "on_backward": np.sum}
     text = kernel_text(program, sources, dict.fromkeys(program.outputs, False), reduced=sums)
-    return Kernel.of(text, sources), sums, lanes_for(program)
+    return Kernel.of(text, sources), names, sums, lanes_for(program)
 
 
 def _sources(numbers: Sequence[Field]) -> tuple[Source, ...]:

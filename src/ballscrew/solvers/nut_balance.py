@@ -108,6 +108,8 @@ class Balance(NamedTuple):
     springs: BallSprings
     displacement: Field
     left: Force
+    #: The gap of each body; none where nothing swells.
+    gap: Field | None = None
 
 
 def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
@@ -123,13 +125,16 @@ def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
             rest = _balance(case, point, without_load, bars, swelling, 0 * point.load)
         else:
             rest = rest._replace(displacement=0 * rest.displacement)
-    springs, found, left = _balance(case, point, without_load, bars, swelling, point.load)
+    springs, found, left, _ = _balance(case, point, without_load, bars, swelling, point.load)
     if not (case.halves == 2 or case.oversize):
         found = np.where(point.load != 0, found, rest.displacement)
     at_rest = rest.displacement
     # without load and preload balls just touch; what rounding makes of that is no load
     works = np.abs(point.load) + point.preload > 0
-    carried = compiled_loads(springs, found, works.astype(float)) if case.compiled else _carried(springs, found, works)
+    if case.compiled:
+        carried = compiled_loads(springs, found, works.astype(float), swells=case.swells)
+    else:
+        carried = _carried(springs, found, works)
     imbalance = np.abs(carried.on_forward - carried.on_backward - point.load)
     if case.halves == 2:
         braced = np.where(rest.springs.flanks[0].facing > 0, rest.springs.forces(at_rest)[0], 0.0).sum(axis=0)
@@ -146,7 +151,7 @@ def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
     return (
         *carried[:4],
         _travel(case, point, bars, found, point.load) - _travel(case, point, bars, at_rest, 0 * point.load),
-        1 / _compliance(case, point, springs, bars, swelling, found, carried.slope),
+        1 / _compliance(case, point, springs, bars, swelling, found, carried),
         np.where(point.load < 0, carried.on_forward, carried.on_backward),
         _lift_off_load(case, point, without_load),
         np.where(works, relative, 0.0),
@@ -247,7 +252,7 @@ def _balance(
         return Balance(springs, balance(springs, bars, load, forces, start), 0 * load)
     widen = compiled_widened_balance if case.compiled else widened_balance
     gap, found, left = widen(springs, bars, swelling, load, forces, start)
-    return Balance(springs.widened(swelling.gaps(gap)), found, left)
+    return Balance(springs.widened(swelling.gaps(gap)), found, left, gap)
 
 
 def _braced(
@@ -275,14 +280,9 @@ def _braced(
         flanks=(Flanks(facing, offset + np.where(facing < 0, gap * point.lead_cosine, 0.0), excess),)
     )
     at_rest, widened = np.concatenate([before, behind + gap]), braced
-    if swelling is not None:
-        push = np.concatenate([_push(first), _push(second)])
-        widened = braced.widened(swelling.gaps(swelling.sums(push) / swelling.stiffness))
+    if swelling is not None and first.gap is not None and second.gap is not None:
+        widened = braced.widened(swelling.gaps(np.concatenate([first.gap, second.gap])))
     return braced, Balance(widened, at_rest, 0 * point.load)
-
-
-def _push(balance: Balance) -> Field:
-    return balance.springs.radial_push(balance.displacement).force
 
 
 def _first_touch(point: NutPoint, springs: BallSprings) -> Field:
@@ -305,17 +305,18 @@ def _compliance(
     bars: Bars,
     swelling: Swelling | None,
     found: Field,
-    slope: Field,
+    carried: CarriedLoads,
 ) -> Ratio:
     """Slope of the travel by the load, from those of the balls' forces by their displacements."""
     if not case.elastic:
-        return 1 / np.sum(slope, axis=0)
-    beta = bars.first_share
+        return 1 / np.sum(carried.slope, axis=0)
+    beta, slope = bars.first_share, carried.slope
     right = np.zeros_like(slope)
     right[0] += beta
     right[-1] += 1 - beta
-    if swelling is not None and case.compiled:
-        moved = compiled_widened_response(springs, bars, swelling, found, slope)
+    by_opening, by_displacement = carried.push_by_opening, carried.push_by_displacement
+    if swelling is not None and by_opening is not None and by_displacement is not None:
+        moved = compiled_widened_response(bars, swelling, slope, by_opening, by_displacement)
     elif swelling is not None:
         moved = widened_response(springs, bars, swelling, found, right)
     elif case.compiled:

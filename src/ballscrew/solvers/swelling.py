@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.quantities import Force
-from ballscrew.solvers.ball_springs import BallSprings, Bars, Field, chain_balance, tridiagonal
+from ballscrew.solvers.ball_springs import BallSprings, Bars, Field, chain_balance, over_balls, tridiagonal
 
 #: Imbalance of the radial forces that counts as none, in units of the forces at work, and steps of the search at most.
 BALANCED, STEPS = 1e-13, 40
@@ -44,11 +44,11 @@ class Swelling(NamedTuple):
 
     def gaps(self, by_body: Field) -> Field:
         """The gap at each ball from those of the bodies."""
-        return np.einsum("bi,bp->ip", self.members, by_body)
+        return by_body[np.argmax(self.members, axis=0)]
 
     def sums(self, by_ball: Field) -> Field:
         """Sums over the balls of each body."""
-        return np.einsum("bi,ip->bp", self.members, by_ball)
+        return np.stack([over_balls(body[:, None] * by_ball) for body in self.members])
 
 
 class Widened(NamedTuple):
@@ -106,8 +106,8 @@ def _moved_by_gaps(swelling: Swelling, bars: Bars, slope: Field, cross: Field) -
 
 def _matrix(swelling: Swelling, slope: Field, cross: Field, moved: Field) -> Field:
     """Slopes of the radial imbalance of each body by the gap of each, with the sign that a spring has; points first."""
-    own = np.einsum("bi,ip->pb", swelling.members, slope)
-    through = np.einsum("bi,ip,cip->pbc", swelling.members, cross, moved)
+    own = swelling.sums(slope).T
+    through = np.stack([swelling.sums(cross * each) for each in moved]).transpose(2, 1, 0)
     stiffness = np.broadcast_to(swelling.stiffness, (slope.shape[-1],))
     diagonal = np.eye(len(swelling.members)) * (stiffness[:, None, None] - own[:, :, None])
     return diagonal - through
