@@ -124,14 +124,15 @@ def test_the_kernel_of_the_chain_takes_the_same_steps(kind):
     assert np.array_equal(found.converged, expected.converged)
 
 
-def test_a_chain_that_needs_part_of_a_step_is_left_to_numpy(monkeypatch):
+@pytest.mark.parametrize(("swelling", "slower"), [(False, "chain_balance"), (True, "widened_balance")])
+def test_a_chain_that_needs_part_of_a_step_is_left_to_numpy(monkeypatch, swelling, slower):
     """Here all chains are."""
     from ballscrew.solvers import compiled_chain
 
-    screw, slow = screw_with(NUTS["double"]), []
+    nut, slow = dataclasses.replace(NUTS["double"], bodies=bs.Bodies(swelling=swelling)), []
+    screw, balance = screw_with(nut), getattr(compiled_chain, slower)
     monkeypatch.setattr(compiled_chain, "STEPS", 1)
-    chain_balance = compiled_chain.chain_balance
-    monkeypatch.setattr(compiled_chain, "chain_balance", lambda *given: slow.append(1) or chain_balance(*given))
+    monkeypatch.setattr(compiled_chain, slower, lambda *given: slow.append(1) or balance(*given))
     found = loads_of(screw, LOADS, compiled=True)
     assert slow
     assert np.allclose(found.forward_load, loads_of(screw, LOADS).forward_load, rtol=1e-12, atol=1e-9)

@@ -11,14 +11,13 @@ chain of balls; by the symmetry of the energy one slope serves for both.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.quantities import Force
-from ballscrew.solvers.ball_springs import BallSprings, Bars, Field, chain_balance, over_balls, tridiagonal
+from ballscrew.solvers.ball_springs import BallSprings, Bars, Field, RadialPush, chain_balance, over_balls, tridiagonal
 
 #: Imbalance of the radial forces that counts as none, in units of the forces at work, and steps of the search at most.
 BALANCED, STEPS = 1e-13, 40
@@ -60,32 +59,36 @@ class Widened(NamedTuple):
 
 
 def widened_balance(
-    springs: BallSprings,
-    bars: Bars,
-    swelling: Swelling,
-    load: Field,
-    scale: Field,
-    start: Field,
-    balance: Callable[[BallSprings, Bars, Field, Field, Field], Field] = chain_balance,
+    springs: BallSprings, bars: Bars, swelling: Swelling, load: Field, scale: Field, start: Field
 ) -> Widened:
     """The displacements of a chain of bars, and the gaps of its bodies, that carry a load, from a start.
 
-    ``balance`` solves the chain for given gaps.
+    The chain is solved for given gaps. What has settled stays, so that no point depends on others.
     """
-    x, here, gap = start, springs, np.zeros((len(swelling.members), load.size))
+    x, here, gap = start.copy(), springs, np.zeros((len(swelling.members), load.size))
     left = np.zeros_like(gap)
+    among, links, bodies = np.arange(load.size), bars, swelling
     for tried in range(STEPS):
-        push = here.radial_push(x)
-        left = swelling.sums(push.force) - swelling.stiffness * gap
+        at = x[:, among]
+        push = here.radial_push(at)
+        now = bodies.sums(push.force) - bodies.stiffness * gap[:, among]
+        left[:, among] = now
+        still = _size(now) > BALANCED * scale[among] + ROUNDING * _size(bodies.sums(push.force))
         # the displacements to start at carry no load yet
-        if tried and not np.any(_size(left) > BALANCED * scale + ROUNDING * _size(swelling.sums(push.force))):
+        if tried and not still.any():
             break
-        moved = _moved_by_gaps(swelling, bars, here.forces(x)[1], push.cross)
-        matrix = _matrix(swelling, push.slope, push.cross, moved)
-        step = np.linalg.solve(matrix, left.T[..., None])[..., 0].T
-        gap = gap + step
-        here = springs.widened(swelling.gaps(gap))
-        x = balance(here, bars, load, scale, x + np.einsum("bip,bp->ip", moved, step))
+        if tried and not still.all():
+            open_ = np.flatnonzero(still)
+            among, at, now = among[open_], at[:, open_], now[:, open_]
+            here, links, bodies = here.at(open_), links.at(open_), bodies.at(open_)
+            push = RadialPush(*(part[:, open_] for part in push))
+        moved = _moved_by_gaps(bodies, links, here.forces(at)[1], push.cross)
+        matrix = _matrix(bodies, push.slope, push.cross, moved)
+        step = np.linalg.solve(matrix, now.T[..., None])[..., 0].T
+        gap[:, among] += step
+        here = springs.at(among).widened(bodies.gaps(gap[:, among]))
+        following = at + _along(moved, step)
+        x[:, among] = chain_balance(here, links, load[among], scale[among], following)
     return Widened(gap, x, _size(left))
 
 
@@ -96,12 +99,17 @@ def widened_response(springs: BallSprings, bars: Bars, swelling: Swelling, displ
     moved = _moved_by_gaps(swelling, bars, slope, push.cross)
     matrix = _matrix(swelling, push.slope, push.cross, moved)
     step = np.linalg.solve(matrix, swelling.sums(push.cross * alone).T[..., None])[..., 0].T
-    return alone + np.einsum("bip,bp->ip", moved, step)
+    return alone + _along(moved, step)
 
 
 def _moved_by_gaps(swelling: Swelling, bars: Bars, slope: Field, cross: Field) -> Field:
     """Displacement of the balls by the gap of each body: bodies, balls, points."""
     return np.stack([tridiagonal(bars.stiffness, slope, body[:, None] * cross) for body in swelling.members])
+
+
+def _along(moved: Field, step: Field) -> Field:
+    """Displacement by a step of the gaps."""
+    return sum((each * body for each, body in zip(moved, step, strict=True)), np.zeros_like(moved[0]))
 
 
 def _matrix(swelling: Swelling, slope: Field, cross: Field, moved: Field) -> Field:
