@@ -27,6 +27,8 @@ from ballscrew.tracing.program import Program, Source
 
 #: Chains in a vector.
 LANES = 16
+#: Part of the limit of an imbalance within which a chain on rings needs no further step.
+WELL_WITHIN = 1 / 32
 
 Field = NDArray[np.float64]
 
@@ -214,17 +216,17 @@ class _RingWriter:
             product = w.exact("fmul", columns[one], columns[other])
             self._add(f"product{one}{other}", w.exact("fmul", product, inverse))
 
-    def after_links(self, squares: Value) -> tuple[Value, Value]:
-        """The squares of the imbalances with those of the rings, and the forces that have been rounded there.
-
-        The step of the openings follows from the small matrix.
-        """
+    def after_links(self, squares: Value) -> Value:
+        """The squares of the imbalances with those of the rings; the step of the openings, by the small matrix."""
         w, total = self.w, {name: Value(f"%ring_{name}_next") for name in self._sums}
         right: list[Value] = []
+        self._left: list[Value] = []
+        self.pushed = w.exact("fadd", total["push0"], total["push1"])
         own: list[Value] = []
         for ring in (0, 1):
             left = w.exact("fsub", total[f"push{ring}"], w.exact("fmul", self._stiffness, self._opening[ring]))
             squares = w.exact("fadd", squares, w.exact("fmul", left, left))
+            self._left.append(w.intrinsic("fabs", left))
             right.append(w.exact("fadd", left, total[f"through{ring}"]))
             stiff = w.exact("fsub", self._stiffness, total[f"slope{ring}"])
             own.append(w.exact("fsub", stiff, total[f"product{ring}{ring}"]))
@@ -238,7 +240,13 @@ class _RingWriter:
             )
             for ring in (0, 1)
         ]
-        return squares, w.exact("fadd", total["push0"], total["push1"])
+        return squares
+
+    def are_open(self, tolerance: Value, rounding: Value) -> Value:
+        """Where a ring is out of balance by itself: what stiff bars make of rounded places would hide that."""
+        w = self.w
+        limit = w.exact("fadd", tolerance, w.exact("fmul", rounding, self.pushed))
+        return w.on_masks("or", *(w.compare("ogt", left, limit) for left in self._left))
 
     def move(self, still: Value) -> None:
         """Take the step of the openings where a chain is still open."""
@@ -359,16 +367,24 @@ def _text(program: Program, sources: Sequence[Source], lanes: int, *, on_rings: 
     w.lines += ["  br i1 %more_links, label %forward, label %forward_done", "forward_done:"]
     all_squares, rounded = Value("%squares_next"), Value("%most_next")
     if rings:
-        all_squares, pushed = rings.after_links(all_squares)
-        rounded = w.exact("fadd", rounded, pushed)
+        all_squares = rings.after_links(all_squares)
+        rounded = w.exact("fadd", rounded, rings.pushed)
     w.named("%size", w.intrinsic("sqrt", all_squares))
     size = Value("%size")
     limit = w.exact("fadd", allowed, w.exact("fmul", of_bars, rounded))
-    worse = w.on_masks("and", open_, w.on_masks("xor", w.compare("olt", size, before), yes))
+    not_worse = w.compare("olt", size, before)
+    still = w.compare("ogt", size, limit)
+    if rings:
+        not_worse = w.on_masks("or", not_worse, w.compare("ole", size, limit))
+        still = w.on_masks("or", still, rings.are_open(allowed, of_bars))
+        # stiff bars make the limit wide: who has just come within it takes a step more
+        barely = w.compare("ogt", size, w.exact("fmul", limit, constant(WELL_WITHIN)))
+        still = w.on_masks("or", still, w.on_masks("and", barely, w.compare("ogt", before, limit)))
+    worse = w.on_masks("and", open_, w.on_masks("xor", not_worse, yes))
     began = w.instruction("icmp sgt i64 %step, 0")
     worse = w.instruction(f"select i1 {began}, {w.masks} {worse}, {w.masks} {no}")
     w.named_mask("%gives_up", w.on_masks("or", given_up, worse))
-    still = w.on_masks("and", open_, w.compare("ogt", size, limit))
+    still = w.on_masks("and", open_, still)
     w.named_mask("%still", w.on_masks("and", still, w.on_masks("xor", Value("%gives_up"), yes)))
     if rings:
         rings.move(Value("%still"))
