@@ -114,12 +114,13 @@ def test_the_kernel_of_the_chain_takes_the_same_steps(kind):
     """Loads of all balls; one point alone has the bits that it has among others."""
     screw = screw_with(NUTS[kind])
     expected, found = loads_of(screw, LOADS), loads_of(screw, LOADS, compiled=True)
-    for name in ("forward_load", "backward_load", "forward_angle", "backward_angle"):
-        values = getattr(expected, name)
-        off = np.abs(getattr(found, name) - values)
-        assert np.all(off <= 1e-12 * np.max(np.abs(values), axis=-1, keepdims=True)), name
-        alone = getattr(loads_of(screw, LOADS[4], compiled=True), name)
-        assert np.array_equal(alone, getattr(found, name)[4])
+    for flanks in (("forward_load", "backward_load"), ("forward_angle", "backward_angle")):
+        # a balance is judged by the forces at work: of a flank that is nearly relieved, less is known
+        size = np.max(np.abs([getattr(expected, name) for name in flanks]), axis=(0, -1))[:, None]
+        for name in flanks:
+            assert np.all(np.abs(getattr(found, name) - getattr(expected, name)) <= 1e-12 * size), name
+            alone = getattr(loads_of(screw, LOADS[4], compiled=True), name)
+            assert np.array_equal(alone, getattr(found, name)[4])
     assert np.allclose(found.rigidity, expected.rigidity, rtol=1e-12, atol=0)
     assert np.array_equal(found.converged, expected.converged)
 

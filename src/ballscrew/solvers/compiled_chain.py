@@ -218,7 +218,7 @@ def _load_kernel(
             found |= {f"{side}_load": np.where(works != 0, load, 0.0), f"{side}_angle": angle}
             found[f"on_{side}"] = springs.balls * np.where(works != 0, force, 0.0)
         if swells:  # the springs are widened already
-            pushes = springs.pushed_apart(x, 0.0)
+            pushes = springs.pushed_apart(x, 0.0 * x)
             found |= {name: getattr(pushes, name) for name in names[-2:]}
         return {name: found[name] for name in names}
 

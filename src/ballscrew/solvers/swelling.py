@@ -11,7 +11,7 @@ chain of balls; by the symmetry of the energy one slope serves for both.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -107,9 +107,12 @@ def _moved_by_gaps(swelling: Swelling, bars: Bars, slope: Field, cross: Field) -
     return np.stack([tridiagonal(bars.stiffness, slope, body[:, None] * cross) for body in swelling.members])
 
 
-def _along(moved: Field, step: Field) -> Field:
+def _along(moved: Field, step: NDArray[Any]) -> Field:
     """Displacement by a step of the gaps."""
-    return sum((each * body for each, body in zip(moved, step, strict=True)), np.zeros_like(moved[0]))
+    along = np.zeros_like(moved[0])
+    for of_body, its_step in zip(moved, step, strict=True):
+        along += of_body * its_step
+    return along
 
 
 def _matrix(swelling: Swelling, slope: Field, cross: Field, moved: Field) -> Field:
