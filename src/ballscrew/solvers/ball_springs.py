@@ -55,7 +55,10 @@ class RadialPush(NamedTuple):
 
 
 class PushedApart(NamedTuple):
-    """Axial force of the balls and its slope by the displacement; their radial push and its slopes, as above."""
+    """Axial force of each ball and its slope by the displacement; its radial push, and the slopes of that.
+
+    The last one, with the other sign, is the slope of the axial force by the gap.
+    """
 
     force: Field
     slope: Field
@@ -151,15 +154,19 @@ class BallSprings(NamedTuple):
             total = [so_far + self.balls * part for so_far, part in zip(total, parts, strict=True)]
         return PushedApart(*total)
 
-    def widened(self, gap: Field) -> BallSprings:
-        """The springs of grooves that a radial gap at each ball has moved apart: another distance and angle."""
+    def widened(self, gap: Field, body: NDArray[np.intp]) -> BallSprings:
+        """The springs of grooves that a radial gap has moved apart: another distance and angle.
+
+        Gaps are those of the bodies, and ``body`` is that of each ball; what is the same at all balls of a body
+        is worked out once.
+        """
         A, alpha = self.centre_distance, self.contact_angle
         if self.constant_angle:
-            return self._with_excess(-gap * np.cos(alpha))
+            return self._with_excess((-gap * np.cos(alpha))[body])
         across, along = A * np.cos(alpha) - gap, A * np.sin(alpha)
         distance = np.hypot(across, along)
-        moved = self._with_excess(-gap * (2 * A * np.cos(alpha) - gap) / (A + distance))
-        return moved._replace(centre_distance=distance, contact_angle=np.arctan2(along, across))
+        moved = self._with_excess((-gap * (2 * A * np.cos(alpha) - gap) / (A + distance))[body])
+        return moved._replace(centre_distance=distance[body], contact_angle=np.arctan2(along, across)[body])
 
     def _with_excess(self, more: Field) -> BallSprings:
         return self._replace(flanks=tuple(each._replace(excess=each.excess + more) for each in self.flanks))

@@ -3,6 +3,7 @@
 The springs are recorded from :class:`~ballscrew.solvers.ball_springs.BallSprings`, step by step as NumPy evaluates
 them. :mod:`ballscrew.kernels.chain` takes the same Newton steps as
 :func:`~ballscrew.solvers.ball_springs.chain_balance`; what would need a part of a step is left to the latter.
+Where bodies swell, their gaps are found in the same steps, where NumPy solves the chain anew for each gap.
 """
 
 from __future__ import annotations
@@ -85,7 +86,7 @@ def compiled_widened_balance(
         among = np.resize(open_, max(open_.size, FEWEST_POINTS))
         some, links, bodies = springs.at(among), bars.at(among), swelling.at(among)
         slow = widened_balance(some, links, bodies, load[among], scale[among], start[:, among])
-        widened = some.widened(bodies.gaps(slow.gap))
+        widened = bodies.widened(some, slow.gap)
         of_balls = chain_imbalance(widened, links, load[among], slow.displacement)
         x[:, open_], gap[:, open_] = (part[:, : open_.size] for part in (slow.displacement, slow.gap))
         left[open_] = np.maximum(of_balls, slow.imbalance)[: open_.size]

@@ -252,7 +252,7 @@ def _balance(
         return Balance(springs, balance(springs, bars, load, forces, start), 0 * load)
     widen = compiled_widened_balance if case.compiled else widened_balance
     gap, found, left = widen(springs, bars, swelling, load, forces, start)
-    return Balance(springs.widened(swelling.gaps(gap)), found, left, gap)
+    return Balance(swelling.widened(springs, gap), found, left, gap)
 
 
 def _braced(
@@ -281,7 +281,7 @@ def _braced(
     )
     at_rest, widened = np.concatenate([before, behind + gap]), braced
     if swelling is not None and first.gap is not None and second.gap is not None:
-        widened = braced.widened(swelling.gaps(np.concatenate([first.gap, second.gap])))
+        widened = swelling.widened(braced, np.concatenate([first.gap, second.gap]))
     return braced, Balance(widened, at_rest, 0 * point.load)
 
 

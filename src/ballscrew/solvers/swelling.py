@@ -41,9 +41,9 @@ class Swelling(NamedTuple):
         stiffness = self.stiffness
         return Swelling(stiffness if stiffness.shape[-1] == 1 else stiffness[points], self.members)
 
-    def gaps(self, by_body: Field) -> Field:
-        """The gap at each ball from those of the bodies."""
-        return by_body[np.argmax(self.members, axis=0)]
+    def widened(self, springs: BallSprings, gap: Field) -> BallSprings:
+        """The springs of balls between bodies with these gaps."""
+        return springs.widened(gap, np.argmax(self.members, axis=0))
 
     def sums(self, by_ball: Field) -> Field:
         """Sums over the balls of each body."""
@@ -86,7 +86,7 @@ def widened_balance(
         matrix = _matrix(bodies, push.slope, push.cross, moved)
         step = np.linalg.solve(matrix, now.T[..., None])[..., 0].T
         gap[:, among] += step
-        here = springs.at(among).widened(bodies.gaps(gap[:, among]))
+        here = bodies.widened(springs.at(among), gap[:, among])
         following = at + _along(moved, step)
         x[:, among] = chain_balance(here, links, load[among], scale[among], following)
     return Widened(gap, x, _size(left))
