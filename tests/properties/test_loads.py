@@ -9,6 +9,7 @@ import pytest
 
 from ballscrew.components.nut import Deviations, DoubleNut, OversizeBallNut, SingleNut
 from ballscrew.quantities import quantities_of
+from ballscrew.solvers.ball_springs import BallSprings, Flanks
 from ballscrew.solvers.load_distribution import TOLERANCE, BallLoads, _radial_stiffness, ball_loads
 from support.nut_cases import KINDS, nut_case
 
@@ -359,3 +360,27 @@ def test_a_thinner_nut_gives_way_more(kind):
     held = (case.load > 0) | (case.preload > 0)
     for stiffer, softer in ((bars, wide), (wide, thin)):
         assert np.all(softer.rigidity[held] < stiffer.rigidity[held] * (1 + 1e-9))
+
+
+@pytest.mark.parametrize("constant_angle", [False, True])
+def test_springs_in_widened_grooves_are_one_formula_of_displacement_and_gap(constant_angle):
+    """Two balls with both flanks on two bodies; slopes are differences of the forces."""
+    A, alpha = np.array([3e-4]), np.array([np.pi / 4])
+    facing, excess = np.array([[1.0], [-1.0]]), np.array([[6e-6], [9e-6]])
+    flanks = tuple(Flanks(sign * facing, 1e-6 * facing, excess) for sign in (1, -1))
+    springs = BallSprings(np.array([6e9]), A, alpha, np.array([0.99]), np.array([1.0]), constant_angle, flanks)
+    x, gap, body = np.array([[-2e-6, 0.0, 3e-6, 3e-5]] * 2), np.array([[1e-6] * 4, [3e-6] * 4]), np.arange(2)
+    found, widened = springs.pushed_apart(x, gap), springs.widened(gap, body)
+    push = widened.radial_push(x)
+    for one, other in zip(found, (*widened.forces(x), push.force, push.slope, push.cross), strict=True):
+        assert np.allclose(one, other, rtol=1e-9, atol=1e-12 * np.max(np.abs(other)))
+    h = 1e-10
+    ahead, back = springs.pushed_apart(x + h, gap), springs.pushed_apart(x - h, gap)
+    wide, narrow = springs.pushed_apart(x, gap + h), springs.pushed_apart(x, gap - h)
+    for slope, high, low in (
+        (found.slope, ahead.force, back.force),
+        (found.push_by_displacement, ahead.push, back.push),
+        (found.push_by_opening, wide.push, narrow.push),
+        (-found.push_by_displacement, wide.force, narrow.force),
+    ):
+        assert np.allclose(slope, (high - low) / (2 * h), rtol=1e-6, atol=1e-6 * np.max(np.abs(slope)))

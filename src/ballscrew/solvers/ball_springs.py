@@ -54,6 +54,19 @@ class RadialPush(NamedTuple):
     cross: Field
 
 
+class PushedApart(NamedTuple):
+    """Axial force of each ball and its slope by the displacement; its radial push, and the slopes of that.
+
+    The last one, with the other sign, is the slope of the axial force by the gap.
+    """
+
+    force: Field
+    slope: Field
+    push: Field
+    push_by_opening: Field
+    push_by_displacement: Field
+
+
 class BallSprings(NamedTuple):
     """The springs of the balls: one flank pair each, or two."""
 
@@ -113,15 +126,47 @@ class BallSprings(NamedTuple):
             total = [so_far + self.balls * part for so_far, part in zip(total, parts, strict=True)]
         return RadialPush(*total)
 
-    def widened(self, gap: Field) -> BallSprings:
-        """The springs of grooves that a radial gap at each ball has moved apart: another distance and angle."""
+    def pushed_apart(self, displacement: Field, gap: Field) -> PushedApart:
+        """Forces of each ball at a displacement and in grooves that a gap has moved apart, with all slopes."""
+        A, alpha, c_phi = self.centre_distance, self.contact_angle, self.lead_cosine
+        total: list[Field] = [0.0 * displacement] * len(PushedApart._fields)
+        for flanks in self.flanks:
+            xi = flanks.facing * displacement * c_phi + flanks.offset
+            if self.constant_angle:
+                sine, cosine = np.sin(alpha), np.cos(alpha)
+                approach, per_distance = xi * sine - gap * cosine + flanks.excess, 0.0
+            else:
+                across, along = A * np.cos(alpha), A * np.sin(alpha)
+                s = np.sqrt((across - gap) ** 2 + (along + xi) ** 2)
+                sine, cosine = (along + xi) / s, (across - gap) / s
+                approach = (xi * (2 * along + xi) - gap * (2 * across - gap)) / (s + A) + flanks.excess
+                per_distance = 1 / s
+            delta = np.where(sine > 0, np.maximum(approach, 0.0), 0.0)
+            load = deflection.hertz_load(self.load_deflection, delta)
+            stiffness, turning = 1.5 * self.load_deflection * np.sqrt(delta), load * per_distance
+            parts = PushedApart(
+                flanks.facing * c_phi * load * sine,
+                c_phi**2 * (stiffness * sine**2 + turning * cosine**2),
+                load * cosine,
+                -(stiffness * cosine**2 + turning * sine**2),
+                flanks.facing * c_phi * (stiffness - turning) * sine * cosine,
+            )
+            total = [so_far + self.balls * part for so_far, part in zip(total, parts, strict=True)]
+        return PushedApart(*total)
+
+    def widened(self, gap: Field, body: NDArray[np.intp]) -> BallSprings:
+        """The springs of grooves that a radial gap has moved apart: another distance and angle.
+
+        Gaps are those of the bodies, and ``body`` is that of each ball; what is the same at all balls of a body
+        is worked out once.
+        """
         A, alpha = self.centre_distance, self.contact_angle
         if self.constant_angle:
-            return self._with_excess(-gap * np.cos(alpha))
+            return self._with_excess((-gap * np.cos(alpha))[body])
         across, along = A * np.cos(alpha) - gap, A * np.sin(alpha)
         distance = np.hypot(across, along)
-        moved = self._with_excess(-gap * (2 * A * np.cos(alpha) - gap) / (A + distance))
-        return moved._replace(centre_distance=distance, contact_angle=np.arctan2(along, across))
+        moved = self._with_excess((-gap * (2 * A * np.cos(alpha) - gap) / (A + distance))[body])
+        return moved._replace(centre_distance=distance[body], contact_angle=np.arctan2(along, across)[body])
 
     def _with_excess(self, more: Field) -> BallSprings:
         return self._replace(flanks=tuple(each._replace(excess=each.excess + more) for each in self.flanks))

@@ -3,6 +3,7 @@
 The springs are recorded from :class:`~ballscrew.solvers.ball_springs.BallSprings`, step by step as NumPy evaluates
 them. :mod:`ballscrew.kernels.chain` takes the same Newton steps as
 :func:`~ballscrew.solvers.ball_springs.chain_balance`; what would need a part of a step is left to the latter.
+Where bodies swell, their gaps are found in the same steps, where NumPy solves the chain anew for each gap.
 """
 
 from __future__ import annotations
@@ -14,10 +15,22 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ballscrew.kernels.buffers import aligned_array
-from ballscrew.kernels.chain import Balanced, Chains, balanced_chains, chain_kernel
+from ballscrew.kernels.chain import Balanced, Chains, Rings, balanced_chains, chain_kernel
 from ballscrew.kernels.emission import kernel_text, lanes_for
 from ballscrew.kernels.kernel import Kernel
-from ballscrew.solvers.ball_springs import BALANCED, ROUNDING, STEPS, BallSprings, Bars, Field, Flanks, chain_balance
+from ballscrew.solvers.ball_springs import (
+    BALANCED,
+    ROUNDING,
+    STEPS,
+    BallSprings,
+    Bars,
+    Field,
+    Flanks,
+    PushedApart,
+    chain_balance,
+    chain_imbalance,
+)
+from ballscrew.solvers.swelling import Swelling, Widened, widened_balance
 from ballscrew.tracing.program import Program, Source
 from ballscrew.tracing.verbatim import verbatim_program
 
@@ -28,7 +41,10 @@ TILE = 128
 
 
 class CarriedLoads(NamedTuple):
-    """Of each ball its loads and contact angles on both flanks, and its slope; sums of the axial forces."""
+    """Of each ball its loads and contact angles on both flanks, and its slopes; sums of the axial forces.
+
+    Slopes of the radial push are left out where nothing swells.
+    """
 
     forward_load: Field
     backward_load: Field
@@ -37,6 +53,8 @@ class CarriedLoads(NamedTuple):
     slope: Field
     on_forward: Field
     on_backward: Field
+    push_by_opening: Field | None = None
+    push_by_displacement: Field | None = None
 
 
 def compiled_chain_balance(springs: BallSprings, bars: Bars, load: Field, scale: Field, start: Field) -> Field:
@@ -52,32 +70,76 @@ def compiled_chain_balance(springs: BallSprings, bars: Bars, load: Field, scale:
     return x
 
 
+def compiled_widened_balance(
+    springs: BallSprings, bars: Bars, swelling: Swelling, load: Field, scale: Field, start: Field
+) -> Widened:
+    """The displacements of such a chain and the gaps of its bodies, and what is left of either balance."""
+    given, chains = _given(springs, bars, load, scale, start)
+    sources = _sources([*_numbers(springs), bars.stiffness])
+    kernel = _widened_kernel(len(springs.flanks), springs.constant_angle, sources)
+    found = balanced_chains(kernel, given, chains, STEPS, _rings(swelling, load.size))
+    x, force, slope, left = found.displacement, found.force, found.slope, found.imbalance
+    gap = found.opening[: len(swelling.members)]
+    x += np.where(slope > 0, (load - force) / np.where(slope > 0, slope, 1.0), 0.0)
+    if not found.settled.all():
+        open_ = np.flatnonzero(~found.settled)
+        among = np.resize(open_, max(open_.size, FEWEST_POINTS))
+        some, links, bodies = springs.at(among), bars.at(among), swelling.at(among)
+        slow = widened_balance(some, links, bodies, load[among], scale[among], start[:, among])
+        widened = bodies.widened(some, slow.gap)
+        of_balls = chain_imbalance(widened, links, load[among], slow.displacement)
+        x[:, open_], gap[:, open_] = (part[:, : open_.size] for part in (slow.displacement, slow.gap))
+        left[open_] = np.maximum(of_balls, slow.imbalance)[: open_.size]
+    return Widened(gap, x, left)
+
+
+def compiled_widened_response(
+    bars: Bars, swelling: Swelling, slope: Field, push_by_opening: Field, push_by_displacement: Field
+) -> Field:
+    """The displacements under a further force of one, which enters as a load does, chain and gaps together."""
+    count = slope.shape[-1]
+    share = np.broadcast_to(bars.first_share, (count,))
+    nothing = np.broadcast_to(0.0, slope.shape)
+    chains = Chains(nothing, bars.stiffness, share, 1 - share, np.zeros(count), 0.0)
+    given = [slope, push_by_opening, push_by_displacement]
+    kernel = _linear_widened_kernel(_sources([*given, bars.stiffness]))
+    return balanced_chains(kernel, given, chains, 1, _rings(swelling, count)).displacement
+
+
+def _rings(swelling: Swelling, count: int) -> Rings:
+    return Rings(np.broadcast_to(swelling.stiffness, (count,)), int(swelling.members[0].sum()))
+
+
 def compiled_imbalance(springs: BallSprings, bars: Bars, load: Field, displacement: Field) -> Field:
     """Root of the sum of the squares of what is left of the balance at the balls beyond rounding, N."""
     return _balanced(springs, bars, load, 0 * load, displacement, 0).imbalance
 
 
 def _balanced(springs: BallSprings, bars: Bars, load: Field, scale: Field, start: Field, steps: int) -> Balanced:
+    given, chains = _given(springs, bars, load, scale, start)
+    sources = _sources([*_numbers(springs), bars.stiffness])
+    return balanced_chains(_chain_kernel(len(springs.flanks), springs.constant_angle, sources), given, chains, steps)
+
+
+def _given(springs: BallSprings, bars: Bars, load: Field, scale: Field, start: Field) -> tuple[list[Field], Chains]:
     links, count = start.shape
-    inputs = _numbers(springs)
     entering = (bars.first_share * load, (1 - bars.first_share) * load)
     chains = Chains(start, bars.stiffness, *entering, BALANCED * scale, ROUNDING * np.sqrt(links))
-    kernel = _chain_kernel(len(springs.flanks), springs.constant_angle, _sources([*inputs, bars.stiffness]))
-    return balanced_chains(kernel, [_whole(number, links, count) for number in inputs], chains, steps)
+    return [_whole(number, links, count) for number in _numbers(springs)], chains
 
 
-def compiled_loads(springs: BallSprings, displacement: Field, works: Field) -> CarriedLoads:
+def compiled_loads(springs: BallSprings, displacement: Field, works: Field, *, swells: bool = False) -> CarriedLoads:
     """The loads of balls at these displacements; none where a point does not work."""
     links, count = displacement.shape
     inputs = [displacement, works, *_numbers(springs)]
     sources: tuple[Source, ...] = ("points", "columns", *_sources(inputs[2:]))
-    kernel, sums, spare = _load_kernel(len(springs.flanks), springs.constant_angle, sources)
-    found = {n: aligned_array(count + spare if n in sums else links * count, float) for n in CarriedLoads._fields}
+    kernel, names, sums, spare = _load_kernel(len(springs.flanks), springs.constant_angle, swells, sources)
+    found = {n: aligned_array(count + spare if n in sums else links * count, float) for n in names}
     whole = [np.ascontiguousarray(_whole(number, links, count)) for number in inputs]
     kernel(
         slice(0, links), slice(0, count), count, whole, list(found.values()), past_cache=False, tile=TILE
     )  # fmt: skip
-    return CarriedLoads(*(held[:count] if name in sums else held.reshape(links, count) for name, held in found.items()))
+    return CarriedLoads(**{n: held[:count] if n in sums else held.reshape(links, count) for n, held in found.items()})
 
 
 def compiled_response(bars: Bars, slope: Field) -> Field:
@@ -115,6 +177,23 @@ def _chain_kernel(flanks: int, constant_angle: bool, sources: tuple[Source, ...]
 
 
 @functools.cache
+def _widened_kernel(flanks: int, constant_angle: bool, sources: tuple[Source, ...]) -> Kernel:
+    def formula(x: Any, gap: Any, *numbers: Any) -> Mapping[str, Any]:
+        return _made_of(constant_angle, *numbers).pushed_apart(x, gap)._asdict()
+
+    return chain_kernel(_recorded(flanks, 2, formula), sources, on_rings=True)
+
+
+@functools.cache
+def _linear_widened_kernel(sources: tuple[Source, ...]) -> Kernel:
+    def formula(x: Any, gap: Any, slope: Any, by_opening: Any, cross: Any) -> Mapping[str, Any]:
+        force, push = slope * x - cross * gap, cross * x + by_opening * gap
+        return PushedApart(force, slope + 0.0, push, by_opening + 0.0, cross + 0.0)._asdict()
+
+    return chain_kernel(verbatim_program(5, formula), sources, on_rings=True)
+
+
+@functools.cache
 def _linear_kernel(sources: tuple[Source, ...]) -> Kernel:
     def formula(x: Any, slope: Any) -> Mapping[str, Any]:
         return {"force": slope * x, "slope": slope + 0.0}
@@ -124,9 +203,10 @@ def _linear_kernel(sources: tuple[Source, ...]) -> Kernel:
 
 @functools.cache
 def _load_kernel(
-    flanks: int, constant_angle: bool, sources: tuple[Source, ...]
-) -> tuple[Kernel, Mapping[str, Any], int]:
-    """The kernel of what balls carry, what of it is summed over them, and the room it needs beyond the points."""
+    flanks: int, constant_angle: bool, swells: bool, sources: tuple[Source, ...]
+) -> tuple[Kernel, tuple[str, ...], Mapping[str, Any], int]:
+    """The kernel of what balls carry, its results, which are summed, and the room these need beyond the points."""
+    names = CarriedLoads._fields[: None if swells else -2]
 
     def formula(x: Any, works: Any, *numbers: Any) -> Mapping[str, Any]:
         springs = _made_of(constant_angle, *numbers)
@@ -138,12 +218,15 @@ def _load_kernel(
             force = sum(np.where(pair == facing, facing * there.axial_force, 0.0) for pair, there in pairs)
             found |= {f"{side}_load": np.where(works != 0, load, 0.0), f"{side}_angle": angle}
             found[f"on_{side}"] = springs.balls * np.where(works != 0, force, 0.0)
-        return {name: found[name] for name in CarriedLoads._fields}
+        if swells:  # the springs are widened already
+            pushes = springs.pushed_apart(x, 0.0 * x)
+            found |= {name: getattr(pushes, name) for name in names[-2:]}
+        return {name: found[name] for name in names}
 
     program = _recorded(flanks, 2, formula)
     sums: dict[str, Any] = {"on_forward": np.sum, "on_backward": np.sum}
     text = kernel_text(program, sources, dict.fromkeys(program.outputs, False), reduced=sums)
-    return Kernel.of(text, sources), sums, lanes_for(program)
+    return Kernel.of(text, sources), names, sums, lanes_for(program)
 
 
 def _sources(numbers: Sequence[Field]) -> tuple[Source, ...]:

@@ -29,6 +29,8 @@ from ballscrew.solvers.compiled_chain import (
     compiled_imbalance,
     compiled_loads,
     compiled_response,
+    compiled_widened_balance,
+    compiled_widened_response,
 )
 from ballscrew.solvers.rigid_nut import PICOMETRE, RigidNut, rigid_lift_off_load
 from ballscrew.solvers.swelling import Swelling, excess_at_rest, preload_of_oversize, widened_balance, widened_response
@@ -98,11 +100,16 @@ class NutPoint(NamedTuple):
 
 
 class Balance(NamedTuple):
-    """The springs as they are in a balance, the displacement of the screw at each ball, and a radial imbalance left."""
+    """The springs as they are in a balance, the displacement of the screw at each ball, and what is left of it.
+
+    That is the radial imbalance of bodies that swell, and if it is compiled, that of the balls as well.
+    """
 
     springs: BallSprings
     displacement: Field
-    radial_imbalance: Force
+    left: Force
+    #: The gap of each body; none where nothing swells.
+    gap: Field | None = None
 
 
 def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
@@ -118,13 +125,16 @@ def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
             rest = _balance(case, point, without_load, bars, swelling, 0 * point.load)
         else:
             rest = rest._replace(displacement=0 * rest.displacement)
-    springs, found, radial_imbalance = _balance(case, point, without_load, bars, swelling, point.load)
+    springs, found, left, _ = _balance(case, point, without_load, bars, swelling, point.load)
     if not (case.halves == 2 or case.oversize):
         found = np.where(point.load != 0, found, rest.displacement)
     at_rest = rest.displacement
     # without load and preload balls just touch; what rounding makes of that is no load
     works = np.abs(point.load) + point.preload > 0
-    carried = compiled_loads(springs, found, works.astype(float)) if case.compiled else _carried(springs, found, works)
+    if case.compiled:
+        carried = compiled_loads(springs, found, works.astype(float), swells=case.swells)
+    else:
+        carried = _carried(springs, found, works)
     imbalance = np.abs(carried.on_forward - carried.on_backward - point.load)
     if case.halves == 2:
         braced = np.where(rest.springs.flanks[0].facing > 0, rest.springs.forces(at_rest)[0], 0.0).sum(axis=0)
@@ -132,13 +142,16 @@ def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
         imbalance = np.maximum(imbalance, np.where(point.preload > 0, np.abs(braced - point.preload), 0.0))
     relative = imbalance / point.forces_at_work
     if case.elastic:
-        left = (compiled_imbalance if case.compiled else chain_imbalance)(springs, bars, point.load, found)
-        of_balls = np.maximum(left, radial_imbalance) / point.forces_at_work
+        if not case.compiled:
+            left = np.maximum(chain_imbalance(springs, bars, point.load, found), left)
+        elif not case.swells:
+            left = compiled_imbalance(springs, bars, point.load, found)
+        of_balls = left / point.forces_at_work
         relative = np.where(of_balls > LARGEST_OF_A_BALL, of_balls, relative)
     return (
         *carried[:4],
         _travel(case, point, bars, found, point.load) - _travel(case, point, bars, at_rest, 0 * point.load),
-        1 / _compliance(case, point, springs, bars, swelling, found, carried.slope),
+        1 / _compliance(case, point, springs, bars, swelling, found, carried),
         np.where(point.load < 0, carried.on_forward, carried.on_backward),
         _lift_off_load(case, point, without_load),
         np.where(works, relative, 0.0),
@@ -234,10 +247,12 @@ def _balance(
         return Balance(springs, rigid_balance(springs, load, forces, guess), 0 * load)
     start = rigid_balance(springs.of_kinds(case.balls), load, forces, guess, START)
     start = np.broadcast_to(start[0], (len(springs.flanks[0].facing), load.size))
-    balance = compiled_chain_balance if case.compiled else chain_balance
     if swelling is None:
+        balance = compiled_chain_balance if case.compiled else chain_balance
         return Balance(springs, balance(springs, bars, load, forces, start), 0 * load)
-    return Balance(*widened_balance(springs, bars, swelling, load, forces, start, balance))
+    widen = compiled_widened_balance if case.compiled else widened_balance
+    gap, found, left = widen(springs, bars, swelling, load, forces, start)
+    return Balance(swelling.widened(springs, gap), found, left, gap)
 
 
 def _braced(
@@ -265,14 +280,9 @@ def _braced(
         flanks=(Flanks(facing, offset + np.where(facing < 0, gap * point.lead_cosine, 0.0), excess),)
     )
     at_rest, widened = np.concatenate([before, behind + gap]), braced
-    if swelling is not None:
-        push = np.concatenate([_push(first), _push(second)])
-        widened = braced.widened(swelling.gaps(swelling.sums(push) / swelling.stiffness))
+    if swelling is not None and first.gap is not None and second.gap is not None:
+        widened = swelling.widened(braced, np.concatenate([first.gap, second.gap]))
     return braced, Balance(widened, at_rest, 0 * point.load)
-
-
-def _push(balance: Balance) -> Field:
-    return balance.springs.radial_push(balance.displacement).force
 
 
 def _first_touch(point: NutPoint, springs: BallSprings) -> Field:
@@ -295,16 +305,19 @@ def _compliance(
     bars: Bars,
     swelling: Swelling | None,
     found: Field,
-    slope: Field,
+    carried: CarriedLoads,
 ) -> Ratio:
     """Slope of the travel by the load, from those of the balls' forces by their displacements."""
     if not case.elastic:
-        return 1 / np.sum(slope, axis=0)
-    beta = bars.first_share
+        return 1 / np.sum(carried.slope, axis=0)
+    beta, slope = bars.first_share, carried.slope
     right = np.zeros_like(slope)
     right[0] += beta
     right[-1] += 1 - beta
-    if swelling is not None:
+    by_opening, by_displacement = carried.push_by_opening, carried.push_by_displacement
+    if swelling is not None and by_opening is not None and by_displacement is not None:
+        moved = compiled_widened_response(bars, swelling, slope, by_opening, by_displacement)
+    elif swelling is not None:
         moved = widened_response(springs, bars, swelling, found, right)
     elif case.compiled:
         moved = compiled_response(bars, slope)

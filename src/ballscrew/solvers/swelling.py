@@ -11,13 +11,13 @@ chain of balls; by the symmetry of the energy one slope serves for both.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ballscrew.quantities import Force
-from ballscrew.solvers.ball_springs import BallSprings, Bars, Field, chain_balance, tridiagonal
+from ballscrew.solvers.ball_springs import BallSprings, Bars, Field, RadialPush, chain_balance, over_balls, tridiagonal
 
 #: Imbalance of the radial forces that counts as none, in units of the forces at work, and steps of the search at most.
 BALANCED, STEPS = 1e-13, 40
@@ -36,51 +36,60 @@ class Swelling(NamedTuple):
         members = self.members[:, rows]
         return Swelling(self.stiffness, members[members.any(axis=1)])
 
-    def gaps(self, by_body: Field) -> Field:
-        """The gap at each ball from those of the bodies."""
-        return np.einsum("bi,bp->ip", self.members, by_body)
+    def at(self, points: NDArray[np.intp]) -> Swelling:
+        """Some of the operating points."""
+        stiffness = self.stiffness
+        return Swelling(stiffness if stiffness.shape[-1] == 1 else stiffness[points], self.members)
+
+    def widened(self, springs: BallSprings, gap: Field) -> BallSprings:
+        """The springs of balls between bodies with these gaps."""
+        return springs.widened(gap, np.argmax(self.members, axis=0))
 
     def sums(self, by_ball: Field) -> Field:
         """Sums over the balls of each body."""
-        return np.einsum("bi,ip->bp", self.members, by_ball)
+        return np.stack([over_balls(body[:, None] * by_ball) for body in self.members])
 
 
 class Widened(NamedTuple):
-    """A balance with swelling: the springs of the grooves as they are then, the displacements, and what is left."""
+    """A balance with swelling: the gaps of the bodies, the displacements, and what is left."""
 
-    springs: BallSprings
+    gap: Field
     displacement: Field
     imbalance: Force
 
 
 def widened_balance(
-    springs: BallSprings,
-    bars: Bars,
-    swelling: Swelling,
-    load: Field,
-    scale: Field,
-    start: Field,
-    balance: Callable[[BallSprings, Bars, Field, Field, Field], Field] = chain_balance,
+    springs: BallSprings, bars: Bars, swelling: Swelling, load: Field, scale: Field, start: Field
 ) -> Widened:
     """The displacements of a chain of bars, and the gaps of its bodies, that carry a load, from a start.
 
-    ``balance`` solves the chain for given gaps.
+    The chain is solved for given gaps. What has settled stays, so that no point depends on others.
     """
-    x, here, gap = start, springs, np.zeros((len(swelling.members), load.size))
+    x, here, gap = start.copy(), springs, np.zeros((len(swelling.members), load.size))
     left = np.zeros_like(gap)
+    among, links, bodies = np.arange(load.size), bars, swelling
     for tried in range(STEPS):
-        push = here.radial_push(x)
-        left = swelling.sums(push.force) - swelling.stiffness * gap
+        at = x[:, among]
+        push = here.radial_push(at)
+        now = bodies.sums(push.force) - bodies.stiffness * gap[:, among]
+        left[:, among] = now
+        still = _size(now) > BALANCED * scale[among] + ROUNDING * _size(bodies.sums(push.force))
         # the displacements to start at carry no load yet
-        if tried and not np.any(_size(left) > BALANCED * scale + ROUNDING * _size(swelling.sums(push.force))):
+        if tried and not still.any():
             break
-        moved = _moved_by_gaps(swelling, bars, here.forces(x)[1], push.cross)
-        matrix = _matrix(swelling, push.slope, push.cross, moved)
-        step = np.linalg.solve(matrix, left.T[..., None])[..., 0].T
-        gap = gap + step
-        here = springs.widened(swelling.gaps(gap))
-        x = balance(here, bars, load, scale, x + np.einsum("bip,bp->ip", moved, step))
-    return Widened(here, x, _size(left))
+        if tried and not still.all():
+            open_ = np.flatnonzero(still)
+            among, at, now = among[open_], at[:, open_], now[:, open_]
+            here, links, bodies = here.at(open_), links.at(open_), bodies.at(open_)
+            push = RadialPush(*(part[:, open_] for part in push))
+        moved = _moved_by_gaps(bodies, links, here.forces(at)[1], push.cross)
+        matrix = _matrix(bodies, push.slope, push.cross, moved)
+        step = np.linalg.solve(matrix, now.T[..., None])[..., 0].T
+        gap[:, among] += step
+        here = bodies.widened(springs.at(among), gap[:, among])
+        following = at + _along(moved, step)
+        x[:, among] = chain_balance(here, links, load[among], scale[among], following)
+    return Widened(gap, x, _size(left))
 
 
 def widened_response(springs: BallSprings, bars: Bars, swelling: Swelling, displacement: Field, right: Field) -> Field:
@@ -90,7 +99,7 @@ def widened_response(springs: BallSprings, bars: Bars, swelling: Swelling, displ
     moved = _moved_by_gaps(swelling, bars, slope, push.cross)
     matrix = _matrix(swelling, push.slope, push.cross, moved)
     step = np.linalg.solve(matrix, swelling.sums(push.cross * alone).T[..., None])[..., 0].T
-    return alone + np.einsum("bip,bp->ip", moved, step)
+    return alone + _along(moved, step)
 
 
 def _moved_by_gaps(swelling: Swelling, bars: Bars, slope: Field, cross: Field) -> Field:
@@ -98,10 +107,18 @@ def _moved_by_gaps(swelling: Swelling, bars: Bars, slope: Field, cross: Field) -
     return np.stack([tridiagonal(bars.stiffness, slope, body[:, None] * cross) for body in swelling.members])
 
 
+def _along(moved: Field, step: NDArray[Any]) -> Field:
+    """Displacement by a step of the gaps."""
+    along = np.zeros_like(moved[0])
+    for of_body, its_step in zip(moved, step, strict=True):
+        along += of_body * its_step
+    return along
+
+
 def _matrix(swelling: Swelling, slope: Field, cross: Field, moved: Field) -> Field:
     """Slopes of the radial imbalance of each body by the gap of each, with the sign that a spring has; points first."""
-    own = np.einsum("bi,ip->pb", swelling.members, slope)
-    through = np.einsum("bi,ip,cip->pbc", swelling.members, cross, moved)
+    own = swelling.sums(slope).T
+    through = np.stack([swelling.sums(cross * each) for each in moved]).transpose(2, 1, 0)
     stiffness = np.broadcast_to(swelling.stiffness, (slope.shape[-1],))
     diagonal = np.eye(len(swelling.members)) * (stiffness[:, None, None] - own[:, :, None])
     return diagonal - through
