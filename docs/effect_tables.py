@@ -64,7 +64,7 @@ def numbers() -> dict[str, str]:
     found: dict[str, str] = {}
     steps = {name: effects(case) for name, case in CASES.items()}
     for i, key in enumerate(
-        ("rolling", "inlet", "sharing", "boundary", "runin", "spin", "ellipse", "helix", "balls"), start=1
+        ("rolling", "inlet", "sharing", "boundary", "runin", "spin", "ellipse", "helix", "nobraking", "balls"), start=1
     ):
         found[key] = ", ".join(_step(steps[name], i, case.title) for name, case in CASES.items())
     reference, corrected = FrictionModel.reference(), FrictionModel.corrected()

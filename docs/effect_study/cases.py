@@ -127,10 +127,11 @@ def steps() -> tuple[Step, ...]:
         ("spin", "spin, on a line across the contact", {"slip": line_slip}),
         ("ellipse", "the whole ellipse instead of the line", {"slip": spin_over_ellipse}),
         ("helix", "lateral slip of the helix", {"slip": reference.slip}),
+        ("no braking", "neighbours that rub and do not brake", {"ball_chain": reference.ball_chain}),
         (
             "balls",
             "balls that press on each other in proportion to their load",
-            {"ball_chain": reference.ball_chain, "ball_force": reference.ball_force, "name": reference.name},
+            {"ball_force": reference.ball_force, "name": reference.name},
         ),
     )
     found = [Step("corrected", "the paper, corrected", so_far)]

@@ -73,7 +73,7 @@ def test_signs_of_the_effects(found):
     _, by_name = found
     signs = {name: math.copysign(1, effect.added) for name, effect in by_name.items() if name != "corrected"}
     less = {name for name, sign in signs.items() if sign < 0}
-    assert less == {"inlet heat", "µ_0 0.12", "run-in"}
+    assert less == {"inlet heat", "µ_0 0.12", "run-in", "no braking"}
 
 
 def test_effects_touch_the_parts_they_should(found):
@@ -87,8 +87,8 @@ def test_effects_touch_the_parts_they_should(found):
         for part in still:
             assert by_name[before].parts[part] == by_name[after].parts[part]
     for name, effect in by_name.items():
-        assert (effect.parts["helix"] > 0) == (name in {"helix", "balls"})
-        assert (effect.parts["spin"] > 0) == (name in {"spin", "ellipse", "helix", "balls"})
+        assert (effect.parts["helix"] > 0) == (name in {"helix", "no braking", "balls"})
+        assert (effect.parts["spin"] > 0) == (name in {"spin", "ellipse", "helix", "no braking", "balls"})
 
 
 def test_spin_and_helix_matter_more_with_open_grooves_and_a_steep_lead():
@@ -154,7 +154,7 @@ def test_no_load_and_no_speed_give_what_the_page_on_validity_says(case):
         assert np.isnan(unloaded.efficiency)
         parts = {part for part, torque in unloaded.contributions.items() if torque}
         assert parts == (set() if name == "reference" else {"ball_to_ball", "chain_braking"})
-        at_rest, slow = case.result(model, screw_speed=0.0), case.result(model, screw_speed=1e-6)
+        at_rest, slow = case.result(model, screw_speed=0.0), case.result(model, screw_speed=1e-8)
         assert at_rest.warnings == []
         assert at_rest.contributions["hydrodynamic_rolling"] == 0
         assert at_rest.screw_torque == pytest.approx(slow.screw_torque, rel=1e-3)
