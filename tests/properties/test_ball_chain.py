@@ -65,7 +65,13 @@ def test_rubbing_is_a_like_share_at_all_sizes(sizes):
     """The force between balls scales with their load: some 15 to 36 % of the drag of double nuts preloaded by 5 %."""
     d, lead, ball = (1e-3 * size for size in sizes)
     row = dataclasses.replace(
-        ROW, nominal_diameter=d, lead=lead, ball_diameter=ball, turns=3.0, pitch_circle_diameter=None
+        ROW,
+        nominal_diameter=d,
+        lead=lead,
+        ball_diameter=ball,
+        turns=3.0,
+        pitch_circle_diameter=None,
+        nut_outer_diameter=None,
     )
     screw = row.screw(nut=bs.DoubleNut(preload=0.05 * float(ratings_of(row).dynamic)))
     found = REFERENCE(screw, OIL, axial_load=0.0, screw_speed=SPEED)
