@@ -103,6 +103,21 @@ def test_it_changes_two_numbers_and_nothing_else():
     assert list(PARAMETERS.values()) == ["friction.boundary_friction_coefficient", "ball_force.share_of_load"]
 
 
+def test_in_a_model_whose_neighbours_brake_they_rub_as_in_the_fitted_one():
+    """The fitted force would brake with all of itself: ten times the torque."""
+    for name in ("corrected", "olaru2005"):
+        model = getattr(FrictionModel, name)()
+        assert calibrated(model, STORED).ball_chain is FrictionModel.reference().ball_chain
+
+
+def test_a_number_that_was_not_fitted_stays():
+    reference = FrictionModel.reference()
+    friction = dataclasses.replace(reference.friction, boundary_friction_coefficient=0.2)
+    model = calibrated(dataclasses.replace(reference, friction=friction), calibration("rexroth-2006-rubbing"))
+    assert model.friction.boundary_friction_coefficient == 0.2
+    assert model.ball_force.share_of_load == calibration("rexroth-2006-rubbing").share_of_load
+
+
 def test_models_that_it_does_not_fit_are_refused():
     reference = FrictionModel.reference()
     with pytest.raises(InputError, match=r"model\.friction: has no boundary friction to calibrate"):

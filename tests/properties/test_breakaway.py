@@ -55,6 +55,23 @@ def test_whether_the_load_starts():
     assert math.isnan(unloaded.presliding_angle)
 
 
+@pytest.mark.parametrize("nut", [bs.OversizeBallNut(preload=3605.0), bs.DoubleNut(preload=3605.0)])
+def test_flanks_that_have_lifted_off_hold_nothing(nut):
+    """Far beyond lift-off a preloaded nut is one half that carries the load alone, oversize balls at an angle of theirs."""
+    row = bs.catalogue()["rexroth-40x10x6-6-double"]
+    preloaded, alone = (
+        bs.breakaway(REFERENCE, row.screw(nut=each), OIL, axial_load=30e3)
+        for each in (nut, bs.SingleNut(angle_under_load=True))
+    )
+    assert preloaded.stiffness == pytest.approx(alone.stiffness, rel=5e-3)
+
+
+def test_a_model_without_spin_does_not_say_what_winds_up():
+    found = bs.breakaway(bs.FrictionModel.olaru2005(), SCREW, OIL, axial_load=4000.0)
+    assert math.isnan(found.presliding_angle)
+    assert found.torque > 0
+
+
 def test_a_coefficient_without_meaning_is_refused():
     with pytest.raises(bs.InputError, match=r"breakaway\.static_friction_coefficient: must be above zero \(0\.0\)"):
         bs.breakaway(REFERENCE, SCREW, OIL, axial_load=1.0, static_friction_coefficient=0.0)

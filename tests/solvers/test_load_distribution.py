@@ -13,7 +13,7 @@ from ballscrew.components.nut import Bodies, Deviations, DoubleNut, OffsetLeadNu
 from ballscrew.equations import geometry, hertz, preload
 from ballscrew.errors import InputError
 from ballscrew.solvers import load_distribution
-from ballscrew.solvers.load_distribution import ball_loads
+from ballscrew.solvers.load_distribution import ball_loads, preload_of
 
 STEEL = bs.Material(young_modulus=2.26e11 * (1 - 0.3**2), poisson_ratio=0.3)
 LOAD = 4000.0
@@ -415,3 +415,16 @@ def test_an_unfit_load_is_flagged():
     r = ball_loads(PAPER, DoubleNut(500.0), np.array([100.0, np.nan, 300.0]))
     assert list(r.converged) == [True, False, True]
     assert "outgrow" in r.advice
+
+
+def test_the_preload_of_an_oversize_in_bodies_that_swell_is_what_is_left_without_load():
+    """Swelling takes a part of the oversize: 14.5 kN of 17.2 kN that rigid bodies would have."""
+    row = bs.catalogue()["rexroth-40x10x6-6-double"]
+    swelling, bars = (
+        bs.OversizeBallNut(oversize=10e-6, bodies=bs.Bodies(nut_outer_diameter=0.063, swelling=swells))
+        for swells in (True, False)
+    )
+    screw = row.screw(nut=swelling)
+    loads = ball_loads(screw, swelling, 0.0, bodies=swelling.bodies.sized(screw))
+    assert preload_of(screw, swelling) == pytest.approx(float(loads.remaining_preload), rel=1e-12)
+    assert preload_of(screw, swelling) < 0.9 * preload_of(screw, bars)

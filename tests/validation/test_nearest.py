@@ -1,5 +1,7 @@
 """The rows of a vendor nearest to a nut: stored ratios, found again, and said beside a result."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -39,6 +41,8 @@ def test_the_row_itself_is_the_nearest():
 def test_nuts_and_calibrations_without_rows_have_none():
     assert near_rows(DRIVE.screw()) is None
     assert near_rows(DRIVE.screw(nut=bs.DoubleNut(preload=1.0)), "mine") is None
+    far = dataclasses.replace(DRIVE.screw(nut=bs.DoubleNut(preload=1.0)), pitch_circle_diameter=0.3)
+    assert near_rows(far) is None
 
 
 def test_it_is_said_beside_a_result(ballscrew, tmp_path):
@@ -50,10 +54,10 @@ def test_it_is_said_beside_a_result(ballscrew, tmp_path):
         encoding="utf-8",
     )
     plain = " ".join(ballscrew("run", case).stdout.split())
-    assert "no-load torque, model / vendor: 0.8" in plain
+    assert "no-load torque at 100 rpm, ISO VG 100 at 25 degC, model / vendor: 0.8" in plain
     assert "for the 6 rows of rexroth-double-nut most like this nut, without calibration" in plain
     fitted = " ".join(ballscrew("run", case, "--set", "model.calibration=rexroth-2006-rubbing").stdout.split())
-    assert "calibrated (rexroth-2006-rubbing)" in fitted
+    assert "which rexroth-2006-rubbing was fitted to" in fitted
     changed = ballscrew("run", case, "--set", "model.friction=load-sharing").stdout
     assert "model / vendor" not in changed
 

@@ -290,11 +290,13 @@ def _model(sections: Sections, chosen: str | None, faults: list[Fault], code: Pa
 def _calibrated(model: FrictionModel, table: Mapping[str, Any]) -> FrictionModel:
     """The model with a named calibration; the table may not set what it sets."""
     friction: Any = table.get("friction")
-    name, twice = table["calibration"], ["ball_force"] if "ball_force" in table else []
-    if isinstance(friction, dict) and "boundary_friction_coefficient" in friction:
-        twice.append("friction.boundary_friction_coefficient")
+    name, found = table["calibration"], calibration(table["calibration"])
+    twice = [slot for slot in ("ball_force", "ball_chain") if slot in table]
+    number = "boundary_friction_coefficient"
+    if number in found.fitted and isinstance(friction, dict) and number in friction:
+        twice.append(f"friction.{number}")
     raise_if_any([Fault(f"model.{field}", "is set by the calibration", name, "leave one out") for field in twice])
-    return calibrated(model, calibration(name))
+    return calibrated(model, found)
 
 
 def _laws(table: Mapping[str, Any], preset: FrictionModel, faults: list[Fault], code: Path | None) -> dict[str, Any]:

@@ -165,10 +165,10 @@ def _against_vendors(case: Case, nut: Nut) -> list[str]:
     near = near_rows(dataclasses.replace(case.screw, nut=nut), None if fitted is None else fitted.name)
     if near is None:
         return []
-    how = "without calibration" if fitted is None else f"calibrated ({fitted.name})"
+    how = "without calibration" if fitted is None else f"which {fitted.name} was fitted to"
     return [
-        f"no-load torque, model / vendor: {near.mean:.2f} ± {near.scatter:.2f} for the {len(near.rows)} rows of "
-        f"{near.data} most like this nut, {how} (ballscrew validate)"
+        f"no-load torque at 100 rpm, ISO VG 100 at 25 degC, model / vendor: {near.mean:.2f} ± {near.scatter:.2f} for "
+        f"the {len(near.rows)} rows of {near.data} most like this nut, {how} (ballscrew validate)"
     ]
 
 

@@ -119,7 +119,7 @@ class RunInSharing(ByValue):
             r"\lambda_r",
             "film parameter down to which surfaces wear in",
             at_least=0,
-            hint="0.7; zero: as new",
+            hint="0.7; zero: as new where there is a film",
             usual=(0.0, 3.0),
         ),
     ] = 0.7

@@ -64,7 +64,14 @@ class Breakaway:
         """
         screw, frame = self.at_rest.ball_screw, self.at_rest.frame
         return sum(
-            kind.total(_stiffness(screw, pair.screw, pair.nut, frame.lead_angle, frame.rolling_plane_sine))
+            # a flank pair that has lifted off holds nothing
+            kind.total(
+                where(
+                    pair.load > 0,
+                    _stiffness(screw, pair.screw, pair.nut, frame.lead_angle, frame.rolling_plane_sine),
+                    0.0,
+                )
+            )
             for kind in self.at_rest.kinds
             for pair in kind.pairs
         )
@@ -78,10 +85,13 @@ class Breakaway:
     def presliding_angle(self) -> Annotated[Angle, Info(r"\theta_b", "rotation before the contacts slip", "deg")]:
         r"""Rotation of the screw before the contacts slip, slip torque over stiffness; NaN without load.
 
+        NaN as well for a model without spin and lateral slip, which does not say what winds up.
+
         The parameter :math:`\sigma_0` of the friction models of Dahl and LuGre is the stiffness.
         """
-        k = self.stiffness
-        return where(k > 0, self.slip_torque / where(k > 0, k, 1.0), float("nan"))
+        k, slip = self.stiffness, self.slip_torque
+        winds_up = (k > 0) & (slip > 0)
+        return where(winds_up, slip / where(winds_up, k, 1.0), float("nan"))
 
 
 @accepts_units("operation")

@@ -14,7 +14,7 @@ from importlib import resources
 from typing import Any
 
 from ballscrew._arrays import ByValue
-from ballscrew.components.laws import ProportionalBallForce
+from ballscrew.components.laws import ProportionalBallForce, opposed_neighbours
 from ballscrew.errors import Fault, InputError, nearest
 from ballscrew.friction.law_names import coefficients
 from ballscrew.friction.model import FrictionModel
@@ -84,16 +84,20 @@ def calibration(name: str) -> Calibration:
 
 
 def calibrated(model: FrictionModel, found: Calibration) -> FrictionModel:
-    """The model with the numbers of a calibration.
+    """The model with the numbers that a calibration fitted, and with neighbours that rub as in the fitted model.
 
+    In a model whose neighbours brake, the fitted force between balls would brake with all of it, ten times too much.
     Raises :class:`~ballscrew.errors.InputError` for a model that has no boundary friction, or whose force between the
     balls is imposed.
     """
-    return with_parameters(model, found.boundary_friction_coefficient, found.share_of_load)
+    friction: Any = model.friction
+    own = getattr(friction, "boundary_friction_coefficient", found.boundary_friction_coefficient)
+    fitted = "boundary_friction_coefficient" in found.fitted
+    return with_parameters(model, found.boundary_friction_coefficient if fitted else own, found.share_of_load)
 
 
 def with_parameters(model: FrictionModel, boundary_friction_coefficient: Ratio, share_of_load: Ratio) -> FrictionModel:
-    """The model with these two numbers; raises as :func:`calibrated` does."""
+    """The model with these two numbers, and neighbours that rub; raises as :func:`calibrated` does."""
     friction: Any = model.friction
     faults: list[Fault] = []
     if model.ball_to_ball_force is not None:
@@ -107,6 +111,7 @@ def with_parameters(model: FrictionModel, boundary_friction_coefficient: Ratio, 
             model,
             friction=dataclasses.replace(friction, boundary_friction_coefficient=boundary_friction_coefficient),
             ball_force=ProportionalBallForce(share_of_load),
+            ball_chain=opposed_neighbours,
         )
     if not has_one:
         remedy = 'take a friction law that has one, such as "load-sharing"'

@@ -173,6 +173,7 @@ def _on_two_where(lifted: Mask, four: FourContactFriction, two: BallFriction) ->
         nut_torque=pick(two.nut_torque, four.nut_torque),
         rolling_share=pick(two.rolling_share, four.rolling_share),
         ball_to_ball_force=pick(two.ball_to_ball_force, four.ball_to_ball_force),
+        net_braking_force=pick(two.net_braking_force, four.net_braking_force),
         skids=pick(~loaded_skid, four.skids),
         converged=pick(two.converged, four.converged),
     )

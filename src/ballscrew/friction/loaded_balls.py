@@ -259,7 +259,7 @@ def minimum_film_parameter(kinds: Sequence[LoadedBalls]) -> Ratio:
     for kind in kinds:
         for pair in kind.pairs:
             for contact in (pair.screw, pair.nut):
-                found.append(-kind.largest(where(pair.load > 0, -contact.film_parameter, -float("inf"))))
+                found.append(-kind.largest(where(pair.load == 0, -float("inf"), -contact.film_parameter)))
     return -_extreme([-each for each in found])
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Sequence
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
@@ -99,6 +99,8 @@ def rigidity_iso3408(
     if preload > 0:
         R_ns = 2 * R_ns
         assumed.append("R_b/t up to the load that relieves one half (from memory of ISO 3408-4)")
+        if load > 2**1.5 * preload:
+            assumed.append("the load is beyond that which relieves one half: there the nut is stiffer than R_nu says")
     elif not load:
         assumed.append("no rigidity of the nut: without preload it takes a load")
     if isinstance(nut, OversizeBallNut):
@@ -222,6 +224,14 @@ def _outer_diameter(screw: BallScrew, nut: Nut, given: Length | None, nominal: L
     return _Sizes(usual, (f"nut {1000 * usual:.4g} mm wide, DIN 69051-5{beyond}: none is given",))
 
 
+def _numbers(screw: BallScrew) -> tuple[Any, ...]:
+    """What has to be one number of a screw and its nut."""
+    nut = screw.nut
+    given = (getattr(nut, "preload", None), getattr(nut, "oversize", None))
+    whole = (screw.loaded_balls, screw.lead, screw.contact_angle, screw.ball_diameter, screw.pitch_circle_diameter)
+    return *whole, *(number for number in given if number is not None)
+
+
 def _faults(
     screw: BallScrew,
     outer: Length | None,
@@ -231,7 +241,7 @@ def _faults(
     distance: Length | None,
 ) -> list[Fault]:
     faults: list[Fault] = []
-    if not all(is_concrete(number) and np.ndim(number) == 0 for number in (screw.loaded_balls, screw.lead)):
+    if not all(is_concrete(number) and np.ndim(number) == 0 for number in _numbers(screw)):
         faults.append(Fault("rigidity.screw", "must be one screw", "an array", "call once for each"))
         return faults
     least = _nut_force_diameter(screw)

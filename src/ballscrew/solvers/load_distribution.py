@@ -140,7 +140,7 @@ def ball_loads(
     Without ``bodies`` screw and nut are rigid between the balls; with them, and with ``deviations``, the
     number of balls must be one number. Without both, every operation is elementwise and can be recorded.
     ``constant_contact_angle`` keeps the angle without load. Bodies that swell take what a ball's given oversize gives
-    before its flanks are pressed: their preload is less than :func:`preload_of`, that of rigid ones. ``compiled``
+    before its flanks are pressed: their preload is less than :func:`preload_of_rigid_bodies`. ``compiled``
     solves balls between elastic bodies by a kernel where the compiler is installed: the same steps, whose sums round
     otherwise.
     Raises :class:`~ballscrew.errors.InputError` for balls that cannot be counted one by one.
@@ -149,7 +149,7 @@ def ball_loads(
     A = deflection.groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
     point = RigidNut(
         load=as_array(axial_load),
-        preload=as_array(preload_of(screw, nut)),
+        preload=as_array(preload_of_rigid_bodies(screw, nut)),
         contact_angle=screw.contact_angle,
         lead_cosine=c_phi,
         centre_distance=A,
@@ -247,7 +247,18 @@ def _one_by_one(
 
 
 def preload_of(screw: BallScrew, nut: Nut) -> Force:
-    r"""The axial preload of a nut: given, or that of balls whose oversize is given; zero without.
+    """The axial preload of a nut: given, or that of balls whose oversize is given; zero without.
+
+    Bodies that swell take a part of a given oversize; their preload is what is left on either flank without load.
+    """
+    bodies = nut.bodies
+    if getattr(nut, "oversize", None) is None or bodies is None or not bodies.swelling:
+        return preload_of_rigid_bodies(screw, nut)
+    return ball_loads(screw, nut, 0.0, bodies=bodies.sized(screw)).remaining_preload
+
+
+def preload_of_rigid_bodies(screw: BallScrew, nut: Nut) -> Force:
+    r"""The axial preload of a nut between bodies that do not give way.
 
     .. math:: F_{pr} = z K \delta_w^{3/2} (\sin\alpha) (\cos\varphi)
 

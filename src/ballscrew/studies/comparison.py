@@ -10,7 +10,7 @@ from typing import Any
 from ballscrew.cases import case_file
 from ballscrew.cases.schema import LAWS, MODELS, coefficients_of, name_of_law
 from ballscrew.components.traits import traits_of
-from ballscrew.evaluation.comparison import Candidate, Comparison, RuleRow, compare, same_law
+from ballscrew.evaluation.comparison import Candidate, Comparison, Row, RuleRow, compare, same_law
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.sizing.rules import RULES, Subject
 from ballscrew.solvers.load_distribution import preload_of
@@ -63,15 +63,21 @@ def comparison(case: case_file.Case, done: Callable[[int, int], None] | None = N
     models, laws = candidates(case)
     found = compare(case.model, models, laws, case.screw, case.lubricant, case.operation, done)
     drag = _drag_torque(case)
-    return dataclasses.replace(found, rules=_rules(case, found.case.torque, drag), drag_torque=drag)
+    return dataclasses.replace(found, rules=_rules(case, _torque_of_balls(found.case), drag), drag_torque=drag)
+
+
+def _torque_of_balls(row: Row) -> float:
+    """Friction torque without seals and other losses, which no rule of one line has."""
+    return row.torque - float(sum(row.result.losses.values()))
 
 
 def _drag_torque(case: case_file.Case) -> float:
-    """Torque of the preloaded nut without load; NaN without preload."""
+    """Torque of the balls of the preloaded nut without load, as rules state it, without seals; NaN without preload."""
     if not float(preload_of(case.screw, case.screw.nut)):
         return math.nan
     speed = case.operation.screw_speed
-    return float(case.model(case.screw, case.lubricant, axial_load=0.0, screw_speed=speed).screw_torque)
+    idle = case.model(case.screw, case.lubricant, axial_load=0.0, screw_speed=speed)
+    return float(idle.screw_torque - sum(idle.losses.values()))
 
 
 def subject_of(case: case_file.Case) -> Subject:

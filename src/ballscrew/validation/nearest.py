@@ -14,8 +14,8 @@ import numpy as np
 from ballscrew.components.nut import DoubleNut, Nut, OffsetLeadNut, OversizeBallNut
 from ballscrew.components.screw import BallScrew
 
-#: Rows that count as near.
-NEAREST = 6
+#: Rows that count as near, and how far off the nearest may be, as a distance of logarithms of diameter and lead.
+NEAREST, FARTHEST = 6, math.log(1.6)
 #: The set of a kind of nut.
 _SETS: Mapping[type[Nut], str] = {
     DoubleNut: "rexroth-double-nut",
@@ -36,11 +36,12 @@ class NearRows(NamedTuple):
 
 
 def near_rows(screw: BallScrew, calibration: str | None = None) -> NearRows | None:
-    """The rows of a vendor most like a preloaded screw, by diameter and lead over diameter.
+    """The rows of a vendor most like a preloaded screw, by the ratios of diameters and of leads.
 
     The ratios are those of the reference model, with a calibration by its name or without, as
-    ``benchmarks/fit_calibration.py --write`` stored them; no load, 100 rpm. None for a nut that no set is about, and
-    for a calibration that was not stored.
+    ``benchmarks/fit_calibration.py --write`` stored them; no load, 100 rpm. With a calibration they are the
+    rows that it was fitted to. None for a nut that no set is about, that is far from all rows, and for a calibration
+    that was not stored.
     """
     name = _SETS.get(type(screw.nut))
     rows = [row for row in _ratios() if row["set"] == name]
@@ -51,6 +52,8 @@ def near_rows(screw: BallScrew, calibration: str | None = None) -> NearRows | No
     distances = [
         math.hypot(math.log(float(row["size"])) - place[0], math.log(float(row["lead"])) - place[1]) for row in rows
     ]
+    if not min(distances) <= FARTHEST:
+        return None
     near = [rows[i] for i in np.argsort(distances, kind="stable")[:NEAREST]]
     ratios = [float(row[column]) for row in near]
     return NearRows(str(name), [row["row"] for row in near], float(np.mean(ratios)), float(np.std(ratios, ddof=1)))
