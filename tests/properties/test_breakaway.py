@@ -57,7 +57,7 @@ def test_whether_the_load_starts():
 
 @pytest.mark.parametrize("nut", [bs.OversizeBallNut(preload=3605.0), bs.DoubleNut(preload=3605.0)])
 def test_flanks_that_have_lifted_off_hold_nothing(nut):
-    """Far beyond lift-off a preloaded nut is one half that carries the load alone, oversize balls at an angle of theirs."""
+    """Far beyond lift-off one half carries the load alone; oversize balls do so at an angle of their own."""
     row = bs.catalogue()["rexroth-40x10x6-6-double"]
     preloaded, alone = (
         bs.breakaway(REFERENCE, row.screw(nut=each), OIL, axial_load=30e3)
