@@ -133,7 +133,8 @@ LONG = ROOT / "docs" / "howto" / "service.md"
 
 def test_the_long_page_is_run_by_the_build_of_the_docs():
     assert all(block.info.startswith("{command}") for block in blocks(LONG) if _typed_in(block))
-    assert "make docs" in (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
+    steps = (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
+    assert any(step.startswith("make docs") for step in steps)
 
 
 def _typed_in(block):
