@@ -42,7 +42,7 @@ def test_a_card_in_si():
     assert card.setup.nut_outer_diameter == pytest.approx(0.063)
     first = card.points[0]
     assert first.screw_speed == pytest.approx(10 * math.pi / 30)
-    assert first.torque == pytest.approx((0.3024 + 0.2973) / 2)
+    assert first.torque == pytest.approx((0.3780 + 0.3729) / 2)
     assert first.temperature == pytest.approx(297.15)
 
 
@@ -60,9 +60,9 @@ def test_the_schema_takes_the_example_and_refuses_another():
     ("old", "new", "where"),
     [
         ('torque_uncertainty = "4 mN m"', "", r"mine\.toml: setup\.torque_uncertainty: missing"),
-        ('"0.3024 N m"', '"302.4"', r"points\.1\.torque_forward: needs a unit"),
-        ('"0.3024 N m"', '"302.4 kN m"', r"points: has torques too far apart for one screw"),
-        ('"0.3024 N m"', '"-0.3 N m"', r"points\.1\.torque_forward: must be positive"),
+        ('"0.3780 N m"', '"378.0"', r"points\.1\.torque_forward: needs a unit"),
+        ('"0.3780 N m"', '"378.0 kN m"', r"points: has torques too far apart for one screw"),
+        ('"0.3780 N m"', '"-0.3 N m"', r"points\.1\.torque_forward: must be positive"),
         ("format = 1", "format = 2", r"card\.format"),
         ('made_by = "model"', 'made_by = "guess"', r"card\.made_by"),
         ("when = 2026-11-22", 'when = "yesterday"', r"card\.when"),
@@ -84,7 +84,7 @@ def test_what_is_wrong_with_a_card_is_said(changed, old, new, where):
 
 
 def test_all_faults_of_all_cards_of_a_folder_at_once(changed):
-    folder = changed(('"0.3024 N m"', '"302.4"'), name="one").parent
+    folder = changed(('"0.3780 N m"', '"378.0"'), name="one").parent
     changed(("wipers = false", ""), ('licence = "CC0-1.0"', ""), name="two")
     with pytest.raises(InputError) as refused:
         torque_card.read_all([folder])
@@ -134,7 +134,7 @@ def test_a_card_as_a_log_and_a_case(tmp_path):
     rows = list(csv.DictReader(line for line in log.read_text(encoding="utf-8").splitlines() if line[0] != "#"))
     assert len(rows) == 2 * len(card.points)
     assert [float(rows[i]["speed [rpm]"]) for i in (0, 1)] == [10, -10]
-    assert [float(rows[i]["torque [N m]"]) for i in (0, 1)] == [0.3024, -0.2973]
+    assert [float(rows[i]["torque [N m]"]) for i in (0, 1)] == [0.3780, -0.3729]
     assert float(rows[0]["temperature [degC]"]) == pytest.approx(24)
     assert case_file.load(case).screw == card.case.screw
 
