@@ -26,7 +26,7 @@ from scipy.optimize import least_squares
 
 import ballscrew
 from ballscrew.components.laws import two_neighbours
-from ballscrew.components.mixed_friction import LoadSharing
+from ballscrew.components.mixed_friction import LoadSharing, RunInSharing
 from ballscrew.friction.calibrations import PARAMETERS, with_parameters
 from ballscrew.friction.model import FrictionModel
 from ballscrew.studies import validation
@@ -134,7 +134,7 @@ def _boundary_alone(boundary: float) -> FrictionModel:
 
 
 BOTH = ("µ₀", "F_B/Q")
-BOUNDARY = float(FrictionModel.reference().friction.boundary_friction_coefficient)  # type: ignore[attr-defined]  (the slot is a protocol)
+BOUNDARY = float(RunInSharing().boundary_friction_coefficient)
 #: What is stored, by name.
 DECLARED = {
     "rexroth-2006-rubbing": Rival("F_B/Q alone", BOTH[1:], START[1:], rubbing),

@@ -5,6 +5,7 @@ import pickle
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
+import pint
 import pytest
 
 import ballscrew as bs
@@ -203,7 +204,6 @@ def test_what_it_cannot_be_called_with(values, named, message):
 
 
 def test_quantities_with_units():
-    pint = pytest.importorskip("pint")
     f = bs.evaluator(MODELS["olaru2005"], SCREW, OIL, engine="numpy")
     unit = pint.UnitRegistry()
     found = f([1.0, 2.0] * unit.kN, 60 * unit.rad / unit.s)["screw_torque"]

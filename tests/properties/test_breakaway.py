@@ -55,15 +55,17 @@ def test_whether_the_load_starts():
     assert math.isnan(unloaded.presliding_angle)
 
 
-@pytest.mark.parametrize("nut", [bs.OversizeBallNut(preload=3605.0), bs.DoubleNut(preload=3605.0)])
-def test_flanks_that_have_lifted_off_hold_nothing(nut):
-    """Far beyond lift-off one half carries the load alone; oversize balls do so at an angle of their own."""
+@pytest.mark.parametrize(
+    ("nut", "relative"), [(bs.DoubleNut(preload=3605.0), 1e-9), (bs.OversizeBallNut(preload=3605.0), 5e-3)]
+)
+def test_flanks_that_have_lifted_off_hold_nothing(nut, relative):
+    """Far beyond lift-off one half carries the load alone; oversize balls do so at an angle 0.2 degrees away."""
     row = bs.catalogue()["rexroth-40x10x6-6-double"]
     preloaded, alone = (
         bs.breakaway(REFERENCE, row.screw(nut=each), OIL, axial_load=30e3)
         for each in (nut, bs.SingleNut(angle_under_load=True))
     )
-    assert preloaded.stiffness == pytest.approx(alone.stiffness, rel=5e-3)
+    assert preloaded.stiffness == pytest.approx(alone.stiffness, rel=relative)
 
 
 def test_a_model_without_spin_does_not_say_what_winds_up():

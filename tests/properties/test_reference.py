@@ -17,6 +17,8 @@ from support.strategies import box, constant_friction, reference, without_losses
 SIZE = 10_000
 #: Torque, force and power close to this; rounding leaves 3e-15.
 RELATIVE = 1e-12
+#: Load of a ball, N, below which it is about to skid.
+LIGHT = 1.0
 SLIP = ("curvature", "spin", "helix")
 
 
@@ -191,8 +193,8 @@ def test_more_steps_change_little(case, r, monkeypatch):
     many = case(reference)
     off = np.abs(r.screw_torque / many.screw_torque - 1)
     assert np.quantile(off[r.valid], 0.99) < 1e-4
-    # the worst of some 5,000 valid points is off by 0.4 %
-    assert np.quantile(off[r.valid], 0.999) < 2e-3
+    assert np.max(off[r.valid & (r.contact_load > LIGHT)]) < 2e-3
+    # next to no load on a ball: creep is all that is left to find, and friction hardly holds it
     assert np.max(off[r.valid]) < 5e-3
     # where it has not converged, the torque is off by little
     assert np.max(off) < 0.05

@@ -295,7 +295,8 @@ class FrictionResult(VendorTerms):
     @property
     def ball_chain(self) -> BallChain:
         """Moment and braking force of the neighbouring balls of a ball with two contacts."""
-        return self.kinds[0].friction.ball_chain  # pyright: ignore[reportAttributeAccessIssue, reportUnknownVariableType, reportUnknownMemberType]
+        friction: Any = self.kinds[0].friction
+        return friction.ball_chain
 
     @property
     def converged(self) -> Mask:

@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -12,7 +14,7 @@ from ballscrew.components.conditions import ContactConditions, Motion
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Bodies, DoubleNut, Nut, OversizeBallNut, SingleNut
 from ballscrew.components.screw import STEEL, BallScrew
-from ballscrew.equations import geometry, hertz, rheology, transmission
+from ballscrew.equations import geometry, hertz, rheology
 from ballscrew.errors import Fault, InputError
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import FrictionResult
@@ -20,7 +22,7 @@ from ballscrew.quantities import Torque, fields_of
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.checks import ratings_of
 from ballscrew.sizing.rigidity import rigidity_iso3408
-from ballscrew.sizing.rules import CHART_LINES, DRAG_RULES, LOADED_RULES, RULES, Subject, of_model
+from ballscrew.sizing.rules import DRAG_RULES, RULES, Subject, of_model
 from ballscrew.solvers.load_distribution import ball_loads
 from ballscrew.validation.entries import Band, Conditions, Point, UpperLimitOnly, Values
 
@@ -98,67 +100,64 @@ def _preloaded(values: Values, percent: int) -> float:
     return percent / 100 * float(values["dynamic_load_rating"])
 
 
+def _no_load_point(
+    model: FrictionModel,
+    row: CatalogueRow,
+    nut: DoubleNut | OversizeBallNut,
+    conditions: Conditions,
+    band: Band,
+    *,
+    name: str = "",
+    with_model: bool = True,
+    **more: Any,
+) -> Point:
+    """The torque of a preloaded nut without load beside a stated one; ``more`` describes the row further."""
+    found, descriptors = _unloaded(model, row, nut, conditions)
+    two_contacts = nut.contacts_per_ball == 2
+    return Point(
+        name=name or row.name,
+        value=float(found.screw_torque),
+        band=band,
+        descriptors={**descriptors, **more},
+        laws=_drag_laws(model, row, float(nut.preload), conditions, band.middle, two_contacts, with_model),
+        warnings=found.warning_records,
+    )
+
+
 def double_nut(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
     """No-load torque of a double nut at preloads of 7 and 10 %."""
     row, at = screw_of(values), conditions.of(values)
-    points: list[Point] = []
-    for percent in (7, 10):
-        band, preload = _stated(values, f"no_load_torque_{percent}pct"), _preloaded(values, percent)
-        found, descriptors = _unloaded(model, row, DoubleNut(preload=preload), at)
-        points.append(
-            Point(
-                name=f"{row.name} at {percent} %",
-                value=float(found.screw_torque),
-                band=band,
-                descriptors={**descriptors, "preload_share": percent / 100},
-                laws=_drag_laws(model, row, preload, at, band.middle, two_contacts=True),
-                warnings=found.warning_records,
-            )
+    return [
+        _no_load_point(
+            model,
+            row,
+            DoubleNut(preload=_preloaded(values, percent)),
+            at,
+            _stated(values, f"no_load_torque_{percent}pct"),
+            name=f"{row.name} at {percent} %",
+            preload_share=percent / 100,
         )
-    return points
+        for percent in (7, 10)
+    ]
 
 
 def single_nut(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
     """No-load torque of a nut with oversize balls at a preload of 5 %; at 2 % there is a maximum only."""
     row, at = screw_of(values), conditions.of(values)
-    band, preload = _stated(values, "no_load_torque_5pct"), _preloaded(values, 5)
-    found, descriptors = _unloaded(model, row, OversizeBallNut(preload=preload), at)
-    upper_limits: list[UpperLimitOnly] = []
-    if "no_load_torque_2pct_max" in values:
-        light, _ = _unloaded(model, row, OversizeBallNut(preload=_preloaded(values, 2)), at)
-        upper_limits.append(
-            UpperLimitOnly(f"{row.name} at 2 %", float(light.screw_torque), float(values["no_load_torque_2pct_max"]))
-        )
-    return [
-        Point(
-            name=f"{row.name} at 5 %",
-            value=float(found.screw_torque),
-            band=band,
-            descriptors={**descriptors, "preload_share": 0.05},
-            laws=_drag_laws(model, row, preload, at, band.middle, two_contacts=False),
-            upper_limits=upper_limits,
-            warnings=found.warning_records,
-        )
-    ]
+    nut, band = OversizeBallNut(preload=_preloaded(values, 5)), _stated(values, "no_load_torque_5pct")
+    point = _no_load_point(model, row, nut, at, band, name=f"{row.name} at 5 %", preload_share=0.05)
+    if "no_load_torque_2pct_max" not in values:
+        return [point]
+    light, _ = _unloaded(model, row, OversizeBallNut(preload=_preloaded(values, 2)), at)
+    limit = UpperLimitOnly(f"{row.name} at 2 %", float(light.screw_torque), float(values["no_load_torque_2pct_max"]))
+    return [dataclasses.replace(point, upper_limits=[limit])]
 
 
 def worked_example(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
     """Preload drag of a double nut whose preload is given as a force."""
     row, at = screw_of(values), conditions.of(values)
-    stated, preload = _stated(values, "drag_torque"), float(values["preload"])
-    band = stated._replace(middle=float(values["drag_torque"]))
-    found, descriptors = _unloaded(model, row, DoubleNut(preload=preload), at)
-    laws = _drag_laws(model, row, preload, at, band.middle, two_contacts=True)
-    return [
-        Point(
-            name=row.name,
-            value=float(found.screw_torque),
-            band=band,
-            descriptors=descriptors,
-            laws=laws,
-            warnings=found.warning_records,
-        )
-    ]
+    band = _stated(values, "drag_torque")._replace(middle=float(values["drag_torque"]))
+    return [_no_load_point(model, row, DoubleNut(preload=float(values["preload"])), at, band)]
 
 
 def plausible_screw(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
@@ -171,21 +170,8 @@ def plausible_screw(model: FrictionModel, values: Values, conditions: Conditions
     if kind not in _BRACED:
         remedy = " or ".join(f'"{name}"' for name in _BRACED)
         raise InputError(Fault("row.nut", "unknown kind of preloaded nut", kind, f"write {remedy}"))
-    band = _stated(values, "torque")
-    if not model.knows(_BRACED[kind](preload=preload)):
-        return []
-    found, descriptors = _unloaded(model, row, _BRACED[kind](preload=preload), at)
-    two_contacts = kind != "oversize-balls"
-    return [
-        Point(
-            name=row.name,
-            value=float(found.screw_torque),
-            band=band,
-            descriptors=descriptors,
-            laws=_drag_laws(model, row, preload, at, band.middle, two_contacts, with_model=False),
-            warnings=found.warning_records,
-        )
-    ]
+    nut, band = _BRACED[kind](preload=preload), _stated(values, "torque")
+    return [_no_load_point(model, row, nut, at, band, with_model=False)] if model.knows(nut) else []
 
 
 def chart_friction(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
