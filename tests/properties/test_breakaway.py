@@ -59,7 +59,7 @@ def test_whether_the_load_starts():
     ("nut", "relative"), [(bs.DoubleNut(preload=3605.0), 1e-9), (bs.OversizeBallNut(preload=3605.0), 5e-3)]
 )
 def test_flanks_that_have_lifted_off_hold_nothing(nut, relative):
-    """Far beyond lift-off one half carries the load alone; oversize balls do so at an angle 0.2 degrees away."""
+    """Far beyond lift-off one half carries the load alone; oversize balls do so at an angle of their own."""
     row = bs.catalogue()["rexroth-40x10x6-6-double"]
     preloaded, alone = (
         bs.breakaway(REFERENCE, row.screw(nut=each), OIL, axial_load=30e3)

@@ -14,7 +14,7 @@ from ballscrew.components.conditions import ContactConditions, Motion
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Bodies, DoubleNut, Nut, OversizeBallNut, SingleNut
 from ballscrew.components.screw import STEEL, BallScrew
-from ballscrew.equations import geometry, hertz, rheology
+from ballscrew.equations import geometry, hertz, rheology, transmission
 from ballscrew.errors import Fault, InputError
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import FrictionResult
@@ -22,7 +22,7 @@ from ballscrew.quantities import Torque, fields_of
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.checks import ratings_of
 from ballscrew.sizing.rigidity import rigidity_iso3408
-from ballscrew.sizing.rules import DRAG_RULES, RULES, Subject, of_model
+from ballscrew.sizing.rules import CHART_LINES, DRAG_RULES, LOADED_RULES, RULES, Subject, of_model
 from ballscrew.solvers.load_distribution import ball_loads
 from ballscrew.validation.entries import Band, Conditions, Point, UpperLimitOnly, Values
 
@@ -103,7 +103,8 @@ def _preloaded(values: Values, percent: int) -> float:
 def _no_load_point(
     model: FrictionModel,
     row: CatalogueRow,
-    nut: DoubleNut | OversizeBallNut,
+    kind: type[DoubleNut | OversizeBallNut],
+    preload: float,
     conditions: Conditions,
     band: Band,
     *,
@@ -112,14 +113,14 @@ def _no_load_point(
     **more: Any,
 ) -> Point:
     """The torque of a preloaded nut without load beside a stated one; ``more`` describes the row further."""
-    found, descriptors = _unloaded(model, row, nut, conditions)
-    two_contacts = nut.contacts_per_ball == 2
+    found, descriptors = _unloaded(model, row, kind(preload=preload), conditions)
+    two_contacts = kind.contacts_per_ball == 2
     return Point(
         name=name or row.name,
         value=float(found.screw_torque),
         band=band,
         descriptors={**descriptors, **more},
-        laws=_drag_laws(model, row, float(nut.preload), conditions, band.middle, two_contacts, with_model),
+        laws=_drag_laws(model, row, preload, conditions, band.middle, two_contacts, with_model),
         warnings=found.warning_records,
     )
 
@@ -131,7 +132,8 @@ def double_nut(model: FrictionModel, values: Values, conditions: Conditions) -> 
         _no_load_point(
             model,
             row,
-            DoubleNut(preload=_preloaded(values, percent)),
+            DoubleNut,
+            _preloaded(values, percent),
             at,
             _stated(values, f"no_load_torque_{percent}pct"),
             name=f"{row.name} at {percent} %",
@@ -144,8 +146,10 @@ def double_nut(model: FrictionModel, values: Values, conditions: Conditions) -> 
 def single_nut(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
     """No-load torque of a nut with oversize balls at a preload of 5 %; at 2 % there is a maximum only."""
     row, at = screw_of(values), conditions.of(values)
-    nut, band = OversizeBallNut(preload=_preloaded(values, 5)), _stated(values, "no_load_torque_5pct")
-    point = _no_load_point(model, row, nut, at, band, name=f"{row.name} at 5 %", preload_share=0.05)
+    preload, band = _preloaded(values, 5), _stated(values, "no_load_torque_5pct")
+    point = _no_load_point(
+        model, row, OversizeBallNut, preload, at, band, name=f"{row.name} at 5 %", preload_share=0.05
+    )
     if "no_load_torque_2pct_max" not in values:
         return [point]
     light, _ = _unloaded(model, row, OversizeBallNut(preload=_preloaded(values, 2)), at)
@@ -157,7 +161,7 @@ def worked_example(model: FrictionModel, values: Values, conditions: Conditions)
     """Preload drag of a double nut whose preload is given as a force."""
     row, at = screw_of(values), conditions.of(values)
     band = _stated(values, "drag_torque")._replace(middle=float(values["drag_torque"]))
-    return [_no_load_point(model, row, DoubleNut(preload=float(values["preload"])), at, band)]
+    return [_no_load_point(model, row, DoubleNut, float(values["preload"]), at, band)]
 
 
 def plausible_screw(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
@@ -170,8 +174,9 @@ def plausible_screw(model: FrictionModel, values: Values, conditions: Conditions
     if kind not in _BRACED:
         remedy = " or ".join(f'"{name}"' for name in _BRACED)
         raise InputError(Fault("row.nut", "unknown kind of preloaded nut", kind, f"write {remedy}"))
-    nut, band = _BRACED[kind](preload=preload), _stated(values, "torque")
-    return [_no_load_point(model, row, nut, at, band, with_model=False)] if model.knows(nut) else []
+    if not model.knows(_BRACED[kind](preload=preload)):
+        return []
+    return [_no_load_point(model, row, _BRACED[kind], preload, at, _stated(values, "torque"), with_model=False)]
 
 
 def chart_friction(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
