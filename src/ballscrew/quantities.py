@@ -82,6 +82,13 @@ LoadDeflection = Annotated[Array, Unit("N/m^1.5")]
 ShearRate = Annotated[Array, Unit("1/s")]
 MomentOfInertia = Annotated[Array, Unit("kg m^2")]
 TemperatureCoefficient = Annotated[Array, Unit("1/K")]
+Mass = Annotated[Array, Unit("kg")]
+Duration = Annotated[Array, Unit("s")]
+Frequency = Annotated[Array, Unit("Hz")]
+Acceleration = Annotated[Array, Unit("m/s^2")]
+Jerk = Annotated[Array, Unit("m/s^3")]
+AngularAcceleration = Annotated[Array, Unit("rad/s^2")]
+Energy = Annotated[Array, Unit("J")]
 
 
 @dataclasses.dataclass(frozen=True, slots=True)

@@ -49,6 +49,10 @@ USUAL: Mapping[str, Sequence[str]] = {
     "1/Pa": ("1/GPa", "1/Pa"),
     "Pa s": ("mPa s", "Pa s", "cP"),
     "K": ("degC", "K", "degF"),
+    "kg": ("kg", "lb", "g"),
+    "m/s": ("m/min", "m/s", "mm/s", "mm/min", "in/min"),
+    "m/s^2": ("m/s^2", "mm/s^2"),
+    "s": ("s", "min", "h"),
 }
 _NAMED = 3
 #: Spellings of revolutions per minute, without blanks.

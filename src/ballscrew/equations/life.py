@@ -5,12 +5,8 @@ The formulas of ISO3408-5 are as recalled: the standard itself was not read.
 
 from __future__ import annotations
 
-from typing import Annotated
-
 from ballscrew._arrays import namespace
-from ballscrew.quantities import AngularSpeed, Array, Force, Ratio, Unit
-
-Duration = Annotated[Array, Unit("s")]
+from ballscrew.quantities import AngularSpeed, Duration, Force, Ratio
 
 
 def basic_life(dynamic_load_rating: Force, axial_load: Force) -> Ratio:

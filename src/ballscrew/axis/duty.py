@@ -1,0 +1,238 @@
+"""A duty: what a cycle of motion asks of the motor, what it costs in energy, and what wears."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ballscrew._arrays import ByValue, lazy
+from ballscrew.axis.axis import Axis, Loads
+from ballscrew.axis.screw_friction import ConstantEfficiency, ModelledScrew, Screw, ScrewFriction
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.screw import BallScrew
+from ballscrew.errors import accepts_units
+from ballscrew.friction.element import FrictionElement
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.result import MECHANISMS
+from ballscrew.motion.profiles import Motion
+from ballscrew.motion.states import MotionStates, Numbers
+from ballscrew.quantities import Energy, Ratio
+
+#: Parts of the torque that store energy and give it back.
+STORED = ("acceleration of the mass", "acceleration of what turns", "gravity")
+PROCESS = "process"
+#: Names of the parts of the torque that are not friction of the screw, with their meanings.
+PARTS: Mapping[str, str] = {
+    "acceleration of the mass": "inertia of what moves along",
+    "acceleration of what turns": "inertia of motor, coupling and screw",
+    "gravity": "weight, less what balances it",
+    PROCESS: "force of the process",
+    "guides": "friction of the guides by their load",
+    "guide seals": "seals of the guides",
+    "support bearings": "friction of the support bearings",
+    "transmission": "loss of belt or gears",
+    "brake": "torque that the brake holds in rests",
+    "imbalance of the model": "torque without friction of a model that breaks virtual work",
+}
+
+
+@accepts_units("duty")
+def duty(
+    model: FrictionModel | Ratio,
+    screw: BallScrew,
+    lubricant: Lubricant | None = None,
+    *,
+    axis: Axis,
+    motion: Motion | MotionStates,
+    also: Mapping[str, FrictionElement] | None = None,
+) -> Duty:
+    """Torques, powers and energies of one cycle of an axis.
+
+    ``model`` is a model of the friction of the screw, or one efficiency for all of its states. ``also`` has further
+    elements on the shaft of the screw, such as support bearings, by name: they get its load and its speed.
+    Raises :class:`~ballscrew.errors.InputError` as the model does.
+    """
+    states = motion if isinstance(motion, MotionStates) else motion.states()
+    driven: Screw
+    if isinstance(model, FrictionModel):
+        driven = ModelledScrew(model, screw, lubricant or Lubricant.from_grade("ISO VG 100"))
+    else:
+        driven = ConstantEfficiency(screw.lead, model)
+    return Duty(axis, driven, states, also or {})
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Duty(ByValue):
+    """One cycle of an axis, at its states of motion; everything is computed when it is asked for, and kept.
+
+    Torques are those of the motor, positive forwards. Where the axis rests, friction holds up to :attr:`rest_friction`
+    either way, and the torque is the middle of what is possible; where a brake holds, it is zero.
+    """
+
+    axis: Axis
+    driven: Screw
+    states: MotionStates
+    also: Mapping[str, FrictionElement]
+
+    @lazy
+    def loads(self) -> Loads:
+        """Forces along the axis."""
+        return self.axis.loads(self.states)
+
+    @lazy
+    def axial_load(self) -> Numbers:
+        """Load of the nut, N."""
+        return self.loads.total
+
+    @lazy
+    def screw_speed(self) -> Numbers:
+        r"""Speed of the screw, :math:`\omega = 2 \pi v / P_h`, rad/s."""
+        return 2 * math.pi * self.states.speed / float(self.driven.lead)
+
+    @lazy
+    def motor_speed(self) -> Numbers:
+        """Speed of the motor, rad/s."""
+        return self.axis.transmission_ratio * self.screw_speed
+
+    @lazy
+    def screw(self) -> ScrewFriction:
+        """Friction of the screw; at the ends of phases its limit where the speed is zero."""
+        return self.driven.along(self.axial_load, self.screw_speed, self.states.temperature)
+
+    @lazy
+    def shaft_friction(self) -> Mapping[str, Numbers]:
+        """Friction torques about the shaft of the screw by mechanism and element, their magnitudes, N m."""
+        found = {MECHANISMS.get(name, name): torque for name, torque in self.screw.contributions.items()}
+        if self.axis.bearing_torque:
+            found["support bearings"] = np.full_like(self.screw_speed, self.axis.bearing_torque)
+        warm = self.states.temperature
+        temperature = None if np.isnan(warm).all() else warm
+        for name, element in self.also.items():
+            state = OperatingState(self.axial_load, self.screw_speed, temperature)
+            found[name] = np.broadcast_to(element(state).friction_effort, self.screw_speed.shape)
+        return found
+
+    @lazy
+    def parts(self) -> Mapping[str, Numbers]:
+        """Torque of the motor by cause, N m; the parts sum to :attr:`torque`."""
+        ratio, arm = self.axis.transmission_ratio, float(self.driven.lead) / (2 * math.pi)
+        to_motor, direction = arm / ratio, self.states.direction
+        own = {
+            "acceleration of the mass": self.loads.acceleration * to_motor,
+            "gravity": self.loads.gravity * to_motor,
+            PROCESS: self.loads.process * to_motor,
+            "guides": self.loads.guides * to_motor,
+            "guide seals": self.loads.guide_seals * to_motor,
+            **{name: direction * torque / ratio for name, torque in self.shaft_friction.items()},
+            "imbalance of the model": (self.screw.ideal_torque - self.axial_load * arm) / ratio,
+        }
+        turned = sum(own.values())
+        eta = self.axis.transmission_efficiency
+        lost = np.where(turned * direction > 0, turned * (1 / eta - 1), turned * (eta - 1)) * np.abs(direction)
+        alpha = self.states.acceleration / to_motor
+        own |= {"transmission": lost, "acceleration of what turns": self.axis.inertia * alpha}
+        if self.axis.brake_holds:
+            own["brake"] = -np.where(direction == 0, turned, 0.0)
+        return own
+
+    @lazy
+    def torque(self) -> Numbers:
+        """Torque of the motor, N m."""
+        return np.sum(list(self.parts.values()), axis=0)
+
+    @lazy
+    def power(self) -> Numbers:
+        """Power of the motor, W; negative where it is driven."""
+        return self.torque * self.motor_speed
+
+    @lazy
+    def rest_friction(self) -> Numbers:
+        """Torque at the motor that friction holds either way where the axis rests, N m; NaN in motion."""
+        arm = float(self.driven.lead) / (2 * math.pi)
+        along = (self.axis.guide_force + self.axis.guide_seal_force) * arm
+        held = (sum(self.shaft_friction.values()) + along) / self.axis.transmission_ratio
+        return np.where(self.states.direction == 0, held, np.nan)
+
+    # -- numbers of the cycle ---------------------------------------------------------------------
+
+    @lazy
+    def torque_rms(self) -> float:
+        r"""Root mean square of the torque, rests included, :math:`\sqrt{\frac{1}{t_c} \int \tau^2 dt}`, N m."""
+        return math.sqrt(self.states.integral(self.torque**2) / self.states.cycle_time)
+
+    @lazy
+    def torque_peak(self) -> float:
+        """Largest size of the torque, N m."""
+        return float(np.max(np.abs(self.torque)))
+
+    @lazy
+    def mean_speed(self) -> float:
+        """Mean size of the speed of the screw over the cycle, rad/s."""
+        return self.states.integral(np.abs(self.screw_speed)) / self.states.cycle_time
+
+    @lazy
+    def revolutions(self) -> float:
+        """Turns of the screw in a cycle, forth and back."""
+        return self.states.travel / float(self.driven.lead)
+
+    @lazy
+    def energy_drawn(self) -> Energy:
+        """Energy that the motor gives, J."""
+        return self.states.integral(np.maximum(self.power, 0.0))
+
+    @lazy
+    def energy_returned(self) -> Energy:
+        """Energy that the motor takes back, J: to the supply, or to a resistor."""
+        return self.states.integral(np.maximum(-self.power, 0.0))
+
+    @lazy
+    def energy_by(self) -> Mapping[str, Energy]:
+        """Energy of a cycle by cause, J; the parts sum to what is drawn less what is returned."""
+        return {name: self.states.integral(part * self.motor_speed) for name, part in self.parts.items()}
+
+    @lazy
+    def energy_lost_by(self) -> Mapping[str, Energy]:
+        """Energy lost in a cycle by mechanism, J."""
+        return {name: energy for name, energy in self.energy_by.items() if name not in (*STORED, PROCESS)}
+
+    @property
+    def energy_lost(self) -> Energy:
+        """Energy lost in a cycle, J."""
+        return float(sum(self.energy_lost_by.values()))
+
+    @property
+    def energy_of_process(self) -> Energy:
+        """Work done on the process in a cycle, J."""
+        return self.energy_by[PROCESS]
+
+    @property
+    def energy_stored(self) -> Energy:
+        """Change of kinetic and potential energy over the cycle by the parts of the torque, J; zero where it closes."""
+        return float(sum(self.energy_by[name] for name in STORED))
+
+    @lazy
+    def mechanical_energy(self) -> Energy:
+        r"""Change of kinetic and potential energy by the states themselves, J.
+
+        :math:`\frac12 (m + J (2 \pi i/P_h)^2) \Delta v^2 + F_g \Delta x`, phase by phase: a jump of the speed between
+        two phases is left out.
+        """
+        turns = 2 * math.pi * self.axis.transmission_ratio / float(self.driven.lead)
+        mass = self.axis.moving_mass + self.axis.inertia * turns**2
+        kinetic = sum(mass * (after**2 - before**2) / 2 for before, after in self.states.speeds_of_ends)
+        rise = self.states.integral(self.states.speed)
+        return float(kinetic + self.axis.gravity_force * rise)
+
+    @property
+    def summary(self) -> Mapping[str, Any]:
+        """The numbers of the cycle by name, SI."""
+        names = (
+            "torque_rms", "torque_peak", "energy_drawn", "energy_returned", "energy_lost", "energy_of_process",
+            "energy_stored", "mean_speed", "revolutions",
+        )  # fmt: skip
+        return {"cycle_time": self.states.cycle_time, **{name: getattr(self, name) for name in names}}

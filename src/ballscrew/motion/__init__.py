@@ -1,0 +1,1 @@
+"""Motions of an axis: profiles in closed form, segments, trajectories from logs. No ball screw in it."""

@@ -1,0 +1,256 @@
+"""Motions that repeat: a stroke forth and back, a sine, and segments one after the other."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+from typing import Annotated, Any, Protocol
+
+import numpy as np
+
+from ballscrew._arrays import ByValue
+from ballscrew.errors import MISSING, Fault, faults_of, raise_if_any
+from ballscrew.motion.moves import move, rest
+from ballscrew.motion.states import MotionStates, Numbers, Phase, PolynomialPhase, states_of
+from ballscrew.quantities import Acceleration, Duration, Force, Frequency, Info, Jerk, Length, Speed, Temperature
+
+_SPEED = Info("v", "largest speed", "m/min", above=0, hint="rapid feeds have 10 m/min to 120 m/min", usual=(1e-5, 10.0))
+_ACCELERATION = Info("a", "largest acceleration", "m/s^2", above=0, hint="1 m/s^2 to 20 m/s^2", usual=(1e-4, 200.0))
+_JERK = Info("j", "largest jerk", "m/s^3", above=0, hint="10 m/s^3 to 1000 m/s^3", usual=(1e-3, 1e6))
+_STROKE = Info("s", "way from one end to the other", "mm", above=0, hint="lengths are positive", usual=(1e-5, 20.0))
+_DWELL = Info("t_d", "rest after each move", "s", at_least=0, hint="0 s for none", usual=(0.0, 1e6))
+_FORCE = Info(
+    "F_x",
+    "force of the process on the way forth, positive against it",
+    "N",
+    hint="cutting, pressing",
+    usual=(-1e7, 1e7),
+)
+_BACK = Info(
+    "F_{xb}",
+    "force of the process on the way back, positive towards the start",
+    "N",
+    hint="as force",
+    usual=(-1e7, 1e7),
+)
+
+
+class Motion(Protocol):
+    """A motion: its states over one cycle."""
+
+    def states(self) -> MotionStates:
+        """States of one cycle."""
+        ...
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class _Stroke(ByValue):
+    """A stroke from rest to rest, and back."""
+
+    stroke: Annotated[Length, _STROKE]
+    speed: Annotated[Speed, _SPEED]
+    acceleration: Annotated[Acceleration, _ACCELERATION]
+    dwell: Annotated[Duration, _DWELL] = 0.0
+    force: Annotated[Force, _FORCE] = 0.0
+    return_force: Annotated[Force, _BACK] = 0.0
+    #: Whether the cycle has the way back; after it there is a rest as after the way forth.
+    returns: bool = True
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("motion", self))
+
+    @property
+    def limit_of_jerk(self) -> Jerk:
+        """The largest jerk; infinite where there is no limit."""
+        return math.inf
+
+    def phases(self) -> Sequence[Phase]:
+        """The phases of one cycle."""
+        found: list[Phase] = []
+        forth = (0.0, self.stroke, self.force, "forth")
+        back = (self.stroke, -self.stroke, self.return_force, "back")
+        for start, distance, force, name in (forth, back)[: 2 if self.returns else 1]:
+            found += move(
+                start, distance, self.speed, self.acceleration, self.limit_of_jerk, force=force, name=name
+            )  # fmt: skip
+            if self.dwell:
+                found.append(rest(start + distance, self.dwell))
+        return found
+
+    def states(self) -> MotionStates:
+        """States of one cycle."""
+        return states_of(self.phases())
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class Trapezoid(_Stroke):
+    """A stroke with constant acceleration, constant speed and the same deceleration; a triangle where it is short.
+
+    Raises :class:`~ballscrew.errors.InputError` for values that are not positive.
+    """
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class SCurve(_Stroke):
+    """A stroke with limited jerk: the fastest of seven phases (:func:`~ballscrew.motion.moves.timing`).
+
+    Raises :class:`~ballscrew.errors.InputError` for values that are not positive.
+    """
+
+    jerk: Annotated[Jerk, _JERK]
+
+    @property
+    def limit_of_jerk(self) -> Jerk:
+        """The largest jerk."""
+        return self.jerk
+
+
+@dataclasses.dataclass(frozen=True)
+class _QuarterOfSine:
+    """A quarter of a period of a sine, from one end to the middle or from the middle to an end."""
+
+    name: str
+    amplitude: Length
+    angular_frequency: float
+    #: The first quarter, from the lower end, is 0.
+    quarter: int
+    force: Force = 0.0
+    temperature: Temperature | None = None
+
+    @property
+    def duration(self) -> Duration:
+        """A quarter of the period."""
+        return math.pi / 2 / self.angular_frequency
+
+    def at(self, time: Numbers) -> tuple[Numbers, Numbers, Numbers]:
+        """Position, speed and acceleration at times since its start."""
+        A, w = self.amplitude, self.angular_frequency
+        angle = w * time + self.quarter * math.pi / 2
+        return A * (1 - np.cos(angle)), A * w * np.sin(angle), A * w**2 * np.cos(angle)
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class Sine(ByValue):
+    """A sine from one end of the stroke to the other and back.
+
+    Raises :class:`~ballscrew.errors.InputError` for values that are not positive.
+    """
+
+    stroke: Annotated[Length, _STROKE]
+    frequency: Annotated[
+        Frequency, Info("f", "cycles per second", "Hz", above=0, hint="0.1 Hz to 20 Hz", usual=(1e-6, 1e3))
+    ]
+    force: Annotated[Force, _FORCE] = 0.0
+    return_force: Annotated[Force, _BACK] = 0.0
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("motion", self))
+
+    def phases(self) -> Sequence[Phase]:
+        """The four quarters of a period."""
+        w, ways = 2 * math.pi * self.frequency, ("forth", "forth", "back", "back")
+        forces = (self.force, self.force, self.return_force, self.return_force)
+        return [_QuarterOfSine(ways[i], self.stroke / 2, w, i, forces[i]) for i in range(4)]
+
+    def states(self) -> MotionStates:
+        """States of one cycle."""
+        return states_of(self.phases())
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class Segment(ByValue):
+    """A part of a motion of segments.
+
+    With a ``distance`` a move from rest to rest, a negative one backwards. With a ``duration`` a stretch at a constant
+    speed, a rest where the speed is zero. Raises :class:`~ballscrew.errors.InputError` for both or neither of them,
+    and for a move without a speed.
+    """
+
+    distance: Annotated[
+        Length | None, Info("s", "way of a move, negative backwards", "mm", hint="−200 mm", usual=(-20.0, 20.0))
+    ] = None
+    duration: Annotated[
+        Duration | None, Info("t", "time at constant speed, or at rest", "s", above=0, hint="5 s", usual=(1e-6, 1e7))
+    ] = None
+    speed: Annotated[
+        Speed, Info("v", "speed; of a move its size", "m/min", hint="negative backwards", usual=(-10.0, 10.0))
+    ] = 0.0
+    acceleration: Annotated[Acceleration | None, _ACCELERATION] = None
+    force: Annotated[
+        Force,
+        Info("F_x", "force of the process, positive against positive motion", "N", hint="2 kN", usual=(-1e7, 1e7)),
+    ] = 0.0
+    temperature: Annotated[
+        Temperature | None, Info("T", "temperature of the oil in it", "degC", above=0, hint="40 degC", usual=(200, 450))
+    ] = None
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        faults = faults_of("segment", self, optional=("distance", "duration", "acceleration", "temperature"))
+        if (self.distance is None) == (self.duration is None):
+            problem = MISSING if self.distance is None else "is given beside the duration"
+            faults.append(Fault("segment.distance", problem, "", "give a distance, or a duration and a speed"))
+        elif self.distance is not None and not abs(self.distance) > 0:
+            faults.append(Fault("segment.distance", "must not be zero", "0 m", "give a duration for a rest"))
+        elif self.distance is not None and not abs(self.speed) > 0:
+            faults.append(Fault("segment.speed", MISSING, "", "a move needs a speed"))
+        raise_if_any(faults)
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class Segments(ByValue):
+    """Segments one after the other: moves from rest to rest, stretches at constant speed, rests.
+
+    Moves without an acceleration of their own have that of the whole. The motion starts at zero and repeats; it should
+    end where it started. Raises :class:`~ballscrew.errors.InputError` for a move without any acceleration, and for no
+    segments.
+    """
+
+    segments: tuple[Segment, ...]
+    acceleration: Annotated[Acceleration | None, _ACCELERATION] = None
+    jerk: Annotated[Jerk | None, _JERK] = None
+
+    def __post_init__(self) -> None:
+        faults = faults_of("motion", self, optional=("acceleration", "jerk"))
+        if not self.segments:
+            faults.append(Fault("motion.segments", MISSING, "", "give at least one"))
+        for number, segment in enumerate(self.segments, start=1):
+            if segment.distance is not None and segment.acceleration is None and self.acceleration is None:
+                where = f"motion.segment {number}.acceleration"
+                faults.append(Fault(where, MISSING, "", "a move needs one, its own or that of the motion"))
+        raise_if_any(faults)
+
+    def phases(self) -> Sequence[Phase]:
+        """The phases of all segments."""
+        found: list[PolynomialPhase] = []
+        position = 0.0
+        for number, segment in enumerate(self.segments, start=1):
+            name = segment.name or f"segment {number}"
+            if segment.distance is not None:
+                own = segment.acceleration
+                acceleration: Any = self.acceleration if own is None else own
+                found += move(
+                    position,
+                    segment.distance,
+                    abs(segment.speed),
+                    acceleration,
+                    math.inf if self.jerk is None else self.jerk,
+                    force=segment.force,
+                    temperature=segment.temperature,
+                    name=name,
+                )
+                position += float(segment.distance)
+            else:
+                duration: Any = segment.duration
+                found.append(
+                    PolynomialPhase(
+                        name, duration, position, segment.speed, force=segment.force, temperature=segment.temperature
+                    )
+                )
+                position += float(segment.speed) * float(duration)
+        return found
+
+    def states(self) -> MotionStates:
+        """States of one cycle."""
+        return states_of(self.phases())

@@ -1,0 +1,164 @@
+"""States of motion: position, speed and acceleration at instants, each with the time for which it stands."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew._arrays import ByValue
+from ballscrew.quantities import Acceleration, Duration, Force, Jerk, Length, Speed, Temperature
+
+Numbers = NDArray[np.float64]
+
+#: Nodes of the quadrature of a phase. With 16, the mean of a friction that grows with the root of the speed is exact
+#: to 1e-4 where the speed starts from zero, and powers of the time up to 31 are exact.
+NODES = 16
+
+
+class Phase(Protocol):
+    """A part of a motion in which speed and acceleration are smooth and the direction does not change."""
+
+    @property
+    def name(self) -> str:
+        """Name for people: ``accelerates``, ``dwells``."""
+        ...
+
+    @property
+    def duration(self) -> Duration:
+        """Its time, s."""
+        ...
+
+    @property
+    def force(self) -> Force:
+        """Force of the process on the mass, positive against positive motion, N."""
+        ...
+
+    @property
+    def temperature(self) -> Temperature | None:
+        """Temperature of the oil in it, K; None for that of the case."""
+        ...
+
+    def at(self, time: Numbers) -> tuple[Numbers, Numbers, Numbers]:
+        """Position, speed and acceleration at times since its start."""
+        ...
+
+
+@dataclasses.dataclass(frozen=True)
+class PolynomialPhase:
+    """A phase of constant jerk."""
+
+    name: str
+    duration: Duration
+    position: Length
+    speed: Speed = 0.0
+    acceleration: Acceleration = 0.0
+    jerk: Jerk = 0.0
+    force: Force = 0.0
+    temperature: Temperature | None = None
+
+    def at(self, time: Numbers) -> tuple[Numbers, Numbers, Numbers]:
+        """Position, speed and acceleration at times since its start."""
+        t, a, j = time, self.acceleration, self.jerk
+        speed = self.speed + t * (a + t * j / 2)
+        position = self.position + t * (self.speed + t * (a / 2 + t * j / 6))
+        return position, speed, a + t * j + 0 * t
+
+    @property
+    def end(self) -> tuple[float, float, float]:
+        """Position, speed and acceleration at its end."""
+        position, speed, acceleration = self.at(np.asarray(float(self.duration)))
+        return float(position), float(speed), float(acceleration)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class MotionStates(ByValue):
+    """States of one cycle, in order of time.
+
+    ``weight`` is the time for which a state stands: sums over the states with their weights are integrals over the
+    cycle. Ends of phases have no weight: they are there for extremes and for pictures. ``direction`` is that of the
+    motion, also at an end where the speed is zero; it is zero only in phases of rest.
+    """
+
+    time: Numbers
+    weight: Numbers
+    position: Numbers
+    speed: Numbers
+    acceleration: Numbers
+    direction: Numbers
+    #: Force of the process on the mass, positive against positive motion.
+    force: Numbers
+    #: NaN where it is that of the case.
+    temperature: Numbers
+    #: The index of the phase of each state.
+    phase: NDArray[np.intp]
+    #: The names of the phases.
+    phases: tuple[str, ...]
+    #: Speeds before and after each phase: of the kinetic energy, which a jump between phases does not count in.
+    speeds_of_ends: tuple[tuple[float, float], ...]
+
+    @property
+    def cycle_time(self) -> float:
+        """Time of the cycle, s."""
+        return float(np.sum(self.weight))
+
+    def integral(self, values: Numbers) -> float:
+        """Integral of values over the cycle."""
+        return float(np.sum(self.weight * values))
+
+    @property
+    def travel(self) -> float:
+        """Way of the cycle, forth and back, m."""
+        return self.integral(np.abs(self.speed))
+
+    @property
+    def stroke(self) -> float:
+        """Distance between the ends of the motion, m."""
+        return float(np.ptp(self.position))
+
+
+@functools.cache
+def _nodes(number: int) -> tuple[Numbers, Numbers]:
+    """Nodes and weights of Gauss and Legendre on 0 to 1, between the two ends, which have no weight."""
+    nodes, weights = np.polynomial.legendre.leggauss(number)
+    return np.array([0.0, *(nodes + 1) / 2, 1.0]), np.array([0.0, *weights / 2, 0.0])
+
+
+def states_of(phases: Sequence[Phase], nodes: int = NODES) -> MotionStates:
+    """States of phases one after the other, each with nodes of its own; a rest has one, besides its ends."""
+    columns: list[tuple[Numbers, ...]] = []
+    ends: list[tuple[float, float]] = []
+    start = 0.0
+    for number, phase in enumerate(phases):
+        duration = float(phase.duration)
+        middle = phase.at(np.asarray(duration / 2))
+        rests = float(middle[1]) == 0 == float(middle[2])
+        share, weight = _nodes(1 if rests else nodes)
+        x, v, a = phase.at(share * duration)
+        every = np.ones_like(share)
+        columns.append(
+            (
+                start + share * duration,
+                weight * duration,
+                x,
+                v,
+                a,
+                np.sign(float(middle[1])) * every,
+                float(phase.force) * every,
+                (np.nan if phase.temperature is None else float(phase.temperature)) * every,
+                number * every,
+            )
+        )
+        ends.append((float(v[0]), float(v[-1])))
+        start += duration
+    time, weight, x, v, a, direction, force, temperature, index = (
+        np.concatenate(c) for c in zip(*columns, strict=True)
+    )
+    names = tuple(phase.name for phase in phases)
+    return MotionStates(
+        time, weight, x, v, a, direction, force, temperature, index.astype(np.intp), names, tuple(ends)
+    )  # fmt: skip
