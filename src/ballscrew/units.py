@@ -51,7 +51,7 @@ USUAL: Mapping[str, Sequence[str]] = {
     "K": ("degC", "K", "degF"),
     "kg": ("kg", "lb", "g"),
     "m/s": ("m/min", "m/s", "mm/s", "mm/min", "in/min"),
-    "m/s^2": ("m/s^2", "mm/s^2"),
+    "m/s^2": ("m/s^2", "g", "mm/s^2"),
     "s": ("s", "min", "h"),
 }
 _NAMED = 3
@@ -309,6 +309,8 @@ def _converted(where: str, number: float, unit: str, quantity: Quantity, given: 
 
     if quantity.unit == "rad/s" and unit.replace(" ", "") in PER_MINUTE:
         unit = "rpm"
+    if quantity.unit == "m/s^2" and unit == "g":  # of an acceleration no gram
+        unit = "gravity"
     try:
         if len(unit) > _LONGEST_UNIT or not _UNIT.fullmatch(unit):
             raise pint.UndefinedUnitError(unit)

@@ -272,7 +272,7 @@ def slots():
 
 def test_schema_names_the_default_model(slots):
     assert slots["name"]["default"] == "reference"
-    assert slots["name"]["enum"] == list(presets())
+    assert slots["name"]["enum"] == [*presets(), "constant-efficiency"]
 
 
 @pytest.mark.parametrize(("slot", "name"), EVERY_LAW)

@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from ballscrew import units
+from ballscrew.axis.axis import Axis
+from ballscrew.axis.drive import Motor
 from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Nut
@@ -15,6 +17,7 @@ from ballscrew.components.screw import BallScrew
 from ballscrew.friction.calibrations import Calibration
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.plausibility import implausible, named_parts
+from ballscrew.motion.profiles import Motion
 from ballscrew.records import Record
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.installation import Installation, Limits
@@ -66,6 +69,14 @@ class Case:
     calibration: Calibration | None = None
     #: The table ``[calibration]`` that a fit wrote beside its numbers, as it stands in the file.
     fit: Mapping[str, Any] = dataclasses.field(default_factory=dict[str, Any])
+    #: What moves, how it moves, and what drives it: of ``ballscrew duty``.
+    axis: Axis | None = None
+    motion: Motion | None = None
+    motor: Motor | None = None
+    #: The efficiency of the rule that stands in for the model; None where the model counts.
+    efficiency: float | None = None
+    #: Whether the operating point is that of steady travel in the motion, as the file gives none.
+    travels: bool = False
 
     @property
     def nut(self) -> Nut | None:

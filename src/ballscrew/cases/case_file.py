@@ -14,10 +14,12 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ballscrew import units
-from ballscrew.cases import nut_tables, uncertain_inputs
+from ballscrew.cases import duty_tables, nut_tables, uncertain_inputs
 from ballscrew.cases.case import USUAL_LIMITS
 from ballscrew.cases.case import Case as Case
-from ballscrew.cases.nut_kinds import ENDS, LISTED, kind_of
+from ballscrew.cases.duty_schema import DUTY_TABLES
+from ballscrew.cases.inputs import inputs as inputs
+from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.cases.provenance import references as references
 from ballscrew.cases.schema import (
     DEFAULT_MODEL,
@@ -29,7 +31,6 @@ from ballscrew.cases.schema import (
 )
 from ballscrew.cases.sections import Sections, validated_sections
 from ballscrew.components.materials import Lubricant, Material
-from ballscrew.components.nut import Nut
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.components.traits import traits_of
@@ -40,19 +41,28 @@ from ballscrew.friction.law_names import coefficients
 from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import fields_of
 from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.sizing.installation import Installation
 from ballscrew.units import in_display_units
 
 #: Bytes of a case file at most, and bits of a whole number in it: no float is larger.
 LARGEST_FILE, LARGEST_INTEGER = 4_000_000, 1024
 _NEEDED = ("screw", "lubricant", "operation")
-_SECTIONS = (*_NEEDED, *NUT_TABLES, "model", "sweep", "calibration")
+_SECTIONS = (*_NEEDED, *NUT_TABLES, *DUTY_TABLES, "model", "sweep", "calibration")
 _START = 'start from "ballscrew catalogue show hiwin-40-20k4 --case"'
 
 
-def load(path: str | Path, settings: Sequence[str] = (), model: str | None = None, *, allow_code: bool = False) -> Case:
-    """The case of a file, with settings from the command line. Raises ``InputError`` with all faults."""
-    return build(override(read(path), settings), model, Path(path).parent, allow_code=allow_code)
+def load(
+    path: str | Path,
+    settings: Sequence[str] = (),
+    model: str | None = None,
+    *,
+    allow_code: bool = False,
+    moves: bool = False,
+) -> Case:
+    """The case of a file, with settings from the command line. Raises ``InputError`` with all faults.
+
+    One that ``moves`` has an axis and a motion, see :func:`build`.
+    """
+    return build(override(read(path), settings), model, Path(path).parent, allow_code=allow_code, moves=moves)
 
 
 def read(path: str | Path) -> dict[str, Any]:
@@ -145,25 +155,31 @@ def build(
     rows: Mapping[str, CatalogueRow] | None = None,
     *,
     allow_code: bool = False,
+    moves: bool = False,
 ) -> Case:
     """The case that tables describe. Raises ``InputError`` with all faults found.
 
     A catalogue row is one of ``rows``, or of the file in ``folder`` that the case names, or of those shipped. Laws
-    that it names as ``module:name`` are imported, from ``folder`` too, where ``allow_code`` says so.
+    that it names as ``module:name`` are imported, from ``folder`` too, where ``allow_code`` says so. A case that
+    ``moves`` needs an axis and a motion and no operating point: without one it has that of steady travel.
     """
     unknown = [name for name in tables if name not in _SECTIONS]
     faults = [Fault(name, "unknown section", "", nearest(name, _SECTIONS)) for name in unknown]
     misspelt = {closest(name, _SECTIONS) for name in unknown}
+    sections = validated_sections(tables)
+    efficiency = duty_tables.efficiency(sections, model, moves, faults)
     faults += [
-        Fault(name, "missing section", "", f"add a table [{name}]")
-        for name in _NEEDED
+        Fault(name, "missing section", "", f"add a table [{name}]{_beside(name, tables)}")
+        for name in duty_tables.needed(_NEEDED, moves, efficiency)
         if name not in tables and name not in misspelt
     ]
-    sections = validated_sections(tables)
     made = _screw(sections, folder, rows, faults) if "screw" in sections else _NO_SCREW
     lubricant, oil = _lubricant(sections, faults) if "lubricant" in sections else (None, {})
-    operation = _operation(sections, faults) if "operation" in sections else None
-    friction_model = _model(sections, model, faults, folder if allow_code else None)
+    axis, motion, motor = duty_tables.moved(sections, faults)
+    if efficiency is None:
+        friction_model = _model(sections, model, faults, folder if allow_code else None)
+    else:  # no model counts, and no oil: any stands in
+        friction_model, lubricant = MODELS[DEFAULT_MODEL], lubricant or Lubricant.from_grade("ISO VG 100")
     sweep = _sweep(tables.get("sweep", {}), faults)
     fit = tables.get("calibration", {})
     if not isinstance(fit, dict):
@@ -176,6 +192,10 @@ def build(
     mounted = nut_tables.installation(sections, faults) if "installation" in sections else None
     limits = nut_tables.limits(sections, faults) if "limits" in sections else USUAL_LIMITS
     screw = made.screw if made.screw is None or nut is None else dataclasses.replace(made.screw, nut=nut)
+    operation = _operation(sections, faults) if "operation" in sections else None
+    travels = moves and "operation" not in sections
+    if travels and axis is not None and motion is not None and screw is not None:
+        operation = duty_tables.travel(axis, motion, screw.lead)
     if faults or screw is None or lubricant is None or operation is None or friction_model is None:
         raise InputError(*faults)
     calibrated_by = tables.get("model", {}).get("calibration")
@@ -183,8 +203,13 @@ def build(
         friction_model, screw, lubricant, operation, sweep, oil, made.row, made.listed, mounted, limits, notes,
         *uncertain_inputs.parse_distributions(tables, friction_model, screw, lubricant),
         None if calibrated_by is None else calibration(calibrated_by),
-        fit,
+        fit, axis, motion, motor, efficiency, travels,
     )  # fmt: skip
+
+
+def _beside(name: str, tables: Mapping[str, Any]) -> str:
+    """Addition to the remedy where a motion stands in the file of another command."""
+    return "; only ballscrew duty takes the motion in its place" if name == "operation" and "motion" in tables else ""
 
 
 class _MadeScrew(NamedTuple):
@@ -322,56 +347,3 @@ def _sweep(table: Any, faults: list[Fault]) -> Mapping[str, str]:
     remedy = 'write "100:4000:14 N" or "100, 200, 500 N"'
     faults += [Fault(f"sweep.{n}", "must be text", str(v), remedy) for n, v in table.items() if not isinstance(v, str)]
     return table
-
-
-def inputs(case: Case) -> dict[str, Any]:
-    """All inputs of a case in SI, by section: what ``--json`` prints."""
-    model = case.model
-    of_row = {} if case.row is None else {"catalogue": case.row.name, "source": case.row.source}
-    materials = {name: _numbers(getattr(case.screw, name)) for name in MATERIALS}
-    return {
-        "screw": {**of_row, **_numbers(case.screw), **case.listed, **materials},
-        "lubricant": {**case.oil, **_numbers(case.lubricant)},
-        "operation": _numbers(case.operation),
-        "model": {
-            "name": model.name,
-            **_numbers(model),
-            **{slot: _law(slot, getattr(model, slot)) for slot in LAWS},
-        },
-        **({} if case.nut is None else _inputs_of_nut(case.nut, case.screw)),
-        **({} if case.installation is None else {"installation": _mounting(case.installation)}),
-        **({} if case.limits is USUAL_LIMITS else {"limits": _numbers(case.limits)}),
-    }
-
-
-def _inputs_of_nut(nut: Nut, screw: BallScrew) -> dict[str, Any]:
-    bodies = None if nut.bodies is None else nut.bodies.sized(screw)
-    scatter = nut.parts.get("deviations")
-    own = {name: value for name, value in _numbers(nut).items() if value is not None}
-    return {
-        "nut": {"type": kind_of(nut), **own},
-        **(
-            {}
-            if bodies is None
-            else {"bodies": {**_numbers(bodies), "same_side": bodies.same_side, "swelling": bodies.swelling}}
-        ),
-        **({} if scatter is None else {"deviations": _numbers(scatter)}),
-        **({"losses": {slot: _law(slot, law) for slot, law in nut.losses.items()}} if nut.losses else {}),
-    }
-
-
-def _mounting(mounted: Installation) -> dict[str, Any]:
-    numbers = {name: value for name, value in _numbers(mounted).items() if value is not None}
-    return {**numbers, "ends": next(name for name, known in ENDS.items() if known is mounted.ends)}
-
-
-def _law(slot: str, law: Any) -> str | dict[str, Any]:
-    """A law as a file names it: by name alone, or with its coefficients."""
-    name = name_of_law(slot, law)
-    if not dataclasses.is_dataclass(law):
-        return name
-    return {"law": name, **{field.name: getattr(law, field.name) for field in dataclasses.fields(law)}}
-
-
-def _numbers(part: Any) -> dict[str, Any]:
-    return {name: getattr(part, name) for name in fields_of(type(part))}

@@ -48,6 +48,19 @@ EXAMPLES: Mapping[str, str | float] = {
     "balls": 165,
     "unsupported_length": "1 m",
     "running_time": "20000 h",
+    "mass": "400 kg",
+    "stroke": "500 mm",
+    "speed": "30 m/min",
+    "acceleration": "4.9 m/s^2",
+    "jerk": "100 m/s^3",
+    "frequency": "1 Hz",
+    "distance": "500 mm",
+    "duration": "5 s",
+    "rated_torque": "7 N m",
+    "peak_torque": "20 N m",
+    "largest_speed": "3000 rpm",
+    "torque_constant": "0.9 N m/A",
+    "resistance": "0.8 ohm",
     # two fields of [deviations] are called as those of [screw]: they go by their symbols
     "s_w": "0.3 um",
     "s_h": "1 um",
@@ -63,7 +76,7 @@ _DISTRIBUTION = r"±|\+\s*/?\s*[-−–]|\("
 _PERCENT_OF_FORCE = re.compile(r"[a-zA-Z]\s*±")
 
 
-def _si(raw: object, quantity: Quantity, may_vary: bool = False) -> float:
+def si_value(raw: object, quantity: Quantity, may_vary: bool = False) -> float:
     """A raw value in SI and within its bounds, or the fault in it as pydantic wants to hear it.
 
     Of a distribution, where one may stand, it is the central value.
@@ -91,14 +104,14 @@ def _si(raw: object, quantity: Quantity, may_vary: bool = False) -> float:
 def read_preload(raw: object) -> float:
     """A preload in N, or as a share of the dynamic load rating."""
     if isinstance(raw, str) and is_share(raw):
-        return Share(_si(without_percent(raw), PERCENT, may_vary=True) / 100)
+        return Share(si_value(without_percent(raw), PERCENT, may_vary=True) / 100)
     bare = units.parse("", raw, PERCENT)
     if not isinstance(bare, Fault) and 0 < bare <= 100:
         remedy = f'write "{bare if bare >= 1 else 100 * bare:.12g} %" of the dynamic load rating, or "{bare:.12g} kN"'
         raise PydanticCustomError(
             "fault", "{problem}", {"problem": "needs a unit", "given": str(raw), "remedy": remedy}
         )
-    return _si(raw, NUT_FIELDS["preload"], may_vary=True)
+    return si_value(raw, NUT_FIELDS["preload"], may_vary=True)
 
 
 def is_share(raw: str) -> bool:
@@ -161,7 +174,7 @@ def json_of(quantity: Quantity, default: Any, may_vary: bool = False) -> dict[st
 
 
 def _field(quantity: Quantity, default: Any, shown: Any, may_vary: bool) -> tuple[Any, Any]:
-    read = BeforeValidator(functools.partial(_si, quantity=quantity, may_vary=may_vary))
+    read = BeforeValidator(functools.partial(si_value, quantity=quantity, may_vary=may_vary))
     kind = int if quantity.info.whole else float
     return Annotated[kind, read, WithJsonSchema(json_of(quantity, shown, may_vary))], Field(default=default)
 

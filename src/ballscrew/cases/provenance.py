@@ -6,13 +6,15 @@ from typing import Any
 
 from ballscrew._version import __version__
 from ballscrew.cases.case import Case
+from ballscrew.cases.duty_schema import CONSTANT_EFFICIENCY
 from ballscrew.components.materials import Lubricant
 from ballscrew.references import citations_of, documentation, keys_in
 
 
 def of_case(case: Case) -> dict[str, Any]:
     """Version, model and sources of a case."""
-    return {"version": __version__, "model": case.model.label, "references": references(case)}
+    label = case.model.label if case.efficiency is None else CONSTANT_EFFICIENCY
+    return {"version": __version__, "model": label, "references": references(case)}
 
 
 def references(case: Case) -> list[str]:
@@ -20,4 +22,5 @@ def references(case: Case) -> list[str]:
     of_oil = keys_in(documentation(Lubricant.from_grade)) if case.oil else ()
     losses = {} if case.nut is None else case.nut.losses
     of_nut = [key for law in losses.values() for key in keys_in(documentation(type(law)))]
-    return list(dict.fromkeys([*citations_of(case.model), *of_oil, *of_nut]))
+    of_model = citations_of(case.model) if case.efficiency is None else ()
+    return list(dict.fromkeys([*of_model, *of_oil, *of_nut]))

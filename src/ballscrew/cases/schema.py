@@ -16,6 +16,9 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema, create_model
 
+from ballscrew.axis.axis import Axis
+from ballscrew.axis.drive import Motor
+from ballscrew.cases.duty_schema import CONSTANT_EFFICIENCY, DUTY_TABLES, duty_sections, efficiency_field
 from ballscrew.cases.fields import EXAMPLES as EXAMPLES
 from ballscrew.cases.fields import defaults_of, json_of, read_preload, section_of
 from ballscrew.cases.law_import import OUTSIDE, law_from_outside, with_plain_numbers
@@ -103,7 +106,7 @@ def sections() -> Mapping[str, type[BaseModel]]:
     grade = Annotated[
         str, WithJsonSchema({"type": "string", "enum": grades(), "description": "instead of a viscosity"})
     ]
-    model_name = Annotated[str, WithJsonSchema({"type": "string", "enum": list(MODELS)})]
+    model_name = Annotated[str, WithJsonSchema({"type": "string", "enum": [*MODELS, CONSTANT_EFFICIENCY]})]
     screw = {**fields_of(BallScrew), **LISTED}
     materials = dict.fromkeys(MATERIALS, (material, None))
     row = Annotated[str, Field(description="name of a catalogue row; the other fields then override it")]
@@ -128,6 +131,7 @@ def sections() -> Mapping[str, type[BaseModel]]:
             "Model", fields_of(FrictionModel), FrictionModel, required=False, uncertain=fields_of(FrictionModel),
             name=(model_name, Field(default=None, json_schema_extra={"default": DEFAULT_MODEL})),
             calibration=(_one_of(calibrations(), "named calibration of two of its numbers"), None),
+            efficiency=efficiency_field(),
             **{slot: _slot(slot) for slot in LAWS},
         ),
         "nut": section_of(
@@ -147,6 +151,7 @@ def sections() -> Mapping[str, type[BaseModel]]:
             ends=(_one_of(ENDS, "how the ends of the shaft are held"), None),
         ),
         "limits": section_of("Limits", fields_of(Limits), Limits, required=False),
+        **duty_sections(),
     }  # fmt: skip
 
 
@@ -155,13 +160,31 @@ def _one_of(names: Iterable[str], meaning: str) -> Any:
     return Annotated[str, WithJsonSchema({"type": "string", "enum": list(names), "description": meaning})]
 
 
+#: A motion stands in for an operating point, and the rule of one efficiency knows no oil.
+_ALTERNATIVES: dict[str, Any] = {
+    "allOf": [
+        {"anyOf": [{"required": ["operation"]}, {"required": ["axis", "motion"]}]},
+        {
+            "anyOf": [
+                {"required": ["lubricant"]},
+                {
+                    "properties": {"model": {"properties": {"name": {"const": CONSTANT_EFFICIENCY}}}},
+                    "required": ["model"],
+                },
+            ]
+        },
+    ]
+}
+
+
 @functools.cache
 def case_file() -> type[BaseModel]:
     """The model of a whole case file."""
     parts = sections()
-    needed: dict[str, Any] = {name: (parts[name], ...) for name in ("lubricant", "operation")}
     screw: Any = parts["screw"] | parts["screw_of_row"]
-    others: dict[str, Any] = {name: (parts[name], Field(default=None)) for name in NUT_TABLES}
+    others: dict[str, Any] = {
+        name: (parts[name], Field(default=None)) for name in ("lubricant", "operation", *NUT_TABLES, *DUTY_TABLES)
+    }
     axes = Annotated[
         dict[str, str],
         Field(description='axes of a sweep by field, "100:4000:14 N" (start:stop:count) or "100, 200, 500 N"'),
@@ -169,9 +192,8 @@ def case_file() -> type[BaseModel]:
     fit = Annotated[dict[str, Any], Field(description="what ballscrew fit left beside the numbers that it found")]
     return create_model(
         "BallscrewCase",
-        __config__=ConfigDict(extra="forbid", title="ballscrew case file"),
+        __config__=ConfigDict(extra="forbid", title="ballscrew case file", json_schema_extra=_ALTERNATIVES),
         screw=(screw, ...),
-        **needed,
         **others,
         model=(parts["model"], Field(default=None)),
         sweep=(axes, Field(default=None)),
@@ -293,7 +315,9 @@ def _fault(section: str, model: type[BaseModel], problem: dict[str, Any]) -> Fau
         case "fault":
             return Fault(where, problem["ctx"]["problem"], problem["ctx"]["given"], problem["ctx"]["remedy"])
         case "missing":
-            quantity = {**fields_of(BallScrew), **fields_of(OperatingState)}.get(path[-1])
+            quantity = {
+                n: q for part in (BallScrew, OperatingState, Axis, Motor) for n, q in fields_of(part).items()
+            }.get(path[-1])
             unit = "" if quantity is None else f" {quantity.shown_in}"
             sample = "a number" if quantity is not None and quantity.unit == "1" else f'"…{unit}"'
             return Fault(where, MISSING, "", f"add {{{where}}}{sample}")
@@ -306,6 +330,9 @@ def _fault(section: str, model: type[BaseModel], problem: dict[str, Any]) -> Fau
             return Fault(where, "unknown key", "", nearest(path[-1], known), meant=closest(path[-1], known))
         case "model_type" | "dict_type" | "model_attributes_type":
             return Fault(where, "must be a table", given, f"write [{where}]")
+        case "list_type":
+            sample = f"[[{where}]]" if path[-1] == "segment" else f'{path[-1]} = [["0 rpm", "7 N m"]]'
+            return Fault(where, "must be a list", given, f"write {sample}")
         case "bool_type":
             return Fault(where, "must be true or false", given, "without quotes")
         case "string_type":

@@ -1,0 +1,233 @@
+"""The axis, the motion and the motor of a case, and the rule of one efficiency, from its sections."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+import reprlib
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ballscrew import units
+from ballscrew.axis.axis import Axis
+from ballscrew.axis.drive import Motor
+from ballscrew.cases.duty_schema import (
+    CONSTANT_EFFICIENCY,
+    KEYS,
+    MOTIONS,
+    POINT,
+    Counterforce,
+    duty_sections,
+    fields_of_motion,
+)
+from ballscrew.cases.schema import MODELS, read_table
+from ballscrew.cases.sections import Sections
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.errors import MISSING, Fault, InputError, nearest
+from ballscrew.motion.profiles import Motion, Segment
+from ballscrew.quantities import fields_of
+
+#: What a question about a motion needs besides the screw.
+NEEDED = ("axis", "motion")
+#: Keys of a motion by its field.
+_FIELDS = {key: name for name, key in KEYS.items()}
+
+
+class Moved(NamedTuple):
+    """The parts of a case that moves; None for what it does not have, or what is wrong."""
+
+    axis: Axis | None = None
+    motion: Motion | None = None
+    motor: Motor | None = None
+
+
+def moved(sections: Sections, faults: list[Fault]) -> Moved:
+    """Axis, motion and motor, of which a case may have none."""
+    return Moved(
+        _axis(sections, faults) if "axis" in sections else None,
+        _motion(sections, faults) if "motion" in sections else None,
+        _motor(sections, faults) if "motor" in sections else None,
+    )
+
+
+def needed(usual: Sequence[str], moves: bool, efficiency: float | None) -> Sequence[str]:
+    """The sections that a case needs: one that moves no operating point, the rule of one efficiency no oil."""
+    found = [name for name in usual if not (name == "lubricant" and efficiency is not None)]
+    return [*(name for name in found if name != "operation"), *NEEDED] if moves else found
+
+
+def travel(axis: Axis, motion: Motion, lead: float) -> OperatingState:
+    """The operating point of steady travel forwards, at the largest speed and without any process."""
+    states = motion.states()
+    fastest = float(np.max(np.abs(states.speed)))
+    load = axis.gravity_force + axis.guide_force + axis.guide_seal_force
+    return OperatingState(axial_load=load, screw_speed=2 * math.pi * fastest / lead)
+
+
+def efficiency(sections: Sections, chosen: str | None, moves: bool, faults: list[Fault]) -> float | None:
+    """The efficiency of the rule of that name; None for a model, which :mod:`~ballscrew.cases.case_file` makes."""
+    table = sections.tables.get("model", {})
+    if not isinstance(table, dict):
+        return None
+    named = table.get("name")
+    if CONSTANT_EFFICIENCY not in (named, chosen) or (chosen not in (None, CONSTANT_EFFICIENCY)):
+        if "efficiency" in table and named != CONSTANT_EFFICIENCY:
+            remedy = f'leave it out, or write name = "{CONSTANT_EFFICIENCY}"'
+            faults.append(Fault("model.efficiency", "a model computes it", str(table["efficiency"]), remedy))
+        return None
+    before = len(faults)
+    values = sections.values_of("model", faults)
+    if not moves:
+        remedy = f"take a model: {', '.join(MODELS)}"
+        problem = "is a rule, which only ballscrew duty takes"
+        faults.append(Fault("model.name", problem, CONSTANT_EFFICIENCY, remedy))
+    faults += [
+        Fault(f"model.{name}", f'does not count with "{CONSTANT_EFFICIENCY}"', reprlib.repr(value), "leave it out")
+        for name, value in table.items()
+        if name not in ("name", "efficiency")
+    ]
+    if len(faults) == before and "efficiency" not in values:
+        faults.append(Fault("model.efficiency", MISSING, "", "add {model.efficiency}0.9"))
+    return values["efficiency"] if len(faults) == before else math.nan
+
+
+def _axis(sections: Sections, faults: list[Fault]) -> Axis | None:
+    before = len(faults)
+    values: dict[str, Any] = sections.values_of("axis", faults)
+    weight = values.get("counterweight")
+    if isinstance(weight, Counterforce):
+        del values["counterweight"]
+        if "counterforce" in values:
+            given = str(sections.tables["axis"]["counterweight"])
+            faults.append(Fault("axis.counterweight", "is a force beside the counterforce", given, "give one of them"))
+        values["counterforce"] = float(weight)
+    return Axis(**values) if len(faults) == before else None
+
+
+def _motion(sections: Sections, faults: list[Fault]) -> Motion | None:
+    before = len(faults)
+    table, values = sections.tables["motion"], sections.values_of("motion", faults)
+    if len(faults) > before:
+        return None
+    kind: str = values.pop("kind", "")
+    if not kind:
+        faults.append(Fault("motion.kind", MISSING, "", "add {motion.kind}" + _either(MOTIONS)))
+    elif kind not in MOTIONS:
+        faults.append(Fault("motion.kind", "unknown kind of motion", kind, nearest(kind, MOTIONS)))
+    else:
+        faults += _misplaced(kind, table)
+        faults += _missing(kind, table)
+    if len(faults) > before:
+        return None
+    if "segment" in values:
+        values["segment"] = _segments(values["segment"], faults)
+    given = {_FIELDS.get(key, key): value for key, value in values.items()}
+    return _made("motion", functools.partial(MOTIONS[kind], **given), faults) if len(faults) == before else None
+
+
+def _misplaced(kind: str, table: Mapping[str, Any]) -> list[Fault]:
+    """Faults of fields that another kind of motion has."""
+    own = fields_of_motion(kind)
+    found: list[Fault] = []
+    for name, value in table.items():
+        if name != "kind" and name not in own:
+            kinds = [other for other in MOTIONS if name in fields_of_motion(other)]
+            remedy = "leave it out, or write {motion.kind}" + _either(kinds)
+            found.append(Fault(f"motion.{name}", f'a motion of kind "{kind}" has none', reprlib.repr(value), remedy))
+    return found
+
+
+def _missing(kind: str, table: Mapping[str, Any]) -> list[Fault]:
+    """Faults of fields that a kind of motion needs."""
+    known, found = fields_of(MOTIONS[kind]), list[Fault]()
+    for field in dataclasses.fields(MOTIONS[kind]):
+        key = KEYS.get(field.name, field.name)
+        if field.default is dataclasses.MISSING and key not in table:
+            quantity = known.get(key)
+            remedy = f"add tables [[motion.{key}]]"
+            if quantity is not None:
+                remedy = f'add {{motion.{key}}}"… {quantity.shown_in}"'
+            found.append(Fault(f"motion.{key}", MISSING, "", remedy))
+    return found
+
+
+def _segments(tables: list[Any], faults: list[Fault]) -> tuple[Segment, ...]:
+    found: list[Segment] = []
+    for number, table in enumerate(tables, start=1):
+        where, before = f"motion.segment {number}", len(faults)
+        values: dict[str, Any] = read_table(where, duty_sections()["segment"], table, faults)
+        made = None
+        if len(faults) == before:
+            made = _made(where, functools.partial(Segment, **values), faults)
+        found += [] if made is None else [made]
+    return tuple(found)
+
+
+def _made(where: str, make: Callable[[], Any], faults: list[Fault]) -> Any:
+    """What ``make`` returns; its faults are those of a place in the file."""
+    try:
+        return make()
+    except InputError as error:
+        for fault in error.faults:
+            section, _, field = fault.where.partition(".")
+            place = f"{where}.{field}" if section in ("motion", "segment") and where != section else fault.where
+            faults.append(dataclasses.replace(fault, where=place))
+        return None
+
+
+def _motor(sections: Sections, faults: list[Fault]) -> Motor | None:
+    before = len(faults)
+    values: dict[str, Any] = sections.values_of("motor", faults)
+    if "curve" in values:
+        values["curve"] = _curve(values["curve"], faults)
+    return _made("motor", functools.partial(Motor, **values), faults) if len(faults) == before else None
+
+
+def _curve(points: list[Any], faults: list[Fault]) -> tuple[tuple[float, float], ...]:
+    found: list[tuple[float, float]] = []
+    for number, point in enumerate(points, start=1):
+        where = f"motor.curve point {number}"
+        if not isinstance(point, list) or len(point) != len(POINT):
+            remedy = 'write curve = [["0 rpm", "7 N m"], ["3000 rpm", "5 N m"]]'
+            faults.append(Fault(where, "is not a speed and a torque", reprlib.repr(point), remedy))
+            continue
+        numbers = [units.parse(where, raw, quantity) for raw, quantity in zip(point, POINT, strict=True)]
+        wrong = [number for number in numbers if isinstance(number, Fault)]
+        faults += wrong
+        if not wrong:
+            speed, torque = (float(number) for number in numbers if not isinstance(number, Fault))
+            found.append((speed, torque))
+    return tuple(found)
+
+
+def inputs(axis: Axis | None, motion: Motion | None, motor: Motor | None) -> dict[str, Any]:
+    """Axis, motion and motor in SI, by section, as far as a case has them."""
+    found: dict[str, Any] = {}
+    if axis is not None:
+        found["axis"] = {**_numbers(axis), "brake_holds": axis.brake_holds}
+    if motion is not None:
+        kind = next(name for name, cls in MOTIONS.items() if type(motion) is cls)
+        found["motion"] = {"kind": kind, **_of_motion(motion)}
+    if motor is not None:
+        found["motor"] = {**_numbers(motor), "curve": [list(point) for point in motor.curve]}
+    return found
+
+
+def _of_motion(motion: Any) -> dict[str, Any]:
+    found = _numbers(motion)
+    if hasattr(motion, "returns"):
+        found["return"] = motion.returns
+    if hasattr(motion, "segments"):
+        found["segment"] = [{**({"name": s.name} if s.name else {}), **_numbers(s)} for s in motion.segments]
+    return found
+
+
+def _numbers(part: Any) -> dict[str, Any]:
+    return {name: value for name in fields_of(type(part)) if (value := getattr(part, name)) is not None}
+
+
+def _either(names: Any) -> str:
+    return " or ".join(f'"{name}"' for name in names)

@@ -1,0 +1,72 @@
+"""The inputs of a case in SI, by section."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+from ballscrew.cases import duty_tables
+from ballscrew.cases.case import USUAL_LIMITS, Case
+from ballscrew.cases.duty_schema import CONSTANT_EFFICIENCY
+from ballscrew.cases.nut_kinds import ENDS, kind_of
+from ballscrew.cases.schema import LAWS, name_of_law
+from ballscrew.components.nut import Nut
+from ballscrew.components.screw import MATERIALS, BallScrew
+from ballscrew.quantities import fields_of
+from ballscrew.sizing.installation import Installation
+
+
+def inputs(case: Case) -> dict[str, Any]:
+    """All inputs of a case in SI, by section: what ``--json`` prints."""
+    model = case.model
+    of_row = {} if case.row is None else {"catalogue": case.row.name, "source": case.row.source}
+    materials = {name: _numbers(getattr(case.screw, name)) for name in MATERIALS}
+    return {
+        "screw": {**of_row, **_numbers(case.screw), **case.listed, **materials},
+        "lubricant": {**case.oil, **_numbers(case.lubricant)},
+        **({} if case.travels else {"operation": _numbers(case.operation)}),
+        "model": {
+            "name": model.name,
+            **_numbers(model),
+            **{slot: _law(slot, getattr(model, slot)) for slot in LAWS},
+        }
+        if case.efficiency is None
+        else {"name": CONSTANT_EFFICIENCY, "efficiency": case.efficiency},
+        **({} if case.nut is None else _inputs_of_nut(case.nut, case.screw)),
+        **({} if case.installation is None else {"installation": _mounting(case.installation)}),
+        **({} if case.limits is USUAL_LIMITS else {"limits": _numbers(case.limits)}),
+        **duty_tables.inputs(case.axis, case.motion, case.motor),
+    }
+
+
+def _inputs_of_nut(nut: Nut, screw: BallScrew) -> dict[str, Any]:
+    bodies = None if nut.bodies is None else nut.bodies.sized(screw)
+    scatter = nut.parts.get("deviations")
+    own = {name: value for name, value in _numbers(nut).items() if value is not None}
+    return {
+        "nut": {"type": kind_of(nut), **own},
+        **(
+            {}
+            if bodies is None
+            else {"bodies": {**_numbers(bodies), "same_side": bodies.same_side, "swelling": bodies.swelling}}
+        ),
+        **({} if scatter is None else {"deviations": _numbers(scatter)}),
+        **({"losses": {slot: _law(slot, law) for slot, law in nut.losses.items()}} if nut.losses else {}),
+    }
+
+
+def _mounting(mounted: Installation) -> dict[str, Any]:
+    numbers = {name: value for name, value in _numbers(mounted).items() if value is not None}
+    return {**numbers, "ends": next(name for name, known in ENDS.items() if known is mounted.ends)}
+
+
+def _law(slot: str, law: Any) -> str | dict[str, Any]:
+    """A law as a file names it: by name alone, or with its coefficients."""
+    name = name_of_law(slot, law)
+    if not dataclasses.is_dataclass(law):
+        return name
+    return {"law": name, **{field.name: getattr(law, field.name) for field in dataclasses.fields(law)}}
+
+
+def _numbers(part: Any) -> dict[str, Any]:
+    return {name: getattr(part, name) for name in fields_of(type(part))}
