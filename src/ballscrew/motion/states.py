@@ -139,7 +139,8 @@ def states_of(phases: Sequence[Phase], nodes: int = NODES) -> MotionStates:
         rests = float(middle[1]) == 0 == float(middle[2])
         share, weight = _nodes(1 if rests else nodes)
         x, v, a = phase.at(share * duration)
-        every = np.ones_like(share)
+        direction = np.sign(float(middle[1])) * np.ones_like(share)
+        v = np.where(v * direction > 0, v, 0.0)  # what rounding leaves at an end
         columns.append(
             (
                 start + share * duration,
@@ -147,10 +148,10 @@ def states_of(phases: Sequence[Phase], nodes: int = NODES) -> MotionStates:
                 x,
                 v,
                 a,
-                np.sign(float(middle[1])) * every,
-                float(phase.force) * every,
-                (np.nan if phase.temperature is None else float(phase.temperature)) * every,
-                number * every,
+                direction,
+                np.full_like(share, phase.force),
+                np.full_like(share, np.nan if phase.temperature is None else phase.temperature),
+                np.full_like(share, number),
             )
         )
         ends.append((float(v[0]), float(v[-1])))
