@@ -20,7 +20,7 @@ from ballscrew.studies.check import RATINGS, Checked
 from ballscrew.studies.nut_state import NutState
 
 #: The display units of the checks, by SI unit.
-_SHOWN_IN = {"N": "kN", "Pa": "MPa", "s": "h", "rad/s": "rpm", "m rad/s": "mm rpm"}
+_SHOWN_IN = {"N": "kN", "Pa": "MPa", "s": "h", "rad/s": "rpm", "m rad/s": "mm rpm", "N m": "N m"}
 #: The options for an input that is missing.
 _GIVE = {
     "installation": "--length and --ends, or [installation]",
@@ -71,7 +71,7 @@ def text(found: Checked) -> str:
         "",
         *_ratings(found),
         "",
-        *_checks(found),
+        *check_lines(found.checks),
         "",
         f"verdict: {found.verdict}",
         *(f"beware  {record.name}: {record.text}" for record in found.run.conditions),
@@ -112,9 +112,10 @@ def _ratings(found: Checked) -> list[str]:
     return lines
 
 
-def _checks(found: Checked) -> list[str]:
+def check_lines(checks: Sequence[Check]) -> list[str]:
+    """A line for each check: value, limit, share of it that is used, verdict."""
     lines = [f"{'Checks':<26}{'value':>12} {'limit':>12} {'used':>7}  verdict"]
-    for check in found.checks:
+    for check in checks:
         used = "–" if check.utilisation is None else f"{check.utilisation:.1%}"
         verdict = {True: "passes", False: "FAILS", None: ""}[check.holds]
         explanation = check.text

@@ -1,0 +1,181 @@
+"""Text of a duty on the terminal: the cycle, what the motor is paid for, power off, life, rules and checks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from ballscrew import units
+from ballscrew.axis.axis import Axis
+from ballscrew.axis.brake import LetGo
+from ballscrew.cases import descriptions
+from ballscrew.cases.case import Case
+from ballscrew.cases.duty_schema import MOTIONS
+from ballscrew.cases.nut_kinds import LISTED
+from ballscrew.components.materials import TEMPERATURE
+from ballscrew.motion.profiles import Trapezoid
+from ballscrew.output.text.check import check_lines
+from ballscrew.output.text.tables import shown_or_dash
+from ballscrew.output.wrapping import aligned, wrapped
+from ballscrew.quantities import Quantity, fields_of
+from ballscrew.studies import duty_records
+from ballscrew.studies.duty import NUMBERS, DutyReport
+
+#: Energies that are zero in most cycles.
+_IF_ANY = ("energy_of_process", "energy_stored")
+_WIDTH, _BAR = 66, 24
+_AXIS, _MOTION = fields_of(Axis), fields_of(Trapezoid)
+_FORCE, _SPEED = LISTED["dynamic_load_rating"], _MOTION["speed"]
+_TORQUE, _ENERGY = NUMBERS["torque_rms"], NUMBERS["energy_lost"]
+#: Parts that are less than this share of the largest are not shown.
+_LEAST = 1e-9
+
+
+def text(report: DutyReport, encoding: str = "utf-8") -> str:
+    """A duty in full."""
+    lines = [
+        title(report),
+        "",
+        descriptions.design(report.case, plain_text=True),
+        *_assumptions(report.case),
+        "",
+        "Cycle",
+        *_numbers(report),
+        *(f"  {record.text}" for record in duty_records.verdicts(report)),
+        *(f"beware  {record.name}: {record.text}" for record in duty_records.warnings(report)),
+        "",
+        *_parts(report, "█" if "utf" in encoding.lower() else "#"),
+        "",
+        *_power_off(report),
+        "",
+        *_life(report),
+        "",
+        *_rules(report),
+        "",
+        *check_lines(report.checks),
+    ]
+    return "\n".join(line if "\n" in line else wrapped(line) for line in lines)
+
+
+def title(report: DutyReport) -> str:
+    """``vertical axis, 400 kg, trapezoid over 500 mm at 30 m/min: double nut, preload 5047 N, model reference``."""
+    case, axis, states = report.case, report.axis, report.duty.states
+    angle = float(axis.inclination)
+    tilt = (
+        "horizontal axis"
+        if angle == 0
+        else "vertical axis"
+        if math.isclose(abs(angle), math.pi / 2)
+        else f"axis at {units.shown(angle, _AXIS['inclination'])}"
+    )
+    kind = next((name for name, cls in MOTIONS.items() if type(report.motion) is cls), "recorded motion")
+    fastest = float(max(abs(states.speed)))
+    travel = f"{kind} over {units.shown(states.stroke, _MOTION['stroke'])} at up to {units.shown(fastest, _SPEED)}"
+    nut = [] if case.nut is None else [descriptions.nut_text(case.nut)]
+    model = descriptions.model_text(case) if case.efficiency is None else f"efficiency {case.efficiency:g}"
+    return f"{tilt}, {units.shown(axis.mass, _AXIS['mass'])}, {travel}: {', '.join([*nut, model])}"
+
+
+def _assumptions(case: Case) -> Sequence[str]:
+    return [*descriptions.assumptions(case), descriptions.left_out(case)] if case.efficiency is None else []
+
+
+def _line(what: str, value: str) -> str:
+    return f"  {what:<{_WIDTH}} {value}"
+
+
+def _numbers(report: DutyReport) -> list[str]:
+    found: list[str] = []
+    for name, quantity in NUMBERS.items():
+        value = report.numbers[name]
+        if name in _IF_ANY and abs(value) <= _LEAST * report.duty.energy_drawn:
+            continue
+        found.append(_line(quantity.info.meaning, number(quantity, value)))
+    return found
+
+
+def number(quantity: Quantity, value: float) -> str:
+    """A number with its unit; a dash where it is not finite, and large counts without an exponent up to a million."""
+    if not math.isfinite(value):
+        return "endless" if value > 0 else "–"
+    return f"{float(f'{value:.4g}'):.6g}" if quantity.unit == "1" else shown_or_dash(value, quantity)
+
+
+def _parts(report: DutyReport, block: str) -> list[str]:
+    """What the motor is paid for: torque at its peak, share of the RMS torque, energy."""
+    energies = report.duty.energy_by
+    at_peak, of_rms = report.torque_peak_by, report.torque_rms_by
+    scales = [max(map(abs, values.values()), default=0.0) for values in (at_peak, of_rms, energies)]
+    total = report.duty.torque_rms
+    rows, bars = [["What the motor is paid for", "at the peak", "of the RMS", "energy", "share"]], [""]
+
+    def row(name: str, values: Sequence[float], bar: str) -> None:
+        cells = (
+            units.shown(value + 0.0, quantity, 3)
+            for value, quantity in zip(values, (_TORQUE, _TORQUE, _ENERGY), strict=True)
+        )
+        rows.append([f"  {name}", *cells, f"{values[1] / total:.1%}" if total else "–"])
+        bars.append(bar)
+
+    for name, energy in energies.items():
+        values = (at_peak[name], of_rms[name], energy)
+        if any(abs(value) > _LEAST * scale for value, scale in zip(values, scales, strict=True)):
+            share = of_rms[name] / total if total else 0.0
+            row(name, values, block * round(_BAR * max(0.0, min(share, 1.0))))
+    row("sum", (sum(at_peak.values()), total, sum(energies.values())), "")
+    return [f"{line}  {bar}".rstrip() for line, bar in zip(aligned(rows), bars, strict=True)]
+
+
+def _power_off(report: DutyReport) -> list[str]:
+    if not report.brake.load_torque:
+        return ["Motor off: no load turns the screw"]
+    rows = [["Motor off", "oil", "load", "friction from rest", "in motion", "ratio", "after the stroke", ""]]
+    rows += [_condition(found) for found in report.brake.conditions]
+    return aligned(rows)
+
+
+def _condition(found: LetGo) -> list[str]:
+    says = "falls" if found.falls else "goes on once started" if found.goes_on else "stays"
+    return [
+        f"  {found.condition}",
+        "–" if found.temperature is None else units.shown(found.temperature, TEMPERATURE, 3),
+        units.shown(abs(found.load_torque), _TORQUE, 3),
+        units.shown(found.breakaway_torque, _TORQUE, 3),
+        units.shown(found.running_torque, _TORQUE, 3),
+        f"{found.safety:.3g}",
+        shown_or_dash(found.speed_after_stroke, _SPEED) if found.goes_on else "–",
+        says,
+    ]
+
+
+def _life(report: DutyReport) -> list[str]:
+    life = report.life
+    rating = life.dynamic_load_rating
+    source = f"dynamic load rating {'–' if rating is None else units.shown(rating, _FORCE)}, {report.rating_source}"
+    loads = [
+        _line(f"mean load of {'the half' if life.preload else 'the flank'} {name}", shown_or_dash(load, _FORCE))
+        for name, load in life.mean_loads.items()
+    ]
+    turns = NUMBERS["life_revolutions"]
+    return [
+        f"Life by ISO 3408-5 ({source})",
+        *loads,
+        _line("turns of both together", number(turns, life.revolutions)),
+        _line("turns by the larger mean load alone, as THK computes", number(turns, life.revolutions_of_the_worse)),
+    ]
+
+
+def _rules(report: DutyReport) -> list[str]:
+    rule, duty = report.rule, report.duty
+    rows = [["Torque of the motor", "peak", "RMS"]]
+    for name, found in (
+        ("  by mechanics" + (": this is physics" if report.by_rule else ""), duty),
+        (f"  by the rule of catalogues (THK), efficiency {rule.efficiency:g}", rule),
+    ):
+        rows.append([name, *(units.shown(value, _TORQUE) for value in (found.torque_peak, found.torque_rms))])
+    note = (
+        "  The rule divides the load by the efficiency also where the load drives the screw, and moves the mass "
+        "without any loss; mechanics does neither."
+    )
+    asked = "  The case asks for the rule: its torques stand above." if report.by_rule else ""
+    return [*aligned(rows), note, *filter(None, [asked])]

@@ -1,0 +1,233 @@
+"""Duty of a case: torque, energy, life, brake and motor over one cycle of its motion."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from ballscrew._arrays import lazy
+from ballscrew.axis import duty as axis_duty
+from ballscrew.axis.axis import Axis
+from ballscrew.axis.brake import Brake, brake_of
+from ballscrew.axis.cycle_life import CycleLife
+from ballscrew.axis.drive import MotorCheck
+from ballscrew.axis.duty import Duty
+from ballscrew.axis.vendor_rule import VendorRule
+from ballscrew.cases.case import Case
+from ballscrew.cases.nut_tables import dynamic_rating
+from ballscrew.components.nut import OversizeBallNut
+from ballscrew.errors import InputError
+from ballscrew.friction.result import MECHANISMS
+from ballscrew.motion.profiles import Motion
+from ballscrew.overflow import overflow_as_input_error
+from ballscrew.quantities import Force, Info, Quantity, Torque
+from ballscrew.sizing.checks import Check, checks
+from ballscrew.solvers.load_distribution import preload_of
+
+DAY = 86400.0
+#: The efficiency of the rule of catalogues where the case has a model: that of their worked examples (THK514E).
+RULE_EFFICIENCY = 0.9
+#: The checks of one operating point that are of speeds and largest loads; those of life are of the whole cycle.
+_OF_EXTREMES = (
+    "static_safety", "contact_pressure", "shaft_stress", "buckling", "critical_speed", "diameter_speed_product",
+)  # fmt: skip
+_SLUGS = {text: name for name, text in MECHANISMS.items()}
+
+
+def _quantity(name: str, unit: str, symbol: str, meaning: str, shown_in: str = "") -> Quantity:
+    return Quantity(name, unit, Info(symbol, meaning, shown_in))
+
+
+#: The numbers of a cycle.
+NUMBERS: Mapping[str, Quantity] = {
+    quantity.name: quantity
+    for quantity in (
+        _quantity("cycle_time", "s", "t_c", "time of a cycle"),
+        _quantity("torque_peak", "N m", r"\tau_{max}", "largest torque of the motor"),
+        _quantity("torque_rms", "N m", r"\tau_{rms}", "RMS torque of the motor, rests included"),
+        _quantity("mean_speed", "rad/s", "n_m", "mean speed of the screw over the cycle", "rpm"),
+        _quantity("largest_speed", "rad/s", "n_max", "largest speed of the motor", "rpm"),
+        _quantity("power_peak", "W", "P_{max}", "largest power of the motor"),
+        _quantity("power_returned_peak", "W", "P_{min}", "largest power that drives the motor"),
+        _quantity("energy_drawn", "J", "E_+", "energy that the motor gives in a cycle"),
+        _quantity("energy_returned", "J", "E_-", "energy that it takes back"),
+        _quantity("energy_lost", "J", "E_f", "energy lost to friction in a cycle"),
+        _quantity("energy_of_process", "J", "E_x", "work on the process in a cycle"),
+        _quantity("energy_stored", "J", r"\Delta E", "energy stored between start and end of the cycle"),
+        _quantity("energy_per_day", "J", "E_d", "energy a day, if nothing is used that comes back", "kW h"),
+        _quantity("energy_per_day_with_recovery", "J", "E_r", "energy a day, if all that comes back is used", "kW h"),
+        _quantity("mean_load", "N", "F_m", "mean load of the more loaded flank or half"),
+        _quantity("mean_load_of_both", "N", "F_a", "mean size of the axial load"),
+        _quantity("life_revolutions", "1", "L", "turns that nine of ten outlive"),
+        _quantity("life_cycles", "1", "N_c", "cycles that nine of ten outlive"),
+        _quantity("life_time", "s", "L_h", "time that nine of ten outlive, cycle after cycle", "h"),
+        _quantity("revolutions", "1", "q", "turns of the screw in a cycle"),
+    )
+}
+
+
+def slug_of(name: str) -> str:
+    """The key of a part of the torque in documents: ``acceleration_of_the_mass``, ``spin``."""
+    return _SLUGS.get(name, name.replace(" ", "_"))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class DutyReport:
+    """A cycle of a case and what follows from it."""
+
+    case: Case
+    axis: Axis
+    motion: Motion
+    duty: Duty
+    life: CycleLife
+    rating_source: str
+    rule: VendorRule
+
+    @property
+    def by_rule(self) -> bool:
+        """True where the case asks for the rule of catalogues, and mechanics stands beside it."""
+        return self.case.efficiency is not None
+
+    @lazy
+    def brake(self) -> Brake:
+        """What happens with the motor off."""
+        return brake_of(self.duty)
+
+    @lazy
+    def motor(self) -> MotorCheck | None:
+        """The duty against the motor of the case."""
+        return None if self.case.motor is None else MotorCheck(self.duty, self.case.motor)
+
+    @lazy
+    def numbers(self) -> Mapping[str, float]:
+        """The numbers of the cycle in SI, as :data:`NUMBERS` has them.
+
+        Torques are by the rule of catalogues where the case asks for it; energies are always by mechanics.
+        """
+        duty, life = self.duty, self.life
+        torques = self.rule if self.by_rule else duty
+        cycles = DAY / duty.states.cycle_time
+        found = {
+            "cycle_time": duty.states.cycle_time,
+            "torque_peak": torques.torque_peak,
+            "torque_rms": torques.torque_rms,
+            "mean_speed": duty.mean_speed,
+            "largest_speed": float(np.max(np.abs(duty.motor_speed))),
+            "power_peak": max(float(np.max(duty.power)), 0.0),
+            "power_returned_peak": max(float(-np.min(duty.power)), 0.0),
+            "energy_drawn": duty.energy_drawn,
+            "energy_returned": duty.energy_returned,
+            "energy_lost": duty.energy_lost,
+            "energy_of_process": duty.energy_of_process,
+            "energy_stored": duty.energy_stored,
+            "energy_per_day": cycles * duty.energy_drawn,
+            "energy_per_day_with_recovery": cycles * (duty.energy_drawn - duty.energy_returned),
+            "mean_load": life.mean_load,
+            "mean_load_of_both": life.mean_load_of_both,
+            "life_revolutions": life.revolutions,
+            "life_cycles": life.cycles,
+            "life_time": life.time,
+            "revolutions": duty.revolutions,
+        }
+        return {name: float(found[name]) for name in NUMBERS}
+
+    @lazy
+    def torque_peak_by(self) -> Mapping[str, Torque]:
+        """Parts of the torque where it is largest, N m, with the sign of their sum; by mechanics."""
+        at = int(np.argmax(np.abs(self.duty.torque)))
+        sign = math.copysign(1.0, float(self.duty.torque[at]))
+        return {name: sign * float(part[at]) for name, part in self.duty.parts.items()}
+
+    @lazy
+    def torque_rms_by(self) -> Mapping[str, Torque]:
+        r"""Parts of the RMS torque, N m: :math:`\frac{1}{t_c \tau_{rms}} \int \tau_i \tau dt`; they sum to it.
+
+        What the heat of the motor is paid for. A part that acts against the others is negative.
+        """
+        states, torque = self.duty.states, self.duty.torque
+        scale = states.cycle_time * self.duty.torque_rms
+        return {
+            name: states.integral(part * torque) / scale if scale else 0.0 for name, part in self.duty.parts.items()
+        }
+
+    @lazy
+    def largest_load(self) -> Force:
+        """Largest size of the axial load, N."""
+        return float(np.max(np.abs(self.duty.axial_load)))
+
+    @lazy
+    def checks(self) -> Sequence[Check]:
+        """Checks of the extremes, of the life over the cycle, and of the motor."""
+        return (*self._of_extremes, *self._of_life, *(() if self.motor is None else self.motor.checks))
+
+    @lazy
+    def _of_extremes(self) -> Sequence[Check]:
+        case, duty = self.case, self.duty
+        nut = case.screw.nut
+        nut = nut.changed("preload", self.life.preload) if isinstance(nut, OversizeBallNut) else nut
+        pressure = duty.screw.maximum_pressure
+        mean = self.life.mean_load_of_both
+        found = checks(
+            case.screw,
+            axial_load=0.0 if math.isnan(mean) else min(mean, self.largest_load),
+            largest_load=self.largest_load,
+            screw_speed=float(np.max(np.abs(duty.screw_speed))),
+            nut=nut,
+            static_load_rating=case.listed.get("static_load_rating"),
+            maximum_pressure=None if np.isnan(pressure).all() else float(np.nanmax(pressure)),
+            root_diameter=case.listed.get("root_diameter"),
+            installation=case.installation,
+            limits=case.limits,
+        )
+        return [check for check in found if check.name in _OF_EXTREMES]
+
+    @property
+    def _of_life(self) -> Sequence[Check]:
+        """Turns and time against the running time that the limits ask for."""
+        required, life = self.case.limits.running_time, self.life
+        if life.dynamic_load_rating is None:
+            give, missing = "not checked: give dynamic_load_rating", "dynamic_load_rating"
+            return [Check(name, None, None, unit, None, None, give, missing) for name, unit in _LIFE]
+        found: list[Check] = []
+        for (name, unit), value, words in zip(
+            _LIFE,
+            (life.revolutions, life.time),
+            ("turns that nine of ten outlive, by the mean load over the cycle", "time of so many cycles"),
+            strict=True,
+        ):
+            if required is None:
+                text, missing = f"{words}; not judged: give limits.running_time", "limits.running_time"
+                found.append(Check(name, value, None, unit, None, None, text, missing))
+                continue
+            cycles = required / self.duty.states.cycle_time
+            limit = required if unit == "s" else cycles * self.duty.revolutions
+            used = limit / value if value else math.inf
+            found.append(Check(name, value, limit, unit, used, used <= 1, words))
+        return found
+
+
+_LIFE = (("life", "1"), ("running_time", "s"))
+
+
+@overflow_as_input_error()
+def duty(case: Case) -> DutyReport:
+    """The duty of a case with an axis and a motion."""
+    assert case.axis is not None
+    assert case.motion is not None
+    driver = case.model if case.efficiency is None else case.efficiency
+    found = axis_duty.duty(driver, case.screw, case.lubricant, axis=case.axis, motion=case.motion)
+    rating, source = _rating(case)
+    preload = float(preload_of(case.screw, case.screw.nut))
+    life = CycleLife(found, case.screw.nut, preload, rating)
+    rule = VendorRule(found, RULE_EFFICIENCY if case.efficiency is None else case.efficiency)
+    return DutyReport(case, case.axis, case.motion, found, life, source, rule)
+
+
+def _rating(case: Case) -> tuple[float | None, str]:
+    try:
+        return dynamic_rating(case.screw, case.row, case.listed)
+    except InputError:  # of a geometry that no standard has ratings for
+        return None, "not known"
