@@ -48,7 +48,7 @@ class RowTable(NamedTuple):
 _Cells = dict[str, Any]
 
 
-def _put(cells: _Cells, quantity: Quantity, value: Any, name: str | None = None) -> None:
+def put(cells: _Cells, quantity: Quantity, value: Any, name: str | None = None) -> None:
     """Put a number into its column, in the display unit; none where it is not finite."""
     number = None if value is None else float(units.from_si(float(value), quantity))
     shown = None if number is None or not math.isfinite(number) else float(f"{number:.{_DIGITS}g}") + 0.0
@@ -69,11 +69,11 @@ def of_runs(runs: Mapping[str, Run]) -> RowTable:
 def _of_run(name: str, run: Run) -> _Cells:
     cells: _Cells = {"name": name, "nut": "" if run.nut is None else kind_of(run.nut.nut)}
     for field in (*_OPERATION, *_OF_RUN):
-        _put(cells, _RESULT[field], getattr(run.friction, field))
+        put(cells, _RESULT[field], getattr(run.friction, field))
     nut = run.nut
-    _put(cells, NUT_FIELDS["preload"], None if nut is None else nut.preload)
-    _put(cells, _RESULT["screw_torque"], None if nut is None else nut.preload_drag, "torque without load")
-    _put(cells, _RIGIDITY, None if nut is None else nut.loads.rigidity)
+    put(cells, NUT_FIELDS["preload"], None if nut is None else nut.preload)
+    put(cells, _RESULT["screw_torque"], None if nut is None else nut.preload_drag, "torque without load")
+    put(cells, _RIGIDITY, None if nut is None else nut.loads.rigidity)
     cells["valid"] = int(run.friction.valid)
     cells["warnings"] = "; ".join(record.text for record in run.warnings)
     return cells
@@ -88,10 +88,10 @@ def _of_check(found: Checked) -> _Cells:
     cells = _of_run(found.name, found.run)
     for name, field in RATINGS.items():
         computed = None if found.computed is None else getattr(found.computed, field)
-        _put(cells, LISTED[name], found.case.listed.get(name))
-        _put(cells, LISTED[name], computed, f"{name} by geometry")
+        put(cells, LISTED[name], found.case.listed.get(name))
+        put(cells, LISTED[name], computed, f"{name} by geometry")
     for check in found.checks:
-        _put(cells, quantity_of(check), check.value)
+        put(cells, quantity_of(check), check.value)
         cells[f"{check.name.replace('_', ' ')} used"] = check.utilisation
     return {**cells, "verdict": found.verdict}
 
@@ -107,12 +107,12 @@ def _of_fit(name: str, report: FitReport) -> _Cells:
     for estimate in model.estimates.values():
         ends = estimate.interval()
         number = estimate.name.rpartition(".")[2]
-        _put(cells, estimate.quantity, estimate.value, number)
+        put(cells, estimate.quantity, estimate.value, number)
         for what, value in (("error", estimate.std), ("low", ends and ends[0]), ("high", ends and ends[1])):
-            _put(cells, estimate.quantity, value, f"{number} {what}")
+            put(cells, estimate.quantity, value, f"{number} {what}")
         cells[f"{number.replace('_', ' ')} identified"] = int(estimate.identified)
-    _put(cells, _RESULT["screw_torque"], model.residual_rms, "residual rms")
-    _put(cells, _RESULT["screw_torque"], model.holdout_rms, "held out rms")
+    put(cells, _RESULT["screw_torque"], model.residual_rms, "residual rms")
+    put(cells, _RESULT["screw_torque"], model.holdout_rms, "held out rms")
     cells["warnings"] = "; ".join(model.warnings)
     return cells
 
@@ -133,22 +133,29 @@ def write(to: Path, table: RowTable) -> None:
     """Write .csv or .xlsx, whole or not at all."""
     with atomic_write("--to", to) as path:
         if to.suffix.lower() == ".xlsx":
-            path.write_bytes(_xlsx(table))
+            path.write_bytes(xlsx_bytes({"screws": table}))
             return
-        with path.open("w", encoding="utf-8", newline="") as stream:
-            csv.writer(stream, lineterminator="\n").writerows([table.headings, *table.rows])
+        write_csv(path, table)
 
 
-def _xlsx(table: RowTable) -> bytes:
+def write_csv(path: Path, table: RowTable) -> None:
+    """The rows of a table as CSV, below its headings."""
+    with path.open("w", encoding="utf-8", newline="") as stream:
+        csv.writer(stream, lineterminator="\n").writerows([table.headings, *table.rows])
+
+
+def xlsx_bytes(tables: Mapping[str, RowTable]) -> bytes:
+    """A workbook with a sheet for each table, by title."""
     import xlsxwriter
 
     buffer = io.BytesIO()
     workbook = xlsxwriter.Workbook(buffer, {"in_memory": True})
     bold = workbook.add_format({"bold": True})
-    sheet = workbook.add_worksheet("screws")
-    sheet.freeze_panes(1, 1)
-    for number, row in enumerate([table.headings, *table.rows]):
-        sheet.write_row(number, 0, row, bold if number == 0 else None)
-    sheet.autofit()
+    for title, table in tables.items():
+        sheet = workbook.add_worksheet(title)
+        sheet.freeze_panes(1, 1)
+        for number, row in enumerate([table.headings, *table.rows]):
+            sheet.write_row(number, 0, row, bold if number == 0 else None)
+        sheet.autofit()
     workbook.close()
     return buffer.getvalue()

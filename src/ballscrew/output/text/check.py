@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from ballscrew import units
 from ballscrew.cases import descriptions, nut_tables
@@ -112,15 +112,16 @@ def _ratings(found: Checked) -> list[str]:
     return lines
 
 
-def check_lines(checks: Sequence[Check]) -> list[str]:
-    """A line for each check: value, limit, share of it that is used, verdict."""
+def check_lines(checks: Sequence[Check], give: Mapping[str, str] | None = None) -> list[str]:
+    """A line for each check: value, limit, share used, verdict; ``give`` names what to give for inputs it lacks."""
+    said = _GIVE if give is None else give
     lines = [f"{'Checks':<26}{'value':>12} {'limit':>12} {'used':>7}  verdict"]
     for check in checks:
         used = "–" if check.utilisation is None else f"{check.utilisation:.1%}"
         verdict = {True: "passes", False: "FAILS", None: ""}[check.holds]
         explanation = check.text
-        if check.missing in _GIVE:
-            explanation = explanation.replace(check.missing, _GIVE[check.missing])
+        if check.missing in said:
+            explanation = explanation.replace(check.missing, said[check.missing])
         cells = f"{shown(check, check.value):>12} {shown(check, check.limit):>12} {used:>7}"
         prefix = f"  {check.name.replace('_', ' '):<24}{cells}  "
         lines.append(beside(prefix, ": ".join(filter(None, [verdict, explanation]))))

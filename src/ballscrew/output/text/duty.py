@@ -27,6 +27,11 @@ _WIDTH, _BAR = 66, 24
 _AXIS, _MOTION = fields_of(Axis), fields_of(Trapezoid)
 _FORCE, _SPEED = LISTED["dynamic_load_rating"], _MOTION["speed"]
 _TORQUE, _ENERGY = NUMBERS["torque_rms"], NUMBERS["energy_lost"]
+#: The options for an input of a check that is missing.
+_GIVE = {
+    "installation": "[installation]",
+    "limits.running_time": '--set limits.running_time="20000 h"',
+}
 #: Parts that are less than this share of the largest are not shown.
 _LEAST = 1e-9
 
@@ -52,7 +57,7 @@ def text(report: DutyReport, encoding: str = "utf-8") -> str:
         "",
         *_rules(report),
         "",
-        *check_lines(report.checks),
+        *check_lines(report.checks, _GIVE),
     ]
     return "\n".join(line if "\n" in line else wrapped(line) for line in lines)
 
@@ -111,8 +116,8 @@ def _parts(report: DutyReport, block: str) -> list[str]:
 
     def row(name: str, values: Sequence[float], bar: str) -> None:
         cells = (
-            units.shown(value + 0.0, quantity, 3)
-            for value, quantity in zip(values, (_TORQUE, _TORQUE, _ENERGY), strict=True)
+            units.shown(value if abs(value) > _LEAST * scale else 0.0, quantity, 3)
+            for value, quantity, scale in zip(values, (_TORQUE, _TORQUE, _ENERGY), scales, strict=True)
         )
         rows.append([f"  {name}", *cells, f"{values[1] / total:.1%}" if total else "–"])
         bars.append(bar)

@@ -1,0 +1,81 @@
+"""``ballscrew duty``: what a cycle of an axis asks of the motor. The work is done in ``studies/duty``."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ballscrew.cli.common_options import AllowCode, CaseFile, ModelName
+
+_TO = "--to"
+
+
+def duty(
+    case: CaseFile,
+    model: ModelName = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set axis.mass="500 kg".'),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    to: Annotated[
+        list[Path] | None,
+        typer.Option(
+            _TO, "-o", metavar="FILE", help="Also write tables (.xlsx, .csv) or a picture (.pdf, .png, .svg); repeat."
+        ),
+    ] = None,
+    allow_code: AllowCode = False,
+) -> None:
+    """Torque of the motor over a cycle, and what follows: RMS and peak, energy, life, brake, motor.
+
+    The case has an [axis] and a [motion], and perhaps a [motor]; it needs no [operation]. The rule of catalogues
+    stands beside the numbers; [model] name = "constant-efficiency" asks for it.
+    """
+    from ballscrew.cases import case_file
+    from ballscrew.figures import files
+    from ballscrew.output.documents import duty as documents
+    from ballscrew.output.json_text import as_json as json_text
+    from ballscrew.output.text import duty as text
+    from ballscrew.studies import duty as studies
+    from ballscrew.table_files import row_tables
+
+    loaded = case_file.load(case, settings or [], model, allow_code=allow_code, moves=True)
+    _check_kinds(to or [])
+    for path in to or []:
+        if path.suffix.lower() in row_tables.KINDS:
+            row_tables.check_path(path)
+        else:
+            files.check_picture(path, _TO)
+    report = studies.duty(loaded)
+    typer.echo(
+        json_text(documents.document(report)) if as_json else text.text(report, getattr(sys.stdout, "encoding", ""))
+    )
+    for path in to or []:
+        if path.suffix.lower() in row_tables.KINDS:
+            from ballscrew.table_files import duty_tables
+
+            duty_tables.write(path, report)
+        else:
+            from ballscrew.figures import duty as figures  # matplotlib is slow to import
+
+            files.draw(lambda: figures.picture(report), path, _TO)
+        typer.echo(f"{path}: {len(report.duty.states.time)} states", err=as_json)
+
+
+def _check_kinds(to: list[Path]) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` for files that are neither tables nor pictures."""
+    from ballscrew.errors import Fault, raise_if_any
+    from ballscrew.figures.files import SUFFIXES
+    from ballscrew.table_files.row_tables import KINDS
+
+    known = (*KINDS, *SUFFIXES)
+    raise_if_any(
+        [
+            Fault(_TO, "unknown kind of file", str(path), f"end it in {', '.join(known[:-1])} or {known[-1]}")
+            for path in to
+            if path.suffix.lower() not in known
+        ]
+    )

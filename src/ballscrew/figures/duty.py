@@ -1,0 +1,140 @@
+"""A duty: motion, torque by cause and power over the cycle; torque over speed; what the motor is paid for."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ballscrew import units
+from ballscrew.axis.duty import STORED
+from ballscrew.figures import style
+from ballscrew.friction.result import MECHANISMS
+from ballscrew.motion.profiles import Trapezoid
+from ballscrew.motion.states import Numbers
+from ballscrew.output.text import duty as text
+from ballscrew.quantities import fields_of
+from ballscrew.studies import duty_records
+from ballscrew.studies.duty import NUMBERS, DutyReport
+
+_MOTION = fields_of(Trapezoid)
+_TURNING = NUMBERS["mean_speed"]
+#: Groups of parts of the torque, with their colours; what is in none of them is friction outside the balls.
+_ACCELERATION, _GRAVITY, _PROCESS, _BALLS, _OTHERS = (
+    "acceleration", "gravity", "process", "friction of the balls", "other friction",
+)  # fmt: skip
+_COLOURS: Mapping[str, str] = {
+    _ACCELERATION: style.BLUE,
+    _GRAVITY: style.GREEN,
+    _PROCESS: style.ORANGE,
+    _BALLS: style.RED,
+    _OTHERS: style.PURPLE,
+}
+_OF_STORED = {STORED[0]: _ACCELERATION, STORED[1]: _ACCELERATION, "gravity": _GRAVITY}
+_TITLE_CHARACTERS, _LABEL_SIZE, _LEAST = 100, 8.0, 1e-9
+_CURVE_POINTS = 200
+
+
+def picture(report: DutyReport) -> Figure:
+    """All panels; call within the house style."""
+    figure, panels = style.new_figure(caption(report), rows=3, height=2.7)
+    figure.suptitle(
+        "\n".join(textwrap.wrap(text.title(report), _TITLE_CHARACTERS)),
+        x=0.012, ha="left", fontsize=11, fontweight="bold",
+    )  # fmt: skip
+    _motion(panels[0], report)
+    _cloud(panels[1], report)
+    _torque(panels[2], report)
+    _bars(panels[3], "share of the RMS torque", report.torque_rms_by, "N m")
+    _power(panels[4], report)
+    _bars(panels[5], "energy lost in a cycle", report.duty.energy_lost_by, "J")
+    return figure
+
+
+def caption(report: DutyReport) -> str:
+    """The verdicts of a duty, and what the panels show."""
+    said = ". ".join(record.text for record in duty_records.verdicts(report))
+    return f"{said}. Torques are those of the motor, by mechanics; bars to the left act against the sum of the others."
+
+
+def group_of(name: str) -> str:
+    """The group of a part of the torque."""
+    if name in _OF_STORED or name == _PROCESS:
+        return _OF_STORED.get(name, _PROCESS)
+    return _BALLS if name in MECHANISMS.values() or name == "efficiency" else _OTHERS
+
+
+def _grouped(report: DutyReport) -> Mapping[str, Numbers]:
+    found: dict[str, Numbers] = {}
+    for name, part in report.duty.parts.items():
+        group = group_of(name)
+        found[group] = found.get(group, np.zeros_like(report.duty.torque)) + part
+    return {group: found[group] for group in _COLOURS if group in found and np.any(found[group])}
+
+
+def _motion(panel: Axes, report: DutyReport) -> None:
+    states = report.duty.states
+    speed = _MOTION["speed"]
+    panel.plot(states.time, units.from_si(states.speed, speed), color=style.BLUE, label="speed")
+    panel.set(xlabel="time [s]", ylabel=f"speed [{speed.shown_in}]", title="motion")
+    place = panel.twinx()
+    length = _MOTION["stroke"]
+    place.plot(states.time, units.from_si(states.position, length), color=style.GREY, linestyle="--", label="position")
+    place.set_ylabel(f"position [{length.shown_in}] (dashed)")
+    place.grid(visible=False)
+
+
+def _torque(panel: Axes, report: DutyReport) -> None:
+    duty = report.duty
+    for group, part in _grouped(report).items():
+        panel.plot(duty.states.time, part, color=_COLOURS[group], linewidth=1.2, label=group)
+    panel.plot(duty.states.time, duty.torque, color=style.INK, label="motor")
+    panel.axhline(duty.torque_rms, color=style.GREY, linestyle=":", linewidth=1.0, label="RMS")
+    panel.set(xlabel="time [s]", ylabel="torque [N m]", title="torque of the motor by cause")
+    panel.legend(fontsize=_LABEL_SIZE, ncols=2)
+
+
+def _power(panel: Axes, report: DutyReport) -> None:
+    time, power = report.duty.states.time, report.duty.power
+    panel.plot(time, power, color=style.INK, linewidth=1.2)
+    panel.fill_between(time, np.maximum(power, 0.0), color=style.ORANGE, alpha=0.5, label="drawn")
+    panel.fill_between(time, np.minimum(power, 0.0), color=style.GREEN, alpha=0.5, label="returned")
+    panel.set(xlabel="time [s]", ylabel="power [W]", title="power of the motor")
+    panel.legend(fontsize=_LABEL_SIZE)
+
+
+def _cloud(panel: Axes, report: DutyReport) -> None:
+    duty = report.duty
+    speed = units.from_si(duty.motor_speed, _TURNING)
+    panel.plot(speed, duty.torque, ".", color=style.INK, markersize=4, label="cycle")
+    if report.motor is not None:
+        motor = report.motor.motor
+        along = np.linspace(-float(motor.largest_speed), float(motor.largest_speed), _CURVE_POINTS)
+        shown, peak = units.from_si(along, _TURNING), motor.peak_at(along)
+        for sign in (1, -1):
+            panel.plot(shown, sign * peak, color=style.RED, label="peak" if sign > 0 else None)
+            rated = sign * float(motor.rated_torque)
+            panel.plot(shown, np.full_like(shown, rated), "--", color=style.ORANGE, label="rated" if sign > 0 else None)
+    panel.axhline(duty.torque_rms, color=style.GREY, linestyle=":", linewidth=1.2, label="RMS of the cycle")
+    panel.set(xlabel=f"speed of the motor [{_TURNING.shown_in}]", ylabel="torque [N m]", title="torque over speed")
+    panel.legend(fontsize=_LABEL_SIZE)
+
+
+def _bars(panel: Axes, title: str, parts: Mapping[str, float], unit: str) -> None:
+    """Parts from the largest down; parts that are nothing are left out."""
+    largest = max(map(abs, parts.values()), default=0.0)
+    shown: Sequence[tuple[str, float]] = sorted(
+        ((name, value) for name, value in parts.items() if abs(value) > _LEAST * largest),
+        key=lambda part: -abs(part[1]),
+    )
+    places = np.arange(len(shown))
+    panel.barh(places, [value for _, value in shown], color=[_COLOURS[group_of(name)] for name, _ in shown])
+    panel.axvline(0, color=style.GREY, linewidth=0.8)
+    panel.set_yticks(places, [name for name, _ in shown])
+    panel.tick_params(axis="y", length=0, labelsize=_LABEL_SIZE)
+    panel.grid(visible=False, axis="y")
+    panel.set_ylim(max(len(shown), 1) - 0.4, -0.6)
+    panel.set(xlabel=f"[{unit}]", title=title)
