@@ -89,6 +89,10 @@ Acceleration = Annotated[Array, Unit("m/s^2")]
 Jerk = Annotated[Array, Unit("m/s^3")]
 AngularAcceleration = Annotated[Array, Unit("rad/s^2")]
 Energy = Annotated[Array, Unit("J")]
+Conductance = Annotated[Array, Unit("W/K")]
+HeatTransfer = Annotated[Array, Unit("W/(m^2 K)")]
+ThermalResistance = Annotated[Array, Unit("K/W")]
+ThermalCapacity = Annotated[Array, Unit("J/K")]
 
 
 @dataclasses.dataclass(frozen=True, slots=True)

@@ -1,0 +1,106 @@
+"""Friction heat of a cycle over the temperature of the oil and the preload: a map, computed once."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import RectBivariateSpline
+
+from ballscrew._arrays import ByValue
+from ballscrew.axis.duty import Duty
+from ballscrew.axis.screw_friction import ModelledScrew
+from ballscrew.errors import Fault, InputError
+from ballscrew.evaluation.evaluator import evaluator
+from ballscrew.motion.states import Numbers
+from ballscrew.quantities import Force, Power, Temperature
+
+#: Temperatures of the oil that the map has, K; beyond them the answer has no meaning.
+COLDEST, HOTTEST = 258.15, 393.15
+#: Preload of the map over that of the nut as it was set.
+LARGEST_PRELOAD = 4.0
+_TEMPERATURES, _PRELOADS = 24, 13
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class FrictionMap(ByValue):
+    """Mean power that the friction of the screw takes over a cycle, W.
+
+    By a bicubic spline over temperature and preload (over its square root: friction bends where the preload vanishes).
+    A nut without preload, or an element without an oil, has fewer axes.
+    """
+
+    temperatures: Numbers
+    #: Those of the map, N; one alone where the nut has none.
+    preloads: Numbers
+    #: Mean friction power, W, temperatures by preloads.
+    power: Numbers
+
+    @functools.cached_property
+    def _spline(self) -> RectBivariateSpline | None:
+        if self.preloads.size == 1:
+            return None
+        return RectBivariateSpline(self.temperatures, np.sqrt(self.preloads), self.power, kx=3, ky=3)
+
+    @functools.cached_property
+    def _curve(self) -> Any:
+        from scipy.interpolate import CubicSpline
+
+        return CubicSpline(self.temperatures, self.power[:, 0])
+
+    def at(self, temperature: Temperature, preload: Force) -> Power:
+        """Mean friction power at a temperature of the oil and a preload, both kept within the map."""
+        warm = min(max(temperature, self.temperatures[0]), self.temperatures[-1])
+        if self._spline is None:
+            return float(self._curve(warm))
+        held = min(max(preload, 0.0), self.preloads[-1])
+        return float(self._spline.ev(warm, np.sqrt(held)))
+
+    def has(self, temperature: Temperature, preload: Force) -> bool:
+        """True where the map has the point."""
+        inside = self.temperatures[0] <= temperature <= self.temperatures[-1]
+        return bool(inside and (self.preloads.size == 1 or preload <= self.preloads[-1]))
+
+
+def friction_map(duty: Duty) -> FrictionMap:
+    """The map of a duty: its distinct states at every temperature and preload.
+
+    Raises :class:`~ballscrew.errors.InputError` for an element without an oil, and for an oil that has no temperature.
+    """
+    driven = duty.driven
+    if not isinstance(driven, ModelledScrew):
+        remedy = 'take a model of friction, such as "reference"'
+        raise InputError(Fault("model", "knows no oil, so that nothing changes as it warms up", "", remedy))
+    if driven.lubricant.temperature is None:
+        remedy = 'make it with Lubricant.from_grade("ISO VG 100", temperature), or from two viscosities'
+        raise InputError(Fault("lubricant", "has no temperature: its viscosity is the same for ever", "", remedy))
+    states = np.stack([duty.axial_load, duty.screw_speed])
+    used = duty.states.weight * np.abs(duty.screw_speed) > 0
+    distinct, back = np.unique(states[:, used], axis=1, return_inverse=True)
+    weights = np.bincount(back.reshape(-1), weights=duty.states.weight[used], minlength=distinct.shape[1])
+    load, speed = distinct
+    temperatures = np.linspace(COLDEST, HOTTEST, _TEMPERATURES)
+    set_to = preload_of(driven)
+    inputs: dict[str, Any] = {"axial_load": load, "screw_speed": speed, "temperature": temperatures[:, None, None]}
+    preloads = np.zeros(1)
+    if set_to:
+        preloads = set_to * np.linspace(0.0, np.sqrt(LARGEST_PRELOAD), _PRELOADS) ** 2
+        inputs["nut.preload"] = preloads[None, :, None]
+    found = evaluator(
+        driven.model, driven.screw, driven.lubricant, inputs=tuple(inputs), outputs=["screw_torque"]
+    )(**inputs)  # fmt: skip
+    heat = found["screw_torque"] * np.abs(speed)
+    power = np.einsum("tps,s->tp", np.broadcast_to(heat, (temperatures.size, preloads.size, load.size)), weights)
+    return FrictionMap(temperatures, preloads, power / duty.states.cycle_time)
+
+
+def preload_of(driven: ModelledScrew) -> Force:
+    """The preload of a nut as it was set, N; zero of a nut without."""
+    nut: Any = driven.screw.nut
+    given = getattr(nut, "preload", None)
+    if given is None and getattr(nut, "oversize", None) is not None:
+        unloaded = driven.model(driven.screw, driven.lubricant, axial_load=0.0, screw_speed=0.0)
+        given = unloaded.loads.remaining_preload
+    return 0.0 if given is None else float(given)

@@ -1,0 +1,251 @@
+"""The network of heat: cells of the shaft, nut and bearings with their conductances, linear but for the friction."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+from typing import Any
+
+import numpy as np
+
+from ballscrew._arrays import ByValue
+from ballscrew.axis.duty import Duty
+from ballscrew.axis.screw_friction import ModelledScrew
+from ballscrew.components.nut import Nut
+from ballscrew.equations import geometry, heat, hertz
+from ballscrew.errors import Fault, InputError
+from ballscrew.friction.result import FrictionResult
+from ballscrew.motion.states import Numbers
+from ballscrew.quantities import Conductance, Force, Length, Power, Temperature
+from ballscrew.thermal import surroundings as air
+from ballscrew.thermal.friction_map import FrictionMap, friction_map, preload_of
+from ballscrew.thermal.shaft import CAPACITY, CONDUCTIVITY, DENSITY, EXPANSION, Shaft
+from ballscrew.thermal.surroundings import Surroundings
+
+#: Gap between shaft and nut that the grease fills, over the ball diameter, and its conductivity: assumptions.
+GAP_SHARE, GREASE_CONDUCTIVITY = 0.1, 0.14
+#: Outer diameter of a nut over the nominal one, and its length beyond the loaded turns in leads: assumptions.
+NUT_WALL, NUT_ENDS = 1.6, 2.0
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Network(ByValue):
+    r"""Heat balance :math:`C \dot T = -A T + b + s P(T) + B` of shaft cells, nut and two bearings, in this order.
+
+    ``P`` is the mean friction power of the nut, shared between shaft and nut. Only it is not linear; it depends on the
+    mean temperature of the oil and on the preload, and both are linear in the temperatures.
+    """
+
+    shaft: Shaft
+    surroundings: Surroundings
+    #: Shares of the cells in what the nut gives to the shaft.
+    spread: Numbers
+    ball_conductance: Conductance
+    nut_mass: float
+    #: Mean friction power of each support bearing, W.
+    bearing_power: Power
+    friction: FrictionMap
+    #: Preload as it was set, at one temperature everywhere, N.
+    preload_set: Force
+    #: Approach of the groove pair of a ball at that preload, and per kelvin by which the shaft is warmer than the nut.
+    approach_set: Length
+    approach_per_kelvin: float
+
+    @property
+    def size(self) -> int:
+        """Number of temperatures."""
+        return self.shaft.cells + 3
+
+    @functools.cached_property
+    def capacity(self) -> Numbers:
+        """Heat capacities, J/K."""
+        found = np.full(self.size, self.shaft.cell_capacity)
+        found[-3] = self.nut_mass * CAPACITY
+        found[-2:] = self.surroundings.bearing_mass * CAPACITY
+        return found
+
+    @functools.cached_property
+    def losses(self) -> Numbers:
+        """Conductances to the outside, W/K: to the air, and of the cells to the coolant."""
+        found = np.full(self.size, self.shaft.cell_to_air + self.shaft.cell_to_coolant)
+        found[-3] = self.surroundings.nut_conductance
+        found[-2:] = self.surroundings.bearing_conductance
+        return found
+
+    @functools.cached_property
+    def outside(self) -> Numbers:
+        """Temperature to which each gives its heat, K: the air's, and for cells with a coolant the mean of both."""
+        ambient, coolant = self.surroundings.ambient, self.surroundings.coolant
+        found = np.full(self.size, float(ambient))
+        if coolant is not None and self.shaft.cell_to_coolant:
+            both = self.shaft.cell_to_air + self.shaft.cell_to_coolant
+            found[:-3] = (self.shaft.cell_to_air * ambient + self.shaft.cell_to_coolant * coolant) / both
+        return found
+
+    @functools.cached_property
+    def conductances(self) -> Numbers:
+        """Heat out of each for each kelvin of each, W/K: conduction, balls, bearings, and the outside."""
+        n = self.shaft.cells
+        found = np.zeros((self.size, self.size))
+        found[:n, :n] = self.shaft.conduction
+        to_shaft = np.zeros(self.size)
+        to_shaft[:n], to_shaft[n] = self.spread, -1.0
+        found += self.ball_conductance * np.outer(to_shaft, to_shaft)
+        for bearing, cell in ((n + 1, 0), (n + 2, n - 1)):
+            ends = np.zeros(self.size)
+            ends[bearing], ends[cell] = 1.0, -1.0
+            found += self.surroundings.shaft_to_bearing * np.outer(ends, ends)
+        return found + np.diag(self.losses)
+
+    @functools.cached_property
+    def source(self) -> Numbers:
+        """Shares of the temperatures in the friction power of the nut; they sum to one."""
+        found = np.zeros(self.size)
+        found[:-3] = self.surroundings.shaft_share * self.spread
+        found[-3] = 1 - self.surroundings.shaft_share
+        return found
+
+    @functools.cached_property
+    def constant(self) -> Numbers:
+        """Heat that comes from outside and from the bearings, W."""
+        found = self.losses * self.outside
+        found[-2:] += self.bearing_power
+        return found
+
+    # -- what the friction depends on -------------------------------------------------------------
+
+    @functools.cached_property
+    def of_oil(self) -> Numbers:
+        """Weights of the temperatures in that of the oil: half the nut's, half that of the shaft in it."""
+        found = np.zeros(self.size)
+        found[:-3], found[-3] = 0.5 * self.spread, 0.5
+        return found
+
+    @functools.cached_property
+    def of_excess(self) -> Numbers:
+        """Weights of the temperatures in how much the shaft is warmer than the nut."""
+        found = np.zeros(self.size)
+        found[:-3], found[-3] = self.spread, -1.0
+        return found
+
+    def preload(self, excess: Any) -> Any:
+        r"""Preload where the shaft is so much warmer than the nut, N; zero where it is lost.
+
+        .. math:: F = F_0 \left(\frac{\delta_0 + \delta_T}{\delta_0}\right)^{3/2}
+        """
+        if not self.preload_set:
+            return 0.0 * excess
+        share = np.maximum(1 + self.approach_per_kelvin * excess / self.approach_set, 0.0)
+        return self.preload_set * share**1.5
+
+    def power(self, temperatures: Numbers) -> Power:
+        """Mean friction power of the nut, W."""
+        return self.friction.at(float(self.of_oil @ temperatures), float(self.preload(self.of_excess @ temperatures)))
+
+    def inside(self, temperatures: Numbers) -> bool:
+        """True where the friction is known: oil and preload within the map."""
+        return self.friction.has(
+            float(self.of_oil @ temperatures), float(self.preload(self.of_excess @ temperatures))
+        )  # fmt: skip
+
+
+def network_of(duty: Duty, surroundings: Surroundings, *, shaft_length: Length | None = None) -> Network:
+    """The network of a duty in its surroundings.
+
+    Raises :class:`~ballscrew.errors.InputError` without a length of the shaft, for a motion that does not fit on it,
+    and as :func:`~ballscrew.thermal.friction_map.friction_map` does.
+    """
+    friction = friction_map(duty)
+    driven: Any = duty.driven
+    assert isinstance(driven, ModelledScrew)
+    screw, oil = driven.screw, driven.lubricant
+    length = surroundings.shaft_length if surroundings.shaft_length is not None else shaft_length
+    if length is None:
+        remedy = "give {surroundings.shaft_length}, or the unsupported length of the installation"
+        raise InputError(Fault("surroundings.shaft_length", "missing", "", remedy))
+    root = geometry.groove_root_diameter(
+        screw.pitch_circle_diameter, screw.ball_diameter, screw.screw_conformity, screw.contact_angle
+    )
+    nut_length = float(screw.loaded_turns * screw.lead * screw.nut.halves + NUT_ENDS * screw.lead)
+    mean_speed = duty.mean_speed
+    h = surroundings.shaft_convection
+    if h is None:
+        Re = heat.rotational_reynolds(root, mean_speed, air.AIR_VISCOSITY)
+        turning = heat.rotating_shaft_convection(Re, air.AIR_PRANDTL, air.AIR_CONDUCTIVITY, root)
+        h = max(float(turning), air.STILL)
+    shaft = Shaft(
+        length=float(length),
+        diameter=float(root),
+        bore=float(surroundings.bore),
+        convection=float(h),
+        bore_convection=float(surroundings.coolant_convection) if surroundings.bore else 0.0,
+    )
+    start = surroundings.first_position
+    if start is None:
+        start = (length - duty.states.stroke) / 2 - float(np.min(duty.states.position))
+    places = start + duty.states.position
+    if np.min(places) < 0 or np.max(places) > length:
+        given = f"{duty.states.stroke * 1e3:.4g} mm on {length * 1e3:.4g} mm"
+        remedy = "shorten the stroke, move its start, or lengthen the shaft"
+        raise InputError(Fault("motion.stroke", "does not fit between the bearings", given, remedy))
+    heated = duty.states.weight * np.abs(duty.screw_speed)
+    heated = heated if np.any(heated) else duty.states.weight
+    result = driven.model(screw, oil, axial_load=0.0, screw_speed=max(mean_speed, 1e-3))
+    set_to = preload_of(driven)
+    loaded = set_to or max(float(np.max(np.abs(duty.axial_load))), 1.0)
+    at_load = result if set_to else driven.model(screw, oil, axial_load=loaded, screw_speed=max(mean_speed, 1e-3))
+    balls = surroundings.ball_conductance
+    mass = surroundings.nut_mass
+    if mass is None:
+        wall = math.pi / 4 * ((NUT_WALL * root) ** 2 - screw.pitch_circle_diameter**2)
+        mass = DENSITY * float(wall) * nut_length
+    return Network(
+        shaft,
+        surroundings,
+        shaft.spread(places, heated, nut_length),
+        float(conductance_of_balls(at_load, screw.nut, nut_length)) if balls is None else float(balls),
+        float(mass),
+        duty.axis.bearing_torque * mean_speed / 2,
+        friction,
+        set_to,
+        _approach(at_load),
+        float(heat.thermal_approach(screw.contact_angle, EXPANSION, 1.0, screw.pitch_circle_diameter)),
+    )
+
+
+def conductance_of_balls(result: FrictionResult, nut: Nut, nut_length: Length) -> Conductance:
+    """Heat from nut to shaft for each kelvin: through every ball, and through the grease around them.
+
+    A ball conducts through two contacts, each two half spaces and a film in series. Contacts are taken as at rest;
+    moving ones conduct more, and the gap is not known: a factor of three either way is honest.
+    """
+    screw = result.ball_screw
+    resistance = 0.0
+    for contact in (result.screw, result.nut):
+        kappa = np.maximum(contact.semi_major_axis / contact.semi_minor_axis, 1.0)
+        spot = heat.spot_resistance(hertz.elliptic_integrals(kappa).K, CONDUCTIVITY, contact.semi_major_axis)
+        film = heat.film_resistance(
+            contact.central_film_thickness, GREASE_CONDUCTIVITY, contact.semi_major_axis, contact.semi_minor_axis
+        )
+        resistance = resistance + 2 * spot + film
+    balls = screw.loaded_balls * nut.halves * nut.contacts_per_ball / 2
+    gap = heat.gap_conductance(
+        GREASE_CONDUCTIVITY, screw.pitch_circle_diameter, nut_length, GAP_SHARE * screw.ball_diameter
+    )
+    return float(balls / resistance + gap)
+
+
+def _approach(result: FrictionResult) -> Length:
+    """Approach of the groove pair of the most loaded ball, both contacts together."""
+    return float(result.screw.mutual_approach + result.nut.mutual_approach)
+
+
+def steady(network: Network, power: Power) -> Numbers:
+    """Temperatures in the steady state with a given friction power of the nut, K."""
+    return np.linalg.solve(network.conductances, network.constant + network.source * power)
+
+
+def mean_shaft(network: Network, temperatures: Numbers) -> Temperature:
+    """Mean temperature of the shaft, K; the last axis are the temperatures."""
+    return np.mean(np.asarray(temperatures)[..., : network.shaft.cells], axis=-1)

@@ -1,0 +1,328 @@
+"""Warming up: temperatures, preload, torque and growth over hours of a duty, and the state in which it ends."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.optimize import root_scalar
+
+from ballscrew._arrays import ByValue, lazy
+from ballscrew.axis.duty import Duty
+from ballscrew.errors import Fault, InputError, accepts_units
+from ballscrew.motion.states import Numbers
+from ballscrew.quantities import Duration, Energy, Length, Power, Ratio
+from ballscrew.records import Record
+from ballscrew.thermal.network import Network, network_of, steady
+from ballscrew.thermal.surroundings import Surroundings
+
+#: Relative and absolute tolerance of the integration; temperatures are then right to 1e-5 K.
+RTOL, ATOL = 1e-6, 1e-6
+#: Points of the powers among which an equilibrium is looked for.
+_POWERS = 400
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Equilibrium(ByValue):
+    """The state in which a duty ends, if it ends in one.
+
+    ``margin`` is 1 − g, g being the gain of the loop heat → temperature → friction → heat there: above zero the
+    state is stable. Where there is no equilibrium in the range in which oil and preload are known, the margin is the
+    greatest surplus of what the surroundings take over the friction, as a share of the friction, and negative.
+    """
+
+    network: Network
+    exists: bool
+    margin: Ratio
+    #: Mean friction power of the nut, W; NaN where there is no equilibrium.
+    power: Power
+    #: Temperatures of shaft cells, nut and bearings, K; NaN where there is no equilibrium.
+    temperatures: Numbers
+
+    @property
+    def nut_temperature(self) -> float:
+        """Temperature of the nut, K."""
+        return float(self.temperatures[-3])
+
+    @property
+    def oil_temperature(self) -> float:
+        """Temperature of the oil, K."""
+        return float(self.network.of_oil @ self.temperatures)
+
+    @property
+    def shaft_temperature(self) -> float:
+        """Mean temperature of the shaft, K."""
+        return float(np.mean(self.temperatures[:-3]))
+
+    @property
+    def preload(self) -> float:
+        """Preload, N."""
+        return float(self.network.preload(self.network.of_excess @ self.temperatures))
+
+    @property
+    def growth(self) -> Length:
+        """Growth of the shaft between its bearings, m."""
+        shaft = self.network.shaft
+        return float(shaft.growth_at(self.temperatures[:-3], self.network.surroundings.ambient, shaft.length)[0])
+
+
+def equilibrium(network: Network) -> Equilibrium:
+    r"""The steady state, by one equation for the friction power: :math:`P = f(T(P))`, T being linear in P.
+
+    Of several the coolest is taken, which is the one that a cold machine reaches.
+    """
+    idle, per_watt = steady(network, 0.0), steady(network, 1.0) - steady(network, 0.0)
+
+    def surplus(power: Power) -> Power:
+        """Friction beyond the power that the temperatures are those of."""
+        return network.power(idle + per_watt * power) - power
+
+    def inside(power: Power) -> bool:
+        return network.inside(idle + per_watt * power)
+
+    largest = 2 * max(float(np.max(network.friction.power)), 1e-9)
+    powers = np.concatenate([[0.0], np.geomspace(1e-6, 1.0, _POWERS) * largest])
+    known = np.array([inside(power) for power in powers])
+    values = np.array([surplus(power) for power in powers])
+    for i in range(powers.size - 1):
+        if values[i] >= 0 > values[i + 1] and known[i] and known[i + 1]:
+            power = root_scalar(surplus, bracket=(powers[i], powers[i + 1]), xtol=1e-12, rtol=1e-14).root
+            step = 1e-4 * power
+            gain = (surplus(power + step) - surplus(power - step)) / (2 * step) + 1 if step else 0.0
+            return Equilibrium(network, True, 1 - gain, power, idle + per_watt * power)
+    here = known & (powers > 0)
+    friction = values[here] + powers[here]
+    margin = float(np.max(-values[here] / np.maximum(friction, 1e-12))) if here.any() else -1.0
+    return Equilibrium(network, False, min(margin, 0.0), math.nan, np.full(network.size, np.nan))
+
+
+@accepts_units("warm_up")
+def warm_up(
+    duty: Duty,
+    surroundings: Surroundings | None = None,
+    *,
+    time: Duration = 4 * 3600.0,
+    cool_down: Duration = 0.0,
+    outputs: int = 121,
+    shaft_length: Length | None = None,
+) -> WarmUp:
+    """Temperatures over hours of a duty that starts with everything at the ambient temperature.
+
+    The cycle is short against the hours: the nut heats the shaft where it is, as often as it is there. Then the axis
+    may stand for a time (``cool_down``). ``shaft_length`` is taken where the surroundings have none.
+    Raises :class:`~ballscrew.errors.InputError` for times that are not positive, and as
+    :func:`~ballscrew.thermal.network.network_of` does.
+    """
+    if not time > 0 or not cool_down >= 0:
+        raise InputError(Fault("warm_up.time", "must be positive", f"{time:g} s", 'give "4 h"'))
+    network = network_of(duty, surroundings or Surroundings(), shaft_length=shaft_length)
+    start = np.full(network.size, float(network.surroundings.ambient))
+    instants = np.linspace(0.0, time, outputs)
+    states, stopped = _integrated(network, start, instants, works=True)
+    instants = instants[: states.shape[1]]
+    works = np.ones(instants.size, dtype=bool)
+    if cool_down and stopped is None:
+        later = np.linspace(0.0, cool_down, max(2, round(outputs * cool_down / time)))
+        cooling, _ = _integrated(network, states[:, -1], later, works=False)
+        states = np.concatenate([states, cooling[:, 1:]], axis=1)
+        instants = np.concatenate([instants, time + later[1:]])
+        works = np.concatenate([works, np.zeros(later.size - 1, dtype=bool)])
+    return WarmUp(duty, network, instants, states, works, stopped)
+
+
+def _integrated(network: Network, start: Numbers, instants: Numbers, *, works: bool) -> tuple[Numbers, Duration | None]:
+    """Temperatures, and below them generated and lost heat, at instants; and the time at which friction was unknown."""
+    A, C = network.conductances, network.capacity
+    n = network.size
+    first = start if start.size > n else np.concatenate([start, [0.0, 0.0]])
+    given = network.constant if works else network.losses * network.outside
+    of_bearings = network.constant - network.losses * network.outside
+
+    def power(temperatures: Numbers) -> Power:
+        return network.power(temperatures) if works else 0.0
+
+    def rate(_: float, state: Numbers) -> Numbers:
+        temperatures = state[:n]
+        friction = power(temperatures)
+        heating = (given + network.source * friction - A @ temperatures) / C
+        generated = friction + (float(np.sum(of_bearings)) if works else 0.0)
+        lost = float(network.losses @ (temperatures - network.outside))
+        return np.concatenate([heating, [generated, lost]])
+
+    # the friction's own slope is left to the iterations of the solver: it is small against the conductances
+    slope = np.zeros((n + 2, n + 2))
+    slope[:n, :n] = -A / C[:, None]
+    slope[n + 1, :n] = network.losses
+
+    def leaves(_: float, state: Numbers) -> float:
+        return 1.0 if network.inside(state[:n]) else -1.0
+
+    leaves.terminal = True  # pyright: ignore[reportFunctionMemberAccess]  (the solver reads it there)
+    found = solve_ivp(
+        rate,
+        (float(instants[0]), float(instants[-1])),
+        first,
+        method="BDF",
+        t_eval=instants,
+        jac=slope,
+        rtol=RTOL,
+        atol=ATOL,
+        events=leaves if works else None,
+    )
+    if not found.success:
+        raise InputError(Fault("warm_up", "could not be integrated", str(found.message), "check the surroundings"))
+    stopped = float(found.t_events[0][0]) if works and found.t_events[0].size else None
+    return np.asarray(found.y), stopped
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class WarmUp(ByValue):
+    """Temperatures over time, and what follows from them; made by :func:`warm_up`."""
+
+    duty: Duty
+    network: Network
+    #: Instants, s.
+    time: Numbers
+    #: Temperatures of shaft cells, nut and two bearings, K, then generated and lost heat, J; one column an instant.
+    states: Numbers
+    #: True while the axis moves.
+    works: Any
+    #: The time after which friction was not known any more (oil too hot, preload too high), s; None where it is known.
+    stopped: Duration | None
+
+    @property
+    def shaft_temperature(self) -> Numbers:
+        """Temperatures of the shaft, K: instants by places (:attr:`places`)."""
+        return self.states[: self.network.shaft.cells].T
+
+    @property
+    def places(self) -> Numbers:
+        """Places on the shaft, m from the first bearing."""
+        return self.network.shaft.places
+
+    @property
+    def nut_temperature(self) -> Numbers:
+        """Temperature of the nut, K."""
+        return self.states[self.network.size - 3]
+
+    @property
+    def bearing_temperatures(self) -> Numbers:
+        """Temperatures of the two bearings, K."""
+        return self.states[self.network.size - 2 : self.network.size]
+
+    @lazy
+    def _temperatures(self) -> Numbers:
+        return self.states[: self.network.size]
+
+    @lazy
+    def oil_temperature(self) -> Numbers:
+        """Temperature of the oil, K: between nut and shaft."""
+        return self.network.of_oil @ self._temperatures
+
+    @lazy
+    def preload(self) -> Numbers:
+        """Preload, N."""
+        return self.network.preload(self.network.of_excess @ self._temperatures)
+
+    @lazy
+    def friction_power(self) -> Numbers:
+        """Mean friction power of the nut, W, also what it would be while the axis stands."""
+        return np.array([self.network.power(column) for column in self._temperatures.T])
+
+    @lazy
+    def screw_torque(self) -> Numbers:
+        """Mean friction torque of the screw, by its work: power over mean speed, N m."""
+        return self.friction_power / self.duty.mean_speed if self.duty.mean_speed else np.full(self.time.size, np.nan)
+
+    @lazy
+    def shaft_growth(self) -> Numbers:
+        """Growth of the shaft between its bearings, m, if it is free to grow."""
+        return self.growth_at(self.network.shaft.length)[:, 0]
+
+    def growth_at(self, place: Any) -> Numbers:
+        """Growth between the fixed bearing and places, m: instants by places. What a rotary encoder does not see."""
+        return self.network.shaft.growth_at(self.shaft_temperature, self.network.surroundings.ambient, place)
+
+    @lazy
+    def stretch_left(self) -> Numbers | None:
+        """Stretch that is left of a shaft pulled between fixed ends, m; below zero it pushes. None without one."""
+        given = self.network.surroundings.stretch
+        return None if given is None else given - self.shaft_growth
+
+    @property
+    def generated(self) -> Energy:
+        """Heat made by friction, J."""
+        return float(self.heat["generated"][-1])
+
+    @lazy
+    def heat(self) -> Mapping[str, Numbers]:
+        """Heat generated, stored and lost until each instant, J."""
+        n = self.network.size
+        stored = self.network.capacity @ (self._temperatures - self._temperatures[:, :1])
+        return {"generated": self.states[n], "stored": stored, "lost": self.states[n + 1]}
+
+    @functools.cached_property
+    def equilibrium(self) -> Equilibrium:
+        """The state in which the duty ends."""
+        return equilibrium(self.network)
+
+    def compensation_table(self, step: Length = 0.05) -> tuple[Numbers, Numbers]:
+        """Places from the fixed bearing at even steps, and the growth there at the last instant of work, m."""
+        shaft = self.network.shaft
+        places = np.arange(0.0, shaft.length + 0.5 * step, step)
+        last = int(np.flatnonzero(self.works)[-1])
+        growth = shaft.growth_at(self.shaft_temperature[last], self.network.surroundings.ambient, places)
+        return places, growth
+
+    @property
+    def records(self) -> Sequence[Record]:
+        """Verdicts: where it ends, and what is lost on the way."""
+        return _records(self)
+
+
+def _records(found: WarmUp) -> list[Record]:
+    end = found.equilibrium
+    celsius = 273.15
+    if end.exists:
+        text = (
+            f"comes to rest at {end.nut_temperature - celsius:.1f} °C of the nut; gain of the loop {1 - end.margin:.2f}"
+        )
+    else:
+        text = "no equilibrium within the range of oil and preload: it runs away, or it gets too hot for the model"
+    verdicts = [
+        Record(
+            id="verdict.equilibrium",
+            subject="equilibrium",
+            text=text,
+            severity="info" if end.exists and end.margin > 0 else "error",
+            holds=end.exists,
+            value=end.margin,
+            limit=0.0,
+        )
+    ]
+    if found.stopped is not None:
+        text = f"stopped after {found.stopped / 3600:.2f} h: beyond it oil or preload are outside what the model knows"
+        verdicts.append(
+            Record(id="warning.stopped", subject="time", text=text, severity="error", value=found.stopped, unit="s")
+        )
+    left = found.stretch_left
+    if left is not None and np.min(left) < 0:
+        text = f"the stretch of the shaft is lost: {np.min(left) * 1e6:.0f} µm at the worst, and the shaft pushes"
+        verdicts.append(
+            Record(
+                id="verdict.stretch",
+                subject="stretch",
+                text=text,
+                severity="warning",
+                holds=False,
+                value=float(np.min(left)),
+                limit=0.0,
+                unit="m",
+            )
+        )
+    return verdicts
