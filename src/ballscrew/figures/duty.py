@@ -72,7 +72,8 @@ def _grouped(report: DutyReport) -> Mapping[str, Numbers]:
     for name, part in report.duty.parts.items():
         group = group_of(name)
         found[group] = found.get(group, np.zeros_like(report.duty.torque)) + part
-    return {group: found[group] for group in _COLOURS if group in found and np.any(found[group])}
+    least = _LEAST * report.duty.torque_peak
+    return {group: found[group] for group in _COLOURS if group in found and np.any(np.abs(found[group]) > least)}
 
 
 def _motion(panel: Axes, report: DutyReport) -> None:
@@ -94,7 +95,7 @@ def _torque(panel: Axes, report: DutyReport) -> None:
     panel.plot(duty.states.time, duty.torque, color=style.INK, label="motor")
     panel.axhline(duty.torque_rms, color=style.GREY, linestyle=":", linewidth=1.0, label="RMS")
     panel.set(xlabel="time [s]", ylabel="torque [N m]", title="torque of the motor by cause")
-    panel.legend(fontsize=_LABEL_SIZE, ncols=2)
+    _legend_beside(panel)
 
 
 def _power(panel: Axes, report: DutyReport) -> None:
@@ -120,7 +121,12 @@ def _cloud(panel: Axes, report: DutyReport) -> None:
             panel.plot(shown, np.full_like(shown, rated), "--", color=style.ORANGE, label="rated" if sign > 0 else None)
     panel.axhline(duty.torque_rms, color=style.GREY, linestyle=":", linewidth=1.2, label="RMS of the cycle")
     panel.set(xlabel=f"speed of the motor [{_TURNING.shown_in}]", ylabel="torque [N m]", title="torque over speed")
-    panel.legend(fontsize=_LABEL_SIZE)
+    _legend_beside(panel)
+
+
+def _legend_beside(panel: Axes) -> None:
+    """A legend that hides no curve."""
+    panel.legend(fontsize=_LABEL_SIZE, loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
 
 def _bars(panel: Axes, title: str, parts: Mapping[str, float], unit: str) -> None:

@@ -105,10 +105,13 @@ class DutyReport:
     def numbers(self) -> Mapping[str, float]:
         """The numbers of the cycle in SI, as :data:`NUMBERS` has them.
 
-        Torques are by the rule of catalogues where the case asks for it; energies are always by mechanics.
+        Torques, and the life by the larger mean load alone, are by the rule of catalogues where the case asks for it;
+        energies are always by mechanics.
         """
         duty, life = self.duty, self.life
         torques = self.rule if self.by_rule else duty
+        turns = life.revolutions_of_the_worse if self.by_rule else life.revolutions
+        lived = turns / duty.revolutions if duty.revolutions else math.nan
         cycles = DAY / duty.states.cycle_time
         found = {
             "cycle_time": duty.states.cycle_time,
@@ -127,9 +130,9 @@ class DutyReport:
             "energy_per_day_with_recovery": cycles * (duty.energy_drawn - duty.energy_returned),
             "mean_load": life.mean_load,
             "mean_load_of_both": life.mean_load_of_both,
-            "life_revolutions": life.revolutions,
-            "life_cycles": life.cycles,
-            "life_time": life.time,
+            "life_revolutions": turns,
+            "life_cycles": lived,
+            "life_time": lived * duty.states.cycle_time,
             "revolutions": duty.revolutions,
         }
         return {name: float(found[name]) for name in NUMBERS}
@@ -194,7 +197,7 @@ class DutyReport:
         found: list[Check] = []
         for (name, unit), value, words in zip(
             _LIFE,
-            (life.revolutions, life.time),
+            (self.numbers["life_revolutions"], self.numbers["life_time"]),
             ("turns that nine of ten outlive, by the mean load over the cycle", "time of so many cycles"),
             strict=True,
         ):

@@ -22,6 +22,8 @@ _TORQUE, _TURNING = NUMBERS["torque_rms"], NUMBERS["mean_speed"]
 _RATIO = fields_of(Axis)["transmission_ratio"]
 #: Shares of the stroke and of the largest speed below which a difference is one of rounding.
 _CLOSES, _JUMPS = 1e-9, 1e-9
+#: Points at which the curve of a motor is looked at for its highest torque.
+_CURVE_POINTS = 1000
 
 
 def verdicts(report: DutyReport) -> list[Record]:
@@ -65,7 +67,7 @@ def _motor(report: DutyReport) -> list[Record]:
 def _checks(report: DutyReport) -> Record:
     failed = [check.name.replace("_", " ") for check in report.checks if check.holds is False]
     not_judged = sum(check.holds is None for check in report.checks)
-    text = f"fails: {', '.join(failed)}" if failed else "passes all checks that can be judged"
+    text = f"fails: {', '.join(failed)}" if failed else "passes all checks"
     text += f"; {not_judged} of {len(report.checks)} not judged" if not_judged else ""
     holds = False if failed else None if not_judged else True
     return Record(id="verdict.checks", subject="checks", text=text, severity="error" if failed else "info", holds=holds)
@@ -178,17 +180,22 @@ def _beyond_motor(report: DutyReport) -> list[Record]:
     if against is None or against.utilisation[against.worst] <= 1:
         return []
     duty, motor, at = report.duty, against.motor, against.worst
+    fastest, most = float(np.max(np.abs(duty.motor_speed))), float(motor.largest_speed)
+    if fastest > most:
+        text = (
+            f"the cycle turns the motor at up to {units.shown(fastest, _TURNING)}, above its largest speed "
+            f"{units.shown(most, _TURNING)}: take a lower speed, a greater lead, or another ratio"
+        )
+        return [_warning("motor_speed", "motor.largest_speed", text, fastest, most, _TURNING)]
     torque = abs(float(duty.torque[at]))
     there = float(motor.peak_at(duty.motor_speed[at : at + 1])[0])
     phase = duty.states.phases[int(duty.states.phase[at])]
     speed = units.shown(abs(float(duty.motor_speed[at])), _TURNING)
-    most = float(np.max(motor.peak_at(np.linspace(0.0, float(motor.largest_speed), 1000))))
-    never = "; its curve reaches that at no speed" if most < torque else ""
-    faster = abs(float(duty.motor_speed[at])) > motor.largest_speed
-    remedy = "a lower speed or a greater lead" if faster else "a lower acceleration, a larger motor, or a ratio"
+    highest = float(np.max(motor.peak_at(np.linspace(0.0, most, _CURVE_POINTS))))
+    never = "; its curve reaches that at no speed" if highest < torque else ""
     text = (
         f"“{phase}” asks for {units.shown(torque, _TORQUE)} at {speed}, where the motor has "
-        f"{units.shown(there, _TORQUE)}{never}: take {remedy}"
+        f"{units.shown(there, _TORQUE)}{never}: take a lower acceleration, a larger motor, or another ratio"
     )
     return [_warning("motor_torque", "motor.curve", text, torque, there, _TORQUE)]
 

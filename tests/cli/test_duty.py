@@ -1,0 +1,220 @@
+"""``ballscrew duty``: a cycle as words, JSON, tables and picture; worked examples of catalogues; what is warned of."""
+
+import csv
+import json
+import math
+
+import pytest
+
+from ballscrew.cases import case_file
+from ballscrew.output.documents.duty import document as document_of
+from ballscrew.output.json_text import plain
+from ballscrew.output.text.duty import text
+from ballscrew.studies.duty import duty
+from support.commands import ROOT
+
+EXAMPLE = ROOT / "examples" / "vertical_axis.toml"
+#: The model of the paper answers the quickest, of balls that are all alike.
+SCREW = """
+[screw]
+pitch_circle_diameter = "40 mm"
+lead = "10 mm"
+ball_diameter = "6 mm"
+loaded_balls = 60
+contact_angle = "45 deg"
+screw_conformity = 0.54
+nut_conformity = 0.54
+dynamic_load_rating = "5.4 kN"
+[lubricant]
+grade = "ISO VG 100"
+"""
+#: Horizontal, THK514E: 80 kg, lead 40 mm, 1 m at 1 m/s in 0.15 s, rests of 2.6 s.
+THK = (
+    SCREW.replace('lead = "10 mm"', 'lead = "40 mm"')
+    + """
+[model]
+name = "constant-efficiency"
+efficiency = 0.9
+[axis]
+mass = "80 kg"
+guide_friction_coefficient = 0.003
+guide_seal_force = "15 N"
+inertia = "1.148e-3 kg m^2"
+[motion]
+kind = "trapezoid"
+stroke = "1 m"
+speed = "1 m/s"
+acceleration = "6.66666667 m/s^2"
+dwell = "2.6 s"
+"""
+)
+VERTICAL = (
+    SCREW
+    + """
+[axis]
+mass = "100 kg"
+inclination = "90 deg"
+[motion]
+kind = "trapezoid"
+stroke = "0.3 m"
+speed = "0.25 m/s"
+acceleration = "1.5 m/s^2"
+dwell = "1 s"
+"""
+)
+
+
+@pytest.fixture
+def found(tmp_path):
+    """The duty of a case, in this process."""
+
+    def of(written, *settings):
+        path = tmp_path / "case.toml"
+        path.write_text(written, encoding="utf-8")
+        return duty(case_file.load(path, settings, moves=True))
+
+    return of
+
+
+def document(report):
+    return plain(document_of(report))
+
+
+def records(document, kind):
+    return {record["id"]: record for record in document[kind]}
+
+
+def test_example_in_all_forms(ballscrew, tmp_path):
+    done = ballscrew("duty", EXAMPLE, "--json", *(f"--to=a.{kind}" for kind in ("csv", "xlsx", "png")))
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout, parse_constant=lambda constant: pytest.fail(f"{constant} in JSON"))
+    assert {"inputs", "results", "units", "warnings", "verdicts", "checks", "provenance"} == set(found)
+    results = found["results"]
+    for name in ("torque_rms", "torque_peak", "energy_drawn", "energy_returned", "energy_lost", "mean_load",
+                 "mean_speed", "life_revolutions", "cycle_time"):  # fmt: skip
+        assert results[name] > 0
+        assert name in found["units"]
+    assert results["torque_rms"] < results["torque_peak"]
+    assert results["energy_drawn"] - results["energy_returned"] == pytest.approx(
+        results["energy_lost"] + results["energy_of_process"], rel=1e-9
+    )
+    assert sum(results["energy_lost_by"].values()) == pytest.approx(results["energy_lost"], rel=1e-12)
+    assert sum(results["torque_rms_by"].values()) == pytest.approx(results["torque_rms"], rel=1e-12)
+    assert sum(results["torque_peak_by"].values()) == pytest.approx(results["torque_peak"], rel=1e-12)
+    assert {"spin", "seals", "gravity", "acceleration_of_the_mass"} < set(results["torque_rms_by"])
+    assert results["brake"]["falls"] is True
+    assert [one["condition"] for one in results["brake"]["conditions"]] == ["as in the case", "cold", "hot", "dry"]
+    assert results["motor"]["suffices"] is True
+    identities = [
+        (record["id"], record["subject"]) for record in (*found["warnings"], *found["verdicts"], *found["checks"])
+    ]
+    assert len(set(identities)) == len(identities)
+    assert records(found, "checks")["check.critical_speed"]["holds"] is True
+
+    with (tmp_path / "a.csv").open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    numbers = [(float(row["weight [s]"]), float(row["motor torque [N m]"])) for row in rows]
+    mean = sum(weight * torque**2 for weight, torque in numbers) / sum(weight for weight, _ in numbers)
+    assert math.sqrt(mean) == pytest.approx(results["torque_rms"], rel=1e-9)
+    assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+    assert (tmp_path / "a.xlsx").read_bytes().startswith(b"PK")
+
+
+def test_words_say_what_stands_in_the_document(found):
+    report = found(VERTICAL)
+    said, written = text(report), document(report)
+    assert said.startswith("vertical axis, 100 kg, trapezoid over 300 mm at up to 15 m/min: model reference\n")
+    for record in (*written["verdicts"], *written["warnings"]):
+        assert record["text"].split()[0] in said
+    for words in ("What the motor is paid for", "Motor off", "Life by ISO 3408-5", "by the rule of catalogues (THK)"):
+        assert words in said
+
+
+def test_the_horizontal_example_of_thk(found):
+    """THK514E, selection of a ball screw: RMS torque 1305 N mm, peak 4730 N mm, mean load 225 N, no brake."""
+    written = document(found(THK))
+    results = written["results"]
+    assert results["torque_by"] == "rule"
+    assert results["torque_rms"] == pytest.approx(1.305, rel=5e-3)
+    assert results["torque_peak"] == pytest.approx(4.730, rel=5e-3)
+    assert results["mean_load"] == pytest.approx(225.0, rel=5e-3)
+    assert results["life_revolutions"] == pytest.approx(4.1e9 * 1.5**3, rel=5e-3)  # their load factor is 1.5
+    assert results["brake"]["falls"] is False
+    assert results["cycle_time"] == pytest.approx(7.5, rel=1e-6)
+    assert written["provenance"]["model"] == "constant-efficiency"
+    # mechanics moves the mass through the screw, with its losses
+    assert results["rules"]["mechanics"]["torque_peak"] > results["torque_peak"]
+
+
+def test_the_peak_of_a_rise_by_hand(found):
+    """One efficiency: m (a + g) P/(2 pi eta) upwards, and (2 - 1/eta) of the weight downwards."""
+    settings = ("model.name=constant-efficiency", "model.efficiency=0.8")
+    results = document(found(VERTICAL, *settings))["results"]
+    arm = 0.01 / (2 * math.pi)
+    assert results["rules"]["mechanics"]["torque_peak"] == pytest.approx(100 * (9.80665 + 1.5) * arm / 0.8, rel=1e-12)
+    lowered = next(phase for phase in results["phases"] if phase["name"] == "back: cruises")
+    assert lowered["torque_peak"] == pytest.approx(100 * 9.80665 * arm * (2 - 1 / 0.8), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("settings", "name", "words"),
+    [
+        (["motion.return=false"], "duty.open_cycle", "ends 300 mm from where it began"),
+        (['motion.stroke="20 mm"'], "duty.short_stroke", "20 mm is shorter than the loaded turns of the nut, 28.56 mm"),
+        (['installation.unsupported_length="4 m"', "installation.ends=fixed-free"], "duty.critical_speed", "move at "),
+        (['motor.rated_torque="1 N m"', 'motor.peak_torque="1.5 N m"', 'motor.largest_speed="3000 rpm"'],
+         "duty.motor_torque", "its curve reaches that at no speed: take a lower acceleration"),
+        (['motor.rated_torque="9 N m"', 'motor.peak_torque="9 N m"', 'motor.largest_speed="1000 rpm"'],
+         "duty.motor_speed", "at up to 1500 rpm, above its largest speed 1000 rpm: take a lower speed"),
+        (['axis.mass="200000 kg"'], "inputs.implausible", "moved mass, with the load on it 2e+05 kg lies outside"),
+    ],
+    ids=lambda value: value if isinstance(value, str) and "." in value and " " not in value else "",
+)  # fmt: skip
+def test_warnings_name_the_remedy(found, settings, name, words):
+    settings = [*settings, "model.name=constant-efficiency", "model.efficiency=0.9"]
+    by_id = records(document(found(VERTICAL, *settings)), "warnings")
+    assert words in by_id[name]["text"]
+    assert by_id[name]["severity"] == "warning"
+
+
+def test_a_plain_cycle_warns_of_nothing(found):
+    assert document(found(VERTICAL, "model.name=constant-efficiency", "model.efficiency=0.9"))["warnings"] == []
+
+
+def test_a_jump_of_the_speed_is_named(found):
+    motion = '[motion]\nkind = "segments"\n[[motion.segment]]\nname = "feed"\nduration = "2 s"\nspeed = "0.1 m/s"\n'
+    motion += '[[motion.segment]]\nname = "back"\nduration = "2 s"\nspeed = "-0.1 m/s"\n'
+    written = VERTICAL.partition("[motion]")[0] + motion
+    warned = document(found(written, "model.name=constant-efficiency", "model.efficiency=0.9"))["warnings"]
+    texts = [record["text"] for record in warned if record["id"] == "duty.speed_jump"]
+    assert texts[0].startswith("the speed jumps from 6 m/min (“feed”) to -6 m/min (“back”)")
+    assert len(texts) == 2
+    assert not any(record["id"] == "duty.open_cycle" for record in warned)
+
+
+def test_nothing_that_moves(found):
+    written = VERTICAL.partition("[motion]")[0] + '[motion]\nkind = "segments"\n[[motion.segment]]\nduration = "2 s"\n'
+    results = document(found(written))["results"]
+    assert results["mean_load"] is None
+    assert results["energy_drawn"] == 0
+    assert results["torque_rms"] == pytest.approx(100 * 9.80665 * 0.01 / (2 * math.pi), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        (["--to", "a.doc"], "--to: unknown kind of file (a.doc) · end it in .csv, .xlsx, .png, .svg or .pdf"),
+        (["--model", "referense"], 'model.name: unknown model (referense) · did you mean "reference"?'),
+        (["--set", "motion.kind=4"], "motion.kind: must be text (4) · put it in quotes"),
+    ],
+)
+def test_refusals(ballscrew, arguments, line):
+    done = ballscrew("duty", EXAMPLE, *arguments)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert line in done.stderr.splitlines()
+
+
+def test_run_refuses_the_example_of_duty(ballscrew):
+    done = ballscrew("run", EXAMPLE)
+    assert done.returncode == 2
+    assert "only ballscrew duty takes the motion in its place" in done.stderr
