@@ -9,6 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew import units
+from ballscrew.axis.axis import Axis
+from ballscrew.axis.drive import Motor
+from ballscrew.cases.duty_schema import MOTIONS
 from ballscrew.cases.fields import example_of
 from ballscrew.cases.nut_kinds import ENDS, LISTED, LOSSES, NUTS
 from ballscrew.components.materials import Lubricant, Material, grades
@@ -16,6 +19,7 @@ from ballscrew.components.nut import Bodies, Scatter
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.friction.model import FrictionModel
+from ballscrew.motion.profiles import Segment, Trapezoid
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.sizing.installation import Installation, Limits
 
@@ -34,6 +38,10 @@ PARTS = {
     **{f'[losses] {slot}.law = "{name}"': law for slot, known in LOSSES.items() for name, law in known.items()},
     "[installation]": Installation,
     "[limits]": Limits,
+    "[axis]": Axis,
+    **{f'[motion] kind = "{kind}"': cls for kind, cls in MOTIONS.items()},
+    "[[motion.segment]]": Segment,
+    "[motor]": Motor,
 }
 #: Example values of fields that the example file does not have.
 OTHERS: dict[str, Any] = {"viscosity": "0.1 Pa s", "ball_to_ball_force": "0.02 N"}
@@ -72,6 +80,12 @@ def _lines(title: str, cls: type) -> Iterator[str]:
         )
     if cls is Installation:
         yield f"\nAnd `ends`, which is needed, too: {', '.join(f'`{name}`' for name in ENDS)}."
+    if cls is Axis:
+        yield '\nAlso `brake_holds = true`. The counterweight may be a force, too: `"1.5 kN"`.'
+    if cls is Trapezoid:
+        yield "\nAlso `return = false`, here and for an S-curve."
+    if cls is Motor:
+        yield '\nAlso `curve = [["0 rpm", "7 N m"], ["3000 rpm", "5 N m"]]`, the peak torque over the speed.'
     if cls is Lubricant:
         yield (
             f"\nInstead of `viscosity`, `grade` ({', '.join(grades())}; `VG68` is `ISO VG 68`) and `temperature`"
