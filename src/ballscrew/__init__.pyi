@@ -1,6 +1,10 @@
 # The public names and their modules, for type checkers and for __init__.py, which loads each name at its first use.
 
 from ballscrew._version import __version__ as __version__
+from ballscrew.axis.axis import Axis as Axis
+from ballscrew.axis.drive import Motor as Motor
+from ballscrew.axis.duty import Duty as Duty
+from ballscrew.axis.duty import duty as duty
 from ballscrew.calibration.calibrated_model import CalibratedModel as CalibratedModel
 from ballscrew.calibration.fit import fit as fit
 from ballscrew.cases.catalogue import screws as screws
@@ -26,6 +30,11 @@ from ballscrew.friction.breakaway import breakaway as breakaway
 from ballscrew.friction.model import FrictionModel as FrictionModel
 from ballscrew.friction.nut_friction import nut_friction as nut_friction
 from ballscrew.friction.result import FrictionResult as FrictionResult
+from ballscrew.motion.profiles import SCurve as SCurve
+from ballscrew.motion.profiles import Segment as Segment
+from ballscrew.motion.profiles import Segments as Segments
+from ballscrew.motion.profiles import Sine as Sine
+from ballscrew.motion.profiles import Trapezoid as Trapezoid
 from ballscrew.service.preload_change import PreloadChange as PreloadChange
 from ballscrew.service.preload_change import preload_change as preload_change
 from ballscrew.service.preload_of_torque import preload_of_torque as preload_of_torque
@@ -34,6 +43,8 @@ from ballscrew.sizing.rigidity import AxialRigidity as AxialRigidity
 from ballscrew.sizing.rigidity import rigidity_iso3408 as rigidity_iso3408
 from ballscrew.sweeps.store_check import verify as verify
 from ballscrew.sweeps.sweep import sweep as sweep
+from ballscrew.thermal.surroundings import Surroundings as Surroundings
+from ballscrew.thermal.warm_up import warm_up as warm_up
 from ballscrew.torque_logs.torque_log import TorqueLog as TorqueLog
 from ballscrew.uncertainty.bands import band as band
 from ballscrew.uncertainty.distributions import LogNormal as LogNormal

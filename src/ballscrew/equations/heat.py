@@ -21,7 +21,7 @@ from ballscrew.quantities import (
 def rotational_reynolds(shaft_diameter: Length, screw_speed: AngularSpeed, air_viscosity: KinematicViscosity) -> Ratio:
     r"""Reynolds number of a shaft that turns in still air.
 
-    .. math:: Re = \frac{d^2 \omega}{\nu}
+    .. math:: R_e = \frac{d^2 \omega}{\nu}
 
     For a speed that is not negative.
     """
@@ -34,27 +34,27 @@ def rotating_shaft_convection(
 ) -> HeatTransfer:
     r"""Heat transfer of a shaft that turns in still air.
 
-    .. math:: h = \frac{0.133 \lambda Re^{2/3} Pr^{1/3}}{d}
+    .. math:: h = \frac{0.133 k R_e^{2/3} P_r^{1/3}}{d}
 
     As recalled from the literature on feed drives, where it is usual; no source was read. The speed there is taken with
     the diameter, and not with the radius. A factor of two either way is likely: fast air of a moving table, covers.
     """
-    Re, Pr, lambda_, d = rotational_reynolds, prandtl, air_conductivity, shaft_diameter
-    return 0.133 * lambda_ * Re ** (2 / 3) * Pr ** (1 / 3) / d
+    R_e, P_r, k, d = rotational_reynolds, prandtl, air_conductivity, shaft_diameter
+    return 0.133 * k * R_e ** (2 / 3) * P_r ** (1 / 3) / d
 
 
 def spot_resistance(first_integral: Ratio, conductivity: Conductivity, semi_major_axis: Length) -> ThermalResistance:
     r"""Resistance of a half space to the heat that enters it through an elliptic spot.
 
-    .. math:: R = \frac{K}{2 \pi \lambda a}
+    .. math:: R = \frac{K}{2 \pi k a}
 
-    Carslaw1959 §8.2 for the circle, where :math:`K = \pi/2` and :math:`R = 1/4 \lambda a`; for the ellipse the
+    Carslaw1959 §8.2 for the circle, where :math:`K = \pi/2` and :math:`R = 1/4 k a`; for the ellipse the
     potential of a charged disc, with the complete integral of modulus :math:`1 - b^2/a^2`. Steady, a spot of one
     temperature; a contact that moves conducts more.
     """
-    K, lambda_, a = first_integral, conductivity, semi_major_axis
-    xp = namespace(K, lambda_, a)
-    return K / (2 * xp.pi * lambda_ * a)
+    K, k, a = first_integral, conductivity, semi_major_axis
+    xp = namespace(K, k, a)
+    return K / (2 * xp.pi * k * a)
 
 
 def film_resistance(
@@ -62,11 +62,11 @@ def film_resistance(
 ) -> ThermalResistance:
     r"""Resistance of the film in a contact.
 
-    .. math:: R = \frac{h}{\pi \lambda a b}
+    .. math:: R = \frac{h}{\pi k a b}
     """
-    h, lambda_, a, b = film_thickness, conductivity, semi_major_axis, semi_minor_axis
-    xp = namespace(h, lambda_, a, b)
-    return h / (xp.pi * lambda_ * a * b)
+    h, k, a, b = film_thickness, conductivity, semi_major_axis, semi_minor_axis
+    xp = namespace(h, k, a, b)
+    return h / (xp.pi * k * a * b)
 
 
 def gap_conductance(
@@ -74,11 +74,11 @@ def gap_conductance(
 ) -> Conductance:
     r"""Conductance of the grease between shaft and nut, a thin layer all around.
 
-    .. math:: G = \frac{\pi \lambda d_m l_n}{s}
+    .. math:: G = \frac{\pi k d_m l_n}{s}
     """
-    lambda_, d_m, l_n, s = conductivity, pitch_circle_diameter, length, gap
-    xp = namespace(lambda_, d_m, l_n, s)
-    return xp.pi * lambda_ * d_m * l_n / s
+    k, d_m, l_n, s = conductivity, pitch_circle_diameter, length, gap
+    xp = namespace(k, d_m, l_n, s)
+    return xp.pi * k * d_m * l_n / s
 
 
 def thermal_approach(
@@ -89,22 +89,11 @@ def thermal_approach(
 ) -> Length:
     r"""Approach of screw and nut groove along the normals of a ball, of a shaft that is warmer than its nut.
 
-    .. math:: \delta_T = \frac{(\cos\alpha) \alpha_T \Delta T d_m}{2}
+    .. math:: \delta = \frac{\beta \theta d_m (\cos\alpha)}{2}
 
     The shaft's radius grows more than the nut's; a ball of their mean temperature grows as its gap does. Bodies are
     free: what the press fit of a flange or the pull of a housing takes is left out.
     """
-    alpha, alpha_T, dT, d_m = contact_angle, expansion, temperature_excess, pitch_circle_diameter
-    xp = namespace(alpha, alpha_T, dT, d_m)
-    return xp.cos(alpha) * alpha_T * dT * d_m / 2
-
-
-def thermal_growth(
-    expansion: TemperatureCoefficient, temperature_rise: TemperatureDifference, length: Length
-) -> Length:
-    r"""Growth of a bar of one temperature.
-
-    .. math:: \Delta l = \alpha_T \Delta T l_0
-    """
-    alpha_T, dT, l_0 = expansion, temperature_rise, length
-    return alpha_T * dT * l_0
+    alpha, beta, theta, d_m = contact_angle, expansion, temperature_excess, pitch_circle_diameter
+    xp = namespace(alpha, beta, theta, d_m)
+    return beta * theta * d_m * xp.cos(alpha) / 2

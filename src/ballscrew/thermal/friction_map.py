@@ -14,6 +14,7 @@ from ballscrew.axis.duty import Duty
 from ballscrew.axis.screw_friction import ModelledScrew
 from ballscrew.errors import Fault, InputError
 from ballscrew.evaluation.evaluator import evaluator
+from ballscrew.evaluation.plan import Configuration
 from ballscrew.motion.states import Numbers
 from ballscrew.quantities import Force, Power, Temperature
 
@@ -22,6 +23,8 @@ COLDEST, HOTTEST = 258.15, 393.15
 #: Preload of the map over that of the nut as it was set.
 LARGEST_PRELOAD = 4.0
 _TEMPERATURES, _PRELOADS = 24, 13
+#: More points than this, and the model is compiled.
+WORTH_COMPILING = 20_000
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -88,12 +91,19 @@ def friction_map(duty: Duty) -> FrictionMap:
     if set_to:
         preloads = set_to * np.linspace(0.0, np.sqrt(LARGEST_PRELOAD), _PRELOADS) ** 2
         inputs["nut.preload"] = preloads[None, :, None]
-    found = evaluator(
-        driven.model, driven.screw, driven.lubricant, inputs=tuple(inputs), outputs=["screw_torque"]
-    )(**inputs)  # fmt: skip
-    heat = found["screw_torque"] * np.abs(speed)
+    heat = _torque(driven, inputs) * np.abs(speed)
     power = np.einsum("tps,s->tp", np.broadcast_to(heat, (temperatures.size, preloads.size, load.size)), weights)
     return FrictionMap(temperatures, preloads, power / duty.states.cycle_time)
+
+
+def _torque(driven: ModelledScrew, inputs: dict[str, Any]) -> Numbers:
+    """Friction torque at all combinations of the inputs; compiled where there are many."""
+    shape = np.broadcast_shapes(*(np.shape(values) for values in inputs.values()))
+    if np.prod(shape) > WORTH_COMPILING:
+        ready = evaluator(driven.model, driven.screw, driven.lubricant, inputs=tuple(inputs), outputs=["screw_torque"])
+        return ready(**inputs)["screw_torque"]
+    every = {name: np.broadcast_to(values, shape) for name, values in inputs.items()}
+    return Configuration(driven.model, driven.screw, driven.lubricant).at(every).screw_torque
 
 
 def preload_of(driven: ModelledScrew) -> Force:

@@ -1,0 +1,134 @@
+"""Warming up: heat is conserved, the end is the equilibrium, and what is outside the model is said."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+import ballscrew as bs
+from ballscrew.axis.axis import Axis
+from ballscrew.axis.duty import duty
+from ballscrew.errors import InputError
+from ballscrew.motion.profiles import Segment, Segments
+from ballscrew.thermal.network import steady
+from ballscrew.thermal.surroundings import Surroundings
+from ballscrew.thermal.warm_up import warm_up
+
+ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
+OIL = bs.Lubricant.from_grade("ISO VG 100", 293.15)
+MODEL = bs.FrictionModel.reference()
+PLAIN = Surroundings(shaft_length=1.2)
+COOLED = dataclasses.replace(PLAIN, nut_conductance=60.0)
+
+
+def to_and_fro(rpm, nut=None, oil=OIL, stroke=0.5):
+    """A long stroke at one speed, without a mass."""
+    speed = rpm / 60 * ROW.lead
+    ways = [Segment(duration=stroke / speed, speed=sign * speed) for sign in (1, -1)]
+    screw = ROW.screw(nut=nut or bs.DoubleNut(preload=3500.0))
+    return duty(MODEL, screw, oil, axis=Axis(mass=0.0, bearing_torque=0.1), motion=Segments(segments=tuple(ways)))
+
+
+@pytest.fixture(scope="module")
+def found():
+    return warm_up(to_and_fro(1000), PLAIN, cool_down=3600.0)
+
+
+def test_generated_is_stored_and_lost(found):
+    heat = found.heat
+    assert heat["generated"] == pytest.approx(heat["stored"] + heat["lost"], abs=1e-8 * found.generated)
+    assert found.time[-1] == 5 * 3600.0
+
+
+def test_the_end_is_the_equilibrium(monkeypatch):
+    monkeypatch.setattr("ballscrew.thermal.warm_up.RTOL", 1e-9)
+    long = warm_up(to_and_fro(1000), PLAIN, time=40 * 3600.0, outputs=5)
+    end = long.equilibrium
+    assert end.exists
+    assert end.margin > 0
+    assert long.nut_temperature[-1] == pytest.approx(end.nut_temperature, abs=1e-6)
+    # of the steady state itself, not of the tolerance of the integration
+    balance = long.network.constant + long.network.source * long.network.power(end.temperatures)
+    balance = balance - long.network.conductances @ end.temperatures
+    assert np.max(np.abs(balance)) < 1e-9 * end.power
+    assert long.shaft_growth[-1] == pytest.approx(end.growth, rel=1e-5)
+
+
+def test_it_cools_down_again(found):
+    last = int(np.flatnonzero(found.works)[-1])
+    within = 1e-5  # of the integration, once nothing changes any more
+    assert np.all(np.diff(found.nut_temperature[: last + 1]) > -within)
+    assert np.all(np.diff(found.nut_temperature[last:]) < within)
+    assert found.nut_temperature[last] > found.nut_temperature[-1] + 5 > 298.15
+    assert found.heat["generated"][-1] == pytest.approx(found.heat["generated"][last], rel=1e-12)
+
+
+def test_a_cooled_nut_holds_tighter():
+    """A shaft that is warmer than its nut: to cool the nut alone raises the preload, and with it the torque."""
+    plain, cooled = (warm_up(to_and_fro(500), where) for where in (PLAIN, COOLED))
+    assert cooled.nut_temperature[-1] < plain.nut_temperature[-1]
+    assert cooled.preload[-1] > plain.preload[-1] > 3500.0
+    assert cooled.screw_torque[-1] > plain.screw_torque[-1]
+
+
+def test_preload_by_hand():
+    """Both normals of each ball give way by cos α · α_T · ΔT · d_m/2 more."""
+    network = warm_up(to_and_fro(500), PLAIN, time=60.0, outputs=2).network
+    alpha, d_m = ROW.contact_angle, ROW.ball_circle
+    per_kelvin = math.cos(alpha) * 11.7e-6 * d_m / 2
+    expected = 3500.0 * (1 + 2.0 * per_kelvin / network.approach_set) ** 1.5
+    assert network.preload(2.0) == pytest.approx(expected, rel=1e-12)
+    assert network.preload(-1000.0) == 0.0
+
+
+def test_runaway_is_a_verdict():
+    """A nut on a heat sink at high speed has no equilibrium; the run stops where friction is not known any more."""
+    hot = warm_up(to_and_fro(3000), dataclasses.replace(COOLED, ball_conductance=2.0))
+    end = hot.equilibrium
+    assert not end.exists
+    assert end.margin < 0
+    assert hot.stopped is not None
+    assert hot.time[-1] <= hot.stopped
+    assert math.isnan(end.nut_temperature)
+    assert {record.id for record in hot.records} == {"verdict.equilibrium", "warning.stopped"}
+
+
+def test_a_coolant_in_the_shaft():
+    chilled = dataclasses.replace(PLAIN, bore=0.012, coolant=293.15)
+    warm, cold = (warm_up(to_and_fro(1000), where).shaft_growth[-1] for where in (PLAIN, chilled))
+    assert cold < 0.3 * warm
+
+
+def test_a_nut_without_preload_has_none():
+    single = warm_up(to_and_fro(1000, nut=bs.SingleNut()), PLAIN, time=3600.0)
+    assert set(single.preload) == {0.0}
+
+
+def test_a_table_of_compensation(found):
+    places, growth = found.compensation_table(0.1)
+    assert places.tolist() == pytest.approx(np.arange(0, 1.25, 0.1).tolist())
+    assert growth[0] == 0.0
+    assert np.all(np.diff(growth) > 0)
+
+
+def test_steady_temperatures_are_linear_in_the_heat():
+    network = warm_up(to_and_fro(500), PLAIN, time=60.0, outputs=2).network
+    rises = [steady(network, power) - steady(network, 0.0) for power in (1.0, 7.0)]
+    assert rises[1] == pytest.approx(7 * rises[0], rel=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("build", "named"),
+    [
+        (lambda: warm_up(to_and_fro(500)), "surroundings.shaft_length"),
+        (lambda: warm_up(to_and_fro(500, stroke=2.0), PLAIN), "motion.stroke"),
+        (lambda: warm_up(to_and_fro(500), PLAIN, time=0.0), "warm_up.time"),
+        (lambda: warm_up(to_and_fro(500, oil=bs.Lubricant(viscosity=0.1)), PLAIN), "lubricant"),
+        (lambda: Surroundings(coolant=293.15), "surroundings.coolant"),
+        (lambda: Surroundings(shaft_share=1.5), "surroundings.shaft_share"),
+    ],
+)
+def test_bad_input_is_named(build, named):
+    with pytest.raises(InputError, match=named):
+        build()
