@@ -214,7 +214,8 @@ def test_refusals(ballscrew, arguments, line):
     assert line in done.stderr.splitlines()
 
 
-def test_run_refuses_the_example_of_duty(ballscrew):
-    done = ballscrew("run", EXAMPLE)
-    assert done.returncode == 2
+def test_run_asks_for_an_operating_point(ballscrew, tmp_path):
+    (tmp_path / "case.toml").write_text(VERTICAL, encoding="utf-8")
+    done = ballscrew("run", "case.toml")
+    assert (done.returncode, done.stdout) == (2, "")
     assert "only ballscrew duty takes the motion in its place" in done.stderr

@@ -42,7 +42,12 @@ def tables(case: Case) -> list[Table]:
         Table("Lubricant", _COLUMNS, _lubricant(case), _TEXTS),
         Table("Operating point", _COLUMNS, _operation(case), _TEXTS),
     ]
-    others = {"Nut": _nut(case), "Installation": _installation(case), "Limits of the checks": _limits(case)}
+    others = {
+        "Nut": _nut(case),
+        "Installation": _installation(case),
+        "Limits of the checks": _limits(case),
+        **_moved(case),
+    }
     found += [Table(title, _COLUMNS, rows, _TEXTS) for title, rows in others.items() if rows]
     return found
 
@@ -177,6 +182,23 @@ def _limits(case: Case) -> Rows:
         if getattr(case.limits, name) != getattr(_USUAL_LIMITS, name)
     }
     return _part(case, case.limits, changed, lambda _: CASE)
+
+
+def _moved(case: Case) -> dict[str, Rows]:
+    """Axis, motion with its segments, and motor."""
+    segments: tuple[Any, ...] = getattr(case.motion, "segments", ())
+    parts = {"Axis": case.axis, "Motion": case.motion, "Motor": case.motor}
+    parts |= {f"Segment {number}: {part.name}".rstrip(": "): part for number, part in enumerate(segments, start=1)}
+    found: dict[str, Rows] = {}
+    for title, part in parts.items():
+        if part is not None:
+            usual = _defaults(type(part))
+
+            def source(name: str, part: Any = part, usual: Mapping[str, Any] = usual) -> str:
+                return DEFAULT if getattr(part, name) == usual.get(name) else CASE
+
+            found[title] = _part(case, part, fields_of(part), source)
+    return found
 
 
 def laws(case: Case) -> Table:
