@@ -51,7 +51,7 @@ USUAL: Mapping[str, Sequence[str]] = {
     "K": ("degC", "K", "degF"),
     "kg": ("kg", "lb", "g"),
     "m/s": ("m/min", "m/s", "mm/s", "mm/min", "in/min"),
-    "m/s^2": ("m/s^2", "g", "mm/s^2"),
+    "m/s^2": ("m/s^2", "mm/s^2"),
     "s": ("s", "min", "h"),
 }
 _NAMED = 3
