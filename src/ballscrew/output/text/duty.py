@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from ballscrew import units
 from ballscrew.axis.axis import Axis
@@ -20,6 +21,9 @@ from ballscrew.output.wrapping import aligned, wrapped
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.studies import duty_records
 from ballscrew.studies.duty import NUMBERS, DutyReport
+
+if TYPE_CHECKING:  # loads xarray
+    from ballscrew.studies.duty_band import DutyBandReport
 
 #: Energies that are zero in most cycles.
 _IF_ANY = ("energy_of_process", "energy_stored")
@@ -62,6 +66,22 @@ def text(report: DutyReport, encoding: str = "utf-8") -> str:
         *check_lines(report.checks, _GIVE),
     ]
     return "\n".join(line if "\n" in line else wrapped(line) for line in lines)
+
+
+def band_text(found: DutyBandReport) -> str:
+    """The bands of a duty, one number a line, and where they come from."""
+    bands = found.bands
+    rows = [[f"Band: {100 * bands.level:.4g} % of {bands.count} samples", "case", "median", "from", "to"]]
+    for name, one in bands.numbers.items():
+        quantity = NUMBERS[name]
+        cells = (number(quantity, value) for value in (one.value, one.median, *one.band))
+        rows.append([f"  {quantity.info.meaning}", *cells])
+    given = sum(one.given for one in found.inputs.values())
+    said = (
+        f"  of {len(found.inputs)} uncertain inputs of screw, oil and model, {given} of them given by the case; "
+        "motion, axis and laws are taken as exact"
+    )
+    return "\n".join(["", *aligned(rows), wrapped(said)])
 
 
 def title(report: DutyReport) -> str:
