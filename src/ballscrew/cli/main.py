@@ -23,6 +23,7 @@ from ballscrew.cli import (
     cite,
     compare,
     fit,
+    oils,
     report,
     reproduce,
     run,
@@ -45,6 +46,7 @@ app = typer.Typer(
 )
 app.add_typer(catalogue.app, name="catalogue")
 app.add_typer(card.app, name="card")
+app.add_typer(oils.app, name="oils")
 
 
 class _Command(TyperCommand):

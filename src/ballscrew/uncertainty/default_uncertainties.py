@@ -78,9 +78,9 @@ def default_distributions(
 ) -> Mapping[str, tuple[Distribution, DefaultUncertainty]]:
     """The usual distributions of inputs, about the values they have, and where they are from.
 
-    Left out are those whose distribution is ``given`` and those that are known exactly. Of an oil made from a grade
-    the temperature is uncertain and the viscosity follows, or, where the temperature is exact, the viscosity is by
-    what a grade leaves open: never both, as one would undo the other.
+    Left out are those whose distribution is ``given`` and those that are known exactly. Of an oil of a grade or
+    of a data sheet the temperature is uncertain and the viscosity follows, or, where the temperature is exact, the
+    viscosity is by what a grade leaves open: never both, as one would undo the other.
     """
     inputs, known = inputs_of(model, screw, lubricant), default_uncertainties()
     parts = {"screw": screw, "lubricant": lubricant, "model": model, "nut": screw.nut}
@@ -94,7 +94,7 @@ def default_distributions(
             value = model.imposed_ball_force(screw)
         if value is None:
             continue  # preload of balls whose oversize is given
-        graded = name == "viscosity" and lubricant.grade is not None
+        graded = name == "viscosity" and lubricant.follows_temperature
         uncertainty = known[_OF_GRADE if graded else name]
         distribution = uncertainty.about(float(value), quantity.info)
         if distribution is not None:
@@ -108,6 +108,6 @@ def _counts(name: str, model: FrictionModel, lubricant: Lubricant, exact: Collec
         return traits_of(model.ball_force).uses_imposed_force
     if name == "friction.full_film_friction_coefficient":
         return model.full_film is None
-    if name == "viscosity" and lubricant.grade is not None:
+    if name == "viscosity" and lubricant.follows_temperature:
         return TEMPERATURE.name in exact
     return True
