@@ -18,7 +18,7 @@ def walther_number(kinematic_viscosity: KinematicViscosity) -> Ratio:
     .. math:: Z = 10^6 \nu + 0.7 + \exp\left(-1.47 - 1.84 \cdot 10^6 \nu - 0.51 \left(10^6 \nu\right)^2\right)
 
     ASTMD341, the full form, for 0.21 mm²/s and more. SI only: the standard has the viscosity in mm²/s. The exponential
-    is 0.04 % of Z at 2 mm²/s, 0.3 % at 1.5 mm²/s and 1.3 % at 1 mm²/s; above 2 mm²/s the standard leaves it out.
+    is 0.03 % of Z at 2 mm²/s, 0.2 % at 1.5 mm²/s and 1.3 % at 1 mm²/s; above 2 mm²/s the standard leaves it out.
     """
     nu = kinematic_viscosity
     xp = namespace(nu)
