@@ -58,7 +58,6 @@ def test_temperature_coefficient_is_the_slope_of_the_line(celsius):
     assert sheet.at(T).temperature_coefficient == pytest.approx(slope, rel=1e-7)
 
 
-@pytest.mark.equation("ASTMD2270")
 def test_viscosity_index_of_the_examples():
     # ASTM D2270, 5.1.4 and 6.1.4: L = 119.94, H = 69.48 and VI = 92.43; H = 28.97 and VI = 156.37
     L = equations.reference_viscosity(8.86e-6, 0.41858, 16.1558, -56.04)

@@ -23,6 +23,8 @@ from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import fields_of, quantities_of
 from ballscrew.validation.nearest import near_rows
 
+#: What is assumed of a grease.
+_OF_GREASE = "grease: the film of its base oil, no thickener in it, no churning of a fresh filling"
 #: Temperature of an oil of a grade where none is given, K.
 DEFAULT_TEMPERATURE = 313.15
 LEFT_OUT, NOT_COMPARED = "left out: seals, preload, return path, churning", "not compared with measurements"
@@ -126,6 +128,7 @@ def common_assumptions(case: Case, ball_to_ball_force: float | None = None) -> l
     return [
         f"oil {made_from}viscosity {shown(case.lubricant, 'viscosity')}, "
         f"pressure–viscosity coefficient {shown(case.lubricant, 'pressure_viscosity_coefficient')}",
+        *([_OF_GREASE] if case.lubricant.sheet is not None and case.lubricant.sheet.is_grease else []),
         f"equivalent modulus {modulus}",
         "roughness of balls, screw, nut "
         + ", ".join(shown(case.screw, f"{part}_roughness") for part in ("ball", "screw", "nut")),

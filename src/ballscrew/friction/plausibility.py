@@ -29,6 +29,8 @@ _BELOW_POUR_POINT = (
 _BELOW = "lubricant at {0}, below the {1} that its maker states: its viscosity is a guess"
 _ABOVE = "lubricant at {0}, above the {1} that its maker states: it does not last"
 _EXTRAPOLATED = "oil at {0}: its viscosity is extrapolated far from the two points of its data sheet; give its {1}"
+#: Constant of replenishment of a track with grease (SKF2018).
+GREASE_REPLENISHMENT = 6e-8
 #: Without a pour point or a range on the sheet, temperatures as far from 40 and 100 °C as this are extrapolated, K.
 _COLD, _HOT = 273.15, 393.15
 
@@ -69,7 +71,8 @@ def implausible(parts: Mapping[str, Any]) -> list[Record]:
         for name, quantity in quantities_of(type(part)).items()
         if quantity.info.usual is not None and (value := _farthest_out(quantity, getattr(part, name))) is not None
     ]
-    return [*found, *beyond_data_sheet(parts.get("lubricant"))]
+    lubricant = parts.get("lubricant")
+    return [*found, *beyond_data_sheet(lubricant), *_grease_as_oil(lubricant, parts.get("model.inlet"))]
 
 
 def beyond_data_sheet(lubricant: Any) -> list[Record]:
@@ -95,6 +98,32 @@ def beyond_data_sheet(lubricant: Any) -> list[Record]:
     elif sheet.highest_temperature is None and hottest > _HOT:
         records.append(_of_sheet("extrapolated_hot", _EXTRAPOLATED.format("{0}", "highest_temperature"), hottest, _HOT))
     return records
+
+
+def _grease_as_oil(lubricant: Any, inlet: Any) -> list[Record]:
+    """A warning of a grease whose track is replenished as by an oil bath (SKF2018)."""
+    sheet: DataSheet | None = getattr(lubricant, "sheet", None)
+    constant = getattr(inlet, "replenishment_constant", None)
+    if sheet is None or not sheet.is_grease or constant is None:
+        return []
+    least = float(np.min(constant))
+    if least >= GREASE_REPLENISHMENT * (1 - 1e-9):
+        return []
+    text = (
+        "grease computed as oil of a bath: its constant of replenishment is 6e-8; "
+        "write [model] inlet.replenishment_constant = 6e-8"
+    )
+    return [
+        Record(
+            id="lubricant.grease_as_oil",
+            subject="model.inlet.replenishment_constant",
+            text=text,
+            severity="warning",
+            holds=False,
+            value=least,
+            limit=GREASE_REPLENISHMENT,
+        )
+    ]
 
 
 def _of_sheet(name: str, template: str, value: float, limit: float) -> Record:
