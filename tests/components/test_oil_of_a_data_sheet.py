@@ -3,6 +3,7 @@
 import dataclasses
 import math
 import pickle
+from pathlib import Path
 
 import numpy as np
 import pint
@@ -33,6 +34,18 @@ def test_the_two_points_and_the_cold():
     cold = bs.Lubricant.from_data_sheet(**SHEET, temperature=-20 + 273.15)
     assert 1e6 * cold.kinematic_viscosity == pytest.approx(18933, abs=1)
     assert 1e6 * bs.Lubricant.from_grade("ISO VG 100", -20 + 273.15).kinematic_viscosity == pytest.approx(35772, abs=1)
+
+
+def test_the_table_of_the_page():
+    page = (Path(__file__).parents[2] / "docs" / "howto" / "oils.md").read_text(encoding="utf-8")
+    rows = [line.strip("| ").split(" | ") for line in page.splitlines() if line.startswith("|")]
+    celsius = next(row for row in rows if row[0] == "°C")[1:]
+    of_grade, of_sheet = (next(row for row in rows if words in row[0])[1:] for words in ("grade =", "ASTM D341"))
+    for degrees, by_grade, by_sheet in zip(map(float, celsius), of_grade, of_sheet, strict=True):
+        graded = bs.Lubricant.from_grade("ISO VG 100", degrees + 273.15)
+        for oil, written in ((graded, by_grade), (OIL.at(degrees + 273.15), by_sheet)):
+            digits = len(written.partition(".")[2])
+            assert f"{1e6 * oil.kinematic_viscosity:.{digits}f}" == written
 
 
 def test_viscosity_index():

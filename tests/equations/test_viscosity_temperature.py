@@ -33,6 +33,37 @@ def test_the_line_goes_through_its_points(thick, thin):
         assert oil.viscosity / oil.density == pytest.approx(viscosity, rel=1e-12)
 
 
+#: StachowiakBatchelor2005, Table 2.3: viscosity, mPa s, at 30, 60 and 100 °C. The first, a light machine oil, is off
+#: any line.
+MEASURED = [
+    (38, 12.1, 5.3), (153, 34, 9.1), (250, 50.5, 12.6), (810, 135, 26.8), (18.6, 6.3, 2.4), (45, 12, 3.9),
+    (107, 23.3, 6.4), (122, 26.3, 7.3), (171, 31, 7.5), (30.7, 8.6, 3.1), (165, 30.0, 6.8), (310, 44.2, 9.4),
+    (2000, 180, 24),
+]  # fmt: skip
+
+
+def misses(at, low, high):
+    """Deviations from the viscosities at one temperature of the lines through those at two others."""
+    found = []
+    for oil in MEASURED:
+        numbers = {}
+        for celsius, viscosity in zip((30, 60, 100), oil, strict=True):
+            density = equations.oil_density(870, equations.oil_expansion_coefficient(870), celsius + 273.15, 288.15)
+            numbers[celsius] = equations.walther_number(viscosity * 1e-3 / density)
+        slope = equations.walther_slope(low + 273.15, numbers[low], high + 273.15, numbers[high])
+        line = equations.walther_number_at(at + 273.15, low + 273.15, numbers[low], slope)
+        viscosities = [equations.kinematic_viscosity_of_walther_number(number) for number in (line, numbers[at])]
+        found.append(viscosities[0] / viscosities[1] - 1)
+    return found
+
+
+def test_measured_oils_between_and_beyond_two_points():
+    between, beyond = misses(60, 30, 100), misses(30, 60, 100)
+    assert max(map(abs, between[1:])) == pytest.approx(0.05, abs=0.005)
+    assert max(map(abs, beyond[1:])) == pytest.approx(0.15, abs=0.005)
+    assert (between[0], beyond[0]) == pytest.approx((0.12, -0.24), abs=0.005)
+
+
 def test_the_exponential_is_as_large_as_the_docstring_says():
     for viscosity, share in ((2e-6, 0.0003), (1.5e-6, 0.002), (1e-6, 0.013)):
         number = equations.walther_number(viscosity)

@@ -25,6 +25,8 @@ NORMAL_95 = 1.959963984540054
 JUDGEMENT = "judgement"
 #: The viscosity of an oil whose grade and temperature are known.
 _OF_GRADE = "viscosity_of_grade"
+#: The viscosity of an oil of a data sheet at a temperature that is known.
+_OF_SHEET = "viscosity_of_sheet"
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -94,12 +96,18 @@ def default_distributions(
             value = model.imposed_ball_force(screw)
         if value is None:
             continue  # preload of balls whose oversize is given
-        graded = name == "viscosity" and lubricant.follows_temperature
-        uncertainty = known[_OF_GRADE if graded else name]
+        uncertainty = known[_of_oil(lubricant) if name == "viscosity" else name]
         distribution = uncertainty.about(float(value), quantity.info)
         if distribution is not None:
             found[name] = distribution, uncertainty
     return found
+
+
+def _of_oil(lubricant: Lubricant) -> str:
+    """The default of the viscosity by what the oil was made from."""
+    if lubricant.sheet is not None:
+        return _OF_SHEET
+    return "viscosity" if lubricant.grade is None else _OF_GRADE
 
 
 def _counts(name: str, model: FrictionModel, lubricant: Lubricant, exact: Collection[str]) -> bool:
