@@ -53,6 +53,8 @@ def test_viscosity_index():
     assert round(bs.Lubricant.from_data_sheet(22.83e-6, 5.05e-6).viscosity_index) == 156
     assert 80 < bs.Lubricant.from_grade("ISO VG 100").viscosity_index < 100
     assert math.isnan(bs.Lubricant(viscosity=0.1).viscosity_index)
+    several = bs.Lubricant.from_data_sheet(np.array([73.3e-6, 22.83e-6, 4e-6]), np.array([8.86e-6, 5.05e-6, 1.9e-6]))
+    np.testing.assert_allclose(several.viscosity_index, [92.43, 156.46, np.nan], atol=0.01)
 
 
 def test_grades_are_within_iso_3448_at_40_degrees():
@@ -96,6 +98,8 @@ def test_values_that_contradict():
         dataclasses.replace(OIL, grade="ISO VG 100")
     with pytest.raises(bs.InputError, match="kinematic_viscosity_40: must be at least"):
         bs.Lubricant.from_data_sheet(0.0, 1e-6)
+    with pytest.raises(bs.InputError, match=r"must be below 1 m\^2/s .* 1 cSt is 1e-6 m\^2/s"):
+        bs.Lubricant.from_data_sheet(100.0, 11.1)  # in cSt, as people have it
     with pytest.raises(bs.InputError, match="sheet: needs a temperature"):
         bs.Lubricant(viscosity=0.1, sheet=OIL.sheet)
 

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import math
 import tomllib
 from importlib import resources
 from typing import Annotated, Any, NamedTuple
+
+import numpy as np
 
 from ballscrew._arrays import ByValue, namespace
 from ballscrew.equations import rheology
@@ -77,6 +80,7 @@ class DataSheet(ByValue):
             "kinematic viscosity at 40 degC",
             "cSt",
             at_least=5e-7,
+            below=1.0,
             hint="data sheets have 10 cSt to 1000 cSt; 1 cSt is 1e-6 m^2/s",
             usual=(1e-6, 1e-2),
         ),
@@ -88,6 +92,7 @@ class DataSheet(ByValue):
             "kinematic viscosity at 100 degC",
             "cSt",
             at_least=5e-7,
+            below=1.0,
             hint="data sheets have 2 cSt to 80 cSt; 1 cSt is 1e-6 m^2/s",
             usual=(7e-7, 1e-3),
         ),
@@ -160,10 +165,14 @@ class DataSheet(ByValue):
 
 def viscosity_index(kinematic_viscosity_40: KinematicViscosity, kinematic_viscosity_100: KinematicViscosity) -> Ratio:
     """The viscosity index of two numbers by ASTMD2270 (ISO 2909); NaN below 2 mm²/s at 100 °C."""
-    U, Y = float(kinematic_viscosity_40), float(kinematic_viscosity_100)
+    found = np.vectorize(_viscosity_index, otypes=[float])(kinematic_viscosity_40, kinematic_viscosity_100)
+    return found if found.ndim else float(found)
+
+
+def _viscosity_index(U: float, Y: float) -> float:
     row = next((row for row in reversed(_reference_oils()) if row["viscosity"] <= 1e6 * Y), None)
     if row is None:
-        return float("nan")
+        return math.nan
     L, H = (equations.reference_viscosity(Y, *row[oil]) for oil in ("L", "H"))
     if U > H:
         return float(equations.viscosity_index_up_to_100(U, L, H))

@@ -65,13 +65,14 @@ def implausible(parts: Mapping[str, Any]) -> list[Record]:
     Relations of fields, such as the lead angle, are quantities of the part as well. An oil outside the range of its
     data sheet is among them.
     """
+    lubricant = parts.get("lubricant")
+    sheet = getattr(lubricant, "sheet", None)
     found = [
         _record(f"{section}.{name}", quantity, value)
-        for section, part in parts.items()
+        for section, part in [*parts.items(), *([] if sheet is None else [("lubricant", sheet)])]
         for name, quantity in quantities_of(type(part)).items()
         if quantity.info.usual is not None and (value := _farthest_out(quantity, getattr(part, name))) is not None
     ]
-    lubricant = parts.get("lubricant")
     return [*found, *beyond_data_sheet(lubricant), *_grease_as_oil(lubricant, parts.get("model.inlet"))]
 
 
