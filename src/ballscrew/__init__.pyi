@@ -9,6 +9,8 @@ from ballscrew.axis.duty_band import duty_band as duty_band
 from ballscrew.calibration.calibrated_model import CalibratedModel as CalibratedModel
 from ballscrew.calibration.fit import fit as fit
 from ballscrew.cases.catalogue import screws as screws
+from ballscrew.cases.oils import oils as oils
+from ballscrew.components.data_sheet import DataSheet as DataSheet
 from ballscrew.components.lubrication import HamrockDowson as HamrockDowson
 from ballscrew.components.materials import Lubricant as Lubricant
 from ballscrew.components.materials import Material as Material

@@ -24,6 +24,7 @@ from ballscrew.cli import (
     compare,
     duty,
     fit,
+    oils,
     report,
     reproduce,
     run,
@@ -46,6 +47,7 @@ app = typer.Typer(
 )
 app.add_typer(catalogue.app, name="catalogue")
 app.add_typer(card.app, name="card")
+app.add_typer(oils.app, name="oils")
 
 
 class _Command(TyperCommand):
