@@ -26,6 +26,8 @@ from ballscrew.friction.breakaway import breakaway as breakaway
 from ballscrew.friction.model import FrictionModel as FrictionModel
 from ballscrew.friction.nut_friction import nut_friction as nut_friction
 from ballscrew.friction.result import FrictionResult as FrictionResult
+from ballscrew.service.condition import Condition as Condition
+from ballscrew.service.condition import condition as condition
 from ballscrew.service.preload_change import PreloadChange as PreloadChange
 from ballscrew.service.preload_change import preload_change as preload_change
 from ballscrew.service.preload_of_torque import preload_of_torque as preload_of_torque
@@ -35,6 +37,7 @@ from ballscrew.sizing.rigidity import rigidity_iso3408 as rigidity_iso3408
 from ballscrew.sweeps.store_check import verify as verify
 from ballscrew.sweeps.sweep import sweep as sweep
 from ballscrew.torque_logs.torque_log import TorqueLog as TorqueLog
+from ballscrew.torque_logs.torque_series import TorqueSeries as TorqueSeries
 from ballscrew.uncertainty.bands import band as band
 from ballscrew.uncertainty.distributions import LogNormal as LogNormal
 from ballscrew.uncertainty.distributions import Normal as Normal
