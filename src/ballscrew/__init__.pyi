@@ -26,8 +26,8 @@ from ballscrew.friction.breakaway import breakaway as breakaway
 from ballscrew.friction.model import FrictionModel as FrictionModel
 from ballscrew.friction.nut_friction import nut_friction as nut_friction
 from ballscrew.friction.result import FrictionResult as FrictionResult
-from ballscrew.service.condition import Condition as Condition
 from ballscrew.service.condition import condition as condition
+from ballscrew.service.condition_values import Condition as Condition
 from ballscrew.service.preload_change import PreloadChange as PreloadChange
 from ballscrew.service.preload_change import preload_change as preload_change
 from ballscrew.service.preload_of_torque import preload_of_torque as preload_of_torque

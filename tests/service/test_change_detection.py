@@ -67,6 +67,16 @@ def test_one_wild_test_is_no_alarm(place):
     assert chart(values, BASELINE, np.full(30, 0.02), RATE).alarm is None
 
 
+@pytest.mark.parametrize("first", [(0.05, 0, 0, 0, 0), (0.028, -0.006, 0.001, 0.024, -0.048)])
+def test_scatter_of_few_digits_and_of_wild_values_seldom_gives_an_alarm(first):
+    """Series drawn from few values, most of them equal, as torques of few digits are, or uneven ones."""
+    random = np.random.default_rng(16)
+    found = sum(
+        chart(random.choice(first, TESTS), BASELINE, np.full(TESTS, 0.02), RATE).alarm is not None for _ in range(400)
+    )
+    assert found <= binom.ppf(1 - FALSE_ALARM, 400, 0.05)
+
+
 def test_values_that_never_change_give_no_alarm():
     assert chart(np.zeros(30), BASELINE, np.zeros(30), RATE).alarm is None
 

@@ -236,6 +236,7 @@ def changed(place, value, name="torque"):
 
 BAD = {
     "too few": ({"torque": STEADY[:5]}, {}, "condition.tests: too few: the baseline alone takes 5 (5)"),
+    "too many": ({"torque": np.full(1001, 0.4)}, {}, "condition.tests: more than 1000 (1001)"),
     "baseline": (TABLE, {"baseline": 2}, "condition.baseline: is too short (2)"),
     "tolerance": (TABLE, {"tolerance": 1.0}, "condition.tolerance: must lie between 0 and 1"),
     "false alarms": (TABLE, {"false_alarms": 0.5}, "condition.false_alarms: must lie between 0.0001 and 0.1"),
@@ -255,6 +256,9 @@ BAD = {
     "bodies": (
         TABLE, {"screw": dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=PRELOAD, bodies=bs.Bodies()))},
         "leave out [bodies] and [deviations]",
+    ),
+    "no torque of the model": (
+        {**TABLE, "temperature": np.where(NUMBER == 7, 30.0, 300.0)}, {}, "condition: 7: the model has no torque there",
     ),
     "uncertain": (TABLE, {"uncertain": {"decai": bs.Normal(1.0, 0.1)}}, "service.uncertain.decai: unknown name"),
 }  # fmt: skip

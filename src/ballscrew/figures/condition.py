@@ -13,7 +13,7 @@ from ballscrew.cases.case import Case
 from ballscrew.cases.descriptions import model_text, nut_text
 from ballscrew.figures import style
 from ballscrew.output.text import condition as text
-from ballscrew.service.condition import Condition
+from ballscrew.service.condition_values import Condition
 
 _HOUR, _DAY = 3600.0, 86400.0
 

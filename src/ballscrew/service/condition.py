@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,13 +16,14 @@ from ballscrew.errors import Fault, accepts_units, raise_if_any
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import AngularSpeed, MomentOfInertia, Temperature
-from ballscrew.records import Record
-from ballscrew.service.change_detection import Chart, Trend, chart, robust_scatter, trend
+from ballscrew.service.change_detection import Trend, chart, robust_scatter, trend
 from ballscrew.service.condition_means import Means, of_logs, of_series
-from ballscrew.service.condition_parts import Part, parts_of
+from ballscrew.service.condition_parts import parts_of
+from ballscrew.service.condition_records import records_of
 from ballscrew.service.condition_reduction import Reduction, reduced
+from ballscrew.service.condition_values import Condition, State
 from ballscrew.service.posterior import MODEL_ERROR
-from ballscrew.service.preload_change import Verdict, held_numbers, with_preload
+from ballscrew.service.preload_change import held_numbers, with_preload
 from ballscrew.torque_logs.log_rows import Kind
 from ballscrew.torque_logs.torque_series import TorqueSeries
 from ballscrew.uncertainty.default_uncertainties import NORMAL_95
@@ -33,97 +34,10 @@ if TYPE_CHECKING:
 
 #: Tests of the baseline by default, and at least.
 BASELINE, LEAST_BASELINE = 5, 3
+#: Tests at most: a longer table is a log.
+MOST_TESTS = 1000
 #: The share of healthy tests that give an alarm, by default: one in 500.
 FALSE_ALARMS = 0.002
-#: A preload is called lost, or kept, with this probability.
-CERTAIN = 0.95
-
-
-@dataclasses.dataclass(frozen=True)
-class State:
-    """The state of an axis in one test; intervals hold 95 %."""
-
-    label: str
-    #: In s from the first test, or the number of the test.
-    time: float
-    #: As it was logged, K; None where it was not.
-    temperature: float | None
-    #: Friction torque at the reference temperature and speed, N m; its interval has the temperature's doubt in it.
-    torque: float
-    torque_low: float
-    torque_high: float
-    #: Preload over that of the first tests, were nothing else changed; NaN where no preload gives the torque.
-    preload: float
-    preload_low: float
-    preload_high: float
-    #: Preload, constant torque, boundary friction and temperature beside each other, for tests of several speeds.
-    parts: Mapping[str, Part]
-
-    @property
-    def preload_lost(self) -> bool:
-        """Whether the interval of the preload lies below that of the first tests."""
-        return self.preload_high < 1
-
-
-@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
-class Condition:
-    """Result of :func:`condition`."""
-
-    states: Sequence[State]
-    #: Tests that the others are held against, and the share of healthy tests that give an alarm.
-    baseline: int
-    false_alarms: float
-    #: What is reduced to, K (NaN for an oil without a grade) and rad/s.
-    reference_temperature: float
-    reference_speed: float
-    #: Sums of the torque's changes with their limits.
-    chart: Chart
-    #: Of the logarithm of the preload, by s or by test (``per``).
-    trend: Trend
-    per: str
-    #: Standard deviation of the logarithm of the torque from test to test.
-    scatter: float
-    #: Share of the preload that may be lost.
-    tolerance: float
-    #: Probability that less than 1 − tolerance of the preload is left in the last test.
-    probability_of_loss: float
-    #: Derivative of the logarithm of the torque by the temperature at the reference in the last test, 1/K.
-    per_kelvin: float
-    #: Derivative of the logarithm of the torque by that of the preload in the last test.
-    exponent: float
-    #: The torque of the first tests over that of the model, with its interval.
-    factor: float
-    factor_interval: tuple[float, float]
-    #: Tests whose temperature was logged and is used.
-    temperatures: int
-    sources: Sequence[tuple[str, str]] = ()
-    notes: Sequence[str] = ()
-    warning_records: Sequence[Record] = ()
-    verdict_records: Sequence[Record] = ()
-
-    @property
-    def alarm(self) -> int | None:
-        """The first test, from 0, in which the torque has changed beyond its scatter; None if there is none."""
-        return self.chart.alarm
-
-    @property
-    def lost_since(self) -> int | None:
-        """The first test, from the alarm on, whose interval of the preload, with all doubts, lies below the first."""
-        if self.alarm is None:
-            return None
-        later = range(self.alarm, len(self.states))
-        return next((i for i in later if self.states[i].preload_lost), None)
-
-    @property
-    def verdict(self) -> Verdict:
-        """``"lost"`` or ``"kept"`` where that has a probability of :data:`CERTAIN`, otherwise ``"open"``."""
-        probability = self.probability_of_loss
-        return "lost" if probability >= CERTAIN else "kept" if probability <= 1 - CERTAIN else "open"
-
-    @property
-    def warnings(self) -> list[str]:
-        """The texts of the warnings."""
-        return [record.text for record in self.warning_records]
 
 
 @accepts_units("condition")
@@ -165,8 +79,6 @@ def condition(
     preload, balls that differ, fewer tests than ``baseline`` + 1, shares out of (0, 1), and data that cannot be of one
     nut in one unit.
     """
-    from ballscrew.service.condition_records import records_of  # loads what it judges, which is this module
-
     subject = with_preload(Configuration(model, screw, lubricant))
     raise_if_any(_faults(subject, baseline, false_alarms, tolerance))
     known = held_numbers(subject, uncertain)
@@ -201,6 +113,9 @@ def _faults(subject: Configuration, baseline: Any, false_alarms: Any, tolerance:
 
 
 def _faults_of_count(count: int, baseline: int) -> list[Fault]:
+    if count > MOST_TESTS:
+        remedy = "a table has a row for each test: is this a log? Of logs give several, one for each test"
+        return [Fault("condition.tests", f"more than {MOST_TESTS}", str(count), remedy)]
     if count > baseline:
         return []
     remedy = f"give {baseline + 1} or more, or a shorter baseline ({LEAST_BASELINE} or more)"

@@ -117,23 +117,21 @@ def of_logs(subject: Configuration, logs: Sequence[Any], kind: Kind, inertia: fl
     sources: list[tuple[str, str]] = []
     labels: list[str] = []
     faults: list[Fault] = []
-    for number, data in enumerate(logs):
-        log = TorqueLog.of(data)
+    read = [TorqueLog.of(data) for data in logs]
+    raise_if_any(_faults_of_sources(read))
+    for number, log in enumerate(read):
         name = f"log {number + 1}" if log.source is None else log.source[0]
         labels.append(name)
         if log.source is not None:
-            twin = next((other for other, digest in sources if digest == log.source[1]), None)
-            if twin is not None:
-                faults.append(Fault("condition", "two logs are the same file", f"{twin}, {name}", "give each log once"))
             sources.append(log.source)
         try:
-            log = log.cleaned(inertia=inertia)
-            found = _means(subject, log, kind if kind != "unknown" else log.kind)
+            clean = log.cleaned(inertia=inertia)
+            found = _means(subject, clean, kind if kind != "unknown" else log.kind)
         except InputError as error:
             faults += [dataclasses.replace(fault, where=f"{name}: {fault.where}") for fault in error.faults]
             continue
         parts += [(number, one) for one in found]
-        if not (np.any(log.forward) and np.any(log.backward)):
+        if not (np.any(clean.forward) and np.any(clean.backward)):
             text = f"{name}: one direction only: a zero error of the sensor counts as friction; measure in both"
             warnings.append(_warning("one_direction", name, text))
     raise_if_any(faults)
@@ -142,6 +140,17 @@ def of_logs(subject: Configuration, logs: Sequence[Any], kind: Kind, inertia: fl
         np.array([number for number, _ in parts], dtype=np.int64), *columns, labels=labels,
         times=np.arange(1.0, len(labels) + 1), per="test", sources=tuple(sources), warnings=tuple(warnings),
     )  # fmt: skip
+
+
+def _faults_of_sources(logs: Sequence[TorqueLog]) -> list[Fault]:
+    names: dict[str, str] = {}
+    faults: list[Fault] = []
+    for name, digest in (log.source for log in logs if log.source is not None):
+        if digest in names:
+            given = f"{names[digest]}, {name}"
+            faults.append(Fault("condition", "two logs are the same file", given, "give each log once"))
+        names[digest] = name
+    return faults
 
 
 @dataclasses.dataclass(frozen=True)

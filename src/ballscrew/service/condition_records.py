@@ -14,11 +14,18 @@ from ballscrew.errors import InputError
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.records import Record
 from ballscrew.service.alternatives import BOUNDARY_FRICTION, FACTOR, KELVIN
-from ballscrew.service.condition import Condition
 from ballscrew.service.condition_means import Means
 from ballscrew.service.condition_parts import CONSTANT, WARMER
 from ballscrew.service.condition_reduction import Reduction
-from ballscrew.service.posterior import FRICTION, LOGGED_TEMPERATURE, PRELOAD, UNKNOWN_TEMPERATURE, torque_of_model
+from ballscrew.service.condition_values import Condition
+from ballscrew.service.posterior import (
+    FRICTION,
+    LOGGED_TEMPERATURE,
+    MODEL_ERROR,
+    PRELOAD,
+    UNKNOWN_TEMPERATURE,
+    torque_of_model,
+)
 from ballscrew.uncertainty.default_uncertainties import NORMAL_95
 
 #: A factor between measured torque and model beyond this, either way, is said.
@@ -46,7 +53,7 @@ def records_of(
     verdicts = [_alarm(made, found), _preload(made), *_of_trend(made)]
     if means.speeds.min() > 1 and made.states[-1].parts:
         verdicts += _parts(made)
-    elif abs(change) > NORMAL_95 * made.scatter:
+    elif abs(change) > NORMAL_95 * math.hypot(made.scatter, MODEL_ERROR):
         verdicts += _instead(made, found, subject, change)
     return warnings, verdicts
 

@@ -14,9 +14,11 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ballscrew.calibration.robust import Vector
 from ballscrew.components.materials import TEMPERATURE
+from ballscrew.errors import Fault, raise_if_any
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.service.condition_means import Means, points_of
 from ballscrew.service.posterior import (
@@ -100,6 +102,11 @@ class _Samples:
         }
         return cls(subject, values, nominal, 1 + SAMPLES)
 
+    def select(self, usable: NDArray[np.bool_]) -> _Samples:
+        """The samples of a mask."""
+        values = {name: one[usable] for name, one in self.values.items()}
+        return dataclasses.replace(self, values=values, size=int(np.count_nonzero(usable)))
+
     def logarithms(self, points: Mapping[str, Vector], preload: Vector, warmer: float = 0.0) -> Vector:
         """Logarithms of the torques of all samples at points; the preload, as its logarithm, by sample and point."""
         shape = np.broadcast_shapes(preload.shape, (self.size, next(iter(points.values())).size))
@@ -123,14 +130,18 @@ def reduced(
 ) -> Reduction:
     """The tests at the temperature (K; by default the mean of the first tests, or that of the case) and mean speed of
     the first tests.
+
+    Raises :class:`~ballscrew.errors.InputError` for tests at which the model has no torque.
     """
     samples = _Samples.of(subject, known, joint, seed)
     points = points_of(means, subject)
     first = means.test < baseline
     logarithm = np.log(means.torque)
     weights = 1 / np.maximum(means.deviation, 1e-3) ** 2
-    zero = np.zeros((samples.size, logarithm.size))
-    at_zero = samples.logarithms(points, zero)
+    at_zero = samples.logarithms(points, np.zeros((samples.size, logarithm.size)))
+    raise_if_any(_faults_of_points(means, at_zero[0]))
+    usable = np.asarray(np.isfinite(at_zero).all(axis=1))
+    samples, at_zero = samples.select(usable), at_zero[usable]
     plain = _by_test(logarithm - at_zero, means, weights)
     factor = plain[:, :baseline].mean(axis=1)
     off = logarithm - at_zero - factor[:, np.newaxis]
@@ -164,6 +175,12 @@ def reduced(
         temperature=usual,
         screw_speed=reference["screw_speed"],
     )
+
+
+def _faults_of_points(means: Means, at_zero: Vector) -> list[Fault]:
+    bad = list(dict.fromkeys(means.test[~np.isfinite(at_zero)].tolist()))
+    remedy = "look at its temperature and its speed, and at their units"
+    return [Fault(f"condition: {means.labels[i]}", "the model has no torque there", "", remedy) for i in bad]
 
 
 def _central(subject: Configuration, name: str, distribution: Distribution) -> float:

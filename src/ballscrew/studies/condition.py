@@ -13,7 +13,8 @@ from ballscrew import units
 from ballscrew.cases.case import Case
 from ballscrew.cases.uncertain_inputs import all_of, joint_of
 from ballscrew.errors import Fault, InputError
-from ballscrew.service.condition import BASELINE, FALSE_ALARMS, Condition, condition
+from ballscrew.service.condition import BASELINE, FALSE_ALARMS, condition
+from ballscrew.service.condition_values import Condition
 from ballscrew.studies.service import distributions
 from ballscrew.torque_logs import reading, torque_series
 from ballscrew.torque_logs.log_rows import Kind

@@ -197,9 +197,8 @@ def _one_torque(found: dict[str, Any], where: str) -> dict[str, Any]:
 
 def _columns(aliases: Mapping[str, str]) -> list[Column]:
     own = quantities()
-    torque = own["torque"]
-    signed = Quantity("torque", "N m", within(1e6, Info("M", "mean torque in one direction", "N m")))
-    # a negative one is that of a log
+    # signs are judged with all rows: a log has both
+    signed = Quantity("torque", "N m", within(1e6, Info("M", "mean torque of a test", "N m")))
     speed = Quantity("screw_speed", "rad/s", within(1e9, Info("n", "speed of the test", "rpm")))
     number = Quantity("number", "1", Info("", "number of the test"))
     known: list[tuple[str, Quantity | None, tuple[str, ...]]] = [
@@ -207,7 +206,7 @@ def _columns(aliases: Mapping[str, str]) -> list[Column]:
         ("date", None, ("day", "timestamp", "date time", "datetime", "Datum", "Zeitstempel")),
         ("time", own["time"], ("t", "hours", "h", "days", "operating time", "running time", "Zeit", "Betriebszeit")),
         (
-            "torque", torque,
+            "torque", signed,
             ("friction torque", "mean torque", "drag torque", "no-load torque", "M", "Md", "Reibmoment", "Drehmoment"),
         ),
         ("torque_forward", signed, ("torque up", "up", "forward", "Moment vor", "Moment auf")),

@@ -8,7 +8,7 @@ from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
 from ballscrew.cases.provenance import of_case
 from ballscrew.records import documents
-from ballscrew.service.condition import Condition, State
+from ballscrew.service.condition_values import Condition, State
 
 
 def document(case: Case, found: Condition) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from ballscrew.cases.case import Case
 from ballscrew.cases.descriptions import design, model_text, nut_text
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.output.text.tables import table_of
-from ballscrew.service.condition import Condition
+from ballscrew.service.condition_values import Condition
 from ballscrew.torque_logs.torque_series import quantities
 
 #: More tests than these are not all listed: the baseline, those about the alarm and the last ones are.
