@@ -276,3 +276,13 @@ def test_a_log_of_many_loads_is_refused():
     some[2]["axial_load"] = np.linspace(0, PRELOAD, some[2]["torque"].size)
     with pytest.raises(bs.InputError, match="log 3: log: has many loads"):
         condition(some)
+
+
+def test_a_log_of_another_nut_or_unit_is_refused():
+    some = logs(PAPER, 3, [1.0] * 6)
+    some[4]["torque"] = 10 * some[4]["torque"]
+    with pytest.raises(bs.InputError) as error:
+        condition(some)
+    (line,) = error.value.lines()
+    assert line.startswith("log 5: log: has 9.")
+    assert "times the friction of log 4" in line

@@ -64,7 +64,7 @@ def _preloads(panel: Axes, found: Condition, times: Vector) -> None:
     panel.plot(times, value, "o-", ms=3.5, lw=0.8, color=style.BLUE)
     panel.axhline(100 * (1 - found.tolerance), color=style.ORANGE, ls="--", lw=1.2, label="tolerance")
     if math.isfinite(found.trend.slope):
-        middle = np.nanmedian(np.log(value)) - found.trend.slope * np.median(times_of(found))
+        middle = np.nanmedian(np.log(value) - found.trend.slope * times_of(found))
         panel.plot(times, np.exp(middle + found.trend.slope * times_of(found)), color=style.INK, lw=1, label="trend")
     top = float(np.nanmax(high)) if np.isfinite(high).any() else 100.0
     panel.set(ylabel="preload [% of that of the first tests]", title="preload left", ylim=(0, min(1.05 * top, 250)))

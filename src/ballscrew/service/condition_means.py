@@ -19,7 +19,7 @@ from ballscrew.service.change_detection import OF_MAD
 from ballscrew.service.posterior import PRELOAD
 from ballscrew.torque_logs.log_rows import Kind
 from ballscrew.torque_logs.torque_log import TorqueLog
-from ballscrew.torque_logs.torque_series import TorqueSeries
+from ballscrew.torque_logs.torque_series import JUMP, TorqueSeries
 
 #: Speeds of a log at most, and rows of a mean in one direction at least.
 MOST_SPEEDS, LEAST_ROWS = 12, 3
@@ -135,6 +135,7 @@ def of_logs(subject: Configuration, logs: Sequence[Any], kind: Kind, inertia: fl
             text = f"{name}: one direction only: a zero error of the sensor counts as friction; measure in both"
             warnings.append(_warning("one_direction", name, text))
     raise_if_any(faults)
+    raise_if_any(_faults_of_jumps(parts, labels))
     columns = [np.array([getattr(one, name) for _, one in parts]) for name in _Mean.__annotations__]
     return Means(
         np.array([number for number, _ in parts], dtype=np.int64), *columns, labels=labels,
@@ -151,6 +152,19 @@ def _faults_of_sources(logs: Sequence[TorqueLog]) -> list[Fault]:
             faults.append(Fault("condition", "two logs are the same file", given, "give each log once"))
         names[digest] = name
     return faults
+
+
+def _faults_of_jumps(parts: Sequence[tuple[int, _Mean]], labels: Sequence[str]) -> list[Fault]:
+    """Faults of logs whose torque is far from that of the log before, as that of another nut or in another unit."""
+    usual = [float(np.median([one.torque for number, one in parts if number == i])) for i in range(len(labels))]
+    remedy = "is it of the same nut, and in the same unit or with the same torque constant?"
+    return [
+        Fault(
+            f"{labels[i]}: log", f"has {usual[i] / usual[i - 1]:.3g} times the friction of {labels[i - 1]}", "", remedy
+        )
+        for i in range(1, len(labels))
+        if abs(math.log(usual[i] / usual[i - 1])) > math.log(JUMP)
+    ][:1]
 
 
 @dataclasses.dataclass(frozen=True)

@@ -195,7 +195,9 @@ def _alarm(made: Condition, found: Reduction) -> Record:
         oil = f"from {since} on an oil within {UNKNOWN_TEMPERATURE:.0f} K does not explain it"
         text += f"; no temperature is logged: {oil if since else 'it may be the oil'}"
     if not made.chart.falls:
-        text += "; wear takes torque: look for dirt, lack of lubricant, another oil or a nut that was adjusted"
+        text += (
+            "; wear takes torque: look for dirt, lack of lubricant, another oil, a nut that was adjusted or exchanged"
+        )
     return Record(
         id="condition.alarm", subject="torque", text=text, severity="warning", holds=False, value=float(made.alarm)
     )

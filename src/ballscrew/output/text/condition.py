@@ -101,5 +101,5 @@ def caption(case: Case, found: Condition) -> str:
     first = found.verdict_records[0].text
     return (
         f"{design(case)}. {beware}{first[:1].upper()}{first[1:]}. Torques {at_reference(found)}; bars and shade: 95 %; "
-        "below: sums of the changes (CUSUM) in standard deviations, with their limit."
+        "right: sums of the changes (CUSUM) in standard deviations, with their limit."
     )
