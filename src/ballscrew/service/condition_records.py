@@ -193,7 +193,7 @@ def _alarm(made: Condition, found: Reduction) -> Record:
     if not made.temperatures:
         since = "" if made.lost_since is None else made.states[made.lost_since].label
         oil = f"from {since} on an oil within {UNKNOWN_TEMPERATURE:.0f} K does not explain it"
-        text += f"; no temperature is logged: {oil if since else 'it may be the oil'}"
+        text += f"; without temperatures: {oil if since else 'it may be the oil'}"
     if not made.chart.falls:
         text += (
             "; wear takes torque: look for dirt, lack of lubricant, another oil, a nut that was adjusted or exchanged"
