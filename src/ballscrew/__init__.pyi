@@ -38,6 +38,8 @@ from ballscrew.motion.profiles import Segment as Segment
 from ballscrew.motion.profiles import Segments as Segments
 from ballscrew.motion.profiles import Sine as Sine
 from ballscrew.motion.profiles import Trapezoid as Trapezoid
+from ballscrew.service.condition import condition as condition
+from ballscrew.service.condition_values import Condition as Condition
 from ballscrew.service.preload_change import PreloadChange as PreloadChange
 from ballscrew.service.preload_change import preload_change as preload_change
 from ballscrew.service.preload_of_torque import preload_of_torque as preload_of_torque
@@ -49,6 +51,7 @@ from ballscrew.sweeps.sweep import sweep as sweep
 from ballscrew.thermal.surroundings import Surroundings as Surroundings
 from ballscrew.thermal.warm_up import warm_up as warm_up
 from ballscrew.torque_logs.torque_log import TorqueLog as TorqueLog
+from ballscrew.torque_logs.torque_series import TorqueSeries as TorqueSeries
 from ballscrew.uncertainty.bands import band as band
 from ballscrew.uncertainty.distributions import LogNormal as LogNormal
 from ballscrew.uncertainty.distributions import Normal as Normal
