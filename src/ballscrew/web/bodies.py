@@ -170,6 +170,10 @@ def case_of(tables: Mapping[str, Any], *, moves: bool = False) -> Case:
     if isinstance(screw, Mapping) and "catalogue_file" in screw:
         remedy = "send the numbers of the screw, or name a row that is shipped"
         raise InputError(Fault("screw.catalogue_file", "is not taken from a request", "", remedy))
+    oil = tables.get("lubricant")
+    if isinstance(oil, Mapping) and "oil_file" in oil:
+        remedy = "send the numbers of the oil, or name one of the library"
+        raise InputError(Fault("lubricant.oil_file", "is not taken from a request", "", remedy))
     raise_if_any([Fault(where, "must not be null", "", "leave it out") for where in _nulls("", tables)])
     case = case_file.build(tables, rows=catalogue(), moves=moves)
     if case.nut is not None and case.nut.one_by_one and case.screw.loaded_balls > MOST_BALLS:
