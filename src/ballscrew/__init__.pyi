@@ -2,10 +2,10 @@
 
 from ballscrew._version import __version__ as __version__
 from ballscrew.axis.axis import Axis as Axis
-from ballscrew.axis.drive import Motor as Motor
 from ballscrew.axis.duty import Duty as Duty
 from ballscrew.axis.duty import duty as duty
 from ballscrew.axis.duty_band import duty_band as duty_band
+from ballscrew.axis.motor import Motor as Motor
 from ballscrew.calibration.calibrated_model import CalibratedModel as CalibratedModel
 from ballscrew.calibration.fit import fit as fit
 from ballscrew.cases.catalogue import screws as screws

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from ballscrew import units
 from ballscrew.axis.axis import Axis
-from ballscrew.axis.drive import Motor
+from ballscrew.axis.motor import Motor
 from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Nut
