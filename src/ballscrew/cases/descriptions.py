@@ -54,7 +54,7 @@ def nut_text(nut: Nut) -> str:
         for name in known
         if (value := getattr(nut, name)) is not None and (name == "preload" or value)
     ]
-    return f"{kind_of(nut)} nut{''.join(numbers)}"
+    return f"{kind_of(nut)} nut{''.join(numbers)}{', spacer balls' * nut.spacer_balls}"
 
 
 def model_text(case: Case) -> str:
@@ -106,7 +106,16 @@ def assumptions(case: Case, ball_to_ball_force: float | None = None) -> list[str
         if case.nut.bodies is None
         else "screw and nut elastic" + (", of a usual size" if _of_usual_size(case.nut.bodies) else "")
     )
-    return [*common, bodies, *map(str, case.notes), *_against_vendors(case)]
+    return [*common, bodies, *_spacers(case), *map(str, case.notes), *_against_vendors(case)]
+
+
+def _spacers(case: Case) -> list[str]:
+    screw = case.screw
+    if not screw.nut.spacer_balls:
+        return []
+    return [
+        f"every second ball is a spacer: {screw.carrying_balls:g} of {screw.loaded_balls:g} carry; ratings as listed"
+    ]
 
 
 def common_assumptions(case: Case, ball_to_ball_force: float | None = None) -> list[str]:
@@ -133,6 +142,8 @@ def common_assumptions(case: Case, ball_to_ball_force: float | None = None) -> l
 def _between_balls(case: Case, force: float | None) -> str:
     """The force between balls; without that of a result, balls may have loads of their own, and a share of each."""
     model = case.model
+    if case.screw.nut.spacer_balls:
+        return "none: spacer balls part them"
     law: Any = model.ball_force
     if force is None and not traits_of(law).uses_imposed_force:
         share = getattr(law, "share_of_load", None)
