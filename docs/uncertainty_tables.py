@@ -27,8 +27,6 @@ from ballscrew.validation.sets import SETS
 EXAMPLES = Path(__file__).parents[1] / "examples"
 #: Kinds of nut by set, and preloads in per cent of the dynamic load rating for which a band of torques is stated.
 _PRELOADS = {"rexroth-double-nut": (DoubleNut, (7, 10)), "rexroth-single-nut": (OversizeBallNut, (5,))}
-#: The sets whose rows are held against bands; those of the last are screws that could be the measured one.
-SETS_COVERED = (*_PRELOADS, "xjtu")
 CALIBRATION = "rexroth-2006"
 SAMPLES = 2**8
 
@@ -72,55 +70,59 @@ def _source(one: DefaultUncertainty) -> str:
 class Covered(NamedTuple):
     """A row of a vendor, or a screw that could be the measured one, against the band of the model."""
 
-    #: The middle of what is stated lies "in" the band, "below" or "above" it.
-    place: str
+    #: What is stated of the row lies "in" the band, "below" or "above" it.
+    places: tuple[str, ...]
     #: Width of the band over its median.
     width: float
 
 
 def coverage_table() -> str:
-    """Number of rows with their stated middle inside, below and above the model's 95 % interval, and its width."""
+    """Number of stated torques inside, below and above the model's 95 % interval of their row, and its width."""
     lines = [
         "| rows | model | in the band | below it | above it | width / median of the band, in the median |",
         "|---|---|---:|---:|---:|---:|",
     ]
     for model in (FrictionModel.reference(), calibrated(FrictionModel.reference(), calibration(CALIBRATION))):
         label = "reference" if model == FrictionModel.reference() else "calibrated"
-        found = {name: coverage(model, name) for name in SETS_COVERED}
-        vendors = [one for name, those in found.items() if not SETS[name].alternatives for one in those]
-        for words, those in {**found, "both sets of a vendor": vendors}.items():
+        found = {name: coverage(model, name) for name in _PRELOADS}
+        found["both of these"] = [one for those in found.values() for one in those]
+        if model == FrictionModel.reference():
+            found["xjtu, two torques against each screw that it could be"] = coverage(model, "xjtu")
+        for words, those in found.items():
             lines.append(f"| {words} | {label} | {_counts(those)} | {np.median([one.width for one in those]):.2f} |")
     return "\n".join(lines) + "\n"
 
 
 def _counts(those: Sequence[Covered]) -> str:
-    places = [one.place for one in those]
+    places = [place for one in those for place in one.places]
     return " | ".join(f"{places.count(place)} of {len(places)}" for place in ("in", "below", "above"))
 
 
 def coverage(model: FrictionModel, name: str) -> list[Covered]:
     """The rows of a set against the bands of a model at their conditions, without load."""
     found: list[Covered] = []
-    for values, nut, middle in _rows(name):
-        band_of_row = band.band(_case(model, values, nut), band.Options(samples=SAMPLES)).band
-        low, high = band_of_row["screw_torque"].both
-        place = "below" if middle < low else "above" if middle > high else "in"
-        found.append(Covered(place, (high - low) / band_of_row["screw_torque"].median))
+    for values, nut, stated in _rows(name):
+        of_row = band.band(_case(model, values, nut), band.Options(samples=SAMPLES)).band["screw_torque"]
+        low, high = of_row.both
+        places = ("below" if one < low else "above" if one > high else "in" for one in stated)
+        found.append(Covered(tuple(places), (high - low) / of_row.median))
     return found
 
 
-def _rows(name: str) -> Iterator[tuple[Values, Nut, float]]:
-    """The values of the rows of a set, their nuts, and the middle of what is stated of each."""
+def _rows(name: str) -> Iterator[tuple[Values, Nut, Sequence[float]]]:
+    """The values of the rows of a set, their nuts, and what is stated of each.
+
+    That is the middle of a vendor's band, or each of the two torques measured.
+    """
     for values in shipped_rows(SETS[name]):
         if name == "xjtu":
-            nut = NUTS[values["nut"]](preload=values["preload"])
-            yield values, nut, (values["torque_min"] + values["torque_max"]) / 2
+            yield values, NUTS[values["nut"]](preload=values["preload"]), (values["torque_min"], values["torque_max"])
             continue
         kind, preloads = _PRELOADS[name]
         for percent in preloads:
             column = f"no_load_torque_{percent}pct"
-            nut = kind(preload=percent / 100 * values["dynamic_load_rating"])
-            yield values, nut, (values[f"{column}_min"] + values[f"{column}_max"]) / 2
+            middle = (values[f"{column}_min"] + values[f"{column}_max"]) / 2
+            yield values, kind(preload=percent / 100 * values["dynamic_load_rating"]), (middle,)
 
 
 def _case(model: FrictionModel, values: Values, nut: Nut) -> case_file.Case:

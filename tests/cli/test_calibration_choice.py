@@ -5,20 +5,37 @@ import json
 import tomllib
 
 import pytest
-import typer
+from typer.testing import CliRunner
 
 from ballscrew.cases import case_file, descriptions, fitted_case
+from ballscrew.cases.schema import json_schema
 from ballscrew.cli.main import app
 from ballscrew.errors import InputError
-from ballscrew.friction.calibrations import calibration
+from ballscrew.friction.calibrations import calibration, calibrations
 from ballscrew.report import result_tables
 from ballscrew.studies.run import run
 from ballscrew.validation.nearest import near_rows
 from ballscrew.web import documents
+from support.commands import ROOT
 from support.drive_case import drive_case
 
-#: The commands that evaluate a case.
-COMMANDS = ("run", "sweep", "check", "compare", "sensitivity", "report", "service", "fit")
+#: The commands that evaluate a case, and what else they need.
+COMMANDS = {
+    "run": ("{case}",),
+    "run of rows": ("{case}", "--rows", "{rows}"),
+    "run --band": ("{case}", "--band"),
+    "sweep": ("{case}",),
+    "sweep of rows": ("{case}", "--rows", "{rows}"),
+    "check": ("{case}",),
+    "check of a row": ("hiwin-40-20k4",),
+    "check of rows": ("{case}", "--rows", "{rows}"),
+    "compare": ("{case}",),
+    "sensitivity": ("{case}",),
+    "report": ("{case}", "--to", "report.html"),
+    "service": ("--case", "{case}", "--torque", "0.4 N m", "--speed", "100 rpm"),
+    "fit": ("log.csv", "--case", "{case}"),
+    "fit of rows": ("--case", "{case}", "--rows", "{rows}"),
+}
 CALIBRATED = '[model]\ncalibration = "rexroth-2006"'
 
 
@@ -30,10 +47,19 @@ def written(tmp_path):
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_every_command_that_evaluates_a_case_has_the_choice(name):
-    options = typer.main.get_command(app).commands[name].params
-    (found,) = [option for option in options if "--calibration" in option.opts]
-    assert found.help == "{calibrations}, or none; wins over the file."
+def test_every_command_that_evaluates_a_case_takes_it(name, written):
+    """One that does not pass it on would not find the name wrong."""
+    places = {"case": str(written), "rows": str(ROOT / "examples" / "own_screws.csv")}
+    given = [word.format(**places) for word in COMMANDS[name]]
+    done = CliRunner().invoke(app, [name.split()[0], *given, "--calibration", "rexroth-206"])
+    assert isinstance(done.exception, InputError), done.output
+    assert str(done.exception).startswith("--calibration: unknown calibration (rexroth-206)")
+
+
+def test_the_page_offers_it():
+    """The form is made of the schema."""
+    model = json_schema()["$defs"]["Model"]["properties"]
+    assert model["calibration"]["enum"] == list(calibrations())
 
 
 def test_it_wins_over_the_file(written):
