@@ -110,11 +110,11 @@ def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path]) ->
         faults.append(Fault("row.name", "is given twice", name, f"row {taken[name]} has it, too: name both apart"))
     if isinstance(seals := values.get("seal_torque"), str):
         values["seal_torque"] = _seal_torque(seals, values, faults)
-    spacers: Any = values.get("spacer_balls")
-    if spacers is not None:
-        values["spacer_balls"] = spacers == column_names.YES
+    if "spacer_balls" in values:
+        values["spacer_balls"] = values["spacer_balls"] == column_names.YES
     try:
-        found = CatalogueRow(**{**values, "nut": kind_in(values.get("nut", ""))})
+        fields: dict[str, Any] = {**values, "nut": kind_in(values.get("nut", ""))}
+        found = CatalogueRow(**fields)
         found.screw()
     except InputError as error:
         # a share stands in the column of the preload
