@@ -28,7 +28,7 @@ EXAMPLES = Path(__file__).parents[1] / "examples"
 #: Kinds of nut by set, and preloads in per cent of the dynamic load rating for which a band of torques is stated.
 _PRELOADS = {"rexroth-double-nut": (DoubleNut, (7, 10)), "rexroth-single-nut": (OversizeBallNut, (5,))}
 CALIBRATION = "rexroth-2006"
-SAMPLES = 2**8
+SAMPLES = 2**11
 
 
 def write(folder: Path) -> None:
