@@ -117,6 +117,9 @@ def sections() -> Mapping[str, type[BaseModel]]:
     preload = json_of(NUT_FIELDS["preload"], None) | {"examples": ["3 kN", "7 %"]}
     same_side = Annotated[bool, Field(strict=True, description="whether screw and nut are held on the same side")]
     swelling = Annotated[bool, Field(strict=True, description="whether the balls widen the nut and shrink the screw")]
+    spacers = Annotated[
+        bool, Field(strict=True, description="whether every second ball is a spacer, smaller and without load")
+    ]
     return {
         "screw": section_of(
             "Screw", screw, BallScrew, required=True, uncertain=fields_of(BallScrew),
@@ -145,6 +148,7 @@ def sections() -> Mapping[str, type[BaseModel]]:
             "Nut", {name: q for name, q in NUT_FIELDS.items() if name != "preload"}, DoubleNut, required=False,
             uncertain=NUT_FIELDS,
             type=(_one_of(NUTS, "kind of nut"), None),
+            spacer_balls=(spacers, None),
             preload=(Annotated[Any, BeforeValidator(read_preload), WithJsonSchema(preload)], None),
         ),
         "bodies": section_of(

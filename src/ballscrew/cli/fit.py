@@ -10,8 +10,10 @@ import typer
 
 from ballscrew.cli.common_options import (
     AllowCode,
+    CalibrationName,
     Inertia,
     KeepGoing,
+    ModelName,
     Row,
     Rows,
     TorqueConstant,
@@ -56,7 +58,8 @@ def fit(
     ] = 0.2,
     seed: Annotated[int, typer.Option("--seed", metavar="N", help="Of what is held out.")] = 0,
     keep_going: KeepGoing = False,
-    model: Annotated[str | None, typer.Option("--model", metavar="NAME", help="{models}; wins over the file.")] = None,
+    model: ModelName = None,
+    calibration: CalibrationName = None,
     settings: Annotated[
         list[str] | None,
         typer.Option(
@@ -105,12 +108,13 @@ def fit(
                 options, free=free or [], bounds=bounds or [], limits=limits or [], columns=column or [], kind=kind,
                 inertia=inertia, torque_constant=torque_constant, holdout=holdout, seed=seed, keep_going=keep_going,
             ),
-            settings=settings or [], model=model, allow_code=allow_code, keep_going=keep_going, as_json=as_json, to=to,
+            settings=settings or [], model=model, calibration=calibration, allow_code=allow_code, keep_going=keep_going,
+            as_json=as_json, to=to,
         )  # fmt: skip
         return
     assert log is not None
     tables = case_file.override(case_file.read(case), settings or [])
-    loaded = case_file.build(tables, model, case.parent, allow_code=allow_code)
+    loaded = case_file.build(tables, model, case.parent, calibration=calibration, allow_code=allow_code)
 
     # pandas is slow to import: only for a good case
     from ballscrew.cli.fit_options import check_to, options
