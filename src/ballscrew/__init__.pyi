@@ -26,6 +26,9 @@ from ballscrew.friction.breakaway import breakaway as breakaway
 from ballscrew.friction.model import FrictionModel as FrictionModel
 from ballscrew.friction.nut_friction import nut_friction as nut_friction
 from ballscrew.friction.result import FrictionResult as FrictionResult
+from ballscrew.moving_logs.motion_fit import MotionFit as MotionFit
+from ballscrew.moving_logs.motion_fit import fit_motion as fit_motion
+from ballscrew.moving_logs.moving_log import MovingLog as MovingLog
 from ballscrew.service.preload_change import PreloadChange as PreloadChange
 from ballscrew.service.preload_change import preload_change as preload_change
 from ballscrew.service.preload_of_torque import preload_of_torque as preload_of_torque
