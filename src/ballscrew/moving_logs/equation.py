@@ -29,6 +29,8 @@ _MOVING = 0.9
 ROWS_PER_PERIOD = 5.0
 #: A dead time is corrected if it is at least one step of time, its interval included; so often it is found anew.
 _ROUNDS = 3
+#: No dead time is known better than this share of a step of time, within which nobody says when a sample was taken.
+_OF_A_STEP = 0.1
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -150,4 +152,4 @@ def dead_time(equation: Equation) -> tuple[DeadTime, Equation]:
         )
     corrected = equation.shift != 0
     value = equation.shift + float(found[0])
-    return DeadTime(value, float(found[1]), corrected), equation
+    return DeadTime(value, max(float(found[1]), _OF_A_STEP * equation.log.step), corrected), equation

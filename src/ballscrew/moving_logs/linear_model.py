@@ -68,8 +68,9 @@ def linear_model(equation: Equation) -> LinearModel:
     solved = LeastSquares.of(sides, equation.force)
     size = float(np.sqrt(np.mean(equation.force**2)))
     scale = np.sqrt(np.mean(sides**2, axis=0))
-    # a number matters by its own size, or by the force that it stands for, if that is a tenth of the whole
-    matters = np.maximum(np.abs(solved.values), 0.1 * size / np.maximum(scale, 1e-300))
+    # a friction matters by its own size, or by a tenth of the whole force if it is less; a mass by its own
+    matters = np.maximum(np.abs(solved.values), 0.1 * size / np.maximum(scale, np.finfo(float).tiny))
+    matters[0] = abs(solved.values[0])
     known = np.asarray((scale > 0) & (solved.errors <= LARGEST_ERROR * matters))
     warnings: list[Record] = []
     normal = sides / np.maximum(np.linalg.norm(sides, axis=0), np.finfo(float).tiny)

@@ -31,6 +31,10 @@ LINEAR, POWER, SCREW = "coulomb-viscous", "power-law", "screw"
 DEFAULT_FREE = ("viscosity",)
 #: Factors of both cutoffs under which the linear model is fitted again.
 FILTER_FACTORS = (0.5, 2.0)
+#: The screw's model does not fit if it is so many times as far off as the linear one, which it holds as a special case.
+WORSE = 1.02
+#: An error of the table of friction that is said, as a share of the largest friction.
+_TABLE_ERROR = 0.02
 #: The axial load of the table of friction, as a share of the force of the largest acceleration.
 _LOAD_ROOM = 1.1
 
@@ -104,8 +108,9 @@ class MotionFit:
 
     @property
     def model(self) -> str:
-        """The model that knows most: the screw's, or else the linear one."""
-        return SCREW if SCREW in self.relative_errors else LINEAR
+        """The screw's model, or else, where there is none or it does not fit, the linear one."""
+        screw, linear = (self.relative_errors.get(name, np.inf) for name in (SCREW, LINEAR))
+        return SCREW if screw <= WORSE * linear else LINEAR
 
     @property
     def relative_error(self) -> float:
@@ -189,6 +194,7 @@ def fit_motion(
         errors[POWER] = power.relative_error
     if found_screw is not None:
         errors[SCREW] = found_screw.relative_error
+        warnings += _of_screw(found_screw, linear, free)
     estimates = _estimates(linear, power, found_screw, delay, carried_mass)
     warnings += _unidentified(estimates)
     found = MotionFit(
@@ -312,6 +318,23 @@ def _remarks(power: PowerLaw | None) -> list[Record]:
     if power is None:
         text = "the speeds of the log do not tell an exponent of the speed · record strokes from slow to fast"
         found.append(Record(id="fit.no_exponent", subject="speed_exponent", text=text, severity="warning", holds=False))
+    return found
+
+
+def _of_screw(screw: ScrewModelFit, linear: LinearModel, free: Sequence[str]) -> list[Record]:
+    """Warnings about a screw's model that does not fit, or whose table is coarse."""
+    found: list[Record] = []
+    if screw.relative_error > WORSE * linear.relative_error:
+        preload = "nut.preload" in screw.friction.subject.inputs and "nut.preload" not in screw.friction.names
+        remedy = f"--free {','.join([*free, 'nut.preload'])}" if preload else "another size or oil"
+        text = (
+            f"the screw's model does not fit: it is off by {screw.relative_error:.1%}, the linear one by "
+            f"{linear.relative_error:.1%} · the screw of the case has more friction than the whole axis: try {remedy}"
+        )
+        found.append(Record(id="fit.screw_model_off", subject="screw", text=text, severity="warning", holds=False))
+    if screw.table_error > _TABLE_ERROR:
+        text = f"the table of the screw's friction is off by up to {screw.table_error:.1%} of the largest friction"
+        found.append(Record(id="fit.table_error", subject="screw", text=text, severity="warning", holds=False))
     return found
 
 

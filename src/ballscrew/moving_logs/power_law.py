@@ -71,7 +71,7 @@ def power_law(equation: Equation, *, replicates: int = REPLICATES, seed: int = 0
     solved = LeastSquares.of(_columns(equation, exponent), equation.force)
     mass, offset, constant, coefficient = solved.values.tolist()
     return PowerLaw(
-        exponent, _bootstrap(sides, equation.force, solved.block, replicates, seed),
+        exponent, _bootstrap(sides, equation.force, solved, exponent, replicates, seed),
         _choices(equation, sides), mass, offset, constant, coefficient,
         relative_error(solved.residuals, equation.force),
     )  # fmt: skip
@@ -137,15 +137,22 @@ def _best(sides: Floats, force: Floats, rows: NDArray[np.int64], linear: tuple[i
     return float(_lowest(losses))
 
 
-def _bootstrap(sides: Floats, force: Floats, block: int, replicates: int, seed: int) -> tuple[float, float]:
-    """The 95 % interval of the exponent by the moving-block bootstrap."""
-    sums = bootstrap_sums(_products(sides, force), block, replicates, seed)
+def _bootstrap(
+    sides: Floats, force: Floats, solved: LeastSquares, exponent: float, replicates: int, seed: int
+) -> tuple[float, float]:
+    """The 95 % interval of the exponent by the moving-block bootstrap.
+
+    Resampled quantiles are too narrow for few blocks: they are widened about the estimate by Student's distribution and
+    by the degrees of freedom that the numbers take.
+    """
+    sums = bootstrap_sums(_products(sides, force), solved.block, replicates, seed)
     try:
         found = _lowest(_losses(sums))
     except np.linalg.LinAlgError:
         return np.nan, np.nan
-    low, high = np.quantile(found, [0.025, 0.975])
-    return float(low), float(high)
+    low, high = np.quantile(found, [0.025, 0.975]) - exponent
+    wider = solved.few_blocks(len(LINEAR) + 2)
+    return float(exponent + wider * low), float(exponent + wider * high)
 
 
 def _choices(equation: Equation, sides: Floats) -> dict[str, float]:

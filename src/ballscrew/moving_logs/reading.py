@@ -28,6 +28,7 @@ from ballscrew.moving_logs.columns import (
 )
 from ballscrew.moving_logs.moving_log import MovingLog
 from ballscrew.quantities import within_bounds
+from ballscrew.tables.headings import NO_COLUMN
 from ballscrew.tables.sheets import Record, unreadable
 from ballscrew.torque_logs import columns as torque_columns
 from ballscrew.torque_logs.columns import Layout
@@ -108,7 +109,7 @@ def _is_steady(path: Path, found: Sequence[Record]) -> bool:
     try:
         torque_columns.layout(path, found, {})
     except InputError as error:
-        return all(fault.column != "axial_load" for fault in error.faults) and any(f.column for f in error.faults)
+        return all(fault.id != NO_COLUMN for fault in error.faults)
     return True
 
 
@@ -166,10 +167,10 @@ def _of_table(
         lines: list[NDArray[np.int64]] = []
         for piece in source.pieces(place, CHUNK):
             raw = {name: piece.cells[heading.place] for name, heading in place.headings.items()}
-            values, good = cells.numbers(raw, piece.line, piece.cut_off)
-            # a row that is bad is a missing one: what is missing is looked at as a whole
-            empty = np.all([np.isnan(v) for v in values.values()], axis=0) & good
-            parts.append({name: np.where(good, v, np.nan)[~empty] for name, v in values.items()})
+            values, _ = cells.numbers(raw, piece.line, piece.cut_off)
+            # a cell that is no number is a missing one, a row without any is none
+            empty = np.all([np.isnan(v) for v in values.values()], axis=0)
+            parts.append({name: v[~empty] for name, v in values.items()})
             lines.append(piece.line[~empty])
             if sum(part.size for part in lines) > MOST_ROWS:
                 remedy = "cut it: a fit of a motion needs a few strokes, not days"

@@ -64,6 +64,12 @@ class LeastSquares:
         """The number of blocks."""
         return self.residuals.size / self.block
 
+    def few_blocks(self, parameters: int) -> float:
+        """The factor by which an interval of 95 % is wider than that of many blocks."""
+        freedom = max(self.blocks - parameters, 1.0)
+        many = float(stdtrit(np.inf, 0.975))
+        return float(stdtrit(freedom, 0.975)) / many * float(np.sqrt(self.blocks / freedom))
+
     @functools.cached_property
     def covariance(self) -> Floats:
         """``(XᵀX)⁻¹ S (XᵀX)⁻¹`` with the long-run covariance S of the scores (NeweyWest1987, Bartlett's weights)."""

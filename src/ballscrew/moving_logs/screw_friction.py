@@ -23,6 +23,8 @@ from ballscrew.torque_logs.motion import Floats
 
 #: Speeds and loads of the grid.
 SPEEDS, LOADS = 24, 9
+#: The same for nuts whose balls differ, which take a hundred times as long for a point.
+SPEEDS_BY_BALL, LOADS_BY_BALL = 10, 3
 #: The slowest speed of the grid, as a share of the fastest; below it the friction is that of the slowest.
 SLOWEST = 1e-3
 #: A number may move by so many times what the case says, to either side.
@@ -96,8 +98,10 @@ class ScrewFriction:
 
     def table(self, values: Floats) -> FrictionTable:
         """The friction force over speed and load for values of the free numbers."""
-        speeds = self.fastest * np.geomspace(SLOWEST, 1.0, SPEEDS)
-        loads = max(self.largest_load, 1e-9) * np.linspace(-1.0, 1.0, LOADS)
+        by_ball = self.subject.nut.one_by_one
+        count = (SPEEDS_BY_BALL, LOADS_BY_BALL) if by_ball else (SPEEDS, LOADS)
+        speeds = self.fastest * np.geomspace(SLOWEST, 1.0, count[0])
+        loads = max(self.largest_load, 1e-9) * np.linspace(-1.0, 1.0, count[1])
         grid = self.at(values, *np.meshgrid(speeds, loads))
         return FrictionTable(speeds, loads, grid)
 

@@ -61,6 +61,8 @@ def _estimate(estimate: MotionEstimate) -> dict[str, Any]:
 def _model(found: MotionFit, name: str) -> dict[str, Any]:
     """The numbers of one model, its relative error, and that on the other log."""
     crossed = {} if found.test is None else {"cross_error": found.cross_errors[name]}
+    if name == SCREW and found.screw is not None:
+        crossed |= {"table_error": found.screw.table_error}
     return {"numbers": _numbers(found, name), "relative_error": found.relative_errors[name], **crossed}
 
 
