@@ -38,6 +38,9 @@ from ballscrew.motion.profiles import Segment as Segment
 from ballscrew.motion.profiles import Segments as Segments
 from ballscrew.motion.profiles import Sine as Sine
 from ballscrew.motion.profiles import Trapezoid as Trapezoid
+from ballscrew.moving_logs.motion_fit import MotionFit as MotionFit
+from ballscrew.moving_logs.motion_fit import fit_motion as fit_motion
+from ballscrew.moving_logs.moving_log import MovingLog as MovingLog
 from ballscrew.service.condition import condition as condition
 from ballscrew.service.condition_values import Condition as Condition
 from ballscrew.service.preload_change import PreloadChange as PreloadChange
