@@ -71,6 +71,7 @@ PARTS = [
     Scatter(1e-6, 2e-6),
     bs.TorqueLog(axial_load=np.ones(3), screw_speed=np.ones(3), torque=np.ones(3), time=np.arange(3.0)),
     bs.TorqueSeries(torque=np.ones(3), time=np.arange(3.0), temperature=np.full(3, 300.0), screw_speed=np.ones(3)),
+    bs.MovingLog(time=np.arange(3.0), force=np.ones(3), position=np.ones(3)),
     bs.Axis(mass=100.0, inclination=1.0, counterweight=5.0, guide_seal_force=3.0, inertia=1e-3, bearing_torque=0.1),
     bs.Motor(rated_torque=1.0, peak_torque=3.0, largest_speed=300.0, torque_constant=0.5, resistance=1.0),
     bs.Trapezoid(stroke=0.1, speed=0.2, acceleration=2.0, dwell=1.0),
