@@ -164,7 +164,8 @@ class BallScrew(ByValue):
         """Faults between fields that are fine one by one."""
         if self.nut.spacer_balls and is_concrete(self.loaded_balls) and np.any(self.loaded_balls < 2):
             remedy = "count the spacer balls, too: 2 or more"
-            return [Fault("screw.loaded_balls", "leaves no ball beside the spacer", f"{self.loaded_balls:g}", remedy)]
+            given = f"{np.min(self.loaded_balls):g}"
+            return [Fault("screw.loaded_balls", "leaves no ball beside the spacer", given, remedy)]
         sizes = (self.pitch_circle_diameter, self.ball_diameter, self.lead, self.starts)
         if not all(map(is_concrete, sizes)) or self.fits:
             return []
