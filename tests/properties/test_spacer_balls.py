@@ -97,7 +97,7 @@ def test_losses_are_of_all_balls():
 
 
 def test_one_ball_has_no_room_for_a_spacer():
-    with pytest.raises(InputError, match=r"screw\.loaded_balls: leaves no ball beside the spacer"):
+    with pytest.raises(InputError, match=r"screw\.loaded_balls: leaves no ball beside the spacer .1."):
         with_nut(SingleNut(spacer_balls=True), loaded_balls=1)
 
 

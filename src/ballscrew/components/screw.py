@@ -6,8 +6,6 @@ import dataclasses
 import math
 from typing import Annotated, Any, cast
 
-import numpy as np
-
 from ballscrew._arrays import ByValue, namespace
 from ballscrew.components.materials import Material
 from ballscrew.components.nut import Nut, NutParts, SingleNut
@@ -162,9 +160,10 @@ class BallScrew(ByValue):
 
     def _misfits(self) -> list[Fault]:
         """Faults between fields that are fine one by one."""
-        if self.nut.spacer_balls and is_concrete(self.loaded_balls) and np.any(self.loaded_balls < 2):
+        if self.nut.spacer_balls and is_concrete(self.loaded_balls) and self.loaded_balls < 2:
             remedy = "count the spacer balls, too: 2 or more"
-            return [Fault("screw.loaded_balls", "leaves no ball beside the spacer", f"{self.loaded_balls:g}", remedy)]
+            given = f"{self.loaded_balls:g}"
+            return [Fault("screw.loaded_balls", "leaves no ball beside the spacer", given, remedy)]
         sizes = (self.pitch_circle_diameter, self.ball_diameter, self.lead, self.starts)
         if not all(map(is_concrete, sizes)) or self.fits:
             return []
