@@ -77,7 +77,7 @@ def changed(**changes):
         (changed(row20=["0.20", "abc"]),
          'run.csv row 22, column "position [mm]": is not a number (abc) · write a number in mm'),
         ([*rows()[:30], *([t, f"{float(x) / 1e3:.9f}"] for t, x in rows()[30:])],
-         "run.csv row 32: has another unit than the rows above (1/1003 of the one before) · write all in one unit"),
+         "run.csv row 32: has another unit than the rows above (1/953.9 of the one before) · write all in one unit"),
         (rows()[:2], "run.csv: has too few rows below its headings · give one for each sample"),
     ],
     ids=["back", "gap", "missing", "word", "unit", "few"],

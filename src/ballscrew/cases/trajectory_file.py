@@ -47,7 +47,7 @@ COLUMNS = tuple(Column(name, of, names, name == "time", _HINTS) for name, (of, n
 #: Ratios of units that are mixed up: m and mm, inch and mm, minutes and seconds, cm.
 _RATIOS = (1000.0, 25.4, 60.0, 10.0, 100.0)
 #: A step of the position so many times one that is rarely exceeded is no motion; the ratio then is one of units within.
-_JUMP, _RARELY, _SAME = 30.0, 0.99, 0.05
+_JUMP, _RARELY, _SAME = 10.0, 0.99, 0.05
 
 
 def read_trajectory(path: Path) -> Trajectory:
