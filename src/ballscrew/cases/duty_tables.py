@@ -14,7 +14,7 @@ import numpy as np
 
 from ballscrew import units
 from ballscrew.axis.axis import Axis
-from ballscrew.axis.drive import Motor
+from ballscrew.axis.motor import Motor
 from ballscrew.cases.duty_schema import (
     CONSTANT_EFFICIENCY,
     KEYS,

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, Row, check_rows, say_of_rows
+from ballscrew.cli.common_options import AllowCode, CalibrationName, ModelName, Row, check_rows, say_of_rows
 
 
 def check(
@@ -54,10 +54,8 @@ def check(
     temperature: Annotated[
         str | None, typer.Option("--temperature", metavar="T", help='Of the oil: "50 degC"; 40 degC if left out.')
     ] = None,
-    model: Annotated[str | None, typer.Option("--model", metavar="NAME", help="{models}; wins over the file.")] = None,
-    calibration: Annotated[
-        str | None, typer.Option("--calibration", metavar="NAME", help="Named calibration of the model.")
-    ] = None,
+    model: ModelName = None,
+    calibration: CalibrationName = None,
     settings: Annotated[
         list[str] | None,
         typer.Option(
@@ -93,10 +91,13 @@ def check(
         "installation.ends": ends,
         "lubricant.grade": grade,
         "lubricant.temperature": temperature,
-        "model.calibration": calibration,
     }
     options = Options(
-        {key: value for key, value in given.items() if value is not None}, settings or [], model, allow_code
+        {key: value for key, value in given.items() if value is not None},
+        settings or [],
+        model,
+        calibration,
+        allow_code,
     )
     check_rows(rows, row)
     case = name if name is not None and rows is not None and is_case(name) else None
