@@ -146,6 +146,20 @@ def test_the_horizontal_example_of_thk(found):
     assert results["rules"]["mechanics"]["torque_peak"] > results["torque_peak"]
 
 
+def test_the_vertical_example_of_thk(found):
+    """THK514E: 50 kg up and down, 40 kg held for 7.6 s; RMS torque 743 N mm. The rise and the fall are of segments."""
+    written = THK.partition("[axis]")[0].replace('lead = "40 mm"', 'lead = "10 mm"')
+    written += '[axis]\nmass = "50 kg"\ninclination = "90 deg"\nguide_seal_force = "20 N"\ninertia = "8.12e-5 kg m^2"\n'
+    written += '[motion]\nkind = "segments"\nacceleration = "1.5 m/s^2"\n'
+    for distance in ("600 mm", "-600 mm"):
+        written += f'[[motion.segment]]\ndistance = "{distance}"\nspeed = "0.3 m/s"\n'
+    written += '[[motion.segment]]\nduration = "7.6 s"\nforce = "-98 N"\n'
+    results = document(found(written))["results"]
+    assert results["torque_rms"] == pytest.approx(0.743, rel=5e-3)
+    assert results["rules"]["mechanics"]["torque_rms"] < results["torque_rms"]
+    assert results["brake"]["falls"] is True
+
+
 def test_the_peak_of_a_rise_by_hand(found):
     """One efficiency: m (a + g) P/(2 pi eta) upwards, and (2 - 1/eta) of the weight downwards."""
     settings = ("model.name=constant-efficiency", "model.efficiency=0.8")
