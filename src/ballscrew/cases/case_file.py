@@ -184,7 +184,7 @@ def build(
     ]
     made = _screw(sections, folder, rows, faults) if "screw" in sections else _NO_SCREW
     lubricant, oil = lubricant_of(sections, folder, faults) if "lubricant" in sections else (None, {})
-    axis, motion, motor = duty_tables.moved(sections, faults)
+    axis, motion, motor = duty_tables.moved(sections, folder, faults)
     if efficiency is None:
         friction_model = _model(sections, model, faults, folder if allow_code else None)
     else:  # no model counts, and no oil: any stands in

@@ -27,6 +27,8 @@ EFFICIENCY = Quantity(
 )
 #: Kinds of motion, by the names of a case file.
 MOTIONS: Mapping[str, type] = {"trapezoid": Trapezoid, "s-curve": SCurve, "sine": Sine, "segments": Segments}
+#: The kind of a motion that is read from a file.
+TRAJECTORY = "trajectory"
 #: The key of a case file for a field of a motion, where they differ: a word of Python, and the tables of a list.
 KEYS: Mapping[str, str] = {"returns": "return", "segments": "segment"}
 #: Speed and torque of a point of the curve of a motor.
@@ -46,6 +48,8 @@ def read_counterweight(raw: object) -> float:
 
 def fields_of_motion(kind: str) -> set[str]:
     """The keys that a motion of a kind may have, besides its kind."""
+    if kind == TRAJECTORY:
+        return {"file"}
     cls = MOTIONS[kind]
     return {*fields_of(cls), *(key for name, key in KEYS.items() if name in cls.__dataclass_fields__)}
 
@@ -74,7 +78,8 @@ def duty_sections() -> Mapping[str, type[BaseModel]]:
         ),
         "motion": section_of(
             "Motion", of_motions, Trapezoid, required=False,
-            kind=(_one_of(MOTIONS, "kind of motion"), None),
+            kind=(_one_of((*MOTIONS, TRAJECTORY), "kind of motion"), None),
+            file=(Annotated[str, Field(description="table of a recorded motion, beside the case file")], None),
             segment=(
                 Annotated[
                     list[Any],
