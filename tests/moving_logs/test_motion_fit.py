@@ -135,7 +135,11 @@ def test_gravity_and_the_zero_of_the_sensor_are_named_as_one(of_the_screw):
 
 def test_a_screw_with_more_friction_than_the_axis_is_said_not_to_fit():
     heavy = dataclasses.replace(SCREW_OF, nut=bs.DoubleNut(preload=5000.0))
-    found = bs.fit_motion(MODEL, heavy, bs.Lubricant(viscosity=1.0), record(noise=0.3), carried_mass=0.0)
+    log, oil = record(noise=0.3), bs.Lubricant(viscosity=1.0)
+    freed = bs.fit_motion(MODEL, heavy, oil, log, carried_mass=0.0)
+    assert any(record.id == "fit.preload_freed" for record in freed.warning_records)
+    assert freed.estimates["nut.preload"].value < 1000.0
+    found = bs.fit_motion(MODEL, heavy, oil, log, ["viscosity"], carried_mass=0.0)
     assert found.model == LINEAR
     (text,) = [record.text for record in found.warning_records if record.id == "fit.screw_model_off"]
     assert "--free viscosity,nut.preload" in text
