@@ -44,6 +44,12 @@ def test_other_channels_of_any_shape_do_not_matter(tmp_path, shape):
     np.testing.assert_allclose(log.force, LOG["force"])
 
 
+def test_a_struct_with_its_gain(tmp_path):
+    path = tmp_path / "struct.mat"
+    savemat(path, {"data": {"t": LOG["time"], "qm": LOG["position"], "vir": LOG["force"] / GAIN, "gtau": GAIN}})
+    np.testing.assert_allclose(read_moving(path, lead=2.5e-3).force, LOG["force"])
+
+
 def test_a_test_log_without_a_gain_has_that_of_the_other(tmp_path):
     path = emps(tmp_path / "test.mat", gtau="not here")
     with pytest.raises(InputError, match="needs the gain"):
