@@ -144,3 +144,15 @@ def test_a_cell_that_is_no_number_is_named(tmp_path):
     with pytest.raises(InputError, match=r'log\.csv row 6, column "position .mm."'):
         read_moving(path, lead=LEAD)
     assert np.isnan(read_moving(path, lead=LEAD, keep_going=True).position[4])
+
+
+@pytest.mark.parametrize(
+    "content", [b"", b"\n \n", b"\x00" * 600, b"MATLAB 5.0 MAT-file" + b"\xff" * 600, b"t,q,F\n", b"PK\x03\x04oops"]
+)
+@pytest.mark.parametrize("name", ["log.csv", "log.mat"])
+def test_what_is_no_log_is_refused(tmp_path, content, name):
+    path = tmp_path / name
+    path.write_bytes(content)
+    assert not is_moving(path, {}) or content == b"t,q,F\n"
+    with pytest.raises(InputError):
+        read_moving(path, lead=LEAD)
