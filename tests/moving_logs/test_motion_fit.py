@@ -1,6 +1,10 @@
 """Fits of synthetic logs, whose truth is known."""
 
 import dataclasses
+import json
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,6 +19,7 @@ from ballscrew.moving_logs.power_law import power_law
 from ballscrew.moving_logs.screw_friction import ScrewFriction
 from support.moving_logs import MODEL, OIL, SCREW_OF, TRUTH, record, strokes
 
+BENCHMARK = Path(__file__).parents[2] / "benchmarks" / "moving_fit.py"
 TRUE = np.array([TRUTH[name] for name in NAMES])
 
 
@@ -135,7 +140,19 @@ def test_gravity_and_the_zero_of_the_sensor_are_named_as_one(of_the_screw):
 
 def test_a_screw_with_more_friction_than_the_axis_is_said_not_to_fit():
     heavy = dataclasses.replace(SCREW_OF, nut=bs.DoubleNut(preload=5000.0))
-    found = bs.fit_motion(MODEL, heavy, bs.Lubricant(viscosity=1.0), record(noise=0.3), carried_mass=0.0)
+    log, oil = record(noise=0.3), bs.Lubricant(viscosity=1.0)
+    freed = bs.fit_motion(MODEL, heavy, oil, log, carried_mass=0.0)
+    assert any(record.id == "fit.preload_freed" for record in freed.warning_records)
+    assert freed.estimates["nut.preload"].value < 1000.0
+    found = bs.fit_motion(MODEL, heavy, oil, log, ["viscosity"], carried_mass=0.0)
     assert found.model == LINEAR
     (text,) = [record.text for record in found.warning_records if record.id == "fit.screw_model_off"]
     assert "--free viscosity,nut.preload" in text
+
+
+@pytest.mark.long
+def test_25_000_rows_are_fitted_within_10_seconds():
+    done = subprocess.run([sys.executable, str(BENCHMARK), "--json"], capture_output=True, encoding="utf-8", check=True)
+    found = json.loads(done.stdout)
+    assert found["rows"] == 25_000
+    assert found["fit_s"] < 10.0

@@ -44,6 +44,12 @@ def test_other_channels_of_any_shape_do_not_matter(tmp_path, shape):
     np.testing.assert_allclose(log.force, LOG["force"])
 
 
+def test_a_struct_with_its_gain(tmp_path):
+    path = tmp_path / "struct.mat"
+    savemat(path, {"data": {"t": LOG["time"], "qm": LOG["position"], "vir": LOG["force"] / GAIN, "gtau": GAIN}})
+    np.testing.assert_allclose(read_moving(path, lead=2.5e-3).force, LOG["force"])
+
+
 def test_a_test_log_without_a_gain_has_that_of_the_other(tmp_path):
     path = emps(tmp_path / "test.mat", gtau="not here")
     with pytest.raises(InputError, match="needs the gain"):
@@ -138,3 +144,15 @@ def test_a_cell_that_is_no_number_is_named(tmp_path):
     with pytest.raises(InputError, match=r'log\.csv row 6, column "position .mm."'):
         read_moving(path, lead=LEAD)
     assert np.isnan(read_moving(path, lead=LEAD, keep_going=True).position[4])
+
+
+@pytest.mark.parametrize(
+    "content", [b"", b"\n \n", b"\x00" * 600, b"MATLAB 5.0 MAT-file" + b"\xff" * 600, b"t,q,F\n", b"PK\x03\x04oops"]
+)
+@pytest.mark.parametrize("name", ["log.csv", "log.mat"])
+def test_what_is_no_log_is_refused(tmp_path, content, name):
+    path = tmp_path / name
+    path.write_bytes(content)
+    assert not is_moving(path, {}) or content == b"t,q,F\n"
+    with pytest.raises(InputError):
+        read_moving(path, lead=LEAD)

@@ -14,7 +14,6 @@ from ballscrew.files import check_writable
 from ballscrew.quantities import Quantity
 from ballscrew.studies.fit_log import CONDITIONS, Options, Range
 from ballscrew.studies.moving_log import CARRIED_MASS, GAIN, MovingOptions
-from ballscrew.studies.moving_log import DEFAULT_FREE as DEFAULT_MOVING_FREE
 from ballscrew.torque_logs.log_rows import INERTIA, TORQUE_CONSTANT, Kind
 
 #: The number that is fitted by default.
@@ -89,7 +88,7 @@ def moving_options(
     faults = [Fault(option, "does not go with a moving log", "", remedy) for option, given in unused.items() if given]
     names = [name.strip() for given in free for name in given.split(",") if name.strip()]
     found = MovingOptions(
-        free=names or DEFAULT_MOVING_FREE,
+        free=names or None,
         columns=_columns(columns, faults),
         torque_constant=_number("--torque-constant", torque_constant, TORQUE_CONSTANT, faults),
         gain=_number("--gain", gain, GAIN, faults),

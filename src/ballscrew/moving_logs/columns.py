@@ -123,6 +123,8 @@ def moving_layout(path: Path, found: Sequence[Record], flags: Mapping[str, str])
 
 def has_columns(found: Sequence[Record], flags: Mapping[str, str]) -> bool:
     """Test whether there are headings of a time, of a position, and of something that a force is made from."""
+    if not found:
+        return False
     try:
         rows, _ = _renamed(found, flags)
         _, headings = headings_in(Path("log"), rows, COLUMNS, WITHIN)

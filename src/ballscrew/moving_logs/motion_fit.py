@@ -29,6 +29,8 @@ from ballscrew.torque_logs.motion import Floats
 LINEAR, POWER, SCREW = "coulomb-viscous", "power-law", "screw"
 #: What is fitted of the screw's model by default: the scale of its friction over speed.
 DEFAULT_FREE = ("viscosity",)
+#: What is fitted as well where the preload of the case is too much.
+PRELOAD = "nut.preload"
 #: Factors of both cutoffs under which the linear model is fitted again.
 FILTER_FACTORS = (0.5, 2.0)
 #: The screw's model does not fit if it is so many times as far off as the linear one, which it holds as a special case.
@@ -140,7 +142,7 @@ def fit_motion(
     screw: BallScrew,
     lubricant: Lubricant,
     data: Any,
-    free: Sequence[str] = DEFAULT_FREE,
+    free: Sequence[str] | None = None,
     *,
     carried_mass: Annotated[float | None, Unit("kg")] = None,
     test: Any = None,
@@ -154,7 +156,8 @@ def fit_motion(
     friction is fitted three times: constant and viscous (:mod:`~ballscrew.moving_logs.linear_model`, the inverse
     dynamic model of JanotGautierBrunot2019), a free power of the speed (:mod:`~ballscrew.moving_logs.power_law`), and
     the friction of the model given, whose numbers ``free`` names as :func:`~ballscrew.calibration.fit.fit` does, with a
-    constant and a viscous part beside it (:mod:`~ballscrew.moving_logs.screw_model`).
+    constant and a viscous part beside it (:mod:`~ballscrew.moving_logs.screw_model`). By default the viscosity is free;
+    where the screw then has more friction than the whole axis, its preload as well, which is said.
 
     ``carried_mass`` (kg) is the mass whose force passes the nut; without it, it is fitted. ``test`` is another log of
     the same axis, to which nothing is fitted. ``keep_going`` uses the longest stretch without a fault. ``seed`` is that
@@ -167,6 +170,7 @@ def fit_motion(
     of the wrong sign, and for unknown names.
     """
     raise_if_any(_faults(free, carried_mass, seed))
+    asked = DEFAULT_FREE if free is None else free
     subject = Configuration(model, screw, lubricant)
     log = _log_of(data, screw).checked(keep_going=keep_going)
     first = _equation(log)
@@ -182,19 +186,24 @@ def fit_motion(
     warnings = [*linear.warnings, *_remarks(power)]
     found_screw = None
     if all(linear.identified[place] for place in (0, 2)):
-        friction = _screw_friction(subject, free, equation, linear, carried_mass)
+        friction = _screw_friction(subject, asked, equation, linear, carried_mass)
         found_screw = fit_screw_model(equation, friction, linear.solution, carried_mass)
+        if free is None and PRELOAD in subject.inputs and _is_off(found_screw, linear):
+            asked = (*asked, PRELOAD)
+            friction = _screw_friction(subject, asked, equation, linear, carried_mass)
+            found_screw = fit_screw_model(equation, friction, linear.solution, carried_mass)
+            warnings.append(_preload_freed())
         if found_screw is None:
             warnings.append(_no_screw("the model has no friction at some speeds of the log"))
     else:
-        _screw_friction(subject, free, equation, linear, carried_mass)  # names that are wrong are faults in any case
+        _screw_friction(subject, asked, equation, linear, carried_mass)  # names that are wrong are faults in any case
         warnings.append(_no_screw("the log does not tell the mass or the friction that it would be fitted to"))
     errors = {LINEAR: linear.relative_error}
     if power is not None:
         errors[POWER] = power.relative_error
     if found_screw is not None:
         errors[SCREW] = found_screw.relative_error
-        warnings += _of_screw(found_screw, linear, free)
+        warnings += _of_screw(found_screw, linear, asked)
     estimates = _estimates(linear, power, found_screw, delay, carried_mass)
     warnings += _unidentified(estimates)
     found = MotionFit(
@@ -213,7 +222,7 @@ def fit_motion(
 
 def _faults(free: Any, carried_mass: Any, seed: Any) -> list[Fault]:
     faults: list[Fault] = []
-    if isinstance(free, str) or not len(free):
+    if free is not None and (isinstance(free, str) or not len(free)):
         faults.append(Fault("fit.free", "must be a list of names", str(free), 'free=["viscosity"]'))
     if carried_mass is not None and not (isinstance(carried_mass, int | float) and carried_mass >= 0):
         faults.append(Fault("fit.carried_mass", "must not be negative", str(carried_mass), "give a mass in kg"))
@@ -321,12 +330,25 @@ def _remarks(power: PowerLaw | None) -> list[Record]:
     return found
 
 
+def _is_off(screw: ScrewModelFit | None, linear: LinearModel) -> bool:
+    """Test whether the screw's model does not fit."""
+    return screw is not None and screw.relative_error > WORSE * linear.relative_error
+
+
+def _preload_freed() -> Record:
+    text = (
+        "with the preload of the case the screw has more friction than the whole axis: the preload is fitted as well · "
+        "check the preload and the size in the case, or give --free viscosity to hold it"
+    )
+    return Record(id="fit.preload_freed", subject=PRELOAD, text=text, severity="warning", holds=False)
+
+
 def _of_screw(screw: ScrewModelFit, linear: LinearModel, free: Sequence[str]) -> list[Record]:
     """Warnings about a screw's model that does not fit, or whose table is coarse."""
     found: list[Record] = []
-    if screw.relative_error > WORSE * linear.relative_error:
-        preload = "nut.preload" in screw.friction.subject.inputs and "nut.preload" not in screw.friction.names
-        remedy = f"--free {','.join([*free, 'nut.preload'])}" if preload else "another size or oil"
+    if _is_off(screw, linear):
+        preload = PRELOAD in screw.friction.subject.inputs and PRELOAD not in screw.friction.names
+        remedy = f"--free {','.join([*free, PRELOAD])}" if preload else "another size or oil"
         text = (
             f"the screw's model does not fit: it is off by {screw.relative_error:.1%}, the linear one by "
             f"{linear.relative_error:.1%} · the screw of the case has more friction than the whole axis: try {remedy}"

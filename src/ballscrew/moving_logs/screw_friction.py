@@ -93,17 +93,22 @@ class ScrewFriction:
 
     def at(self, values: Floats, speed: Floats, load: Floats) -> Floats:
         """The friction force of the model itself, at speeds > 0 (m/s) and loads (N) against the motion."""
-        found = self._evaluator(load, speed * self.per_torque, *values.tolist())
+        found = self._evaluator(load, speed * self.per_torque, *values)
         return self.per_torque * np.asarray(found["screw_torque"], dtype=np.float64)
 
     def table(self, values: Floats) -> FrictionTable:
         """The friction force over speed and load for values of the free numbers."""
+        return self.tables(values[np.newaxis])[0]
+
+    def tables(self, values: Floats) -> list[FrictionTable]:
+        """The tables for several values of the free numbers, one in each row, evaluated at once."""
         by_ball = self.subject.nut.one_by_one
         count = (SPEEDS_BY_BALL, LOADS_BY_BALL) if by_ball else (SPEEDS, LOADS)
         speeds = self.fastest * np.geomspace(SLOWEST, 1.0, count[0])
         loads = max(self.largest_load, 1e-9) * np.linspace(-1.0, 1.0, count[1])
-        grid = self.at(values, *np.meshgrid(speeds, loads))
-        return FrictionTable(speeds, loads, grid)
+        each = values.T[..., np.newaxis, np.newaxis]
+        grids = self.at(each, *(np.broadcast_to(one, (len(values), *one.shape)) for one in np.meshgrid(speeds, loads)))
+        return [FrictionTable(speeds, loads, grid) for grid in grids]
 
     def table_error(self, values: Floats, speed: Floats, load: Floats) -> float:
         """The largest difference of the table from the model at some of the given points, as a share of the largest."""

@@ -106,7 +106,7 @@ def fit_screw_model(
     jac: Any = slopes  # the hints of SciPy know only the names of methods
     solved = least_squares(
         residuals, inside, jac, bounds=(low[free], high[free]), method="trf", max_nfev=_EVALUATIONS,
-        xtol=1e-6, ftol=1e-8,
+        xtol=1e-5, ftol=1e-7,
     )  # fmt: skip
     found = _placed(begin, free, solved.x)
     final, derivatives = problem.at(found)
@@ -121,6 +121,8 @@ def fit_screw_model(
     errors[unknown], widths[unknown] = np.nan, np.nan
     values = found * scales
     numbers = values[4 : 4 + count]
+    if not friction.table(numbers).is_finite:
+        return None
     load = _load(equation, values[-1], values[OFFSET])[equation.used]
     return ScrewModelFit(
         friction, float(values[MASS]), float(values[OFFSET]), float(values[CONSTANT]), float(values[VISCOUS]), numbers,
@@ -171,16 +173,17 @@ class _Problem:
         equation, friction = self._equation, self._friction
         numbers, carried = values[4:-1], float(values[-1])
         # the load is taken with the offset of the linear fit: a fraction of a newton changes no friction
-        sides, by_mass = _columns(equation, friction.table(numbers), carried, self._offset)
+        steps = _STEP * np.where(numbers != 0, numbers, self._scales[4:-1])
+        steps = np.where(numbers + steps > friction.bounds[1], -steps, steps)
+        # the numbers, then each of them one step further
+        here, *further = friction.tables(numbers + np.vstack([np.zeros(numbers.size), np.diag(steps)]))
+        sides, by_mass = _columns(equation, here, carried, self._offset)
         residuals = sides @ np.append(values[:4], 1.0) - equation.force
         load = _load(equation, carried, self._offset)
         slopes = [sides[:, place] for place in range(4)]
-        for place, number in enumerate(numbers):
-            step = _STEP * (number or float(self._scales[4 + place]))
-            ends = [numbers.copy(), numbers.copy()]
-            ends[0][place] -= step
-            ends[1][place] += step
-            before, after = (friction.table(end)(equation.speed, load) for end in ends)
-            slopes.append(equation.filtered(equation.direction * (after - before) / (2 * step)))
+        before = here(equation.speed, load)
+        for step, there in zip(steps, further, strict=True):
+            change = there(equation.speed, load) - before
+            slopes.append(equation.filtered(equation.direction * change / step))
         jacobian = np.stack([*slopes, by_mass], axis=1) * self._scales
         return residuals, jacobian

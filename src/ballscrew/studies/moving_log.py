@@ -15,8 +15,6 @@ from ballscrew.moving_logs.moving_log import GAIN as GAIN
 from ballscrew.moving_logs.moving_log import MovingLog
 from ballscrew.quantities import Info, Quantity
 
-#: What is fitted of the screw's model by default: the scale of its friction over speed.
-DEFAULT_FREE = ("viscosity",)
 CARRIED_MASS = Quantity("carried_mass", "kg", Info("m", "mass whose force passes the nut", at_least=0))
 
 
@@ -24,7 +22,8 @@ CARRIED_MASS = Quantity("carried_mass", "kg", Info("m", "mass whose force passes
 class MovingOptions:
     """Settings of a fit to a moving log; numbers in SI."""
 
-    free: Sequence[str] = DEFAULT_FREE
+    #: None for what is usual.
+    free: Sequence[str] | None = None
     #: Headings of the log by column.
     columns: Mapping[str, str] = dataclasses.field(default_factory=dict[str, str])
     torque_constant: float | None = None

@@ -21,7 +21,7 @@ def columns(path: str, hdf5: bool) -> tuple[list[str], dict[str, NDArray[np.floa
     """
     found = _read_hdf5(path) if hdf5 else _read_mat5(path)
     if len(found) == 1 and isinstance(only := next(iter(found.values())), Mapping):
-        found = dict(only)
+        found = {name: np.asarray(one) if isinstance(one, int | float) else one for name, one in only.items()}
     arrays = {
         name: np.atleast_1d(np.squeeze(values)) for name, values in found.items() if isinstance(values, np.ndarray)
     }
