@@ -59,7 +59,7 @@ class Equation:
 
 
 #: Modules of equations in the room that alone has a use for them.
-ELSEWHERE = ("ballscrew.supports.moments",)
+ELSEWHERE = ("ballscrew.supports.formulas",)
 
 
 def discover() -> dict[str, Equation]:
@@ -85,12 +85,13 @@ RECURRENCES = {
 
 #: Right in SI only, because a number in them has a unit that is not written (test_units).
 DIMENSIONAL_FITS = {
-    "moments.bearing_boundary_share": "fit of a bearing maker in millimetres, mm^2/s and revolutions a minute",
-    "moments.bearing_replenishment_factor": "fit of a bearing maker in millimetres, mm^2/s and revolutions a minute",
-    "moments.bearing_rolling_moment": "fit of a bearing maker in millimetres, mm^2/s and revolutions a minute",
-    "moments.bearing_sliding_moment": "fit of a bearing maker in millimetres",
-    "moments.inlet_heating_factor": "fit of a bearing maker in millimetres, mm^2/s and revolutions a minute",
-    "moments.palmgren_viscous_moment": "fit in millimetres, mm^2/s and revolutions a minute",
+    "formulas.bearing_boundary_share": "fit of a bearing maker in millimetres, mm^2/s and revolutions a minute",
+    "formulas.bearing_replenishment_factor": "fit of a bearing maker in millimetres, mm^2/s and revolutions a minute",
+    "formulas.bearing_rolling_moment": "fit of a bearing maker in millimetres, mm^2/s and revolutions a minute",
+    "formulas.bearing_sliding_moment": "fit of a bearing maker in millimetres",
+    "formulas.inlet_heating_factor": "fit of a bearing maker in millimetres, mm^2/s and revolutions a minute",
+    "formulas.guide_life": "the 50000 is metres, the distance that the rating is for",
+    "formulas.palmgren_viscous_moment": "fit in millimetres, mm^2/s and revolutions a minute",
     "parasitic.ball_drag_force_harris": "the exponent 1.95 of a speed",
     "rheology.pressure_viscosity_estimate": "fit of a pressure coefficient to a power of a viscosity",
     "rheology.pressure_viscosity_linear": "the 273.15 is kelvin, and the slope is per kelvin",

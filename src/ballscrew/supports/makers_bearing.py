@@ -16,7 +16,7 @@ from ballscrew.errors import Fault, faults_of, raise_if_any, shown
 from ballscrew.quantities import Array, Count, Force, Info, KinematicViscosity, Mask, Power, Ratio, Torque
 from ballscrew.records import Record
 from ballscrew.sizing.checks import loads_of_halves
-from ballscrew.supports import moments
+from ballscrew.supports import formulas
 from ballscrew.supports.bearing import Bore, OutsideDiameter, SealTorque, sizes_fault
 
 Rows = Annotated[
@@ -118,17 +118,17 @@ class SKFBearing(ByValue):
         nu, omega = _oil(self.lubricant, state), np.abs(state.screw_speed)
         d, D = self.bore, self.outside_diameter
         d_m, c = (d + D) / 2, self.constants
-        heat = moments.inlet_heating_factor(nu, omega, d_m)
-        film = moments.bearing_replenishment_factor(nu, omega, d, D, self.replenishment_constant, c.geometry)
-        share = moments.bearing_boundary_share(nu, omega, d_m)
+        heat = formulas.inlet_heating_factor(nu, omega, d_m)
+        film = formulas.bearing_replenishment_factor(nu, omega, d, D, self.replenishment_constant, c.geometry)
+        share = formulas.bearing_boundary_share(nu, omega, d_m)
         mu_0, mu_f = self.boundary_friction_coefficient, self.film_friction_coefficient
-        mu = moments.bearing_sliding_coefficient(share, mu_0, mu_f)
+        mu = formulas.bearing_sliding_coefficient(share, mu_0, mu_f)
 
         def rolling(load: Force) -> Torque:
-            return heat * film * moments.bearing_rolling_moment(load, nu, omega, d_m, c.rolling, c.axial_rolling)
+            return heat * film * formulas.bearing_rolling_moment(load, nu, omega, d_m, c.rolling, c.axial_rolling)
 
         def sliding(load: Force) -> Torque:
-            return moments.bearing_sliding_moment(load, mu, d_m, c.sliding, c.axial_sliding)
+            return formulas.bearing_sliding_moment(load, mu, d_m, c.sliding, c.axial_sliding)
 
         parts = {"rolling": _over_rows(self, state, rolling), "sliding": _over_rows(self, state, sliding)}
         return MakersFriction({**parts, "seals": self.seal_torque}, state.screw_speed)
@@ -160,8 +160,8 @@ class PalmgrenBearing(ByValue):
     def __call__(self, state: OperatingState, /) -> MakersFriction:
         """Friction at a state: the axial load (N), the speed (rad/s), the temperature (K)."""
         nu, d_m = _oil(self.lubricant, state), (self.bore + self.outside_diameter) / 2
-        viscous = moments.palmgren_viscous_moment(nu, np.abs(state.screw_speed), d_m, self.viscous_factor)
-        by_load = _over_rows(self, state, lambda load: moments.palmgren_load_moment(load, d_m, self.load_factor))
+        viscous = formulas.palmgren_viscous_moment(nu, np.abs(state.screw_speed), d_m, self.viscous_factor)
+        by_load = _over_rows(self, state, lambda load: formulas.palmgren_load_moment(load, d_m, self.load_factor))
         parts = {"without load": self.rows * viscous, "by load": by_load, "seals": self.seal_torque}
         return MakersFriction(parts, state.screw_speed)
 
