@@ -1,4 +1,4 @@
-"""Formulas of the makers of bearings and guides: plain functions, as those of ``equations/``.
+"""Formulas of the makers of bearings and guides, and of what gives way: plain functions, as those of ``equations/``.
 
 Moments of bearings are fits in millimetres, rpm and mm²/s. SI comes in and goes out; the powers of ten in the formulas
 are the units of the catalogues.
@@ -7,7 +7,17 @@ are the units of the catalogues.
 from __future__ import annotations
 
 from ballscrew._arrays import namespace
-from ballscrew.quantities import AngularSpeed, Force, KinematicViscosity, Length, Ratio, Torque
+from ballscrew.quantities import (
+    AngularSpeed,
+    Force,
+    KinematicViscosity,
+    Length,
+    Pressure,
+    Ratio,
+    RotationalStiffness,
+    Stiffness,
+    Torque,
+)
 
 
 def inlet_heating_factor(kinematic_viscosity: KinematicViscosity, speed: AngularSpeed, mean_diameter: Length) -> Ratio:
@@ -162,3 +172,42 @@ def guide_life(dynamic_load_rating: Force, equivalent_load: Force, service_facto
     """
     C, P, f_w = dynamic_load_rating, equivalent_load, service_factor
     return 50000 * (C / (f_w * P)) ** 3
+
+
+def shaft_torsional_rigidity(
+    shear_modulus: Pressure, shaft_force_diameter: Length, distance_to_bearing: Length
+) -> RotationalStiffness:
+    r"""Torsional rigidity of a solid shaft between its driven end and the nut.
+
+    .. math:: k_t = \frac{\pi d_c^4 G}{32 l_1}
+
+    TimoshenkoGoodier1970: a bar of one diameter, that which stands for the shaft in its axial rigidity.
+    """
+    G, d_c, l_1 = shear_modulus, shaft_force_diameter, distance_to_bearing
+    xp = namespace(G, d_c, l_1)
+    return xp.pi * d_c**4 * G / (32 * l_1)
+
+
+def axial_rigidity_of_torsion(torsional_rigidity: RotationalStiffness, lead: Length) -> Stiffness:
+    r"""Axial rigidity at the nut by the twist of the shaft.
+
+    .. math:: R_t = k_t \left(\frac{2 \pi}{P_h}\right)^2
+
+    Derived by virtual work: a force F twists the shaft with :math:`F P_h / (2 \pi)`, and the twist moves the nut by
+    itself times :math:`P_h / (2 \pi)`.
+    """
+    k_t, P_h = torsional_rigidity, lead
+    xp = namespace(k_t, P_h)
+    return k_t * (2 * xp.pi / P_h) ** 2
+
+
+def lost_motion(friction_force: Force, axial_rigidity: Stiffness) -> Length:
+    r"""Way that is lost where the motion reverses and friction changes its side.
+
+    .. math:: u = \frac{2 F_r}{R}
+
+    What lies between motor and table gives way by :math:`F_r / R` in one direction and then in the other. Play, and the
+    micro-slip of balls and guides before they roll, come on top of it.
+    """
+    F_r, R = friction_force, axial_rigidity
+    return 2 * F_r / R
