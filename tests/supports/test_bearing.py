@@ -4,6 +4,7 @@ import dataclasses
 import math
 
 import numpy as np
+import pint
 import pytest
 
 import ballscrew as bs
@@ -27,8 +28,8 @@ def screw_of(bearing, lead, scale=1.0):
         ball_diameter=bearing.balls_size,
         loaded_balls=bearing.balls_of_a_row,
         contact_angle=bearing.contact_angle,
-        screw_conformity=bearing.conformity,
-        nut_conformity=bearing.conformity,
+        screw_conformity=0.52,
+        nut_conformity=0.52,
     )
 
 
@@ -115,8 +116,25 @@ def test_what_is_not_given_is_assumed_and_said():
     bearing = bs.SupportBearing(bore=0.025, outside_diameter=0.052, contact_angle=0.7, lubricant=OIL)
     assert bearing.balls_size == pytest.approx(0.0081)
     assert bearing.balls_of_a_row == 13
-    assert len(bearing.assumed) == 2
-    assert ROW.assumed == ("balls that fill 0.9 of the circle",)
+    assert bearing.contacts.nut_conformity == bearing.contacts.screw_conformity == 0.52
+    assert len(bearing.assumed) == 3
+    assert ROW.assumed == ("balls that fill 0.9 of the circle", "a conformity of 0.52")
+    assert dataclasses.replace(ROW, balls=12, conformity=0.53).assumed == ()
+
+
+def test_quantities_with_units_are_converted():
+    unit = pint.UnitRegistry()
+    given = bs.SupportBearing(
+        bore=25 * unit.mm,
+        outside_diameter=5.2 * unit.cm,
+        contact_angle=40 * unit.degree,
+        lubricant=OIL,
+        rows=1,
+        ball_diameter=8 * unit.mm,
+    )
+    state = bs.OperatingState(1500.0, 80.0)
+    assert given(state).friction_effort == pytest.approx(float(ROW(state).friction_effort), rel=1e-12)
+    assert given.rigidity(1.5 * unit.kN) == pytest.approx(float(ROW.rigidity(1500.0)), rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -126,6 +144,7 @@ def test_what_is_not_given_is_assumed_and_said():
         ({"rows": 3}, "bearing.rows"),
         ({"preload": 10.0}, "bearing.preload"),
         ({"balls": 16}, "bearing.balls"),
+        ({"bore": np.array([0.02, 0.03])}, "bearing.bore"),
         ({"conformity": 0.4}, "bearing.conformity"),
     ],
 )

@@ -17,15 +17,15 @@ from ballscrew.components.nut import DoubleNut, SingleNut
 from ballscrew.components.nut_losses import Seals
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, accepts_units, faults_of, is_concrete, raise_if_any, shown
+from ballscrew.errors import Fault, accepts_units, faults_of, raise_if_any, shown
 from ballscrew.friction.loaded_balls import loads_of
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Angle, Count, Force, Info, Length, Mask, Power, Ratio, Stiffness, Torque
 from ballscrew.records import Record
 
-#: Ball diameter over (D − d), and how much of the circle the balls fill: usual, of no catalogue.
-BALL_SHARE, FILLED = 0.3, 0.9
+#: Ball diameter over (D − d), how much of the circle the balls fill, and the conformity: usual, of no catalogue.
+BALL_SHARE, FILLED, CONFORMITY = 0.3, 0.9, 0.52
 #: The one condition that a bearing has beside those of its balls.
 DIRECTION = "direction"
 
@@ -56,9 +56,18 @@ def bearing_model(model: FrictionModel | None = None) -> FrictionModel:
     return dataclasses.replace(screw_model, frame=bearing_frame, ball_force=ProportionalBallForce(0.0))
 
 
+def faults_of_arrays(section: str, part: Any, *names: str) -> list[Fault]:
+    """Faults of fields that have to be one number, and are an array."""
+    return [
+        Fault(f"{section}.{name}", "must be one number", "an array", "make one bearing for each")
+        for name in names
+        if np.ndim(getattr(part, name)) > 0
+    ]
+
+
 def sizes_fault(section: str, bore: Any, outside_diameter: Any) -> list[Fault]:
     """Fault of an outside diameter that does not exceed the bore."""
-    if not (is_concrete(bore) and is_concrete(outside_diameter)) or outside_diameter > bore:
+    if outside_diameter > bore:
         return []
     given = shown(outside_diameter, "m")
     return [Fault(f"{section}.outside_diameter", "must exceed the bore", given, "give bore and outside diameter")]
@@ -111,9 +120,9 @@ class SupportBearing(ByValue):
         Count | None, Info("z", "balls in one row", at_least=3, whole=True, hint="left out, 0.9 of a full circle")
     ] = None
     conformity: Annotated[
-        Ratio,
-        Info("f", "groove radius / ball diameter, of both races", above=0.5, at_most=1, hint="0.515 to 0.53"),
-    ] = 0.52
+        Ratio | None,
+        Info("f", "groove radius / ball diameter, of both races", above=0.5, at_most=1, hint="left out, 0.52"),
+    ] = None
     race_roughness: Annotated[
         Length, Info(r"\sigma_r", "RMS roughness of the races", "um", above=0, hint="0.05 um to 0.3 um")
     ] = 0.3e-6
@@ -125,12 +134,15 @@ class SupportBearing(ByValue):
     model: FrictionModel | None = None
 
     def __post_init__(self) -> None:
-        faults = faults_of("bearing", self, optional=("ball_diameter", "balls"))
+        faults = faults_of("bearing", self, optional=("ball_diameter", "balls", "conformity"))
+        faults = faults or faults_of_arrays(
+            "bearing", self, "bore", "outside_diameter", "rows", "ball_diameter", "balls"
+        )
         if not faults:
             faults += sizes_fault("bearing", self.bore, self.outside_diameter)
             if self.rows > 1 and self.rows % 2:
                 faults.append(Fault("bearing.rows", "must be one or even", f"{self.rows:g}", "give 1, 2 or 4"))
-            if self.rows == 1 and self.preload > 0:
+            if self.rows == 1 and np.any(self.preload > 0):
                 remedy = "give rows = 2, or the spring's force as a load"
                 faults.append(Fault("bearing.preload", "one row braces nothing", shown(self.preload, "N"), remedy))
         raise_if_any(faults)
@@ -163,13 +175,18 @@ class SupportBearing(ByValue):
     @property
     def assumed(self) -> tuple[str, ...]:
         """What stands for sizes that were not given, in words."""
-        found = ("balls of 0.3 (D − d)",) if self.ball_diameter is None else ()
-        return (*found, "balls that fill 0.9 of the circle") if self.balls is None else found
+        words = {
+            f"balls of {BALL_SHARE} (D − d)": self.ball_diameter,
+            f"balls that fill {FILLED} of the circle": self.balls,
+            f"a conformity of {CONFORMITY}": self.conformity,
+        }
+        return tuple(text for text, given in words.items() if given is None)
 
     @lazy
     def contacts(self) -> BallScrew:
         """The rows as a screw without a lead, for the model."""
         seals = {"seals": Seals(self.seal_torque)}
+        conformity = CONFORMITY if self.conformity is None else self.conformity
         nut = SingleNut(losses=seals) if self.rows == 1 else DoubleNut(preload=self.preload, losses=seals)
         return _Rows(
             pitch_circle_diameter=self.mean_diameter,
@@ -177,8 +194,8 @@ class SupportBearing(ByValue):
             ball_diameter=self.balls_size,
             loaded_balls=self.balls_of_a_row * max(int(self.rows) // 2, 1),
             contact_angle=self.contact_angle,
-            screw_conformity=self.conformity,
-            nut_conformity=self.conformity,
+            screw_conformity=conformity,
+            nut_conformity=conformity,
             ball_roughness=self.ball_roughness,
             screw_roughness=self.race_roughness,
             nut_roughness=self.race_roughness,

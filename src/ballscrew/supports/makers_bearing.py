@@ -17,7 +17,7 @@ from ballscrew.quantities import Array, Count, Force, Info, KinematicViscosity, 
 from ballscrew.records import Record
 from ballscrew.sizing.checks import loads_of_halves
 from ballscrew.supports import formulas
-from ballscrew.supports.bearing import Bore, OutsideDiameter, SealTorque, sizes_fault
+from ballscrew.supports.bearing import Bore, OutsideDiameter, SealTorque, faults_of_arrays, sizes_fault
 
 Rows = Annotated[
     Count,
@@ -168,6 +168,7 @@ class PalmgrenBearing(ByValue):
 
 def _faults(section: str, bearing: SKFBearing | PalmgrenBearing) -> list[Fault]:
     found = faults_of(section, bearing)
+    found = found or faults_of_arrays(section, bearing, "bore", "outside_diameter", "rows", "preload")
     if found:
         return found
     found = sizes_fault(section, bearing.bore, bearing.outside_diameter)
