@@ -85,6 +85,7 @@ RECURRENCES = {
 
 #: Right in SI only, because a number in them has a unit that is not written (test_units).
 DIMENSIONAL_FITS = {
+    "formulas.bearing_centrifugal_load": "fit of a bearing maker in millimetres and revolutions a minute",
     "formulas.bearing_boundary_share": "fit of a bearing maker in millimetres, mm^2/s and revolutions a minute",
     "formulas.bearing_replenishment_factor": "fit of a bearing maker in millimetres, mm^2/s and revolutions a minute",
     "formulas.bearing_rolling_moment": "fit of a bearing maker in millimetres, mm^2/s and revolutions a minute",

@@ -35,6 +35,17 @@ def test_a_released_pair_is_one_row():
     assert PAIR(load).friction_effort == pytest.approx(float(ROW(load).friction_effort), rel=1e-12)
 
 
+def test_balls_press_outwards_at_speed():
+    """Nothing at rest; more rolling and more sliding the faster, most under a light load."""
+    thrown = dataclasses.replace(ROW, constants=dataclasses.replace(ROW.constants, centrifugal=1.9e-12))
+    states = [bs.OperatingState(200.0, speed) for speed in (1e-6, 100.0, 300.0)]
+    more = [float(thrown(state).friction_effort / ROW(state).friction_effort) - 1 for state in states]
+    assert more[0] < 1e-12
+    assert 0 < more[1] < more[2]
+    heavy = bs.OperatingState(2000.0, 300.0)
+    assert thrown(heavy).friction_effort / ROW(heavy).friction_effort - 1 < more[2] / 3
+
+
 def test_oil_is_taken_at_the_temperature_of_the_state():
     warm, cold = (ROW(bs.OperatingState(500.0, 100.0, temperature=T)).contributions for T in (340.0, 290.0))
     assert cold["rolling"] > 2 * warm["rolling"]

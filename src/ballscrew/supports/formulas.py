@@ -26,7 +26,7 @@ def inlet_heating_factor(kinematic_viscosity: KinematicViscosity, speed: Angular
     .. math:: \phi_h = \frac{1}{1 + 1.84 \cdot 10^{-9} \left(30000 \omega d_m / \pi\right)^{1.28}
         \left(10^6 \nu\right)^{0.64}}
 
-    SKF2018, as public programs have it; the page of the catalogue was not read. One at rest.
+    SKF2018, as two public programs have it; the page itself was not read. One at rest.
     """
     nu, omega, d_m = kinematic_viscosity, speed, mean_diameter
     xp = namespace(nu, omega, d_m)
@@ -46,8 +46,8 @@ def bearing_replenishment_factor(
     .. math:: \phi_r = \exp\left(-\frac{3 \cdot 10^{10}}{\pi} K_r \nu \omega (d + D)
         \sqrt{\frac{K_Z}{2000 (D - d)}}\right)
 
-    SKF2018, as public programs have it, with :math:`K_r` = 3e-8 for oil of low level, 6e-8 for grease, and
-    :math:`K_Z` = 4.4 for angular-contact bearings of one row; the page of the catalogue was not read.
+    SKF2018, as two public programs have it, with :math:`K_r` = 3e-8 for oil of low level, 6e-8 for grease, and
+    :math:`K_Z` = 4.4 for angular-contact bearings of one row; the page itself was not read.
     """
     nu, omega, d, D = kinematic_viscosity, speed, bore, outside_diameter
     K_r, K_Z = replenishment_constant, geometry_constant
@@ -55,8 +55,21 @@ def bearing_replenishment_factor(
     return xp.exp(-3e10 / xp.pi * K_r * nu * omega * (d + D) * xp.sqrt(K_Z / (2000 * (D - d))))
 
 
+def bearing_centrifugal_load(speed: AngularSpeed, mean_diameter: Length, centrifugal_constant: Ratio) -> Force:
+    r"""Load of the balls on the outer race by their mass, as an angular-contact bearing's radial load.
+
+    .. math:: F_g = R_3 \left(1000 d_m\right)^4 \left(\frac{30 \omega}{\pi}\right)^2
+
+    SKF2018, read on a copy of the page.
+    """
+    omega, d_m, R_3 = speed, mean_diameter, centrifugal_constant
+    xp = namespace(omega, d_m, R_3)
+    return R_3 * (1000 * d_m) ** 4 * (30 * omega / xp.pi) ** 2
+
+
 def bearing_rolling_moment(
     axial_load: Force,
+    centrifugal_load: Force,
     kinematic_viscosity: KinematicViscosity,
     speed: AngularSpeed,
     mean_diameter: Length,
@@ -65,16 +78,15 @@ def bearing_rolling_moment(
 ) -> Torque:
     r"""Rolling moment of an angular-contact ball bearing under an axial load, before its reduction factors.
 
-    .. math:: M_r = 10^{-3} R_1 \left(1000 d_m\right)^{1.97} \left(R_2 F\right)^{0.54}
+    .. math:: M_r = 10^{-3} R_1 \left(1000 d_m\right)^{1.97} \left(F_g + R_2 F\right)^{0.54}
         \left(\frac{3 \cdot 10^{7}}{\pi} \nu \omega\right)^{0.6}
 
-    SKF2018, its variable :math:`G_{rr}` in N mm read on a copy of the page; without a radial load, and without the
-    centrifugal term, which is below 0.1 % up to 3000 rpm and 85 mm.
+    SKF2018, its variable :math:`G_{rr}` in N mm read on a copy of the page; without a radial load.
     """
-    F, nu, omega, d_m = axial_load, kinematic_viscosity, speed, mean_diameter
+    F, F_g, nu, omega, d_m = axial_load, centrifugal_load, kinematic_viscosity, speed, mean_diameter
     R_1, R_2 = rolling_constant, axial_rolling_constant
-    xp = namespace(F, nu, omega, d_m, R_1, R_2)
-    return 1e-3 * R_1 * (1000 * d_m) ** 1.97 * (R_2 * F) ** 0.54 * (3e7 / xp.pi * nu * omega) ** 0.6
+    xp = namespace(F, F_g, nu, omega, d_m, R_1, R_2)
+    return 1e-3 * R_1 * (1000 * d_m) ** 1.97 * (F_g + R_2 * F) ** 0.54 * (3e7 / xp.pi * nu * omega) ** 0.6
 
 
 def bearing_boundary_share(
@@ -85,7 +97,7 @@ def bearing_boundary_share(
     .. math:: \phi_b = \exp\left(-2.6 \cdot 10^{-8} \left(\frac{3 \cdot 10^{7}}{\pi} \nu \omega\right)^{1.4}
         1000 d_m\right)
 
-    SKF2018, as public programs have it; the page of the catalogue was not read. One at rest.
+    SKF2018, as two public programs have it; the page itself was not read. One at rest.
     """
     nu, omega, d_m = kinematic_viscosity, speed, mean_diameter
     xp = namespace(nu, omega, d_m)
@@ -107,6 +119,7 @@ def bearing_sliding_coefficient(
 
 def bearing_sliding_moment(
     axial_load: Force,
+    centrifugal_load: Force,
     friction_coefficient: Ratio,
     mean_diameter: Length,
     sliding_constant: Ratio,
@@ -114,13 +127,13 @@ def bearing_sliding_moment(
 ) -> Torque:
     r"""Sliding moment of an angular-contact ball bearing under an axial load.
 
-    .. math:: M_s = 10^{-3} S_1 \left(1000 d_m\right)^{0.26} S_2 F^{4/3} \mu
+    .. math:: M_s = 10^{-3} S_1 \left(1000 d_m\right)^{0.26} \left(F_g^{4/3} + S_2 F^{4/3}\right) \mu
 
-    SKF2018, its variable :math:`G_{sl}` in N mm read on a copy of the page; without radial load and centrifugal term.
+    SKF2018, its variable :math:`G_{sl}` in N mm read on a copy of the page; without a radial load.
     """
-    F, mu, d_m = axial_load, friction_coefficient, mean_diameter
+    F, F_g, mu, d_m = axial_load, centrifugal_load, friction_coefficient, mean_diameter
     S_1, S_2 = sliding_constant, axial_sliding_constant
-    return 1e-3 * S_1 * (1000 * d_m) ** 0.26 * S_2 * F ** (4 / 3) * mu
+    return 1e-3 * S_1 * (1000 * d_m) ** 0.26 * (F_g ** (4 / 3) + S_2 * F ** (4 / 3)) * mu
 
 
 def palmgren_load_moment(equivalent_load: Force, mean_diameter: Length, load_factor: Ratio) -> Torque:
