@@ -1,8 +1,8 @@
 """The friction of two angular-contact ball bearings by the same contacts, beside the model of a bearing maker.
 
 The maker's model is that of SKF2018 for the frictional moment (rolling, and sliding), with the constants of the series
-72 B(E). Units are millimetres, newtons, revolutions per minute and mm²/s. What no catalogue states is assumed: balls of
-0.3 (D − d), a conformity of 0.52, the roughness of the paper.
+72 B(E). Sizes are in millimetres, speeds in revolutions per minute, viscosities in mm²/s. What no catalogue states is
+assumed: balls of 0.3 (D − d), a conformity of 0.52, the roughness of the paper.
 """
 
 from __future__ import annotations
@@ -16,17 +16,14 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from ballscrew.components.frame import bearing_frame
-from ballscrew.components.laws import ProportionalBallForce
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.mixed_friction import LoadSharing, RunInSharing
-from ballscrew.components.screw import BallScrew
+from ballscrew.components.operating_state import OperatingState
 from ballscrew.figures import files, style
 from ballscrew.friction.model import FrictionModel
+from ballscrew.supports.bearing import SupportBearing
+from ballscrew.supports.makers_bearing import SKFBearing
 
-#: R_1, R_2, S_1, S_2 of the series 72 B(E), and K_Z; centrifugal terms are below 0.1 % here and left out.
-R_1, R_2, S_1, S_2, K_Z = 4.33e-7, 2.02, 1.82e-2, 0.71, 4.4
-K_RS, MU_BOUNDARY, MU_FILM = 3e-8, 0.12, 0.05
 DENSITY = 870.0
 SPEEDS, VISCOSITIES, SHARES = (30.0, 100.0, 300.0, 1000.0, 3000.0), (20.0, 68.0, 200.0), (0.02, 0.05, 0.10)
 
@@ -46,18 +43,9 @@ class Bearing:
         return (self.bore + self.outside) / 2
 
     @property
-    def screw(self) -> BallScrew:
-        """The bearing as a ball screw, for a frame that leaves the lead out: one row of balls at 40 degrees."""
-        ball = 0.3 * (self.outside - self.bore)
-        return BallScrew(
-            pitch_circle_diameter=1e-3 * self.mean,
-            lead=1.5e-3 * ball,
-            ball_diameter=1e-3 * ball,
-            loaded_balls=math.floor(0.9 * math.pi * self.mean / ball),
-            contact_angle=math.radians(40),
-            screw_conformity=0.52,
-            nut_conformity=0.52,
-        )
+    def sizes(self) -> dict[str, float]:
+        """Sizes in metres, of one row."""
+        return {"bore": 1e-3 * self.bore, "outside_diameter": 1e-3 * self.outside, "rows": 1}
 
 
 BEARINGS = Bearing("7205 BE", 25, 52, 15_600), Bearing("7212 BE", 60, 110, 57_200)
@@ -76,35 +64,22 @@ class Point:
     maker: tuple[float, float]
 
 
-def of_the_maker(bearing: Bearing, speed: float, viscosity: float, load: float) -> tuple[float, float]:
-    """Rolling and sliding moments under an axial load, N mm."""
-    n, nu, d_m = speed, viscosity, bearing.mean
-    heating = 1 / (1 + 1.84e-9 * (n * d_m) ** 1.28 * nu**0.64)
-    starving = math.exp(-K_RS * nu * n * 2 * d_m * math.sqrt(K_Z / (2 * (bearing.outside - bearing.bore))))
-    rolling = heating * starving * R_1 * d_m**1.97 * (R_2 * load) ** 0.54 * (nu * n) ** 0.6
-    boundary = math.exp(-2.6e-8 * (n * nu) ** 1.4 * d_m)
-    sliding = S_1 * d_m**0.26 * S_2 * load ** (4 / 3) * (boundary * MU_BOUNDARY + (1 - boundary) * MU_FILM)
-    return rolling, sliding
-
-
 @functools.cache
 def points(new: bool = False) -> tuple[Point, ...]:
     """All points: two bearings at 45 combinations of speed, viscosity and load; of surfaces run in, or new."""
-    reference = FrictionModel.reference()
     friction = LoadSharing() if new else RunInSharing()
-    # a cage parts the balls
-    model = dataclasses.replace(
-        reference, frame=bearing_frame, ball_force=ProportionalBallForce(0.0), friction=friction
-    )
+    model = dataclasses.replace(FrictionModel.reference(), friction=friction)
     found: list[Point] = []
     for bearing, speed, viscosity, share in itertools.product(BEARINGS, SPEEDS, VISCOSITIES, SHARES):
         oil = Lubricant(viscosity=1e-6 * viscosity * DENSITY, density=DENSITY)
-        load = share * bearing.rating
-        r = model(bearing.screw, oil, axial_load=load, screw_speed=speed * math.pi / 30)
-        parts = {name: 1e3 * float(torque) for name, torque in r.contributions.items()}
+        state = OperatingState(share * bearing.rating, speed * math.pi / 30)
+        balls = SupportBearing(contact_angle=math.radians(40), lubricant=oil, model=model, **bearing.sizes)(state)
+        parts = {name: 1e3 * float(torque) for name, torque in balls.contributions.items()}
         ours = parts["hydrodynamic_rolling"] + parts["elastic_hysteresis"], parts["curvature"] + parts["spin"]
-        maker = of_the_maker(bearing, speed, viscosity, load)
-        found.append(Point(bearing.name, speed, viscosity, share, float(r.screw.film_parameter), ours, maker))
+        printed = SKFBearing(lubricant=oil, **bearing.sizes)(state).contributions
+        maker = 1e3 * float(printed["rolling"]), 1e3 * float(printed["sliding"])
+        film_parameter = float(balls.balls.screw.film_parameter)
+        found.append(Point(bearing.name, speed, viscosity, share, film_parameter, ours, maker))
     return tuple(found)
 
 

@@ -1,7 +1,7 @@
 """Finds the equations, and says what is special about a few of them.
 
-An equation is a public function defined in a module of ``ballscrew.equations``. A new one is tested
-here without being listed; only an exception has to be listed, with its reason.
+An equation is a public function defined in a module of ``ballscrew.equations``, or in one of ``ELSEWHERE``.
+A new one is tested here without being listed; only an exception has to be listed, with its reason.
 """
 
 import dataclasses
@@ -61,14 +61,19 @@ class Equation:
         return list(result) if isinstance(result, tuple) else [result]
 
 
+#: Modules of equations in the room that alone has a use for them.
+ELSEWHERE = ("ballscrew.supports.formulas",)
+
+
 def discover() -> dict[str, Equation]:
     """All equations by ``module.function``."""
     found: dict[str, Equation] = {}
-    for module_info in pkgutil.iter_modules(ballscrew.equations.__path__):
-        module = importlib.import_module(f"ballscrew.equations.{module_info.name}")
+    names = [f"ballscrew.equations.{each.name}" for each in pkgutil.iter_modules(ballscrew.equations.__path__)]
+    for path in (*names, *ELSEWHERE):
+        module = importlib.import_module(path)
         for name, function in inspect.getmembers(module, inspect.isfunction):
             if function.__module__ == module.__name__ and not name.startswith("_"):
-                equation = Equation(f"{module_info.name}.{name}", function)
+                equation = Equation(f"{path.rpartition('.')[2]}.{name}", function)
                 found[equation.name] = equation
     return found
 
@@ -83,6 +88,14 @@ RECURRENCES = {
 
 #: Right in SI only, because a number in them has a unit that is not written (test_units).
 DIMENSIONAL_FITS = {
+    "formulas.bearing_centrifugal_load": "fit of a bearing maker in millimetres and revolutions a minute",
+    "formulas.bearing_boundary_share": "fit of a bearing maker in millimetres, mm^2/s and revolutions a minute",
+    "formulas.bearing_replenishment_factor": "fit of a bearing maker in millimetres, mm^2/s and revolutions a minute",
+    "formulas.bearing_rolling_moment": "fit of a bearing maker in millimetres, mm^2/s and revolutions a minute",
+    "formulas.bearing_sliding_moment": "fit of a bearing maker in millimetres",
+    "formulas.inlet_heating_factor": "fit of a bearing maker in millimetres, mm^2/s and revolutions a minute",
+    "formulas.guide_life": "the 50000 is metres, the distance that the rating is for",
+    "formulas.palmgren_viscous_moment": "fit in millimetres, mm^2/s and revolutions a minute",
     "parasitic.ball_drag_force_harris": "the exponent 1.95 of a speed",
     "rheology.pressure_viscosity_estimate": "fit of a pressure coefficient to a power of a viscosity",
     "rheology.pressure_viscosity_linear": "the 273.15 is kelvin, and the slope is per kelvin",
@@ -140,6 +153,7 @@ BY_NAME = {
     "ball_approach": (1e-6, 3e-5),
     "ball_excess": (1e-7, 1e-5),
     "balls_per_turn": (10.0, 60.0),
+    "bore": (1e-3, 2e-2),
     "buckling_root": (1.0, 7.0),
     "cell_variance": (1e-3, 0.1),
     "conformity": (0.51, 0.56),
@@ -171,11 +185,15 @@ BY_NAME = {
     "nut_conformity": (0.51, 0.56),
     # so light that some loads set a half free
     "preload": (10.0, 200.0),
+    "outside_diameter": (3e-2, 6e-2),
     "pressure": (1e8, 1.5e9),
     "radii_ratio": (1.0, 60.0),
+    "replenishment_constant": (1e-8, 1e-7),
     "roelands_exponent": (0.4, 0.8),
     "screw_conformity": (0.51, 0.56),
     "slide_to_roll_ratio": (1e-3, 1.0),
+    # so slow that the least drag of the oil is seen
+    "speed": (0.1, 2.0),
     "speed_parameter": (1e-12, 1e-9),
     "traction_ratio": (-0.3, 0.9),
     "unsupported_length": (0.2, 3.0),

@@ -7,7 +7,7 @@ import pytest
 
 import ballscrew.equations
 
-from .discovery import BY_NAME, BY_UNIT, DIMENSIONAL_FITS, EQUATIONS, RECURRENCES
+from .discovery import BY_NAME, BY_UNIT, DIMENSIONAL_FITS, ELSEWHERE, EQUATIONS, RECURRENCES
 from .test_symbols import FORMULAS
 from .test_units import CONSISTENT
 
@@ -15,9 +15,11 @@ from .test_units import CONSISTENT
 def test_every_public_function_is_found():
     # Read from the files, apart from how the discovery imports them.
     (folder,) = ballscrew.equations.__path__
+    source = Path(folder).parent.parent
+    elsewhere = [source / f"{name.replace('.', '/')}.py" for name in ELSEWHERE]
     written = {
         f"{path.stem}.{node.name}"
-        for path in Path(folder).rglob("*.py")
+        for path in (*Path(folder).rglob("*.py"), *elsewhere)
         for node in ast.parse(path.read_text(encoding="utf-8")).body
         if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")
     }

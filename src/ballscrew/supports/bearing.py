@@ -1,0 +1,266 @@
+"""Support bearings from the contact core of the screw: rows of balls that roll in a plane, alone or braced."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from typing import Annotated, Any
+
+import numpy as np
+
+from ballscrew._arrays import ByValue, lazy
+from ballscrew.components.frame import bearing_frame
+from ballscrew.components.laws import ProportionalBallForce
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.nut import DoubleNut, SingleNut
+from ballscrew.components.nut_losses import Seals
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.screw import BallScrew
+from ballscrew.errors import Fault, accepts_units, faults_of, raise_if_any, shown
+from ballscrew.friction.loaded_balls import loads_of
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.result import FrictionResult
+from ballscrew.quantities import Angle, Count, Force, Info, Length, Mask, Power, Ratio, Stiffness, Torque
+from ballscrew.records import Record
+
+#: Ball diameter over (D − d), how much of the circle the balls fill, and the conformity: usual, of no catalogue.
+BALL_SHARE, FILLED, CONFORMITY = 0.3, 0.9, 0.52
+#: The one condition that a bearing has beside those of its balls.
+DIRECTION = "direction"
+
+Bore = Annotated[
+    Length, Info("d", "bore of the bearing", "mm", above=0, hint="lengths are positive", usual=(1e-3, 0.5))
+]
+OutsideDiameter = Annotated[
+    Length, Info("D", "outside diameter of the bearing", "mm", above=0, hint="lengths are positive", usual=(3e-3, 1.0))
+]
+SealTorque = Annotated[
+    Torque,
+    Info("M_W", "torque of the seals of the bearing", "N m", at_least=0, hint="0 N m without", usual=(0.0, 10.0)),
+]
+
+
+class _Rows(BallScrew):
+    """Rows of balls without a lead: the screw whose helix is a circle. Its lead is a number that nothing reads."""
+
+    @property
+    def lead_angle(self) -> Angle:  # pyright: ignore[reportIncompatibleVariableOverride]
+        """None."""
+        return 0.0
+
+
+def bearing_model(model: FrictionModel | None = None) -> FrictionModel:
+    """The model of a screw, by default the reference, for a bearing: no helix, and a cage that parts the balls."""
+    screw_model = FrictionModel.reference() if model is None else model
+    return dataclasses.replace(screw_model, frame=bearing_frame, ball_force=ProportionalBallForce(0.0))
+
+
+def faults_of_arrays(section: str, part: Any, *names: str) -> list[Fault]:
+    """Faults of fields that have to be one number, and are an array."""
+    return [
+        Fault(f"{section}.{name}", "must be one number", "an array", "make one bearing for each")
+        for name in names
+        if np.ndim(getattr(part, name)) > 0
+    ]
+
+
+def sizes_fault(section: str, bore: Any, outside_diameter: Any) -> list[Fault]:
+    """Fault of an outside diameter that does not exceed the bore."""
+    if outside_diameter > bore:
+        return []
+    given = shown(outside_diameter, "m")
+    return [Fault(f"{section}.outside_diameter", "must exceed the bore", given, "give bore and outside diameter")]
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class SupportBearing(ByValue):
+    r"""An angular-contact or axial angular-contact ball bearing on the shaft: one row, or a preloaded pair of rows.
+
+    A :class:`~ballscrew.friction.element.FrictionElement`: called with an operating state, whose load is the axial one
+    of the bearing, it returns the friction torque about the shaft, by mechanism. The contacts are those of the screw,
+    in a plane: :math:`z Q \sin\alpha = F` for one row; the two sides of a preloaded pair are braced as the halves of
+    a double nut. ``rows`` is one, or an even number, half of them on each side.
+
+    What catalogues leave out is assumed, and no source stands behind it: balls of 0.3 (D − d) that fill 0.9 of the
+    circle (of axial angular-contact bearings they are smaller and more: give them where they are known), a conformity
+    of 0.52 at both races, the roughness of the paper. Left out: a radial load, centrifugal forces and the cage's drag.
+    Against the formula of a maker: :class:`~ballscrew.supports.makers_bearing.SKFBearing` and the page on validation.
+    Raises :class:`~ballscrew.errors.InputError` for values out of bounds, balls that do not fit, and a preload of one
+    row alone.
+    """
+
+    bore: Bore
+    outside_diameter: OutsideDiameter
+    contact_angle: Annotated[
+        Angle,
+        Info(
+            r"\alpha",
+            "angle of the contact normal against the radial plane",
+            "deg",
+            above=0,
+            below=math.pi / 2,
+            hint='"40 deg", in Python math.radians(40); bearings made for screws have 60 deg',
+            usual=(math.radians(10), math.radians(70)),
+        ),
+    ]
+    lubricant: Lubricant
+    rows: Annotated[
+        Count,
+        Info("i", "rows of balls, half of them against each direction", at_least=1, whole=True, hint="1, 2 or 4"),
+    ] = 2
+    preload: Annotated[
+        Force,
+        Info("F_v", "axial preload of the pair without load", "N", at_least=0, hint="0 N for none", usual=(0.0, 1e5)),
+    ] = 0.0
+    ball_diameter: Annotated[
+        Length | None, Info("d_w", "ball diameter", "mm", above=0, hint="0.3 (D - d) where it is not known")
+    ] = None
+    balls: Annotated[
+        Count | None, Info("z", "balls in one row", at_least=3, whole=True, hint="left out, 0.9 of a full circle")
+    ] = None
+    conformity: Annotated[
+        Ratio | None,
+        Info("f", "groove radius / ball diameter, of both races", above=0.5, at_most=1, hint="left out, 0.52"),
+    ] = None
+    race_roughness: Annotated[
+        Length, Info(r"\sigma_r", "RMS roughness of the races", "um", above=0, hint="0.05 um to 0.3 um")
+    ] = 0.3e-6
+    ball_roughness: Annotated[
+        Length, Info(r"\sigma_b", "RMS roughness of the balls", "um", above=0, hint="0.02 um to 0.1 um")
+    ] = 0.08e-6
+    seal_torque: SealTorque = 0.0
+    #: A model of the friction of screws, for its laws of contact; by default the reference.
+    model: FrictionModel | None = None
+
+    def __post_init__(self) -> None:
+        faults = faults_of("bearing", self, optional=("ball_diameter", "balls", "conformity"))
+        faults = faults or faults_of_arrays(
+            "bearing", self, "bore", "outside_diameter", "rows", "ball_diameter", "balls"
+        )
+        if not faults:
+            faults += sizes_fault("bearing", self.bore, self.outside_diameter)
+            if self.rows > 1 and self.rows % 2:
+                faults.append(Fault("bearing.rows", "must be one or even", f"{self.rows:g}", "give 1, 2 or 4"))
+            if self.rows == 1 and np.any(self.preload > 0):
+                remedy = "give rows = 2, or the spring's force as a load"
+                faults.append(Fault("bearing.preload", "one row braces nothing", shown(self.preload, "N"), remedy))
+        raise_if_any(faults)
+        raise_if_any(self._misfits())
+
+    def _misfits(self) -> list[Fault]:
+        room = math.pi * self.mean_diameter
+        if self.balls_of_a_row * self.balls_size < room and self.balls_size < self.mean_diameter / 2:
+            return []
+        given = f"{self.balls_of_a_row:g} of {1e3 * self.balls_size:.4g} mm"
+        return [Fault("bearing.balls", "do not fit on their circle", given, f"{1e3 * room:.4g} mm are all there is")]
+
+    @property
+    def mean_diameter(self) -> Length:
+        """Diameter of the circle of the balls, (d + D)/2."""
+        return (self.bore + self.outside_diameter) / 2
+
+    @property
+    def balls_size(self) -> Length:
+        """Ball diameter given, or 0.3 (D − d)."""
+        assumed = BALL_SHARE * (self.outside_diameter - self.bore)
+        return assumed if self.ball_diameter is None else self.ball_diameter
+
+    @property
+    def balls_of_a_row(self) -> int:
+        """Number of balls in a row given, or those that fill 0.9 of the circle."""
+        full = FILLED * math.pi * self.mean_diameter / self.balls_size
+        return math.floor(full) if self.balls is None else int(self.balls)
+
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """What stands for sizes that were not given, in words."""
+        words = {
+            f"balls of {BALL_SHARE} (D − d)": self.ball_diameter,
+            f"balls that fill {FILLED} of the circle": self.balls,
+            f"a conformity of {CONFORMITY}": self.conformity,
+        }
+        return tuple(text for text, given in words.items() if given is None)
+
+    @lazy
+    def contacts(self) -> BallScrew:
+        """The rows as a screw without a lead, for the model."""
+        seals = {"seals": Seals(self.seal_torque)}
+        conformity = CONFORMITY if self.conformity is None else self.conformity
+        nut = SingleNut(losses=seals) if self.rows == 1 else DoubleNut(preload=self.preload, losses=seals)
+        return _Rows(
+            pitch_circle_diameter=self.mean_diameter,
+            lead=1.5 * self.balls_size,
+            ball_diameter=self.balls_size,
+            loaded_balls=self.balls_of_a_row * max(int(self.rows) // 2, 1),
+            contact_angle=self.contact_angle,
+            screw_conformity=conformity,
+            nut_conformity=conformity,
+            ball_roughness=self.ball_roughness,
+            screw_roughness=self.race_roughness,
+            nut_roughness=self.race_roughness,
+            nut=nut,
+        )
+
+    @lazy
+    def _model(self) -> FrictionModel:
+        return bearing_model(self.model)
+
+    def __call__(self, state: OperatingState, /) -> BearingFriction:
+        """Friction at a state: the axial load (N), of either sign for a pair, the speed (rad/s), the temperature (K).
+
+        Raises :class:`~ballscrew.errors.InputError` as the model does.
+        """
+        given: dict[str, Any] = {"axial_load": state.axial_load, "screw_speed": state.screw_speed}
+        balls = self._model(self.contacts, self.lubricant, **given, temperature=state.temperature)
+        return BearingFriction(self, balls)
+
+    @accepts_units("bearing")
+    def rigidity(self, axial_load: Force = 0.0) -> Stiffness:
+        """Axial rigidity of balls and races at a load, N/m, rings rigid: the slope of load over displacement.
+
+        A row alone has none without load. Catalogues print less: their rings and seats give way, too.
+        """
+        contacts = self.contacts
+        if self.rows == 1:
+            contacts = dataclasses.replace(contacts, nut=SingleNut(angle_under_load=True))
+        return loads_of(contacts, axial_load).rigidity
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class BearingFriction(ByValue):
+    """Friction of a support bearing at an operating state, or an array of them."""
+
+    bearing: SupportBearing
+    #: The result of the contacts; of a preloaded pair the side that carries the load comes first.
+    balls: FrictionResult
+
+    @property
+    def friction_effort(self) -> Torque:
+        """Friction torque about the shaft, its magnitude, seals included, N m."""
+        return self.balls.screw_torque
+
+    @property
+    def contributions(self) -> Mapping[str, Torque]:
+        """Friction torque by mechanism, and of the seals, N m; the parts sum to it."""
+        return self.balls.contributions
+
+    @property
+    def friction_power(self) -> Power:
+        """Power dissipated, W."""
+        return self.balls.friction_power
+
+    @lazy
+    def validity(self) -> Mapping[str, Mask]:
+        """Masks of the conditions of the model, and that one row is pressed, not pulled off."""
+        holds = (np.asarray(self.balls.axial_load) >= 0) | (self.bearing.rows > 1)
+        return {**self.balls.validity, DIRECTION: holds}
+
+    @property
+    def warning_records(self) -> list[Record]:
+        """Warnings as records."""
+        if np.all(self.validity[DIRECTION]):
+            return self.balls.warning_records
+        text = "one row carries no load in the other direction: it was computed for the size of the load; take a pair"
+        lifted = Record(id=f"validity.{DIRECTION}", subject="bearing.rows", text=text, severity="warning", holds=False)
+        return [*self.balls.warning_records, lifted]

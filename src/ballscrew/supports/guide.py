@@ -1,0 +1,66 @@
+"""Linear guides with rolling bodies, by the law of their makers."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Annotated
+
+import numpy as np
+
+from ballscrew._arrays import ByValue
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.errors import accepts_units, faults_of, raise_if_any
+from ballscrew.quantities import Count, Force, Info, Ratio, Speed
+from ballscrew.supports import formulas
+from ballscrew.supports.makers_bearing import MakersFriction
+
+#: Names of the parts, as those of the torque of an axis.
+GUIDES, SEALS = "guides", "guide seals"
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class LinearGuide(ByValue):
+    r"""The carriages of a table on their rails: :math:`F = \sum \mu \left|P_i\right| + f`.
+
+    A :class:`~ballscrew.friction.element.FrictionElement` whose effort is a force along the rail, N. Called with a
+    state, its load is that of all carriages, which share it evenly, and its ``screw_speed`` stands for the speed along
+    the rail, m/s; :meth:`under` takes the load of each carriage, as
+    :class:`~ballscrew.supports.table.GuidedTable` has them.
+
+    The coefficient of catalogues is 0.002 to 0.003 with balls (Thomson2024, Rollon2020) and 0.001 to 0.002 with rollers
+    (Thomson2024), at a load of a fifth of the dynamic rating and without preload (NB2024). Seals have 2 N to 5 N a
+    carriage (NB2024), light ones 0.15 N to 1 N by size (Rollon2020; :func:`~ballscrew.supports.rows.guide_rows`).
+    Preload, oil, fresh grease and temperature are in neither number and add to both.
+    Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
+    """
+
+    friction_coefficient: Annotated[
+        Ratio,
+        Info(
+            r"\mu",
+            "friction coefficient of the rolling bodies",
+            at_least=0,
+            hint="0.002 to 0.003 with balls, 0.001 to 0.002 with rollers",
+            usual=(0.0, 0.05),
+        ),
+    ]
+    seal_force: Annotated[
+        Force,
+        Info("f", "force of the seals of one carriage", "N", at_least=0, hint="2 N to 5 N", usual=(0.0, 200.0)),
+    ]
+    carriages: Annotated[Count, Info("n", "carriages of the table", at_least=1, whole=True, hint="4")] = 4
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("guide", self))
+
+    def __call__(self, state: OperatingState, /) -> MakersFriction:
+        """Friction at a state: the load of all carriages (N), shared evenly, and the speed along the rail (m/s)."""
+        share = np.asarray(state.axial_load)[..., np.newaxis] / self.carriages
+        return self.under(share * np.ones(int(self.carriages)), state.screw_speed)
+
+    @accepts_units("guide")
+    def under(self, loads: Force, speed: Speed = 0.0) -> MakersFriction:
+        """Friction where the load of each carriage is known, N, the carriages along the last axis."""
+        carriages = np.shape(loads)[-1]
+        rolling = np.sum(formulas.guide_friction(np.abs(loads), self.friction_coefficient, 0.0), axis=-1)
+        return MakersFriction({GUIDES: rolling, SEALS: carriages * self.seal_force}, speed)

@@ -1,0 +1,161 @@
+"""The stiffness chain of an axis over its stroke: shaft, nut, bearings, mount and twist, and what the shaft stands."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew._arrays import ByValue, lazy
+from ballscrew.components.screw import BallScrew
+from ballscrew.equations import geometry, presliding, rigidity, shaft
+from ballscrew.errors import Fault, accepts_units, is_concrete, raise_if_any, shown
+from ballscrew.quantities import AngularSpeed, Force, Info, Length, Ratio, Stiffness
+from ballscrew.sizing.installation import Installation
+from ballscrew.sizing.rigidity import rigidity_iso3408
+from ballscrew.supports import formulas
+from ballscrew.supports.shaft_on_supports import buckling_root, whirling_root
+
+#: Places of the nut where none are given, as shares of the shaft.
+SHARES = np.linspace(0.05, 0.95, 19)
+
+Numbers = NDArray[np.float64]
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class AxisStiffness(ByValue):
+    """What gives way between the motor and the table, at places of the nut; NaN or infinite is what is not known.
+
+    Compliances add: nut, shaft, bearings, mount and twist carry the same force, one behind the other.
+    """
+
+    position: Annotated[Length, Info("l_1", "distance of the nut from the fixed bearing, where the motor is", "mm")]
+    nut: Annotated[Stiffness, Info("R_{nu}", "rigidity of the nut", "N/um")]
+    shaft: Annotated[Stiffness, Info("R_s", "axial rigidity of the shaft", "N/um")]
+    bearings: Annotated[Stiffness, Info("R_b", "rigidity of the support bearings; infinite: not given", "N/um")]
+    mount: Annotated[Stiffness, Info("R_m", "rigidity of housings and brackets; infinite: not given", "N/um")]
+    torsion: Annotated[Stiffness, Info("R_t", "axial rigidity by the twist of the shaft", "N/um")]
+    #: The root diameter and the material of the shaft, and how it is held.
+    root_diameter: Length
+    screw: BallScrew
+    installation: Installation
+    nut_holds_slope: bool = False
+    #: In words, what stands for what was not given.
+    assumed: Sequence[str] = ()
+
+    @lazy
+    def total(self) -> Annotated[Stiffness, Info("R", "rigidity between motor and table", "N/um")]:
+        """All in series."""
+        return 1 / sum(1 / part for part in self.parts.values())
+
+    @property
+    def parts(self) -> dict[str, Numbers]:
+        """The springs of the chain by name."""
+        return {name: getattr(self, name) for name in ("nut", "shaft", "bearings", "mount", "torsion")}
+
+    @property
+    def shares(self) -> dict[str, Numbers]:
+        """Share of each spring in the whole deflection; they sum to one."""
+        return {name: self.total / part for name, part in self.parts.items()}
+
+    @accepts_units("stiffness")
+    def lost_motion(self, friction_force: Force) -> Length:
+        """Way lost at a reversal by a friction force of the table, twice the force over the rigidity, m."""
+        return formulas.lost_motion(friction_force, self.total)
+
+    @lazy
+    def critical_speed(self) -> Annotated[AngularSpeed, Info("n_k", "speed at which the shaft whirls", "rpm")]:
+        """Lowest speed at which the shaft whirls, held by its bearings and by the nut, rad/s."""
+        roots = np.array([whirling_root(self.installation.ends, share, **self._slope) for share in self._shares])
+        E, rho = self.screw.screw_material.young_modulus, self.installation.shaft_density
+        return shaft.critical_speed(roots, E, rho, self.root_diameter, self.installation.unsupported_length)
+
+    @lazy
+    def buckling_load(self) -> Annotated[Force, Info("F_k", "load at which the shaft buckles", "kN")]:
+        """Least load of the nut under which the shaft buckles, Euler's, N."""
+        roots = np.array([buckling_root(self.installation.ends, share, **self._slope) for share in self._shares])
+        E, d_r = self.screw.screw_material.young_modulus, self.root_diameter
+        return shaft.buckling_load(roots, E, d_r, self.installation.unsupported_length)
+
+    @property
+    def _shares(self) -> list[float]:
+        return [float(share) for share in np.ravel(self.position) / self.installation.unsupported_length]
+
+    @property
+    def _slope(self) -> dict[str, bool]:
+        return {"nut_holds_slope": self.nut_holds_slope}
+
+
+@accepts_units("stiffness")
+def stiffness_over_stroke(
+    screw: BallScrew,
+    *,
+    installation: Installation,
+    positions: Length | None = None,
+    axial_load: Force | None = None,
+    mount_rigidity: Stiffness | None = None,
+    root_diameter: Length | None = None,
+    nut_outer_diameter: Length | None = None,
+    accuracy_factor: Ratio | None = None,
+    nut_holds_slope: bool = False,
+) -> AxisStiffness:
+    """The springs between motor and table at places of the nut, by ISO 3408-4's parts, and what the shaft stands there.
+
+    The first bearing, at the motor, is the fixed one; ``positions`` are distances from it, and the length of the
+    ``installation`` is that between the bearings. Nut, shaft and bearings are those of
+    :func:`~ballscrew.sizing.rigidity.rigidity_iso3408` (R_nu,ar with an accuracy factor); a nut without preload needs
+    an ``axial_load``. ``mount_rigidity`` is that of housings and brackets in series. Sideways the nut is a support that
+    lets the shaft turn, the safe side; ``nut_holds_slope`` clamps it. Between two fixed bearings the twist is that from
+    the motor's side, too. Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
+    """
+    length = float(installation.unsupported_length)
+    places = np.atleast_1d(np.asarray(length * SHARES if positions is None else positions, dtype=float))
+    raise_if_any(_faults(places, length, mount_rigidity, root_diameter))
+    given: dict[str, Any] = {
+        "axial_load": axial_load,
+        "nut_outer_diameter": nut_outer_diameter,
+        "accuracy_factor": accuracy_factor,
+        "installation": installation,
+    }
+    found = [rigidity_iso3408(screw, **given, distance_to_bearing=float(place)) for place in places]
+    factor = found[0].accuracy_factor
+    nut = np.array([each.nut if factor is None else each.nut_corrected for each in found])
+    bearings = np.array([math.inf if math.isnan(each.bearings) else each.bearings for each in found])
+    material = screw.screw_material
+    d_c = rigidity.shaft_force_diameter(screw.pitch_circle_diameter, screw.ball_diameter, screw.contact_angle)
+    G = presliding.shear_modulus(material.young_modulus, material.poisson_ratio)
+    twist = formulas.shaft_torsional_rigidity(G, d_c, places)
+    groove = geometry.groove_root_diameter(
+        screw.pitch_circle_diameter, screw.ball_diameter, screw.screw_conformity, screw.contact_angle
+    )
+    assumed = [*found[0].assumed, *(["mount rigid: no rigidity of it is given"] if mount_rigidity is None else [])]
+    if not nut_holds_slope:
+        assumed.append("the nut holds the shaft sideways and lets it turn")
+    return AxisStiffness(
+        position=places,
+        nut=nut,
+        shaft=np.array([each.shaft for each in found]),
+        bearings=bearings,
+        mount=np.full_like(places, math.inf if mount_rigidity is None else mount_rigidity),
+        torsion=formulas.axial_rigidity_of_torsion(twist, screw.lead),
+        root_diameter=groove if root_diameter is None else root_diameter,
+        screw=screw,
+        installation=installation,
+        nut_holds_slope=nut_holds_slope,
+        assumed=tuple(assumed),
+    )
+
+
+def _faults(places: Numbers, length: float, mount: Stiffness | None, root: Length | None) -> list[Fault]:
+    faults: list[Fault] = []
+    if not np.all((places > 0) & (places < length)):
+        remedy = f"distances from the fixed bearing, below {shown(length, 'm')}"
+        faults.append(Fault("stiffness.positions", "must lie on the shaft", "", remedy))
+    for name, value, unit in (("mount_rigidity", mount, "N/m"), ("root_diameter", root, "m")):
+        if value is not None and is_concrete(value) and not value > 0:
+            faults.append(Fault(f"stiffness.{name}", "must be positive", shown(value, unit), "leave it out: not known"))
+    return faults

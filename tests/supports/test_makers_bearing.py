@@ -1,0 +1,77 @@
+"""Bearings by formulas of makers, as elements: rows, pairs, temperature."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import ballscrew as bs
+from ballscrew.supports.makers_bearing import PalmgrenBearing, SKFBearing
+
+SIZES = {"bore": 0.025, "outside_diameter": 0.052}
+OIL = bs.Lubricant.from_grade("ISO VG 68")
+PAIR = SKFBearing(**SIZES, lubricant=OIL, preload=500.0, seal_torque=0.02)
+ROW = dataclasses.replace(PAIR, rows=1, preload=0.0)
+STATE = bs.OperatingState(np.array([-3000.0, 0.0, 400.0]), np.array([10.0, -100.0, 100.0]))
+
+
+def test_parts_sum_and_make_heat():
+    found = PAIR(STATE)
+    np.testing.assert_allclose(sum(found.contributions.values()), found.friction_effort, rtol=1e-14)
+    np.testing.assert_allclose(found.friction_power, found.friction_effort * [10, 100, 100], rtol=1e-14)
+    assert np.all(found.validity["inputs"])
+    assert found.warning_records == []
+
+
+def test_a_preloaded_pair_without_load_is_two_rows_at_the_preload():
+    pair, row = PAIR(bs.OperatingState(0.0, 100.0)), ROW(bs.OperatingState(500.0, 100.0))
+    for part in ("rolling", "sliding"):
+        assert pair.contributions[part] == pytest.approx(2 * row.contributions[part], rel=1e-12)
+
+
+def test_a_released_pair_is_one_row():
+    """Beyond 2.83 times the preload the other side carries nothing."""
+    load = bs.OperatingState(3000.0, 100.0)
+    assert PAIR(load).friction_effort == pytest.approx(float(ROW(load).friction_effort), rel=1e-12)
+
+
+def test_balls_press_outwards_at_speed():
+    """Nothing at rest; more rolling and more sliding the faster, most under a light load."""
+    thrown = dataclasses.replace(ROW, constants=dataclasses.replace(ROW.constants, centrifugal=1.9e-12))
+    states = [bs.OperatingState(200.0, speed) for speed in (1e-6, 100.0, 300.0)]
+    more = [float(thrown(state).friction_effort / ROW(state).friction_effort) - 1 for state in states]
+    assert more[0] < 1e-12
+    assert 0 < more[1] < more[2]
+    heavy = bs.OperatingState(2000.0, 300.0)
+    assert thrown(heavy).friction_effort / ROW(heavy).friction_effort - 1 < more[2] / 3
+
+
+def test_oil_is_taken_at_the_temperature_of_the_state():
+    warm, cold = (ROW(bs.OperatingState(500.0, 100.0, temperature=T)).contributions for T in (340.0, 290.0))
+    assert cold["rolling"] > 2 * warm["rolling"]
+    assert cold["sliding"] < warm["sliding"]
+
+
+def test_what_is_not_a_number_is_said():
+    found = PAIR(bs.OperatingState(np.array([1.0, np.nan]), 10.0))
+    assert list(found.validity["inputs"]) == [True, False]
+    assert found.warning_records[0].id == "validity.inputs"
+
+
+def test_palmgren_has_no_factors_of_its_own():
+    with pytest.raises(TypeError):
+        PalmgrenBearing(**SIZES, lubricant=OIL)
+    bearing = PalmgrenBearing(**SIZES, lubricant=OIL, viscous_factor=2.0, load_factor=0.001, preload=500.0)
+    found = bearing(bs.OperatingState(0.0, 0.0))
+    assert found.contributions["by load"] == pytest.approx(2 * 0.001 * 500.0 * 0.0385)
+    assert found.contributions["without load"] == pytest.approx(2 * 1.6e-5 * 2.0 * 38.5**3 * 1e-3)
+
+
+@pytest.mark.parametrize(
+    ("change", "field"),
+    [({"rows": 5}, "rows"), ({"rows": 1}, "preload"), ({"outside_diameter": 0.01}, "outside_diameter")],
+)
+def test_faults_name_the_field(change, field):
+    with pytest.raises(bs.InputError) as raised:
+        dataclasses.replace(PAIR, **change)
+    assert [fault.field for fault in raised.value.faults] == [f"skf_bearing.{field}"]
