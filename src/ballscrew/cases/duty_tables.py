@@ -27,7 +27,6 @@ from ballscrew.cases.duty_schema import (
 )
 from ballscrew.cases.schema import MODELS, read_table
 from ballscrew.cases.sections import Sections
-from ballscrew.cases.trajectory_file import read_trajectory
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.errors import MISSING, Fault, InputError, nearest
 from ballscrew.motion.profiles import Motion, Segment
@@ -130,6 +129,8 @@ def _motion(sections: Sections, folder: Path, faults: list[Fault]) -> Motion | N
     if len(faults) > before:
         return None
     if kind == TRAJECTORY:
+        from ballscrew.cases.trajectory_file import read_trajectory  # loads pandas
+
         return _made("motion", functools.partial(read_trajectory, folder / values["file"]), faults)
     if "segment" in values:
         values["segment"] = _segments(values["segment"], faults)
