@@ -34,6 +34,8 @@ COMMANDS = {
     "report": ("{case}", "--to", "report.html"),
     "service": ("--case", "{case}", "--torque", "0.4 N m", "--speed", "100 rpm"),
     "fit": ("log.csv", "--case", "{case}"),
+    "condition": ("{table}", "--case", "{case}"),
+    "duty": ("{moves}",),
     "fit of rows": ("--case", "{case}", "--rows", "{rows}"),
 }
 CALIBRATED = '[model]\ncalibration = "rexroth-2006"'
@@ -49,7 +51,8 @@ def written(tmp_path):
 @pytest.mark.parametrize("name", COMMANDS)
 def test_every_command_that_evaluates_a_case_takes_it(name, written):
     """One that does not pass it on would not find the name wrong."""
-    places = {"case": str(written), "rows": str(ROOT / "examples" / "own_screws.csv")}
+    examples = {"rows": "own_screws.csv", "table": "nut_over_years.csv", "moves": "vertical_axis.toml"}
+    places = {"case": str(written), **{place: str(ROOT / "examples" / file) for place, file in examples.items()}}
     given = [word.format(**places) for word in COMMANDS[name]]
     done = CliRunner().invoke(app, [name.split()[0], *given, "--calibration", "rexroth-206"])
     assert isinstance(done.exception, InputError), done.output

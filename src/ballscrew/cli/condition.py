@@ -7,7 +7,15 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, Inertia, KeepGoing, TorqueConstant, TorqueKind
+from ballscrew.cli.common_options import (
+    AllowCode,
+    CalibrationName,
+    Inertia,
+    KeepGoing,
+    ModelName,
+    TorqueConstant,
+    TorqueKind,
+)
 
 
 def condition(
@@ -46,7 +54,8 @@ def condition(
     torque_constant: TorqueConstant = None,
     inertia: Inertia = None,
     keep_going: KeepGoing = False,
-    model: Annotated[str | None, typer.Option("--model", metavar="NAME", help="{models}; wins over the file.")] = None,
+    model: ModelName = None,
+    calibration: CalibrationName = None,
     settings: Annotated[
         list[str] | None,
         typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set nut.preload="4 kN ± 10 %".'),
@@ -73,7 +82,7 @@ def condition(
     from ballscrew.studies import condition as studies
 
     file = check_question(tests or [], case)
-    loaded = case_file.load(file, settings or [], model, allow_code=allow_code)
+    loaded = case_file.load(file, settings or [], model, calibration=calibration, allow_code=allow_code)
     if to is not None:
         files.check_picture(to)
     chosen = options(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, CaseFile, ModelName
+from ballscrew.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName
 
 if TYPE_CHECKING:
     from ballscrew.studies.duty import DutyReport
@@ -20,6 +20,7 @@ _TO = "--to"
 def duty(
     case: CaseFile,
     model: ModelName = None,
+    calibration: CalibrationName = None,
     settings: Annotated[
         list[str] | None,
         typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set axis.mass="500 kg".'),
@@ -62,7 +63,9 @@ def duty(
     tables = case_file.override(case_file.read(case), settings or [])
     if trace is not None:
         tables["motion"] = {"kind": "trajectory", "file": str(trace.absolute())}
-    loaded = case_file.build(tables, model, case.parent, allow_code=allow_code, moves=True)
+    loaded = case_file.build(
+        tables, model, case.parent, calibration=calibration, allow_code=allow_code, moves=True
+    )  # fmt: skip
     _check_kinds(to or [])
     for path in to or []:
         if path.suffix.lower() in row_tables.KINDS:
