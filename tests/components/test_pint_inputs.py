@@ -20,6 +20,10 @@ from ballscrew.sizing.catalogue import catalogue
 from ballscrew.sizing.checks import checks
 from ballscrew.sizing.installation import Ends, Installation, Limits
 from ballscrew.solvers.load_distribution import ball_loads
+from ballscrew.supports.bearing import SupportBearing
+from ballscrew.supports.guide import LinearGuide
+from ballscrew.supports.makers_bearing import PalmgrenBearing, SKFBearing, SKFConstants
+from ballscrew.supports.table import CarriedMass, GuidedTable
 from ballscrew.uncertainty.bands import band_along
 from support.synthetic_logs import OIL
 
@@ -43,6 +47,7 @@ IN_UNITS = {"axial_load": 5 * U.kN, "screw_speed": 60 * 30 / math.pi * U.rpm}
 #: What is wanted of a screw or a result, and what only results have, is not given by anybody.
 RESULTS = {
     "AxialRigidity",
+    "AxisStiffness",
     "Breakaway",
     "ContactConditions",
     "Contact",
@@ -52,6 +57,8 @@ RESULTS = {
     "BallLoads",
 }
 
+#: Read from files, whose values are text.
+READ = {"GuideRow", "LogRows", "Setup", "SupportUnit", "TorquePoint"}
 #: A part of each class that has quantities for fields.
 PARTS = [
     SCREW,
@@ -79,6 +86,13 @@ PARTS = [
     bs.Sine(stroke=0.1, frequency=2.0),
     bs.Segment(distance=0.1, speed=0.2, acceleration=2.0, temperature=300.0),
     bs.Segments(segments=(bs.Segment(duration=1.0),), acceleration=2.0, jerk=30.0),
+    SupportBearing(bore=0.02, outside_diameter=0.047, contact_angle=1.0, lubricant=GRADE, preload=500.0),
+    SKFBearing(bore=0.02, outside_diameter=0.047, lubricant=GRADE, preload=500.0),
+    PalmgrenBearing(bore=0.02, outside_diameter=0.047, lubricant=GRADE, viscous_factor=2.0, load_factor=1e-3),
+    SKFConstants(rolling=4e-7, axial_rolling=2.0, sliding=0.02, axial_sliding=0.7),
+    LinearGuide(friction_coefficient=0.003, seal_force=3.0),
+    CarriedMass(mass=100.0, along=0.1),
+    GuidedTable(masses=(CarriedMass(mass=100.0),), carriage_spacing=0.4, rail_spacing=0.3),
     bs.Surroundings(shaft_length=1.0, ball_conductance=2.0, shaft_convection=10.0, bore=0.01, coolant=290.0),
 ]
 PARTS += [
@@ -111,7 +125,7 @@ def with_unit(value, unit):
 
 def test_no_class_is_left_out():
     known = {type(part).__name__ for part in PARTS}
-    assert {c.__name__ for c in classes()} - known - RESULTS <= {"LogRows", "Setup", "TorquePoint"}  # read from files
+    assert {c.__name__ for c in classes()} - known - RESULTS <= READ
 
 
 @pytest.mark.parametrize("part", PARTS, ids=lambda part: type(part).__name__)
