@@ -5,6 +5,7 @@ from ballscrew.axis.axis import Axis as Axis
 from ballscrew.axis.drive import Motor as Motor
 from ballscrew.axis.duty import Duty as Duty
 from ballscrew.axis.duty import duty as duty
+from ballscrew.axis.to_and_fro import to_and_fro as to_and_fro
 from ballscrew.calibration.calibrated_model import CalibratedModel as CalibratedModel
 from ballscrew.calibration.fit import fit as fit
 from ballscrew.cases.catalogue import screws as screws
@@ -43,6 +44,7 @@ from ballscrew.sizing.rigidity import AxialRigidity as AxialRigidity
 from ballscrew.sizing.rigidity import rigidity_iso3408 as rigidity_iso3408
 from ballscrew.sweeps.store_check import verify as verify
 from ballscrew.sweeps.sweep import sweep as sweep
+from ballscrew.thermal.steady_heat import steady_heat as steady_heat
 from ballscrew.thermal.surroundings import Surroundings as Surroundings
 from ballscrew.thermal.warm_up import warm_up as warm_up
 from ballscrew.torque_logs.torque_log import TorqueLog as TorqueLog

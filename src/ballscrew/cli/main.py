@@ -33,6 +33,7 @@ from ballscrew.cli import (
     service,
     sweep,
     validate,
+    warm_up,
 )
 from ballscrew.cli.common_options import MODEL_NAMES
 
@@ -71,6 +72,7 @@ for command in (
     fit.fit,
     report.report,
     duty.duty,
+    warm_up.warm_up,
     sensitivity.sensitivity,
     serve.serve,
     service.service,

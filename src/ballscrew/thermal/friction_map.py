@@ -24,7 +24,7 @@ COLDEST, HOTTEST = 258.15, 393.15
 LARGEST_PRELOAD = 4.0
 _TEMPERATURES, _PRELOADS = 24, 13
 #: More points than this, and the model is compiled.
-WORTH_COMPILING = 20_000
+WORTH_COMPILING = 200_000
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -67,8 +67,9 @@ class FrictionMap(ByValue):
         return bool(inside and (self.preloads.size == 1 or preload <= self.preloads[-1]))
 
 
+@functools.lru_cache(maxsize=4)
 def friction_map(duty: Duty) -> FrictionMap:
-    """The map of a duty: its distinct states at every temperature and preload.
+    """The map of a duty: its distinct states at every temperature and preload; kept for the next surroundings.
 
     Raises :class:`~ballscrew.errors.InputError` for an element without an oil, and for an oil that has no temperature.
     """
