@@ -217,4 +217,4 @@ def test_refusals(ballscrew, arguments, line):
 def test_run_refuses_the_example_of_duty(ballscrew):
     done = ballscrew("run", EXAMPLE)
     assert done.returncode == 2
-    assert "only ballscrew duty takes the motion in its place" in done.stderr
+    assert "only ballscrew duty and warm-up take the motion in its place" in done.stderr

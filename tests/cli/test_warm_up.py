@@ -147,7 +147,7 @@ def test_runaway_is_said_and_no_number_clipped(case):
     assert verdict["severity"] == "error"
     assert written["results"]["time"][-1] <= written["results"]["stopped"] < 2 * 3600
     assert "Steady state: none" in text(report)
-    with pytest.raises(InputError, match="runs away"):
+    with pytest.raises(InputError, match="finds no steady state"):
         self_heating(case(POINT + DOUBLE.replace("3 kN", "5 kN"), *hot))
 
 

@@ -86,7 +86,7 @@ def self_heating(case: Case) -> SelfHeating:
     if not end.exists:
         remedy = "see when with ballscrew warm-up; cool the shaft, turn slower, or preload less"
         raise InputError(
-            Fault(OPTION, "finds no steady state: the screw runs away", f"margin {end.margin:.3g}", remedy)
+            Fault(OPTION, "finds no steady state in the range of oil and preload", f"margin {end.margin:.3g}", remedy)
         )
     screw, oil = case.screw, case.lubricant.at(end.oil_temperature)
     if end.network.preload_set:
