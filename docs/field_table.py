@@ -14,6 +14,7 @@ from ballscrew.axis.drive import Motor
 from ballscrew.cases.duty_schema import MOTIONS
 from ballscrew.cases.fields import example_of
 from ballscrew.cases.nut_kinds import ENDS, LISTED, LOSSES, NUTS
+from ballscrew.components.data_sheet import DataSheet
 from ballscrew.components.materials import Lubricant, Material, grades
 from ballscrew.components.nut import Bodies, Scatter
 from ballscrew.components.operating_state import OperatingState
@@ -90,7 +91,11 @@ def _lines(title: str, cls: type) -> Iterator[str]:
         yield '\nAlso `curve = [["0 rpm", "7 N m"], ["3000 rpm", "5 N m"]]`, the peak torque over the speed.'
     if cls is Lubricant:
         yield (
-            f"\nInstead of `viscosity`, `grade` ({', '.join(grades())}; `VG68` is `ISO VG 68`) and `temperature`"
+            "\nInstead of `viscosity` the fields of a data sheet: "
+            + ", ".join(f"`{name}`" for name in fields_of(DataSheet))
+            + "; or `oil`, a name of the library, or of a file of your own beside the case (`oil_file`); with"
+            " `temperature` (-80 to 200 degC, 40 degC if left out)."
+            f"\n\nOr a shortcut: `grade` ({', '.join(grades())}; `VG68` is `ISO VG 68`) and `temperature`"
             " (-20 to 150 degC, 40 degC if left out)."
         )
 

@@ -5,10 +5,13 @@ from ballscrew.axis.axis import Axis as Axis
 from ballscrew.axis.drive import Motor as Motor
 from ballscrew.axis.duty import Duty as Duty
 from ballscrew.axis.duty import duty as duty
+from ballscrew.axis.duty_band import duty_band as duty_band
 from ballscrew.axis.to_and_fro import to_and_fro as to_and_fro
 from ballscrew.calibration.calibrated_model import CalibratedModel as CalibratedModel
 from ballscrew.calibration.fit import fit as fit
 from ballscrew.cases.catalogue import screws as screws
+from ballscrew.cases.oils import oils as oils
+from ballscrew.components.data_sheet import DataSheet as DataSheet
 from ballscrew.components.lubrication import HamrockDowson as HamrockDowson
 from ballscrew.components.materials import Lubricant as Lubricant
 from ballscrew.components.materials import Material as Material
@@ -36,6 +39,8 @@ from ballscrew.motion.profiles import Segment as Segment
 from ballscrew.motion.profiles import Segments as Segments
 from ballscrew.motion.profiles import Sine as Sine
 from ballscrew.motion.profiles import Trapezoid as Trapezoid
+from ballscrew.service.condition import condition as condition
+from ballscrew.service.condition_values import Condition as Condition
 from ballscrew.service.preload_change import PreloadChange as PreloadChange
 from ballscrew.service.preload_change import preload_change as preload_change
 from ballscrew.service.preload_of_torque import preload_of_torque as preload_of_torque
@@ -48,6 +53,7 @@ from ballscrew.thermal.steady_heat import steady_heat as steady_heat
 from ballscrew.thermal.surroundings import Surroundings as Surroundings
 from ballscrew.thermal.warm_up import warm_up as warm_up
 from ballscrew.torque_logs.torque_log import TorqueLog as TorqueLog
+from ballscrew.torque_logs.torque_series import TorqueSeries as TorqueSeries
 from ballscrew.uncertainty.bands import band as band
 from ballscrew.uncertainty.distributions import LogNormal as LogNormal
 from ballscrew.uncertainty.distributions import Normal as Normal

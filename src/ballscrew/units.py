@@ -48,10 +48,11 @@ USUAL: Mapping[str, Sequence[str]] = {
     "Pa": ("MPa", "GPa", "psi", "Pa", "bar"),
     "1/Pa": ("1/GPa", "1/Pa"),
     "Pa s": ("mPa s", "Pa s", "cP"),
+    "m^2/s": ("cSt", "mm^2/s"),
     "K": ("degC", "K", "degF"),
     "kg": ("kg", "lb", "g"),
     "m/s": ("m/min", "m/s", "mm/s", "mm/min", "in/min"),
-    "m/s^2": ("m/s^2", "g", "mm/s^2"),
+    "m/s^2": ("m/s^2", "mm/s^2"),
     "s": ("s", "min", "h"),
 }
 _NAMED = 3
@@ -319,7 +320,8 @@ def _converted(where: str, number: float, unit: str, quantity: Quantity, given: 
         meant = _similar_unit(unit, quantity)
         remedy = f'did you mean "{meant}"?' if meant else _advice(quantity)
         if quantity.name == "viscosity":
-            remedy += '; for a kinematic viscosity multiply by the density, or give grade = "ISO VG 100"'
+            remedy += "; for a kinematic viscosity multiply by the density, or give kinematic_viscosity_40 and "
+            remedy += 'kinematic_viscosity_100, or grade = "ISO VG 100"'
         return Fault(where, "wrong unit", given, remedy)
     except (pint.PintError, ValueError, ArithmeticError, TypeError):  # pint's own errors are of several kinds
         meant = _similar_unit(unit[:_LONGEST_UNIT], quantity)

@@ -214,7 +214,24 @@ def test_refusals(ballscrew, arguments, line):
     assert line in done.stderr.splitlines()
 
 
-def test_run_refuses_the_example_of_duty(ballscrew):
-    done = ballscrew("run", EXAMPLE)
-    assert done.returncode == 2
+def test_run_asks_for_an_operating_point(ballscrew, tmp_path):
+    (tmp_path / "case.toml").write_text(VERTICAL, encoding="utf-8")
+    done = ballscrew("run", "case.toml")
+    assert (done.returncode, done.stdout) == (2, "")
     assert "only ballscrew duty and warm-up take the motion in its place" in done.stderr
+
+
+def test_a_band(ballscrew, tmp_path):
+    (tmp_path / "case.toml").write_text(VERTICAL, encoding="utf-8")
+    done = ballscrew("duty", "case.toml", "--band", "--samples", "32", "--model", "olaru2005", "--json")
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert found["band"]["samples"] == 32
+    for name in ("torque_rms", "torque_peak", "energy_drawn", "energy_returned", "energy_lost"):
+        one = found["band"][name]
+        assert one["value"] == pytest.approx(found["results"][name], rel=1e-9)
+        assert one["low"] <= one["median"] <= one["high"]
+    assert "temperature" in found["band"]["inputs"]
+    refused = ballscrew("duty", "case.toml", "--samples", "1")
+    assert (refused.returncode, refused.stdout) == (2, "")
+    assert refused.stderr == "--samples: must be a whole number from 2 to 2^30 (1) · such as 2**14\n"

@@ -45,7 +45,7 @@ def test_a_sweep_over_the_temperature_of_a_grade(example, ballscrew):
     given = ballscrew("sweep", drive, *wanted, "--set", "lubricant.pressure_viscosity_coefficient=15 1/GPa")
     assert given.returncode == 0, given.stderr
     assert given.stdout != process.stdout
-    assert "give the oil by its grade" in ballscrew("sweep", example, *wanted).stderr
+    assert "give the oil by its data sheet or its grade" in ballscrew("sweep", example, *wanted).stderr
     assert "goes with the temperature" in ballscrew("sweep", drive, *wanted, "--vary", "viscosity=1,2 Pa s").stderr
 
 
@@ -64,7 +64,7 @@ def test_every_example_of_the_schema_parses():
     parts = {"Screw": bs.BallScrew, "Lubricant": bs.Lubricant, "Operation": schema.OperatingState,
              "Material": bs.Material, "Model": bs.FrictionModel}  # fmt: skip
     known = {title: dict(fields_of(part)) for title, part in parts.items()}
-    known["Lubricant"]["temperature"] = schema.TEMPERATURE
+    known["Lubricant"] |= {**fields_of(bs.DataSheet), "temperature": schema.SHEET_TEMPERATURE}
     tables = [(definitions[title]["properties"], quantities) for title, quantities in known.items()]
     for slot in schema.LAWS:
         options = definitions["Model"]["properties"][slot]["anyOf"][1:]

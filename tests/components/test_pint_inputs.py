@@ -56,6 +56,7 @@ RESULTS = {
 PARTS = [
     SCREW,
     GRADE,
+    bs.DataSheet(kinematic_viscosity_40=1e-4, kinematic_viscosity_100=1.11e-5),
     MODEL,
     bs.Material(),
     catalogue()["rexroth-40x10x6-6-double"],

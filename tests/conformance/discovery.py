@@ -50,7 +50,10 @@ class Equation:
     def sample(self, count: int) -> dict[str, np.ndarray]:
         """Values of each parameter within the domain of the equation, the same every time."""
         generator = np.random.default_rng(zlib.crc32(self.name.encode()))
-        return {name: generator.uniform(*domain(name, unit), count) for name, unit in self.units.items()}
+        return {
+            name: generator.uniform(*BY_PLACE.get(f"{self.name}.{name}", domain(name, unit)), count)
+            for name, unit in self.units.items()
+        }
 
     def __call__(self, *arguments: Any) -> list[Any]:
         """The results as a list: one, or one for each field of a NamedTuple."""
@@ -87,6 +90,14 @@ DIMENSIONAL_FITS = {
     "rheology.roelands_viscosity": "the logarithm is that of a viscosity in Pa s, and a number is in 1/Pa",
     "rating.screw_turn_rating": "fit of a force to powers of a length and a number, in millimetres and newtons",
     "rating.static_load_factor": "the 27.74 is in N/mm^2, a property of steel",
+    "viscosity_temperature.kinematic_viscosity_of_walther_number": "numbers in mm^2/s",
+    "viscosity_temperature.oil_expansion_coefficient": "the 0.6278 is in kg/(m^3 K)",
+    "viscosity_temperature.reference_viscosity": "coefficients of polynomials of a viscosity in mm^2/s",
+    "viscosity_temperature.refined_kinematic_viscosity": "numbers in mm^2/s",
+    "viscosity_temperature.viscosity_index_above_100": "the logarithm is that of a viscosity in mm^2/s",
+    "viscosity_temperature.walther_number": "numbers in mm^2/s",
+    "viscosity_temperature.walther_number_slope": "numbers in mm^2/s",
+    "viscosity_temperature.walther_temperature_coefficient": "numbers in mm^2/s",
     "rolling.replenishment_factor": "fit of a bearing maker in millimetres and revolutions a minute",
     "rolling.elastic_resistance_moment": "fit of a moment to powers of a length and a force",
 }
@@ -141,8 +152,11 @@ BY_NAME = {
     "film_viscosity": (1.0, 100.0),
     "flank_displacement": (1e-6, 1e-4),
     "groove_centre_distance": (5e-5, 8e-4),
+    "high_number": (3.0, 30.0),
     "inlet_film_ratio": (2.0, 200.0),
     "lip_friction": (10.0, 200.0),
+    "high_temperature": (370.0, 390.0),
+    "low_temperature": (300.0, 320.0),
     "limiting_shear_stress": (1e7, 2e8),
     "line_load_parameter": (1e-5, 1e-3),
     "load_parameter": (1e-6, 1e-3),
@@ -150,6 +164,7 @@ BY_NAME = {
     "loaded_balls": (10.0, 200.0),
     "loaded_centre_distance": (5e-5, 8e-4),
     "loaded_turns": (1.0, 6.0),
+    "low_number": (40.0, 500.0),
     "material_parameter": (1000.0, 10000.0),
     "maximum_pressure": (5e8, 3e9),
     "mean_pressure": (5e8, 2e9),
@@ -168,7 +183,15 @@ BY_NAME = {
     "vogel_constant": (600.0, 1300.0),
     "vogel_temperature": (170.0, 190.0),
     "viscosity_at_infinity": (5e-8, 1e-7),
+    "walther_number": (3.0, 500.0),
+    "walther_slope": (3.0, 4.0),
     "whirling_root": (1.0, 5.0),
+}
+#: The same by equation and name: here numbers count that only thin oils see.
+BY_PLACE = {
+    "viscosity_temperature.kinematic_viscosity_of_walther_number.walther_number": (1.3, 2.5),
+    "viscosity_temperature.walther_number.kinematic_viscosity": (3e-7, 1.5e-6),
+    "viscosity_temperature.walther_number_slope.kinematic_viscosity": (3e-7, 1.5e-6),
 }
 
 

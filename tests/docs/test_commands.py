@@ -28,16 +28,24 @@ EXCEPTIONS = {
     ".venv/bin/ballscrew sweep examples/feed_drive.toml --to /shared/map.zarr --scheduler tcp://head:8786": (
         "it needs a scheduler and a disk that machines share; tests/sweeps/test_cluster.py has its own"
     ),
+    ".venv/bin/ballscrew condition xjtu.csv --case examples/xjtu.toml --column torque=upper": (
+        "the licence of the data is not stated, so the repository has none of it"
+    ),
+    ".venv/bin/ballscrew condition xjtu.csv --case examples/xjtu.toml --column torque=lower --set nut.type=double": (
+        "the licence of the data is not stated, so the repository has none of it"
+    ),
 }
 
 #: What such a command must have in it that would fail or hurt here; without it there is no reason to leave it out.
-CANNOT_RUN_HERE = re.compile(r"pip install|benchmarks/|tcp://head:")
+CANNOT_RUN_HERE = re.compile(r"pip install|benchmarks/|tcp://head:|xjtu\.csv")
 
 #: Options that write a file. A command without them does the same on every page, and is typed once.
 WRITES = re.compile(r"\s(?:--to|--out|--output-file|--picture|-o)\b|\bout/|>")
 
 #: Exit codes that a page announces.
-EXIT_CODES = {}
+EXIT_CODES = {
+    ".venv/bin/ballscrew condition examples/nut_new.csv examples/nut_worn.csv --case examples/service.toml": 2,
+}
 
 SERVES = re.compile(r"^(?:\.venv/bin/)?ballscrew serve\b(?!.*--help)")
 

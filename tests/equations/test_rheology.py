@@ -76,6 +76,28 @@ def test_pressure_viscosity_estimate():
         assert rheology.pressure_viscosity_estimate(nu) == pytest.approx(expected, rel=RELATIVE)
 
 
+#: StachowiakBatchelor2005, Table 2.3: viscosity (mPa s) and pressure–viscosity coefficient (1e-9 m²/N) of mineral oils
+#: at 30, 60 and 100 °C.
+MEASURED_OILS = [
+    (153, 34, 9.1, 23.7, 20.5, 15.8), (250, 50.5, 12.6, 25.0, 21.3, 17.6), (810, 135, 26.8, 34, 28, 22),
+    (18.6, 6.3, 2.4, 20, 16, 13), (45, 12, 3.9, 28, 20, 16), (107, 23.3, 6.4, 29.6, 22.8, 17.8),
+    (122, 26.3, 7.3, 27.0, 21.6, 17.5), (171, 31, 7.5, 28, 23, 18), (30.7, 8.6, 3.1, 25.7, 20.3, 15.4),
+    (165, 30.0, 6.8, 33.0, 23.8, 16.0), (310, 44.2, 9.4, 34.6, 26.3, 19.5), (2000, 180, 24, 41.5, 29.4, 25.0),
+]  # fmt: skip
+
+
+def test_pressure_viscosity_estimate_is_below_measured_oils():
+    # for a density of 870 kg/m^3, which the power 0.204 hardly sees
+    ratios = [
+        rheology.pressure_viscosity_estimate(viscosity * 1e-3 / 870) / (measured * 1e-9)
+        for oil in MEASURED_OILS
+        for viscosity, measured in zip(oil[:3], oil[3:], strict=True)
+    ]
+    assert min(ratios) == pytest.approx(0.61, abs=0.01)
+    assert max(ratios) == pytest.approx(0.98, abs=0.01)
+    assert sum(ratios) / len(ratios) == pytest.approx(0.73, abs=0.01)
+
+
 def test_barus_grows_by_e_over_one_inverse_coefficient():
     assert rheology.barus_viscosity(0.1, 2e-8, 0.0) == 0.1
     assert rheology.barus_viscosity(0.1, 2e-8, 5e7) == pytest.approx(0.1 * math.e, rel=RELATIVE)

@@ -14,6 +14,8 @@ from ballscrew.axis.brake import brake_of
 from ballscrew.axis.cycle_life import CycleLife
 from ballscrew.axis.drive import Motor, MotorCheck
 from ballscrew.axis.duty import duty
+from ballscrew.axis.duty_band import duty_band, numbers_of_cycle
+from ballscrew.errors import InputError
 from ballscrew.motion.profiles import SCurve, Segment, Segments, Sine, Trapezoid
 from support.strategies import MODELS, floats, powers
 
@@ -178,3 +180,21 @@ def test_a_motor_that_fits_and_one_that_does_not():
     heated = dataclasses.replace(fits, torque_constant=0.5, resistance=2.0)
     cycle = found.states.cycle_time
     assert MotorCheck(found, heated).copper_loss == pytest.approx(2.0 * found.torque_rms**2 / 0.25 * cycle, rel=1e-12)
+
+
+def test_a_band_of_a_cycle():
+    """Its numbers are those of the duty for its own friction, and a wider input makes a wider band."""
+    axis = dataclasses.replace(UPRIGHT, transmission_efficiency=0.9, transmission_ratio=2.0, bearing_torque=0.1)
+    found = duty(MODELS["reference"], ROW.screw(nut=NUTS[1]), OIL, axis=axis, motion=SHORT)
+    own = numbers_of_cycle(found, found.screw.torque[None, :])
+    for name in ("torque_rms", "torque_peak", "energy_drawn", "energy_returned", "energy_lost"):
+        assert own[name][0] == pytest.approx(getattr(found, name), rel=1e-12)
+    bands = [
+        duty_band(found, uncertain={"nut.preload": bs.Normal(3605.0, spread)}, samples=256)["energy_lost"]
+        for spread in (100.0, 500.0)
+    ]
+    widths = [(each.band.high - each.band.low) / each.median for each in bands]
+    assert widths[0] * 4 < widths[1] < widths[0] * 6
+    assert all(each.band.low < each.value < each.band.high for each in bands)
+    with pytest.raises(InputError, match="model"):
+        duty_band(duty(0.9, ROW.screw(), axis=axis, motion=SHORT), uncertain={})

@@ -34,6 +34,7 @@ CASES = {
     "a logarithm that is wanted itself": (lambda x, y, z: np.log(x) + (x * y) ** 0.66 + z, 2, 2),
     "under another power": (lambda x, y, z: np.exp(-((1 + (x * y) ** 0.5 * z) ** 0.8)) + (x * y) ** 0.3, 3, None),
     "variable exponent": (lambda x, y, z: (x * y) ** z + (x * y) ** 0.2, 2, 1),
+    "a logarithm of a logarithm": (lambda x, y, z: np.log(np.log(x + 2) + 1) + np.log(y) + z, 3, 2),
     "constants": (lambda x, y, z: np.exp(0.3 * np.log(2 * x) + 1.5) + y * z, 1, 1),
     "nothing to merge": (lambda x, y, z: x * y + z, 0, 0),
 }

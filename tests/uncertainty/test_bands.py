@@ -284,7 +284,7 @@ def test_every_input_in_the_file_exists(seed_screw):
         for law in laws.values()
         for name in inputs_of(dataclasses.replace(model, **{slot: law() if isinstance(law, type) else law}), screw, oil)
     }
-    assert set(default_uncertainties()) - names == {"viscosity_of_grade"}
+    assert set(default_uncertainties()) - names == {"viscosity_of_grade", "viscosity_of_sheet"}
 
 
 def test_usual_distributions_are_about_the_values_of_the_case(seed_screw, seed_oil):

@@ -166,6 +166,14 @@ def grid(found):
     return [row for row, _ in rows]
 
 
+def test_duty(server, tmp_path):
+    """Of a case without an operating point, which only this address takes."""
+    tables = tables_of(next(path for path in EXAMPLES if path.stem == "vertical_axis"))
+    del tables["operation"]
+    assert server.post("duty", {"case": tables}).json() == document("duty", written(tables, tmp_path), "--json")
+    assert server.post("run", {"case": tables}).status_code == 422
+
+
 def test_catalogue(server):
     assert server.get("catalogue").json() == json.loads(printed("catalogue", "list", "--json"))
     found = server.get("catalogue", params={"words": "Double 40x"}).json()

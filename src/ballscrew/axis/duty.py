@@ -131,14 +131,18 @@ class Duty(ByValue):
             **{name: direction * torque / ratio for name, torque in self.shaft_friction.items()},
             "imbalance of the model": (self.screw.ideal_torque - self.axial_load * arm) / ratio,
         }
-        turned = sum(own.values())
-        eta = self.axis.transmission_efficiency
-        lost = np.where(turned * direction > 0, turned * (1 / eta - 1), turned * (eta - 1)) * np.abs(direction)
+        turned = np.sum(list(own.values()), axis=0)
+        lost = self.transmission_loss(turned)
         alpha = self.states.acceleration / to_motor
         own |= {"transmission": lost, "acceleration of what turns": self.axis.inertia * alpha}
         if self.axis.brake_holds:
             own["brake"] = -np.where(direction == 0, turned, 0.0)
         return own
+
+    def transmission_loss(self, turned: Numbers) -> Numbers:
+        """What belt or gears add to a torque that they pass on, N m: more where the motor drives, less where it is."""
+        eta, direction = self.axis.transmission_efficiency, self.states.direction
+        return np.where(turned * direction > 0, turned * (1 / eta - 1), turned * (eta - 1)) * np.abs(direction)
 
     @lazy
     def torque(self) -> Numbers:

@@ -195,8 +195,10 @@ def _of_rows(found: FitResult) -> list[Record]:
     if "viscosity" in found.response.names and found.rows.log.temperature is not None:
         text = "viscosity is free: it counts for the whole log, whatever the temperatures"
         warn("viscosity_free", "viscosity", text)
-    if found.rows.log.temperature is not None and found.lubricant.grade is None:
-        text = "the temperatures of the log are not used: the oil has a viscosity, and no grade that changes with it"
+    if found.rows.log.temperature is not None and not found.lubricant.follows_temperature:
+        text = (
+            "the temperatures of the log are not used: the oil has a viscosity, and no sheet or grade that changes it"
+        )
         warn("temperature_unused", "temperature", text)
     return records
 

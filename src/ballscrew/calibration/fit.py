@@ -111,8 +111,11 @@ def fit(
         for name, (low, high) in (bounds or {}).items()
     }
     log = TorqueLog.of(data).cleaned(inertia=inertia)
-    if lubricant.grade is not None and log.temperature is not None:
-        log = log.select(np.asarray(within_bounds(TEMPERATURE.info, log.temperature)), "temperature beyond any oil")
+    if lubricant.follows_temperature and log.temperature is not None:
+        log = log.select(
+            np.asarray(within_bounds(lubricant.temperature_quantity.info, log.temperature)),
+            "temperature beyond any oil",
+        )
     numbers = [name for name in dict.fromkeys(asked.values()) if name != CONSTANT_TORQUE.name]
     response = Response.of(subject, numbers, points_of(log, lubricant), engine=engine, times=EVALUATIONS)
     torques, slopes = response(response.start)
@@ -181,7 +184,7 @@ def fit(
 def points_of(log: TorqueLog, lubricant: Lubricant) -> dict[str, NDArray[np.float64]]:
     """Magnitudes of load and speed of a log, and the temperature where the oil has a grade."""
     found = {"axial_load": np.abs(log.axial_load), "screw_speed": np.abs(log.screw_speed)}
-    if lubricant.grade is not None:
+    if lubricant.follows_temperature:
         held = np.full(len(log), lubricant.temperature) if log.temperature is None else log.temperature
         found[TEMPERATURE.name] = held
     return found

@@ -94,8 +94,8 @@ def _ranges(found: FitResult, limits: Mapping[str, tuple[float, float]]) -> dict
         name: (float(np.abs(values).min()) / RANGE_FACTOR, float(np.abs(values).max()) * RANGE_FACTOR)
         for name, values in {"axial_load": log.axial_load, "screw_speed": log.screw_speed}.items()
     }
-    if found.lubricant.grade is not None and log.temperature is not None:
-        info = TEMPERATURE.info
+    if found.lubricant.follows_temperature and log.temperature is not None:
+        info = found.lubricant.temperature_quantity.info
         low, high = float(log.temperature.min()) - TEMPERATURE_MARGIN, float(log.temperature.max()) + TEMPERATURE_MARGIN
         ranges[TEMPERATURE.name] = max(low, info.at_least or low), min(high, info.at_most or high)
     unknown = [name for name in limits if name not in ranges]
@@ -145,7 +145,7 @@ def _derivatives(found: FitResult, tests: Mapping[str, Vector]) -> NDArray[np.fl
     """Derivatives of the readings of each test in units of the scatter, of shape (tests, directions, parameters)."""
     log, response = found.rows.log, found.response
     points = dict(tests)
-    if found.lubricant.grade is not None and TEMPERATURE.name not in points:
+    if found.lubricant.follows_temperature and TEMPERATURE.name not in points:
         points[TEMPERATURE.name] = np.full(points["axial_load"].size, found.lubricant.temperature)
     torques, slopes = response.at(points)(found.solution.values[: len(response.names)])
     directions = [sign for sign in (1.0, -1.0) if np.any(sign * log.screw_speed > 0)]

@@ -19,6 +19,7 @@ from ballscrew.cases.case import USUAL_LIMITS
 from ballscrew.cases.case import Case as Case
 from ballscrew.cases.duty_schema import DUTY_TABLES
 from ballscrew.cases.inputs import inputs as inputs
+from ballscrew.cases.lubricants import lubricant_of
 from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.cases.provenance import references as references
 from ballscrew.cases.schema import (
@@ -34,7 +35,7 @@ from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.components.traits import traits_of
-from ballscrew.errors import MISSING, Fault, InputError, closest, nearest, raise_if_any
+from ballscrew.errors import Fault, InputError, closest, nearest, raise_if_any
 from ballscrew.files import read_bytes
 from ballscrew.friction.calibrations import calibrated, calibration
 from ballscrew.friction.law_names import coefficients
@@ -174,7 +175,7 @@ def build(
         if name not in tables and name not in misspelt
     ]
     made = _screw(sections, folder, rows, faults) if "screw" in sections else _NO_SCREW
-    lubricant, oil = _lubricant(sections, faults) if "lubricant" in sections else (None, {})
+    lubricant, oil = lubricant_of(sections, folder, faults) if "lubricant" in sections else (None, {})
     axis, motion, motor, surroundings = duty_tables.moved(sections, faults)
     if efficiency is None:
         friction_model = _model(sections, model, faults, folder if allow_code else None)
@@ -251,33 +252,6 @@ def _screw(
             faults.append(in_display_units(fault, quantity, str(written)))
         return _NO_SCREW
     return _MadeScrew(screw, row, {name: value for name, value in listed.items() if value is not None})
-
-
-def _lubricant(sections: Sections, faults: list[Fault]) -> tuple[Lubricant | None, Mapping[str, Any]]:
-    """An oil from its viscosity, or from its grade and temperature, and those two."""
-    before = len(faults)
-    table, values = sections.tables["lubricant"], sections.values_of("lubricant", faults)
-    if isinstance(table, dict):
-        if "grade" in table and "viscosity" in table:
-            given = f"{table['viscosity']} and {table['grade']}"
-            faults.append(Fault("lubricant.viscosity", "contradicts the grade", given, "give one of the two"))
-        if "grade" not in table and "temperature" in table:
-            given = str(table["temperature"])
-            faults.append(Fault("lubricant.temperature", "needs a grade", given, 'add {lubricant.grade}"ISO VG 100"'))
-        if "grade" not in table and "viscosity" not in table and "temperature" not in table:
-            remedy = 'add viscosity = "… mPa s", or grade = "ISO VG 100" and a temperature'
-            faults.append(Fault("lubricant.viscosity", MISSING, "", remedy))
-    if len(faults) > before:
-        return None, {}
-    made_from = {name: values.pop(name) for name in ("grade", "temperature") if name in values}
-    if not made_from:
-        return Lubricant(**values), {}
-    try:
-        oil = Lubricant.from_grade(**made_from)
-    except InputError as error:
-        faults += error.faults
-        return None, {}
-    return dataclasses.replace(oil, **values), made_from
 
 
 def _operation(sections: Sections, faults: list[Fault]) -> OperatingState | None:

@@ -7,10 +7,11 @@ from typing import Any
 
 from ballscrew import units
 from ballscrew.cases.case import Case
+from ballscrew.cases.lubricants import described, shown_temperature
 from ballscrew.cases.nut_kinds import kind_of
 from ballscrew.cases.schema import LAWS, MODELS, name_of_law
 from ballscrew.components.contact import RaceState
-from ballscrew.components.materials import TEMPERATURE, Lubricant
+from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Bodies, Nut
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import BallScrew
@@ -22,6 +23,8 @@ from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import fields_of, quantities_of
 from ballscrew.validation.nearest import near_rows
 
+#: What is assumed of a grease.
+_OF_GREASE = "grease: the film of its base oil, no thickener in it, no churning of a fresh filling"
 #: Temperature of an oil of a grade where none is given, K.
 DEFAULT_TEMPERATURE = 313.15
 LEFT_OUT, NOT_COMPARED = "left out: seals, preload, return path, churning", "not compared with measurements"
@@ -120,12 +123,12 @@ def common_assumptions(case: Case, ball_to_ball_force: float | None = None) -> l
     def shown(part: Any, name: str) -> str:
         return units.shown(getattr(part, name), known[name])
 
-    temperature = units.shown(case.oil.get("temperature", DEFAULT_TEMPERATURE), TEMPERATURE)
-    made_from = f"{case.oil['grade']} at {temperature}: " if "grade" in case.oil else ""
+    made_from = f"{described(case.oil)} at {shown_temperature(case.oil, DEFAULT_TEMPERATURE)}: " if case.oil else ""
     modulus = units.shown(case.screw.equivalent_modulus(case.screw.screw_raceway), modulus_of)
     return [
         f"oil {made_from}viscosity {shown(case.lubricant, 'viscosity')}, "
         f"pressure–viscosity coefficient {shown(case.lubricant, 'pressure_viscosity_coefficient')}",
+        *([_OF_GREASE] if case.lubricant.sheet is not None and case.lubricant.sheet.is_grease else []),
         f"equivalent modulus {modulus}",
         "roughness of balls, screw, nut "
         + ", ".join(shown(case.screw, f"{part}_roughness") for part in ("ball", "screw", "nut")),

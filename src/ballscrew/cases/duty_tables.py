@@ -28,6 +28,7 @@ from ballscrew.cases.sections import Sections
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.errors import MISSING, Fault, InputError, nearest
 from ballscrew.motion.profiles import Motion, Segment
+from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import fields_of
 from ballscrew.thermal.surroundings import Surroundings
 
@@ -62,6 +63,7 @@ def needed(usual: Sequence[str], moves: bool, efficiency: float | None) -> Seque
     return [*(name for name in found if name != "operation"), *NEEDED] if moves else found
 
 
+@overflow_as_input_error()
 def travel(axis: Axis, motion: Motion, lead: float) -> OperatingState:
     """The operating point of steady travel forwards, at the largest speed and without any process."""
     states = motion.states()

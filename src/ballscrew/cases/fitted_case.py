@@ -19,6 +19,7 @@ from ballscrew.calibration.fit_result import Estimate
 from ballscrew.calibration.problem import CONSTANT_TORQUE
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
+from ballscrew.cases.lubricants import OF_NAMED_OIL
 from ballscrew.cases.provenance import of_case, references
 from ballscrew.components.materials import Lubricant
 from ballscrew.files import atomic_write
@@ -37,8 +38,8 @@ def save(to: Path, tables: Mapping[str, Any], folder: Path, case: Case, found: C
     import tomlkit
 
     text = tomlkit.dumps(_plain({**_with_numbers(tables, case, found), "calibration": calibration_of(case, found)}))
-    for key in ("catalogue_file",):
-        file = tables.get("screw", {}).get(key)
+    for section, key in (("screw", "catalogue_file"), ("lubricant", "oil_file")):
+        file = tables.get(section, {}).get(key)
         if file is not None:
             moved = os.path.relpath(folder / file, to.parent)
             text = text.replace(f'{key} = "{file}"', f'{key} = "{Path(moved).as_posix()}"')
@@ -53,9 +54,9 @@ def _with_numbers(tables: Mapping[str, Any], case: Case, found: CalibratedModel)
     settings: list[str] = []
     for full, estimate in zip(found.response.names, found.estimates.values(), strict=False):
         settings.append(f'{_place(known, full)}="{_written(estimate)}"')
-        if full == "viscosity" and "grade" in made["lubricant"]:
-            # one of the two: what the grade gave is written out
-            made["lubricant"] = {k: v for k, v in made["lubricant"].items() if k not in ("grade", "temperature")}
+        if full == "viscosity" and case.oil:
+            # one of the two: what the grade or the data sheet gave is written out
+            made["lubricant"] = {k: v for k, v in made["lubricant"].items() if k not in OF_NAMED_OIL}
             for name, quantity in fields_of(Lubricant).items():
                 made["lubricant"].setdefault(name, _number(getattr(case.lubricant, name), quantity))
     constant = found.estimates.get(CONSTANT_TORQUE.name)

@@ -19,7 +19,8 @@ def of_case(case: Case) -> dict[str, Any]:
 
 def references(case: Case) -> list[str]:
     """Keys of the sources of the model, and of the oil where it was made from a grade."""
-    of_oil = keys_in(documentation(Lubricant.from_grade)) if case.oil else ()
+    made_by = Lubricant.from_grade if "grade" in case.oil else Lubricant.from_data_sheet
+    of_oil = keys_in(documentation(made_by)) if case.oil else ()
     losses = {} if case.nut is None else case.nut.losses
     of_nut = [key for law in losses.values() for key in keys_in(documentation(type(law)))]
     of_model = citations_of(case.model) if case.efficiency is None else ()

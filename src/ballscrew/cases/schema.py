@@ -23,7 +23,8 @@ from ballscrew.cases.fields import EXAMPLES as EXAMPLES
 from ballscrew.cases.fields import defaults_of, json_of, read_preload, section_of
 from ballscrew.cases.law_import import OUTSIDE, law_from_outside, with_plain_numbers
 from ballscrew.cases.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS
-from ballscrew.components.materials import TEMPERATURE, Lubricant, Material, grades
+from ballscrew.components.data_sheet import SHEET_TEMPERATURE, DataSheet
+from ballscrew.components.materials import INPUTS_OF_SHEET, Lubricant, Material, grades
 from ballscrew.components.nut import Bodies, DoubleNut, Scatter
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.outside_laws import name_of as outside_name
@@ -102,7 +103,9 @@ def _slot(slot: str) -> tuple[Any, Any]:
 def sections() -> Mapping[str, type[BaseModel]]:
     """The models of the sections of a case file."""
     material = section_of("Material", fields_of(Material), Material, required=False)
-    oil = {**fields_of(Lubricant), "temperature": TEMPERATURE}
+    oil = {**fields_of(Lubricant), **fields_of(DataSheet), "temperature": SHEET_TEMPERATURE}
+    stated = Annotated[str, Field(description="name of an oil or a grease of the library; other fields override it")]
+    oil_file = Annotated[str, Field(description="table with the oil, beside the case file, in place of the library")]
     grade = Annotated[
         str, WithJsonSchema({"type": "string", "enum": grades(), "description": "instead of a viscosity"})
     ]
@@ -123,7 +126,11 @@ def sections() -> Mapping[str, type[BaseModel]]:
             "ScrewOfRow", screw, BallScrew, required=False, uncertain=fields_of(BallScrew),
             catalogue=(row, ...), catalogue_file=(file, None), **materials,
         ),
-        "lubricant": section_of("Lubricant", oil, Lubricant, required=False, uncertain=oil, grade=(grade, None)),
+        "lubricant": section_of(
+            "Lubricant", oil, Lubricant, required=False,
+            uncertain={*fields_of(Lubricant), *INPUTS_OF_SHEET, "temperature"},
+            grade=(grade, None), oil=(stated, None), oil_file=(oil_file, None),
+        ),
         "operation": section_of(
             "Operation", fields_of(OperatingState), OperatingState, required=True, uncertain=fields_of(OperatingState)
         ),
@@ -315,9 +322,8 @@ def _fault(section: str, model: type[BaseModel], problem: dict[str, Any]) -> Fau
         case "fault":
             return Fault(where, problem["ctx"]["problem"], problem["ctx"]["given"], problem["ctx"]["remedy"])
         case "missing":
-            quantity = {
-                n: q for part in (BallScrew, OperatingState, Axis, Motor) for n, q in fields_of(part).items()
-            }.get(path[-1])
+            parts = (BallScrew, OperatingState, DataSheet, Axis, Motor)
+            quantity = {n: q for part in parts for n, q in fields_of(part).items()}.get(path[-1])
             unit = "" if quantity is None else f" {quantity.shown_in}"
             sample = "a number" if quantity is not None and quantity.unit == "1" else f'"…{unit}"'
             return Fault(where, MISSING, "", f"add {{{where}}}{sample}")

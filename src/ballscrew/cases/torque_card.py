@@ -188,9 +188,9 @@ def read(path: Path) -> TorqueCard:
     setup = read_table("setup", _setup_model(), tables["setup"], faults) if "setup" in tables else {}
     points = _points(tables["points"], faults) if "points" in tables else []
     case = _case(tables, path.parent, faults)
-    if case is not None and not _grade(tables) and any("temperature" in point for point in points):
+    if case is not None and not case.oil and any("temperature" in point for point in points):
         remedy = 'write lubricant.grade = "ISO VG 68", so that the viscosity follows the temperature'
-        faults.append(Fault("points.temperature", "needs an oil of a grade", "", remedy))
+        faults.append(Fault("points.temperature", "needs an oil of a data sheet or a grade", "", remedy))
     if faults or case is None:
         raise InputError(*(dataclasses.replace(fault, where=f"{path.name}: {fault.where}") for fault in faults))
     remarks = {name: setup.pop(name, None) for name in _SetupText.model_fields}
@@ -207,11 +207,6 @@ def read(path: Path) -> TorqueCard:
 
 def _remedy(name: str) -> str:
     return "add a table [[points]] for each speed" if name == "points" else f"add a table [{name}]"
-
-
-def _grade(tables: Mapping[str, Any]) -> bool:
-    oil = tables.get("lubricant")
-    return isinstance(oil, dict) and "grade" in oil
 
 
 def _case(tables: Mapping[str, Any], folder: Path, faults: list[Fault]) -> Case | None:

@@ -21,10 +21,11 @@ def write(card: TorqueCard, folder: Path, log: Path, case: Path) -> None:
     import tomlkit
 
     tables: dict[str, Any] = case_tables(card.tables)
-    file = tables["screw"].get("catalogue_file")
-    if file is not None:
-        moved = Path(os.path.relpath(folder / file, case.parent)).as_posix()
-        tables["screw"] = {**tables["screw"], "catalogue_file": moved}
+    for section, key in (("screw", "catalogue_file"), ("lubricant", "oil_file")):
+        file = tables[section].get(key)
+        if file is not None:
+            moved = Path(os.path.relpath(folder / file, case.parent)).as_posix()
+            tables[section] = {**tables[section], key: moved}
     head = f"# Of the torque card {card.name}: {card.title}\n"
     with atomic_write("--case", case) as path:
         path.write_text(f"{head}\n{tomlkit.dumps(tables)}", encoding="utf-8")

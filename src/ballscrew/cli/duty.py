@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ballscrew.cli.common_options import AllowCode, CaseFile, ModelName
+
+if TYPE_CHECKING:
+    from ballscrew.studies.duty import DutyReport
+    from ballscrew.studies.duty_band import DutyBandReport
 
 _TO = "--to"
 
@@ -27,6 +31,13 @@ def duty(
             _TO, "-o", metavar="FILE", help="Also write tables (.xlsx, .csv) or a picture (.pdf, .png, .svg); repeat."
         ),
     ] = None,
+    band: Annotated[
+        bool, typer.Option("--band", help="How far off torques and energies may be, by uncertain inputs.")
+    ] = False,
+    samples: Annotated[int | None, typer.Option("--samples", metavar="N", help="With --band: samples, 1024.")] = None,
+    only_given: Annotated[
+        bool, typer.Option("--only-given", help="With --band: only what the file says is uncertain.")
+    ] = False,
     allow_code: AllowCode = False,
 ) -> None:
     """Torque of the motor over a cycle, and what follows: RMS and peak, energy, life, brake, motor.
@@ -50,9 +61,13 @@ def duty(
         else:
             files.check_picture(path, _TO)
     report = studies.duty(loaded)
-    typer.echo(
-        json_text(documents.document(report)) if as_json else text.text(report, getattr(sys.stdout, "encoding", ""))
-    )
+    bands = _banded(report, samples, only_given) if band or only_given or samples is not None else None
+    if as_json:
+        typer.echo(json_text(documents.document(report) if bands is None else documents.with_band(bands)))
+    else:
+        typer.echo(text.text(report, getattr(sys.stdout, "encoding", "")))
+        if bands is not None:
+            typer.echo(text.band_text(bands))
     for path in to or []:
         if path.suffix.lower() in row_tables.KINDS:
             from ballscrew.table_files import duty_tables
@@ -63,6 +78,14 @@ def duty(
 
             files.draw(lambda: figures.picture(report), path, _TO)
         typer.echo(f"{path}: {len(report.duty.states.time)} states", err=as_json)
+
+
+def _banded(report: DutyReport, samples: int | None, only_given: bool) -> DutyBandReport:
+    from ballscrew.cli.progress import progress
+    from ballscrew.studies import duty_band  # loads xarray
+
+    with progress("band") as done:
+        return duty_band.band(report, samples, only_given=only_given, done=done)
 
 
 def _check_kinds(to: list[Path]) -> None:

@@ -22,8 +22,10 @@ from ballscrew.cli import (
     check,
     cite,
     compare,
+    condition,
     duty,
     fit,
+    oils,
     report,
     reproduce,
     run,
@@ -47,6 +49,7 @@ app = typer.Typer(
 )
 app.add_typer(catalogue.app, name="catalogue")
 app.add_typer(card.app, name="card")
+app.add_typer(oils.app, name="oils")
 
 
 class _Command(TyperCommand):
@@ -76,6 +79,7 @@ for command in (
     sensitivity.sensitivity,
     serve.serve,
     service.service,
+    condition.condition,
     validate.validate,
     schema.schema,
     cite.cite,

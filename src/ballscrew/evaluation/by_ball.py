@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew._arrays import as_array
-from ballscrew.components.materials import TEMPERATURE
+from ballscrew.components.materials import INPUTS_OF_SHEET, TEMPERATURE
 from ballscrew.evaluation.axes import ends
 from ballscrew.evaluation.engines import ASKED_FOR, PAYS, Engine, why_numpy, worth_compiling
 from ballscrew.evaluation.outputs import NUT_OUTPUTS, OF_LOADS, OPERATION, Output, known_outputs
@@ -50,6 +50,8 @@ TILE = 128
 BLOCK_OF_BALLS = 2**18
 #: Outputs that are recorded together.
 _USUAL = frozenset({*NUT_OUTPUTS, "drive_torque", "holding_torque", "self_locking", "minimum_film_parameter"})
+#: What sets numbers of the oil, which are inputs themselves.
+_OF_STATE = frozenset({TEMPERATURE.name, *INPUTS_OF_SHEET})
 _USUAL_PARTS = ("contribution_", "validity_")
 _structures = Structures()
 
@@ -65,7 +67,7 @@ def inputs_by_ball(subject: Configuration, varying: Sequence[str] = ()) -> tuple
     for name, (part, _) in subject.inputs.items():
         own = name.removeprefix("nut.") if part == "nut" else name
         is_exponent = part == "model" and name.rpartition(".")[2].endswith("exponent") and name not in varying
-        if part == "operation" or name == TEMPERATURE.name or own in seen or is_exponent:
+        if part == "operation" or name in _OF_STATE or own in seen or is_exponent:
             continue
         seen.add(own)
         if read_input(parts[part], name) is not None:
@@ -227,13 +229,13 @@ def _key(subject: Configuration, outputs: tuple[str, ...], names: tuple[str, ...
 
 def _without_grade(subject: Configuration) -> Configuration:
     """The same with an oil that is its numbers alone."""
-    oil = dataclasses.replace(subject.lubricant, grade=None, temperature=None)
+    oil = dataclasses.replace(subject.lubricant, grade=None, sheet=None, temperature=None)
     return Configuration(subject.model, subject.screw, oil)
 
 
 def _structure(subject: Configuration, names: Sequence[str]) -> Hashable:
     """A configuration as a key, without the numbers that are inputs and without what only the loads depend on."""
-    asides = {*names, "bodies", "deviations", "grade", "temperature", "made_as"}
+    asides = {*names, "bodies", "deviations", "grade", "sheet", "temperature", "made_as"}
 
     def of(part: Any, prefix: str = "") -> Hashable:
         laws = [f for f in dataclasses.fields(part) if f"{prefix}{f.name}" not in asides]

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from ballscrew.components.contact import Contact, RaceState
-from ballscrew.components.materials import TEMPERATURE, Lubricant
+from ballscrew.components.materials import INPUTS_OF_SHEET, TEMPERATURE, Lubricant
 from ballscrew.components.nut import Nut
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import SINGLE_NUT, BallScrew
@@ -119,7 +119,8 @@ def inputs_of(model: FrictionModel, screw: BallScrew, lubricant: Lubricant) -> M
 
     Names are those of the fields; a coefficient of a law is ``law.field``, for example
     ``friction.boundary_friction_coefficient``. Fields of the nut are ``nut.preload`` or ``preload``; those of what it
-    loses ``losses.seals.seal_torque``. ``temperature`` is that of an oil made from a grade.
+    loses ``losses.seals.seal_torque``. ``temperature`` is that of an oil made from a grade or
+    from a data sheet, whose viscosities and density are inputs, too.
     """
     parts = {"operation": OperatingState, "screw": screw, "lubricant": lubricant, "model": model}
     found = {name: (part, quantity) for part, value in parts.items() for name, quantity in fields_of(value).items()}
@@ -129,8 +130,10 @@ def inputs_of(model: FrictionModel, screw: BallScrew, lubricant: Lubricant) -> M
     for section, law in screw.nut.parts.items():
         if section.startswith("losses."):
             found |= {f"{section}.{name}": ("nut", quantity) for name, quantity in fields_of(law).items()}
-    if lubricant.grade is not None:
-        found[TEMPERATURE.name] = ("lubricant", TEMPERATURE)
+    if lubricant.follows_temperature:
+        found[TEMPERATURE.name] = ("lubricant", lubricant.temperature_quantity)
+    if lubricant.sheet is not None:
+        found |= {name: ("lubricant", quantity) for name, quantity in INPUTS_OF_SHEET.items()}
     for slot, law in model.laws_with_coefficients.items():
         found |= {f"{slot}.{name}": ("model", quantity) for name, quantity in fields_of(law).items()}
     return found

@@ -14,7 +14,7 @@ import xarray as xr
 
 from ballscrew._arrays import ByValue
 from ballscrew._version import __version__
-from ballscrew.components.materials import TEMPERATURE, Lubricant
+from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Nut, NutParts
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import MATERIALS, BallScrew
@@ -93,11 +93,10 @@ class Configuration(ByValue):
         """The subject with other values of some inputs, those of the operating point left aside."""
         parts = self.by_section
         where = {name: part for name, (part, _) in self.inputs.items()}
-        if TEMPERATURE.name in values:
-            # first: a property of the oil that is given, too, counts as it is given
-            parts["lubricant"] = self.lubricant.at(values[TEMPERATURE.name])
+        of_oil = {name: value for name, value in values.items() if where[name] == "lubricant"}
+        parts["lubricant"] = self.lubricant.changed(of_oil)
         for name, value in values.items():
-            if name == TEMPERATURE.name:
+            if name in of_oil:
                 continue
             part = parts[where[name]]
             if where[name] == "nut":
@@ -394,7 +393,7 @@ def _sizes(section: str, axes: Mapping[str, xr.DataArray], wanted: Sequence[str]
 
 def read_input(part: Any, name: str) -> Any:
     """A field of a part, or ``law.field`` of one of its laws."""
-    if isinstance(part, NutParts):
+    if isinstance(part, NutParts | Lubricant):
         return part.value_of(name)
     law, _, field = name.rpartition(".")
     return getattr(getattr(part, law) if law else part, field)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -36,6 +37,8 @@ _COLOURS: Mapping[str, str] = {
 _OF_STORED = {STORED[0]: _ACCELERATION, STORED[1]: _ACCELERATION, "gravity": _GRAVITY}
 _TITLE_CHARACTERS, _LABEL_SIZE, _LEAST = 100, 8.0, 1e-9
 _CURVE_POINTS = 200
+#: Inches on a page of a report.
+_PAGE = (7.1, 4.2)
 
 
 def picture(report: DutyReport) -> Figure:
@@ -51,6 +54,15 @@ def picture(report: DutyReport) -> Figure:
     _bars(panels[3], "share of the RMS torque", report.torque_rms_by, "N m")
     _power(panels[4], report)
     _bars(panels[5], "energy lost in a cycle", report.duty.energy_lost_by, "J")
+    return figure
+
+
+def panels(report: DutyReport) -> Figure:
+    """Motion, torque, power and torque over speed for a page of a report, without a caption."""
+    figure = Figure(figsize=_PAGE, layout="constrained")
+    places: Any = figure.subplots(2, 2)
+    for panel, draw in zip(places.ravel(), (_motion, _cloud, _torque, _power), strict=True):
+        draw(panel, report)
     return figure
 
 
@@ -126,7 +138,7 @@ def _cloud(panel: Axes, report: DutyReport) -> None:
 
 def _legend_beside(panel: Axes) -> None:
     """A legend that hides no curve."""
-    panel.legend(fontsize=_LABEL_SIZE, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    panel.legend(fontsize="small", loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
 
 def _bars(panel: Axes, title: str, parts: Mapping[str, float], unit: str) -> None:

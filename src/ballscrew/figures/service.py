@@ -82,7 +82,7 @@ def _usual(rows: Rows) -> dict[str, Any]:
 def _friction(one: PreloadEstimate, points: Mapping[str, Any]) -> Vector:
     """The friction torque with the preload and the numbers that were found."""
     assert one.subject is not None
-    graded = one.subject.lubricant.grade is not None
+    graded = one.subject.lubricant.follows_temperature
     there: dict[str, Any] = {"temperature": one.subject.lubricant.temperature, **points} if graded else dict(points)
     if not graded:
         there.pop("temperature", None)

@@ -208,9 +208,9 @@ class FrictionModel(ByValue):
         """Friction at an axial load (N) and a screw speed (rad/s) of either sign; arrays broadcast.
 
         A positive load is one that a positive speed lifts. With a ``temperature`` (K) the lubricant, which must have
-        been made from a grade, is taken there. Array values are never refused: where they make no sense the result
-        says so in its validity. Raises :class:`~ballscrew.errors.InputError` where plain numbers overflow, for a
-        temperature of an oil without a grade, and for a nut whose balls have four contacts with a slip law that
+        been made from a data sheet or a grade, is taken there. Array values are never refused: where they make no sense
+        the result says so in its validity. Raises :class:`~ballscrew.errors.InputError` where plain numbers overflow,
+        for a temperature of an oil without either, and for a nut whose balls have four contacts with a slip law that
         knows two.
         """
         state = OperatingState(as_array(axial_load), as_array(screw_speed), as_array(temperature))

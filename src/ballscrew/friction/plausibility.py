@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from ballscrew.components.data_sheet import SHEET_TEMPERATURE, DataSheet
 from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.errors import shown
 from ballscrew.quantities import Quantity, quantities_of
@@ -20,6 +21,18 @@ from ballscrew.records import Record
 #: The id of the warning, whose last part is its name.
 IMPLAUSIBLE = "inputs.implausible"
 _TEXT = "{meaning} {0} lies outside the usual {1} to {2}: check the number and its unit"
+
+_BELOW_POUR_POINT = (
+    "oil at {0}, below its pour point {1}: it does not flow by itself, and its viscosity is a guess; "
+    "at the start it is more"
+)
+_BELOW = "lubricant at {0}, below the {1} that its maker states: its viscosity is a guess"
+_ABOVE = "lubricant at {0}, above the {1} that its maker states: it does not last"
+_EXTRAPOLATED = "oil at {0}: its viscosity is extrapolated far from the two points of its data sheet; give its {1}"
+#: Constant of replenishment of a track with grease (SKF2018).
+GREASE_REPLENISHMENT = 6e-8
+#: Without a pour point or a range on the sheet, temperatures as far from 40 and 100 °C as this are extrapolated, K.
+_COLD, _HOT = 273.15, 393.15
 
 
 def named_parts(model: Any, screw: BallScrew, lubricant: Any, **others: Any) -> dict[str, Any]:
@@ -49,14 +62,85 @@ def _parts_of_nut(screw: BallScrew) -> dict[str, Any]:
 def implausible(parts: Mapping[str, Any]) -> list[Record]:
     """A warning for each quantity of the parts that is somewhere outside its usual range, with the value farthest out.
 
-    Relations of fields, such as the lead angle, are quantities of the part as well.
+    Relations of fields, such as the lead angle, are quantities of the part as well. An oil outside the range of its
+    data sheet is among them.
     """
-    return [
+    lubricant = parts.get("lubricant")
+    sheet = getattr(lubricant, "sheet", None)
+    found = [
         _record(f"{section}.{name}", quantity, value)
-        for section, part in parts.items()
+        for section, part in [*parts.items(), *([] if sheet is None else [("lubricant", sheet)])]
         for name, quantity in quantities_of(type(part)).items()
         if quantity.info.usual is not None and (value := _farthest_out(quantity, getattr(part, name))) is not None
     ]
+    return [*found, *beyond_data_sheet(lubricant), *_grease_as_oil(lubricant, parts.get("model.inlet"))]
+
+
+def beyond_data_sheet(lubricant: Any) -> list[Record]:
+    """Warnings of an oil below its pour point, or outside the range of its data sheet, at the temperature farthest out.
+
+    Where the sheet states no end, a warning tells that the viscosity is extrapolated below 0 °C and above 120 °C.
+    """
+    sheet: DataSheet | None = getattr(lubricant, "sheet", None)
+    if sheet is None:
+        return []
+    numbers = np.asarray(lubricant.temperature, dtype=float)
+    numbers = numbers[np.isfinite(numbers)]
+    coldest, hottest = float(numbers.min(initial=np.inf)), float(numbers.max(initial=-np.inf))
+    records: list[Record] = []
+    if sheet.pour_point is not None and coldest < sheet.pour_point:
+        records.append(_of_sheet("below_pour_point", _BELOW_POUR_POINT, coldest, float(sheet.pour_point)))
+    elif sheet.lowest_temperature is not None and coldest < sheet.lowest_temperature:
+        records.append(_of_sheet("below_range", _BELOW, coldest, float(sheet.lowest_temperature)))
+    elif sheet.pour_point is None and sheet.lowest_temperature is None and coldest < _COLD:
+        records.append(_of_sheet("extrapolated_cold", _EXTRAPOLATED.format("{0}", "pour_point"), coldest, _COLD))
+    if sheet.highest_temperature is not None and hottest > sheet.highest_temperature:
+        records.append(_of_sheet("above_range", _ABOVE, hottest, float(sheet.highest_temperature)))
+    elif sheet.highest_temperature is None and hottest > _HOT:
+        records.append(_of_sheet("extrapolated_hot", _EXTRAPOLATED.format("{0}", "highest_temperature"), hottest, _HOT))
+    return records
+
+
+def _grease_as_oil(lubricant: Any, inlet: Any) -> list[Record]:
+    """A warning of a grease whose track is replenished as by an oil bath (SKF2018)."""
+    sheet: DataSheet | None = getattr(lubricant, "sheet", None)
+    constant = getattr(inlet, "replenishment_constant", None)
+    if sheet is None or not sheet.is_grease or constant is None:
+        return []
+    least = float(np.min(constant))
+    if least >= GREASE_REPLENISHMENT * (1 - 1e-9):
+        return []
+    text = (
+        "grease computed as oil of a bath: its constant of replenishment is 6e-8; "
+        "write [model] inlet.replenishment_constant = 6e-8"
+    )
+    return [
+        Record(
+            id="lubricant.grease_as_oil",
+            subject="model.inlet.replenishment_constant",
+            text=text,
+            severity="warning",
+            holds=False,
+            value=least,
+            limit=GREASE_REPLENISHMENT,
+        )
+    ]
+
+
+def _of_sheet(name: str, template: str, value: float, limit: float) -> Record:
+    quantities = tuple((number, SHEET_TEMPERATURE) for number in (value, limit))
+    return Record(
+        id=f"lubricant.{name}",
+        subject="lubricant.temperature",
+        text=template.format(*(shown(number, "K") for number in (value, limit))),
+        severity="warning",
+        holds=False,
+        value=value,
+        limit=limit,
+        unit="K",
+        template=template,
+        quantities=quantities,
+    )
 
 
 def _farthest_out(quantity: Quantity, values: Any) -> float | None:

@@ -108,6 +108,8 @@ class Report:
     sections: Sequence[Section]
     #: What wrote it, on every page.
     made_by: str
+    #: Pages at most, as far as a smaller type can do it.
+    pages: int = 4
 
 
 def sentence(words: str) -> str:

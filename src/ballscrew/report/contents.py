@@ -24,6 +24,8 @@ Done = Callable[[int, int], None]
 Kind = Literal["pdf", "html"]
 #: How far along the work is after its steps, of a hundred: the answer, the band, the curves.
 _ANSWERED, _BANDED, _DRAWN, _ALL = 5, 60, 85, 100
+#: Pages at most, without and with a cycle of motion.
+_PAGES, _PAGES_WITH_CYCLE = 4, 6
 #: Sources of what a report says besides the model: the ratings and checks.
 _OF_CHECKS = ("ISO3408-5", "ISO76")
 
@@ -71,13 +73,25 @@ def content(case: case_file.Case, done: Done | None = None, samples: int | None 
         Section("Around the operating point", pictures),
         Section("How far off it may be", result_tables.band_blocks(case, uncertain)),
         Section("Checks", result_tables.checks(of_checks)),
+        *_cycle(case),
         Section("What to beware of", result_tables.beware(found)),
         Section(
             "Inputs and model", [*_model(case), Columns.of([*inputs, input_tables.laws(case)]), _origins(case, inputs)]
         ),
         Section("Sources", [Links(_sources(case, uncertain))]),
     ]
-    return Report("Friction of a ball screw", _subtitle(case), sections, f"ballscrew {__version__}")
+    pages = _PAGES if case.motion is None else _PAGES_WITH_CYCLE
+    return Report("Friction of a ball screw", _subtitle(case), sections, f"ballscrew {__version__}", pages)
+
+
+def _cycle(case: case_file.Case) -> list[Section]:
+    """The section on the cycle of a case that has an axis and a motion."""
+    if case.axis is None or case.motion is None:
+        return []
+    from ballscrew.report import duty_section
+    from ballscrew.studies.duty import duty
+
+    return [Section("Over a cycle of the motion", duty_section.blocks(duty(case)))]
 
 
 def _subtitle(case: case_file.Case) -> list[str]:

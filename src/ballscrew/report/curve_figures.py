@@ -47,6 +47,13 @@ def pictures(curves: Curves) -> dict[str, str]:
         return {name: _text_of(draw(curves), name) for name, draw in drawn.items()}
 
 
+def svg_of(draw: Callable[[], Figure], name: str) -> str:
+    """One figure as SVG text without a title, in the style of a report."""
+    with _LOCK, style.house_style():
+        style.mpl.rcParams.update(_SMALL)
+        return _text_of(draw(), name)
+
+
 def _panels() -> tuple[Figure, Axes, Axes]:
     figure = Figure(figsize=(_WIDTH, _HEIGHT), layout="constrained")
     panels: Any = figure.subplots(1, 2)

@@ -8,9 +8,12 @@ from typing import Any
 
 from ballscrew.cases import catalogue
 from ballscrew.cases.case_file import Case
+from ballscrew.cases.lubricants import described
 from ballscrew.cases.nut_kinds import ENDS, LISTED, kind_of
 from ballscrew.cases.schema import LAWS, name_of_law
-from ballscrew.components.materials import TEMPERATURE, Lubricant
+from ballscrew.components.data_sheet import DataSheet
+from ballscrew.components.materials import TEMPERATURE, Lubricant, nominal_oil
+from ballscrew.components.oil_grades import OilState
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.friction.law_names import coefficients
@@ -26,7 +29,7 @@ FROM_IN_WORDS: Mapping[str, str] = {
     CASE: "the case gives it",
     ROW: "listed in the row of the catalogue, or computed from it",
     USUAL: "the catalogue does not list it: a usual value stands for it",
-    GRADE: "of an oil of that grade at that temperature",
+    GRADE: "of that oil at that temperature",
     DEFAULT: "the default of the program, also where the case gives that value",
     CALIBRATION: "found by the named calibration",
 }
@@ -42,7 +45,12 @@ def tables(case: Case) -> list[Table]:
         Table("Lubricant", _COLUMNS, _lubricant(case), _TEXTS),
         Table("Operating point", _COLUMNS, _operation(case), _TEXTS),
     ]
-    others = {"Nut": _nut(case), "Installation": _installation(case), "Limits of the checks": _limits(case)}
+    others = {
+        "Nut": _nut(case),
+        "Installation": _installation(case),
+        "Limits of the checks": _limits(case),
+        **_moved(case),
+    }
     found += [Table(title, _COLUMNS, rows, _TEXTS) for title, rows in others.items() if rows]
     return found
 
@@ -113,10 +121,13 @@ def _material(material: Any) -> Rows:
 def _lubricant(case: Case) -> Rows:
     oil, usual = case.lubricant, _defaults(Lubricant)
     rows: Rows = []
-    of_grade: Lubricant | None = None
-    if "grade" in case.oil:
-        of_grade = Lubricant.from_grade(**case.oil)
-        rows.append(("grade", str(case.oil["grade"]), CASE))
+    of_grade: OilState | None = None
+    if case.oil:
+        of_grade = nominal_oil(oil)
+        rows.append(("grade" if "grade" in case.oil else "oil", described(case.oil), CASE))
+        rows += [
+            (q.info.meaning, value_of(case.oil[n], q), CASE) for n, q in fields_of(DataSheet).items() if n in case.oil
+        ]
         if "temperature" in case.oil:
             given = case.uncertain.get("temperature")
             shown = value_of(case.oil["temperature"], TEMPERATURE)
@@ -127,7 +138,7 @@ def _lubricant(case: Case) -> Rows:
         value = getattr(oil, name)
         if name in usual and value == usual[name]:
             return DEFAULT
-        return GRADE if of_grade is not None and value == getattr(of_grade, name) else CASE
+        return GRADE if of_grade is not None and value == getattr(of_grade, name, None) else CASE
 
     return [*rows, *_part(case, oil, fields_of(Lubricant), source)]
 
@@ -177,6 +188,23 @@ def _limits(case: Case) -> Rows:
         if getattr(case.limits, name) != getattr(_USUAL_LIMITS, name)
     }
     return _part(case, case.limits, changed, lambda _: CASE)
+
+
+def _moved(case: Case) -> dict[str, Rows]:
+    """Axis, motion with its segments, and motor."""
+    segments: tuple[Any, ...] = getattr(case.motion, "segments", ())
+    parts = {"Axis": case.axis, "Motion": case.motion, "Motor": case.motor}
+    parts |= {f"Segment {number}: {part.name}".rstrip(": "): part for number, part in enumerate(segments, start=1)}
+    found: dict[str, Rows] = {}
+    for title, part in parts.items():
+        if part is not None:
+            usual = _defaults(type(part))
+
+            def source(name: str, part: Any = part, usual: Mapping[str, Any] = usual) -> str:
+                return DEFAULT if getattr(part, name) == usual.get(name) else CASE
+
+            found[title] = _part(case, part, fields_of(part), source)
+    return found
 
 
 def laws(case: Case) -> Table:

@@ -25,6 +25,6 @@ def pdf_bytes(report: Report) -> bytes:
     fonts = Path(mpl.get_data_path()) / "fonts" / "ttf"
     data = json.dumps(as_data(report), ensure_ascii=False, sort_keys=True)
     try:
-        return child_process.call(typesetting.pdf, template, data, str(fonts))
+        return child_process.call(typesetting.pdf, template, data, str(fonts), report.pages)
     except child_process.ChildError as error:
         raise InputError(Fault("report", "cannot be set as a PDF", str(error), "write .html instead")) from error

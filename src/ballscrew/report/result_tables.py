@@ -180,7 +180,7 @@ def checks(found: Checked) -> list[Block]:
         Table(
             "Limits, and how much of each is used",
             ("", "value", "limit", "used", "verdict"),
-            [_check(one) for one in found.checks],
+            [check_row(one) for one in found.checks],
             (0, 4),
             4,
         ),
@@ -197,7 +197,8 @@ def _computed_ratings(found: Checked) -> list[str]:
     return [f"load ratings that are not listed are computed from the geometry, by ISO 3408-5 as recalled: {ratings}"]
 
 
-def _check(one: Check) -> tuple[str, ...]:
+def check_row(one: Check) -> tuple[str, ...]:
+    """A check: value, limit, share of it that is used, verdict."""
     verdict = {True: "passes", False: "FAILS", None: ""}[one.holds]  # the words then say what is missing
     return (
         one.name.replace("_", " "),

@@ -182,7 +182,7 @@ def _by_oil(log: Readings, subject: Configuration, warmer: float) -> _Cause:
     usual = NORMAL_95 * log.temperature_deviation
     graded = TEMPERATURE.name in log.points
     rows = np.atleast_1d(log.points[TEMPERATURE.name]) + warmer if graded else np.zeros(1)
-    low, high = allowed(TEMPERATURE.info) if graded else (-math.inf, math.inf)
+    low, high = allowed(subject.lubricant.temperature_quantity.info) if graded else (-math.inf, math.inf)
     oil, mean = subject.lubricant, float(np.mean(rows))
     fall = float(oil.temperature_coefficient)
 

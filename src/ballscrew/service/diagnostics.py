@@ -129,7 +129,7 @@ def _of_lift_off(label: str, one: PreloadEstimate) -> list[Record]:
 
 
 def _of_temperatures(logs: dict[str, PreloadEstimate], subject: Configuration) -> list[Record]:
-    graded = subject.lubricant.grade is not None
+    graded = subject.lubricant.follows_temperature
     records: list[Record] = []
     known = {label: one.temperature for label, one in logs.items() if one.temperature is not None}
     for label in logs:

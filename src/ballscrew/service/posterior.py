@@ -331,7 +331,7 @@ def values_of(scores: Vector, uncertain: Mapping[str, Distribution]) -> dict[str
 
 def oil_deviation(found: CalibratedModel) -> float:
     """Standard deviation of the oil temperature of a log, K: less where it was logged and can be used."""
-    used = found.lubricant.grade is not None and found.rows.log.temperature is not None
+    used = found.lubricant.follows_temperature and found.rows.log.temperature is not None
     return (LOGGED_TEMPERATURE if used else UNKNOWN_TEMPERATURE) / NORMAL_95
 
 

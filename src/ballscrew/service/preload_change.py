@@ -195,7 +195,7 @@ def held_numbers(subject: Configuration, uncertain: Mapping[str, Distribution] |
         usual = default_distributions(subject.model, subject.screw, subject.lubricant, exact={TEMPERATURE.name})
         uncertain = {name: distribution for name, (distribution, _) in usual.items()}
     conditions = {*OPERATION, TEMPERATURE.name, "preload", PRELOAD, "oversize", "nut.oversize"}
-    if subject.lubricant.grade is None:
+    if not subject.lubricant.follows_temperature:
         conditions.add(VISCOSITY)
     unknown = [name for name in uncertain if name not in subject.inputs]
     raise_if_any([Fault(f"service.uncertain.{n}", "unknown name", "", nearest(n, subject.inputs)) for n in unknown])

@@ -80,7 +80,7 @@ def preload_of_torque(
     scores = np.asarray(standard_normal_quantile(shares[:2]))
     warmer, wanted = deviation * scores[0], torque + torque_deviation * scores[1]
     points = {"axial_load": np.zeros(SAMPLES), "screw_speed": np.full(SAMPLES, float(screw_speed))}
-    if oil.grade is not None:
+    if oil.follows_temperature:
         points[TEMPERATURE.name] = np.full(SAMPLES, oil.temperature, dtype=float)
     nominal = float(subject.value_of(PRELOAD) or math.nan)
 

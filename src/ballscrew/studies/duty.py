@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from ballscrew.errors import InputError
 from ballscrew.friction.result import MECHANISMS
 from ballscrew.motion.profiles import Motion
 from ballscrew.overflow import overflow_as_input_error
-from ballscrew.quantities import Force, Info, Quantity, Torque
+from ballscrew.quantities import Duration, Energy, Force, Info, Quantity, Torque
 from ballscrew.sizing.checks import Check, checks
 from ballscrew.solvers.load_distribution import preload_of
 
@@ -72,6 +73,18 @@ NUMBERS: Mapping[str, Quantity] = {
 def slug_of(name: str) -> str:
     """The key of a part of the torque in documents: ``acceleration_of_the_mass``, ``spin``."""
     return _SLUGS.get(name, name.replace(" ", "_"))
+
+
+class PhaseNumbers(NamedTuple):
+    """Numbers of one phase of a motion; the peak torque has its sign."""
+
+    name: str
+    start: Duration
+    duration: Duration
+    largest_load: Force
+    torque_peak: Torque
+    torque_rms: Torque
+    energy: Energy
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -157,6 +170,28 @@ class DutyReport:
         }
 
     @lazy
+    def phases(self) -> Sequence[PhaseNumbers]:
+        """What each phase of the motion asks of the motor, by mechanics."""
+        duty, states = self.duty, self.duty.states
+        found: list[PhaseNumbers] = []
+        for number, name in enumerate(states.phases):
+            own = states.phase == number
+            weight, torque = states.weight[own], duty.torque[own]
+            duration = float(np.sum(weight))
+            found.append(
+                PhaseNumbers(
+                    name,
+                    start=float(states.time[own][0]),
+                    duration=duration,
+                    largest_load=float(np.max(np.abs(duty.axial_load[own]))),
+                    torque_peak=float(torque[np.argmax(np.abs(torque))]),
+                    torque_rms=math.sqrt(float(np.sum(weight * torque**2)) / duration) if duration else 0.0,
+                    energy=float(np.sum(weight * duty.power[own])),
+                )
+            )
+        return found
+
+    @lazy
     def largest_load(self) -> Force:
         """Largest size of the axial load, N."""
         return float(np.max(np.abs(self.duty.axial_load)))
@@ -226,7 +261,11 @@ def duty(case: Case) -> DutyReport:
     preload = float(preload_of(case.screw, case.screw.nut))
     life = CycleLife(found, case.screw.nut, preload, rating)
     rule = VendorRule(found, RULE_EFFICIENCY if case.efficiency is None else case.efficiency)
-    return DutyReport(case, case.axis, case.motion, found, life, source, rule)
+    report = DutyReport(case, case.axis, case.motion, found, life, source, rule)
+    # here, where numbers beyond any float become a fault of the input
+    _ = (report.numbers, report.brake, report.checks, report.phases, report.torque_peak_by, report.torque_rms_by)
+    _ = (life.revolutions, rule.torque_rms, rule.torque_peak)
+    return report
 
 
 def _rating(case: Case) -> tuple[float | None, str]:

@@ -108,7 +108,7 @@ def of_torque(case: Case, measured: Reading) -> ServiceReport:
 def distributions(case: Case) -> dict[str, Distribution]:
     """The uncertain numbers of a case, the temperature left to the logs, and what a grade then leaves open instead."""
     found = {name: one.distribution for name, one in all_of(case).items() if name != TEMPERATURE.name}
-    if not case.fit and case.lubricant.grade is not None:
+    if not case.fit and case.lubricant.follows_temperature:
         exact = {*case.exact, TEMPERATURE.name}
         usual = default_distributions(case.model, case.screw, case.lubricant, given=found, exact=exact)
         found |= {name: distribution for name, (distribution, _) in usual.items()}

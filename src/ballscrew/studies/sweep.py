@@ -18,7 +18,7 @@ import xarray as xr
 from ballscrew import units
 from ballscrew.cases.case_file import Case
 from ballscrew.cases.schema import name_of_law
-from ballscrew.components.materials import TEMPERATURE, Lubricant, Material
+from ballscrew.components.materials import TEMPERATURE, Material, nominal_oil
 from ballscrew.components.screw import MATERIALS
 from ballscrew.components.traits import traits_of
 from ballscrew.errors import Fault, InputError, fault_of, nearest, raise_if_any
@@ -77,15 +77,15 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
     """Plan of a sweep. Raises :class:`~ballscrew.errors.InputError` before anything is computed."""
     faults: list[Fault] = []
     known = dict(inputs_of(case.model, case.screw, case.lubricant))
-    if "grade" in case.oil:
-        known["temperature"] = ("lubricant", TEMPERATURE)
     axes: dict[str, np.ndarray] = {}
     for written, text in _texts(vary, faults).items() if vary else case.sweep.items():
         section, name = _split(written)
         if name not in known or section not in ("", known[name][0]):
             remedy = nearest(name, known)
             if name == "temperature" and section in ("", "lubricant"):
-                remedy = 'give the oil by its grade, such as grade = "ISO VG 100", or vary the viscosity'
+                remedy = (
+                    'give the oil by its data sheet or its grade, such as grade = "ISO VG 100", or vary the viscosity'
+                )
             faults.append(Fault(f"sweep.{written}", "unknown field", "", remedy))
             continue
         if name in axes:
@@ -292,8 +292,7 @@ def reasons_of(case: Case) -> Mapping[str, str]:
 
 def _oils(case: Case, temperatures: np.ndarray) -> dict[str, xr.DataArray]:
     """Properties of the oil at the temperatures, without those that the case gives."""
-    oils = Lubricant.from_grade(case.oil["grade"], temperatures)
-    made = Lubricant.from_grade(**case.oil)
+    oils, made = nominal_oil(case.lubricant.at(temperatures)), nominal_oil(case.lubricant)
     own = [name for name in OF_TEMPERATURE if getattr(made, name) == getattr(case.lubricant, name)]
     dim, attributes = "temperature", {"units": TEMPERATURE.unit, "long_name": TEMPERATURE.info.meaning}
     coords = {dim: xr.DataArray(temperatures, dims=dim, attrs=attributes)}

@@ -87,9 +87,9 @@ def _sums(steps: Sequence[tuple[int, Step]]) -> dict[int, _LogarithmSum]:
 
 
 def _roots(steps: Sequence[tuple[int, Step]], outputs: set[int], sums: Mapping[int, _LogarithmSum]) -> set[int]:
-    """The sums that are used by anything but another sum."""
+    """The sums that are used by anything but another sum, or whose logarithm is taken."""
     used = {int(o) for i, step in steps if i not in sums for kind, o in step.operands if kind == "step"}
-    used |= {i for one in sums.values() for i in one.others}
+    used |= {i for one in sums.values() for part in (one.others, one.weights) for i in part}
     return {i for i in sums if i in used or i in outputs}
 
 

@@ -25,6 +25,8 @@ NORMAL_95 = 1.959963984540054
 JUDGEMENT = "judgement"
 #: The viscosity of an oil whose grade and temperature are known.
 _OF_GRADE = "viscosity_of_grade"
+#: The viscosity of an oil of a data sheet at a temperature that is known.
+_OF_SHEET = "viscosity_of_sheet"
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -78,9 +80,9 @@ def default_distributions(
 ) -> Mapping[str, tuple[Distribution, DefaultUncertainty]]:
     """The usual distributions of inputs, about the values they have, and where they are from.
 
-    Left out are those whose distribution is ``given`` and those that are known exactly. Of an oil made from a grade
-    the temperature is uncertain and the viscosity follows, or, where the temperature is exact, the viscosity is by
-    what a grade leaves open: never both, as one would undo the other.
+    Left out are those whose distribution is ``given`` and those that are known exactly. Of an oil of a grade or
+    of a data sheet the temperature is uncertain and the viscosity follows, or, where the temperature is exact, the
+    viscosity is by what a grade leaves open: never both, as one would undo the other.
     """
     inputs, known = inputs_of(model, screw, lubricant), default_uncertainties()
     parts = {"screw": screw, "lubricant": lubricant, "model": model, "nut": screw.nut}
@@ -94,12 +96,18 @@ def default_distributions(
             value = model.imposed_ball_force(screw)
         if value is None:
             continue  # preload of balls whose oversize is given
-        graded = name == "viscosity" and lubricant.grade is not None
-        uncertainty = known[_OF_GRADE if graded else name]
+        uncertainty = known[_of_oil(lubricant) if name == "viscosity" else name]
         distribution = uncertainty.about(float(value), quantity.info)
         if distribution is not None:
             found[name] = distribution, uncertainty
     return found
+
+
+def _of_oil(lubricant: Lubricant) -> str:
+    """The default of the viscosity by what the oil was made from."""
+    if lubricant.sheet is not None:
+        return _OF_SHEET
+    return "viscosity" if lubricant.grade is None else _OF_GRADE
 
 
 def _counts(name: str, model: FrictionModel, lubricant: Lubricant, exact: Collection[str]) -> bool:
@@ -108,6 +116,6 @@ def _counts(name: str, model: FrictionModel, lubricant: Lubricant, exact: Collec
         return traits_of(model.ball_force).uses_imposed_force
     if name == "friction.full_film_friction_coefficient":
         return model.full_film is None
-    if name == "viscosity" and lubricant.grade is not None:
+    if name == "viscosity" and lubricant.follows_temperature:
         return TEMPERATURE.name in exact
     return True

@@ -20,17 +20,19 @@ from ballscrew.cases import catalogue as rows
 from ballscrew.cases.schema import json_schema
 from ballscrew.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.output.documents import comparison as comparison_documents
+from ballscrew.output.documents import duty as duty_documents
 from ballscrew.output.documents import sweep as sweep_documents
 from ballscrew.output.documents import validation as validation_documents
 from ballscrew.output.json_text import plain
 from ballscrew.sizing.catalogue import catalogue as shipped
 from ballscrew.studies import band as bands
+from ballscrew.studies import duty as duties
 from ballscrew.studies import run as runs
 from ballscrew.studies import sweep as sweeps
 from ballscrew.studies import validation
 from ballscrew.studies.comparison import comparison
-from ballscrew.web import answers, documents, limits, memory, openapi, vocabulary
-from ballscrew.web.bodies import BandBody, CaseBody, SweepBody, case_of, read
+from ballscrew.web import answers, documents, duty_answers, limits, memory, openapi, vocabulary
+from ballscrew.web.bodies import BandBody, CaseBody, DutyBody, SweepBody, case_of, read
 from ballscrew.web.problems import Refused
 from ballscrew.web.request_queue import Deadline, RequestQueue
 from ballscrew.web.templates import template
@@ -177,6 +179,19 @@ async def band(request: Request) -> Response:
         samples = limits.samples_of(case, body.samples)
         found = bands.band(case, bands.Options(samples, body.level, body.only_given), done)
         return _json(documents.band(case, found))
+
+    return await _heavy(request, work)
+
+
+@router.post(
+    "/duty", openapi_extra=openapi.body(DutyBody), response_model=duty_answers.Duty, responses=openapi.problems_of()
+)
+async def duty(request: Request) -> Response:
+    """A cycle of the axis of a case: the document of ``ballscrew duty --json``."""
+    body: DutyBody = await read(request, DutyBody)
+
+    def work(_: Deadline) -> Response:
+        return _json(duty_documents.document(duties.duty(case_of(body.case, moves=True))))
 
     return await _heavy(request, work)
 

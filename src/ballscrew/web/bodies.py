@@ -20,6 +20,7 @@ from ballscrew.cases.case_file import Case
 from ballscrew.cases.schema import read_table
 from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.sizing.catalogue import catalogue
+from ballscrew.web.limits import check_motion
 from ballscrew.web.problems import Refused
 
 #: A case file has one or two kilobytes.
@@ -43,6 +44,10 @@ class CaseBody(_Body):
     """A case: the tables of a case file as JSON, texts with their units."""
 
     case: Tables
+
+
+class DutyBody(CaseBody):
+    """A case with an axis and a motion; it needs no operating point."""
 
 
 class SweepBody(CaseBody):
@@ -156,20 +161,25 @@ def _texts(value: Any) -> list[str]:
     return [value] if isinstance(value, str) else []
 
 
-def case_of(tables: Mapping[str, Any]) -> Case:
+def case_of(tables: Mapping[str, Any], *, moves: bool = False) -> Case:
     """The case that the tables of a request describe. Raises :class:`~ballscrew.errors.InputError`.
 
-    No value in them is read as a path.
+    No value in them is read as a path. One that ``moves`` has an axis and a motion.
     """
     screw = tables.get("screw")
     if isinstance(screw, Mapping) and "catalogue_file" in screw:
         remedy = "send the numbers of the screw, or name a row that is shipped"
         raise InputError(Fault("screw.catalogue_file", "is not taken from a request", "", remedy))
+    oil = tables.get("lubricant")
+    if isinstance(oil, Mapping) and "oil_file" in oil:
+        remedy = "send the numbers of the oil, or name one of the library"
+        raise InputError(Fault("lubricant.oil_file", "is not taken from a request", "", remedy))
     raise_if_any([Fault(where, "must not be null", "", "leave it out") for where in _nulls("", tables)])
-    case = case_file.build(tables, rows=catalogue())
+    case = case_file.build(tables, rows=catalogue(), moves=moves)
     if case.nut is not None and case.nut.one_by_one and case.screw.loaded_balls > MOST_BALLS:
         given, remedy = f"{case.screw.loaded_balls:g}", f"{MOST_BALLS} at most where balls differ or bodies are elastic"
         raise InputError(Fault("screw.loaded_balls", "too many to compute one by one", given, remedy))
+    check_motion(case)
     return case
 
 

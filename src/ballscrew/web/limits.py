@@ -57,6 +57,17 @@ def check_sweep(case: Case, plan: sweeps.Plan) -> None:
     raise_if_any(faults)
 
 
+def check_motion(case: Case) -> None:
+    """Refuse a motion of too many states for its balls, before it is computed."""
+    balls = balls_of(case)
+    if case.motion is None or not balls:
+        return
+    states = len(case.motion.states().time)
+    if states * balls > MOST_BALLS_IN_ALL:
+        remedy = "fewer segments, or a nut whose balls are alike; the rest by ballscrew duty"
+        raise InputError(Fault("motion", "has too many states to compute ball by ball", f"{states:,}", remedy))
+
+
 def is_short(case: Case, plan: sweeps.Plan) -> bool:
     """Test whether a sweep takes about a tenth of a second at most, such as those of the page."""
     points = math.prod(len(values) for values in plan.axes.values())

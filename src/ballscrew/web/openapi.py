@@ -12,7 +12,7 @@ from ballscrew.cases.schema import json_schema
 from ballscrew.sizing.catalogue import catalogue
 from ballscrew.web import problems
 from ballscrew.web.answer_parts import Problem
-from ballscrew.web.bodies import BandBody, SweepBody
+from ballscrew.web.bodies import BandBody, DutyBody, SweepBody
 from ballscrew.web.vocabulary import vocabulary
 
 _CASE, _SUMMARY = "Case", "Friction losses of ball screws"
@@ -42,6 +42,12 @@ def _bodies(kind: type[BaseModel]) -> dict[str, Any]:
         "lubricant": {"grade": "ISO VG 100", "temperature": "40 degC"},
         "operation": {"axial_load": "2 kN", "screw_speed": "300 rpm"},
     }
+    if kind is DutyBody:
+        moving: dict[str, Any] = {
+            "axis": {"mass": "400 kg", "inclination": "90 deg"},
+            "motion": {"kind": "trapezoid", "stroke": "0.5 m", "speed": "10 m/min", "acceleration": "0.5 g"},
+        }
+        return {name: {"case": {**case, **moving}} for name, case in (("paper", paper), ("nut", nut))}
     more: dict[str, Any] = {}
     if kind is SweepBody:
         more = {"vary": {"axial_load": "100:4000:5 N", "screw_speed": "10, 100 rpm"}, "outputs": ["efficiency"]}

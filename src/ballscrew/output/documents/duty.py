@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,6 +13,9 @@ from ballscrew.cases import case_file, provenance
 from ballscrew.records import documents
 from ballscrew.studies import duty_records
 from ballscrew.studies.duty import NUMBERS, DutyReport, slug_of
+
+if TYPE_CHECKING:  # loads xarray
+    from ballscrew.studies.duty_band import DutyBandReport
 
 _OF_LET_GO: Mapping[str, str] = {
     "temperature": "K", "load_torque": "N m", "breakaway_torque": "N m", "running_torque": "N m",
@@ -34,6 +37,23 @@ def document(report: DutyReport) -> dict[str, Any]:
         "verdicts": documents(duty_records.verdicts(report)),
         "checks": documents(check.record for check in report.checks),
         "provenance": provenance.of_case(report.case),
+    }
+
+
+def with_band(found: DutyBandReport) -> dict[str, Any]:
+    """The document of a duty with its bands."""
+    bands = found.bands
+    return {
+        **document(found.report),
+        "band": {
+            "level": bands.level,
+            "samples": bands.count,
+            **{
+                name: {"value": one.value, "median": one.median, **one.band._asdict()}
+                for name, one in bands.numbers.items()
+            },
+            "inputs": {name: {"source": one.source, "given": one.given} for name, one in found.inputs.items()},
+        },
     }
 
 
@@ -63,31 +83,9 @@ def results(report: DutyReport) -> dict[str, Any]:
                 "torque_peak": report.rule.torque_peak,
             },
         },
-        "phases": phases(report),
+        "phases": [phase._asdict() for phase in report.phases],
         "operating_points": duty.screw.points,
     }
-
-
-def phases(report: DutyReport) -> list[dict[str, Any]]:
-    """What each phase asks of the motor, by mechanics."""
-    duty, states = report.duty, report.duty.states
-    found: list[dict[str, Any]] = []
-    for number, name in enumerate(states.phases):
-        own = states.phase == number
-        weight, torque = states.weight[own], duty.torque[own]
-        duration = float(np.sum(weight))
-        found.append(
-            {
-                "name": name,
-                "start": float(states.time[own][0]),
-                "duration": duration,
-                "largest_load": float(np.max(np.abs(duty.axial_load[own]))),
-                "torque_peak": float(torque[np.argmax(np.abs(torque))]),
-                "torque_rms": float(np.sqrt(np.sum(weight * torque**2) / duration)),
-                "energy": float(np.sum(weight * duty.power[own])),
-            }
-        )
-    return found
 
 
 def _by_slug(parts: Mapping[str, float]) -> dict[str, float]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from ballscrew import units
 from ballscrew.axis.axis import Axis
@@ -21,12 +22,17 @@ from ballscrew.quantities import Quantity, fields_of
 from ballscrew.studies import duty_records
 from ballscrew.studies.duty import NUMBERS, DutyReport
 
+if TYPE_CHECKING:  # loads xarray
+    from ballscrew.studies.duty_band import DutyBandReport
+
 #: Energies that are zero in most cycles.
 _IF_ANY = ("energy_of_process", "energy_stored")
 _WIDTH, _BAR = 66, 24
 _AXIS, _MOTION = fields_of(Axis), fields_of(Trapezoid)
 _FORCE, _SPEED = LISTED["dynamic_load_rating"], _MOTION["speed"]
 _TORQUE, _ENERGY = NUMBERS["torque_rms"], NUMBERS["energy_lost"]
+#: Columns of the axis with its motor off.
+CONDITIONS = ("", "oil", "load", "friction from rest", "in motion", "ratio", "after the stroke", "")
 #: The options for an input of a check that is missing.
 _GIVE = {
     "installation": "[installation]",
@@ -62,6 +68,22 @@ def text(report: DutyReport, encoding: str = "utf-8") -> str:
     return "\n".join(line if "\n" in line else wrapped(line) for line in lines)
 
 
+def band_text(found: DutyBandReport) -> str:
+    """The bands of a duty, one number a line, and where they come from."""
+    bands = found.bands
+    rows = [[f"Band: {100 * bands.level:.4g} % of {bands.count} samples", "case", "median", "from", "to"]]
+    for name, one in bands.numbers.items():
+        quantity = NUMBERS[name]
+        cells = (number(quantity, value) for value in (one.value, one.median, *one.band))
+        rows.append([f"  {quantity.info.meaning}", *cells])
+    given = sum(one.given for one in found.inputs.values())
+    said = (
+        f"  of {len(found.inputs)} uncertain inputs of screw, oil and model, {given} of them given by the case; "
+        "motion, axis and laws are taken as exact"
+    )
+    return "\n".join(["", *aligned(rows), wrapped(said)])
+
+
 def title(report: DutyReport) -> str:
     """``vertical axis, 400 kg, trapezoid over 500 mm at 30 m/min: double nut, preload 5047 N, model reference``."""
     case, axis, states = report.case, report.axis, report.duty.states
@@ -90,13 +112,16 @@ def _line(what: str, value: str) -> str:
 
 
 def _numbers(report: DutyReport) -> list[str]:
-    found: list[str] = []
-    for name, quantity in NUMBERS.items():
-        value = report.numbers[name]
-        if name in _IF_ANY and abs(value) <= _LEAST * report.duty.energy_drawn:
-            continue
-        found.append(_line(quantity.info.meaning, number(quantity, value)))
-    return found
+    return [
+        _line(quantity.info.meaning, number(quantity, report.numbers[name]))
+        for name, quantity in shown_numbers(report).items()
+    ]
+
+
+def shown_numbers(report: DutyReport) -> Mapping[str, Quantity]:
+    """The numbers of a cycle, without those that are zero in most of them."""
+    least = _LEAST * report.duty.energy_drawn
+    return {n: q for n, q in NUMBERS.items() if n not in _IF_ANY or abs(report.numbers[n]) > least}
 
 
 def number(quantity: Quantity, value: float) -> str:
@@ -108,41 +133,45 @@ def number(quantity: Quantity, value: float) -> str:
 
 def _parts(report: DutyReport, block: str) -> list[str]:
     """What the motor is paid for: torque at its peak, share of the RMS torque, energy."""
-    energies = report.duty.energy_by
-    at_peak, of_rms = report.torque_peak_by, report.torque_rms_by
-    scales = [max(map(abs, values.values()), default=0.0) for values in (at_peak, of_rms, energies)]
     total = report.duty.torque_rms
     rows, bars = [["What the motor is paid for", "at the peak", "of the RMS", "energy", "share"]], [""]
-
-    def row(name: str, values: Sequence[float], bar: str) -> None:
-        cells = (
-            units.shown(value if abs(value) > _LEAST * scale else 0.0, quantity, 3)
-            for value, quantity, scale in zip(values, (_TORQUE, _TORQUE, _ENERGY), scales, strict=True)
-        )
-        rows.append([f"  {name}", *cells, f"{values[1] / total:.1%}" if total else "–"])
-        bars.append(bar)
-
-    for name, energy in energies.items():
-        values = (at_peak[name], of_rms[name], energy)
-        if any(abs(value) > _LEAST * scale for value, scale in zip(values, scales, strict=True)):
-            share = of_rms[name] / total if total else 0.0
-            row(name, values, block * round(_BAR * max(0.0, min(share, 1.0))))
-    row("sum", (sum(at_peak.values()), total, sum(energies.values())), "")
+    sums = (sum(report.torque_peak_by.values()), total, sum(report.duty.energy_by.values()))
+    for name, values in {**shown_parts(report), "sum": sums}.items():
+        cells = (units.shown(v, q, 3) for v, q in zip(values, (_TORQUE, _TORQUE, _ENERGY), strict=True))
+        share = values[1] / total if total else 0.0
+        rows.append([f"  {name}", *cells, f"{share:.1%}" if total else "–"])
+        bars.append("" if name == "sum" else block * round(_BAR * max(0.0, min(share, 1.0))))
     return [f"{line}  {bar}".rstrip() for line, bar in zip(aligned(rows), bars, strict=True)]
+
+
+def shown_parts(report: DutyReport) -> Mapping[str, tuple[float, float, float]]:
+    """Parts at the peak, of the RMS torque and of the energy; zero where it is rounding, and left out where all are."""
+    columns = (report.torque_peak_by, report.torque_rms_by, report.duty.energy_by)
+    scales = [max(map(abs, values.values()), default=0.0) for values in columns]
+    found: dict[str, tuple[float, float, float]] = {}
+    for name in report.duty.energy_by:
+        peak, rms, energy = (
+            values[name] if abs(values[name]) > _LEAST * scale else 0.0
+            for values, scale in zip(columns, scales, strict=True)
+        )
+        if peak or rms or energy:
+            found[name] = (peak, rms, energy)
+    return found
 
 
 def _power_off(report: DutyReport) -> list[str]:
     if not report.brake.load_torque:
         return ["Motor off: no load turns the screw"]
-    rows = [["Motor off", "oil", "load", "friction from rest", "in motion", "ratio", "after the stroke", ""]]
-    rows += [_condition(found) for found in report.brake.conditions]
+    rows = [["Motor off", *CONDITIONS[1:]]]
+    rows += [[f"  {first}", *others] for first, *others in map(condition_cells, report.brake.conditions)]
     return aligned(rows)
 
 
-def _condition(found: LetGo) -> list[str]:
+def condition_cells(found: LetGo) -> list[str]:
+    """The axis let go in one condition, in the columns of :data:`CONDITIONS`."""
     says = "falls" if found.falls else "goes on once started" if found.goes_on else "stays"
     return [
-        f"  {found.condition}",
+        found.condition,
         "–" if found.temperature is None else units.shown(found.temperature, TEMPERATURE, 3),
         units.shown(abs(found.load_torque), _TORQUE, 3),
         units.shown(found.breakaway_torque, _TORQUE, 3),

@@ -16,7 +16,10 @@ const LONGEST_QUOTE = 40;
 /** Sections that belong to the use of a screw, not to the screw. */
 const OF_USE = ["operation", "lubricant", "model", "losses", "installation", "limits"];
 /** Fields of an oil that the others follow from. */
-const OF_OIL = ["viscosity", "grade", "temperature"];
+const OF_OIL = [
+  "viscosity", "grade", "oil", "temperature", "kinematic_viscosity_40", "kinematic_viscosity_100", "density_15",
+  "pour_point", "lowest_temperature", "highest_temperature",
+];
 
 /** @type {Vocabulary} */
 let vocabulary;

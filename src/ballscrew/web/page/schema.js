@@ -29,7 +29,7 @@ export const SECTIONS = {
   deviations: "Balls that differ",
 };
 /** Fields that the form does not have. */
-export const LEFT_OUT = ["screw.catalogue", "screw.catalogue_file"];
+export const LEFT_OUT = ["screw.catalogue", "screw.catalogue_file", "lubricant.oil_file"];
 
 /** @type {{ $defs: Record<string, SchemaNode>, properties: Record<string, SchemaNode> }} */
 let schema;

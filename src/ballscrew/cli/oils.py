@@ -1,0 +1,44 @@
+"""``ballscrew oils``: oils and greases of the library or of one's own file. The work is done in ``cases/oils``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+app = typer.Typer(help="Oils and greases as their makers state them.", no_args_is_help=True, rich_markup_mode=None)
+
+File = Annotated[
+    Path | None,
+    typer.Option("--oils", metavar="FILE", help="A file of your own, .toml, in place of the library."),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")]
+
+
+@app.command("list")
+def list_oils(
+    words: Annotated[list[str] | None, typer.Argument(help="Only oils with these words: arcanol polyurea.")] = None,
+    file: File = None,
+    as_json: AsJson = False,
+) -> None:
+    """All oils, one line each."""
+    from ballscrew.cases import oils
+    from ballscrew.output import json_text
+
+    found = oils.chosen(oils.oils(file), " ".join(words or []))
+    typer.echo(json_text.as_json(oils.list_document(found)) if as_json else oils.list_text(found))
+
+
+@app.command()
+def show(
+    name: Annotated[str, typer.Argument(help='Name of the oil: "Arcanol LOAD150".')],
+    file: File = None,
+    as_json: AsJson = False,
+) -> None:
+    """One oil: what its data sheet states, and its viscosity from -40 to 120 degC."""
+    from ballscrew.cases import oils
+    from ballscrew.output import json_text
+
+    sheet = oils.oils(file).named(name)
+    typer.echo(json_text.as_json(oils.list_document([sheet])) if as_json else oils.show_text(sheet))

@@ -1,0 +1,185 @@
+"""An oil by the two viscosities of its data sheet, and what else that says."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+import tomllib
+from importlib import resources
+from typing import Annotated, Any, NamedTuple
+
+import numpy as np
+
+from ballscrew._arrays import ByValue, namespace
+from ballscrew.equations import rheology
+from ballscrew.equations import viscosity_temperature as equations
+from ballscrew.errors import Fault, faults_of, is_concrete, raise_if_any
+from ballscrew.quantities import (
+    Density,
+    Info,
+    KinematicViscosity,
+    PressureCoefficient,
+    Quantity,
+    Ratio,
+    Temperature,
+    TemperatureCoefficient,
+    Viscosity,
+    within_bounds,
+)
+
+#: The temperatures of the two viscosities and of the density of a data sheet, K.
+AT_40, AT_100, AT_15 = 313.15, 373.15, 288.15
+#: Steps of Newton that invert the line of ASTMD341 to the last digit.
+_STEPS = 2
+#: A bound in degC is met by sums such as -20 + 273.15 = 253.14999999999998, K.
+ROUNDING = 1e-9
+
+#: The temperature of an oil of a data sheet.
+SHEET_TEMPERATURE = Quantity(
+    "temperature",
+    "K",
+    Info(
+        "T",
+        "oil temperature",
+        "degC",
+        at_least=193.15 - ROUNDING,
+        at_most=473.15 + ROUNDING,
+        hint="no oil of a data sheet is computed below -80 degC or above 200 degC",
+    ),
+)
+
+_OPTIONAL = ("pour_point", "lowest_temperature", "highest_temperature")
+
+
+class NominalState(NamedTuple):
+    """The numbers of an oil that its temperature sets."""
+
+    viscosity: Viscosity
+    pressure_viscosity_coefficient: PressureCoefficient
+    temperature_coefficient: TemperatureCoefficient
+    density: Density
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class DataSheet(ByValue):
+    """An oil, or the base oil of a grease, as its maker's data sheet has it.
+
+    The viscosity follows the line of ASTMD341 through both points, in the full form that holds for thin oils too; the
+    density follows ASTMD1250; the pressure–viscosity coefficient is an estimate from the viscosity (Jungnickel2010,
+    mineral oils: others lie off it). Data sheets state typical values: an oil may lie 10 % off. The default density is
+    that of Jungnickel2010's oils. ``data["name"].lubricant(temperature)`` is the oil at a temperature.
+
+    Raises :class:`~ballscrew.errors.InputError` for values out of bounds, and for an oil that is not thinner at 100 °C.
+    """
+
+    kinematic_viscosity_40: Annotated[
+        KinematicViscosity,
+        Info(
+            r"\nu_{40}",
+            "kinematic viscosity at 40 degC",
+            "cSt",
+            at_least=5e-7,
+            below=1.0,
+            hint="data sheets have 10 cSt to 1000 cSt; 1 cSt is 1e-6 m^2/s",
+            usual=(1e-6, 1e-2),
+        ),
+    ]
+    kinematic_viscosity_100: Annotated[
+        KinematicViscosity,
+        Info(
+            r"\nu_{100}",
+            "kinematic viscosity at 100 degC",
+            "cSt",
+            at_least=5e-7,
+            below=1.0,
+            hint="data sheets have 2 cSt to 80 cSt; 1 cSt is 1e-6 m^2/s",
+            usual=(7e-7, 1e-3),
+        ),
+    ]
+    density_15: Annotated[
+        Density,
+        Info(r"\rho_{15}", "density at 15 degC", above=0, hint="mineral oils have 880 kg/m^3", usual=(500.0, 2500.0)),
+    ] = 870.0
+    pour_point: Annotated[
+        Temperature | None, Info("T_P", "pour point: below it the oil does not flow", "degC", above=0, hint="in kelvin")
+    ] = None
+    lowest_temperature: Annotated[
+        Temperature | None, Info("T_l", "lowest temperature that the maker states", "degC", above=0, hint="in kelvin")
+    ] = None
+    highest_temperature: Annotated[
+        Temperature | None, Info("T_h", "highest temperature that the maker states", "degC", above=0, hint="in kelvin")
+    ] = None
+    name: str = ""
+    #: Where the numbers are from; a key of the bibliography, or words.
+    source: str = ""
+    #: Of a grease: its base oil and thickener, and its consistency (NLGI). Empty for an oil.
+    base_oil: str = ""
+    thickener: str = ""
+    nlgi: str = ""
+
+    def __post_init__(self) -> None:
+        faults = faults_of("lubricant", self, _OPTIONAL)
+        thick, thin = self.kinematic_viscosity_40, self.kinematic_viscosity_100
+        if not faults and is_concrete(thick) and is_concrete(thin) and not thick > thin:
+            remedy = "look whether the two are exchanged"
+            given = f"{float(thin):.6g} m^2/s against {float(thick):.6g} m^2/s"
+            faults.append(Fault("lubricant.kinematic_viscosity_100", "must be below that at 40 degC", given, remedy))
+        raise_if_any(faults)
+
+    @property
+    def is_grease(self) -> bool:
+        """True for a grease, whose viscosities are those of its base oil."""
+        return bool(self.thickener)
+
+    def at(self, temperature: Temperature) -> NominalState:
+        """The numbers at a temperature, K; NaN for elements of an array that no oil is computed at."""
+        allowed = is_concrete(temperature) or within_bounds(SHEET_TEMPERATURE.info, temperature)
+        number_40 = equations.walther_number(self.kinematic_viscosity_40)
+        number_100 = equations.walther_number(self.kinematic_viscosity_100)
+        slope = equations.walther_slope(AT_40, number_40, AT_100, number_100)
+        number = equations.walther_number_at(temperature, AT_40, number_40, slope)
+        nu = equations.kinematic_viscosity_of_walther_number(number)
+        for _ in range(_STEPS):
+            nu = equations.refined_kinematic_viscosity(
+                nu, number, equations.walther_number(nu), equations.walther_number_slope(nu)
+            )
+        nu = nu if allowed is True else namespace(nu).where(allowed, nu, float("nan"))
+        density = equations.oil_density(
+            self.density_15, equations.oil_expansion_coefficient(self.density_15), temperature, AT_15
+        )
+        return NominalState(
+            rheology.dynamic_viscosity(nu, density),
+            rheology.pressure_viscosity_estimate(nu),
+            equations.walther_temperature_coefficient(
+                temperature, nu, number, slope, equations.walther_number_slope(nu)
+            ),
+            density,
+        )
+
+    @property
+    def viscosity_index(self) -> Annotated[Ratio, Info("VI", "viscosity index")]:
+        """The viscosity index by ASTMD2270 (ISO 2909); NaN below 2 mm²/s at 100 °C, where none is defined."""
+        return viscosity_index(self.kinematic_viscosity_40, self.kinematic_viscosity_100)
+
+
+def viscosity_index(kinematic_viscosity_40: KinematicViscosity, kinematic_viscosity_100: KinematicViscosity) -> Ratio:
+    """The viscosity index of two numbers by ASTMD2270 (ISO 2909); NaN below 2 mm²/s at 100 °C."""
+    found = np.vectorize(_viscosity_index, otypes=[float])(kinematic_viscosity_40, kinematic_viscosity_100)
+    return found if found.ndim else float(found)
+
+
+def _viscosity_index(U: float, Y: float) -> float:
+    row = next((row for row in reversed(_reference_oils()) if row["viscosity"] <= 1e6 * Y), None)
+    if row is None:
+        return math.nan
+    L, H = (equations.reference_viscosity(Y, *row[oil]) for oil in ("L", "H"))
+    if U > H:
+        return float(equations.viscosity_index_up_to_100(U, L, H))
+    return float(equations.viscosity_index_above_100(U, Y, H))
+
+
+@functools.cache
+def _reference_oils() -> list[dict[str, Any]]:
+    text = resources.files("ballscrew").joinpath("data/viscosity_index.toml").read_text(encoding="utf-8")
+    return tomllib.loads(text)["from"]

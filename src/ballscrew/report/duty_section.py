@@ -1,0 +1,76 @@
+"""The cycle of an axis in its report: the answer, numbers, what the motor is paid for, power off, checks, pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ballscrew.figures import duty as figures
+from ballscrew.output.text import duty as text
+from ballscrew.quantities import Quantity
+from ballscrew.report import result_tables
+from ballscrew.report.blocks import Bar, Block, Bullets, Columns, Paragraph, Picture, Table, sentence
+from ballscrew.report.blocks import value as value_of
+from ballscrew.report.curve_figures import named, svg_of
+from ballscrew.studies import duty_records
+from ballscrew.studies.duty import NUMBERS, DutyReport
+
+_TORQUE, _ENERGY = NUMBERS["torque_rms"], NUMBERS["energy_lost"]
+
+
+def blocks(report: DutyReport) -> list[Block]:
+    """All that a report says of a cycle."""
+    said = [f"{sentence(record.text)}." for record in duty_records.verdicts(report)]
+    warned = [f"Beware: {record.text}." for record in duty_records.warnings(report)]
+    words = (
+        "Motion, torque of the motor by cause and power over the time of a cycle, and torque over speed: "
+        f"{text.title(report)}."
+    )
+    caption = "Motion, torque by cause and power of the motor over a cycle, and its torque over its speed."
+    drawn = named(svg_of(lambda: figures.panels(report), "duty"), words)
+    return [
+        Paragraph(" ".join([f"{sentence(text.title(report))}.", *said]), strong=True),
+        Columns([_numbers(report)], [_paid_for(report)]),
+        Picture(drawn, words, caption),
+        *_power_off(report),
+        Table(
+            "Limits over the cycle, and how much of each is used",
+            ("", "value", "limit", "used", "verdict"),
+            [result_tables.check_row(check) for check in report.checks],
+            (0, 4),
+            4,
+        ),
+        *([Bullets(warned)] if warned else []),
+    ]
+
+
+def _numbers(report: DutyReport) -> Table:
+    rows = [
+        (quantity.info.meaning, text.number(quantity, report.numbers[name]))
+        for name, quantity in text.shown_numbers(report).items()
+    ]
+    return Table("The cycle", ("", "value"), rows)
+
+
+def _paid_for(report: DutyReport) -> Table:
+    """Parts of the torque and of the energy, in the order of the document."""
+    total = report.duty.torque_rms
+    rows: list[Sequence[str | Bar]] = []
+    for name, values in text.shown_parts(report).items():
+        share = values[1] / total if total else 0.0
+        cells = [_small(value, q) for value, q in zip(values, (_TORQUE, _TORQUE, _ENERGY), strict=True)]
+        rows.append([name, *cells, Bar(0.0, max(0.0, min(share, 1.0)))])
+    note = (
+        "The first two columns sum to the peak and to the RMS torque; a part that acts against the others is negative."
+    )
+    return Table("What the motor is paid for", ("", "at the peak", "of the RMS", "energy", ""), rows, wide=4, note=note)
+
+
+def _small(value: float, quantity: Quantity) -> str:
+    return value_of(float(f"{value:.3g}"), quantity)
+
+
+def _power_off(report: DutyReport) -> list[Block]:
+    if not report.brake.load_torque:
+        return []
+    rows = [text.condition_cells(found) for found in report.brake.conditions]
+    return [Table("The axis with its motor off and no brake", text.CONDITIONS, rows, (0, len(text.CONDITIONS) - 1))]

@@ -1,0 +1,313 @@
+"""Records of a condition: what became of the axis, what else could be, and what not to trust, the gravest first."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ballscrew.calibration.response import resolve_input
+from ballscrew.calibration.robust import Vector
+from ballscrew.components.materials import TEMPERATURE
+from ballscrew.errors import InputError
+from ballscrew.evaluation.plan import Configuration
+from ballscrew.records import Record
+from ballscrew.service.alternatives import BOUNDARY_FRICTION, FACTOR, KELVIN
+from ballscrew.service.condition_means import Means
+from ballscrew.service.condition_parts import CONSTANT, WARMER
+from ballscrew.service.condition_reduction import Reduction
+from ballscrew.service.condition_values import Condition
+from ballscrew.service.posterior import (
+    FRICTION,
+    LOGGED_TEMPERATURE,
+    MODEL_ERROR,
+    PRELOAD,
+    UNKNOWN_TEMPERATURE,
+    torque_of_model,
+)
+from ballscrew.uncertainty.default_uncertainties import NORMAL_95
+
+#: A factor between measured torque and model beyond this, either way, is said.
+LARGEST_FACTOR = 1.5
+#: So many equal torques in a row are said, and so many kelvin between the first tests and the last.
+REPEATED, DIFFERENCE = 4, 5.0
+#: Seconds of the time that a trend is of.
+_SPANS = {"a year": 365.25 * 86400, "1000 h": 3.6e6}
+_POINTS = 41
+
+
+def records_of(
+    made: Condition, means: Means, found: Reduction, subject: Configuration
+) -> tuple[list[Record], list[Record]]:
+    """The warnings and the verdicts of a condition."""
+    graded = subject.lubricant.grade is not None
+    change = float(found.torque[-1] - np.mean(found.torque[: made.baseline]))
+    warnings = [
+        *_of_temperatures(made, means, found, subject, change, graded),
+        *_of_speeds(means),
+        *_of_factor(made),
+        *_of_torques(made, means),
+        *means.warnings,
+    ]
+    verdicts = [_alarm(made, found), _preload(made), *_of_trend(made)]
+    if means.speeds.min() > 1 and made.states[-1].parts:
+        verdicts += _parts(made)
+    elif abs(change) > NORMAL_95 * math.hypot(made.scatter, MODEL_ERROR):
+        verdicts += _instead(made, found, subject, change)
+    return warnings, verdicts
+
+
+def _warning(name: str, subject: str, text: str, **more: Any) -> Record:
+    fields: dict[str, Any] = {"severity": "warning", **more}
+    return Record(id=f"condition.{name}", subject=subject, text=text, **fields)
+
+
+# -- warnings -------------------------------------------------------------------------------------
+
+
+def _of_temperatures(
+    made: Condition, means: Means, found: Reduction, subject: Configuration, change: float, graded: bool
+) -> list[Record]:
+    count, known = len(made.states), means.logged
+    if not graded and known.any():
+        text = (
+            "the temperatures are not used, as the oil has a viscosity and no grade that changes with it: give "
+            "[lubricant] a grade"
+        )
+        return [_warning("temperature_unused", "temperature", text, holds=False)]
+    if known.all():
+        warm = np.array([float(np.mean(means.temperature[means.test == i])) for i in range(count)])
+        warmer = float(warm[-1] - np.mean(warm[: made.baseline]))
+        if abs(warmer) < DIFFERENCE:
+            return []
+        text = (
+            f"the last test is {abs(warmer):.0f} K {'hotter' if warmer > 0 else 'colder'} than the first ones: reduced "
+            f"to {made.reference_temperature - 273.15:.0f} °C by the model"
+        )
+        return [_warning("temperatures_differ", "temperature", text, severity="info", value=warmer, unit="K")]
+    if known.any():
+        text = (
+            f"{count - np.count_nonzero(known)} of {count} tests have no temperature: it is taken to be that of the "
+            f"case, {UNKNOWN_TEMPERATURE:.0f} K either way, which makes their intervals wide"
+        )
+        return [_warning("temperature_missing", "temperature", text, holds=False)]
+    each = abs(made.per_kelvin)
+    text = (
+        f"no temperature is logged, and each kelvin is {each:.1%} of the torque: the alarm says that the torque has "
+        f"changed, not that the nut has worn. The intervals have {UNKNOWN_TEMPERATURE:.0f} K either way in them"
+    )
+    needed = _warmer(subject, found, change)
+    if needed is not None and abs(needed) >= 1:
+        text += f"; an oil {abs(needed):.0f} K {'hotter' if needed > 0 else 'colder'} would explain the last test"
+    return [_warning("no_temperature", "temperature", f"{text}. Log the temperature of the nut", holds=False)]
+
+
+def _of_speeds(means: Means) -> list[Record]:
+    if means.speeds.min() > 1:
+        return []
+    text = (
+        "one speed in each test: preload, constant torque and boundary friction cannot be told apart; the share is "
+        "that of a preload that changed alone"
+    )
+    return [_warning("one_speed", "screw_speed", text, severity="info")]
+
+
+def _of_factor(made: Condition) -> list[Record]:
+    if 1 / LARGEST_FACTOR <= made.factor <= LARGEST_FACTOR:
+        return []
+    low, high = made.factor_interval
+    text = (
+        f"the first tests have {made.factor:.2f} times the torque of the model ({low:.2f} to {high:.2f}): is this the "
+        "screw? The share of the preload is by how the model goes with it; were the rest a constant torque (wipers, "
+        "bearings), more preload would be lost"
+    )
+    return [_warning("factor", "torque", text, value=made.factor, limit=LARGEST_FACTOR, holds=False)]
+
+
+def _of_torques(made: Condition, means: Means) -> list[Record]:
+    records: list[Record] = []
+    if np.array_equal(means.speeds, np.ones(len(made.states))):
+        run = 1
+        for i in range(1, len(made.states)):
+            run = run + 1 if means.torque[i] == means.torque[i - 1] else 1
+            if run == REPEATED:
+                text = (
+                    f"{made.states[i].label}: the torque is the same to the last digit as in the {REPEATED - 1} tests "
+                    "before: were all of them measured? The scatter may be too small"
+                )
+                records.append(_warning("repeated", f"states.{i}", text, holds=False))
+    untold = [state.label for state in made.states if not math.isfinite(state.preload)]
+    if untold:
+        text = f"no preload gives the torque of {', '.join(untold[:3])}: look at the unit, and at the seals in [losses]"
+        records.append(_warning("no_preload", "preload", text, holds=False, value=float(len(untold))))
+    return records
+
+
+def _warmer(subject: Configuration, found: Reduction, change: float) -> float | None:
+    """How much warmer an oil would be that changes the logarithm of the torque so much; None beyond 60 K."""
+    steps = np.linspace(-KELVIN, KELVIN, _POINTS)
+    return _crossing(steps, _at_reference(subject, found, {}, steps), change)
+
+
+def _crossing(steps: Vector, values: Vector, change: float) -> float | None:
+    off = values - values[steps.size // 2] - change
+    known = np.isfinite(off)
+    steps, off = steps[known], off[known]
+    crossed = np.flatnonzero(np.diff(np.sign(off)) != 0)
+    if not crossed.size:
+        return None
+    # the smallest change that does it
+    places = [float(np.interp(0.0, *_rising(off[i : i + 2], steps[i : i + 2]))) for i in crossed]
+    return min(places, key=abs)
+
+
+def _rising(x: Vector, y: Vector) -> tuple[Vector, Vector]:
+    order = np.argsort(x)
+    return x[order], y[order]
+
+
+def _at_reference(subject: Configuration, found: Reduction, changes: Any, warmer: Vector) -> Vector:
+    size = max([warmer.size, *(np.size(one) for one in changes.values())])
+    points: dict[str, Any] = {"axial_load": np.zeros(size), "screw_speed": np.full(size, found.screw_speed)}
+    if math.isfinite(found.temperature):
+        points[TEMPERATURE.name] = np.full(size, found.temperature)
+    with np.errstate(all="ignore"):
+        there = subject.changed(changes) if changes else subject
+        return np.log(np.broadcast_to(torque_of_model(there, points, FRICTION, np.broadcast_to(warmer, size)), size))
+
+
+# -- verdicts -------------------------------------------------------------------------------------
+
+
+def _alarm(made: Condition, found: Reduction) -> Record:
+    count = len(made.states) - made.baseline
+    chance = 1 - (1 - made.false_alarms) ** count
+    rate = f"one healthy test in {1 / made.false_alarms:.0f} gives an alarm, {chance:.1%} of series as long as this"
+    if made.alarm is None:
+        text = f"no alarm: the torque is as in the first {made.baseline} tests, within its scatter ({rate})"
+        return Record(id="condition.alarm", subject="torque", text=text, holds=True)
+    change = math.expm1(float(found.torque[made.alarm] - np.mean(found.torque[: made.baseline])))
+    way = "fallen" if made.chart.falls else "risen"
+    text = f"alarm at {made.states[made.alarm].label}: the torque has {way} beyond its scatter, {change:+.0%} ({rate})"
+    if not made.temperatures:
+        since = "" if made.lost_since is None else made.states[made.lost_since].label
+        oil = f"from {since} on an oil within {UNKNOWN_TEMPERATURE:.0f} K does not explain it"
+        text += f"; without temperatures: {oil if since else 'it may be the oil'}"
+    if not made.chart.falls:
+        text += (
+            "; wear takes torque: look for dirt, lack of lubricant, another oil, a nut that was adjusted or exchanged"
+        )
+    return Record(
+        id="condition.alarm", subject="torque", text=text, severity="warning", holds=False, value=float(made.alarm)
+    )
+
+
+def _preload(made: Condition) -> Record:
+    last = made.states[-1]
+    if not math.isfinite(last.preload):
+        text = "the preload cannot be told from the last test: see the warnings"
+        return Record(id="condition.preload_left", subject=PRELOAD, text=text, severity="warning")
+    begin = {"lost": "preload lost", "kept": "preload kept", "open": "lost or kept cannot be told"}[made.verdict]
+    probability = min(max(made.probability_of_loss, 0.001), 0.999)
+    text = (
+        f"{begin}: {last.preload:.0%} of the preload of the first tests is left in the last one "
+        f"({last.preload_low:.0%} to {last.preload_high:.0%}), "
+        f"less than {1 - made.tolerance:.0%} of it with a probability of {probability:.3g}"
+    )
+    if made.lost_since is not None:
+        text += f"; the interval lies below all of it since {made.states[made.lost_since].label}"
+    return Record(
+        id="condition.preload_left", subject=PRELOAD, text=text, value=last.preload, limit=1 - made.tolerance,
+        holds={"lost": False, "kept": True, "open": None}[made.verdict],
+        severity="warning" if made.verdict == "lost" else "info",
+    )  # fmt: skip
+
+
+def span_of(made: Condition) -> tuple[str, float]:
+    """What a trend is given for, and how much time or how many tests that is: years, 1000 h or ten tests."""
+    if made.per == "test":
+        return "10 tests", 10.0
+    whole = made.states[-1].time - made.states[0].time
+    name = "a year" if whole > _SPANS["a year"] / 4 else "1000 h"
+    return name, _SPANS[name]
+
+
+def _of_trend(made: Condition) -> list[Record]:
+    if not math.isfinite(made.trend.slope):
+        return []
+    name, span = span_of(made)
+    each, low, high = (math.expm1(span * one) for one in made.trend)
+    end = "" if made.trend.told else ": none can be told"
+    text = f"trend of the preload: {each:+.1%} in {name} ({low:+.1%} to {high:+.1%}, independent errors){end}"
+    return [
+        Record(
+            id="condition.trend", subject=PRELOAD, text=text, value=made.trend.slope, limit=0.0,
+            unit="1" if made.per == "test" else "1/s", holds=made.trend.told,
+        )
+    ]  # fmt: skip
+
+
+def _parts(made: Condition) -> list[Record]:
+    """The causes beside each other in the last test."""
+    records: list[Record] = []
+    for name, part in made.states[-1].parts.items():
+        spoken = {PRELOAD: "preload", CONSTANT: "constant torque", WARMER: "oil beside what was logged"}
+        label = spoken.get(name, name.replace("_", " "))
+        if name in (CONSTANT, WARMER):
+            unit = "N m" if name == CONSTANT else "K"
+            shown = f"{part.value:+.2g} {unit} ({part.low:+.2g} to {part.high:+.2g})"
+        else:
+            unit, shown = "1", f"{part.value:.0%} of before ({part.low:.0%} to {part.high:.0%})"
+        end = "" if part.told else "; not told from the others"
+        text = f"beside each other, {label}: {shown}{end}"
+        records.append(
+            Record(id="condition.part", subject=name, text=text, value=part.value, unit=unit, holds=part.told)
+        )
+    return records
+
+
+def _instead(made: Condition, found: Reduction, subject: Configuration, change: float) -> list[Record]:
+    """What would explain the last torque, had the preload stayed."""
+    records: list[Record] = []
+    needed = _warmer(subject, found, change)
+    limit = LOGGED_TEMPERATURE if made.states[-1].temperature is not None else UNKNOWN_TEMPERATURE
+    begin = "had the preload stayed,"
+    if needed is None:
+        text = f"{begin} no oil within {KELVIN:.0f} K would explain the last torque"
+        records.append(_cause(WARMER, text, None, limit, "K", False))
+    else:
+        within = abs(needed) <= math.sqrt(2) * limit
+        text = (
+            f"{begin} the oil would be {abs(needed):.1f} K {'hotter' if needed > 0 else 'colder'} than taken: "
+            f"{'within' if within else 'beyond'} what is known of it ({limit:.0f} K either way)"
+        )
+        records.append(_cause(WARMER, text, needed, limit, "K", within))
+    torque = math.exp(float(np.mean(found.torque[: made.baseline]))) * math.expm1(change)
+    text = (
+        f"{begin} a constant torque (seals, bearings) would be {abs(torque):.3g} N m {'less' if torque < 0 else 'more'}"
+    )
+    records.append(_cause(CONSTANT, text, torque, None, "N m", None))
+    return [*records, *_of_boundary_friction(found, subject, change, begin)]
+
+
+def _of_boundary_friction(found: Reduction, subject: Configuration, change: float, begin: str) -> list[Record]:
+    try:
+        name = resolve_input(subject, BOUNDARY_FRICTION)
+    except InputError:  # a law of one's own, without such a number
+        return []
+    now = float(subject.value_of(name))
+    if not now > 0:
+        return []
+    steps = np.linspace(-math.log(FACTOR), math.log(FACTOR), _POINTS)
+    needed = _crossing(steps, _at_reference(subject, found, {name: now * np.exp(steps)}, np.zeros(1)), change)
+    if needed is None:
+        text = f"{begin} no boundary friction would explain the last torque"
+        return [_cause(BOUNDARY_FRICTION, text, None, now, "1", False)]
+    value = now * math.exp(needed)
+    text = f"{begin} the boundary friction would be {value:.3g} instead of {now:.3g}"
+    return [_cause(BOUNDARY_FRICTION, text, value, now, "1", None)]
+
+
+def _cause(name: str, text: str, value: float | None, limit: float | None, unit: str, holds: bool | None) -> Record:
+    return Record(id="condition.alternative", subject=name, text=text, value=value, limit=limit, unit=unit, holds=holds)

@@ -1,0 +1,52 @@
+"""Response models of the API for a cycle of an axis."""
+
+from __future__ import annotations
+
+from ballscrew.studies.duty import NUMBERS
+from ballscrew.web.answer_parts import (
+    Closed,
+    Number,
+    Numbers,
+    Open,
+    Provenance,
+    Record,
+    Tables,
+    field,
+    model,
+    quantities,
+)
+
+
+class PowerOff(Open):
+    """What the axis does with its motor off."""
+
+    falls: bool
+    holding_torque: Number = field("largest torque that keeps the axis at rest, SI", "N m")
+    brake_torque: Number = field("rated torque of a brake, SI", "N m")
+    conditions: list[Tables]
+
+
+DutyResults = model(
+    "DutyResults",
+    "Numbers of a cycle of an axis.",
+    Open,
+    **quantities(NUMBERS),
+    energy_lost_by=(Numbers, field("energy lost in a cycle by mechanism, SI", "J")),
+    torque_rms_by=(Numbers, field("parts of the RMS torque, SI", "N m")),
+    torque_peak_by=(Numbers, field("parts of the peak torque, SI", "N m")),
+    brake=(PowerOff, ...),
+    phases=(list[Tables], ...),
+    valid=(bool, ...),
+)
+
+
+class Duty(Closed):
+    """A cycle of an axis."""
+
+    inputs: Tables
+    results: DutyResults  # pyright: ignore[reportInvalidTypeForm]
+    units: Tables
+    verdicts: list[Record]
+    checks: list[Record]
+    warnings: list[Record]
+    provenance: Provenance

@@ -1,0 +1,117 @@
+"""``ballscrew condition``: a table, logs; as words, JSON and picture; and what is refused."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+TABLE, CASE, NEW, WORN = (
+    EXAMPLES / name for name in ("nut_over_years.csv", "service.toml", "nut_new.csv", "nut_worn.csv")
+)
+#: The model of the paper answers the quickest.
+QUICK = ("--case", CASE, "--model", "olaru2005")
+
+
+def document(done):
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout, parse_constant=lambda constant: pytest.fail(f"{constant} in JSON"))
+
+
+def test_a_table(ballscrew, tmp_path):
+    done = ballscrew("condition", TABLE, "--case", CASE, "--json", "--to", tmp_path / "nut.png")
+    found = document(done)
+    assert {"inputs", "results", "units", "warnings", "verdicts", "checks", "provenance"} == set(found)
+    results = found["results"]
+    assert len(results["states"]) == 24
+    last = results["states"][-1]
+    # the truth of the example
+    assert last["preload"]["low"] < 0.75 < last["preload"]["high"]
+    assert results["verdict"] == "lost"
+    assert results["alarm_direction"] == "fall"
+    assert 8 <= results["alarm"] <= results["lost_since"]
+    # 15 °C of season do not show: the healthy tests have one torque
+    torques = [one["torque"]["value"] for one in results["states"][:8]]
+    assert max(torques) / min(torques) < 1.06
+    assert results["trend"]["low"] < results["trend"]["slope"] < results["trend"]["high"] < 0
+    assert results["states"][0]["limit"] is None
+    assert [one["id"] for one in found["verdicts"]][:3] == [
+        "condition.alarm", "condition.preload_left", "condition.trend",
+    ]  # fmt: skip
+    assert found["verdicts"][0]["holds"] is False
+    identities = [(record["id"], record["subject"]) for record in (*found["warnings"], *found["verdicts"])]
+    assert len(set(identities)) == len(identities)
+    assert found["provenance"]["logs"][0]["log"] == "nut_over_years.csv"
+    assert (tmp_path / "nut.png").read_bytes().startswith(b"\x89PNG")
+    assert "nut.png: 24 tests" in done.stderr
+
+
+def test_without_temperatures_that_is_said_first(ballscrew, tmp_path):
+    lines = [line for line in TABLE.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+    kept = [",".join(line.split(",")[:3]) for line in lines]
+    path = tmp_path / "cold.csv"
+    path.write_text("\n".join(kept) + "\n", encoding="utf-8")
+    done = ballscrew("condition", path, *QUICK, "--speed", "100 rpm", environment={"COLUMNS": "110"})
+    assert done.returncode == 0, done.stderr
+    said = done.stdout.splitlines()
+    assert said[0] == "cold.csv: double nut, preload 4326 N, model olaru2005"
+    assert said[2].startswith("beware  no temperature is logged, and each kelvin is ")
+    assert "of the torque" in said[2]
+
+
+def test_logs(ballscrew, tmp_path):
+    rows = NEW.read_text(encoding="utf-8").splitlines()
+    body = [row for row in rows if not row.startswith("#")]
+    logs = []
+    for i in range(3):  # the same test with other digits, as three days have
+        changed = [body[0], *(row.replace(",0,", f",{i + 1},", 1) for row in body[1:])]
+        logs.append(tmp_path / f"day{i}.csv")
+        logs[-1].write_text("\n".join(changed) + "\n", encoding="utf-8")
+    found = document(ballscrew("condition", *logs, WORN, *QUICK, "--baseline", "3", "--json"))
+    results = found["results"]
+    assert [one["label"] for one in results["states"]] == ["day0.csv", "day1.csv", "day2.csv", "nut_worn.csv"]
+    assert set(results["states"][-1]["parts"]) == {
+        "nut.preload", "boundary_friction_coefficient", "constant_torque", "temperature",
+    }  # fmt: skip
+    assert results["states"][-1]["preload"]["high"] < 1
+    assert len(found["provenance"]["logs"]) == 4
+
+
+REFUSALS = {
+    "no case": (("condition", TABLE), "--case: missing"),
+    "nothing": (("condition", *QUICK), "TABLE: missing"),
+    "no such table": (("condition", "gone.csv", *QUICK), "gone.csv: does not exist"),
+    "one log": (("condition", WORN, *QUICK), "has speeds in both directions or at rest, as a log has"),
+    "two logs": (("condition", NEW, WORN, *QUICK), "condition.tests: too few: the baseline alone takes 5 (2)"),
+    "the same log": (
+        ("condition", NEW, WORN, WORN, NEW, "--baseline", "3", *QUICK), "condition: two logs are the same file",
+    ),
+    "baseline": (("condition", TABLE, "--baseline", "1", *QUICK), "--baseline: is too short (1)"),
+    "tolerance": (("condition", TABLE, "--tolerance", "2", *QUICK), "--tolerance: must lie between 0 and 1 (2.0)"),
+    "false alarms": (("condition", TABLE, "--false-alarms", "1", *QUICK), "--false-alarms: must lie between"),
+    "speed twice": (("condition", TABLE, "--speed", "9 rpm", *QUICK), "--speed: is given beside a column of speeds"),
+    "unit": (("condition", TABLE, "--at", "9 N", *QUICK), "--at: "),
+    "cold": (("condition", TABLE, "--at", "-300 degC", *QUICK), "--at: "),
+    "kind": (("condition", TABLE, "--kind", "drive", *QUICK), "--kind: is for logs (drive)"),
+    "no preload": (("condition", TABLE, "--case", EXAMPLES / "rig.toml"), "nut: has no preload (SingleNut)"),
+    "picture": (("condition", TABLE, "--to", "nut.txt", *QUICK), "--to: unknown kind of file (nut.txt)"),
+    "column": (("condition", TABLE, "--column", "drag=M", *QUICK), "--column drag: unknown column"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("arguments", "words"), REFUSALS.values(), ids=REFUSALS)
+def test_refused_in_lines(ballscrew, arguments, words):
+    done = ballscrew(*arguments)
+    assert done.returncode == 2, done.stdout
+    assert done.stdout == ""
+    assert "Traceback" not in done.stderr
+    assert words in done.stderr
+
+
+def test_the_example_table_is_what_its_script_makes():
+    script = [sys.executable, str(EXAMPLES / "make_condition_table.py")]
+    done = subprocess.run(script, capture_output=True, encoding="utf-8", check=False)
+    assert done.returncode == 0, done.stderr
+    assert TABLE.read_text(encoding="utf-8").startswith("# SYNTHETIC")
