@@ -161,6 +161,15 @@ def test_temperatures_of_a_motion_do_not_count(case):
     assert "its heat is spread" in warned["warm_up.long_cycle"]["text"]  # 4 s of 36 s
 
 
+def test_an_oil_warmer_than_its_data_sheet_goes_is_warned_of(case):
+    sheet = 'kinematic_viscosity_40 = "100 cSt"\nkinematic_viscosity_100 = "11 cSt"\ndensity_15 = "880 kg/m^3"'
+    written = POINT.replace('grade = "ISO VG 100"', sheet + '\nhighest_temperature = "31 degC"')
+    report = warmed_up(case(written, "surroundings.ambient=30 degC"), hours=0.5)
+    said = [record["text"] for record in plain(document_of(report))["warnings"]]
+    assert any("31 degC" in one for one in said), said
+    assert plain(document_of(warmed_up(case(written, "surroundings.ambient=10 degC"), hours=0.5)))["warnings"] == []
+
+
 def test_self_heating_is_the_steady_state(case):
     found = self_heating(case(POINT + DOUBLE))
     end = found.equilibrium

@@ -127,6 +127,26 @@ def test_friction_is_not_a_number_where_it_is_not_known(found):
     assert beyond.screw_torque[:-1] == pytest.approx(found.screw_torque[:-1])
 
 
+@pytest.mark.parametrize(
+    "nut",
+    [
+        bs.OversizeBallNut(preload=1500.0),
+        bs.OversizeBallNut(oversize=3e-6),
+        bs.OffsetLeadNut(preload=2000.0),
+        bs.DoubleNut(preload=3000.0, bodies=bs.Bodies()),
+    ],
+    ids=["preload of four contacts", "oversize", "offset lead", "elastic bodies"],
+)
+def test_every_kind_of_nut(nut):
+    """The heat is that of the model at the oil and preload found, whatever arranges the balls."""
+    screw = ROW.screw(nut=nut)
+    found = bs.steady_heat(bs.to_and_fro(MODEL, screw, OIL, axial_load=0.0, screw_speed=100.0, stroke=0.5), PLAIN)
+    warm = dataclasses.replace(screw, nut=nut.changed("preload", found.preload))
+    there = MODEL(warm, OIL.at(found.oil_temperature), axial_load=0.0, screw_speed=100.0)
+    assert found.power == pytest.approx(100.0 * float(there.screw_torque), rel=2e-4)
+    assert found.network.preload_set > 0
+
+
 def test_a_table_of_compensation(found):
     places, growth = found.compensation_table(0.1)
     assert places.tolist() == pytest.approx(np.arange(0, 1.25, 0.1).tolist())

@@ -65,7 +65,7 @@ class SelfHeating:
             preload = f", preload {there} in place of {before}"
         text = (
             f"self-heating: oil at {oil} in place of {given} (nut {nut}){preload}; friction torque {warm}, not {cold}; "
-            f"gain of the loop {1 - end.margin:.2f}, which runs away at 1"
+            f"gain of the loop {1 - end.margin:z.2f}, which runs away at 1"
         )
         return Record(
             id="verdict.self_heating", subject="lubricant.temperature", text=text, severity="info", holds=True,

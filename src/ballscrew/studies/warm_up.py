@@ -179,7 +179,7 @@ def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None
         raise InputError(Fault("model.name", problem, "constant-efficiency", "take a model"))
     if case.lubricant.temperature is None:
         problem = "has no temperature: its viscosity would be the same for ever"
-        remedy = 'write grade = "ISO VG 100" in place of a viscosity'
+        remedy = 'write grade = "ISO VG 100", or both viscosities of the data sheet, in its place'
         raise InputError(
             Fault("lubricant.viscosity", problem, units.shown(case.lubricant.viscosity, _VISCOSITY), remedy)
         )

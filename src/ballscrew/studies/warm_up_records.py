@@ -59,9 +59,13 @@ def _change(value: float, start: float) -> str:
 
 
 def warnings(report: WarmUpReport) -> list[Record]:
-    """What is strange about the inputs, and temperatures of a motion that do not count."""
-    strange = units.in_display_units_of(implausible({"surroundings": report.surroundings}))
-    return [*report.case.implausible(), *strange, *_own_temperatures(report), *_long_cycle(report)]
+    """What is strange about the inputs and the oil as warm as it becomes, and what of the motion does not count."""
+    case = report.case
+    warmest = case.lubricant.at(float(np.max(report.warm_up.oil_temperature)))
+    parts = {"surroundings": report.surroundings, "lubricant": warmest}
+    strange = [*case.implausible(), *units.in_display_units_of(implausible(parts))]
+    once = {(record.id, record.subject): record for record in strange}
+    return [*once.values(), *_own_temperatures(report), *_long_cycle(report)]
 
 
 def _own_temperatures(report: WarmUpReport) -> list[Record]:

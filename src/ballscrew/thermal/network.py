@@ -11,14 +11,15 @@ import numpy as np
 
 from ballscrew._arrays import ByValue
 from ballscrew.axis.duty import Duty
-from ballscrew.components.nut import Nut
+from ballscrew.components.nut import Nut, SingleNut
 from ballscrew.equations import geometry, heat, hertz
 from ballscrew.errors import Fault, InputError
 from ballscrew.friction.result import FrictionResult
 from ballscrew.motion.states import Numbers
 from ballscrew.quantities import Conductance, Force, Length, Power, Temperature
+from ballscrew.solvers.load_distribution import preload_of
 from ballscrew.thermal import surroundings as air
-from ballscrew.thermal.friction_map import COLDEST, HOTTEST, FrictionMap, friction_map, preload_of
+from ballscrew.thermal.friction_map import COLDEST, HOTTEST, FrictionMap, friction_map
 from ballscrew.thermal.shaft import CAPACITY, CONDUCTIVITY, DENSITY, EXPANSION, Shaft
 from ballscrew.thermal.surroundings import Surroundings
 
@@ -210,10 +211,11 @@ def network_of(duty: Duty, surroundings: Surroundings, *, shaft_length: Length |
         raise InputError(Fault("motion.stroke", "does not fit between the bearings", given, remedy))
     heated = duty.states.weight * np.abs(duty.screw_speed)
     heated = heated if np.any(heated) else duty.states.weight
-    result = driven.model(screw, oil, axial_load=0.0, screw_speed=max(mean_speed, 1e-3))
-    set_to = preload_of(driven)
+    set_to = float(preload_of(screw, screw.nut))
     loaded = set_to or max(float(np.max(np.abs(duty.axial_load))), 1.0)
-    at_load = result if set_to else driven.model(screw, oil, axial_load=loaded, screw_speed=max(mean_speed, 1e-3))
+    # the contacts of all nuts are alike: those of a row of balls that carries the preload, or else the largest load
+    row = dataclasses.replace(screw, nut=SingleNut())
+    at_load = driven.model(row, oil, axial_load=loaded, screw_speed=max(mean_speed, 1e-3))
     balls = surroundings.ball_conductance
     mass = surroundings.nut_mass
     if mass is None:

@@ -300,7 +300,7 @@ def _records(found: WarmUp) -> list[Record]:
     celsius = 273.15
     if end.exists:
         text = (
-            f"settles with the nut at {end.nut_temperature - celsius:.1f} °C; gain of the loop {1 - end.margin:.2f}, "
+            f"settles with the nut at {end.nut_temperature - celsius:.1f} °C; gain of the loop {1 - end.margin:z.2f}, "
             "which runs away at 1"
         )
     else:
