@@ -122,6 +122,24 @@ def test_stroke_and_length_are_those_of_the_case(case):
     assert "shaft of 0.8 m: the length of [installation]" in report.assumed
 
 
+@pytest.mark.parametrize(
+    ("settings", "length"),
+    [
+        (("surroundings.stroke=300 mm",), 0.6),
+        ((), 1.0),
+        (("axis.mass=0 kg", "motion.kind=trapezoid", "motion.stroke=200 mm", "motion.speed=6 m/min",
+          "motion.acceleration=2 m/s^2"), 0.4),
+    ],
+    ids=["stroke", "nothing", "motion"],
+)  # fmt: skip
+def test_a_length_that_is_not_given_is_assumed_and_warned_of(case, settings, length):
+    written = POINT.partition("[surroundings]")[0]
+    report = warmed_up(case(written, *settings), hours=0.02)
+    assert report.warm_up.network.shaft.length == pytest.approx(length)
+    warned = records(plain(document_of(report)), "warnings")["warm_up.assumed_length"]
+    assert warned["value"] == pytest.approx(length)
+
+
 def test_words_say_what_stands_in_the_document(case):
     report = warmed_up(case(POINT + DOUBLE), hours=0.5, cool_down=0.25)
     said, written = " ".join(text(report).split()), plain(document_of(report))

@@ -28,6 +28,8 @@ from ballscrew.thermal.warm_up import WarmUp, warm_up
 HOUR = 3600.0
 #: The stroke of one operating point over the shaft between its bearings.
 SHARE_OF_SHAFT = 0.5
+#: The shaft of an operating point where nothing tells a length, m.
+LENGTH = 1.0
 #: Distance of the places of a compensation table, m.
 STEP = 0.05
 _OF, _VISCOSITY = fields_of(Surroundings), fields_of(Lubricant)["viscosity"]
@@ -94,6 +96,11 @@ class WarmUpReport:
         """Index of the last instant of work."""
         return int(np.flatnonzero(self.warm_up.works)[-1])
 
+    @property
+    def length_is_assumed(self) -> bool:
+        """True where no table tells how long the shaft is."""
+        return self.surroundings.shaft_length is None and self.case.installation is None
+
     @lazy
     def series(self) -> Mapping[str, Numbers]:
         """Numbers over time in SI, as :data:`SERIES` has them."""
@@ -149,7 +156,8 @@ class WarmUpReport:
         if given.nut_mass is None:
             found.append(f"nut of {shown('nut_mass', network.nut_mass)}: {NUT_WALL:g} times as wide as the screw")
         if given.shaft_length is None:
-            found.append(f"shaft of {shown('shaft_length', network.shaft.length)}: the length of [installation]")
+            source = "the length of [installation]" if not self.length_is_assumed else "not given, an assumption"
+            found.append(f"shaft of {shown('shaft_length', network.shaft.length)}: {source}")
         if self.stroke is not None and given.stroke is None:
             found.append(
                 f"to and fro over {units.shown(self.stroke, PLACE)}, half the shaft, under the load of the case"
@@ -186,9 +194,6 @@ def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None
     if case.motion is not None and case.axis is not None:
         return axis_duty.duty(case.model, case.screw, case.lubricant, axis=case.axis, motion=case.motion), None
     length = length_of(case, surroundings)
-    if length is None:
-        remedy = 'add {surroundings.shaft_length}"1.2 m", or an [installation] with its unsupported_length'
-        raise InputError(Fault("surroundings.shaft_length", "missing", "", remedy))
     stroke = SHARE_OF_SHAFT * length if surroundings.stroke is None else float(surroundings.stroke)
     point = case.operation
     duty = to_and_fro(
@@ -198,11 +203,16 @@ def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None
     return duty, stroke
 
 
-def length_of(case: Case, surroundings: Surroundings) -> Length | None:
-    """The shaft between its bearings: of the surroundings, or else of the installation."""
+def length_of(case: Case, surroundings: Surroundings) -> Length:
+    """The shaft between its bearings: of the surroundings, of the installation, or else twice the stroke."""
     if surroundings.shaft_length is not None:
         return float(surroundings.shaft_length)
-    return None if case.installation is None else float(case.installation.unsupported_length)
+    if case.installation is not None:
+        return float(case.installation.unsupported_length)
+    stroke = surroundings.stroke
+    if case.motion is not None and case.axis is not None:
+        stroke = case.motion.states().stroke
+    return LENGTH if not stroke else float(stroke) / SHARE_OF_SHAFT
 
 
 @overflow_as_input_error()

@@ -8,7 +8,7 @@ from ballscrew import units
 from ballscrew.friction.plausibility import implausible
 from ballscrew.motion.states import Numbers
 from ballscrew.records import Record
-from ballscrew.studies.warm_up import SERIES, WarmUpReport
+from ballscrew.studies.warm_up import PLACE, SERIES, WarmUpReport
 
 #: A cycle longer than this share of the time is not short: an assumption.
 LONG_CYCLE = 0.02
@@ -65,7 +65,23 @@ def warnings(report: WarmUpReport) -> list[Record]:
     parts = {"surroundings": report.surroundings, "lubricant": warmest}
     strange = [*case.implausible(), *units.in_display_units_of(implausible(parts))]
     once = {(record.id, record.subject): record for record in strange}
-    return [*once.values(), *_own_temperatures(report), *_long_cycle(report)]
+    return [*once.values(), *_assumed_length(report), *_own_temperatures(report), *_long_cycle(report)]
+
+
+def _assumed_length(report: WarmUpReport) -> list[Record]:
+    if not report.length_is_assumed:
+        return []
+    length = report.warm_up.network.shaft.length
+    text = (
+        f"the length of the shaft is not given and taken as {units.shown(length, PLACE)}, on which the growth depends: "
+        "give surroundings.shaft_length, or an [installation]"
+    )
+    return [
+        Record(
+            id="warm_up.assumed_length", subject="surroundings.shaft_length", text=text, severity="warning",
+            value=float(length), unit="m",
+        )
+    ]  # fmt: skip
 
 
 def _own_temperatures(report: WarmUpReport) -> list[Record]:
