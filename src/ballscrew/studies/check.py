@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ballscrew import units
 from ballscrew.cases import case_file, catalogue, descriptions, nut_tables
@@ -23,7 +23,9 @@ from ballscrew.studies.every_row import Done, OfRows, copied, each, place_of
 from ballscrew.studies.nut_state import NutState
 from ballscrew.studies.own_screws import tables_of_row
 from ballscrew.studies.run import Run, with_nut
-from ballscrew.studies.self_heating import SelfHeating, self_heating
+
+if TYPE_CHECKING:  # its solvers are slow to import, and seldom asked for
+    from ballscrew.studies.self_heating import SelfHeating
 
 #: Defaults of what neither row nor options give.
 GRADE, TEMPERATURE, SPEED, SHARE_OF_RATING = "ISO VG 100", "40 degC", "600 rpm", 0.1
@@ -162,6 +164,8 @@ def _warm(name: str, case: Case, notes: Sequence[str], options: Options) -> Chec
     """The checks of a case, with self-heating where the options ask for it."""
     if not options.self_heating:
         return checked(name, case, notes)
+    from ballscrew.studies.self_heating import self_heating
+
     heating = self_heating(case)
     return dataclasses.replace(checked(name, heating.warm, notes), heating=heating)
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ballscrew.cases import case_file
-from ballscrew.studies.self_heating import SelfHeating
+
+if TYPE_CHECKING:  # its solvers are slow to import, and seldom asked for
+    from ballscrew.studies.self_heating import SelfHeating
 
 _UNITS: Mapping[str, str] = {
     "oil_temperature": "K", "oil_temperature_given": "K", "nut_temperature": "K", "shaft_temperature": "K",
