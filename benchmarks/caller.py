@@ -19,9 +19,7 @@ import functools
 import json
 import resource
 import statistics
-import time
 from collections.abc import Callable, Mapping
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -33,6 +31,7 @@ from ballscrew.evaluation.plan import Configuration, Plan
 from ballscrew.kernels import buffers
 from ballscrew.papers.olaru2005 import OIL, SCREW
 from engine import OPERATION, OUTPUTS, drawn
+from timing import seconds
 
 ROUNDS = 7
 MODELS = ("olaru2005", "reference")
@@ -44,13 +43,6 @@ LIMITS: dict[str, tuple[float, bool]] = {
     "second_ms": (10.0, False),
     "point_us": (20.0, False),
 }
-
-
-def seconds(work: Callable[[], Any]) -> float:
-    """How long one call takes."""
-    start = time.perf_counter()
-    work()
-    return time.perf_counter() - start
 
 
 def faults() -> int:

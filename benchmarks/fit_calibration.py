@@ -10,6 +10,9 @@ fitted, and nothing by hand.
     python benchmarks/fit_calibration.py --rivals   other numbers and another objective beside them, as Markdown
     python benchmarks/fit_calibration.py --left-out rows of one size class or of one kind of nut left out of the fit
                                                     and predicted, as Markdown; with --write into docs/left_out.inc
+    python benchmarks/fit_calibration.py --strata   the ratios of each size class, as Markdown
+    python benchmarks/fit_calibration.py --trends   other laws of friction: mean ratio, scatter, and the exponents of
+                                                    the ratio over diameter and lead, as Markdown
 """
 
 from __future__ import annotations
@@ -32,12 +35,10 @@ from ballscrew.friction.model import FrictionModel
 from ballscrew.studies import validation
 from ballscrew.validation.entries import Conditions, Entry, Point
 from ballscrew.validation.sets import SETS
+from calibration_trends import CLASSES, FITTED, strata_table, trends_table
 
-FITTED = ("rexroth-double-nut", "rexroth-single-nut")
 OBJECTIVE = "least squares of (model - middle) / half the band, every row with the same weight"
 START = (0.12, 0.0075)
-#: Ends of the size classes: nominal diameters in m.
-CLASSES = {"up to 25 mm": (0.0, 0.0251), "32 to 50 mm": (0.0251, 0.0501), "63 mm and more": (0.0501, 1.0)}
 PAGE = Path(__file__).parents[1] / "docs" / "left_out.inc"
 RATIOS = Path(__file__).parents[1] / "src" / "ballscrew" / "data" / "validation" / "ratios.csv"
 TOML = Path(__file__).parents[1] / "src" / "ballscrew" / "data" / "calibrations.toml"
@@ -225,12 +226,17 @@ def left_out_table() -> str:
                 told = [point for point in entry.points if group(entry, point)]
                 if told:
                     ratios = [point.ratio for point in told]
-                    values = ", ".join(f"{n} = {v:.3g}" for n, v in zip(rival.names, found.values, strict=True))
+                    values = ", ".join(f"{n} = {_shown(v)}" for n, v in zip(rival.names, found.values, strict=True))
                     share = np.mean([bool(point.in_band) for point in told])
                     mean = f"{np.mean(ratios):.3f} ± {np.std(ratios, ddof=1):.3f}"
                     told_of = f"{words}, {entry.data.name}" if words in CLASSES else words
                     lines.append([told_of, name, values, str(len(told)), mean, f"{share:.0%}".replace("%", " %")])
     return "".join("| " + " | ".join(line) + " |\n" for line in lines)
+
+
+def _shown(value: float) -> str:
+    """Three digits; a number at its bound is one step of the search above it, which differs between machines."""
+    return f"{value:.3g}" if value > 1e-9 else "0"
 
 
 def ratios_text(found: Mapping[str, Fit]) -> str:
@@ -274,10 +280,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--write", action="store_true", help="store the fit in data/calibrations.toml")
     parser.add_argument("--rivals", action="store_true", help="other pairs beside it, as Markdown")
     parser.add_argument("--left-out", action="store_true", help="rows left out and predicted, as Markdown")
+    parser.add_argument("--strata", action="store_true", help="ratios of each size class, as Markdown")
+    parser.add_argument("--trends", action="store_true", help="other laws of friction beside it, as Markdown")
     chosen = parser.parse_args(arguments)
-    if chosen.rivals:
-        print(rivals_table(), end="")
-        return
+    tables = {"rivals": rivals_table, "strata": strata_table, "trends": trends_table}
+    for name, table in tables.items():
+        if getattr(chosen, name):
+            print(table(), end="")
+            return
     if chosen.left_out:
         text = left_out_table()
         print(text, end="")

@@ -18,8 +18,6 @@ import argparse
 import dataclasses
 import json
 import statistics
-import time
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -29,6 +27,7 @@ import ballscrew as bs
 from ballscrew.evaluation.derivatives import slopes_of
 from ballscrew.evaluation.evaluation import Evaluation
 from ballscrew.evaluation.plan import Configuration, Plan
+from timing import seconds
 
 PRELOAD = 4326.0
 SCREW = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=bs.DoubleNut(preload=PRELOAD))
@@ -43,13 +42,6 @@ BY = (
     "axial_load", "screw_speed", "nut.preload", "viscosity", "ball_diameter", "screw_conformity", "contact_angle",
     "screw_roughness",
 )  # fmt: skip
-
-
-def seconds(work: Callable[[], Any]) -> float:
-    """Time of one call."""
-    start = time.perf_counter()
-    work()
-    return time.perf_counter() - start
 
 
 def grid(side: int) -> dict[str, Any]:

@@ -22,6 +22,7 @@ import xarray as xr
 import ballscrew as bs
 from ballscrew.papers.olaru2005 import OIL, SCREW
 from script import OUTPUTS, formulas_on_arrays
+from timing import seconds
 
 ROOT = Path(__file__).parents[1]
 ROUNDS = 7
@@ -35,13 +36,6 @@ LIMITS: dict[str, tuple[float, bool]] = {
     "import_over_numpy_s": (0.1, False),
     "cli_help_s": (0.3, False),
 }
-
-
-def seconds(work: Callable[[], Any]) -> float:
-    """How long one call takes."""
-    start = time.perf_counter()
-    work()
-    return time.perf_counter() - start
 
 
 def sweeps(points: int) -> dict[str, float]:

@@ -8,6 +8,7 @@ sys.path[:0] = [str(HERE / "_ext"), str(HERE), str(HERE.parent / "tests")]
 
 import ballscrew  # noqa: E402  (after the path of the extension)
 import bearing_comparison  # noqa: E402  (likewise)
+import duty_examples  # noqa: E402  (likewise)
 import effect_tables  # noqa: E402  (likewise)
 import theory_numbers  # noqa: E402  (likewise)
 import validation_tables  # noqa: E402  (likewise)
@@ -68,6 +69,7 @@ def generate(_app):
         "slots.md": law_tables.slots_table(),
         "laws.md": law_tables.laws_table(),
         "accuracy.md": accuracy_table.page(),
+        "duty_examples.md": duty_examples.table(),
     }
     for name, text in pages.items():
         (generated / name).write_text(text, encoding="utf-8")

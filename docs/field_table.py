@@ -10,7 +10,7 @@ from typing import Any
 
 from ballscrew import units
 from ballscrew.axis.axis import Axis
-from ballscrew.axis.drive import Motor
+from ballscrew.axis.motor import Motor
 from ballscrew.cases.duty_schema import MOTIONS
 from ballscrew.cases.fields import example_of
 from ballscrew.cases.nut_kinds import ENDS, LISTED, LOSSES, NUTS

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
 
 from ballscrew.cases import case_file
+from ballscrew.cases.nut_kinds import NUTS
 from ballscrew.components.nut import DoubleNut, Nut, OversizeBallNut
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.figures import band as figures
@@ -21,8 +26,9 @@ from ballscrew.validation.sets import SETS
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 #: Kinds of nut by set, and preloads in per cent of the dynamic load rating for which a band of torques is stated.
-_SETS = {"rexroth-double-nut": (DoubleNut, (7, 10)), "rexroth-single-nut": (OversizeBallNut, (5,))}
-_SAMPLES = 2**8
+_PRELOADS = {"rexroth-double-nut": (DoubleNut, (7, 10)), "rexroth-single-nut": (OversizeBallNut, (5,))}
+CALIBRATION = "rexroth-2006"
+SAMPLES = 2**11
 
 
 def write(folder: Path) -> None:
@@ -61,40 +67,73 @@ def _source(one: DefaultUncertainty) -> str:
     return one.source if one.source == JUDGEMENT else f"{{cite:t}}`{one.source}`"
 
 
+class Covered(NamedTuple):
+    """A row of a vendor, or a screw that could be the measured one, against the band of the model."""
+
+    #: What is stated of the row lies "in" the band, "below" or "above" it.
+    places: tuple[str, ...]
+    #: Width of the band over its median.
+    width: float
+
+
 def coverage_table() -> str:
-    """Number of vendors' rows with the middle of their band inside, below and above the model's 95 % interval."""
-    lines = ["| rows | model | in the band | below it | above it |", "|---|---|---:|---:|---:|"]
-    for model in (FrictionModel.reference(), calibrated(FrictionModel.reference(), calibration("rexroth-2006"))):
-        for name in _SETS:
-            places = list(coverage(model, name))
-            counts = " | ".join(f"{places.count(place)} of {len(places)}" for place in ("in", "below", "above"))
-            label = "reference" if model == FrictionModel.reference() else "calibrated"
-            lines.append(f"| {name} | {label} | {counts} |")
+    """Number of stated torques inside, below and above the model's 95 % interval of their row, and its width."""
+    lines = [
+        "| rows | model | in the band | below it | above it | width / median of the band, in the median |",
+        "|---|---|---:|---:|---:|---:|",
+    ]
+    for model in (FrictionModel.reference(), calibrated(FrictionModel.reference(), calibration(CALIBRATION))):
+        label = "reference" if model == FrictionModel.reference() else "calibrated"
+        found = {name: coverage(model, name) for name in _PRELOADS}
+        found["both of these"] = [one for those in found.values() for one in those]
+        if model == FrictionModel.reference():
+            found["xjtu, two torques against each screw that it could be"] = coverage(model, "xjtu")
+        for words, those in found.items():
+            lines.append(f"| {words} | {label} | {_counts(those)} | {np.median([one.width for one in those]):.2f} |")
     return "\n".join(lines) + "\n"
 
 
-def coverage(model: FrictionModel, name: str):
-    """Middle of the vendor's band for each row and preload: "in" the model's band, "below" or "above"."""
-    nut, preloads = _SETS[name]
+def _counts(those: Sequence[Covered]) -> str:
+    places = [place for one in those for place in one.places]
+    return " | ".join(f"{places.count(place)} of {len(places)}" for place in ("in", "below", "above"))
+
+
+def coverage(model: FrictionModel, name: str) -> list[Covered]:
+    """The rows of a set against the bands of a model at their conditions, without load."""
+    found: list[Covered] = []
+    for values, nut, stated in _rows(name):
+        of_row = band.band(_case(model, values, nut), band.Options(samples=SAMPLES)).band["screw_torque"]
+        low, high = of_row.both
+        places = ("below" if one < low else "above" if one > high else "in" for one in stated)
+        found.append(Covered(tuple(places), (high - low) / of_row.median))
+    return found
+
+
+def _rows(name: str) -> Iterator[tuple[Values, Nut, Sequence[float]]]:
+    """The values of the rows of a set, their nuts, and what is stated of each.
+
+    That is the middle of a vendor's band, or each of the two torques measured.
+    """
     for values in shipped_rows(SETS[name]):
+        if name == "xjtu":
+            yield values, NUTS[values["nut"]](preload=values["preload"]), (values["torque_min"], values["torque_max"])
+            continue
+        kind, preloads = _PRELOADS[name]
         for percent in preloads:
-            found = band.band(_case(model, values, nut, percent), band.Options(samples=_SAMPLES)).band
             column = f"no_load_torque_{percent}pct"
             middle = (values[f"{column}_min"] + values[f"{column}_max"]) / 2
-            low, high = found["screw_torque"].both
-            yield "below" if middle < low else "above" if middle > high else "in"
+            yield values, kind(preload=percent / 100 * values["dynamic_load_rating"]), (middle,)
 
 
-def _case(model: FrictionModel, values: Values, nut: type[Nut], percent: int) -> case_file.Case:
-    """Case of a row without load, at the conditions of the vendor."""
+def _case(model: FrictionModel, values: Values, nut: Nut) -> case_file.Case:
+    """Case of a row without load, at its conditions."""
     at = Conditions().of(values)
-    braced = nut(preload=percent / 100 * values["dynamic_load_rating"])
     return case_file.Case(
         model=model,
-        screw=dataclasses.replace(screw_of(values).screw(), nut=braced),
+        screw=dataclasses.replace(screw_of(values).screw(), nut=nut),
         lubricant=at.lubricant,
         operation=OperatingState(axial_load=0.0, screw_speed=at.screw_speed),
         sweep={},
         oil={"grade": at.grade, "temperature": at.temperature},
-        calibration=None if model == FrictionModel.reference() else calibration("rexroth-2006"),
+        calibration=None if model == FrictionModel.reference() else calibration(CALIBRATION),
     )

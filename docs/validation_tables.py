@@ -38,13 +38,12 @@ def write(folder: Path) -> None:
     """Tables as Markdown, the command's output as text, the figure as SVG."""
     folder.mkdir(parents=True, exist_ok=True)
     asked, sets = found()
-    rivals = subprocess.run(
-        [sys.executable, str(SCRIPT), "--rivals"], check=True, stdout=subprocess.PIPE, encoding="utf-8"
-    ).stdout
     pages = {
         "summary.md": summary(),
         "calibration.md": calibration_table(),
-        "rivals.md": rivals,
+        "rivals.md": _of_script("--rivals"),
+        "strata.md": _of_script("--strata"),
+        "laws.md": _of_script("--trends"),
         "trends.md": trends_table(),
         "definitions.md": definitions_table(),
         "oil.md": oil_table(),
@@ -56,6 +55,11 @@ def write(folder: Path) -> None:
     for name, text in pages.items():
         (folder / name).write_text(text, encoding="utf-8")
     files.draw(lambda: figures.picture(sets, asked), folder / "validation.svg")
+
+
+def _of_script(option: str) -> str:
+    command = [sys.executable, str(SCRIPT), option]
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout
 
 
 def summary() -> str:

@@ -1,11 +1,19 @@
-"""A SYNTHETIC torque card, ``torque_cards/synthetic_40x10.toml``: written by a model, no screw was measured for it."""
+"""A SYNTHETIC torque card, ``torque_cards/synthetic_40x10.toml``: written by a model, no screw was measured for it.
 
+    python examples/make_torque_card.py            fail if the card is not what this script makes
+    python examples/make_torque_card.py --write    write it
+
+The same bytes every time.
+"""
+
+import argparse
 from pathlib import Path
 
 import numpy as np
 
 from ballscrew.cases import case_file
 
+CARD = Path(__file__).parent / "torque_cards" / "synthetic_40x10.toml"
 HEAD = """\
 # SYNTHETIC: made by examples/make_torque_card.py; no screw was measured. True boundary friction coefficient 0.10,
 # an offset of 4 mN m between the directions, noise of 2 mN m. A card of a screw of yours: docs/howto/torque_card.md
@@ -40,8 +48,8 @@ run_in = "20 h at 500 rpm without load"
 SPEEDS = (10, 30, 100, 300, 1000)
 
 
-def main() -> None:
-    """Write the card."""
+def text() -> str:
+    """The card."""
     tables = {
         "screw": {"catalogue": "rexroth-40x10x6-6-double"},
         "nut": {"preload": "5 %"},
@@ -66,8 +74,18 @@ def main() -> None:
             f'torque_backward = "{backward:.4f} N m"',
             f'temperature = "{temperature:.1f} degC"',
         ]
-    text = HEAD + "\n".join(lines) + "\n"
-    Path(__file__).with_name("torque_cards").joinpath("synthetic_40x10.toml").write_text(text, encoding="utf-8")
+    return HEAD + "\n".join(lines) + "\n"
+
+
+def main() -> None:
+    """Compare or write."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--write", action="store_true", help="write examples/torque_cards/synthetic_40x10.toml")
+    made = text().encode()
+    if parser.parse_args().write:
+        CARD.write_bytes(made)
+    elif CARD.read_bytes() != made:
+        raise SystemExit(f"{CARD.name} is not what this script makes; --write writes it anew")
 
 
 if __name__ == "__main__":

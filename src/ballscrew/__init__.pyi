@@ -2,10 +2,10 @@
 
 from ballscrew._version import __version__ as __version__
 from ballscrew.axis.axis import Axis as Axis
-from ballscrew.axis.drive import Motor as Motor
 from ballscrew.axis.duty import Duty as Duty
 from ballscrew.axis.duty import duty as duty
 from ballscrew.axis.duty_band import duty_band as duty_band
+from ballscrew.axis.motor import Motor as Motor
 from ballscrew.axis.to_and_fro import to_and_fro as to_and_fro
 from ballscrew.calibration.calibrated_model import CalibratedModel as CalibratedModel
 from ballscrew.calibration.fit import fit as fit
@@ -39,6 +39,9 @@ from ballscrew.motion.profiles import Segment as Segment
 from ballscrew.motion.profiles import Segments as Segments
 from ballscrew.motion.profiles import Sine as Sine
 from ballscrew.motion.profiles import Trapezoid as Trapezoid
+from ballscrew.moving_logs.motion_fit import MotionFit as MotionFit
+from ballscrew.moving_logs.motion_fit import fit_motion as fit_motion
+from ballscrew.moving_logs.moving_log import MovingLog as MovingLog
 from ballscrew.service.condition import condition as condition
 from ballscrew.service.condition_values import Condition as Condition
 from ballscrew.service.preload_change import PreloadChange as PreloadChange

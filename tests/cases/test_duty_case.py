@@ -5,7 +5,7 @@ import tomllib
 
 import pytest
 
-from ballscrew.axis.drive import Motor
+from ballscrew.axis.motor import Motor
 from ballscrew.cases import case_file, schema
 from ballscrew.errors import InputError
 from ballscrew.motion.profiles import SCurve, Segments, Sine, Trapezoid

@@ -234,7 +234,17 @@ def test_a_case_of_its_own_needs_the_kind_of_nut():
 
 def test_run_as_json(ballscrew):
     document = json.loads(ballscrew("run", EXAMPLE, "--json").stdout, parse_constant=pytest.fail)
-    assert list(document) == ["inputs", "results", "loads", "units", "warnings", "verdicts", "checks", "provenance"]
+    assert list(document) == [
+        "inputs",
+        "results",
+        "loads",
+        "vendor_rows",
+        "units",
+        "warnings",
+        "verdicts",
+        "checks",
+        "provenance",
+    ]
     case = case_file.load(EXAMPLE)
     expected = friction(case, axial_load=7000.0)
     found, loads, units = document["results"], document["loads"], document["units"]

@@ -140,13 +140,21 @@ def test_a_card_as_a_log_and_a_case(tmp_path):
 
 
 def test_the_example_is_what_its_script_makes(tmp_path, monkeypatch):
-    """The format only: its numbers are those of the model of the day it was made."""
+    """If this was meant to move: python examples/make_torque_card.py --write."""
     place = EXAMPLE.parents[1] / "make_torque_card.py"
     spec = importlib.util.spec_from_file_location("make_torque_card", place)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    assert TEXT.startswith(module.HEAD)
-    assert TEXT.count("[[points]]") == len(module.SPEEDS)
+    assert module.text() == TEXT
+    other = tmp_path / "card.toml"
+    other.write_text(TEXT.replace("10 rpm", "11 rpm"), encoding="utf-8")
+    monkeypatch.setattr(module, "CARD", other)
+    monkeypatch.setattr("sys.argv", [str(place)])
+    with pytest.raises(SystemExit, match="is not what this script makes"):
+        module.main()
+    monkeypatch.setattr("sys.argv", [str(place), "--write"])
+    module.main()
+    assert other.read_text(encoding="utf-8") == TEXT
 
 
 def test_the_commands(ballscrew):

@@ -6,26 +6,13 @@ from ballscrew.cases import case_file
 from ballscrew.cases.uncertain_inputs import all_of
 from ballscrew.errors import InputError
 from ballscrew.uncertainty.distributions import Normal, Uniform, scaled
-
-CASE = """
-[screw]
-catalogue = "rexroth-40x10x6-6-double"
-[nut]
-type = "double"
-preload = "{preload}"
-[lubricant]
-grade = "ISO VG 100"
-[operation]
-axial_load = "-3 kN"
-screw_speed = "-100 rpm"
-[losses]
-seals = {{law = "known", seal_torque = "{seals}"}}
-"""
+from support.drive_case import drive_case
 
 
 def loaded(tmp_path, preload="4326 N", seals="0.2 N m"):
     path = tmp_path / "case.toml"
-    path.write_text(CASE.format(preload=preload, seals=seals), encoding="utf-8")
+    losses = f'[losses]\nseals = {{law = "known", seal_torque = "{seals}"}}'
+    path.write_text(drive_case(preload, "-3 kN", "-100 rpm", losses), encoding="utf-8")
     return case_file.load(path)
 
 

@@ -346,6 +346,7 @@ def test_schema_describes_the_example(example, ballscrew):
         "olaru2005-literal",
         "corrected",
         "reference",
+        "constant-efficiency",
     ]
 
 

@@ -146,6 +146,20 @@ def test_the_horizontal_example_of_thk(found):
     assert results["rules"]["mechanics"]["torque_peak"] > results["torque_peak"]
 
 
+def test_the_vertical_example_of_thk(found):
+    """THK514E: 50 kg up and down, 40 kg held for 7.6 s; RMS torque 743 N mm. The rise and the fall are of segments."""
+    written = THK.partition("[axis]")[0].replace('lead = "40 mm"', 'lead = "10 mm"')
+    written += '[axis]\nmass = "50 kg"\ninclination = "90 deg"\nguide_seal_force = "20 N"\ninertia = "8.12e-5 kg m^2"\n'
+    written += '[motion]\nkind = "segments"\nacceleration = "1.5 m/s^2"\n'
+    for distance in ("600 mm", "-600 mm"):
+        written += f'[[motion.segment]]\ndistance = "{distance}"\nspeed = "0.3 m/s"\n'
+    written += '[[motion.segment]]\nduration = "7.6 s"\nforce = "-98 N"\n'
+    results = document(found(written))["results"]
+    assert results["torque_rms"] == pytest.approx(0.743, rel=5e-3)
+    assert results["rules"]["mechanics"]["torque_rms"] < results["torque_rms"]
+    assert results["brake"]["falls"] is True
+
+
 def test_the_peak_of_a_rise_by_hand(found):
     """One efficiency: m (a + g) P/(2 pi eta) upwards, and (2 - 1/eta) of the weight downwards."""
     settings = ("model.name=constant-efficiency", "model.efficiency=0.8")
@@ -235,3 +249,24 @@ def test_a_band(ballscrew, tmp_path):
     refused = ballscrew("duty", "case.toml", "--samples", "1")
     assert (refused.returncode, refused.stdout) == (2, "")
     assert refused.stderr == "--samples: must be a whole number from 2 to 2^30 (1) · such as 2**14\n"
+
+
+def test_a_recorded_motion(ballscrew, tmp_path):
+    """In place of that of the case; without one in the case, too."""
+    time = [0.002 * k for k in range(501)]
+    rows = [f"{t:.3f},{150 * (1 - math.cos(2 * math.pi * t)):.6f}" for t in time]
+    (tmp_path / "run.csv").write_text("\n".join(["t [s],x [mm]", *rows]), encoding="utf-8")
+    (tmp_path / "case.toml").write_text(VERTICAL.partition("[motion]")[0], encoding="utf-8")
+    rule = ("--set", "model.name=constant-efficiency", "--set", "model.efficiency=0.9")
+    done = ballscrew("duty", "case.toml", "--trace", "run.csv", *rule, "--json")
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert found["inputs"]["motion"] == {"kind": "trajectory", "file": "run.csv", "samples": 501}
+    # a sine of 0.3 m and 1 Hz turns the screw 60 times; its mechanics by hand at the lower end
+    assert found["results"]["revolutions"] == pytest.approx(60.0, rel=1e-3)
+    largest = 100 * (9.80665 + 0.15 * (2 * math.pi) ** 2) * 0.01 / (2 * math.pi) / 0.9
+    assert found["results"]["rules"]["mechanics"]["torque_peak"] == pytest.approx(largest, rel=1e-3)
+    assert found["results"]["smoothing"]["samples"] == 501
+    refused = ballscrew("duty", "case.toml", "--trace", "none.csv")
+    assert (refused.returncode, refused.stdout) == (2, "")
+    assert "none.csv: does not exist" in refused.stderr

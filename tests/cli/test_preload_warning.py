@@ -6,25 +6,13 @@ import pytest
 from typer.testing import CliRunner
 
 from ballscrew.cli.main import app
-
-CASE = """
-[screw]
-catalogue = "rexroth-40x10x6-6-double"
-[nut]
-type = "double"
-preload = "{preload}"
-[lubricant]
-grade = "ISO VG 100"
-[operation]
-axial_load = "3 kN"
-screw_speed = "100 rpm"
-"""
+from support.drive_case import drive_case
 
 
 @pytest.mark.parametrize(("preload", "is_said"), [("15 %", True), ("10.8 kN", True), ("10 %", False), ("7 %", False)])
 def test_a_preload_above_the_ratings(tmp_path, preload, is_said):
     case = tmp_path / "case.toml"
-    case.write_text(CASE.format(preload=preload), encoding="utf-8")
+    case.write_text(drive_case(preload, "3 kN"), encoding="utf-8")
     said = json.loads(CliRunner().invoke(app, ["run", str(case), "--json"]).stdout)["warnings"]
     found = [record for record in said if record["id"] == "run.preload_above_rating"]
     assert bool(found) == is_said

@@ -12,9 +12,10 @@ import ballscrew as bs
 from ballscrew.axis.axis import Axis
 from ballscrew.axis.brake import brake_of
 from ballscrew.axis.cycle_life import CycleLife
-from ballscrew.axis.drive import Motor, MotorCheck
+from ballscrew.axis.drive import MotorCheck
 from ballscrew.axis.duty import duty
 from ballscrew.axis.duty_band import duty_band, numbers_of_cycle
+from ballscrew.axis.motor import Motor
 from ballscrew.errors import InputError
 from ballscrew.motion.profiles import SCurve, Segment, Segments, Sine, Trapezoid
 from support.strategies import MODELS, floats, powers

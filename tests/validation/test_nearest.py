@@ -12,6 +12,7 @@ from ballscrew.studies import validation
 from ballscrew.validation.entries import Conditions
 from ballscrew.validation.nearest import _ratios, near_rows
 from ballscrew.validation.sets import SETS
+from support.drive_case import drive_case
 
 DRIVE = bs.catalogue()["rexroth-40x10x6-6-double"]
 
@@ -47,16 +48,11 @@ def test_nuts_and_calibrations_without_rows_have_none():
 
 def test_it_is_said_beside_a_result(ballscrew, tmp_path):
     case = tmp_path / "nut.toml"
-    case.write_text(
-        '[screw]\ncatalogue = "rexroth-40x10x6-6-double"\n[nut]\ntype = "double"\npreload = "7 %"\n'
-        '[lubricant]\ngrade = "ISO VG 100"\n[operation]\naxial_load = "1 kN"\nscrew_speed = "100 rpm"\n'
-        '[model]\nname = "reference"\n',
-        encoding="utf-8",
-    )
+    case.write_text(drive_case(), encoding="utf-8")
     plain = " ".join(ballscrew("run", case).stdout.split())
     assert "no-load torque at 100 rpm, ISO VG 100 at 25 degC, model / vendor: 0.8" in plain
     assert "for the 6 rows of rexroth-double-nut most like this nut, without calibration" in plain
-    fitted = " ".join(ballscrew("run", case, "--set", "model.calibration=rexroth-2006-rubbing").stdout.split())
+    fitted = " ".join(ballscrew("run", case, "--calibration", "rexroth-2006-rubbing").stdout.split())
     assert "which rexroth-2006-rubbing was fitted to" in fitted
     changed = ballscrew("run", case, "--set", "model.friction=load-sharing").stdout
     assert "model / vendor" not in changed

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from ballscrew import units
 from ballscrew.axis.axis import Axis
-from ballscrew.axis.drive import Motor
+from ballscrew.axis.motor import Motor
 from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Nut
@@ -85,7 +85,7 @@ class Case:
     def nut(self) -> Nut | None:
         """The nut with its preload, bodies and losses; None for a row of equal balls and nothing else."""
         nut = self.screw.nut
-        return None if nut.is_row and not nut.losses else nut
+        return None if nut.is_row and not nut.losses and not nut.spacer_balls else nut
 
     def implausible(self) -> list[Record]:
         """A warning for each input that no ball screw has."""

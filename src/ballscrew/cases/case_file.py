@@ -20,7 +20,9 @@ from ballscrew.cases.case import Case as Case
 from ballscrew.cases.duty_schema import DUTY_TABLES
 from ballscrew.cases.inputs import inputs as inputs
 from ballscrew.cases.lubricants import lubricant_of
+from ballscrew.cases.named_calibration import calibrated_by_table, with_calibration
 from ballscrew.cases.nut_kinds import LISTED
+from ballscrew.cases.option_faults import in_options
 from ballscrew.cases.provenance import references as references
 from ballscrew.cases.schema import (
     DEFAULT_MODEL,
@@ -35,9 +37,9 @@ from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.components.traits import traits_of
-from ballscrew.errors import Fault, InputError, closest, nearest, raise_if_any
+from ballscrew.errors import Fault, InputError, closest, nearest
 from ballscrew.files import read_bytes
-from ballscrew.friction.calibrations import calibrated, calibration
+from ballscrew.friction.calibrations import calibration as named_calibration
 from ballscrew.friction.law_names import coefficients
 from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import fields_of
@@ -56,6 +58,7 @@ def load(
     settings: Sequence[str] = (),
     model: str | None = None,
     *,
+    calibration: str | None = None,
     allow_code: bool = False,
     moves: bool = False,
 ) -> Case:
@@ -63,7 +66,8 @@ def load(
 
     One that ``moves`` has an axis and a motion, see :func:`build`.
     """
-    return build(override(read(path), settings), model, Path(path).parent, allow_code=allow_code, moves=moves)
+    tables = override(read(path), settings)
+    return build(tables, model, Path(path).parent, calibration=calibration, allow_code=allow_code, moves=moves)
 
 
 def read(path: str | Path) -> dict[str, Any]:
@@ -155,15 +159,19 @@ def build(
     folder: Path = Path(),
     rows: Mapping[str, CatalogueRow] | None = None,
     *,
+    calibration: str | None = None,
     allow_code: bool = False,
     moves: bool = False,
 ) -> Case:
     """The case that tables describe. Raises ``InputError`` with all faults found.
 
+    ``model`` and ``calibration`` win over the names in ``[model]``; the calibration ``"none"`` is the model as it is.
+
     A catalogue row is one of ``rows``, or of the file in ``folder`` that the case names, or of those shipped. Laws
     that it names as ``module:name`` are imported, from ``folder`` too, where ``allow_code`` says so. A case that
     ``moves`` needs an axis and a motion and no operating point: without one it has that of steady travel.
     """
+    tables, chosen = with_calibration(tables, calibration), () if calibration is None else ("model.calibration",)
     unknown = [name for name in tables if name not in _SECTIONS]
     faults = [Fault(name, "unknown section", "", nearest(name, _SECTIONS)) for name in unknown]
     misspelt = {closest(name, _SECTIONS) for name in unknown}
@@ -176,7 +184,7 @@ def build(
     ]
     made = _screw(sections, folder, rows, faults) if "screw" in sections else _NO_SCREW
     lubricant, oil = lubricant_of(sections, folder, faults) if "lubricant" in sections else (None, {})
-    axis, motion, motor, surroundings = duty_tables.moved(sections, faults)
+    axis, motion, motor, surroundings = duty_tables.moved(sections, folder, faults)
     if efficiency is None:
         friction_model = _model(sections, model, faults, folder if allow_code else None)
     else:  # no model counts, and no oil: any stands in
@@ -198,12 +206,12 @@ def build(
     if travels and axis is not None and motion is not None and screw is not None:
         operation = duty_tables.travel(axis, motion, screw.lead)
     if faults or screw is None or lubricant is None or operation is None or friction_model is None:
-        raise InputError(*faults)
+        raise InputError(*in_options(faults, chosen))
     calibrated_by = tables.get("model", {}).get("calibration")
     return Case(
         friction_model, screw, lubricant, operation, sweep, oil, made.row, made.listed, mounted, limits, notes,
         *uncertain_inputs.parse_distributions(tables, friction_model, screw, lubricant),
-        None if calibrated_by is None else calibration(calibrated_by),
+        None if calibrated_by is None else named_calibration(calibrated_by),
         fit, axis, motion, motor, surroundings, efficiency, travels,
     )  # fmt: skip
 
@@ -281,22 +289,10 @@ def _model(sections: Sections, chosen: str | None, faults: list[Fault], code: Pa
     numbers = {field: value for field, value in values.items() if field in fields_of(FrictionModel)}
     try:
         model = changed(preset, {**changes, **numbers})
-        return _calibrated(model, table) if "calibration" in table else model
+        return calibrated_by_table(model, table) if "calibration" in table else model
     except InputError as error:
         faults += error.faults
         return None
-
-
-def _calibrated(model: FrictionModel, table: Mapping[str, Any]) -> FrictionModel:
-    """The model with a named calibration; the table may not set what it sets."""
-    friction: Any = table.get("friction")
-    name, found = table["calibration"], calibration(table["calibration"])
-    twice = [slot for slot in ("ball_force", "ball_chain") if slot in table]
-    number = "boundary_friction_coefficient"
-    if number in found.fitted and isinstance(friction, dict) and number in friction:
-        twice.append(f"friction.{number}")
-    raise_if_any([Fault(f"model.{field}", "is set by the calibration", name, "leave one out") for field in twice])
-    return calibrated(model, found)
 
 
 def _laws(table: Mapping[str, Any], preset: FrictionModel, faults: list[Fault], code: Path | None) -> dict[str, Any]:

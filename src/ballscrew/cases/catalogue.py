@@ -52,6 +52,7 @@ COLUMNS = (
     _column("name"),
     *(_column(name, quantity) for name, quantity in _FIELDS.items()),
     _column("nut"),
+    _column("spacer_balls"),
     _column("log"),
     _column("source"),
 )
@@ -109,8 +110,11 @@ def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path]) ->
         faults.append(Fault("row.name", "is given twice", name, f"row {taken[name]} has it, too: name both apart"))
     if isinstance(seals := values.get("seal_torque"), str):
         values["seal_torque"] = _seal_torque(seals, values, faults)
+    if "spacer_balls" in values:
+        values["spacer_balls"] = values["spacer_balls"] == column_names.YES
     try:
-        found = CatalogueRow(**{**values, "nut": kind_in(values.get("nut", ""))})
+        fields: dict[str, Any] = {**values, "nut": kind_in(values.get("nut", ""))}
+        found = CatalogueRow(**fields)
         found.screw()
     except InputError as error:
         # a share stands in the column of the preload
@@ -338,7 +342,7 @@ def _nut(row: CatalogueRow) -> list[str]:
     elif "preload" in fields_of(NUTS[kind]):
         comment = "of the dynamic load rating" + ("" if row.dynamic_load_rating else ", computed from the geometry")
         lines.append(_setting("preload", f'"{EXAMPLE_PRELOADS[kind]}"', f"an example: {comment}"))
-    return lines
+    return [*lines, *(["spacer_balls = true"] if row.spacer_balls else [])]
 
 
 def _listed_part(row: CatalogueRow, name: str, key: str) -> list[str]:

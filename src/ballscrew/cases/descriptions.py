@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 from typing import Any
 
 from ballscrew import units
 from ballscrew.cases.case import Case
 from ballscrew.cases.lubricants import described, shown_temperature
+from ballscrew.cases.named_calibration import vendor_rows_like
 from ballscrew.cases.nut_kinds import kind_of
 from ballscrew.cases.schema import LAWS, MODELS, name_of_law
 from ballscrew.components.contact import RaceState
@@ -16,12 +16,9 @@ from ballscrew.components.nut import Bodies, Nut
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import BallScrew
 from ballscrew.components.traits import traits_of
-from ballscrew.friction.calibrations import calibrated
 from ballscrew.friction.law_names import coefficients
-from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import fields_of, quantities_of
-from ballscrew.validation.nearest import near_rows
 
 #: What is assumed of a grease.
 _OF_GREASE = "grease: the film of its base oil, no thickener in it, no churning of a fresh filling"
@@ -60,7 +57,7 @@ def nut_text(nut: Nut) -> str:
         for name in known
         if (value := getattr(nut, name)) is not None and (name == "preload" or value)
     ]
-    return f"{kind_of(nut)} nut{''.join(numbers)}"
+    return f"{kind_of(nut)} nut{''.join(numbers)}{', spacer balls' * nut.spacer_balls}"
 
 
 def model_text(case: Case) -> str:
@@ -112,7 +109,16 @@ def assumptions(case: Case, ball_to_ball_force: float | None = None) -> list[str
         if case.nut.bodies is None
         else "screw and nut elastic" + (", of a usual size" if _of_usual_size(case.nut.bodies) else "")
     )
-    return [*common, bodies, *map(str, case.notes), *_against_vendors(case, case.nut)]
+    return [*common, bodies, *_spacers(case), *map(str, case.notes), *_against_vendors(case)]
+
+
+def _spacers(case: Case) -> list[str]:
+    screw = case.screw
+    if not screw.nut.spacer_balls:
+        return []
+    return [
+        f"every second ball is a spacer: {screw.carrying_balls:g} of {screw.loaded_balls:g} carry; ratings as listed"
+    ]
 
 
 def common_assumptions(case: Case, ball_to_ball_force: float | None = None) -> list[str]:
@@ -139,6 +145,8 @@ def common_assumptions(case: Case, ball_to_ball_force: float | None = None) -> l
 def _between_balls(case: Case, force: float | None) -> str:
     """The force between balls; without that of a result, balls may have loads of their own, and a share of each."""
     model = case.model
+    if case.screw.nut.spacer_balls:
+        return "none: spacer balls part them"
     law: Any = model.ball_force
     if force is None and not traits_of(law).uses_imposed_force:
         share = getattr(law, "share_of_load", None)
@@ -158,17 +166,12 @@ def _of_usual_size(bodies: Bodies) -> bool:
     return all(getattr(bodies, name) is None for name in fields_of(bodies))
 
 
-def _against_vendors(case: Case, nut: Nut) -> list[str]:
+def _against_vendors(case: Case) -> list[str]:
     """What ``ballscrew validate`` says of nuts like this one, where the model is the one it was run with."""
-    preloaded = getattr(nut, "preload", 0.0) or getattr(nut, "oversize", 0.0)
-    fitted = case.calibration
-    compared = FrictionModel.reference() if fitted is None else calibrated(FrictionModel.reference(), fitted)
-    if not preloaded or case.fit or case.model != compared:
-        return []
-    near = near_rows(dataclasses.replace(case.screw, nut=nut), None if fitted is None else fitted.name)
+    near = vendor_rows_like(case)
     if near is None:
         return []
-    how = "without calibration" if fitted is None else f"which {fitted.name} was fitted to"
+    how = "without calibration" if case.calibration is None else f"which {case.calibration.name} was fitted to"
     return [
         f"no-load torque at 100 rpm, ISO VG 100 at 25 degC, model / vendor: {near.mean:.2f} ± {near.scatter:.2f} for "
         f"the {len(near.rows)} rows of {near.data} most like this nut, {how} (ballscrew validate)"

@@ -10,7 +10,7 @@ from pydantic import BaseModel, BeforeValidator, Field, WithJsonSchema
 
 from ballscrew import units
 from ballscrew.axis.axis import Axis
-from ballscrew.axis.drive import Motor
+from ballscrew.axis.motor import Motor
 from ballscrew.cases.fields import json_of, section_of, si_value
 from ballscrew.errors import Fault
 from ballscrew.motion.profiles import SCurve, Segment, Segments, Sine, Trapezoid
@@ -28,6 +28,8 @@ EFFICIENCY = Quantity(
 )
 #: Kinds of motion, by the names of a case file.
 MOTIONS: Mapping[str, type] = {"trapezoid": Trapezoid, "s-curve": SCurve, "sine": Sine, "segments": Segments}
+#: The kind of a motion that is read from a file.
+TRAJECTORY = "trajectory"
 #: The key of a case file for a field of a motion, where they differ: a word of Python, and the tables of a list.
 KEYS: Mapping[str, str] = {"returns": "return", "segments": "segment"}
 #: Speed and torque of a point of the curve of a motor.
@@ -47,6 +49,8 @@ def read_counterweight(raw: object) -> float:
 
 def fields_of_motion(kind: str) -> set[str]:
     """The keys that a motion of a kind may have, besides its kind."""
+    if kind == TRAJECTORY:
+        return {"file"}
     cls = MOTIONS[kind]
     return {*fields_of(cls), *(key for name, key in KEYS.items() if name in cls.__dataclass_fields__)}
 
@@ -75,7 +79,8 @@ def duty_sections() -> Mapping[str, type[BaseModel]]:
         ),
         "motion": section_of(
             "Motion", of_motions, Trapezoid, required=False,
-            kind=(_one_of(MOTIONS, "kind of motion"), None),
+            kind=(_one_of((*MOTIONS, TRAJECTORY), "kind of motion"), None),
+            file=(Annotated[str, Field(description="table of a recorded motion, beside the case file")], None),
             segment=(
                 Annotated[
                     list[Any],

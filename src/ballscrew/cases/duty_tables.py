@@ -7,18 +7,20 @@ import functools
 import math
 import reprlib
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ballscrew import units
 from ballscrew.axis.axis import Axis
-from ballscrew.axis.drive import Motor
+from ballscrew.axis.motor import Motor
 from ballscrew.cases.duty_schema import (
     CONSTANT_EFFICIENCY,
     KEYS,
     MOTIONS,
     POINT,
+    TRAJECTORY,
     Counterforce,
     duty_sections,
     fields_of_motion,
@@ -28,6 +30,7 @@ from ballscrew.cases.sections import Sections
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.errors import MISSING, Fault, InputError, nearest
 from ballscrew.motion.profiles import Motion, Segment
+from ballscrew.motion.trajectory import Trajectory
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import fields_of
 from ballscrew.thermal.surroundings import Surroundings
@@ -47,11 +50,11 @@ class Moved(NamedTuple):
     surroundings: Surroundings | None = None
 
 
-def moved(sections: Sections, faults: list[Fault]) -> Moved:
+def moved(sections: Sections, folder: Path, faults: list[Fault]) -> Moved:
     """Axis, motion, motor and surroundings, of which a case may have none."""
     return Moved(
         _axis(sections, faults) if "axis" in sections else None,
-        _motion(sections, faults) if "motion" in sections else None,
+        _motion(sections, folder, faults) if "motion" in sections else None,
         _motor(sections, faults) if "motor" in sections else None,
         _surroundings(sections, faults) if "surroundings" in sections else None,
     )
@@ -112,21 +115,26 @@ def _axis(sections: Sections, faults: list[Fault]) -> Axis | None:
     return Axis(**values) if len(faults) == before else None
 
 
-def _motion(sections: Sections, faults: list[Fault]) -> Motion | None:
+def _motion(sections: Sections, folder: Path, faults: list[Fault]) -> Motion | None:
     before = len(faults)
     table, values = sections.tables["motion"], sections.values_of("motion", faults)
     if len(faults) > before:
         return None
+    kinds = (*MOTIONS, TRAJECTORY)
     kind: str = values.pop("kind", "")
     if not kind:
-        faults.append(Fault("motion.kind", MISSING, "", "add {motion.kind}" + _either(MOTIONS)))
-    elif kind not in MOTIONS:
-        faults.append(Fault("motion.kind", "unknown kind of motion", kind, nearest(kind, MOTIONS)))
+        faults.append(Fault("motion.kind", MISSING, "", "add {motion.kind}" + _either(kinds)))
+    elif kind not in kinds:
+        faults.append(Fault("motion.kind", "unknown kind of motion", kind, nearest(kind, kinds)))
     else:
         faults += _misplaced(kind, table)
         faults += _missing(kind, table)
     if len(faults) > before:
         return None
+    if kind == TRAJECTORY:
+        from ballscrew.cases.trajectory_file import read_trajectory  # loads pandas
+
+        return _made("motion", functools.partial(read_trajectory, folder / values["file"]), faults)
     if "segment" in values:
         values["segment"] = _segments(values["segment"], faults)
     given = {_FIELDS.get(key, key): value for key, value in values.items()}
@@ -139,7 +147,7 @@ def _misplaced(kind: str, table: Mapping[str, Any]) -> list[Fault]:
     found: list[Fault] = []
     for name, value in table.items():
         if name != "kind" and name not in own:
-            kinds = [other for other in MOTIONS if name in fields_of_motion(other)]
+            kinds = [other for other in (*MOTIONS, TRAJECTORY) if name in fields_of_motion(other)]
             remedy = "leave it out, or write {motion.kind}" + _either(kinds)
             found.append(Fault(f"motion.{name}", f'a motion of kind "{kind}" has none', reprlib.repr(value), remedy))
     return found
@@ -147,6 +155,8 @@ def _misplaced(kind: str, table: Mapping[str, Any]) -> list[Fault]:
 
 def _missing(kind: str, table: Mapping[str, Any]) -> list[Fault]:
     """Faults of fields that a kind of motion needs."""
+    if kind == TRAJECTORY:
+        return [] if "file" in table else [Fault("motion.file", MISSING, "", 'add {motion.file}"run.csv"')]
     known, found = fields_of(MOTIONS[kind]), list[Fault]()
     for field in dataclasses.fields(MOTIONS[kind]):
         key = KEYS.get(field.name, field.name)
@@ -224,7 +234,7 @@ def inputs(
     if axis is not None:
         found["axis"] = {**_numbers(axis), "brake_holds": axis.brake_holds}
     if motion is not None:
-        kind = next(name for name, cls in MOTIONS.items() if type(motion) is cls)
+        kind = next((name for name, cls in MOTIONS.items() if type(motion) is cls), TRAJECTORY)
         found["motion"] = {"kind": kind, **_of_motion(motion)}
     if motor is not None:
         found["motor"] = {**_numbers(motor), "curve": [list(point) for point in motor.curve]}
@@ -234,6 +244,8 @@ def inputs(
 
 
 def _of_motion(motion: Any) -> dict[str, Any]:
+    if isinstance(motion, Trajectory):
+        return {"file": motion.source, "samples": int(np.size(motion.time))}
     found = _numbers(motion)
     if hasattr(motion, "returns"):
         found["return"] = motion.returns

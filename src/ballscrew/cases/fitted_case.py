@@ -20,6 +20,7 @@ from ballscrew.calibration.problem import CONSTANT_TORQUE
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
 from ballscrew.cases.lubricants import OF_NAMED_OIL
+from ballscrew.cases.named_calibration import written_out
 from ballscrew.cases.provenance import of_case, references
 from ballscrew.components.materials import Lubricant
 from ballscrew.files import atomic_write
@@ -49,7 +50,7 @@ def save(to: Path, tables: Mapping[str, Any], folder: Path, case: Case, found: C
 
 def _with_numbers(tables: Mapping[str, Any], case: Case, found: CalibratedModel) -> dict[str, Any]:
     made = _copied(tables)
-    made.setdefault("model", {})["name"] = case.model.name
+    made["model"] = {**written_out(made.get("model", {}), case), "name": case.model.name}
     known = found.subject.inputs
     settings: list[str] = []
     for full, estimate in zip(found.response.names, found.estimates.values(), strict=False):

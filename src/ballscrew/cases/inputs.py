@@ -44,7 +44,7 @@ def _inputs_of_nut(nut: Nut, screw: BallScrew) -> dict[str, Any]:
     scatter = nut.parts.get("deviations")
     own = {name: value for name, value in _numbers(nut).items() if value is not None}
     return {
-        "nut": {"type": kind_of(nut), **own},
+        "nut": {"type": kind_of(nut), **own, **({"spacer_balls": True} if nut.spacer_balls else {})},
         **(
             {}
             if bodies is None

@@ -52,7 +52,8 @@ def ratings(screw: BallScrew, row: CatalogueRow | None) -> Ratings:
     """The ratings of a screw by its geometry. Raises ``InputError`` for one that no catalogue could have."""
     made = None if row is None else row.screw()
     same = made is not None and all(getattr(made, name) == getattr(screw, name) for name in _RATED)
-    return ratings_of(row if row is not None and same else _as_row(screw))
+    like = dataclasses.replace(row, spacer_balls=screw.nut.spacer_balls) if row is not None and same else _as_row(screw)
+    return ratings_of(like)
 
 
 def _as_row(screw: BallScrew) -> CatalogueRow:
@@ -69,6 +70,7 @@ def _as_row(screw: BallScrew) -> CatalogueRow:
         starts=screw.starts,
         contact_angle=screw.contact_angle,
         conformity=screw.screw_conformity,
+        spacer_balls=screw.nut.spacer_balls,
     )
 
 
@@ -108,7 +110,8 @@ def nut_of(
     if "nut" in sections or has_preload:
         nut, notes = _nut(sections, screw, row, listed, faults)
     else:
-        nut, notes = SINGLE_NUT, ()
+        spacers = row is not None and bool(row.spacer_balls)
+        nut, notes = dataclasses.replace(SINGLE_NUT, spacer_balls=spacers), ()
     bodies = _bodies(sections, row, has_preload, faults)
     scatter = sections.values_of("deviations", faults) if "deviations" in sections else None
     losses = {
@@ -169,6 +172,10 @@ def _nut(
             faults.append(Fault("nut.preload", MISSING, "", remedy))
     if len(faults) > before or kind is None:
         return None, ()
+    if row is not None and row.spacer_balls:
+        values.setdefault("spacer_balls", True)
+    if screw is not None and values.get("spacer_balls"):  # ratings are of the balls that carry
+        screw = _with_spacers(screw, faults)
     made: Any = values
     preload = values.get("preload")
     if kind == "single":
@@ -186,6 +193,14 @@ def _nut(
         return None, ()
     made = {**values, "preload": preload * rating}
     return NUTS[kind](**made), (PreloadNote(preload, rating, source),)
+
+
+def _with_spacers(screw: BallScrew, faults: list[Fault]) -> BallScrew | None:
+    try:
+        return dataclasses.replace(screw, nut=dataclasses.replace(SINGLE, spacer_balls=True))
+    except InputError as error:
+        faults += error.faults
+        return None
 
 
 def _preload_of(row: CatalogueRow) -> dict[str, float]:

@@ -17,7 +17,7 @@ from typing import Annotated, Any
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema, create_model
 
 from ballscrew.axis.axis import Axis
-from ballscrew.axis.drive import Motor
+from ballscrew.axis.motor import Motor
 from ballscrew.cases.duty_schema import CONSTANT_EFFICIENCY, DUTY_TABLES, duty_sections, efficiency_field
 from ballscrew.cases.fields import EXAMPLES as EXAMPLES
 from ballscrew.cases.fields import defaults_of, json_of, read_preload, section_of
@@ -117,6 +117,9 @@ def sections() -> Mapping[str, type[BaseModel]]:
     preload = json_of(NUT_FIELDS["preload"], None) | {"examples": ["3 kN", "7 %"]}
     same_side = Annotated[bool, Field(strict=True, description="whether screw and nut are held on the same side")]
     swelling = Annotated[bool, Field(strict=True, description="whether the balls widen the nut and shrink the screw")]
+    spacers = Annotated[
+        bool, Field(strict=True, description="whether every second ball is a spacer, smaller and without load")
+    ]
     return {
         "screw": section_of(
             "Screw", screw, BallScrew, required=True, uncertain=fields_of(BallScrew),
@@ -145,6 +148,7 @@ def sections() -> Mapping[str, type[BaseModel]]:
             "Nut", {name: q for name, q in NUT_FIELDS.items() if name != "preload"}, DoubleNut, required=False,
             uncertain=NUT_FIELDS,
             type=(_one_of(NUTS, "kind of nut"), None),
+            spacer_balls=(spacers, None),
             preload=(Annotated[Any, BeforeValidator(read_preload), WithJsonSchema(preload)], None),
         ),
         "bodies": section_of(

@@ -7,7 +7,15 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, Row, SelfHeatingOption, check_rows, say_of_rows
+from ballscrew.cli.common_options import (
+    AllowCode,
+    CalibrationName,
+    ModelName,
+    Row,
+    SelfHeatingOption,
+    check_rows,
+    say_of_rows,
+)
 
 
 def check(
@@ -54,10 +62,8 @@ def check(
     temperature: Annotated[
         str | None, typer.Option("--temperature", metavar="T", help='Of the oil: "50 degC"; 40 degC if left out.')
     ] = None,
-    model: Annotated[str | None, typer.Option("--model", metavar="NAME", help="{models}; wins over the file.")] = None,
-    calibration: Annotated[
-        str | None, typer.Option("--calibration", metavar="NAME", help="Named calibration of the model.")
-    ] = None,
+    model: ModelName = None,
+    calibration: CalibrationName = None,
     settings: Annotated[
         list[str] | None,
         typer.Option(
@@ -94,12 +100,12 @@ def check(
         "installation.ends": ends,
         "lubricant.grade": grade,
         "lubricant.temperature": temperature,
-        "model.calibration": calibration,
     }
     options = Options(
         {key: value for key, value in given.items() if value is not None},
         settings or [],
         model,
+        calibration,
         allow_code,
         self_heating,
     )

@@ -12,12 +12,16 @@ import typer
 if TYPE_CHECKING:
     from ballscrew.studies.every_row import OfRows, RowCase
 
-#: Stands for the names of the models in help texts; replaced when the help is shown.
-MODEL_NAMES = "{models}"
+#: Stand for the names of the models and of the calibrations in help texts; replaced when the help is shown.
+MODEL_NAMES, CALIBRATION_NAMES = "{models}", "{calibrations}"
 CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML); ballscrew catalogue show NAME --case makes one.")]
 ModelName = Annotated[
     str | None,
     typer.Option("--model", metavar="NAME", help=f"{MODEL_NAMES}; wins over the file."),
+]
+CalibrationName = Annotated[
+    str | None,
+    typer.Option("--calibration", metavar="NAME", help=f"{CALIBRATION_NAMES}, or none; wins over the file."),
 ]
 Settings = Annotated[
     list[str] | None,
@@ -71,6 +75,7 @@ def cases_of_rows(
     settings: Sequence[str] | None,
     model: str | None,
     *,
+    calibration: str | None,
     allow_code: bool,
     keep_going: bool,
 ) -> OfRows[RowCase]:
@@ -85,6 +90,7 @@ def cases_of_rows(
             row,
             settings=settings or [],
             model=model,
+            calibration=calibration,
             allow_code=allow_code,
             keep_going=keep_going,
             done=done,

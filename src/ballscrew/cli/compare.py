@@ -7,12 +7,13 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, CaseFile, ModelName, Settings
+from ballscrew.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName, Settings
 
 
 def compare(
     case: CaseFile,
     model: ModelName = None,
+    calibration: CalibrationName = None,
     settings: Settings = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
     to: Annotated[
@@ -33,7 +34,7 @@ def compare(
     from ballscrew.output.text import comparison as text
     from ballscrew.studies.comparison import comparison
 
-    loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
+    loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     if to is not None:
         files.check_picture(to)
     compared = comparison(loaded)

@@ -31,6 +31,12 @@ def duty(
             _TO, "-o", metavar="FILE", help="Also write tables (.xlsx, .csv) or a picture (.pdf, .png, .svg); repeat."
         ),
     ] = None,
+    trace: Annotated[
+        Path | None,
+        typer.Option(
+            "--trace", metavar="FILE", help="A recorded motion in place of [motion]: time, position or speed, force."
+        ),
+    ] = None,
     band: Annotated[
         bool, typer.Option("--band", help="How far off torques and energies may be, by uncertain inputs.")
     ] = False,
@@ -53,7 +59,10 @@ def duty(
     from ballscrew.studies import duty as studies
     from ballscrew.table_files import row_tables
 
-    loaded = case_file.load(case, settings or [], model, allow_code=allow_code, moves=True)
+    tables = case_file.override(case_file.read(case), settings or [])
+    if trace is not None:
+        tables["motion"] = {"kind": "trajectory", "file": str(trace.absolute())}
+    loaded = case_file.build(tables, model, case.parent, allow_code=allow_code, moves=True)
     _check_kinds(to or [])
     for path in to or []:
         if path.suffix.lower() in row_tables.KINDS:

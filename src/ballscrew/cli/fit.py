@@ -10,8 +10,10 @@ import typer
 
 from ballscrew.cli.common_options import (
     AllowCode,
+    CalibrationName,
     Inertia,
     KeepGoing,
+    ModelName,
     Row,
     Rows,
     TorqueConstant,
@@ -56,7 +58,22 @@ def fit(
     ] = 0.2,
     seed: Annotated[int, typer.Option("--seed", metavar="N", help="Of what is held out.")] = 0,
     keep_going: KeepGoing = False,
-    model: Annotated[str | None, typer.Option("--model", metavar="NAME", help="{models}; wins over the file.")] = None,
+    moving: Annotated[
+        bool, typer.Option("--moving", help="The log is of a moving axis: time, position, force (found out otherwise).")
+    ] = False,
+    test: Annotated[
+        Path | None,
+        typer.Option("--test", metavar="FILE", help="Another log of the same axis, predicted and not fitted."),
+    ] = None,
+    gain: Annotated[
+        str | None, typer.Option("--gain", metavar="VALUE", help='Of a control voltage of a moving log: "35 N/V".')
+    ] = None,
+    carried_mass: Annotated[
+        str | None,
+        typer.Option("--carried-mass", metavar="VALUE", help='That the nut of a moving log carries: "20 kg".'),
+    ] = None,
+    model: ModelName = None,
+    calibration: CalibrationName = None,
     settings: Annotated[
         list[str] | None,
         typer.Option(
@@ -86,6 +103,9 @@ def fit(
 ) -> None:
     """Fit numbers of a model to a log, and say which of them the log cannot tell.
 
+    A log of a moving axis (time, position, and a force, torque, current or control voltage) tells its mass, the
+    gravity force, the dead time and the friction, by three models beside each other.
+
     With --rows each screw of a table is fitted by itself, to the file in its column log.
 
     A distribution that the case gives a number is its prior. Part of the operating points is held out
@@ -105,23 +125,38 @@ def fit(
                 options, free=free or [], bounds=bounds or [], limits=limits or [], columns=column or [], kind=kind,
                 inertia=inertia, torque_constant=torque_constant, holdout=holdout, seed=seed, keep_going=keep_going,
             ),
-            settings=settings or [], model=model, allow_code=allow_code, keep_going=keep_going, as_json=as_json, to=to,
+            settings=settings or [], model=model, calibration=calibration, allow_code=allow_code, keep_going=keep_going,
+            as_json=as_json, to=to,
         )  # fmt: skip
         return
     assert log is not None
     tables = case_file.override(case_file.read(case), settings or [])
-    loaded = case_file.build(tables, model, case.parent, allow_code=allow_code)
+    loaded = case_file.build(tables, model, case.parent, calibration=calibration, allow_code=allow_code)
 
     # pandas is slow to import: only for a good case
-    from ballscrew.cli.fit_options import check_to, options
+    from ballscrew.cli.fit_options import check_to, moving_options, options
     from ballscrew.cli.progress import progress
     from ballscrew.figures import files
     from ballscrew.studies.fit_log import steady_log
+    from ballscrew.studies.moving_log import is_moving
 
-    if to is not None:
-        check_to(to, case)
     if picture is not None:
         files.check_picture(picture, "--picture")
+    if moving or test is not None or is_moving(log, column or []):
+        from ballscrew.cli.fit_moving import fit_moving
+
+        unused = {
+            "--bounds": bool(bounds), "--limits": bool(limits), "--kind": kind is not None,
+            "--inertia": inertia is not None, "--to": to is not None,
+        }  # fmt: skip
+        chosen_motion = moving_options(
+            free=free or [], columns=column or [], torque_constant=torque_constant, gain=gain,
+            carried_mass=carried_mass, seed=seed, keep_going=keep_going, unused=unused,
+        )  # fmt: skip
+        fit_moving(loaded, log, test, chosen_motion, as_json=as_json, picture=picture)
+        return
+    if to is not None:
+        check_to(to, case)
     chosen = options(
         loaded, free=free or [], bounds=bounds or [], limits=limits or [], columns=column or [], kind=kind,
         inertia=inertia, torque_constant=torque_constant, holdout=holdout, seed=seed, keep_going=keep_going,

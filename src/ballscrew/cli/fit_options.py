@@ -13,6 +13,8 @@ from ballscrew.evaluation.outputs import inputs_of
 from ballscrew.files import check_writable
 from ballscrew.quantities import Quantity
 from ballscrew.studies.fit_log import CONDITIONS, Options, Range
+from ballscrew.studies.moving_log import CARRIED_MASS, GAIN, MovingOptions
+from ballscrew.studies.moving_log import DEFAULT_FREE as DEFAULT_MOVING_FREE
 from ballscrew.torque_logs.log_rows import INERTIA, TORQUE_CONSTANT, Kind
 
 #: The number that is fitted by default.
@@ -68,6 +70,37 @@ def check_to(to: Path, case: Path) -> None:
     check_writable("--to", to)
 
 
+def moving_options(
+    *,
+    free: Sequence[str],
+    columns: Sequence[str],
+    torque_constant: str | None,
+    gain: str | None,
+    carried_mass: str | None,
+    seed: int,
+    keep_going: bool,
+    unused: Mapping[str, bool],
+) -> MovingOptions:
+    """The options of a fit to a moving log; ``unused`` says which of those that do not go with one are given.
+
+    Raises :class:`~ballscrew.errors.InputError` with all faults in them.
+    """
+    remedy = "leave it out: the log is of a motion, not of torques at steady speed"
+    faults = [Fault(option, "does not go with a moving log", "", remedy) for option, given in unused.items() if given]
+    names = [name.strip() for given in free for name in given.split(",") if name.strip()]
+    found = MovingOptions(
+        free=names or DEFAULT_MOVING_FREE,
+        columns=_columns(columns, faults),
+        torque_constant=_number("--torque-constant", torque_constant, TORQUE_CONSTANT, faults),
+        gain=_number("--gain", gain, GAIN, faults),
+        carried_mass=_number("--carried-mass", carried_mass, CARRIED_MASS, faults, least=0.0),
+        seed=seed,
+        keep_going=keep_going,
+    )
+    raise_if_any(faults)
+    return found
+
+
 def _bounded(case: Case, names: Sequence[str]) -> Mapping[str, Quantity]:
     """Quantities of the free numbers, which bounds need."""
     from ballscrew.studies.fit import free_quantities  # slow to import: only where bounds are given
@@ -108,14 +141,19 @@ def _value(where: str, text: str, quantity: Quantity) -> float | Fault:
     return units.parse(where, plain, quantity)
 
 
-def _number(option: str, text: str | None, quantity: Quantity, faults: list[Fault]) -> float | None:
+def _number(
+    option: str, text: str | None, quantity: Quantity, faults: list[Fault], least: float | None = None
+) -> float | None:
+    """A number above zero, or of at least ``least``; None where none is given or it is a fault."""
     if text is None:
         return None
     found = units.parse(option, text.replace("Nm", "N m"), quantity)
     if isinstance(found, Fault):
         faults.append(found)
         return None
-    if found <= 0:
+    if least is not None and found < least:
+        faults.append(Fault(option, "must not be negative", text))
+    elif least is None and found <= 0:
         faults.append(Fault(option, "must be positive", text))
     return found
 

@@ -27,6 +27,7 @@ def fit_rows(
     *,
     settings: Sequence[str],
     model: str | None,
+    calibration: str | None,
     allow_code: bool,
     keep_going: bool,
     as_json: bool,
@@ -41,7 +42,9 @@ def fit_rows(
     from ballscrew.studies import fit_rows
     from ballscrew.table_files import row_tables
 
-    cases = cases_of_rows(case, rows, row, settings, model, allow_code=allow_code, keep_going=keep_going)
+    cases = cases_of_rows(
+        case, rows, row, settings, model, calibration=calibration, allow_code=allow_code, keep_going=keep_going
+    )
     is_table = to is not None and to.suffix.lower() in row_tables.KINDS and not to.is_dir()
     if to is not None and not is_table and to.suffix and not to.is_dir():
         remedy = "end it in .csv or .xlsx, or give a folder for a calibrated case of each"

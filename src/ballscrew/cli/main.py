@@ -37,7 +37,7 @@ from ballscrew.cli import (
     validate,
     warm_up,
 )
-from ballscrew.cli.common_options import MODEL_NAMES
+from ballscrew.cli.common_options import CALIBRATION_NAMES, MODEL_NAMES
 
 app = typer.Typer(
     name="ballscrew",
@@ -53,16 +53,18 @@ app.add_typer(oils.app, name="oils")
 
 
 class _Command(TyperCommand):
-    """A command whose help names the models. Their source is slow to load: only when it is asked for."""
+    """A command whose help names models and calibrations. Their source is slow to load: only when it is asked for."""
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
         from ballscrew.cases.schema import DEFAULT_MODEL, MODELS
+        from ballscrew.friction.calibrations import calibrations
 
         models = ", ".join(f"{name} (default)" if name == DEFAULT_MODEL else name for name in MODELS)
         for parameter in self.params:
             text: str | None = getattr(parameter, "help", None)
             if text is not None:
-                setattr(parameter, "help", text.replace(MODEL_NAMES, models))  # noqa: B010  (only options have one)
+                text = text.replace(MODEL_NAMES, models).replace(CALIBRATION_NAMES, ", ".join(calibrations()))
+                setattr(parameter, "help", text)  # noqa: B010  (only options have one)
         super().format_help(ctx, formatter)
 
 

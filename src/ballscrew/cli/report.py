@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode
+from ballscrew.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName, Settings
 
 #: What each kind of file needs beyond the core.
 _NEEDS = {".html": ("jinja2",), ".pdf": ("typst",)}
@@ -17,13 +17,11 @@ _TO = "--to"
 
 
 def report(
-    case: Annotated[Path, typer.Argument(help="Case file (TOML); ballscrew catalogue show NAME --case makes one.")],
+    case: CaseFile,
     to: Annotated[Path, typer.Option("--to", "-o", metavar="FILE", help="What to write: .pdf or .html.")],
-    model: Annotated[str | None, typer.Option("--model", metavar="NAME", help="{models}; wins over the file.")] = None,
-    settings: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set operation.axial_load="4 kN".'),
-    ] = None,
+    model: ModelName = None,
+    calibration: CalibrationName = None,
+    settings: Settings = None,
     samples: Annotated[
         int | None, typer.Option("--samples", metavar="N", help="Of the band: 16384; where balls differ 1024.")
     ] = None,
@@ -45,7 +43,7 @@ def report(
     from ballscrew.cases import case_file
     from ballscrew.files import atomic_write, check_writable
 
-    loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
+    loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     check_writable(_TO, to)
     from ballscrew.cli.progress import progress
     from ballscrew.report.contents import report_bytes

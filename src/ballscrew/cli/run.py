@@ -9,6 +9,7 @@ import typer
 
 from ballscrew.cli.common_options import (
     AllowCode,
+    CalibrationName,
     CaseFile,
     KeepGoing,
     ModelName,
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 def run(
     case: CaseFile,
     model: ModelName = None,
+    calibration: CalibrationName = None,
     settings: Settings = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
     band: Annotated[
@@ -63,7 +65,9 @@ def run(
     _check_self_heating(self_heating, band or only_given, rows)
     has_band = band or only_given or (samples, level) != (None, None) or (to is not None and rows is None)
     if rows is not None:
-        cases = cases_of_rows(case, rows, row, settings, model, allow_code=allow_code, keep_going=keep_going)
+        cases = cases_of_rows(
+            case, rows, row, settings, model, calibration=calibration, allow_code=allow_code, keep_going=keep_going
+        )
         if not has_band:
             _of_rows(cases, as_json, to, keep_going)
             return
@@ -72,7 +76,7 @@ def run(
     else:
         from ballscrew.cases import case_file
 
-        loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
+        loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     if has_band:
         from ballscrew.cli import band as band_command
         from ballscrew.cli.progress import progress

@@ -7,11 +7,11 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode
+from ballscrew.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName
 
 
 def sensitivity(
-    case: Annotated[Path, typer.Argument(help="Case file (TOML); ballscrew catalogue show NAME --case makes one.")],
+    case: CaseFile,
     output: Annotated[
         str, typer.Option("--output", metavar="NAME", help="Of which result, for example efficiency.")
     ] = "screw_torque",
@@ -31,7 +31,8 @@ def sensitivity(
     only_given: Annotated[
         bool, typer.Option("--only-given", help="Only what the case file gives a distribution; nothing usual.")
     ] = False,
-    model: Annotated[str | None, typer.Option("--model", metavar="NAME", help="{models}; wins over the file.")] = None,
+    model: ModelName = None,
+    calibration: CalibrationName = None,
     settings: Annotated[
         list[str] | None,
         typer.Option(
@@ -57,7 +58,7 @@ def sensitivity(
     from ballscrew.output.text import sensitivity as text
     from ballscrew.studies import sensitivity as studies
 
-    loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
+    loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     chosen = studies.Options(output, method, samples, seed, only_given)
     if to is not None:
         files.check_picture(to)

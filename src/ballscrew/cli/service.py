@@ -7,7 +7,15 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, Inertia, KeepGoing, TorqueConstant, TorqueKind
+from ballscrew.cli.common_options import (
+    AllowCode,
+    CalibrationName,
+    Inertia,
+    KeepGoing,
+    ModelName,
+    TorqueConstant,
+    TorqueKind,
+)
 
 
 def service(
@@ -45,7 +53,8 @@ def service(
     torque_constant: TorqueConstant = None,
     inertia: Inertia = None,
     keep_going: KeepGoing = False,
-    model: Annotated[str | None, typer.Option("--model", metavar="NAME", help="{models}; wins over the file.")] = None,
+    model: ModelName = None,
+    calibration: CalibrationName = None,
     settings: Annotated[
         list[str] | None,
         typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set nut.preload="4 kN ± 10 %".'),
@@ -72,7 +81,7 @@ def service(
     from ballscrew.studies import service as studies
 
     file = check_question(logs or [], case, torque, speed, temperature)
-    loaded = case_file.load(file, settings or [], model, allow_code=allow_code)
+    loaded = case_file.load(file, settings or [], model, calibration=calibration, allow_code=allow_code)
     if picture is not None:
         files.check_picture(picture, "--picture")
     if torque is not None:

@@ -12,6 +12,7 @@ import typer
 
 from ballscrew.cli.common_options import (
     AllowCode,
+    CalibrationName,
     CaseFile,
     KeepGoing,
     ModelName,
@@ -65,6 +66,7 @@ def sweep(
         bool, typer.Option("--trust", help="Write into a .zarr that belongs to another user, who can change it.")
     ] = False,
     model: ModelName = None,
+    calibration: CalibrationName = None,
     settings: Settings = None,
     rows: Rows = None,
     row: Row = None,
@@ -89,9 +91,11 @@ def sweep(
 
     check_rows(rows, row)
     if rows is None:
-        loaded = case_file.load(case, settings or [], model, allow_code=allow_code)
+        loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     else:
-        cases = cases_of_rows(case, rows, row, settings, model, allow_code=allow_code, keep_going=keep_going)
+        cases = cases_of_rows(
+            case, rows, row, settings, model, calibration=calibration, allow_code=allow_code, keep_going=keep_going
+        )
         if row is None:
             studies.check_store_options(to, verify=verify, trust=trust)
             with studies.workers(scheduler, to):

@@ -173,6 +173,8 @@ class NutParts(ByValue):
     #: Deviations of each ball, or their scatter.
     deviations: Deviations | Scatter | None = None
     losses: Mapping[str, Callable[..., Torque]] = dataclasses.field(default_factory=dict[str, Callable[..., Torque]])
+    #: Whether every second ball is a spacer: smaller than the others, so that it parts them and carries nothing.
+    spacer_balls: bool = False
 
     #: Nut bodies or halves with the loaded balls of the screw each.
     halves = 1
@@ -219,13 +221,13 @@ class NutParts(ByValue):
     def _nut(self) -> Nut:
         return cast("Nut", self)
 
-    def deviations_of(self, loaded_balls: Any) -> Deviations | None:
-        """The deviations of each ball of a nut with so many loaded balls in each half."""
+    def deviations_of(self, balls: Any) -> Deviations | None:
+        """The deviations of each ball of a nut of which so many carry load in each half."""
         if not isinstance(self.deviations, Scatter):
             return self.deviations
-        if not is_concrete(loaded_balls):
+        if not is_concrete(balls):
             return Deviations()
-        return self.deviations.of(self.halves * int(loaded_balls))
+        return self.deviations.of(self.halves * int(balls))
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

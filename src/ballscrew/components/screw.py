@@ -60,7 +60,7 @@ class BallScrew(ByValue):
         Count,
         Info(
             "z",
-            "number of balls that carry load",
+            "number of balls that carry load, any spacer balls between them counted, too",
             at_least=1,
             at_most=10_000,
             whole=True,
@@ -160,6 +160,10 @@ class BallScrew(ByValue):
 
     def _misfits(self) -> list[Fault]:
         """Faults between fields that are fine one by one."""
+        if self.nut.spacer_balls and is_concrete(self.loaded_balls) and self.loaded_balls < 2:
+            remedy = "count the spacer balls, too: 2 or more"
+            given = f"{self.loaded_balls:g}"
+            return [Fault("screw.loaded_balls", "leaves no ball beside the spacer", given, remedy)]
         sizes = (self.pitch_circle_diameter, self.ball_diameter, self.lead, self.starts)
         if not all(map(is_concrete, sizes)) or self.fits:
             return []
@@ -215,6 +219,14 @@ class BallScrew(ByValue):
     def loaded_turns(self) -> Annotated[Ratio, Info("i_l", "turns that the loaded balls fill", usual=(0.02, 60.0))]:
         """Turns that the loaded balls fill, one touching the next, on a path without slope."""
         return self.loaded_balls * self.ball_diameter / (math.pi * self.pitch_circle_diameter)
+
+    @property
+    def carrying_balls(self) -> Annotated[Ratio, Info("z_c", "balls that carry load, without spacer balls")]:
+        """Balls that carry load: all loaded balls, or half of them where every second one is a spacer.
+
+        An odd number has no half: as balls enter and leave, one more and one less carry in turn, and this is the mean.
+        """
+        return self.loaded_balls / 2 if self.nut.spacer_balls else self.loaded_balls
 
     @property
     def screw_raceway(self) -> Raceway:

@@ -73,7 +73,7 @@ class Configuration(ByValue):
         """Number of balls solved for at each point."""
         if not self.nut.one_by_one:
             return 1
-        return self.nut.halves * int(np.max(self.screw.loaded_balls))
+        return self.nut.halves * int(np.max(self.screw.carrying_balls))
 
     def at(self, points: Mapping[str, Any]) -> FrictionResult:
         """The friction with these values in place: numbers, arrays, or values that are being recorded."""

@@ -37,6 +37,8 @@ _COLOURS: Mapping[str, str] = {
 _OF_STORED = {STORED[0]: _ACCELERATION, STORED[1]: _ACCELERATION, "gravity": _GRAVITY}
 _TITLE_CHARACTERS, _LABEL_SIZE, _LEAST = 100, 8.0, 1e-9
 _CURVE_POINTS = 200
+#: More points than this are a blot, and a large file.
+_MOST_POINTS = 5000
 #: Inches on a page of a report.
 _PAGE = (7.1, 4.2)
 
@@ -121,8 +123,9 @@ def _power(panel: Axes, report: DutyReport) -> None:
 
 def _cloud(panel: Axes, report: DutyReport) -> None:
     duty = report.duty
-    speed = units.from_si(duty.motor_speed, _TURNING)
-    panel.plot(speed, duty.torque, ".", color=style.INK, markersize=4, label="cycle")
+    some = slice(None, None, -(-len(duty.torque) // _MOST_POINTS))
+    speed = units.from_si(duty.motor_speed[some], _TURNING)
+    panel.plot(speed, duty.torque[some], ".", color=style.INK, markersize=4, label="cycle")
     if report.motor is not None:
         motor = report.motor.motor
         along = np.linspace(-float(motor.largest_speed), float(motor.largest_speed), _CURVE_POINTS)

@@ -127,16 +127,18 @@ def loads_of(screw: BallScrew, axial_load: Force, *, compiled: bool = False) -> 
     """The loads of the balls of a screw with its nut. Raises :class:`~ballscrew.errors.InputError` as the solver."""
     nut = screw.nut
     bodies = None if nut.bodies is None else nut.bodies.sized(screw)
-    deviations = nut.deviations_of(screw.loaded_balls)
+    deviations = nut.deviations_of(screw.carrying_balls)
     return ball_loads(screw, nut, axial_load, bodies=bodies, deviations=deviations, compiled=compiled)
 
 
 def row_of_balls(model: BallModel, screw: BallScrew, lubricant: Lubricant, state: OperatingState) -> LoadedBalls:
     """The balls of a nut without preload, rigid: all alike, at the nominal contact angle, Olaru2005 §2."""
     frame = model.laws.frame(screw)
-    Q = model.laws.contact_load(abs(state.axial_load), screw.loaded_balls, screw.contact_angle, frame.lead_angle)
+    Q = model.laws.contact_load(abs(state.axial_load), screw.carrying_balls, screw.contact_angle, frame.lead_angle)
     friction = ball_friction(model, screw, lubricant, frame, Q, abs(state.screw_speed), model.imposed_ball_force(screw))
-    return LoadedBalls(balls=screw.loaded_balls, one_by_one=False, contact_angle=screw.contact_angle, friction=friction)
+    return LoadedBalls(
+        balls=screw.carrying_balls, one_by_one=False, contact_angle=screw.contact_angle, friction=friction
+    )
 
 
 def balls_under(

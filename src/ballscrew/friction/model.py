@@ -35,6 +35,7 @@ from ballscrew.components.laws import (
     imposed_ball_force,
     one_neighbour,
     opposed_neighbours,
+    parted_neighbours,
     printed_ideal_torque,
     printed_race_torques,
     snare_resistance,
@@ -269,10 +270,11 @@ class FrictionModel(ByValue):
     ) -> FrictionResult:
         """Friction where the loads of the balls are known; None for a row of equal balls. Nothing is checked."""
         nut, laws = screw.nut, self.laws
+        of_balls = self.parted if nut.spacer_balls else self
         kinds = (
-            (row_of_balls(self, screw, lubricant, state),)
+            (row_of_balls(of_balls, screw, lubricant, state),)
             if loads is None
-            else balls_under(self, screw, lubricant, state, loads)
+            else balls_under(of_balls, screw, lubricant, state, loads)
         )
         number = 1.0 * nut.halves * screw.loaded_balls
         all_balls = dataclasses.replace(screw, loaded_balls=number) if nut.losses else screw
@@ -287,6 +289,12 @@ class FrictionModel(ByValue):
             ideal_torque_law=laws.ideal_torque,
             solved_loads=loads,
         )
+
+    @lazy
+    def parted(self) -> FrictionModel:
+        """The model of balls that spacer balls part: none touches another that carries load."""
+        apart = {"ball_chain": parted_neighbours, "ball_force": ProportionalBallForce(0.0), "ball_to_ball_force": None}
+        return dataclasses.replace(self, **apart)
 
     def imposed_ball_force(self, screw: BallScrew) -> Force:
         """The ball-to-ball force where the load does not set it: the paper's 1 N over the number of balls, or given."""

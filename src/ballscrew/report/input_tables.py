@@ -153,6 +153,11 @@ def _nut(case: Case) -> Rows:
         return []
     of_row = case.row is not None and (case.row.nut or "single") == kind_of(nut)
     rows: Rows = [("kind of nut", kind_of(nut), ROW if of_row else CASE)]
+    rows += (
+        [("spacer balls", "every second ball", ROW if case.row is not None and case.row.spacer_balls else CASE)]
+        if nut.spacer_balls
+        else []
+    )
     usual = _defaults(type(nut))
     own = {name: quantity for name, quantity in fields_of(nut).items() if getattr(nut, name) is not None}
     rows += _part(case, nut, own, lambda n: DEFAULT if getattr(nut, n) == usual.get(n) else CASE)

@@ -90,7 +90,7 @@ def condition(
         raise_if_any(_faults_of_count(len(series), baseline))
         means = of_series(series, screw_speed)
     found = reduced(subject, means, baseline, known, joint, reference_temperature, seed)
-    graded = subject.lubricant.grade is not None
+    graded = subject.lubricant.follows_temperature
     made = _judged(subject, means, found, baseline, false_alarms, tolerance, graded)
     warnings, verdicts = records_of(made, means, found, subject)
     return dataclasses.replace(made, warning_records=tuple(warnings), verdict_records=tuple(verdicts))

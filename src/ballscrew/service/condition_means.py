@@ -182,7 +182,7 @@ def _means(subject: Configuration, log: TorqueLog, kind: Kind) -> list[_Mean]:
     if np.ptp(load) > LOAD_SHARE * float(preload):
         given = f"{np.min(load):.4g} to {np.max(load):.4g} N"
         raise InputError(Fault("log", "has many loads", given, "give the rows of one load, best of none"))
-    used = log.temperature is not None and subject.lubricant.grade is not None
+    used = log.temperature is not None and subject.lubricant.follows_temperature
     oil = subject.lubricant.at(log.temperature) if used else subject.lubricant
     model = subject.model(subject.screw, oil, axial_load=load, screw_speed=speed)
     friction = np.broadcast_to(model.screw_torque, speed.shape)
@@ -250,7 +250,7 @@ def _warning(name: str, subject: str, text: str) -> Record:
 def points_of(means: Means, subject: Configuration) -> dict[str, Vector]:
     """The operating points of the means; a temperature that is not known is that of the case."""
     points = {"axial_load": np.abs(means.axial_load), "screw_speed": means.screw_speed}
-    if subject.lubricant.grade is not None:
+    if subject.lubricant.follows_temperature:
         usual: Any = subject.lubricant.temperature
         points[TEMPERATURE.name] = np.where(np.isfinite(means.temperature), means.temperature, float(usual))
     return points

@@ -41,7 +41,7 @@ def records_of(
     made: Condition, means: Means, found: Reduction, subject: Configuration
 ) -> tuple[list[Record], list[Record]]:
     """The warnings and the verdicts of a condition."""
-    graded = subject.lubricant.grade is not None
+    graded = subject.lubricant.follows_temperature
     change = float(found.torque[-1] - np.mean(found.torque[: made.baseline]))
     warnings = [
         *_of_temperatures(made, means, found, subject, change, graded),

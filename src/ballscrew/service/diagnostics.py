@@ -141,8 +141,8 @@ def _of_temperatures(logs: dict[str, PreloadEstimate], subject: Configuration) -
             records.append(_record("no_temperature", f"{label}.temperature", text))
         elif not graded:
             text = (
-                f"{label} log: its temperatures are not used, as the oil has a viscosity and no grade that changes "
-                "with it: give [lubricant] a grade"
+                f"{label} log: its temperatures are not used, as the oil has a viscosity and no sheet or grade that "
+                "changes with it: give [lubricant] a data sheet or a grade"
             )
             records.append(_record("temperature_unused", f"{label}.temperature", text))
     if len(known) == 2:

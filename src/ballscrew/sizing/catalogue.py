@@ -128,6 +128,8 @@ class CatalogueRow(ByValue):
         Torque | None,
         Info("M_W", "torque of all seals of the nut", at_least=0, hint="rubber: 0.08 N m at 16 mm, 0.4 N m at 40 mm"),
     ] = None
+    #: Whether every second ball is a spacer; None where the row does not say.
+    spacer_balls: bool | None = None
 
     def __post_init__(self) -> None:
         where = self.name or "row"
@@ -171,7 +173,7 @@ class CatalogueRow(ByValue):
 
     @property
     def loaded_balls(self) -> Annotated[int, Unit("1"), Info("z", "balls of one nut body that carry load")]:
-        """Balls of one nut body that carry load."""
+        """Balls of one nut body that carry load, any spacer balls between them counted, too."""
         return max(1, round(self.balls_per_turn * self.loaded_turns))
 
     @property

@@ -59,14 +59,14 @@ def _rating(row: Listed) -> Force:
 
 
 def nut_of(row: Listed) -> Nut | None:
-    """The nut with what the row lists; None where it lists neither preload nor seals.
+    """The nut with what the row lists; None where it lists no preload, no seals and no spacer balls.
 
     With a preload, and D1, the bodies are elastic. Without one, the balls are those of one nut body by itself.
     """
     preloaded = lists_preload(row)
-    if not preloaded and not row.seal_torque:
+    if not preloaded and not row.seal_torque and not row.spacer_balls:
         return None
-    parts: dict[str, Any] = {}
+    parts: dict[str, Any] = {"spacer_balls": True} if row.spacer_balls else {}
     if row.seal_torque:
         parts["losses"] = {"seals": Seals(seal_torque=row.seal_torque)}
     if not preloaded:

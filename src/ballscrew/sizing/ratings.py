@@ -34,19 +34,25 @@ class Rated(Protocol):
     def balls_per_turn(self) -> Any: ...
     @property
     def loaded_turns(self) -> Any: ...
+    @property
+    def spacer_balls(self) -> Any: ...
 
 
 def ratings_of(row: Rated, rating_conformity: Ratio = RATING_CONFORMITY) -> Ratings:
-    """Dynamic and static axial load rating of a row by its geometry; those printed in its catalogue play no part."""
+    """Dynamic and static axial load rating of a row by its geometry; those printed in its catalogue play no part.
+
+    Of a turn with spacer balls half of the balls carry.
+    """
+    balls = row.balls_per_turn / 2 if row.spacer_balls else row.balls_per_turn
     d_m, d_w, alpha = row.ball_circle, row.ball_diameter, row.contact_angle
     phi, f = row.lead_angle, rating_conformity
     # the standard leaves the lead out of the curvature
     gamma = geometry.curvature_ratio(d_w, d_m, alpha, lead_angle=0.0)
     f_c = rating.geometry_factor(rating.contact_angle_factor(alpha), rating.curvature_factor(gamma), f)
-    C_s = rating.screw_turn_rating(f_c, alpha, row.balls_per_turn, d_w, phi)
+    C_s = rating.screw_turn_rating(f_c, alpha, balls, d_w, phi)
     C_i = rating.turn_rating(C_s, rating.turn_rating_ratio(gamma, f, f))
     k_0 = rating.static_load_factor(gamma, f)
     return Ratings(
         dynamic=float(rating.dynamic_load_rating(C_i, row.loaded_turns)),
-        static=float(rating.static_load_rating(k_0, row.balls_per_turn, row.loaded_turns, d_w, alpha, phi)),
+        static=float(rating.static_load_rating(k_0, balls, row.loaded_turns, d_w, alpha, phi)),
     )

@@ -153,7 +153,7 @@ def _balls_and_tracks(screw: BallScrew, preload: float, load: float) -> float:
     force = preload if preload > 0 else load
     if not force:
         return math.nan
-    approach = (force / (screw.loaded_balls * float(pair_load_deflection(screw)) * lever)) ** (2 / 3)
+    approach = (force / (screw.carrying_balls * float(pair_load_deflection(screw)) * lever)) ** (2 / 3)
     if preload > 0:
         return float(rigidity.preloaded_ball_track_rigidity(preload, approach / lever))
     return float(rigidity.ball_track_rigidity(load, approach / lever))

@@ -154,7 +154,7 @@ def ball_loads(
         lead_cosine=c_phi,
         centre_distance=A,
         load_deflection=pair_load_deflection(screw),
-        loaded_balls=screw.loaded_balls,
+        loaded_balls=screw.carrying_balls,
     )
     if bodies is None and deviations is None:
         return _alike(nut, point, constant_contact_angle)
@@ -208,7 +208,7 @@ def _one_by_one(
         # what is one number is worked out once; a single point is two, so that sums have one order
         flat = [each[:1] if np.ndim(n) == 0 else each for n, each in zip(numbers, flat, strict=True)]
         flat[0] = np.resize(flat[0], max(count, FEWEST_POINTS))
-    balls = int(screw.loaded_balls)
+    balls = int(screw.carrying_balls)
     case = NutCase(
         balls=balls,
         halves=halves,
@@ -270,7 +270,7 @@ def preload_of_rigid_bodies(screw: BallScrew, nut: Nut) -> Force:
     xp = namespace(oversize, screw.contact_angle, screw.lead_angle)
     K = pair_load_deflection(screw)
     axial = xp.sin(screw.contact_angle) * xp.cos(screw.lead_angle)
-    return screw.loaded_balls * K * oversize * xp.sqrt(oversize) * axial
+    return screw.carrying_balls * K * oversize * xp.sqrt(oversize) * axial
 
 
 def pair_load_deflection(screw: BallScrew) -> LoadDeflection:
@@ -296,8 +296,8 @@ def _load_deflection(screw: BallScrew, raceway: Raceway, rolling_radius: Length)
 
 
 def _bodies(screw: BallScrew, bodies: Bodies | None) -> tuple[Any, Any, Any]:
-    """Stiffness per length of screw and nut (E A), and the axial distance of neighbouring balls, which touch."""
-    step = screw.ball_diameter * np.sin(screw.lead_angle) / screw.starts
+    """Stiffness per length of screw and nut (E A), and the axial distance of balls that carry, one after the other."""
+    step = _step(screw)
     if bodies is None:
         return np.inf, np.inf, step
     whole: Any = bodies.sized(screw)
@@ -319,8 +319,13 @@ def _radial_stiffness(screw: BallScrew, bodies: Bodies) -> Stiffness:
         shaft.young_modulus,
         shaft.poisson_ratio,
     )
-    step = screw.ball_diameter * np.sin(screw.lead_angle) / screw.starts
-    return rigidity.radial_stiffness(compliance, screw.loaded_balls * step)
+    return rigidity.radial_stiffness(compliance, screw.carrying_balls * _step(screw))
+
+
+def _step(screw: BallScrew) -> Length:
+    """Axial distance of balls that carry; they touch their neighbours, which may be spacer balls."""
+    places = 2 if screw.nut.spacer_balls else 1
+    return places * screw.ball_diameter * np.sin(screw.lead_angle) / screw.starts
 
 
 def _by_ball(deviation: Any, balls: int) -> Field:
@@ -331,10 +336,10 @@ def _faults(screw: BallScrew, halves: int, deviations: Deviations | None) -> lis
     if not is_concrete(screw.loaded_balls):
         remedy = "solve screws with different numbers of balls one after the other"
         return [Fault("screw.loaded_balls", "must be one number where balls differ", "an array", remedy)]
-    if screw.loaded_balls > MOST_BALLS:
+    if screw.carrying_balls > MOST_BALLS:
         remedy = f"{MOST_BALLS} at most where balls differ or bodies are elastic"
         return [Fault("screw.loaded_balls", "too many to solve one by one", f"{screw.loaded_balls:g}", remedy)]
-    balls = halves * int(screw.loaded_balls)
+    balls = halves * int(screw.carrying_balls)
     sizes = {} if deviations is None else {name: np.shape(value) for name, value in deviations._asdict().items()}
     return [
         Fault(f"deviations.{name}", "must be one number or one for each ball", f"shape {size}", f"give {balls}")

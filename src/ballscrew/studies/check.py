@@ -34,11 +34,12 @@ RATINGS: Mapping[str, str] = {"dynamic_load_rating": "dynamic", "static_load_rat
 
 
 class Options(NamedTuple):
-    """Options of the command line: values by section.field, settings, and the name of a model."""
+    """Options of the command line: values by section.field, settings, and the names of a model and a calibration."""
 
     given: Mapping[str, str]
     settings: Sequence[str]
     model: str | None
+    calibration: str | None = None
     allow_code: bool = False
     self_heating: bool = False
 
@@ -175,7 +176,9 @@ def _built(
 ) -> Case:
     """The case of tables; faults of fields that options gave name the options."""
     try:
-        return case_file.build(tables, options.model, folder, rows, allow_code=options.allow_code)
+        return case_file.build(
+            tables, options.model, folder, rows, calibration=options.calibration, allow_code=options.allow_code
+        )
     except InputError as error:
         model = () if options.model is None else ("model.name",)
         raise InputError(*in_options(error.faults, (*options.given, *model))) from None

@@ -23,8 +23,9 @@ from ballscrew.components.nut import OversizeBallNut
 from ballscrew.errors import InputError
 from ballscrew.friction.result import MECHANISMS
 from ballscrew.motion.profiles import Motion
+from ballscrew.motion.trajectory import HALF_WIDTHS, Trajectory
 from ballscrew.overflow import overflow_as_input_error
-from ballscrew.quantities import Duration, Energy, Force, Info, Quantity, Torque
+from ballscrew.quantities import Acceleration, Duration, Energy, Force, Info, Quantity, Torque
 from ballscrew.sizing.checks import Check, checks
 from ballscrew.solvers.load_distribution import preload_of
 
@@ -85,6 +86,20 @@ class PhaseNumbers(NamedTuple):
     torque_peak: Torque
     torque_rms: Torque
     energy: Energy
+
+
+class Smoothing(NamedTuple):
+    """How a recorded motion was smoothed, and what that does to the RMS torque."""
+
+    samples: int
+    #: Samples on either side that the smoothing reaches.
+    half_width: int
+    #: Standard deviation of one recorded position, m, or speed, m/s.
+    noise: float
+    #: What is left of it in the acceleration, m/s².
+    acceleration_noise: Acceleration
+    #: RMS torque with the narrowest smoothing, N m.
+    torque_rms_unsmoothed: Torque
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -168,6 +183,18 @@ class DutyReport:
         return {
             name: states.integral(part * torque) / scale if scale else 0.0 for name, part in self.duty.parts.items()
         }
+
+    @lazy
+    def smoothing(self) -> Smoothing | None:
+        """The smoothing of a recorded motion; None for a motion in closed form."""
+        motion = self.motion
+        if not isinstance(motion, Trajectory):
+            return None
+        width = motion.chosen_half_width
+        raw = dataclasses.replace(self.duty, states=motion.smoothed_by(HALF_WIDTHS[0]).states())
+        return Smoothing(
+            int(np.size(motion.time)), width, motion.noise, motion.acceleration_noise(width), raw.torque_rms
+        )
 
     @lazy
     def phases(self) -> Sequence[PhaseNumbers]:
@@ -264,7 +291,7 @@ def duty(case: Case) -> DutyReport:
     report = DutyReport(case, case.axis, case.motion, found, life, source, rule)
     # here, where numbers beyond any float become a fault of the input
     _ = (report.numbers, report.brake, report.checks, report.phases, report.torque_peak_by, report.torque_rms_by)
-    _ = (life.revolutions, rule.torque_rms, rule.torque_peak)
+    _ = (life.revolutions, report.smoothing, rule.torque_rms, rule.torque_peak)
     return report
 
 

@@ -12,6 +12,7 @@ from ballscrew.components.screw import BallScrew
 from ballscrew.friction.plausibility import implausible
 from ballscrew.friction.validity import CONDITIONS, NUT_CONDITIONS
 from ballscrew.motion.profiles import Segments, Trapezoid
+from ballscrew.motion.trajectory import Trajectory
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.records import Record, Severity
 from ballscrew.sizing.checks import Check
@@ -22,6 +23,8 @@ _TORQUE, _TURNING = NUMBERS["torque_rms"], NUMBERS["mean_speed"]
 _RATIO = fields_of(Axis)["transmission_ratio"]
 #: Shares of the stroke and of the largest speed below which a difference is one of rounding.
 _CLOSES, _JUMPS = 1e-9, 1e-9
+#: The same where the motion was recorded.
+_NOISE = 0.01
 #: Points at which the curve of a motor is looked at for its highest torque.
 _CURVE_POINTS = 1000
 
@@ -101,7 +104,8 @@ def _warning(name: str, subject: str, text: str, value: float, limit: float | No
 def _open_cycle(report: DutyReport) -> list[Record]:
     states = report.duty.states
     left = float(states.position[-1] - states.position[0])
-    if abs(left) <= _CLOSES * max(states.stroke, 1e-12):
+    least = _CLOSES if not isinstance(report.motion, Trajectory) else _NOISE
+    if abs(left) <= least * max(states.stroke, 1e-12):
         return []
     one_way = getattr(report.motion, "returns", True) is False
     remedy = "return = true adds the way back" if one_way else "add a move back"
@@ -116,7 +120,8 @@ def _jumps(report: DutyReport) -> list[Record]:
     """Speeds that differ where one phase ends and the next begins; the last is followed by the first."""
     states = report.duty.states
     ends, names = states.speeds_of_ends, states.phases
-    floor = _JUMPS * float(np.max(np.abs(states.speed)))
+    least = _JUMPS if not isinstance(report.motion, Trajectory) else _NOISE
+    floor = least * float(np.max(np.abs(states.speed)))
     found: list[Record] = []
     for number, (_, before) in enumerate(ends):
         after = ends[(number + 1) % len(ends)][0]

@@ -56,6 +56,7 @@ def cases(
     *,
     settings: Sequence[str] = (),
     model: str | None = None,
+    calibration: str | None = None,
     allow_code: bool = False,
     keep_going: bool = False,
     done: Done | None = None,
@@ -71,7 +72,7 @@ def cases(
 
     def built(row: CatalogueRow) -> RowCase:
         own = case_file.override(copied(tables_of_row(tables, row, table)), settings)
-        made = case_file.build(own, model, case.parent, {row.name: row}, allow_code=allow_code)
+        made = case_file.build(own, model, case.parent, {row.name: row}, calibration=calibration, allow_code=allow_code)
         return RowCase(row, own, made, screws.logs.get(row.name))
 
     found = each({place_of(row): row for row in chosen}, built, keep_going=keep_going, done=done)

@@ -45,8 +45,9 @@ def tables_of_row(tables: Mapping[str, Any], row: CatalogueRow, file: Path) -> d
 
 def _nut(nut: Mapping[str, Any], row: CatalogueRow) -> dict[str, Any]:
     """The section of the nut without what the row lists, and what its kind of nut does not have."""
+    nut = {name: value for name, value in nut.items() if name != "spacer_balls" or row.spacer_balls is None}
     if not row.nut:
-        return dict(nut)
+        return nut
     known = fields_of(NUTS[row.nut])
     listed = _BRACING if lists_preload(row) else ()
     # a name that no nut has stays: it is a fault of the case

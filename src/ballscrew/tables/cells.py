@@ -65,6 +65,14 @@ def value_of(where: str, cell: Any, text: str, heading: Heading, decimal: frozen
     return int(value) if quantity.info.whole else value
 
 
+def text_of(where: str, text: str, heading: Heading) -> str | Fault:
+    """A cell that is no number: as it stands, or what it means where the column has words of its own."""
+    words = heading.column.words
+    known = ", ".join(f'"{word}"' for word in dict.fromkeys(words.values()))
+    found = words.get(text.casefold()) if words else text
+    return Fault(where, "is not a word that is known", text, f"write one of {known}") if found is None else found
+
+
 def _unit_behind(text: str) -> str:
     """What stands behind the digits of a number."""
     return text.lstrip("".join(_DIGITS)).strip() if text.startswith(_DIGITS) else ""

@@ -67,6 +67,7 @@ NAMES: Mapping[str, tuple[str, ...]] = {
         "seals", "seal", "torque of seals", "seal friction torque", "seal drag", "wipers", "wiper torque",
         "Dichtung", "Dichtungen", "Dichtungsmoment", "Dichtungsreibmoment", "Reibmoment der Dichtungen", "Abstreifer",
     ),
+    "spacer_balls": ("spacers", "spacer ball", "Distanzkugeln", "Abstandskugeln", "Zwischenkugeln", "Trennkugeln"),
     "log": ("test log", "log file", "measurement", "Messung", "Messdatei", "Messprotokoll"),
     "source": ("Quelle",),
 }  # fmt: skip
@@ -87,9 +88,15 @@ PRODUCTS = ("turns",)
 SHARES: Mapping[str, str] = {"preload": "preload_share"}
 #: What the standard seals of a vendor are called, and none.
 STANDARD, NONE = "standard", "none"
-#: Words in place of a number, in small letters.
+#: What a column that says yes or no has.
+YES, NO = "yes", "no"
+#: Words in place of a number, or the only ones, in small letters.
 WORDS: Mapping[str, Mapping[str, str]] = {
     "seal_torque": {
         STANDARD: STANDARD, **dict.fromkeys((NONE, "no", "without", "ohne", "keine", "nein"), NONE),
+    },
+    "spacer_balls": {
+        **dict.fromkeys((YES, "true", "with", "ja", "mit", "1:1"), YES),
+        **dict.fromkeys((NO, "false", NONE, "without", "nein", "ohne", "keine"), NO),
     },
 }  # fmt: skip

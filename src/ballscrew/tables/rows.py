@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 from ballscrew import units
 from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.tables import decimals
-from ballscrew.tables.cells import shown, value_of
+from ballscrew.tables.cells import shown, text_of, value_of
 from ballscrew.tables.headings import NOTHING, Column, Heading, checked, heading_of, headings_in, unused
 from ballscrew.tables.sheets import Record, records
 
@@ -136,7 +136,11 @@ def _row(table: Table, record: Record, first: Sequence[Any], decimal: frozenset[
             if heading.column.required:
                 faults.append(Fault(where, "is empty", "", "give a value; of merged cells only the first has one"))
             continue
-        value = text if heading.column.quantity is None else value_of(where, cell, text, heading, decimal)
+        value = (
+            text_of(where, text, heading)
+            if heading.column.quantity is None
+            else value_of(where, cell, text, heading, decimal)
+        )
         if isinstance(value, Fault):
             faults.append(value)
         else:

@@ -112,7 +112,8 @@ _DATES: Mapping[str, re.Pattern[str]] = {
     "%d.%m.%Y %H:%M:%S": re.compile(r"\d\d?\.\d\d?\.\d{4} \d\d?:\d\d:\d\d"),
     CLOCK: re.compile(r"\d\d?:\d\d:\d\d(?:[.,]\d+)?"),
 }
-_BRACKETS = re.compile(r"(?P<name>.*?)[\s_]*[\[(](?P<unit>[^\[\]()]*)[\])]")
+#: A heading with its unit in brackets.
+BRACKETS = re.compile(r"(?P<name>.*?)[\s_]*[\[(](?P<unit>[^\[\]()]*)[\])]")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -151,7 +152,7 @@ class Layout:
 def temperatures_among(unused: Sequence[str]) -> list[str]:
     """Of the columns that are not used, as :class:`Layout` lists them, those in a unit of temperature."""
     column = _BY_NAME[TEMPERATURE]
-    parts = [(heading, _BRACKETS.fullmatch(heading.strip('"'))) for heading in unused]
+    parts = [(heading, BRACKETS.fullmatch(heading.strip('"'))) for heading in unused]
     return [heading for heading, found in parts if found is not None and fits(found["unit"], column)]
 
 
@@ -171,12 +172,12 @@ def layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Lay
     start, headings = headings_in(path, rows, columns, WITHIN)
     columns, headings = _chosen(columns, headings, constants)
     body = rows[start + 1 :]
-    units_below = bool(body) and _are_units(headings, body[0])
+    units_below = bool(body) and are_units(headings, body[0])
     if units_below:
-        headings = [_with_unit(heading, body[0]) for heading in headings]
+        headings = [with_unit(heading, body[0]) for heading in headings]
     body = body[units_below:]
-    dates = _dates(headings, body)
-    headings = [_of_text(heading) if dates and heading.column.name == "time" else heading for heading in headings]
+    dates = dates_in(headings, body)
+    headings = [of_text(heading) if dates and heading.column.name == "time" else heading for heading in headings]
     try:
         good = checked(path, headings, rows[start], body, columns)
     except InputError as error:
@@ -192,7 +193,7 @@ def layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Lay
         constants,
         above[-1].line,
         len(found[start].cells),
-        decimals.evidence(_texts(good, body)),
+        decimals.evidence(texts_in(good, body)),
         dates,
         rest,
         frozenset(cell for record in above for cell in record.cells if isinstance(cell, str) and cell),
@@ -221,7 +222,7 @@ def _given_columns(flags: Mapping[str, str]) -> list[_GivenColumn]:
             faults.append(Fault("--column", "is no column of a log", name, nearest(name, _BY_NAME)))
             continue
         written = " ".join(text.split())
-        parts = _BRACKETS.fullmatch(written)
+        parts = BRACKETS.fullmatch(written)
         unit = spelt(parts["unit"]) if parts else ""
         if unit and not fits(unit, column):
             assert column.quantity is not None
@@ -266,7 +267,7 @@ def _renamed(
 
 def _match_rank(one: _GivenColumn, cell: str) -> int:
     """Rank of a match: exact, but for the unit, or but for capitals and blanks."""
-    parts = _BRACKETS.fullmatch(cell)
+    parts = BRACKETS.fullmatch(cell)
     return 0 if cell == one.written else 1 if one.name in {cell, parts["name"] if parts else cell} else 2
 
 
@@ -324,7 +325,7 @@ def _bracketed(cell: Any) -> str:
     return str(cell).strip().strip("[]()").strip()
 
 
-def _are_units(headings: Sequence[Heading], record: Record) -> bool:
+def are_units(headings: Sequence[Heading], record: Record) -> bool:
     """Test whether a row has units and no numbers."""
     cells = [(heading.column, record.cells[heading.place]) for heading in headings if heading.place < len(record.cells)]
     texts = all(
@@ -338,12 +339,13 @@ def _unit_without_number(cell: str) -> str:
     return cell.removeprefix("[").removeprefix("1/")
 
 
-def _with_unit(heading: Heading, record: Record) -> Heading:
+def with_unit(heading: Heading, record: Record) -> Heading:
+    """The heading with the unit that a row of units has for it, where it has none itself."""
     cell = _bracketed(record.cells[heading.place]) if heading.place < len(record.cells) else ""
     return heading if heading.unit or not cell else dataclasses.replace(heading, unit=spelt(cell))
 
 
-def _dates(headings: Sequence[Heading], body: Sequence[Record]) -> str:
+def dates_in(headings: Sequence[Heading], body: Sequence[Record]) -> str:
     """The format of the times if they are dates; nothing if they are numbers."""
     place = next((heading.place for heading in headings if heading.column.name == "time"), None)
     if place is None:
@@ -356,11 +358,13 @@ def _dates(headings: Sequence[Heading], body: Sequence[Record]) -> str:
     return next((form for form, pattern in _DATES.items() if pattern.fullmatch(str(cells[0]))), "")
 
 
-def _of_text(heading: Heading) -> Heading:
+def of_text(heading: Heading) -> Heading:
+    """The heading of a column of dates, which has no unit."""
     return dataclasses.replace(heading, unit="", column=dataclasses.replace(heading.column, quantity=None))
 
 
-def _texts(headings: Sequence[Heading], body: Sequence[Record]) -> list[str]:
+def texts_in(headings: Sequence[Heading], body: Sequence[Record]) -> list[str]:
+    """The cells of quantities that are text: they show which decimal mark a file has."""
     places = [heading.place for heading in headings if heading.column.quantity is not None]
     cells = (record.cells[place] for record in body for place in places if place < len(record.cells))
     return [cell for cell in cells if isinstance(cell, str)]
@@ -378,7 +382,7 @@ def _with_option(fault: Fault, headings: Sequence[Heading]) -> Fault:
         remedy += f', or name it: --column {name}="your heading [{unit}]"'
         remedy += f'; if it is the same in every row, --column {name}="0 {unit}"' * (name != "torque")
     elif heading is not None and fault.id == NEEDS_UNIT:
-        parts = _BRACKETS.fullmatch(heading.written)
+        parts = BRACKETS.fullmatch(heading.written)
         remedy += f', or give --column {name}="{parts["name"] if parts else heading.written} [{unit}]"'
     elif heading is not None and fault.id == SAME_MEANING:
         remedy = f'give --column {name}="{heading.written}" for the one that is meant'

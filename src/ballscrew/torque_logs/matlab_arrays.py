@@ -12,8 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def columns(path: str, hdf5: bool) -> tuple[list[str], dict[str, NDArray[np.float64]]]:
-    """The names of all variables, and those that are columns of numbers; a single struct stands for its fields.
+def columns(path: str, hdf5: bool) -> tuple[list[str], dict[str, NDArray[np.float64]], dict[str, float]]:
+    """The names of all variables, those that are columns of numbers, and those that are one number beside columns.
+
+    A single struct stands for its fields.
 
     Raises whatever the libraries raise for files that cannot be read.
     """
@@ -26,7 +28,8 @@ def columns(path: str, hdf5: bool) -> tuple[list[str], dict[str, NDArray[np.floa
     arrays = {name: values for name, values in arrays.items() if values.ndim == 1 and values.dtype.kind in "fiub"}
     longest = max((values.size for values in arrays.values()), default=0)
     kept = {name: values for name, values in arrays.items() if values.size > (longest > 1)}
-    return list(found), {name: np.asarray(values, np.float64) for name, values in kept.items()}
+    numbers = {name: float(values[0]) for name, values in arrays.items() if name not in kept and values.size == 1}
+    return list(found), {name: np.asarray(values, np.float64) for name, values in kept.items()}, numbers
 
 
 def _read_mat5(path: str) -> dict[str, Any]:

@@ -23,16 +23,19 @@ def is_matlab(path: Path, begin: bytes) -> bool:
     return path.suffix.lower() == ".mat" or begin.startswith((OLD, NEW))
 
 
-def variables(path: Path, begin: bytes) -> dict[str, NDArray[np.float64]]:
-    """The columns of a file by name. Raises :class:`~ballscrew.errors.InputError` if there are none."""
+def variables(path: Path, begin: bytes) -> tuple[dict[str, NDArray[np.float64]], dict[str, float]]:
+    """The columns of a file by name, and its single numbers.
+
+    Raises :class:`~ballscrew.errors.InputError` if there are no columns.
+    """
     hdf5 = begin.startswith((NEW, _HDF5))
     if hdf5 and importlib.util.find_spec("h5py") is None:
         remedy = "pip install \"ballscrew[data]\", or save it with save(..., '-v7')"
         raise InputError(Fault(str(path), "needs h5py", "", remedy))
     try:
-        names, columns = child_process.call(matlab_arrays.columns, str(path), hdf5)
+        names, columns, numbers = child_process.call(matlab_arrays.columns, str(path), hdf5)
     except child_process.ChildError as error:
         raise InputError(Fault(str(path), "is no file of MATLAB that can be read", str(error), _REMEDY)) from None
     if not columns:
         raise InputError(Fault(str(path), "has no columns of numbers", ", ".join(names), _REMEDY))
-    return columns
+    return columns, numbers

@@ -66,7 +66,7 @@ class MatlabLog:
 
     def __init__(self, path: Path, begin: bytes) -> None:
         self._path = path
-        arrays = variables(path, begin)
+        arrays, _ = variables(path, begin)
         sizes = {name: values.size for name, values in arrays.items()}
         if len(set(sizes.values())) > 1:
             listed = ", ".join(f"{name} {size}" for name, size in sizes.items())

@@ -16,8 +16,8 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from ballscrew.errors import Fault, InputError, raise_if_any, without_unit
-from ballscrew.quantities import AngularSpeed, Info, Quantity, Temperature, Torque, Unit, quantities_of
+from ballscrew.errors import Fault, InputError, raise_if_any, si_value, without_unit
+from ballscrew.quantities import AngularSpeed, Info, Quantity, Temperature, Torque, Unit, fields_of, quantities_of
 from ballscrew.tables import rows as tables
 from ballscrew.tables.headings import Column
 from ballscrew.torque_logs.log_rows import within
@@ -58,6 +58,8 @@ class TorqueSeries:
     source: tuple[str, str] | None = None
 
     def __post_init__(self) -> None:
+        for name, quantity in fields_of(self).items():
+            object.__setattr__(self, name, si_value(f"series.{name}", getattr(self, name), quantity.unit))
         size = np.size(self.torque)
         given = {"torque": self.torque, "time": self.time, "temperature": self.temperature, "speed": self.screw_speed}
         sizes = {name: np.shape(one) for name, one in given.items() if one is not None}

@@ -40,13 +40,13 @@ def near_rows(screw: BallScrew, calibration: str | None = None) -> NearRows | No
 
     The ratios are those of the reference model, with a calibration by its name or without, as
     ``benchmarks/fit_calibration.py --write`` stored them; no load, 100 rpm. With a calibration they are the
-    rows that it was fitted to. None for a nut that no set is about, that is far from all rows, and for a calibration
-    that was not stored.
+    rows that it was fitted to. None for a nut that no set is about, such as one with spacer balls, that is far from
+    all rows, and for a calibration that was not stored.
     """
     name = _SETS.get(type(screw.nut))
     rows = [row for row in _ratios() if row["set"] == name]
     column = calibration or UNCALIBRATED
-    if not rows or column not in rows[0]:
+    if not rows or column not in rows[0] or screw.nut.spacer_balls:
         return None
     place = math.log(float(np.mean(screw.pitch_circle_diameter))), math.log(float(np.mean(screw.lead)))
     distances = [

@@ -83,6 +83,7 @@ class Document(Closed):
     inputs: Tables
     results: Results  # pyright: ignore[reportInvalidTypeForm]
     loads: Tables = field("loads of the balls of a nut, SI", optional=True)
+    vendor_rows: Tables = field("model / vendor for the rows most like the nut, without load", optional=True)
     units: Tables
     verdicts: list[Record]
     checks: list[Record]

@@ -174,6 +174,9 @@ def case_of(tables: Mapping[str, Any], *, moves: bool = False) -> Case:
     if isinstance(oil, Mapping) and "oil_file" in oil:
         remedy = "send the numbers of the oil, or name one of the library"
         raise InputError(Fault("lubricant.oil_file", "is not taken from a request", "", remedy))
+    motion = tables.get("motion")
+    if isinstance(motion, Mapping) and "file" in motion:
+        raise InputError(Fault("motion.file", "is not taken from a request", "", "send the motion as segments"))
     raise_if_any([Fault(where, "must not be null", "", "leave it out") for where in _nulls("", tables)])
     case = case_file.build(tables, rows=catalogue(), moves=moves)
     if case.nut is not None and case.nut.one_by_one and case.screw.loaded_balls > MOST_BALLS:

@@ -104,7 +104,7 @@ def balls_of(case: Case) -> int:
     if not nut.one_by_one:
         return 0
     each = _FOUR_CONTACTS if isinstance(nut, OversizeBallNut) else nut.halves
-    return int(case.screw.loaded_balls) * each
+    return int(case.screw.carrying_balls) * each
 
 
 def _points(vary: Mapping[str, str]) -> int:

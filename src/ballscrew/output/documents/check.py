@@ -31,6 +31,7 @@ def _document(found: Checked) -> dict[str, Any]:
         "geometry": {"lead_angle": case.screw.lead_angle, "root_diameter": root_diameter},
         "results": run.results(found.run),
         "loads": run.loads(found.nut),
+        **run.vendor_rows(found.run),
         "ratings": {
             "listed": {name: case.listed.get(name) for name in RATINGS},
             "computed": None if found.computed is None else {n: getattr(found.computed, f) for n, f in RATINGS.items()},

@@ -84,6 +84,7 @@ def results(report: DutyReport) -> dict[str, Any]:
             },
         },
         "phases": [phase._asdict() for phase in report.phases],
+        **({} if report.smoothing is None else {"smoothing": report.smoothing._asdict()}),
         "operating_points": duty.screw.points,
     }
 
@@ -159,4 +160,10 @@ def _units(report: DutyReport) -> dict[str, Any]:
         **({} if report.motor is None else {"motor": motor}),
         "rules": {"mechanics": torques, "catalogue": {"efficiency": "1", **torques}},
         "phases": dict(_OF_PHASE),
+        **({} if report.smoothing is None else {"smoothing": _of_smoothing(report)}),
     }  # fmt: skip
+
+
+def _of_smoothing(report: DutyReport) -> dict[str, str]:
+    recorded = "m" if getattr(report.motion, "position", None) is not None else "m/s"
+    return {"noise": recorded, "acceleration_noise": "m/s^2", "torque_rms_unsmoothed": "N m"}

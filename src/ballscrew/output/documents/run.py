@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ballscrew.cases import case_file, provenance
+from ballscrew.cases.named_calibration import vendor_rows_like
 from ballscrew.components.contact import RaceState
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.friction.result import QUADRANTS, FrictionResult
@@ -35,12 +36,23 @@ def document(run: Run) -> dict[str, Any]:
         "inputs": case_file.inputs(run.case),
         "results": results(run),
         **({} if run.nut is None else {"loads": loads(run.nut)}),
+        **vendor_rows(run),
         "units": result_units(run),
         "warnings": documents(run.warnings),
         "verdicts": documents(run.verdicts),
         "checks": [],
         "provenance": provenance.of_case(run.case),
     }
+
+
+def vendor_rows(run: Run) -> dict[str, Any]:
+    """The ratio model / vendor of the no-load torque for the rows most like the nut, where there are such rows."""
+    near = vendor_rows_like(run.case)
+    if near is None:
+        return {}
+    calibration = None if run.case.calibration is None else run.case.calibration.name
+    ratios = {"mean_ratio": near.mean, "std_ratio": near.scatter}
+    return {"vendor_rows": {"set": near.data, "calibration": calibration, **ratios, "rows": list(near.rows)}}
 
 
 def list_document(runs: Mapping[str, Run]) -> list[dict[str, Any]]:

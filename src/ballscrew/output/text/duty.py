@@ -52,6 +52,7 @@ def text(report: DutyReport, encoding: str = "utf-8") -> str:
         "",
         "Cycle",
         *_numbers(report),
+        *_smoothing(report),
         *(f"  {record.text}" for record in duty_records.verdicts(report)),
         *(f"beware  {record.name}: {record.text}" for record in duty_records.warnings(report)),
         "",
@@ -115,6 +116,19 @@ def _numbers(report: DutyReport) -> list[str]:
     return [
         _line(quantity.info.meaning, number(quantity, report.numbers[name]))
         for name, quantity in shown_numbers(report).items()
+    ]
+
+
+def _smoothing(report: DutyReport) -> list[str]:
+    """How a recorded motion was smoothed."""
+    found = report.smoothing
+    if found is None:
+        return []
+    torque = units.shown(found.torque_rms_unsmoothed, _TORQUE)
+    acceleration = units.shown(found.acceleration_noise, _MOTION["acceleration"], 2)
+    return [
+        f"  recorded: {found.samples} samples, each speed from {2 * found.half_width + 1} of them, which leaves a "
+        f"noise of {acceleration} in the acceleration; without smoothing the RMS torque would be {torque}"
     ]
 
 

@@ -1,0 +1,159 @@
+"""Ratios of the model by size of the screw, and of laws that could be in its place: tables of ``fit_calibration.py``.
+
+What decision 14 says of share laws comes from here. No number is fitted.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ballscrew.components.conditions import ContactConditions
+from ballscrew.components.laws import imposed_ball_force, two_neighbours
+from ballscrew.components.lubrication import Inlet
+from ballscrew.components.mixed_friction import BalanSharing, GreenwoodTrippSharing, LoadSharing, RunInSharing
+from ballscrew.components.screw import BallScrew
+from ballscrew.friction.calibrations import calibrated, calibrations
+from ballscrew.friction.model import FrictionModel
+from ballscrew.studies import validation
+from ballscrew.validation.entries import Conditions, Point, Values, trends
+from ballscrew.validation.rows import screw_of
+from ballscrew.validation.sets import SETS
+
+#: The sets that the calibrations are fitted to, and a column of each that is a maximum and no band.
+FITTED = ("rexroth-double-nut", "rexroth-single-nut")
+_MAXIMUM = "no_load_torque_2pct_max"
+#: Ends of the size classes: nominal diameters in m.
+CLASSES = {"up to 25 mm": (0.0, 0.0251), "32 to 50 mm": (0.0251, 0.0501), "63 mm and more": (0.0501, 1.0)}
+#: A model for each row.
+OfRow = Callable[[Values], FrictionModel]
+REFERENCE = FrictionModel.reference()
+
+
+@dataclasses.dataclass(frozen=True)
+class ConstantShare:
+    """Asperities carry the same share of the load at any film."""
+
+    share: float
+
+    def __call__(self, conditions: ContactConditions) -> Any:
+        """Friction coefficient."""
+        return 0.12 * self.share + 0.05 * (1 - self.share) + 0 * conditions.film_parameter
+
+
+@dataclasses.dataclass(frozen=True)
+class CappedShare:
+    """The share of ZhouHoeprich1991, but no more than a cap: no rise of friction at rest."""
+
+    cap: float
+
+    def __call__(self, conditions: ContactConditions) -> Any:
+        """Friction coefficient."""
+        share = np.minimum(np.exp(-1.42 * conditions.film_parameter**0.8), self.cap)
+        return 0.12 * share + 0.05 * (1 - share)
+
+
+def weighting_factor(screw: BallScrew, conditions: Conditions) -> float:
+    r"""Share of the boundary friction by SKF2018 in a rolling bearing as large as the pitch circle.
+
+    .. math:: \phi_{bl} = \exp\left(-2.6 \cdot 10^{-8} (n \nu)^{1.4} d_m\right)
+
+    with rpm, mm²/s and mm.
+    """
+    oil = conditions.lubricant
+    viscosity, speed = 1e6 * oil.viscosity / oil.density, conditions.screw_speed * 30 / math.pi
+    return math.exp(-2.6e-8 * (speed * viscosity) ** 1.4 * 1e3 * screw.pitch_circle_diameter)
+
+
+def with_friction(law: Any) -> OfRow:
+    """The reference model with this law of friction."""
+    model = dataclasses.replace(REFERENCE, friction=law)
+    return lambda _: model
+
+
+def _by_weighting_factor(values: Values) -> FrictionModel:
+    share = weighting_factor(screw_of(values).screw(), Conditions().of(values))
+    return dataclasses.replace(REFERENCE, friction=ConstantShare(share))
+
+
+def _of_0_1(_: Values) -> FrictionModel:
+    """The reference model of version 0.1."""
+    return dataclasses.replace(
+        REFERENCE,
+        inlet=Inlet(replenishment_constant=0.0),
+        friction=LoadSharing(full_film_friction_coefficient=0.02),
+        ball_chain=two_neighbours,
+        ball_force=imposed_ball_force,
+    )
+
+
+LAWS: Mapping[str, OfRow] = {
+    "the reference model of 0.1": _of_0_1,
+    "as new: ZhouHoeprich1991 with B, C = 1.42, 0.8": with_friction(LoadSharing()),
+    **{
+        f"the same with {B:g}, {C:g}": with_friction(LoadSharing(decay=B, exponent=C))
+        for B, C in ((2.32, 0.97), (1.90, 0.99), (2.1, 0.85), (1.42, 0.2), (1.42, 0.4), (1.42, 0.6))
+    },
+    "Balan2015": with_friction(BalanSharing()),
+    "GreenwoodTripp1970": with_friction(GreenwoodTrippSharing()),
+    "weighting factor of SKF2018": _by_weighting_factor,
+    "a constant share of 0.35": with_friction(ConstantShare(0.35)),
+    "a share of 0.35 at most": with_friction(CappedShare(0.35)),
+    **{
+        f"run in, λ_r = {worn:g}{' (the default)' if worn == RunInSharing().run_in_film_parameter else ''}":
+        with_friction(RunInSharing(run_in_film_parameter=worn)) for worn in (0.4, 0.5, 0.6, 0.7, 0.8, 1.0)
+    },
+}  # fmt: skip
+
+
+def points(name: str, model: OfRow) -> list[Point]:
+    """The rows of a set against their bands, with a model for each."""
+    found: list[Point] = []
+    for row in validation.shipped_rows(SETS[name]):
+        values = {column: value for column, value in row.items() if column != _MAXIMUM}
+        found += [p for p in SETS[name].evaluate(model(values), values, Conditions()) if isinstance(p, Point)]
+    return found
+
+
+def trends_table() -> str:
+    """Mean ratio, scatter and trends of each law, as Markdown: ratio ∝ d₀ ^ exponent, and P_h/d₀ ^ exponent."""
+    of_set = ("mean ratio", "over d₀", "over P_h/d₀")
+    lines = [["friction", *(f"{name}: {words}" for name in FITTED for words in of_set)]]
+    lines.append(["---"] * len(lines[0]))
+    for words, model in LAWS.items():
+        cells: list[str] = []
+        for name in FITTED:
+            found = points(name, model)
+            ratios = [point.ratio for point in found]
+            exponents = {trend.descriptor: trend.exponent for trend in trends(found)}
+            cells.append(f"{np.mean(ratios):.3f} ± {np.std(ratios, ddof=1):.3f}")
+            cells += [f"{exponents[each]:+.2f}".replace("-", "−") for each in ("size", "steepness")]
+        lines.append([words, *cells])
+    return _markdown(lines)
+
+
+def strata_table() -> str:
+    """Mean ratio, scatter and share in band of the rows of each size, as they are and calibrated, as Markdown."""
+    models = {"uncalibrated": REFERENCE}
+    models |= {name: calibrated(REFERENCE, one) for name, one in calibrations().items()}
+    lines = [["rows", "number", *models], ["---"] * (2 + len(models))]
+    for name in FITTED:
+        found = [points(name, lambda _, model=model: model) for model in models.values()]
+        for words, (low, high) in {**CLASSES, "all": (0.0, math.inf)}.items():
+            strata = [[point for point in of_model if low <= point.descriptors["size"] < high] for of_model in found]
+            lines.append([f"{name}, {words}", str(len(strata[0])), *map(_judged, strata)])
+    return _markdown(lines)
+
+
+def _judged(found: Sequence[Point]) -> str:
+    ratios = [point.ratio for point in found]
+    share = np.mean([bool(point.in_band) for point in found])
+    return f"{np.mean(ratios):.3f} ± {np.std(ratios, ddof=1):.3f}, {share:.0%}".replace("%", " %")
+
+
+def _markdown(lines: Sequence[Sequence[str]]) -> str:
+    return "".join("| " + " | ".join(line) + " |\n" for line in lines)

@@ -1,0 +1,59 @@
+"""The motor with its drive: rated and peak torque over speed, by its data sheet."""
+
+from __future__ import annotations
+
+import dataclasses
+import itertools
+from typing import Annotated
+
+import numpy as np
+
+from ballscrew._arrays import ByValue
+from ballscrew.errors import Fault, faults_of, raise_if_any
+from ballscrew.motion.states import Numbers
+from ballscrew.quantities import AngularSpeed, Array, Info, Torque, Unit
+
+TorqueConstant = Annotated[Array, Unit("N m/A")]
+Resistance = Annotated[Array, Unit("ohm")]
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class Motor(ByValue):
+    """A motor with its drive, by its data sheet.
+
+    The peak torque holds up to the largest speed, or falls along a curve of points (speed, torque) with straight lines.
+    Raises :class:`~ballscrew.errors.InputError` for values out of bounds, and for a curve whose speeds do not rise.
+    """
+
+    rated_torque: Annotated[Torque, Info("T_N", "torque that it gives for ever", "N m", above=0, hint="2.4 N m")]
+    peak_torque: Annotated[Torque, Info("T_max", "torque that it gives for a short time", "N m", above=0, hint="7 N m")]
+    largest_speed: Annotated[AngularSpeed, Info("n_max", "largest speed", "rpm", above=0, hint="3000 rpm")]
+    curve: tuple[tuple[float, float], ...] = ()
+    torque_constant: Annotated[
+        TorqueConstant | None, Info("K_t", "torque over current", "N m/A", above=0, hint="0.5 N m/A")
+    ] = None
+    resistance: Annotated[
+        Resistance | None, Info("R", "resistance that makes heat, of K_t² and i²R", "ohm", above=0, hint="1 ohm")
+    ] = None
+
+    def __post_init__(self) -> None:
+        faults = faults_of("motor", self, optional=("torque_constant", "resistance"))
+        if not faults and self.peak_torque < self.rated_torque:
+            given = f"{float(self.peak_torque):g} N m"
+            faults.append(Fault("motor.peak_torque", "is below the rated torque", given, "give the peak of the sheet"))
+        speeds = [speed for speed, _ in self.curve]
+        if any(after <= before for before, after in itertools.pairwise(speeds)):
+            faults.append(Fault("motor.curve", "the speeds do not rise", "", "give points (speed, torque) by speed"))
+        if any(not (speed >= 0 and torque >= 0) for speed, torque in self.curve):
+            faults.append(Fault("motor.curve", "must not be negative", "", "give sizes of speeds and torques"))
+        raise_if_any(faults)
+
+    def peak_at(self, speed: Numbers) -> Numbers:
+        """Largest torque at speeds of either sign, N m; zero beyond the largest speed."""
+        size = np.abs(speed)
+        if self.curve:
+            speeds, torques = np.array(self.curve).T
+            peak = np.interp(size, speeds, torques, right=0.0)
+        else:
+            peak = np.full_like(size, self.peak_torque)
+        return np.where(size <= self.largest_speed, peak, 0.0)

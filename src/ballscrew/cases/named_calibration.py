@@ -1,0 +1,75 @@
+"""The named calibration of a case: chosen in the file or on the command line, put into the model, written out."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any
+
+from ballscrew.cases.case import Case
+from ballscrew.cases.schema import name_of_law
+from ballscrew.errors import Fault, raise_if_any
+from ballscrew.friction.calibrations import calibrated, calibration
+from ballscrew.friction.law_names import coefficients
+from ballscrew.friction.model import FrictionModel
+from ballscrew.validation.nearest import NearRows, near_rows
+
+#: Written for a calibration on the command line: the model as it is.
+NO_CALIBRATION = "none"
+_NUMBER = "boundary_friction_coefficient"
+_CHAIN = ("ball_force", "ball_chain")
+
+
+def with_calibration(tables: Mapping[str, Any], name: str | None) -> Mapping[str, Any]:
+    """Tables of a case with another named calibration, or without one; None keeps that of the file."""
+    table = tables.get("model", {})
+    if name is None or not isinstance(table, dict):
+        return tables
+    others = {key: value for key, value in table.items() if key != "calibration"}
+    return {**tables, "model": others if name == NO_CALIBRATION else {**others, "calibration": name}}
+
+
+def calibrated_by_table(model: FrictionModel, table: Mapping[str, Any]) -> FrictionModel:
+    """The model with the calibration that ``[model]`` names.
+
+    Raises :class:`~ballscrew.errors.InputError` for an unknown name, and where the table sets what it sets.
+    """
+    friction: Any = table.get("friction")
+    name, found = table["calibration"], calibration(table["calibration"])
+    twice = [slot for slot in _CHAIN if slot in table]
+    if _NUMBER in found.fitted and isinstance(friction, dict) and _NUMBER in friction:
+        twice.append(f"friction.{_NUMBER}")
+    raise_if_any([Fault(f"model.{field}", "is set by the calibration", name, "leave one out") for field in twice])
+    return calibrated(model, found)
+
+
+def written_out(table: Mapping[str, Any], case: Case) -> dict[str, Any]:
+    """The table ``[model]`` with the numbers of the case's calibration in place of its name: a fit may change them."""
+    made = {key: value for key, value in table.items() if key != "calibration"}
+    if case.calibration is None:
+        return made
+    for slot in _CHAIN:
+        law = getattr(case.model, slot)
+        numbers = {name: getattr(law, name) for name in coefficients(law)}
+        made[slot] = {"law": name_of_law(slot, law), **numbers} if numbers else name_of_law(slot, law)
+    if _NUMBER in case.calibration.fitted:
+        friction: Any = case.model.friction
+        given: Any = made.get("friction")
+        others = given if isinstance(given, dict) else {}
+        made["friction"] = {
+            "law": name_of_law("friction", friction), **others, _NUMBER: getattr(friction, _NUMBER),
+        }  # fmt: skip
+    return made
+
+
+def vendor_rows_like(case: Case) -> NearRows | None:
+    """The model against the rows of a vendor most like the nut of a case.
+
+    None without preload, far from all rows, and for another model than the one the ratios were stored for.
+    """
+    nut, fitted = case.nut, case.calibration
+    compared = FrictionModel.reference() if fitted is None else calibrated(FrictionModel.reference(), fitted)
+    preloaded = getattr(nut, "preload", 0.0) or getattr(nut, "oversize", 0.0)
+    if nut is None or not preloaded or case.fit or case.model != compared:
+        return None
+    return near_rows(dataclasses.replace(case.screw, nut=nut), None if fitted is None else fitted.name)

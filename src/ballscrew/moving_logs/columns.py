@@ -1,0 +1,222 @@
+"""Columns of a moving log: their names in English and German, and those of the EMPS benchmark."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+from ballscrew import units
+from ballscrew.errors import Fault, InputError, nearest
+from ballscrew.moving_logs.moving_log import quantities
+from ballscrew.quantities import Info, Quantity, Torque, Unit, quantities_of
+from ballscrew.tables import decimals
+from ballscrew.tables.headings import (
+    NEEDS_UNIT,
+    NO_COLUMN,
+    SAME_MEANING,
+    Column,
+    Heading,
+    bare,
+    checked,
+    fits,
+    headings_in,
+    spelt,
+    unused,
+)
+from ballscrew.tables.sheets import Record
+from ballscrew.torque_logs.columns import (
+    BRACKETS,
+    WITHIN,
+    Layout,
+    are_units,
+    dates_in,
+    of_text,
+    texts_in,
+    with_unit,
+)
+from ballscrew.torque_logs.log_rows import within
+
+_NAMES: Mapping[str, tuple[str, ...]] = {
+    "time": ("t", "timestamp", "time stamp", "date time", "elapsed time", "elapsed", "Zeit", "Zeitstempel", "Uhrzeit"),
+    "position": (
+        "x", "q", "qm", "q_meas", "pos", "nut position", "axial position", "axis position", "travel", "Weg", "Lage",
+        "Istposition", "Position ist", "Verfahrweg", "Mutterposition", "x_ist",
+    ),
+    "speed": (
+        "v", "velocity", "feed rate", "feed", "linear speed", "axis speed", "nut speed", "Geschwindigkeit", "Vorschub",
+        "Vorschubgeschwindigkeit", "v_ist",
+    ),
+    "force": (
+        "F", "motor force", "drive force", "axial force", "thrust", "thrust force", "Kraft", "Vorschubkraft",
+        "Axialkraft", "Antriebskraft", "F_ist",
+    ),
+    "torque": (
+        "T", "M", "motor torque", "drive torque", "screw torque", "shaft torque", "T_motor", "M_motor", "Moment",
+        "Drehmoment", "Antriebsmoment", "Motormoment", "M_ist",
+    ),
+    "current": (
+        "I", "Iq", "i_q", "motor current", "q current", "torque current", "Strom", "Motorstrom", "I_ist",
+        "drehmomentbildender Strom",
+    ),
+    "voltage": ("u", "vir", "control voltage", "command voltage", "drive voltage", "Stellspannung", "Steuerspannung"),
+}  # fmt: skip
+_HINTS = ("actual", "actual value", "act", "measured", "filtered", "ist", "Istwert", "value")
+#: The columns that the force comes from, the one that says most first, and those that the motion comes from.
+FORCES, PATHS = ("force", "torque", "current", "voltage"), ("position", "speed")
+
+
+@dataclasses.dataclass(frozen=True)
+class _ForceLike:
+    """Columns that are made into the force at the nut."""
+
+    torque: Annotated[Torque, within(1e6, Info("M", "torque of the motor at the screw", "N m"))]
+    current: Annotated[Any, Unit("A"), within(1e6, Info("I", "current of the motor that makes torque"))]
+    voltage: Annotated[Any, Unit("V"), within(1e6, Info("u", "control voltage in proportion to the force"))]
+
+
+QUANTITIES: Mapping[str, Quantity] = {**quantities(), **quantities_of(_ForceLike)}
+COLUMNS = tuple(Column(name, QUANTITIES[name], names, name == "time", _HINTS) for name, names in _NAMES.items())
+_BY_NAME: Mapping[str, Column] = {column.name: column for column in COLUMNS}
+#: Channels of the EMPS benchmark (JanotGautierBrunot2019) with the units that its description gives, and its gain, N/V.
+EMPS: Mapping[str, str] = {"time": "t [s]", "position": "qm [m]", "voltage": "vir [V]"}
+EMPS_GAIN = "gtau"
+
+
+def is_emps(names: Sequence[Any]) -> bool:
+    """Test whether the variables of a file are those of the EMPS benchmark."""
+    return {text.partition(" ")[0] for text in EMPS.values()} <= {str(name) for name in names}
+
+
+def moving_layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Layout:
+    """The layout of a moving log, from its first rows and the headings given by the user, by name.
+
+    Raises :class:`~ballscrew.errors.InputError` for columns that are missing, double or without a unit that fits.
+    """
+    rows, written = _renamed(found, flags)
+    columns = _wanted({_known(name) for name in flags})
+    start, headings = headings_in(path, rows, columns, WITHIN)
+    headings = _chosen(headings)
+    body = rows[start + 1 :]
+    below = bool(body) and are_units(headings, body[0])
+    if below:
+        headings = [with_unit(heading, body[0]) for heading in headings]
+        body = body[1:]
+    dates = dates_in(headings, body)
+    headings = [of_text(heading) if dates and heading.column.name == "time" else heading for heading in headings]
+    try:
+        good = checked(path, headings, rows[start], body, columns)
+    except InputError as error:
+        raise InputError(*(_with_option(fault, headings) for fault in error.faults)) from None
+    _check_needed(path, good)
+    rest = unused(found[start], good, body[:WITHIN])
+    good = [dataclasses.replace(one, written=written.get((start, one.place), one.written)) for one in good]
+    above = [found[start], found[start + 1]] if below else [found[start]]
+    words = frozenset(cell for record in above for cell in record.cells if isinstance(cell, str) and cell)
+    named = {heading.column.name: heading for heading in good}
+    return Layout(
+        path.name, named, {}, above[-1].line, len(found[start].cells), decimals.evidence(texts_in(good, body)), dates,
+        rest, words,
+    )  # fmt: skip
+
+
+def has_columns(found: Sequence[Record], flags: Mapping[str, str]) -> bool:
+    """Test whether there are headings of a time, of a position, and of something that a force is made from."""
+    try:
+        rows, _ = _renamed(found, flags)
+        _, headings = headings_in(Path("log"), rows, COLUMNS, WITHIN)
+    except InputError:
+        return False
+    names = {heading.column.name for heading in headings}
+    return {"time", "position"} <= names and bool(names & {*FORCES})
+
+
+def _known(name: str) -> str:
+    column = _BY_NAME.get(name) or next((column for column in COLUMNS if column.answers_to(name)), None)
+    if column is None:
+        raise InputError(Fault("--column", "is no column of a moving log", name, nearest(name, _BY_NAME)))
+    return column.name
+
+
+def _renamed(found: Sequence[Record], flags: Mapping[str, str]) -> tuple[list[Record], dict[tuple[int, int], str]]:
+    """Rows with the headings given by the user under their standard names, and the cells as written."""
+    rows, written = list(found), dict[tuple[int, int], str]()
+    for flag, text in flags.items():
+        name = _known(flag)
+        parts = BRACKETS.fullmatch(" ".join(text.split()))
+        wanted, unit = (parts["name"], spelt(parts["unit"])) if parts else (text.strip(), "")
+        quantity = QUANTITIES[name]
+        if unit and not fits(unit, _BY_NAME[name]):
+            fault = units.parse(f"--column {name}", f"1 {unit}", quantity)
+            raise InputError(fault if isinstance(fault, Fault) else Fault(f"--column {name}", "wrong unit", unit))
+        places = [
+            (number, place)
+            for number, record in enumerate(found[:WITHIN])
+            for place, cell in enumerate(record.cells)
+            if isinstance(cell, str) and cell and bare(cell) in {bare(text), bare(wanted), bare(f"{wanted} {unit}")}
+        ]
+        if not places:
+            texts = [cell for record in found[:WITHIN] for cell in record.cells if isinstance(cell, str) and cell]
+            raise InputError(
+                Fault(f"--column {name}", "is not a column of the file", text, nearest(wanted, texts[:20]))
+            )
+        number, place = min(places, key=lambda at: str(found[at[0]].cells[at[1]]) not in {text, wanted})
+        written[number, place] = str(found[number].cells[place])
+        cell = str(found[number].cells[place])
+        own = BRACKETS.fullmatch(cell)
+        unit = unit or (own["unit"] if own else "")
+        cells = list(rows[number].cells)
+        cells[place] = f"{name} [{unit}]" if unit else name
+        rows[number] = Record(rows[number].line, cells)
+    return rows, written
+
+
+def _wanted(given: set[str]) -> tuple[Column, ...]:
+    """The columns to look for: one that is given by its heading has no other name, and rules out its likes."""
+    others = {other for family in (FORCES, PATHS) if given & {*family} for other in family} - given
+    return tuple(
+        dataclasses.replace(column, aliases=(), hints=()) if column.name in given else column
+        for column in COLUMNS
+        if column.name not in others
+    )
+
+
+def _chosen(headings: Sequence[Heading]) -> list[Heading]:
+    """Of the columns that stand for each other the one that says most."""
+    names = {heading.column.name for heading in headings}
+    dropped = {
+        name
+        for family in (FORCES, PATHS)
+        for name in family
+        if name != next((one for one in family if one in names), None)
+    }
+    return [heading for heading in headings if heading.column.name not in dropped]
+
+
+def _check_needed(path: Path, headings: Sequence[Heading]) -> None:
+    names = {heading.column.name for heading in headings}
+    for family, meaning in ((FORCES, "force"), (PATHS, "position")):
+        if not names & {*family}:
+            column = _BY_NAME[family[0]]
+            others = ", ".join(_BY_NAME[name].example for name in family[1:])
+            remedy = f'name it: --column {column.name}="your heading [{QUANTITIES[column.name].shown_in}]"; or {others}'
+            raise InputError(Fault(path.name, f"has no column of a {meaning}", "", remedy, id=NO_COLUMN))
+
+
+def _with_option(fault: Fault, headings: Sequence[Heading]) -> Fault:
+    """A fault of a column, with the option of the command line that resolves it."""
+    column = _BY_NAME.get(fault.column)
+    if column is None or column.quantity is None:
+        return fault
+    name, unit = column.name, column.quantity.shown_in
+    heading = next((one for one in headings if fault.where.endswith(f'column "{one.written}"')), None)
+    remedy = fault.remedy
+    if fault.id == NO_COLUMN:
+        remedy += f', or name it: --column {name}="your heading [{unit}]"'
+    elif heading is not None and fault.id == NEEDS_UNIT:
+        parts = BRACKETS.fullmatch(heading.written)
+        remedy += f', or give --column {name}="{parts["name"] if parts else heading.written} [{unit}]"'
+    elif heading is not None and fault.id == SAME_MEANING:
+        remedy = f'give --column {name}="{heading.written}" for the one that is meant'
+    return dataclasses.replace(fault, remedy=remedy)

@@ -1,0 +1,216 @@
+"""Moving logs read from files: text, spreadsheets and files of MATLAB.
+
+As in all tables, a number needs a unit: in its heading, in a row of units below, behind the number, or in
+``--column position="x_ist [mm]"``. The channels of the EMPS benchmark have those of its description.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.errors import Fault, InputError, raise_if_any
+from ballscrew.moving_logs.columns import (
+    EMPS,
+    EMPS_GAIN,
+    FORCES,
+    PATHS,
+    QUANTITIES,
+    has_columns,
+    is_emps,
+    moving_layout,
+)
+from ballscrew.moving_logs.moving_log import MovingLog
+from ballscrew.quantities import within_bounds
+from ballscrew.tables.headings import NO_COLUMN
+from ballscrew.tables.sheets import Record, unreadable
+from ballscrew.torque_logs import columns as torque_columns
+from ballscrew.torque_logs.columns import Layout
+from ballscrew.torque_logs.matlab_files import is_matlab, variables
+from ballscrew.torque_logs.motion import Floats
+from ballscrew.torque_logs.numbers import NumberReader
+from ballscrew.torque_logs.sources import source_of
+
+#: Rows of text that are read at a time, and most rows of a moving log.
+CHUNK, MOST_ROWS = 200_000, 5_000_000
+_BEGIN = 512
+_Numbers = dict[str, Floats]
+
+
+def read_moving(
+    path: Path,
+    columns: Mapping[str, str] | None = None,
+    *,
+    lead: float,
+    torque_constant: float | None = None,
+    gain: float | None = None,
+    usual_gain: float | None = None,
+    keep_going: bool = False,
+) -> MovingLog:
+    """The moving log of a file, in SI and not yet checked; its force is that at the nut without friction.
+
+    A torque becomes a force by the ``lead`` (m), a current by the ``torque_constant`` (N m/A) as well, a control
+    voltage by the ``gain`` (N/V), which the channel ``gtau`` of the EMPS benchmark gives; ``usual_gain`` holds where
+    neither does. ``columns`` says which heading a column has, and its unit: ``{"position": "x_ist [mm]"}``.
+
+    Raises :class:`~ballscrew.errors.InputError` for faults of the file, and for cells that are no numbers; with
+    ``keep_going`` these count as missing.
+    """
+    path, columns = Path(path), columns or {}
+    try:
+        begin = _first_bytes(path)
+        if is_matlab(path, begin):
+            found, line, notes, own_gain = _of_matlab(path, begin, columns)
+        else:
+            found, line, notes = _of_table(path, columns, keep_going)
+            own_gain = None
+        digest = hashlib.sha256(path.read_bytes()).hexdigest()
+    except (OSError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
+        raise unreadable(path, error) from None
+    for name, values in found.items():
+        values[~within_bounds(QUANTITIES[name].info, values)] = np.nan
+    raise_if_any(_empty(path.name, found))
+    known = next(one for one in (gain, own_gain, usual_gain, math.nan) if one is not None)
+    force = _force(path.name, found, lead, torque_constant, known)
+    position, speed = (found.get(name) for name in PATHS)
+    return MovingLog(
+        found["time"], force, position, speed, line=line, notes=tuple(notes), source=(path.name, digest), gain=known
+    )
+
+
+def is_moving(path: Path, columns: Mapping[str, str]) -> bool:
+    """Test whether a file is a moving log: time, position and a force, or what one is made from, but no axial load.
+
+    A log with an axial load beside a torque and a speed is one of torques at steady speed. A file that cannot be read
+    is none: its faults are found where it is read.
+    """
+    if {"axial_load", "screw_speed", "feed_rate"} & {*columns}:
+        return False
+    try:
+        begin = _first_bytes(path)
+        found = _matlab_records(variables(path, begin)[0]) if is_matlab(path, begin) else _top_of(path)
+        if is_matlab(path, begin) and is_emps(found[0].cells):
+            return True
+        return has_columns(found, columns) and not _is_steady(path, found)
+    except (InputError, OSError, ValueError):
+        return False
+
+
+def _is_steady(path: Path, found: Sequence[Record]) -> bool:
+    """Test whether a file has all the columns of a log of torques at steady speed, with or without their units."""
+    try:
+        torque_columns.layout(path, found, {})
+    except InputError as error:
+        return all(fault.id != NO_COLUMN for fault in error.faults)
+    return True
+
+
+def _first_bytes(path: Path) -> bytes:
+    with path.open("rb") as file:
+        return file.read(_BEGIN)
+
+
+def _top_of(path: Path) -> Sequence[Record]:
+    with path.open("rb") as file:
+        return source_of(path, file, None).found
+
+
+def _matlab_records(arrays: Mapping[str, NDArray[Any]]) -> list[Record]:
+    top = min((values.size for values in arrays.values()), default=0)
+    columns = list(arrays.values())
+    return [Record(0, list(arrays)), *(Record(1 + row, [c[row] for c in columns]) for row in range(min(5, top)))]
+
+
+def _of_matlab(
+    path: Path, begin: bytes, columns: Mapping[str, str]
+) -> tuple[_Numbers, NDArray[np.int64], list[str], float | None]:
+    """Columns in SI, the numbers of their rows, remarks, and the gain of the EMPS benchmark."""
+    arrays, numbers = variables(path, begin)
+    notes: list[str] = []
+    if is_emps(list(arrays)):
+        columns = {**EMPS, **columns}
+        notes.append("read as a record of the EMPS benchmark: t in s, qm in m, vir in V, gtau in N/V")
+    place = moving_layout(path, _matlab_records(arrays), columns)
+    every = list(arrays.values())
+    found = {name: h.offset + h.scale * every[h.place] for name, h in place.headings.items()}
+    sizes = {place.headings[name].written: values.size for name, values in found.items()}
+    if len(set(sizes.values())) > 1:
+        listed = ", ".join(f"{name} {size}" for name, size in sizes.items())
+        raise InputError(Fault(path.name, "has columns of different lengths", listed, "give every column each row"))
+    notes += _of_unused(place)
+    return (
+        found,
+        np.arange(1, 1 + next(iter(sizes.values()))),
+        notes,
+        numbers.get(EMPS_GAIN) if is_emps(list(arrays)) else None,
+    )
+
+
+def _of_table(
+    path: Path, columns: Mapping[str, str], keep_going: bool
+) -> tuple[_Numbers, NDArray[np.int64], list[str]]:
+    with path.open("rb") as file:
+        source = source_of(path, file, None)
+        if not source.found:
+            raise InputError(Fault(str(path), "is empty", "", "give a table with headings and rows"))
+        place = moving_layout(path, source.found, columns)
+        cells = NumberReader(place, keep_going)
+        parts: list[_Numbers] = []
+        lines: list[NDArray[np.int64]] = []
+        for piece in source.pieces(place, CHUNK):
+            raw = {name: piece.cells[heading.place] for name, heading in place.headings.items()}
+            values, _ = cells.numbers(raw, piece.line, piece.cut_off)
+            # a cell that is no number is a missing one, a row without any is none
+            empty = np.all([np.isnan(v) for v in values.values()], axis=0)
+            parts.append({name: v[~empty] for name, v in values.items()})
+            lines.append(piece.line[~empty])
+            if sum(part.size for part in lines) > MOST_ROWS:
+                remedy = "cut it: a fit of a motion needs a few strokes, not days"
+                raise InputError(Fault(path.name, f"has more than {MOST_ROWS} rows", "", remedy))
+    if not keep_going:
+        raise_if_any(cells.faults)
+    line = np.concatenate(lines) if lines else np.empty(0, dtype=np.int64)
+    if not line.size:
+        raise InputError(Fault(path.name, "has no rows below its headings", "", "give one row for each sample"))
+    found = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    notes = _of_unused(place)
+    if cells.bad_rows:
+        notes.append(f"{cells.bad_rows} rows have cells that are no numbers: they count as missing")
+    return found, line, notes
+
+
+def _of_unused(place: Layout) -> list[str]:
+    return [f"columns not used: {', '.join(place.unused)}"] if place.unused else []
+
+
+def _empty(name: str, found: Mapping[str, Floats]) -> list[Fault]:
+    return [
+        Fault(f"{name} column {column}", "has no number in any row", "", "give a column with numbers in it")
+        for column, values in found.items()
+        if not np.isfinite(values).any()
+    ]
+
+
+def _force(name: str, found: _Numbers, lead: float, torque_constant: float | None, gain: float) -> Floats:
+    """The force at the nut from the column that there is."""
+    column = next(one for one in FORCES if one in found)
+    values = found[column]
+    if column == "current" and torque_constant is None:
+        raise InputError(
+            Fault(f"{name} column {column}", "needs the torque constant", "", '--torque-constant "0.5 N m/A"')
+        )
+    if column == "voltage" and not math.isfinite(gain):
+        raise InputError(Fault(f"{name} column {column}", "needs the gain to the force", "", '--gain "35 N/V"'))
+    scale = {
+        "force": 1.0, "torque": 2 * math.pi / lead, "current": 2 * math.pi / lead * (torque_constant or 0.0),
+        "voltage": gain,
+    }[column]  # fmt: skip
+    return scale * values

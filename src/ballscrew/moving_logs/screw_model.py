@@ -1,0 +1,186 @@
+r"""The equation of motion with the friction of the ball screw's model in it, fitted by Gauss–Newton steps.
+
+.. math:: F = M a + F_g + \operatorname{sign}(v)
+    \left[F_c + f_v |v| + S\left(|v|, \operatorname{sign}(v)(m a + F_g); \theta\right)\right]
+
+S is the friction of the model, θ its free numbers, m the mass that the nut carries: M also holds what the rotating
+parts weigh at the nut, J (2π/P_h)², whose force does not pass the nut. F_c and f_v are what no model of the balls has:
+seals, guides, bearings, brushes of the motor. Neither is negative, so that the balls cannot be given more than the
+whole.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from ballscrew.moving_logs.equation import Equation
+from ballscrew.moving_logs.regression import LARGEST_ERROR, LeastSquares, block_length, relative_error
+from ballscrew.moving_logs.screw_friction import FrictionTable, ScrewFriction
+from ballscrew.torque_logs.motion import Floats
+
+#: Numbers that every fit has, in this order; the free numbers of the model follow, and the mass that the nut carries.
+MASS, OFFSET, CONSTANT, VISCOUS = range(4)
+#: Step of a logarithm for derivatives by the numbers of the model.
+_STEP = 1e-4
+#: A number this near a bound, as a share of its scale, is at it.
+_AT_BOUND = 1e-4
+_EVALUATIONS = 40
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ScrewModelFit:
+    """The fit of the screw's model: values and errors in SI; None where the log does not identify a number."""
+
+    friction: ScrewFriction
+    mass: float
+    offset: float
+    constant_force: float
+    viscous_coefficient: float
+    #: Values of the free numbers of the model.
+    numbers: Floats
+    carried_mass: float
+    #: Standard errors in the order mass, offset, constant force, viscous coefficient, numbers, carried mass; NaN where
+    #: not identified, at a bound, or given.
+    errors: Floats
+    half_widths: Floats
+    #: True for the numbers that are at a bound.
+    at_bound: NDArray[np.bool_]
+    converged: bool
+    relative_error: float
+    #: Largest difference of the table of friction from the model, as a share of the largest friction.
+    table_error: float
+
+    def force(self, equation: Equation) -> Floats:
+        """The force of the model at the rows that an equation uses."""
+        values = np.array([self.mass, self.offset, self.constant_force, self.viscous_coefficient])
+        table = self.friction.table(self.numbers)
+        return _columns(equation, table, self.carried_mass, self.offset)[0] @ np.append(values, 1.0)
+
+    def screw_force(self, speed: Floats, load: Floats | float = 0.0) -> Floats:
+        """The part of the balls at speeds (m/s, either sign), N, with the sign of the speed."""
+        direction = np.sign(speed)
+        loads = np.broadcast_to(np.asarray(load) * direction, np.shape(speed))
+        return direction * self.friction.table(self.numbers)(np.abs(speed), loads)
+
+
+def fit_screw_model(
+    equation: Equation, friction: ScrewFriction, linear: LeastSquares, carried_mass: float | None = None
+) -> ScrewModelFit | None:
+    """Fit of the model from the linear one on; None where the model has no friction at the speeds of the log.
+
+    ``carried_mass`` (kg) is fitted between nothing and the whole mass where it is not given.
+    """
+    mass, offset = float(linear.values[0]), float(linear.values[1])
+    count = friction.start.size
+    if not friction.table(friction.start).is_finite:
+        return None
+    low_number, high_number = friction.bounds
+    scale = np.abs(np.array([mass, max(abs(offset), 0.01 * float(np.max(np.abs(equation.force)))), 0.0, 0.0]))
+    size = float(np.sqrt(np.mean(equation.force**2)))
+    scale[CONSTANT], scale[VISCOUS] = size, size / friction.fastest
+    scales = np.concatenate([scale, np.maximum(np.abs(friction.start), 1e-300), [max(mass, 1e-9)]])
+    low = np.concatenate([[-np.inf, -np.inf, 0.0, 0.0], low_number, [0.0]]) / scales
+    high = np.concatenate([[np.inf] * 4, high_number, [max(mass, 1e-9)]]) / scales
+    # from about half the friction of the linear fit on, clear of the bounds
+    constant = max(0.5 * float(linear.values[2]), 1e-3 * size)
+    viscous = max(0.25 * float(linear.values[3]), 1e-3 * float(scale[VISCOUS]))
+    carried = 0.5 * mass if carried_mass is None else min(carried_mass, mass)
+    begin = np.concatenate([[mass, offset, constant, viscous], friction.start, [carried]]) / scales
+    free = np.ones(scales.size, dtype=bool)
+    free[-1] = carried_mass is None
+    problem = _Problem(equation, friction, scales, begin)
+
+    def residuals(some: Floats) -> Floats:
+        return problem.at(_placed(begin, free, some))[0]
+
+    def slopes(some: Floats) -> Floats:
+        return problem.at(_placed(begin, free, some))[1][:, free]
+
+    room = 1e-9 * np.maximum(np.where(np.isfinite(high - low), high - low, 1.0), 1e-300)
+    inside = np.clip(begin, low + room, high - room)[free]
+    jac: Any = slopes  # the hints of SciPy know only the names of methods
+    solved = least_squares(
+        residuals, inside, jac, bounds=(low[free], high[free]), method="trf", max_nfev=_EVALUATIONS,
+        xtol=1e-6, ftol=1e-8,
+    )  # fmt: skip
+    found = _placed(begin, free, solved.x)
+    final, derivatives = problem.at(found)
+    near = (found - low <= _AT_BOUND + room) | (high - found <= _AT_BOUND + room)
+    moves = free & ~near
+    told = LeastSquares(found[moves], final, derivatives[:, moves], block_length(final))
+    # a number matters by its own size, and a drag by that of the whole friction
+    matters = np.maximum(np.abs(found), np.where(np.arange(found.size) < 4, 1.0, 0.0))
+    errors, widths = np.full(found.size, np.nan), np.full(found.size, np.nan)
+    errors[moves], widths[moves] = told.errors, told.half_width()
+    unknown = ~(errors <= LARGEST_ERROR * np.maximum(matters, 1e-300))
+    errors[unknown], widths[unknown] = np.nan, np.nan
+    values = found * scales
+    numbers = values[4 : 4 + count]
+    load = _load(equation, values[-1], values[OFFSET])[equation.used]
+    return ScrewModelFit(
+        friction, float(values[MASS]), float(values[OFFSET]), float(values[CONSTANT]), float(values[VISCOUS]), numbers,
+        float(values[-1]), errors * scales, widths * scales, near & free, bool(solved.status > 0),
+        relative_error(final, equation.force),
+        friction.table_error(numbers, np.abs(equation.speed[equation.used]), load),
+    )  # fmt: skip
+
+
+def _placed(begin: Floats, free: NDArray[np.bool_], some: Floats) -> Floats:
+    whole = begin.copy()
+    whole[free] = some
+    return whole
+
+
+def _load(equation: Equation, carried: float, offset: float) -> Floats:
+    """Axial load on the nut in the direction of the motion: positive where it works against it."""
+    return np.sign(equation.speed) * (carried * equation.acceleration + offset)
+
+
+def _columns(equation: Equation, table: FrictionTable, carried: float, offset: float) -> tuple[Floats, Floats]:
+    """Columns of mass, offset, constant, viscous and the screw's friction; its slope by the carried mass."""
+    speed, direction = equation.speed, equation.direction
+    load = _load(equation, carried, offset)
+    screw = direction * table(speed, load)
+    by_mass = table.by_load(speed, load) * equation.acceleration * direction**2
+    ones = np.ones(speed.size)
+    sides = np.stack([equation.acceleration, ones, direction, direction**2 * speed, screw, by_mass], axis=1)
+    filtered = equation.filtered(sides)
+    return filtered[:, :5], filtered[:, 5]
+
+
+class _Problem:
+    """Residuals and derivatives at numbers in units of their scales; the last are remembered."""
+
+    def __init__(self, equation: Equation, friction: ScrewFriction, scales: Floats, begin: Floats) -> None:
+        self._equation, self._friction, self._scales = equation, friction, scales
+        self._offset = float(begin[OFFSET] * scales[OFFSET])
+        self._at: Floats | None = None
+        self._found: tuple[Floats, Floats] = (np.empty(0), np.empty((0, 0)))
+
+    def at(self, scaled: Floats) -> tuple[Floats, Floats]:
+        if self._at is None or not np.array_equal(self._at, scaled):
+            self._found, self._at = self._evaluate(scaled * self._scales), scaled.copy()
+        return self._found
+
+    def _evaluate(self, values: Floats) -> tuple[Floats, Floats]:
+        equation, friction = self._equation, self._friction
+        numbers, carried = values[4:-1], float(values[-1])
+        # the load is taken with the offset of the linear fit: a fraction of a newton changes no friction
+        sides, by_mass = _columns(equation, friction.table(numbers), carried, self._offset)
+        residuals = sides @ np.append(values[:4], 1.0) - equation.force
+        load = _load(equation, carried, self._offset)
+        slopes = [sides[:, place] for place in range(4)]
+        for place, number in enumerate(numbers):
+            step = _STEP * (number or float(self._scales[4 + place]))
+            ends = [numbers.copy(), numbers.copy()]
+            ends[0][place] -= step
+            ends[1][place] += step
+            before, after = (friction.table(end)(equation.speed, load) for end in ends)
+            slopes.append(equation.filtered(equation.direction * (after - before) / (2 * step)))
+        jacobian = np.stack([*slopes, by_mass], axis=1) * self._scales
+        return residuals, jacobian

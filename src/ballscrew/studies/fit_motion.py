@@ -1,0 +1,25 @@
+"""The fit of a case to a moving log, and its test on another one."""
+
+from __future__ import annotations
+
+import dataclasses
+
+from ballscrew.cases.case import Case
+from ballscrew.errors import InputError
+from ballscrew.moving_logs.motion_fit import MotionFit, fit_motion
+from ballscrew.moving_logs.moving_log import MovingLog
+from ballscrew.studies.moving_log import MovingOptions
+
+_OPTIONS = {"fit.free": "--free", "fit.seed": "--seed", "fit.carried_mass": "--carried-mass"}
+
+
+def fit(case: Case, log: MovingLog, test: MovingLog | None, options: MovingOptions) -> MotionFit:
+    """Fit of a case to a moving log. Raises ``InputError`` that names options of the command line."""
+    try:
+        return fit_motion(
+            case.model, case.screw, case.lubricant, log, options.free, carried_mass=options.carried_mass, test=test,
+            keep_going=options.keep_going, seed=options.seed,
+        )  # fmt: skip
+    except InputError as error:
+        faults = (dataclasses.replace(one, where=_OPTIONS.get(one.where, one.where)) for one in error.faults)
+        raise InputError(*faults) from None
