@@ -44,7 +44,7 @@ suppress_warnings = ["myst.header"]  # the included claims start with a heading 
 
 
 def generate(_app):
-    """Write included parts: claims and figures of the paper, effects, laws, fields, accuracy, bands, fits."""
+    """Write included parts: claims and figures of the paper, effects, laws, fields, accuracy, bands, heat, fits."""
     import accuracy_table
     import api_tables
     import calibration_pages
@@ -54,6 +54,7 @@ def generate(_app):
     import sensitivity_figures
     import theory_figures
     import uncertainty_tables
+    import warm_up_tables
     from ballscrew.cli.reproduction import reproduce_olaru2005
     from card_table import tables as card_tables
     from column_table import column_table
@@ -77,6 +78,7 @@ def generate(_app):
     validation_tables.write(generated / "validation")
     bearing_comparison.write(generated / "validation")
     uncertainty_tables.write(generated / "uncertainty")
+    warm_up_tables.write(generated / "warm_up")
     sensitivity_figures.write(generated / "sensitivity")
     calibration_pages.write(generated / "calibration")
     theory_figures.write(generated / "theory")

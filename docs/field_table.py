@@ -23,6 +23,7 @@ from ballscrew.friction.model import FrictionModel
 from ballscrew.motion.profiles import Segment, Trapezoid
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.sizing.installation import Installation, Limits
+from ballscrew.thermal.surroundings import Surroundings
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "feed_drive.toml"
 
@@ -43,6 +44,7 @@ PARTS = {
     **{f'[motion] kind = "{kind}"': cls for kind, cls in MOTIONS.items()},
     "[[motion.segment]]": Segment,
     "[motor]": Motor,
+    "[surroundings]": Surroundings,
 }
 #: Example values of fields that the example file does not have.
 OTHERS: dict[str, Any] = {"viscosity": "0.1 Pa s", "ball_to_ball_force": "0.02 N"}

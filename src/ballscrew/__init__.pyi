@@ -6,6 +6,7 @@ from ballscrew.axis.duty import Duty as Duty
 from ballscrew.axis.duty import duty as duty
 from ballscrew.axis.duty_band import duty_band as duty_band
 from ballscrew.axis.motor import Motor as Motor
+from ballscrew.axis.to_and_fro import to_and_fro as to_and_fro
 from ballscrew.calibration.calibrated_model import CalibratedModel as CalibratedModel
 from ballscrew.calibration.fit import fit as fit
 from ballscrew.cases.catalogue import screws as screws
@@ -53,6 +54,7 @@ from ballscrew.supports.bearing import SupportBearing as SupportBearing
 from ballscrew.supports.guide import LinearGuide as LinearGuide
 from ballscrew.sweeps.store_check import verify as verify
 from ballscrew.sweeps.sweep import sweep as sweep
+from ballscrew.thermal.steady_heat import steady_heat as steady_heat
 from ballscrew.thermal.surroundings import Surroundings as Surroundings
 from ballscrew.thermal.warm_up import warm_up as warm_up
 from ballscrew.torque_logs.torque_log import TorqueLog as TorqueLog

@@ -177,7 +177,8 @@ def test_faults_of_segments_name_their_number():
 def test_other_commands_ask_for_an_operating_point_and_a_model():
     refused = faults(SCREW + MOVING, moves=False)
     assert refused == (
-        "operation: missing section · add a table [operation]; only ballscrew duty takes the motion in its place"
+        "operation: missing section · add a table [operation]; "
+        "only ballscrew duty and warm-up take the motion in its place"
     )
     refused = faults(SCREW + POINT, "model.name=constant-efficiency", "model.efficiency=0.9", moves=False)
     assert refused.startswith(

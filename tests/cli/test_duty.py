@@ -232,7 +232,7 @@ def test_run_asks_for_an_operating_point(ballscrew, tmp_path):
     (tmp_path / "case.toml").write_text(VERTICAL, encoding="utf-8")
     done = ballscrew("run", "case.toml")
     assert (done.returncode, done.stdout) == (2, "")
-    assert "only ballscrew duty takes the motion in its place" in done.stderr
+    assert "only ballscrew duty and warm-up take the motion in its place" in done.stderr
 
 
 def test_a_band(ballscrew, tmp_path):

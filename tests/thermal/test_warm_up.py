@@ -12,7 +12,7 @@ from ballscrew.axis.duty import duty
 from ballscrew.errors import InputError
 from ballscrew.motion.profiles import Segment, Segments
 from ballscrew.thermal.network import steady
-from ballscrew.thermal.surroundings import Surroundings
+from ballscrew.thermal.surroundings import STILL, Surroundings
 from ballscrew.thermal.warm_up import warm_up
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
@@ -105,11 +105,66 @@ def test_a_nut_without_preload_has_none():
     assert set(single.preload) == {0.0}
 
 
+def test_a_hollow_shaft_without_a_coolant_loses_nothing_through_its_bore():
+    dry = warm_up(to_and_fro(500), dataclasses.replace(PLAIN, bore=0.012), time=60.0, outputs=2).network
+    assert dry.shaft.cell_to_coolant == 0.0
+
+
+def test_a_standing_shaft_cools_as_a_body_at_rest(found):
+    """Late, the slowest mode decays by free convection and the ends, and not as in the air of a shaft that turns."""
+    standing, turning = found.network.standing, found.network
+    assert standing.shaft.convection == STILL < turning.shaft.convection
+    given = warm_up(to_and_fro(500), dataclasses.replace(PLAIN, shaft_convection=30.0), time=60.0, outputs=2).network
+    assert given.standing is given
+
+
+def test_friction_is_not_a_number_where_it_is_not_known(found):
+    """Where the map ends, a torque in the answer would be that of its edge."""
+    states = found.states.copy()
+    states[: found.network.size, -1] = 450.0
+    beyond = dataclasses.replace(found, states=states)
+    assert math.isnan(beyond.screw_torque[-1])
+    assert beyond.screw_torque[:-1] == pytest.approx(found.screw_torque[:-1])
+
+
+@pytest.mark.parametrize(
+    "nut",
+    [
+        bs.OversizeBallNut(preload=1500.0),
+        bs.OversizeBallNut(oversize=3e-6),
+        bs.OffsetLeadNut(preload=2000.0),
+        bs.DoubleNut(preload=3000.0, bodies=bs.Bodies()),
+    ],
+    ids=["preload of four contacts", "oversize", "offset lead", "elastic bodies"],
+)
+def test_every_kind_of_nut(nut):
+    """The heat is that of the model at the oil and preload found, whatever arranges the balls."""
+    screw = ROW.screw(nut=nut)
+    found = bs.steady_heat(bs.to_and_fro(MODEL, screw, OIL, axial_load=0.0, screw_speed=100.0, stroke=0.5), PLAIN)
+    warm = dataclasses.replace(screw, nut=nut.changed("preload", found.preload))
+    there = MODEL(warm, OIL.at(found.oil_temperature), axial_load=0.0, screw_speed=100.0)
+    assert found.power == pytest.approx(100.0 * float(there.screw_torque), rel=2e-4)
+    assert found.network.preload_set > 0
+
+
 def test_a_table_of_compensation(found):
     places, growth = found.compensation_table(0.1)
     assert places.tolist() == pytest.approx(np.arange(0, 1.25, 0.1).tolist())
     assert growth[0] == 0.0
     assert np.all(np.diff(growth) > 0)
+    assert found.compensation_table(0.35)[0].tolist() == pytest.approx([0.0, 0.35, 0.7, 1.05, 1.2])
+
+
+def test_the_steady_state_of_a_point_in_one_call():
+    """To and fro at the point of a call of the model: its heat is that of the model at the oil and preload found."""
+    screw = ROW.screw(nut=bs.DoubleNut(preload=3500.0))
+    point = {"axial_load": 2000.0, "screw_speed": 100.0}
+    end = bs.steady_heat(bs.to_and_fro(MODEL, screw, OIL, **point, stroke=0.5), PLAIN)
+    warm = dataclasses.replace(screw, nut=bs.DoubleNut(preload=end.preload))
+    at_end = [MODEL(warm, OIL.at(end.oil_temperature), **{**point, "screw_speed": way}) for way in (100.0, -100.0)]
+    mean = np.mean([100.0 * float(found.screw_torque) for found in at_end])
+    assert end.power == pytest.approx(mean, rel=1e-4)
+    assert end.exists
 
 
 def test_steady_temperatures_are_linear_in_the_heat():
@@ -126,6 +181,9 @@ def test_steady_temperatures_are_linear_in_the_heat():
         (lambda: warm_up(to_and_fro(500), PLAIN, time=0.0), "warm_up.time"),
         (lambda: warm_up(to_and_fro(500, oil=bs.Lubricant(viscosity=0.1)), PLAIN), "lubricant"),
         (lambda: Surroundings(coolant=293.15), "surroundings.coolant"),
+        (lambda: warm_up(to_and_fro(500), dataclasses.replace(PLAIN, bore=0.05)), "surroundings.bore"),
+        (lambda: warm_up(to_and_fro(500), dataclasses.replace(PLAIN, ambient=230.0)), "surroundings.ambient"),
+        (lambda: warm_up(to_and_fro(500), PLAIN, time=60.0).compensation_table(0.0), "warm_up.step"),
         (lambda: Surroundings(shaft_share=1.5), "surroundings.shaft_share"),
     ],
 )

@@ -21,6 +21,7 @@ from ballscrew.motion.profiles import Motion
 from ballscrew.records import Record
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.installation import Installation, Limits
+from ballscrew.thermal.surroundings import Surroundings
 from ballscrew.uncertainty.distributions import Distribution
 
 #: The limits of the checks where a case gives none.
@@ -69,10 +70,12 @@ class Case:
     calibration: Calibration | None = None
     #: The table ``[calibration]`` that a fit wrote beside its numbers, as it stands in the file.
     fit: Mapping[str, Any] = dataclasses.field(default_factory=dict[str, Any])
-    #: What moves, how it moves, and what drives it: of ``ballscrew duty``.
+    #: What moves, how it moves, and what drives it: of ``ballscrew duty`` and ``ballscrew warm-up``.
     axis: Axis | None = None
     motion: Motion | None = None
     motor: Motor | None = None
+    #: Where the heat goes: of ``ballscrew warm-up``.
+    surroundings: Surroundings | None = None
     #: The efficiency of the rule that stands in for the model; None where the model counts.
     efficiency: float | None = None
     #: Whether the operating point is that of steady travel in the motion, as the file gives none.

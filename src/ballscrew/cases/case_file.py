@@ -184,7 +184,7 @@ def build(
     ]
     made = _screw(sections, folder, rows, faults) if "screw" in sections else _NO_SCREW
     lubricant, oil = lubricant_of(sections, folder, faults) if "lubricant" in sections else (None, {})
-    axis, motion, motor = duty_tables.moved(sections, folder, faults)
+    axis, motion, motor, surroundings = duty_tables.moved(sections, folder, faults)
     if efficiency is None:
         friction_model = _model(sections, model, faults, folder if allow_code else None)
     else:  # no model counts, and no oil: any stands in
@@ -212,13 +212,14 @@ def build(
         friction_model, screw, lubricant, operation, sweep, oil, made.row, made.listed, mounted, limits, notes,
         *uncertain_inputs.parse_distributions(tables, friction_model, screw, lubricant),
         None if calibrated_by is None else named_calibration(calibrated_by),
-        fit, axis, motion, motor, efficiency, travels,
+        fit, axis, motion, motor, surroundings, efficiency, travels,
     )  # fmt: skip
 
 
 def _beside(name: str, tables: Mapping[str, Any]) -> str:
     """Addition to the remedy where a motion stands in the file of another command."""
-    return "; only ballscrew duty takes the motion in its place" if name == "operation" and "motion" in tables else ""
+    moves = name == "operation" and "motion" in tables
+    return "; only ballscrew duty and warm-up take the motion in its place" if moves else ""
 
 
 class _MadeScrew(NamedTuple):

@@ -1,4 +1,4 @@
-"""The sections of a case file that a motion needs, as pydantic models: axis, motion and its segments, motor."""
+"""The sections of a case file that a motion and its heat need, as pydantic models."""
 
 from __future__ import annotations
 
@@ -15,9 +15,10 @@ from ballscrew.cases.fields import json_of, section_of, si_value
 from ballscrew.errors import Fault
 from ballscrew.motion.profiles import SCurve, Segment, Segments, Sine, Trapezoid
 from ballscrew.quantities import Info, Quantity, fields_of
+from ballscrew.thermal.surroundings import Surroundings
 
 #: The tables of a case that moves.
-DUTY_TABLES = ("axis", "motion", "motor")
+DUTY_TABLES = ("axis", "motion", "motor", "surroundings")
 #: The rule of one efficiency, by the name of a model.
 CONSTANT_EFFICIENCY = "constant-efficiency"
 EFFICIENCY = Quantity(
@@ -94,6 +95,7 @@ def duty_sections() -> Mapping[str, type[BaseModel]]:
             "Motor", fields_of(Motor), Motor, required=True,
             curve=(Annotated[list[Any], WithJsonSchema(_curve())], Field(default=None)),
         ),
+        "surroundings": section_of("Surroundings", fields_of(Surroundings), Surroundings, required=False),
     }  # fmt: skip
 
 

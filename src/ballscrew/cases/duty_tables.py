@@ -1,4 +1,4 @@
-"""The axis, the motion and the motor of a case, and the rule of one efficiency, from its sections."""
+"""The axis, the motion, the motor and the surroundings of a case, and the rule of one efficiency, from its sections."""
 
 from __future__ import annotations
 
@@ -33,6 +33,7 @@ from ballscrew.motion.profiles import Motion, Segment
 from ballscrew.motion.trajectory import Trajectory
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import fields_of
+from ballscrew.thermal.surroundings import Surroundings
 
 #: What a question about a motion needs besides the screw.
 NEEDED = ("axis", "motion")
@@ -46,14 +47,16 @@ class Moved(NamedTuple):
     axis: Axis | None = None
     motion: Motion | None = None
     motor: Motor | None = None
+    surroundings: Surroundings | None = None
 
 
 def moved(sections: Sections, folder: Path, faults: list[Fault]) -> Moved:
-    """Axis, motion and motor, of which a case may have none."""
+    """Axis, motion, motor and surroundings, of which a case may have none."""
     return Moved(
         _axis(sections, faults) if "axis" in sections else None,
         _motion(sections, folder, faults) if "motion" in sections else None,
         _motor(sections, faults) if "motor" in sections else None,
+        _surroundings(sections, faults) if "surroundings" in sections else None,
     )
 
 
@@ -198,6 +201,14 @@ def _motor(sections: Sections, faults: list[Fault]) -> Motor | None:
     return _made("motor", functools.partial(Motor, **values), faults) if len(faults) == before else None
 
 
+def _surroundings(sections: Sections, faults: list[Fault]) -> Surroundings | None:
+    before = len(faults)
+    values: dict[str, Any] = sections.values_of("surroundings", faults)
+    if len(faults) > before:
+        return None
+    return _made("surroundings", functools.partial(Surroundings, **values), faults)
+
+
 def _curve(points: list[Any], faults: list[Fault]) -> tuple[tuple[float, float], ...]:
     found: list[tuple[float, float]] = []
     for number, point in enumerate(points, start=1):
@@ -215,8 +226,10 @@ def _curve(points: list[Any], faults: list[Fault]) -> tuple[tuple[float, float],
     return tuple(found)
 
 
-def inputs(axis: Axis | None, motion: Motion | None, motor: Motor | None) -> dict[str, Any]:
-    """Axis, motion and motor in SI, by section, as far as a case has them."""
+def inputs(
+    axis: Axis | None, motion: Motion | None, motor: Motor | None, surroundings: Surroundings | None
+) -> dict[str, Any]:
+    """Axis, motion, motor and surroundings in SI, by section, as far as a case has them."""
     found: dict[str, Any] = {}
     if axis is not None:
         found["axis"] = {**_numbers(axis), "brake_holds": axis.brake_holds}
@@ -225,6 +238,8 @@ def inputs(axis: Axis | None, motion: Motion | None, motor: Motor | None) -> dic
         found["motion"] = {"kind": kind, **_of_motion(motion)}
     if motor is not None:
         found["motor"] = {**_numbers(motor), "curve": [list(point) for point in motor.curve]}
+    if surroundings is not None:
+        found["surroundings"] = _numbers(surroundings)
     return found
 
 

@@ -35,7 +35,7 @@ def inputs(case: Case) -> dict[str, Any]:
         **({} if case.nut is None else _inputs_of_nut(case.nut, case.screw)),
         **({} if case.installation is None else {"installation": _mounting(case.installation)}),
         **({} if case.limits is USUAL_LIMITS else {"limits": _numbers(case.limits)}),
-        **duty_tables.inputs(case.axis, case.motion, case.motor),
+        **duty_tables.inputs(case.axis, case.motion, case.motor, case.surroundings),
     }
 
 

@@ -7,7 +7,15 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, CalibrationName, ModelName, Row, check_rows, say_of_rows
+from ballscrew.cli.common_options import (
+    AllowCode,
+    CalibrationName,
+    ModelName,
+    Row,
+    SelfHeatingOption,
+    check_rows,
+    say_of_rows,
+)
 
 
 def check(
@@ -69,6 +77,7 @@ def check(
     to: Annotated[
         Path | None, typer.Option("--to", "-o", metavar="FILE", help="Of many rows: also write them, .csv or .xlsx.")
     ] = None,
+    self_heating: SelfHeatingOption = False,
     allow_code: AllowCode = False,
 ) -> None:
     """From a catalogue row or a case to torque, efficiency, stiffness, life, and whether it does.
@@ -98,6 +107,7 @@ def check(
         model,
         calibration,
         allow_code,
+        self_heating,
     )
     check_rows(rows, row)
     case = name if name is not None and rows is not None and is_case(name) else None

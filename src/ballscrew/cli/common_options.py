@@ -30,6 +30,10 @@ Settings = Annotated[
 AllowCode = Annotated[
     bool, typer.Option("--allow-code", help='Let the case name laws of your own, "module:name", and run their code.')
 ]
+SelfHeatingOption = Annotated[
+    bool,
+    typer.Option("--self-heating", help="Take the oil as warm as friction makes it in the [surroundings] of the case."),
+]
 Verbose = Annotated[bool, typer.Option("--verbose", help="Say on the error stream what evaluates the model, and why.")]
 #: Options of logs.
 TorqueKind = Annotated[

@@ -35,6 +35,7 @@ from ballscrew.cli import (
     service,
     sweep,
     validate,
+    warm_up,
 )
 from ballscrew.cli.common_options import CALIBRATION_NAMES, MODEL_NAMES
 
@@ -76,6 +77,7 @@ for command in (
     fit.fit,
     report.report,
     duty.duty,
+    warm_up.warm_up,
     sensitivity.sensitivity,
     serve.serve,
     service.service,

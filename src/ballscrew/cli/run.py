@@ -15,6 +15,7 @@ from ballscrew.cli.common_options import (
     ModelName,
     Row,
     Rows,
+    SelfHeatingOption,
     Settings,
     cases_of_rows,
     check_rows,
@@ -53,6 +54,7 @@ def run(
     rows: Rows = None,
     row: Row = None,
     keep_going: KeepGoing = False,
+    self_heating: SelfHeatingOption = False,
     allow_code: AllowCode = False,
 ) -> None:
     """Friction at the operating point of a case file; with --band how far off it may be.
@@ -60,6 +62,7 @@ def run(
     With --rows the same for each screw of a table, one line each; oil, operating point and model are those of the case.
     """
     check_rows(rows, row)
+    _check_self_heating(self_heating, band or only_given, rows)
     has_band = band or only_given or (samples, level) != (None, None) or (to is not None and rows is None)
     if rows is not None:
         cases = cases_of_rows(
@@ -86,14 +89,32 @@ def run(
         return
     from ballscrew.output import json_text
     from ballscrew.output.documents.run import document
+    from ballscrew.output.documents.self_heating import with_self_heating
     from ballscrew.output.text.run import print_run
+    from ballscrew.output.wrapping import wrapped
     from ballscrew.studies.run import run as run_case
 
-    found = run_case(loaded)
+    heating = None
+    if self_heating:
+        from ballscrew.studies import self_heating as studies
+
+        heating = studies.self_heating(loaded)
+    found = run_case(loaded if heating is None else heating.warm)
     if as_json:
-        typer.echo(json_text.as_json(document(found)))
+        typer.echo(json_text.as_json(with_self_heating(document(found), heating)))
     else:
+        if heating is not None:
+            typer.echo(wrapped(heating.record.text))
         print_run(found)
+
+
+def _check_self_heating(asked: bool, band: bool, rows: Path | None) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` where self-heating is asked for beside what does not know it."""
+    from ballscrew.errors import Fault, InputError
+
+    beside = "--band" if band else "--rows" if rows is not None else ""
+    if asked and beside:
+        raise InputError(Fault("--self-heating", f"is given beside {beside}", "", "leave one of them out"))
 
 
 def _of_rows(cases: OfRows[RowCase], as_json: bool, to: Path | None, keep_going: bool) -> None:

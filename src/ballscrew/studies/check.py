@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ballscrew import units
 from ballscrew.cases import case_file, catalogue, descriptions, nut_tables
@@ -24,6 +24,9 @@ from ballscrew.studies.nut_state import NutState
 from ballscrew.studies.own_screws import tables_of_row
 from ballscrew.studies.run import Run, with_nut
 
+if TYPE_CHECKING:  # its solvers are slow to import, and seldom asked for
+    from ballscrew.studies.self_heating import SelfHeating
+
 #: Defaults of what neither row nor options give.
 GRADE, TEMPERATURE, SPEED, SHARE_OF_RATING = "ISO VG 100", "40 degC", "600 rpm", 0.1
 #: The fields of the ratings, by the names of the case file.
@@ -38,6 +41,7 @@ class Options(NamedTuple):
     model: str | None
     calibration: str | None = None
     allow_code: bool = False
+    self_heating: bool = False
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -53,6 +57,8 @@ class Checked:
     computed: Ratings | None
     checks: Sequence[Check]
     assumed: Sequence[str]
+    #: What self-heating did, where it was asked for; the case is then the warm one.
+    heating: SelfHeating | None = None
 
     @property
     def verdict(self) -> str:
@@ -140,7 +146,7 @@ def _of_case(path: Path, options: Options) -> Checked:
     tables = _put(tables, options)
     if notes and isinstance(tables["nut"], dict) and tables["nut"].get("type") != "single":
         tables["nut"].setdefault("preload", "0 N")
-    return checked(path.name, _built(tables, options, path.parent), notes)
+    return _warm(path.name, _built(tables, options, path.parent), notes, options)
 
 
 def _of_row(row: CatalogueRow, options: Options, case: tuple[dict[str, Any], Path, Path] | None = None) -> Checked:
@@ -152,7 +158,17 @@ def _of_row(row: CatalogueRow, options: Options, case: tuple[dict[str, Any], Pat
     tables = _put({**tables, **{name: tables.get(name, {}) for name in ("nut", "lubricant", "operation")}}, options)
     notes = _filled(tables, row)
     notes += [text for name, text in catalogue.assumed(row).items() if name != "loaded_turns"]
-    return checked(row.name, _built(tables, options, folder, rows={row.name: row}), notes)
+    return _warm(row.name, _built(tables, options, folder, rows={row.name: row}), notes, options)
+
+
+def _warm(name: str, case: Case, notes: Sequence[str], options: Options) -> Checked:
+    """The checks of a case, with self-heating where the options ask for it."""
+    if not options.self_heating:
+        return checked(name, case, notes)
+    from ballscrew.studies.self_heating import self_heating
+
+    heating = self_heating(case)
+    return dataclasses.replace(checked(name, heating.warm, notes), heating=heating)
 
 
 def _built(

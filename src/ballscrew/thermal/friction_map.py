@@ -17,14 +17,15 @@ from ballscrew.evaluation.evaluator import evaluator
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.motion.states import Numbers
 from ballscrew.quantities import Force, Power, Temperature
+from ballscrew.solvers.load_distribution import preload_of
 
 #: Temperatures of the oil that the map has, K; beyond them the answer has no meaning.
 COLDEST, HOTTEST = 258.15, 393.15
 #: Preload of the map over that of the nut as it was set.
 LARGEST_PRELOAD = 4.0
 _TEMPERATURES, _PRELOADS = 24, 13
-#: More points than this, and the model is compiled.
-WORTH_COMPILING = 20_000
+#: More balls than this in all points together, and the model is compiled.
+WORTH_COMPILING = 200_000
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -67,8 +68,9 @@ class FrictionMap(ByValue):
         return bool(inside and (self.preloads.size == 1 or preload <= self.preloads[-1]))
 
 
+@functools.lru_cache(maxsize=4)
 def friction_map(duty: Duty) -> FrictionMap:
-    """The map of a duty: its distinct states at every temperature and preload.
+    """The map of a duty: its distinct states at every temperature and preload; kept for the next surroundings.
 
     Raises :class:`~ballscrew.errors.InputError` for an element without an oil, and for an oil that has no temperature.
     """
@@ -85,7 +87,7 @@ def friction_map(duty: Duty) -> FrictionMap:
     weights = np.bincount(back.reshape(-1), weights=duty.states.weight[used], minlength=distinct.shape[1])
     load, speed = distinct
     temperatures = np.linspace(COLDEST, HOTTEST, _TEMPERATURES)
-    set_to = preload_of(driven)
+    set_to = float(preload_of(driven.screw, driven.screw.nut))
     inputs: dict[str, Any] = {"axial_load": load, "screw_speed": speed, "temperature": temperatures[:, None, None]}
     preloads = np.zeros(1)
     if set_to:
@@ -99,18 +101,10 @@ def friction_map(duty: Duty) -> FrictionMap:
 def _torque(driven: ModelledScrew, inputs: dict[str, Any]) -> Numbers:
     """Friction torque at all combinations of the inputs; compiled where there are many."""
     shape = np.broadcast_shapes(*(np.shape(values) for values in inputs.values()))
-    if np.prod(shape) > WORTH_COMPILING:
+    screw = driven.screw
+    balls = screw.nut.halves * int(screw.loaded_balls) if screw.nut.one_by_one else 1
+    if np.prod(shape) * balls > WORTH_COMPILING:
         ready = evaluator(driven.model, driven.screw, driven.lubricant, inputs=tuple(inputs), outputs=["screw_torque"])
         return ready(**inputs)["screw_torque"]
     every = {name: np.broadcast_to(values, shape) for name, values in inputs.items()}
     return Configuration(driven.model, driven.screw, driven.lubricant).at(every).screw_torque
-
-
-def preload_of(driven: ModelledScrew) -> Force:
-    """The preload of a nut as it was set, N; zero of a nut without."""
-    nut: Any = driven.screw.nut
-    given = getattr(nut, "preload", None)
-    if given is None and getattr(nut, "oversize", None) is not None:
-        unloaded = driven.model(driven.screw, driven.lubricant, axial_load=0.0, screw_speed=0.0)
-        given = unloaded.loads.remaining_preload
-    return 0.0 if given is None else float(given)

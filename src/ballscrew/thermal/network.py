@@ -11,22 +11,24 @@ import numpy as np
 
 from ballscrew._arrays import ByValue
 from ballscrew.axis.duty import Duty
-from ballscrew.axis.screw_friction import ModelledScrew
-from ballscrew.components.nut import Nut
+from ballscrew.components.nut import Nut, SingleNut
 from ballscrew.equations import geometry, heat, hertz
 from ballscrew.errors import Fault, InputError
 from ballscrew.friction.result import FrictionResult
 from ballscrew.motion.states import Numbers
 from ballscrew.quantities import Conductance, Force, Length, Power, Temperature
+from ballscrew.solvers.load_distribution import preload_of
 from ballscrew.thermal import surroundings as air
-from ballscrew.thermal.friction_map import FrictionMap, friction_map, preload_of
+from ballscrew.thermal.friction_map import COLDEST, HOTTEST, FrictionMap, friction_map
 from ballscrew.thermal.shaft import CAPACITY, CONDUCTIVITY, DENSITY, EXPANSION, Shaft
 from ballscrew.thermal.surroundings import Surroundings
 
 #: Gap between shaft and nut that the grease fills, over the ball diameter, and its conductivity: assumptions.
 GAP_SHARE, GREASE_CONDUCTIVITY = 0.1, 0.14
-#: Outer diameter of a nut over the nominal one, and its length beyond the loaded turns in leads: assumptions.
+#: Outer diameter of a nut over that of the pitch circle, and its length beyond the loaded turns in leads: assumptions.
 NUT_WALL, NUT_ENDS = 1.6, 2.0
+#: Zero of the scale in which people give temperatures, K.
+ZERO_CELSIUS = 273.15
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -51,11 +53,21 @@ class Network(ByValue):
     #: Approach of the groove pair of a ball at that preload, and per kelvin by which the shaft is warmer than the nut.
     approach_set: Length
     approach_per_kelvin: float
+    #: Places of the middle of the nut at the ends of its travel, m from the fixed bearing.
+    ends: tuple[Length, Length]
 
     @property
     def size(self) -> int:
         """Number of temperatures."""
         return self.shaft.cells + 3
+
+    @functools.cached_property
+    def standing(self) -> Network:
+        """The same while the axis stands: the shaft does not turn in the air, unless its convection is given."""
+        if self.surroundings.shaft_convection is not None:
+            return self
+        still = min(air.STILL, self.shaft.convection)
+        return dataclasses.replace(self, shaft=dataclasses.replace(self.shaft, convection=still))
 
     @functools.cached_property
     def capacity(self) -> Numbers:
@@ -154,19 +166,27 @@ def network_of(duty: Duty, surroundings: Surroundings, *, shaft_length: Length |
     """The network of a duty in its surroundings.
 
     Raises :class:`~ballscrew.errors.InputError` without a length of the shaft, for a motion that does not fit on it,
-    and as :func:`~ballscrew.thermal.friction_map.friction_map` does.
+    for an ambient temperature at which the oil is not known, and as
+    :func:`~ballscrew.thermal.friction_map.friction_map` does.
     """
-    friction = friction_map(duty)
-    driven: Any = duty.driven
-    assert isinstance(driven, ModelledScrew)
-    screw, oil = driven.screw, driven.lubricant
+    if not COLDEST <= surroundings.ambient <= HOTTEST:
+        known = " to ".join(f"{end - ZERO_CELSIUS:g} °C" for end in (COLDEST, HOTTEST))
+        given = f"{surroundings.ambient - ZERO_CELSIUS:.4g} °C"
+        remedy = f"the oil is known from {known}"
+        raise InputError(Fault("surroundings.ambient", "is not among the temperatures of the oil", given, remedy))
     length = surroundings.shaft_length if surroundings.shaft_length is not None else shaft_length
     if length is None:
-        remedy = "give {surroundings.shaft_length}, or the unsupported length of the installation"
+        remedy = 'give {surroundings.shaft_length}"1.2 m", or the unsupported length of the installation'
         raise InputError(Fault("surroundings.shaft_length", "missing", "", remedy))
+    friction = friction_map(duty)
+    driven: Any = duty.driven
+    screw, oil = driven.screw, driven.lubricant
     root = geometry.groove_root_diameter(
         screw.pitch_circle_diameter, screw.ball_diameter, screw.screw_conformity, screw.contact_angle
     )
+    if surroundings.bore >= root:
+        given = f"{surroundings.bore * 1e3:.4g} mm in a shaft of {float(root) * 1e3:.4g} mm"
+        raise InputError(Fault("surroundings.bore", "leaves no shaft", given, "give a smaller bore"))
     nut_length = float(screw.loaded_turns * screw.lead * screw.nut.halves + NUT_ENDS * screw.lead)
     mean_speed = duty.mean_speed
     h = surroundings.shaft_convection
@@ -179,7 +199,7 @@ def network_of(duty: Duty, surroundings: Surroundings, *, shaft_length: Length |
         diameter=float(root),
         bore=float(surroundings.bore),
         convection=float(h),
-        bore_convection=float(surroundings.coolant_convection) if surroundings.bore else 0.0,
+        bore_convection=0.0 if surroundings.coolant is None else float(surroundings.coolant_convection),
     )
     start = surroundings.first_position
     if start is None:
@@ -191,14 +211,15 @@ def network_of(duty: Duty, surroundings: Surroundings, *, shaft_length: Length |
         raise InputError(Fault("motion.stroke", "does not fit between the bearings", given, remedy))
     heated = duty.states.weight * np.abs(duty.screw_speed)
     heated = heated if np.any(heated) else duty.states.weight
-    result = driven.model(screw, oil, axial_load=0.0, screw_speed=max(mean_speed, 1e-3))
-    set_to = preload_of(driven)
+    set_to = float(preload_of(screw, screw.nut))
     loaded = set_to or max(float(np.max(np.abs(duty.axial_load))), 1.0)
-    at_load = result if set_to else driven.model(screw, oil, axial_load=loaded, screw_speed=max(mean_speed, 1e-3))
+    # the contacts of all nuts are alike: those of a row of balls that carries the preload, or else the largest load
+    row = dataclasses.replace(screw, nut=SingleNut())
+    at_load = driven.model(row, oil, axial_load=loaded, screw_speed=max(mean_speed, 1e-3))
     balls = surroundings.ball_conductance
     mass = surroundings.nut_mass
     if mass is None:
-        wall = math.pi / 4 * ((NUT_WALL * root) ** 2 - screw.pitch_circle_diameter**2)
+        wall = math.pi / 4 * (NUT_WALL**2 - 1) * screw.pitch_circle_diameter**2
         mass = DENSITY * float(wall) * nut_length
     return Network(
         shaft,
@@ -211,6 +232,7 @@ def network_of(duty: Duty, surroundings: Surroundings, *, shaft_length: Length |
         set_to,
         _approach(at_load),
         float(heat.thermal_approach(screw.contact_angle, EXPANSION, 1.0, screw.pitch_circle_diameter)),
+        (float(np.min(places)), float(np.max(places))),
     )
 
 

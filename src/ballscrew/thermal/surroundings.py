@@ -76,6 +76,17 @@ class Surroundings(ByValue):
             "x_0", "distance of the nut from the fixed bearing where its motion starts", "mm", at_least=0, hint="200 mm"
         ),
     ] = None
+    stroke: Annotated[
+        Length | None,
+        Info(
+            "s",
+            "way to and fro of a screw at one operating point",
+            "mm",
+            above=0,
+            hint="half the shaft where it is not given",
+            usual=(1e-5, 20.0),
+        ),
+    ] = None
     bore: Annotated[
         Length, Info("d_b", "diameter of a bore of the shaft", "mm", at_least=0, hint="0 mm for none", usual=(0, 0.3))
     ] = 0.0
@@ -129,10 +140,13 @@ class Surroundings(ByValue):
             "shaft_convection",
             "shaft_length",
             "first_position",
+            "stroke",
             "coolant",
             "stretch",
         )
         faults = faults_of("surroundings", self, optional=optional)
         if self.coolant is not None and not self.bore:
-            faults.append(Fault("surroundings.coolant", "has no bore to flow through", "", "give {surroundings.bore}"))
+            faults.append(
+                Fault("surroundings.coolant", "has no bore to flow through", "", 'give {surroundings.bore}"12 mm"')
+            )
         raise_if_any(faults)

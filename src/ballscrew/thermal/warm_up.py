@@ -25,6 +25,8 @@ from ballscrew.thermal.surroundings import Surroundings
 RTOL, ATOL = 1e-6, 1e-6
 #: Points of the powers among which an equilibrium is looked for.
 _POWERS = 400
+#: A share of a step that is rounding.
+_ROUNDING = 1e-9
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -114,7 +116,8 @@ def warm_up(
     """Temperatures over hours of a duty that starts with everything at the ambient temperature.
 
     The cycle is short against the hours: the nut heats the shaft where it is, as often as it is there. Then the axis
-    may stand for a time (``cool_down``). ``shaft_length`` is taken where the surroundings have none.
+    may stand for a time (``cool_down``), in still air unless the convection is given. ``shaft_length`` is taken where
+    the surroundings have none. The oil is as warm as nut and shaft make it, whatever temperatures a motion gives.
     Raises :class:`~ballscrew.errors.InputError` for times that are not positive, and as
     :func:`~ballscrew.thermal.network.network_of` does.
     """
@@ -128,7 +131,7 @@ def warm_up(
     works = np.ones(instants.size, dtype=bool)
     if cool_down and stopped is None:
         later = np.linspace(0.0, cool_down, max(2, round(outputs * cool_down / time)))
-        cooling, _ = _integrated(network, states[:, -1], later, works=False)
+        cooling, _ = _integrated(network.standing, states[:, -1], later, works=False)
         states = np.concatenate([states, cooling[:, 1:]], axis=1)
         instants = np.concatenate([instants, time + later[1:]])
         works = np.concatenate([works, np.zeros(later.size - 1, dtype=bool)])
@@ -231,8 +234,9 @@ class WarmUp(ByValue):
 
     @lazy
     def friction_power(self) -> Numbers:
-        """Mean friction power of the nut, W, also what it would be while the axis stands."""
-        return np.array([self.network.power(column) for column in self._temperatures.T])
+        """Mean friction power of the nut, W, also what it would be while the axis stands; NaN where it is not known."""
+        network, columns = self.network, self._temperatures.T
+        return np.array([network.power(column) if network.inside(column) else np.nan for column in columns])
 
     @lazy
     def screw_torque(self) -> Numbers:
@@ -272,9 +276,15 @@ class WarmUp(ByValue):
         return equilibrium(self.network)
 
     def compensation_table(self, step: Length = 0.05) -> tuple[Numbers, Numbers]:
-        """Places from the fixed bearing at even steps, and the growth there at the last instant of work, m."""
+        """Places from the fixed bearing at even steps and the end, and the growth there at the last instant of work, m.
+
+        Raises :class:`~ballscrew.errors.InputError` for a step that is not positive.
+        """
         shaft = self.network.shaft
-        places = np.arange(0.0, shaft.length + 0.5 * step, step)
+        if not step > 0:
+            raise InputError(Fault("warm_up.step", "must be positive", f"{step:g} m", "give 0.05 m"))
+        even = step * np.arange(math.floor(shaft.length / step + _ROUNDING) + 1)
+        places = even if shaft.length - even[-1] <= _ROUNDING * step else np.append(even, shaft.length)
         last = int(np.flatnonzero(self.works)[-1])
         growth = shaft.growth_at(self.shaft_temperature[last], self.network.surroundings.ambient, places)
         return places, growth
@@ -290,7 +300,8 @@ def _records(found: WarmUp) -> list[Record]:
     celsius = 273.15
     if end.exists:
         text = (
-            f"comes to rest at {end.nut_temperature - celsius:.1f} °C of the nut; gain of the loop {1 - end.margin:.2f}"
+            f"settles with the nut at {end.nut_temperature - celsius:.1f} °C; gain of the loop {1 - end.margin:z.2f}, "
+            "which runs away at 1"
         )
     else:
         text = "no equilibrium within the range of oil and preload: it runs away, or it gets too hot for the model"

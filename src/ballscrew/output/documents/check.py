@@ -9,6 +9,7 @@ from ballscrew.cases import case_file, nut_tables, provenance
 from ballscrew.cases.nut_kinds import LISTED, kind_of
 from ballscrew.components.screw import BallScrew
 from ballscrew.output.documents import run
+from ballscrew.output.documents.self_heating import with_self_heating
 from ballscrew.quantities import quantities_of
 from ballscrew.records import documents
 from ballscrew.sizing.checks import Check
@@ -17,6 +18,10 @@ from ballscrew.studies.check import RATINGS, Checked
 
 def document(found: Checked) -> dict[str, Any]:
     """The document of one screw, in SI."""
+    return with_self_heating(_document(found), found.heating)
+
+
+def _document(found: Checked) -> dict[str, Any]:
     case, lead_angle = found.case, quantities_of(BallScrew)["lead_angle"]
     root_diameter = nut_tables.root_diameter(case.screw, case.listed)
     return {

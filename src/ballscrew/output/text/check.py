@@ -64,6 +64,7 @@ def text(found: Checked) -> str:
             for name in ("screw_torque", "drive_torque", "efficiency", "back_driving_efficiency", "friction_power")
         ),
         _line("torque without load", shown_or_dash(found.nut.preload_drag, _RESULT["screw_torque"])),
+        *(f"  {record.text}" for record in ([] if found.heating is None else [found.heating.record])),
         *(f"  {record.text}" for record in found.run.verdicts),
         "",
         "Stiffness",

@@ -1,0 +1,170 @@
+"""How fast a screw warms up: transients of a preloaded nut, against the model itself as right-hand side, in one run.
+
+``python benchmarks/warm_up.py`` prints a table, ``--json`` one object; ``--many 1000`` runs that many surroundings
+instead of 50, ``--processes 2`` on two processors. The nut is a double one of the catalogue with 3.5 kN, the duty to
+and fro at 1000 rpm over half a metre, four hours.
+
+- ``first``: the first transient of a duty, with the map of its friction.
+- ``transient``: the next ones, with other surroundings.
+- ``steady``: the steady state alone.
+- ``many``: transients for a band, in all and extrapolated to a thousand.
+- ``plain``: the same four hours with the model called at every right-hand side; temperatures of both are compared.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import json
+import math
+import statistics
+import time
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from typing import Any
+
+import numpy as np
+
+import ballscrew as bs
+from ballscrew.axis.duty import Duty
+from ballscrew.thermal.friction_map import friction_map
+from ballscrew.thermal.network import Network
+from ballscrew.thermal.warm_up import WarmUp, warm_up
+
+PRELOAD, RPM, STROKE, START = 3500.0, 1000.0, 0.5, 293.15
+AIR = bs.Surroundings(shaft_length=1.2, ambient=START)
+MODEL = bs.FrictionModel.reference()
+SCREW = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=bs.DoubleNut(preload=PRELOAD))
+OIL = bs.Lubricant.from_grade("ISO VG 100", START)
+#: Seconds of the transient.
+HOURS = 4 * 3600.0
+
+
+def duty() -> Duty:
+    """To and fro without a load."""
+    return bs.to_and_fro(MODEL, SCREW, OIL, axial_load=0.0, screw_speed=RPM * math.tau / 60, stroke=STROKE)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Plain(Network):
+    """The network, with the model in place of the map."""
+
+    of: Any = None
+    calls: list[int] = dataclasses.field(default_factory=lambda: [0])
+
+    def power(self, temperatures: Any) -> float:
+        """Mean friction power of the nut, W, by a call of the model."""
+        self.calls[0] += 1
+        screw = dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=float(self.preload(self.of_excess @ temperatures))))
+        oil = OIL.at(float(self.of_oil @ temperatures))
+        speed = RPM * math.tau / 60
+        found = MODEL(screw, oil, axial_load=0.0, screw_speed=np.array([speed, -speed]))
+        return float(np.mean(found.screw_torque)) * speed
+
+
+def plain(network: Network, seconds: float) -> tuple[float, int, float]:
+    """Time of the plain way, its calls, and the temperature of the nut at the end."""
+    from ballscrew.thermal import warm_up as module
+
+    fields = {field.name: getattr(network, field.name) for field in dataclasses.fields(Network)}
+    own = Plain(**fields)
+    start = np.full(own.size, START)
+    before = time.perf_counter()
+    states, _ = module._integrated(own, start, np.array([0.0, seconds]), works=True)
+    return time.perf_counter() - before, own.calls[0], float(states[own.size - 3, -1])
+
+
+def transient(surroundings: bs.Surroundings) -> WarmUp:
+    """Four hours, with everything that is shown of them."""
+    found = warm_up(duty(), surroundings)
+    assert np.isfinite(found.screw_torque).all() or found.stopped is not None
+    assert found.shaft_growth.shape == found.preload.shape
+    return found
+
+
+def drawn(number: int) -> list[bs.Surroundings]:
+    """Other surroundings: what is the least known, within its factors."""
+    draw = np.random.default_rng(1)
+    return [
+        dataclasses.replace(
+            AIR,
+            ball_conductance=4.6 * 3 ** draw.uniform(-1, 1),
+            shaft_convection=34.0 * 2 ** draw.uniform(-1, 1),
+            nut_conductance=10.0 * 2 ** draw.uniform(-1, 1),
+            shaft_share=draw.uniform(0.3, 0.7),
+        )
+        for _ in range(number)
+    ]
+
+
+def _end(surroundings: bs.Surroundings) -> float:
+    return float(transient(surroundings).nut_temperature[-1])
+
+
+def timed(work: Callable[[], Any], rounds: int) -> float:
+    """Median time of some rounds, s."""
+    times: list[float] = []
+    for _ in range(rounds):
+        before = time.perf_counter()
+        work()
+        times.append(time.perf_counter() - before)
+    return statistics.median(times)
+
+
+def measured(many: int, processes: int, rounds: int) -> dict[str, float]:
+    """All times in seconds, and ratios."""
+    MODEL(SCREW, OIL, axial_load=0.0, screw_speed=1.0)  # imports and tables that every use of the model pays once
+    found: dict[str, float] = {"first": timed(lambda: transient(AIR), 1)}
+    found["transient"] = timed(lambda: transient(AIR), rounds)
+    found["map"] = timed(lambda: friction_map.__wrapped__(duty()), rounds)
+    found["steady"] = timed(lambda: bs.steady_heat(duty(), AIR), rounds)
+    surroundings = drawn(many)
+    before = time.perf_counter()
+    if processes > 1:
+        with ProcessPoolExecutor(processes) as pool:
+            ends = list(pool.map(_end, surroundings, chunksize=max(1, many // (4 * processes))))
+    else:
+        ends = [_end(one) for one in surroundings]
+    found["many"] = time.perf_counter() - before
+    found["many_number"] = len(ends)
+    found["thousand"] = 1000 * found["many"] / len(ends)
+    network = warm_up(duty(), AIR, time=HOURS, outputs=2).network
+    short = timed(lambda: warm_up(duty(), AIR, time=HOURS, outputs=2), rounds)
+    took, calls, temperature = plain(network, HOURS)
+    nut = float(warm_up(duty(), AIR, time=HOURS, outputs=2).nut_temperature[-1])
+    return found | {
+        "plain": took,
+        "plain_calls": calls,
+        "plain_over_ours": took / short,
+        "difference": abs(temperature - nut),
+    }
+
+
+def main() -> None:
+    """Print times and ratios."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--many", type=int, default=50)
+    parser.add_argument("--processes", type=int, default=1)
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--json", action="store_true")
+    given = parser.parse_args()
+    found = measured(given.many, given.processes, given.rounds)
+    if given.json:
+        print(json.dumps(found, indent=2))
+        return
+    print(f"first transient of a duty, 4 h        {found['first']:.3f} s (asked: 0.3 s after it)")
+    print(f"next transients, median               {found['transient']:.3f} s, without the map of {found['map']:.3f} s")
+    print(f"steady state alone                    {found['steady']:.3f} s")
+    print(
+        f"{found['many_number']:.0f} other surroundings                 {found['many']:.1f} s on {given.processes} "
+        f"processors: {found['thousand']:.0f} s a thousand (asked: 180 s on two)"
+    )
+    print(
+        f"model itself as right-hand side       {found['plain']:.2f} s for the same, "
+        f"{found['plain_calls']:.0f} calls: {found['plain_over_ours']:.0f} times as long; temperatures differ by "
+        f"{found['difference']:.1g} K"
+    )
+
+
+if __name__ == "__main__":
+    main()

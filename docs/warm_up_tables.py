@@ -1,0 +1,169 @@
+"""What warms up and by how much: the coupled table with the real nut, its bands, and what a cooled nut does.
+
+``python docs/warm_up_tables.py`` prints all tables; it takes a minute. The screw is that of the shipped row
+``rexroth-40x10x6-6-double`` with a preload of 3.5 kN, ISO VG 100, to and fro over half a metre of a shaft of 1.2 m
+without a load, in air of 20 °C. Columns take effects in one after the other:
+
+- *nothing*: the friction of the start, for ever.
+- *oil*: the oil becomes thinner, the preload stays.
+- *oil and preload*: both, which is what ``ballscrew warm-up`` computes.
+- *cooled nut*: the same, with 80 W/K from the nut to its surroundings in place of 10 W/K.
+
+*None* is where there is no steady state with the oil below 120 °C and the preload below four times that set.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+import ballscrew as bs
+from ballscrew.axis.duty import Duty
+from ballscrew.thermal.friction_map import FrictionMap
+from ballscrew.thermal.network import Network, network_of
+from ballscrew.thermal.surroundings import Surroundings
+from ballscrew.thermal.warm_up import equilibrium
+
+SPEEDS, PRELOAD, STROKE = (500, 1500, 3000), 3500.0, 0.5
+#: From the nut to its surroundings, W/K: bolted to a table, and on a cooled plate.
+BOLTED, COOLED = 10.0, 80.0
+AIR = Surroundings(shaft_length=1.2, nut_conductance=BOLTED)
+VARIANTS = ("nothing", "oil", "oil and preload", "cooled nut")
+#: The band: samples, seed, and the largest factor either way of what is the least known.
+SAMPLES, SEED = 200, 20
+FACTORS = {"ball_conductance": 3.0, "shaft_convection": 2.0, "nut_conductance": 2.0}
+SHARE = (0.3, 0.7)
+LEVEL = 0.95
+
+
+def duty(rpm: float) -> Duty:
+    """To and fro without a load."""
+    screw = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=bs.DoubleNut(preload=PRELOAD))
+    oil = bs.Lubricant.from_grade("ISO VG 100", AIR.ambient)
+    speed = rpm * math.tau / 60
+    return bs.to_and_fro(bs.FrictionModel.reference(), screw, oil, axial_load=0.0, screw_speed=speed, stroke=STROKE)
+
+
+def network(rpm: float, variant: str = VARIANTS[2], **changes: float) -> Network:
+    """The network of a duty, with effects left out as the variant says."""
+    if variant == "cooled nut":
+        changes = {"nut_conductance": COOLED, **changes}
+    found = network_of(duty(rpm), dataclasses.replace(AIR, **changes))
+    if variant in VARIANTS[:2]:
+        found = dataclasses.replace(found, approach_per_kelvin=0.0)
+    if variant == "nothing":
+        start = found.friction.at(float(AIR.ambient), PRELOAD)
+        temperatures = found.friction.temperatures
+        friction = FrictionMap(temperatures, np.zeros(1), np.full((temperatures.size, 1), start))
+        found = dataclasses.replace(found, friction=friction)
+    return found
+
+
+def results(found: Network, rpm: float) -> dict[str, float]:
+    """Numbers of the steady state; NaN where there is none."""
+    end = equilibrium(found)
+    return {
+        "nut": end.nut_temperature - 273.15,
+        "excess": float(found.of_excess @ end.temperatures),
+        "growth": 1e6 * end.growth,
+        "preload": end.preload,
+        "torque": end.power / (rpm * math.tau / 60),
+        "margin": end.margin,
+    }
+
+
+def samples(rpm: float, variant: str) -> Iterator[dict[str, float]]:
+    """Numbers of the steady state, with what is the least known drawn within its factors."""
+    draw = np.random.default_rng(SEED)
+    middle = network(rpm, variant)
+    usual = {
+        "ball_conductance": middle.ball_conductance,
+        "shaft_convection": middle.shaft.convection,
+        "nut_conductance": float(middle.surroundings.nut_conductance),
+    }
+    for _ in range(SAMPLES):
+        drawn = {name: usual[name] * factor ** draw.uniform(-1, 1) for name, factor in FACTORS.items()}
+        yield results(network(rpm, variant, shaft_share=draw.uniform(*SHARE), **drawn), rpm)
+
+
+def band(found: list[dict[str, float]], name: str) -> tuple[float, float]:
+    """Ends of the band of those samples that have a steady state."""
+    low, high = np.nanquantile([one[name] for one in found], [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
+    return float(low), float(high)
+
+
+def table_of_effects() -> str:
+    """The coupled table: nut, growth, preload and torque by what is taken in."""
+    lines = ["| speed | " + " | ".join(VARIANTS) + " |", "|---|" + "---:|" * len(VARIANTS)]
+    for rpm in SPEEDS:
+        lines.append(f"| {rpm} rpm | " + " | ".join(_cell(results(network(rpm, v), rpm)) for v in VARIANTS) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def _cell(one: dict[str, float]) -> str:
+    if math.isnan(one["nut"]):
+        return f"none, margin {one['margin']:.2f}"
+    return f"{one['nut']:.1f} °C, {one['growth']:.0f} µm, {one['preload']:.0f} N, {one['torque']:.2f} N m"
+
+
+def table_of_bands() -> str:
+    """Bands of the coupled numbers, and the share of samples without a steady state."""
+    lines = [
+        "| speed | nut | nut | growth | preload | torque | none |",
+        "|---|---|---:|---:|---:|---:|---:|",
+    ]
+    for rpm in SPEEDS:
+        for variant in VARIANTS[2:]:
+            found = list(samples(rpm, variant))
+            away = np.mean([math.isnan(one["nut"]) for one in found])
+            cells = [
+                f"{low:.{digits}f} to {high:.{digits}f} {unit}"
+                for name, unit, digits in (
+                    ("nut", "°C", 0),
+                    ("growth", "µm", 0),
+                    ("preload", "N", 0),
+                    ("torque", "N m", 2),
+                )
+                for low, high in [band(found, name)]
+            ]
+            kind = "bolted" if variant == VARIANTS[2] else "cooled"
+            lines.append(f"| {rpm} rpm | {kind} | " + " | ".join(cells) + f" | {away:.0%} |")
+    return "\n".join(lines) + "\n"
+
+
+def table_of_cooling() -> str:
+    """What the cooling of the nut alone does, for a weak and a strong contact with the shaft."""
+    lines = [
+        "| speed | from the nut | preload, middle | preload, balls × 3 | preload, balls / 3 |",
+        "|---|---|---:|---:|---:|",
+    ]
+    for rpm in SPEEDS:
+        middle = network(rpm).ball_conductance
+        for cooling in (2.0, BOLTED, 40.0, COOLED):
+            cells: list[str] = []
+            for factor in (1.0, 3.0, 1 / 3):
+                one = results(network(rpm, nut_conductance=cooling, ball_conductance=factor * middle), rpm)
+                cells.append("none" if math.isnan(one["nut"]) else f"{one['preload']:.0f} N")
+            lines.append(f"| {rpm} rpm | {cooling:g} W/K | " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def tables() -> dict[str, str]:
+    """All tables by their names."""
+    return {"effects": table_of_effects(), "bands": table_of_bands(), "cooling": table_of_cooling()}
+
+
+def write(folder: Path) -> None:
+    """All tables as Markdown."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, table in tables().items():
+        (folder / f"{name}.md").write_text(table, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    for name, table in tables().items():
+        print(f"{name}\n\n{table}")

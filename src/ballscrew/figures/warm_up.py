@@ -1,0 +1,110 @@
+"""Warming up: the shaft over place and time, temperatures, growth, torque and preload over time."""
+
+from __future__ import annotations
+
+import textwrap
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ballscrew import units
+from ballscrew.figures import style
+from ballscrew.output.text import warm_up as text
+from ballscrew.studies import warm_up_records
+from ballscrew.studies.warm_up import PLACE, SERIES, WarmUpReport
+
+_TITLE_CHARACTERS, _LABEL_SIZE, _LEVELS = 100, 8.0, 12
+
+
+def picture(report: WarmUpReport) -> Figure:
+    """All panels; call within the house style."""
+    figure, panels = style.new_figure(caption(report), rows=3, height=2.7)
+    figure.suptitle(
+        "\n".join(textwrap.wrap(text.title(report), _TITLE_CHARACTERS)),
+        x=0.012, ha="left", fontsize=11, fontweight="bold",
+    )  # fmt: skip
+    _shaft(figure, panels[0], report)
+    _temperatures(panels[1], report)
+    _drift(panels[2], report)
+    held = report.warm_up.network.preload_set
+    _over_time(panels[3], report, "preload" if held else "friction_power", style.PURPLE)
+    _over_time(panels[4], report, "screw_torque", style.RED)
+    _compensation(panels[5], report)
+    return figure
+
+
+def caption(report: WarmUpReport) -> str:
+    """The verdicts, and what the panels show."""
+    said = ". ".join(record.text for record in warm_up_records.verdicts(report))
+    return f"{said}. Dashed: the steady state. While the axis stands, the torque is that of a move just then."
+
+
+def _hours(report: WarmUpReport) -> np.ndarray:
+    return np.asarray(units.from_si(report.warm_up.time, SERIES["time"]), dtype=float)
+
+
+def _shaft(figure: Figure, panel: Axes, report: WarmUpReport) -> None:
+    quantity = SERIES["shaft_temperature"]
+    shown = np.asarray(units.from_si(report.warm_up.shaft_temperature, quantity), dtype=float)
+    places = np.asarray(units.from_si(report.warm_up.places, PLACE), dtype=float)
+    drawn = panel.contourf(_hours(report), places, shown.T, levels=_LEVELS, cmap="inferno")
+    panel.grid(visible=False)
+    for end in report.warm_up.network.ends:
+        panel.axhline(float(units.from_si(end, PLACE)), color="white", linewidth=0.8, linestyle=":")
+    bar = figure.colorbar(drawn, ax=panel)
+    bar.ax.tick_params(labelsize=_LABEL_SIZE)
+    panel.set(
+        xlabel="time [h]", ylabel=f"place [{PLACE.shown_in}]", title=f"shaft [{_label(quantity)}]; dotted: the stroke"
+    )
+
+
+def _label(quantity: object) -> str:
+    return units.label(quantity).replace("degC", "°C")  # pyright: ignore[reportArgumentType]
+
+
+def _temperatures(panel: Axes, report: WarmUpReport) -> None:
+    colours = {"nut_temperature": style.RED, "oil_temperature": style.ORANGE, "shaft_temperature": style.BLUE,
+               "first_bearing_temperature": style.GREY}  # fmt: skip
+    end = report.equilibrium
+    for name, colour in colours.items():
+        quantity = SERIES[name]
+        panel.plot(_hours(report), units.from_si(report.series[name], quantity), color=colour,
+                   label=quantity.info.meaning.replace("temperature of the ", ""))  # fmt: skip
+        if name in end and np.isfinite(end[name]):
+            panel.axhline(float(units.from_si(end[name], quantity)), color=colour, linewidth=0.8, linestyle="--")
+    panel.set(xlabel="time [h]", ylabel="[°C]", title="temperatures")
+    panel.legend(fontsize=_LABEL_SIZE)
+
+
+def _drift(panel: Axes, report: WarmUpReport) -> None:
+    quantity = SERIES["shaft_growth"]
+    places, growth = report.drift
+    for place, values, colour in zip(places, growth.T, (style.GREEN, style.ORANGE, style.PURPLE), strict=True):
+        panel.plot(_hours(report), units.from_si(values, quantity), color=colour,
+                   label=f"at {units.shown(float(place), PLACE)}")  # fmt: skip
+    whole = units.from_si(report.series["shaft_growth"], quantity)
+    panel.plot(_hours(report), whole, color=style.INK, linestyle=":", label="whole shaft")
+    panel.set(xlabel="time [h]", ylabel=f"[{units.label(quantity)}]", title="growth at ends and middle of the stroke")
+    panel.legend(fontsize=_LABEL_SIZE)
+
+
+def _over_time(panel: Axes, report: WarmUpReport, name: str, colour: str) -> None:
+    quantity, works = SERIES[name], np.asarray(report.warm_up.works)
+    values = np.asarray(units.from_si(report.series[name], quantity), dtype=float)
+    panel.plot(_hours(report), values, color=colour, alpha=0.4, linestyle=":")
+    panel.plot(_hours(report)[works], values[works], color=colour)
+    end = report.equilibrium["power" if name == "friction_power" else name]
+    if np.isfinite(end):
+        panel.axhline(float(units.from_si(end, quantity)), color=style.GREY, linewidth=0.8, linestyle="--")
+    panel.set(xlabel="time [h]", ylabel=f"[{units.label(quantity)}]", title=quantity.info.meaning)
+
+
+def _compensation(panel: Axes, report: WarmUpReport) -> None:
+    places, growth = report.compensation
+    quantity = SERIES["shaft_growth"]
+    panel.plot(units.from_si(places, PLACE), units.from_si(growth, quantity), "o-", color=style.INK, markersize=3)
+    panel.set(
+        xlabel=f"place [{PLACE.shown_in}]", ylabel=f"growth [{units.label(quantity)}]",
+        title="compensation at the end of work",
+    )  # fmt: skip

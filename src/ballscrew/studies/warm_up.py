@@ -1,0 +1,226 @@
+"""Warming up of a case: temperatures, growth, preload and torque over hours of its motion or operating point."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ballscrew import units
+from ballscrew._arrays import lazy
+from ballscrew.axis import duty as axis_duty
+from ballscrew.axis.duty import Duty
+from ballscrew.axis.to_and_fro import to_and_fro
+from ballscrew.cases import case_file
+from ballscrew.cases.case import Case
+from ballscrew.components.materials import Lubricant
+from ballscrew.errors import Fault, InputError
+from ballscrew.motion.states import Numbers
+from ballscrew.overflow import overflow_as_input_error
+from ballscrew.quantities import Info, Length, Quantity, fields_of
+from ballscrew.thermal.network import GAP_SHARE, GREASE_CONDUCTIVITY, NUT_WALL
+from ballscrew.thermal.surroundings import Surroundings
+from ballscrew.thermal.warm_up import WarmUp, warm_up
+
+HOUR = 3600.0
+#: The stroke of one operating point over the shaft between its bearings.
+SHARE_OF_SHAFT = 0.5
+#: The shaft of an operating point where nothing tells a length, m.
+LENGTH = 1.0
+#: Distance of the places of a compensation table, m.
+STEP = 0.05
+_OF, _VISCOSITY = fields_of(Surroundings), fields_of(Lubricant)["viscosity"]
+
+
+def _quantity(name: str, unit: str, symbol: str, meaning: str, shown_in: str = "") -> Quantity:
+    return Quantity(name, unit, Info(symbol, meaning, shown_in))
+
+
+#: What is known at each instant.
+SERIES: Mapping[str, Quantity] = {
+    quantity.name: quantity
+    for quantity in (
+        _quantity("time", "s", "t", "time", "h"),
+        _quantity("nut_temperature", "K", "T_n", "temperature of the nut", "degC"),
+        _quantity("oil_temperature", "K", "T_o", "temperature of the oil", "degC"),
+        _quantity("shaft_temperature", "K", "T_s", "mean temperature of the shaft", "degC"),
+        _quantity("first_bearing_temperature", "K", "T_1", "temperature of the fixed bearing", "degC"),
+        _quantity("last_bearing_temperature", "K", "T_2", "temperature of the other bearing", "degC"),
+        _quantity("shaft_growth", "m", r"\Delta L", "growth of the shaft between its bearings", "um"),
+        _quantity("preload", "N", "F_{pr}", "preload"),
+        _quantity("screw_torque", "N m", "M", "mean friction torque of the screw"),
+        _quantity("friction_power", "W", "P", "mean friction power of the nut"),
+        _quantity("heat_generated", "J", "Q", "heat of friction", "kJ"),
+        _quantity("heat_stored", "J", r"\Delta U", "heat stored", "kJ"),
+        _quantity("heat_lost", "J", "Q_a", "heat lost to the surroundings", "kJ"),
+    )
+}
+#: The steady state.
+EQUILIBRIUM: Mapping[str, Quantity] = {
+    **{
+        name: SERIES[name]
+        for name in ("nut_temperature", "oil_temperature", "shaft_temperature", "preload", "screw_torque")
+    },
+    "growth": SERIES["shaft_growth"],
+    "power": SERIES["friction_power"],
+}
+#: Places on the shaft.
+PLACE = _quantity("place", "m", "x", "distance from the fixed bearing", "mm")
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class WarmUpReport:
+    """A case that warms up."""
+
+    case: Case
+    surroundings: Surroundings
+    warm_up: WarmUp
+    #: The stroke of the operating point, m; None where the case has a motion.
+    stroke: Length | None
+
+    @property
+    def duty(self) -> Duty:
+        """The cycle that makes the heat."""
+        return self.warm_up.duty
+
+    @property
+    def at_start(self) -> float:
+        """Mean friction torque of the screw at the start, N m."""
+        return float(self.warm_up.screw_torque[0])
+
+    @property
+    def last_at_work(self) -> int:
+        """Index of the last instant of work."""
+        return int(np.flatnonzero(self.warm_up.works)[-1])
+
+    @property
+    def length_is_assumed(self) -> bool:
+        """True where no table tells how long the shaft is."""
+        return self.surroundings.shaft_length is None and self.case.installation is None
+
+    @lazy
+    def series(self) -> Mapping[str, Numbers]:
+        """Numbers over time in SI, as :data:`SERIES` has them."""
+        found = self.warm_up
+        first, last = found.bearing_temperatures
+        known = {
+            "shaft_temperature": np.mean(found.shaft_temperature, axis=1),
+            "first_bearing_temperature": first,
+            "last_bearing_temperature": last,
+            **{f"heat_{name}": values for name, values in found.heat.items()},
+        }
+        return {name: known[name] if name in known else getattr(found, name) for name in SERIES}
+
+    @lazy
+    def equilibrium(self) -> Mapping[str, float]:
+        """Numbers of the steady state in SI, as :data:`EQUILIBRIUM` has them; NaN where there is none."""
+        end, speed = self.warm_up.equilibrium, self.duty.mean_speed
+        torque = end.power / speed if speed else float("nan")
+        return {name: torque if name == "screw_torque" else float(getattr(end, name)) for name in EQUILIBRIUM}
+
+    @lazy
+    def drift(self) -> tuple[Numbers, Numbers]:
+        """Places of the two ends of the stroke and of its middle, m, and growth there: instants by places."""
+        ends = self.warm_up.network.ends
+        places = np.array([ends[0], (ends[0] + ends[1]) / 2, ends[1]])
+        return places, self.warm_up.growth_at(places)
+
+    @lazy
+    def compensation(self) -> tuple[Numbers, Numbers]:
+        """Places on the shaft and the growth there at the last instant of work, m."""
+        return self.warm_up.compensation_table(min(STEP, self.warm_up.network.shaft.length / 4))
+
+    @property
+    def assumed(self) -> Sequence[str]:
+        """Numbers that the case does not give, and what stands in for them."""
+        given, network = self.surroundings, self.warm_up.network
+        found: list[str] = []
+
+        def shown(name: str, value: Any) -> str:
+            return units.shown(value, _OF[name])
+
+        if given.ball_conductance is None:
+            found.append(
+                f"{shown('ball_conductance', network.ball_conductance)} from nut to shaft: balls at rest and grease of "
+                f"{GREASE_CONDUCTIVITY:g} W/(m K) in a gap of {GAP_SHARE:g} ball diameters; "
+                "a factor of three either way is possible"
+            )
+        if given.shaft_convection is None:
+            found.append(
+                f"{shown('shaft_convection', network.shaft.convection)} from the shaft to the air by the mean speed, "
+                "a recalled formula; a factor of two either way is possible"
+            )
+        if given.nut_mass is None:
+            found.append(f"nut of {shown('nut_mass', network.nut_mass)}: {NUT_WALL:g} times as wide as the screw")
+        if given.shaft_length is None:
+            source = "the length of [installation]" if not self.length_is_assumed else "not given, an assumption"
+            found.append(f"shaft of {shown('shaft_length', network.shaft.length)}: {source}")
+        if self.stroke is not None and given.stroke is None:
+            found.append(
+                f"to and fro over {units.shown(self.stroke, PLACE)}, half the shaft, under the load of the case"
+            )
+        if not self.duty.axis.bearing_torque:
+            found.append("no heat of the support bearings: their friction is not given (axis.bearing_torque)")
+        defaults = {field.name: field.default for field in dataclasses.fields(Surroundings)}
+        found += [
+            f"{_OF[name].info.meaning} {shown(name, defaults[name])}: the default"
+            for name in ("ambient", "nut_conductance", "shaft_share", "bearing_conductance", "bearing_mass")
+            if getattr(given, name) == defaults[name]
+        ]
+        return found
+
+
+def load(path: str | Path, settings: Sequence[str], model: str | None, *, allow_code: bool = False) -> Case:
+    """The case of a file; its motion counts where it has one, or else its operating point."""
+    tables = case_file.override(case_file.read(path), settings)
+    moves = "motion" in tables or "axis" in tables
+    return case_file.build(tables, model, Path(path).parent, allow_code=allow_code, moves=moves)
+
+
+def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None]:
+    """The cycle that heats a case, and the stroke where it is of one operating point."""
+    if case.efficiency is not None:
+        problem = "knows no oil, so that nothing changes as it warms up"
+        raise InputError(Fault("model.name", problem, "constant-efficiency", "take a model"))
+    if case.lubricant.temperature is None:
+        problem = "has no temperature: its viscosity would be the same for ever"
+        remedy = 'write grade = "ISO VG 100", or both viscosities of the data sheet, in its place'
+        raise InputError(
+            Fault("lubricant.viscosity", problem, units.shown(case.lubricant.viscosity, _VISCOSITY), remedy)
+        )
+    if case.motion is not None and case.axis is not None:
+        return axis_duty.duty(case.model, case.screw, case.lubricant, axis=case.axis, motion=case.motion), None
+    length = length_of(case, surroundings)
+    stroke = SHARE_OF_SHAFT * length if surroundings.stroke is None else float(surroundings.stroke)
+    point = case.operation
+    duty = to_and_fro(
+        case.model, case.screw, case.lubricant, axial_load=float(point.axial_load),
+        screw_speed=float(point.screw_speed), stroke=stroke,
+    )  # fmt: skip
+    return duty, stroke
+
+
+def length_of(case: Case, surroundings: Surroundings) -> Length:
+    """The shaft between its bearings: of the surroundings, of the installation, or else twice the stroke."""
+    if surroundings.shaft_length is not None:
+        return float(surroundings.shaft_length)
+    if case.installation is not None:
+        return float(case.installation.unsupported_length)
+    stroke = surroundings.stroke
+    if case.motion is not None and case.axis is not None:
+        stroke = case.motion.states().stroke
+    return LENGTH if not stroke else float(stroke) / SHARE_OF_SHAFT
+
+
+@overflow_as_input_error()
+def warmed_up(case: Case, hours: float = 4.0, cool_down: float = 0.0) -> WarmUpReport:
+    """The warming up of a case for some hours, and its cooling down for some more."""
+    surroundings = case.surroundings or Surroundings()
+    duty, stroke = duty_of(case, surroundings)
+    found = warm_up(
+        duty, surroundings, time=hours * HOUR, cool_down=cool_down * HOUR, shaft_length=length_of(case, surroundings)
+    )
+    return WarmUpReport(case, surroundings, found, stroke)

@@ -1,0 +1,270 @@
+"""``ballscrew warm-up`` and ``--self-heating``: words, JSON, tables and picture; what is refused, and how."""
+
+import csv
+import json
+import math
+
+import numpy as np
+import pytest
+
+from ballscrew.errors import InputError
+from ballscrew.output.documents.warm_up import document as document_of
+from ballscrew.output.json_text import plain
+from ballscrew.output.text.warm_up import text
+from ballscrew.studies.self_heating import self_heating
+from ballscrew.studies.warm_up import SERIES, load, warmed_up
+from ballscrew.table_files import warm_up_tables
+from support.commands import ROOT
+
+EXAMPLE = ROOT / "examples" / "warm_up.toml"
+#: A single nut at one operating point; without a nut the model answers the quickest.
+POINT = """
+[screw]
+pitch_circle_diameter = "40 mm"
+lead = "10 mm"
+ball_diameter = "6 mm"
+loaded_balls = 60
+contact_angle = "45 deg"
+screw_conformity = 0.54
+nut_conformity = 0.54
+[lubricant]
+grade = "ISO VG 100"
+temperature = "30 degC"
+[operation]
+axial_load = "4 kN"
+screw_speed = "1000 rpm"
+[surroundings]
+shaft_length = "1 m"
+"""
+DOUBLE = '[nut]\ntype = "double"\npreload = "3 kN"\n'
+
+
+@pytest.fixture
+def case(tmp_path):
+    """The case of a text."""
+
+    def of(written, *settings):
+        path = tmp_path / "case.toml"
+        path.write_text(written, encoding="utf-8")
+        return load(path, settings, None)
+
+    return of
+
+
+def records(document, kind):
+    return {record["id"]: record for record in document[kind]}
+
+
+def test_example_in_all_forms(ballscrew, tmp_path):
+    """The cycle of the example, four hours warm and one cool: face of the issue, tables and picture."""
+    done = ballscrew("warm-up", EXAMPLE, "--hours", "4", "--cool-down", "1", "--json", "--to", "all")
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout, parse_constant=lambda constant: pytest.fail(f"{constant} in JSON"))
+    assert {"inputs", "results", "units", "assumed", "warnings", "verdicts", "checks", "provenance"} == set(found)
+    results, instants = found["results"], len(found["results"]["time"])
+    for name in ("nut_temperature", "shaft_growth", "preload", "screw_torque", "works"):
+        assert len(results[name]) == instants
+    assert results["time"][-1] == 5 * 3600
+    end, heat = results["equilibrium"], results["heat"]
+    assert end["exists"] is True
+    assert end["margin"] > 0
+    assert heat["generated"] == pytest.approx(heat["stored"] + heat["lost"], rel=1e-8)
+    last = max(i for i, works in enumerate(results["works"]) if works)
+    assert results["time"][last] == 4 * 3600
+    assert results["nut_temperature"][last] == pytest.approx(end["nut_temperature"], abs=1e-3)
+    assert results["preload"][last] > results["preload"][0] == pytest.approx(3500.0)
+    assert results["drift"]["place"] == pytest.approx([0.2, 0.6, 1.0])
+    assert results["drift"]["growth"][last] == sorted(results["drift"]["growth"][last])
+    assert results["compensation"]["growth"][-1] == pytest.approx(results["shaft_growth"][last], rel=1e-12)
+    assert found["inputs"]["surroundings"]["shaft_length"] == 1.2
+
+    assert {path.name for path in (tmp_path / "all").iterdir()} == {
+        "warm_up.csv", "warm_up.xlsx", "compensation.csv", "warm_up.png",
+    }  # fmt: skip
+    with (tmp_path / "all" / "compensation.csv").open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    assert list(rows[0]) == ["place [mm]", "growth [um]"]
+    assert [float(row["growth [um]"]) for row in rows] == pytest.approx(
+        [1e6 * value for value in results["compensation"]["growth"]], rel=1e-9, abs=1e-9
+    )
+    with (tmp_path / "all" / "warm_up.csv").open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    assert len(rows) == instants
+    assert float(rows[last]["temperature of the nut [degC]"]) == pytest.approx(
+        end["nut_temperature"] - 273.15, abs=1e-3
+    )
+    assert (tmp_path / "all" / "warm_up.png").read_bytes().startswith(b"\x89PNG")
+    assert (tmp_path / "all" / "warm_up.xlsx").read_bytes().startswith(b"PK")
+
+
+def test_an_operating_point_goes_to_and_fro(case):
+    report = warmed_up(case(POINT), hours=0.5)
+    written = plain(document_of(report))
+    results = written["results"]
+    assert results["network"]["stroke"] == pytest.approx(0.5)  # half the shaft
+    assert results["network"]["mean_speed"] == pytest.approx(1000 * math.tau / 60, rel=1e-12)
+    assert set(results["preload"]) == {0.0}
+    assert "verdict.preload" not in records(written, "verdicts")
+    said = text(report)
+    assert "to and fro over 500 mm, half the shaft, under the load of the case" in said
+    assert "preload" not in said.partition("Steady state")[0].partition("time ")[2]
+    # every quantity of the series has its unit in the document
+    assert {name for name in SERIES if not name.startswith("heat_")} <= set(written["units"])
+
+
+def test_stroke_and_length_are_those_of_the_case(case):
+    mounted = POINT.replace('[surroundings]\nshaft_length = "1 m"', "[installation]") + (
+        'unsupported_length = "0.8 m"\nends = "fixed-supported"\n'
+    )
+    report = warmed_up(case(mounted, "surroundings.stroke=200 mm"), hours=0.1)
+    assert report.duty.states.stroke == pytest.approx(0.2)
+    assert report.warm_up.network.shaft.length == 0.8
+    assert "shaft of 0.8 m: the length of [installation]" in report.assumed
+
+
+@pytest.mark.parametrize(
+    ("settings", "length"),
+    [
+        (("surroundings.stroke=300 mm",), 0.6),
+        ((), 1.0),
+        (("axis.mass=0 kg", "motion.kind=trapezoid", "motion.stroke=200 mm", "motion.speed=6 m/min",
+          "motion.acceleration=2 m/s^2"), 0.4),
+    ],
+    ids=["stroke", "nothing", "motion"],
+)  # fmt: skip
+def test_a_length_that_is_not_given_is_assumed_and_warned_of(case, settings, length):
+    written = POINT.partition("[surroundings]")[0]
+    report = warmed_up(case(written, *settings), hours=0.02)
+    assert report.warm_up.network.shaft.length == pytest.approx(length)
+    warned = records(plain(document_of(report)), "warnings")["warm_up.assumed_length"]
+    assert warned["value"] == pytest.approx(length)
+
+
+def test_words_say_what_stands_in_the_document(case):
+    report = warmed_up(case(POINT + DOUBLE), hours=0.5, cool_down=0.25)
+    said, written = " ".join(text(report).split()), plain(document_of(report))
+    for record in (*written["verdicts"], *written["warnings"]):
+        assert record["text"] in said
+    assert "0.75 h" in said
+    assert "the preload goes from 3000 N to" in said
+
+
+def test_runaway_is_said_and_no_number_clipped(case):
+    """A nut on a heat sink at high speed: no steady state, null in the document, and an error as verdict."""
+    hot = (
+        "operation.screw_speed=3000 rpm",
+        "surroundings.nut_conductance=150 W/K",
+        "surroundings.ball_conductance=1 W/K",
+    )
+    report = warmed_up(case(POINT + DOUBLE.replace("3 kN", "5 kN"), *hot), hours=2)
+    written = plain(document_of(report))
+    end, verdict = written["results"]["equilibrium"], records(written, "verdicts")["verdict.equilibrium"]
+    assert end["exists"] is False
+    assert end["margin"] < 0
+    assert end["nut_temperature"] is None
+    assert verdict["severity"] == "error"
+    assert written["results"]["time"][-1] <= written["results"]["stopped"] < 2 * 3600
+    assert "Steady state: none" in text(report)
+    with pytest.raises(InputError, match="finds no steady state"):
+        self_heating(case(POINT + DOUBLE.replace("3 kN", "5 kN"), *hot))
+
+
+def test_temperatures_of_a_motion_do_not_count(case):
+    segments = '[axis]\nmass = "0 kg"\n[motion]\nkind = "segments"\n' + "".join(
+        f'[[motion.segment]]\nduration = "2 s"\nspeed = "{speed} m/min"\ntemperature = "50 degC"\n' for speed in (6, -6)
+    )
+    report = warmed_up(case(POINT + segments), hours=0.01)
+    warned = records(plain(document_of(report)), "warnings")
+    assert "do not count" in warned["warm_up.own_temperatures"]["text"]
+    assert "its heat is spread" in warned["warm_up.long_cycle"]["text"]  # 4 s of 36 s
+
+
+def test_an_oil_warmer_than_its_data_sheet_goes_is_warned_of(case):
+    sheet = 'kinematic_viscosity_40 = "100 cSt"\nkinematic_viscosity_100 = "11 cSt"\ndensity_15 = "880 kg/m^3"'
+    written = POINT.replace('grade = "ISO VG 100"', sheet + '\nhighest_temperature = "31 degC"')
+    report = warmed_up(case(written, "surroundings.ambient=30 degC"), hours=0.5)
+    said = [record["text"] for record in plain(document_of(report))["warnings"]]
+    assert any("31 degC" in one for one in said), said
+    assert plain(document_of(warmed_up(case(written, "surroundings.ambient=10 degC"), hours=0.5)))["warnings"] == []
+
+
+def test_self_heating_is_the_steady_state(case):
+    found = self_heating(case(POINT + DOUBLE))
+    end = found.equilibrium
+    assert found.warm.lubricant.temperature == end.oil_temperature
+    assert found.warm.screw.nut.preload == end.preload
+    # the work of the torque there is the heat that the temperatures are those of
+    assert found.torque * 1000 * math.tau / 60 == pytest.approx(end.power, rel=2e-3)
+    assert found.given.lubricant.temperature == pytest.approx(303.15)
+
+
+def test_run_and_check_say_self_heating(ballscrew, tmp_path):
+    (tmp_path / "case.toml").write_text(POINT, encoding="utf-8")
+    done = ballscrew("run", "case.toml", "--self-heating", "--json")
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    heated = found["results"]["self_heating"]
+    assert heated["oil_temperature_given"] == pytest.approx(303.15) == found["inputs"]["lubricant"]["temperature"]
+    assert heated["screw_torque"] == found["results"]["screw_torque"]
+    assert set(heated) == set(found["units"]["self_heating"])
+    assert found["verdicts"][0]["id"] == "verdict.self_heating"
+    words = " ".join(ballscrew("run", "case.toml", "--self-heating").stdout.split())
+    assert "self-heating: oil at" in words
+    assert f"not {heated['screw_torque_given']:.4g} N m" in words
+    checked = ballscrew("check", "case.toml", "--self-heating")
+    assert "self-heating: oil at" in checked.stdout, checked.stderr
+
+
+def test_columns_of_the_shaft(case):
+    report = warmed_up(case(POINT), hours=0.1)
+    table = warm_up_tables.shaft(report)
+    assert len(table.headings) == 1 + report.warm_up.places.size
+    assert np.shape(table.rows) == (report.warm_up.time.size, len(table.headings))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        (["--hours", "0"], "--hours: must be above 0 and at most 8766 (0) · write --hours 4"),
+        (["--hours", "nan"], "--hours: must be above 0 and at most 8766 (nan) · write --hours 4"),
+        (["--cool-down", "-1"], "--cool-down: must be 0 to 8766 (-1) · write --cool-down 1"),
+        (["--to", "a.doc"],
+         "--to: unknown kind of file (a.doc) · end it in .csv, .xlsx, .png, .svg or .pdf, or name a folder"),
+        (["--set", "surroundings.ambient=-40 degC"],
+         "surroundings.ambient: is not among the temperatures of the oil (-40 °C) · "
+         "the oil is known from -15 °C to 120 °C"),
+        (["--set", "surroundings.ambiant=20 degC"], 'surroundings.ambiant: unknown key · did you mean "ambient"?'),
+        (["--set", "surroundings.coolant=20 degC"],
+         'surroundings.coolant: has no bore to flow through · give bore = "12 mm"'),
+    ],
+)  # fmt: skip
+def test_refusals(ballscrew, tmp_path, arguments, line):
+    done = ballscrew("warm-up", EXAMPLE, *arguments)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert line in done.stderr.splitlines()
+    assert not (tmp_path / "a.doc").exists()
+
+
+@pytest.mark.parametrize(
+    ("settings", "line"),
+    [
+        (["operation.screw_speed=0 rpm"], "operation.screw_speed: is zero"),
+        (["surroundings.stroke=2 m"], "does not fit between the bearings"),
+    ],
+)
+def test_points_that_warm_nothing(case, settings, line):
+    with pytest.raises(InputError, match=line):
+        warmed_up(case(POINT, *settings))
+
+
+def test_an_oil_without_a_temperature_is_refused(case):
+    written = POINT.replace('grade = "ISO VG 100"\ntemperature = "30 degC"', 'viscosity = "88 mPa s"')
+    with pytest.raises(InputError, match=r"lubricant\.viscosity: has no temperature"):
+        warmed_up(case(written))
+
+
+def test_self_heating_beside_a_band_is_refused(ballscrew, tmp_path):
+    (tmp_path / "case.toml").write_text(POINT, encoding="utf-8")
+    done = ballscrew("run", "case.toml", "--self-heating", "--band")
+    assert done.returncode == 2
+    assert "--self-heating: is given beside --band · leave one of them out" in done.stderr

@@ -1,0 +1,42 @@
+"""Claims of the page on warming up, by the tables that it shows."""
+
+import math
+
+import pytest
+
+import warm_up_tables as tables
+
+
+@pytest.mark.parametrize("rpm", tables.SPEEDS)
+def test_a_cooled_nut_has_more_preload_or_no_steady_state(rpm):
+    """What the page confirms: at every speed, for balls that conduct as computed, three times and a third."""
+    middle = tables.network(rpm).ball_conductance
+    for factor in (1.0, 3.0, 1 / 3):
+        preloads = [
+            tables.results(tables.network(rpm, nut_conductance=cooling, ball_conductance=factor * middle), rpm)[
+                "preload"
+            ]
+            for cooling in (2.0, tables.BOLTED, 40.0, tables.COOLED)
+        ]
+        known = [preload for preload in preloads if not math.isnan(preload)]
+        assert known == sorted(known)
+        assert preloads[: len(known)] == known  # once there is none, more cooling brings none back
+
+
+@pytest.mark.parametrize("rpm", tables.SPEEDS)
+def test_effects_one_after_the_other(rpm):
+    """Thinner oil takes heat away, and the preload brings some back."""
+    nothing, oil, both, _ = (tables.results(tables.network(rpm, variant), rpm) for variant in tables.VARIANTS)
+    assert nothing["preload"] == oil["preload"] == tables.PRELOAD < both["preload"]
+    assert oil["torque"] < nothing["torque"]
+    assert oil["torque"] < both["torque"]
+    assert oil["growth"] < nothing["growth"]
+    # without any effect the heat is that of the start
+    assert nothing["margin"] == pytest.approx(1.0, abs=1e-9)
+
+
+def test_bands_hold_the_middle(monkeypatch):
+    monkeypatch.setattr(tables, "SAMPLES", 20)
+    found = list(tables.samples(500, "oil and preload"))
+    low, high = tables.band(found, "preload")
+    assert low < tables.results(tables.network(500), 500)["preload"] < high
