@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ballscrew.cases.catalogue import COLUMNS
 from ballscrew.quantities import Quantity
+from ballscrew.screw_tables.catalogue import COLUMNS
 from ballscrew.tables.headings import Column
 from ballscrew.units import example_of
 

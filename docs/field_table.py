@@ -13,7 +13,6 @@ from ballscrew.axis.axis import Axis
 from ballscrew.axis.motor import Motor
 from ballscrew.cases.duty_schema import MOTIONS
 from ballscrew.cases.fields import example_of
-from ballscrew.cases.nut_kinds import ENDS, LISTED, LOSSES, NUTS
 from ballscrew.components.data_sheet import DataSheet
 from ballscrew.components.materials import Lubricant, Material, grades
 from ballscrew.components.nut import Bodies, Scatter
@@ -22,6 +21,7 @@ from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.friction.model import FrictionModel
 from ballscrew.motion.profiles import Segment, Trapezoid
 from ballscrew.quantities import Quantity, fields_of
+from ballscrew.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUTS
 from ballscrew.sizing.installation import Installation, Limits
 from ballscrew.thermal.surroundings import Surroundings
 

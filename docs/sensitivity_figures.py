@@ -7,8 +7,8 @@ from pathlib import Path
 from ballscrew.cases import case_file
 from ballscrew.figures import sensitivity as figures
 from ballscrew.figures import style
-from ballscrew.output.text import sensitivity as text
 from ballscrew.studies import sensitivity
+from ballscrew.text import sensitivity as text
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "feed_drive.toml"
 

@@ -10,13 +10,13 @@ from typing import NamedTuple
 import numpy as np
 
 from ballscrew.cases import case_file
-from ballscrew.cases.nut_kinds import NUTS
 from ballscrew.components.nut import DoubleNut, Nut, OversizeBallNut
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.figures import band as figures
 from ballscrew.figures import style
 from ballscrew.friction.calibrations import calibrated, calibration
 from ballscrew.friction.model import FrictionModel
+from ballscrew.screw_tables.nut_kinds import NUTS
 from ballscrew.studies import band
 from ballscrew.studies.validation import shipped_rows
 from ballscrew.uncertainty.default_uncertainties import JUDGEMENT, DefaultUncertainty, default_uncertainties

@@ -14,10 +14,10 @@ from ballscrew.figures import files
 from ballscrew.figures import validation as figures
 from ballscrew.friction.calibrations import calibrated, calibration, calibrations
 from ballscrew.friction.model import FrictionModel
-from ballscrew.output.text import validation as text_of
 from ballscrew.sizing.catalogue import catalogue
 from ballscrew.sizing.rules import RULES
 from ballscrew.studies import validation
+from ballscrew.text import validation as text_of
 from ballscrew.validation.entries import DESCRIPTORS, Conditions, trends
 from ballscrew.validation.rows import ACCURACY_FACTOR, OTHER_FACTORS
 

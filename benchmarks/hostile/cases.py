@@ -17,11 +17,11 @@ from benchmarks.hostile.screws import TORQUES
 from benchmarks.hostile.tally import Outcome, Tally
 
 from ballscrew.cases import case_file
+from ballscrew.documents import run as run_documents
 from ballscrew.errors import InputError
-from ballscrew.output.documents import run as run_documents
 from ballscrew.output.json_text import as_json
-from ballscrew.output.text.run import print_run
 from ballscrew.studies import run as runs
+from ballscrew.text.run import print_run
 
 COUNT, SECONDS = 3_000, 130.0
 TRIED = (

@@ -9,7 +9,6 @@ from ballscrew.axis.motor import Motor as Motor
 from ballscrew.axis.to_and_fro import to_and_fro as to_and_fro
 from ballscrew.calibration.calibrated_model import CalibratedModel as CalibratedModel
 from ballscrew.calibration.fit import fit as fit
-from ballscrew.cases.catalogue import screws as screws
 from ballscrew.cases.oils import oils as oils
 from ballscrew.components.data_sheet import DataSheet as DataSheet
 from ballscrew.components.lubrication import HamrockDowson as HamrockDowson
@@ -42,6 +41,7 @@ from ballscrew.motion.profiles import Trapezoid as Trapezoid
 from ballscrew.moving_logs.motion_fit import MotionFit as MotionFit
 from ballscrew.moving_logs.motion_fit import fit_motion as fit_motion
 from ballscrew.moving_logs.moving_log import MovingLog as MovingLog
+from ballscrew.screw_tables.catalogue import screws as screws
 from ballscrew.service.condition import condition as condition
 from ballscrew.service.condition_values import Condition as Condition
 from ballscrew.service.preload_change import PreloadChange as PreloadChange

@@ -11,9 +11,9 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.cases import case_file
-from ballscrew.cases import catalogue as people
-from ballscrew.cases.nut_kinds import NUTS, kind_in, kind_of
 from ballscrew.errors import InputError
+from ballscrew.screw_tables import catalogue as people
+from ballscrew.screw_tables.nut_kinds import NUTS, kind_in, kind_of
 from ballscrew.sizing.catalogue import SMALLEST_BALL, CatalogueRow, catalogue
 
 DATA = Path(__file__).parents[1] / "data"

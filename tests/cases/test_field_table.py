@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 
 from ballscrew import units
-from ballscrew.cases.catalogue import COLUMNS
 from ballscrew.components.screw import MATERIALS
 from ballscrew.errors import Fault
 from ballscrew.quantities import within_bounds
+from ballscrew.screw_tables.catalogue import COLUMNS
 
 ROOT = Path(__file__).parents[2]
 

@@ -13,11 +13,11 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.cases import case_file
-from ballscrew.cases.nut_kinds import NUTS, kind_of
 from ballscrew.cases.schema import NUT_TABLES, json_schema, validated
 from ballscrew.components.nut import Bodies, Deviations
 from ballscrew.components.nut_losses import LipSeals, Seals
 from ballscrew.errors import InputError
+from ballscrew.screw_tables.nut_kinds import NUTS, kind_of
 from ballscrew.sizing.ratings import ratings_of
 from ballscrew.studies.run import run
 

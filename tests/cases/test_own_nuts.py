@@ -5,9 +5,9 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.cases import case_file
-from ballscrew.cases import catalogue as people
 from ballscrew.components.nut import Bodies
 from ballscrew.errors import InputError
+from ballscrew.screw_tables import catalogue as people
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.ratings import ratings_of
 

@@ -7,8 +7,8 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.cases import case_file, descriptions, nut_tables
-from ballscrew.cases import catalogue as people
 from ballscrew.errors import InputError
+from ballscrew.screw_tables import catalogue as people
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.ratings import ratings_of
 from ballscrew.studies import own_screws

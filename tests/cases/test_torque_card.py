@@ -9,11 +9,12 @@ from pathlib import Path
 
 import pytest
 
-from ballscrew.cases import case_file, torque_card, torque_card_log
+from ballscrew.cases import case_file
+from ballscrew.documents import validation as documents
 from ballscrew.errors import InputError
-from ballscrew.output.documents import validation as documents
-from ballscrew.output.text import validation as text
 from ballscrew.studies import validation
+from ballscrew.text import validation as text
+from ballscrew.torque_cards import torque_card, torque_card_log
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "torque_cards" / "synthetic_40x10.toml"
 TEXT = EXAMPLE.read_text(encoding="utf-8")

@@ -6,11 +6,11 @@ import math
 
 import pytest
 
+from ballscrew.axis_studies.duty import duty
 from ballscrew.cases import case_file
-from ballscrew.output.documents.duty import document as document_of
+from ballscrew.documents.duty import document as document_of
 from ballscrew.output.json_text import plain
-from ballscrew.output.text.duty import text
-from ballscrew.studies.duty import duty
+from ballscrew.text.duty import text
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "vertical_axis.toml"

@@ -9,14 +9,14 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from ballscrew.cases import case_file, uncertain_inputs
+from ballscrew.documents import sensitivity as documents
 from ballscrew.errors import InputError
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.figures import files, style
 from ballscrew.figures import sensitivity as figures
-from ballscrew.output.documents import sensitivity as documents
 from ballscrew.output.json_text import as_json
-from ballscrew.output.text import sensitivity as text_of
 from ballscrew.studies import sensitivity as studies
+from ballscrew.text import sensitivity as text_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 #: Two inputs that the case gives a distribution, one of them without any effect on the torque of this model.

@@ -9,16 +9,16 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
 from ballscrew.cases import case_file
+from ballscrew.documents import validation as validation_documents
 from ballscrew.errors import InputError
 from ballscrew.figures import style
 from ballscrew.figures import validation as figures
 from ballscrew.friction.calibrations import calibration
 from ballscrew.friction.model import FrictionModel
-from ballscrew.output.documents import validation as validation_documents
 from ballscrew.output.json_text import plain
-from ballscrew.output.text import validation as validation_text
 from ballscrew.output.wrapping import WIDTH
 from ballscrew.studies import validation
+from ballscrew.text import validation as validation_text
 from ballscrew.validation.sets import SETS
 
 HEADINGS = (

@@ -7,13 +7,13 @@ import math
 import numpy as np
 import pytest
 
+from ballscrew.axis_studies.self_heating import self_heating
+from ballscrew.axis_studies.warm_up import SERIES, load, warmed_up
+from ballscrew.documents.warm_up import document as document_of
 from ballscrew.errors import InputError
-from ballscrew.output.documents.warm_up import document as document_of
 from ballscrew.output.json_text import plain
-from ballscrew.output.text.warm_up import text
-from ballscrew.studies.self_heating import self_heating
-from ballscrew.studies.warm_up import SERIES, load, warmed_up
 from ballscrew.table_files import warm_up_tables
+from ballscrew.text.warm_up import text
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "warm_up.toml"

@@ -11,10 +11,10 @@ import pytest
 import xlsxwriter
 
 from ballscrew import units
-from ballscrew.cases.catalogue import COLUMNS
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import Fault, InputError
 from ballscrew.quantities import fields_of
+from ballscrew.screw_tables.catalogue import COLUMNS
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.studies.validation import columns_of
 from ballscrew.tables import decimals, rows

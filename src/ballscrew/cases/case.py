@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 from ballscrew import units
 from ballscrew.axis.axis import Axis
 from ballscrew.axis.motor import Motor
-from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Nut
 from ballscrew.components.operating_state import OperatingState
@@ -19,6 +18,7 @@ from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.plausibility import implausible, named_parts
 from ballscrew.motion.profiles import Motion
 from ballscrew.records import Record
+from ballscrew.screw_tables.nut_kinds import LISTED
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.installation import Installation, Limits
 from ballscrew.thermal.surroundings import Surroundings

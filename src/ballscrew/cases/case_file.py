@@ -21,7 +21,6 @@ from ballscrew.cases.duty_schema import DUTY_TABLES
 from ballscrew.cases.inputs import inputs as inputs
 from ballscrew.cases.lubricants import lubricant_of
 from ballscrew.cases.named_calibration import calibrated_by_table, with_calibration
-from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.cases.option_faults import in_options
 from ballscrew.cases.provenance import references as references
 from ballscrew.cases.schema import (
@@ -43,6 +42,7 @@ from ballscrew.friction.calibrations import calibration as named_calibration
 from ballscrew.friction.law_names import coefficients
 from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import fields_of
+from ballscrew.screw_tables.nut_kinds import LISTED
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.units import in_display_units
 

@@ -8,7 +8,6 @@ from ballscrew import units
 from ballscrew.cases.case import Case
 from ballscrew.cases.lubricants import described, shown_temperature
 from ballscrew.cases.named_calibration import vendor_rows_like
-from ballscrew.cases.nut_kinds import kind_of
 from ballscrew.cases.schema import LAWS, MODELS, name_of_law
 from ballscrew.components.contact import RaceState
 from ballscrew.components.materials import Lubricant
@@ -19,6 +18,7 @@ from ballscrew.components.traits import traits_of
 from ballscrew.friction.law_names import coefficients
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import fields_of, quantities_of
+from ballscrew.screw_tables.nut_kinds import kind_of
 
 #: What is assumed of a grease.
 _OF_GREASE = "grease: the film of its base oil, no thickener in it, no churning of a fresh filling"

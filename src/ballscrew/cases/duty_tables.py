@@ -132,7 +132,7 @@ def _motion(sections: Sections, folder: Path, faults: list[Fault]) -> Motion | N
     if len(faults) > before:
         return None
     if kind == TRAJECTORY:
-        from ballscrew.cases.trajectory_file import read_trajectory  # loads pandas
+        from ballscrew.motion.trajectory_file import read_trajectory  # loads pandas
 
         return _made("motion", functools.partial(read_trajectory, folder / values["file"]), faults)
     if "segment" in values:

@@ -12,9 +12,9 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSche
 from pydantic_core import PydanticCustomError
 
 from ballscrew import units
-from ballscrew.cases.nut_kinds import NUT_FIELDS, PERCENT, Share
 from ballscrew.errors import Fault, fault_of
 from ballscrew.quantities import Quantity
+from ballscrew.screw_tables.nut_kinds import NUT_FIELDS, PERCENT, Share
 from ballscrew.uncertainty import uncertain_value
 
 #: What stands in the schema as an example: examples/feed_drive.toml, and what has no default.

@@ -8,11 +8,11 @@ from typing import Any
 from ballscrew.cases import duty_tables
 from ballscrew.cases.case import USUAL_LIMITS, Case
 from ballscrew.cases.duty_schema import CONSTANT_EFFICIENCY
-from ballscrew.cases.nut_kinds import ENDS, kind_of
 from ballscrew.cases.schema import LAWS, name_of_law
 from ballscrew.components.nut import Nut
 from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.quantities import fields_of
+from ballscrew.screw_tables.nut_kinds import ENDS, kind_of
 from ballscrew.sizing.installation import Installation
 
 

@@ -8,9 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ballscrew.cases import catalogue
 from ballscrew.cases.case import PreloadNote
-from ballscrew.cases.nut_kinds import ENDS, LOSSES, NUT_FIELDS, NUTS, Share
 from ballscrew.cases.schema import law_of
 from ballscrew.cases.sections import Sections
 from ballscrew.components.nut import Bodies, Nut, Scatter, SingleNut
@@ -19,6 +17,8 @@ from ballscrew.components.screw import SINGLE_NUT, BallScrew
 from ballscrew.equations import geometry
 from ballscrew.errors import MISSING, Fault, InputError, nearest
 from ballscrew.quantities import fields_of
+from ballscrew.screw_tables import catalogue
+from ballscrew.screw_tables.nut_kinds import ENDS, LOSSES, NUT_FIELDS, NUTS, Share
 from ballscrew.sizing.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow, is_shipped
 from ballscrew.sizing.installation import Installation, Limits
 from ballscrew.sizing.listed_nut import lists_preload

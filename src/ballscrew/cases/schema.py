@@ -22,7 +22,6 @@ from ballscrew.cases.duty_schema import CONSTANT_EFFICIENCY, DUTY_TABLES, duty_s
 from ballscrew.cases.fields import EXAMPLES as EXAMPLES
 from ballscrew.cases.fields import defaults_of, json_of, read_preload, section_of
 from ballscrew.cases.law_import import OUTSIDE, law_from_outside, with_plain_numbers
-from ballscrew.cases.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS
 from ballscrew.components.data_sheet import SHEET_TEMPERATURE, DataSheet
 from ballscrew.components.materials import INPUTS_OF_SHEET, Lubricant, Material, grades
 from ballscrew.components.nut import Bodies, DoubleNut, Scatter
@@ -35,6 +34,7 @@ from ballscrew.friction.law_names import LAWS as LAWS
 from ballscrew.friction.law_names import coefficients
 from ballscrew.friction.model import FrictionModel, presets
 from ballscrew.quantities import Quantity, fields_of
+from ballscrew.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS
 from ballscrew.sizing.installation import Installation, Limits
 
 MODELS = presets()

@@ -11,7 +11,6 @@ import numpy as np
 
 from ballscrew.cases.case import Case
 from ballscrew.cases.fields import is_share, without_percent
-from ballscrew.cases.nut_kinds import PERCENT
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, raise_if_any
@@ -19,6 +18,7 @@ from ballscrew.evaluation.outputs import inputs_of
 from ballscrew.friction.calibrations import Calibration
 from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import Quantity
+from ballscrew.screw_tables.nut_kinds import PERCENT
 from ballscrew.uncertainty.default_uncertainties import default_distributions
 from ballscrew.uncertainty.distributions import Distribution, Normal, scaled
 from ballscrew.uncertainty.uncertain_value import UncertainValue, describe_distribution, parse_uncertain

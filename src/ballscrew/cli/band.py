@@ -8,13 +8,13 @@ from pathlib import Path
 import typer
 
 from ballscrew.cases.case_file import Case
+from ballscrew.documents import band as documents
 from ballscrew.errors import Fault, raise_if_any
 from ballscrew.figures import files
 from ballscrew.output import json_text
-from ballscrew.output.documents import band as documents
-from ballscrew.output.text import band as text
 from ballscrew.studies import band
 from ballscrew.studies.run import run as run_case
+from ballscrew.text import band as text
 
 
 def check(wanted: bool, options: band.Options, to: Path | None) -> None:

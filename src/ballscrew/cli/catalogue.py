@@ -1,4 +1,4 @@
-"""``ballscrew catalogue``: rows of catalogues, shipped or one's own. The work is done in ``cases/catalogue``."""
+"""``ballscrew catalogue``: rows of catalogues, shipped or one's own. The work is done in ``screw_tables/catalogue``."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ def list_rows(
     keep_going: KeepGoing = False,
 ) -> None:
     """All rows, one line each."""
-    from ballscrew.cases import catalogue
     from ballscrew.output import json_text
+    from ballscrew.screw_tables import catalogue
 
     found, notes = catalogue.load(rows, keep_going)
     chosen = catalogue.chosen(found, " ".join(words or []), rows)
@@ -48,9 +48,9 @@ def show(
     keep_going: KeepGoing = False,
 ) -> None:
     """One row: what is listed, what follows from it, what was assumed."""
-    from ballscrew.cases import catalogue
     from ballscrew.errors import Fault, InputError
     from ballscrew.output import json_text
+    from ballscrew.screw_tables import catalogue
 
     if as_case and as_json:
         raise InputError(Fault("--case", "does not go with --json", "", "give one of the two"))

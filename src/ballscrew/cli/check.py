@@ -85,11 +85,11 @@ def check(
     What is not given is assumed, and the output says what was. The exit code is 0 where a check fails, too: the
     verdict says so; it is 2 only for bad input.
     """
+    from ballscrew.documents.check import document, list_document
     from ballscrew.errors import Fault, InputError
-    from ballscrew.output.documents.check import document, list_document
     from ballscrew.output.json_text import as_json as json_of
-    from ballscrew.output.text.check import list_text, text
     from ballscrew.studies.check import Options, every_row, is_case, one
+    from ballscrew.text.check import list_text, text
 
     given = {
         "operation.axial_load": axial_load,

@@ -28,11 +28,11 @@ def compare(
     own: torque, its parts, efficiency in both directions, and what lies outside its validity.
     """
     from ballscrew.cases import case_file
+    from ballscrew.documents import comparison as documents
     from ballscrew.figures import files
     from ballscrew.output import json_text
-    from ballscrew.output.documents import comparison as documents
-    from ballscrew.output.text import comparison as text
     from ballscrew.studies.comparison import comparison
+    from ballscrew.text import comparison as text
 
     loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     if to is not None:

@@ -75,11 +75,11 @@ def condition(
     from ballscrew.cases import case_file
     from ballscrew.cli.condition_options import check_question, options
     from ballscrew.cli.progress import progress
+    from ballscrew.documents import condition as documents
     from ballscrew.figures import files
-    from ballscrew.output.documents import condition as documents
     from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.output.text import condition as text
     from ballscrew.studies import condition as studies
+    from ballscrew.text import condition as text
 
     file = check_question(tests or [], case)
     loaded = case_file.load(file, settings or [], model, calibration=calibration, allow_code=allow_code)

@@ -1,4 +1,4 @@
-"""``ballscrew duty``: what a cycle of an axis asks of the motor. The work is done in ``studies/duty``."""
+"""``ballscrew duty``: what a cycle of an axis asks of the motor. The work is done in ``axis_studies/duty``."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ import typer
 from ballscrew.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName
 
 if TYPE_CHECKING:
-    from ballscrew.studies.duty import DutyReport
-    from ballscrew.studies.duty_band import DutyBandReport
+    from ballscrew.axis_studies.duty import DutyReport
+    from ballscrew.axis_studies.duty_band import DutyBandReport
 
 _TO = "--to"
 
@@ -52,13 +52,13 @@ def duty(
     The case has an [axis] and a [motion], and perhaps a [motor]; it needs no [operation]. The rule of catalogues
     stands beside the numbers; [model] name = "constant-efficiency" asks for it.
     """
+    from ballscrew.axis_studies import duty as studies
     from ballscrew.cases import case_file
+    from ballscrew.documents import duty as documents
     from ballscrew.figures import files
-    from ballscrew.output.documents import duty as documents
     from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.output.text import duty as text
-    from ballscrew.studies import duty as studies
     from ballscrew.table_files import row_tables
+    from ballscrew.text import duty as text
 
     tables = case_file.override(case_file.read(case), settings or [])
     if trace is not None:
@@ -93,8 +93,8 @@ def duty(
 
 
 def _banded(report: DutyReport, samples: int | None, only_given: bool) -> DutyBandReport:
+    from ballscrew.axis_studies import duty_band  # loads xarray
     from ballscrew.cli.progress import progress
-    from ballscrew.studies import duty_band  # loads xarray
 
     with progress("band") as done:
         return duty_band.band(report, samples, only_given=only_given, done=done)

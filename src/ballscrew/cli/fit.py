@@ -168,9 +168,9 @@ def fit(
 
         report = studies.fit(loaded, steady, chosen)
     from ballscrew.cases import fitted_case
-    from ballscrew.output.documents import fit as documents
+    from ballscrew.documents import fit as documents
     from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.output.text import fit as text
+    from ballscrew.text import fit as text
 
     if verbose:
         say_engine(report.model.response.evaluation.attributes)

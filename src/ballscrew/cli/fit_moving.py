@@ -17,10 +17,10 @@ def fit_moving(
     read = moving_log(case, log, options)
     other = None if test is None else moving_log(case, test, options, usual_gain=read.gain)
     # solvers are slow to import: only for a log that can be read
-    from ballscrew.output.documents import fit_motion as documents
+    from ballscrew.documents import fit_motion as documents
     from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.output.text import fit_motion as text
     from ballscrew.studies import fit_motion as studies
+    from ballscrew.text import fit_motion as text
 
     found = studies.fit(case, read, other, options)
     if as_json:

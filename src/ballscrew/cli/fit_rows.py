@@ -36,11 +36,11 @@ def fit_rows(
     """Fit each row to its log; a folder ``to`` gets the calibrated case of each as soon as it is done."""
     from ballscrew.cases import fitted_case
     from ballscrew.cli.progress import progress
+    from ballscrew.documents import fit as documents
     from ballscrew.output import json_text
-    from ballscrew.output.documents import fit as documents
-    from ballscrew.output.text import fit_rows as text
     from ballscrew.studies import fit_rows
     from ballscrew.table_files import row_tables
+    from ballscrew.text import fit_rows as text
 
     cases = cases_of_rows(
         case, rows, row, settings, model, calibration=calibration, allow_code=allow_code, keep_going=keep_going

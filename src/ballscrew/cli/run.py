@@ -87,16 +87,16 @@ def run(
         with progress("band") as done:
             band_command.run(loaded, options, to, as_json, done)
         return
+    from ballscrew.documents.run import document
+    from ballscrew.documents.self_heating import with_self_heating
     from ballscrew.output import json_text
-    from ballscrew.output.documents.run import document
-    from ballscrew.output.documents.self_heating import with_self_heating
-    from ballscrew.output.text.run import print_run
     from ballscrew.output.wrapping import wrapped
     from ballscrew.studies.run import run as run_case
+    from ballscrew.text.run import print_run
 
     heating = None
     if self_heating:
-        from ballscrew.studies import self_heating as studies
+        from ballscrew.axis_studies import self_heating as studies
 
         heating = studies.self_heating(loaded)
     found = run_case(loaded if heating is None else heating.warm)
@@ -120,12 +120,12 @@ def _check_self_heating(asked: bool, band: bool, rows: Path | None) -> None:
 def _of_rows(cases: OfRows[RowCase], as_json: bool, to: Path | None, keep_going: bool) -> None:
     """Results of each row: one line each, and a table in a file."""
     from ballscrew.cli.progress import progress
+    from ballscrew.documents.run import list_document
     from ballscrew.output import json_text
-    from ballscrew.output.documents.run import list_document
-    from ballscrew.output.text.run_rows import list_text
     from ballscrew.studies import every_row
     from ballscrew.studies.run import run as run_case
     from ballscrew.table_files import row_tables
+    from ballscrew.text.run_rows import list_text
 
     if to is not None:
         row_tables.check_path(to)

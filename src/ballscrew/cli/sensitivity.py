@@ -52,11 +52,11 @@ def sensitivity(
     """
     from ballscrew.cases import case_file
     from ballscrew.cli import progress
+    from ballscrew.documents import sensitivity as documents
     from ballscrew.figures import files
-    from ballscrew.output.documents import sensitivity as documents
     from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.output.text import sensitivity as text
     from ballscrew.studies import sensitivity as studies
+    from ballscrew.text import sensitivity as text
 
     loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     chosen = studies.Options(output, method, samples, seed, only_given)

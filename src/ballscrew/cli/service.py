@@ -74,11 +74,11 @@ def service(
     from ballscrew.cases import case_file
     from ballscrew.cli.progress import progress
     from ballscrew.cli.service_options import check_question, fit_options, reading
+    from ballscrew.documents import service as documents
     from ballscrew.figures import files
-    from ballscrew.output.documents import service as documents
     from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.output.text import service as text
     from ballscrew.studies import service as studies
+    from ballscrew.text import service as text
 
     file = check_question(logs or [], case, torque, speed, temperature)
     loaded = case_file.load(file, settings or [], model, calibration=calibration, allow_code=allow_code)

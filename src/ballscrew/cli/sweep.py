@@ -85,9 +85,9 @@ def sweep(
     """
     from ballscrew.cases import case_file
     from ballscrew.cli.progress import progress
-    from ballscrew.output.text import sweep as text
     from ballscrew.studies import sweep as studies
     from ballscrew.table_files import sweep_files
+    from ballscrew.text import sweep as text
 
     check_rows(rows, row)
     if rows is None:
@@ -130,9 +130,9 @@ def _of_rows(
 ) -> None:
     """The sweeps of all rows as one dataset."""
     from ballscrew.cli.progress import progress
-    from ballscrew.output.text import sweep as text
     from ballscrew.studies import sweep_rows
     from ballscrew.table_files import sweep_files
+    from ballscrew.text import sweep as text
 
     planned = sweep_rows.plans(cases.found, vary, wanted, to, keep_going)
     with progress("sweep") as done:

@@ -47,11 +47,11 @@ def validate(
     band, and every row; first the model as it is, then with a named calibration. Beside them rules of one line that
     people use in place of a model.
     """
+    from ballscrew.documents import validation as documents
     from ballscrew.figures import files
     from ballscrew.output import json_text
-    from ballscrew.output.documents import validation as documents
-    from ballscrew.output.text import validation as text
     from ballscrew.studies import validation
+    from ballscrew.text import validation as text
 
     request = validation.request(
         sets or [],

@@ -1,4 +1,4 @@
-"""``ballscrew warm-up``: how a screw warms up, and what it does. The work is done in ``studies/warm_up``."""
+"""``ballscrew warm-up``: how a screw warms up, and what it does. The work is done in ``axis_studies/warm_up``."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import typer
 from ballscrew.cli.common_options import AllowCode, CaseFile, ModelName
 
 if TYPE_CHECKING:
-    from ballscrew.studies.warm_up import WarmUpReport
+    from ballscrew.axis_studies.warm_up import WarmUpReport
 
 _TO, _HOURS, _COOL_DOWN = "--to", "--hours", "--cool-down"
 #: Files that a folder gets.
@@ -47,10 +47,10 @@ def warm_up(
     A case with an [axis] and a [motion] does its motion; one with an [operation] goes to and fro over half the shaft.
     [surroundings] has where the heat goes. The verdict says if there is no end: it runs away.
     """
-    from ballscrew.output.documents import warm_up as documents
+    from ballscrew.axis_studies import warm_up as studies
+    from ballscrew.documents import warm_up as documents
     from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.output.text import warm_up as text
-    from ballscrew.studies import warm_up as studies
+    from ballscrew.text import warm_up as text
 
     _check_hours(hours, cool_down)
     loaded = studies.load(case, settings or [], model, allow_code=allow_code)

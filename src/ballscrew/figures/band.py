@@ -16,9 +16,9 @@ from ballscrew.cases.case_file import Case
 from ballscrew.cases.descriptions import title
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.figures import style
-from ballscrew.output.text import band as text
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.studies.band import BandReport
+from ballscrew.text import band as text
 from ballscrew.uncertainty.bands import Band, BandCurve
 
 _TORQUE = "friction torque on the screw (N m)"

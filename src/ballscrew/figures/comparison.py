@@ -14,7 +14,7 @@ from ballscrew.cases.case_file import Case
 from ballscrew.evaluation.comparison import Comparison, Row
 from ballscrew.figures import style
 from ballscrew.friction.result import MECHANISMS
-from ballscrew.output.text import comparison as text
+from ballscrew.text import comparison as text
 
 #: Inches of a row, and of what stands above and below all rows.
 _ROW, _FRAME = 0.235, 1.5

@@ -12,8 +12,8 @@ from ballscrew.calibration.robust import Vector
 from ballscrew.cases.case import Case
 from ballscrew.cases.descriptions import model_text, nut_text
 from ballscrew.figures import style
-from ballscrew.output.text import condition as text
 from ballscrew.service.condition_values import Condition
+from ballscrew.text import condition as text
 
 _HOUR, _DAY = 3600.0, 86400.0
 

@@ -12,14 +12,14 @@ from matplotlib.figure import Figure
 
 from ballscrew import units
 from ballscrew.axis.duty import STORED
+from ballscrew.axis_studies import duty_records
+from ballscrew.axis_studies.duty import NUMBERS, DutyReport
 from ballscrew.figures import style
 from ballscrew.friction.result import MECHANISMS
 from ballscrew.motion.profiles import Trapezoid
 from ballscrew.motion.states import Numbers
-from ballscrew.output.text import duty as text
 from ballscrew.quantities import fields_of
-from ballscrew.studies import duty_records
-from ballscrew.studies.duty import NUMBERS, DutyReport
+from ballscrew.text import duty as text
 
 _MOTION = fields_of(Trapezoid)
 _TURNING = NUMBERS["mean_speed"]

@@ -17,10 +17,10 @@ from ballscrew.calibration.fit_result import Rows
 from ballscrew.calibration.next_test import NextTest
 from ballscrew.cases.case import Case
 from ballscrew.figures import style
-from ballscrew.output.text import fit as text
 from ballscrew.quantities import Quantity
 from ballscrew.studies.fit import FitReport
 from ballscrew.studies.fit_log import CONDITIONS
+from ballscrew.text import fit as text
 from ballscrew.torque_logs.log_rows import quantities
 
 #: More points than this are a blot.

@@ -11,7 +11,7 @@ from ballscrew.cases.case import Case
 from ballscrew.cases.descriptions import model_text
 from ballscrew.figures import style
 from ballscrew.moving_logs.motion_fit import LINEAR, POWER, SCREW, MotionFit
-from ballscrew.output.text import fit_motion as text
+from ballscrew.text import fit_motion as text
 from ballscrew.torque_logs.motion import Floats
 
 #: Colours of the models.

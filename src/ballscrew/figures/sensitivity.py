@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from ballscrew import units
 from ballscrew.cases.case_file import Case
 from ballscrew.figures import style
-from ballscrew.output.text import sensitivity as text
 from ballscrew.studies.sensitivity import SensitivityReport
+from ballscrew.text import sensitivity as text
 from ballscrew.uncertainty.sensitivity import HALF, Sensitivity
 from ballscrew.uncertainty.sobol import Estimate
 

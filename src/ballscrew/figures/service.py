@@ -18,13 +18,13 @@ from ballscrew.calibration.robust import Vector
 from ballscrew.cases.case import Case
 from ballscrew.cases.descriptions import model_text, nut_text
 from ballscrew.components.operating_state import OperatingState
+from ballscrew.documents.service import preload_quantity
 from ballscrew.figures import style
-from ballscrew.output.documents.service import preload_quantity
-from ballscrew.output.text import service as text
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.service.estimate import PreloadEstimate
 from ballscrew.service.posterior import torque_of_model
 from ballscrew.studies.service import ServiceReport
+from ballscrew.text import service as text
 
 #: More points than this are a blot.
 MOST_POINTS = 3000

@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 
 from ballscrew import units
 from ballscrew.figures import style
-from ballscrew.output.text import validation as text
 from ballscrew.studies.validation import Request
+from ballscrew.text import validation as text
 from ballscrew.validation.entries import DESCRIPTORS, Entry, Point
 
 _HEIGHT = 3.2

@@ -9,10 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ballscrew import units
+from ballscrew.axis_studies import warm_up_records
+from ballscrew.axis_studies.warm_up import PLACE, SERIES, WarmUpReport
 from ballscrew.figures import style
-from ballscrew.output.text import warm_up as text
-from ballscrew.studies import warm_up_records
-from ballscrew.studies.warm_up import PLACE, SERIES, WarmUpReport
+from ballscrew.text import warm_up as text
 
 _TITLE_CHARACTERS, _LABEL_SIZE, _LEVELS = 100, 8.0, 12
 

@@ -1,1 +1,1 @@
-"""Results as text for people and as documents for programs."""
+"""What all output needs: text of JSON, wrapped lines, the bibliography"""

@@ -88,8 +88,8 @@ def _cycle(case: case_file.Case) -> list[Section]:
     """The section on the cycle of a case that has an axis and a motion."""
     if case.axis is None or case.motion is None:
         return []
+    from ballscrew.axis_studies.duty import duty
     from ballscrew.report import duty_section
-    from ballscrew.studies.duty import duty
 
     return [Section("Over a cycle of the motion", duty_section.blocks(duty(case)))]
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ballscrew.axis_studies import duty_records
+from ballscrew.axis_studies.duty import NUMBERS, DutyReport
 from ballscrew.figures import duty as figures
-from ballscrew.output.text import duty as text
 from ballscrew.quantities import Quantity
 from ballscrew.report import result_tables
 from ballscrew.report.blocks import Bar, Block, Bullets, Columns, Paragraph, Picture, Table, sentence
 from ballscrew.report.blocks import value as value_of
 from ballscrew.report.curve_figures import named, svg_of
-from ballscrew.studies import duty_records
-from ballscrew.studies.duty import NUMBERS, DutyReport
+from ballscrew.text import duty as text
 
 _TORQUE, _ENERGY = NUMBERS["torque_rms"], NUMBERS["energy_lost"]
 

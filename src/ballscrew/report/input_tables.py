@@ -6,10 +6,8 @@ import dataclasses
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ballscrew.cases import catalogue
 from ballscrew.cases.case_file import Case
 from ballscrew.cases.lubricants import described
-from ballscrew.cases.nut_kinds import ENDS, LISTED, kind_of
 from ballscrew.cases.schema import LAWS, name_of_law
 from ballscrew.components.data_sheet import DataSheet
 from ballscrew.components.materials import TEMPERATURE, Lubricant, nominal_oil
@@ -20,6 +18,8 @@ from ballscrew.friction.law_names import coefficients
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.report.blocks import Table
 from ballscrew.report.blocks import value as value_of
+from ballscrew.screw_tables import catalogue
+from ballscrew.screw_tables.nut_kinds import ENDS, LISTED, kind_of
 from ballscrew.sizing.installation import Limits
 from ballscrew.uncertainty.uncertain_value import describe_distribution
 

@@ -7,22 +7,22 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ballscrew.cases import case_file, descriptions
-from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.components.contact import RaceState
 from ballscrew.evaluation.outputs import known_outputs
 from ballscrew.friction.result import MECHANISMS, FrictionResult
-from ballscrew.output.text import band
-from ballscrew.output.text import check as check_text
-from ballscrew.output.text.run import SHORT, rigidity_rows, stiffness_fields
 from ballscrew.quantities import quantities_of
 from ballscrew.records import Record
 from ballscrew.report.blocks import Bar, Block, Bullets, Paragraph, Table, sentence
 from ballscrew.report.blocks import value as value_of
+from ballscrew.screw_tables.nut_kinds import LISTED
 from ballscrew.sizing.checks import Check
 from ballscrew.solvers.load_distribution import BallLoads
 from ballscrew.studies.band import BandReport
 from ballscrew.studies.check import Checked
 from ballscrew.studies.run import Run
+from ballscrew.text import band
+from ballscrew.text import check as check_text
+from ballscrew.text.run import SHORT, rigidity_rows, stiffness_fields
 from ballscrew.uncertainty.bands import Interval
 
 _ONE, _LOADS = quantities_of(FrictionResult), quantities_of(BallLoads)

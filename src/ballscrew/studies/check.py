@@ -8,13 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ballscrew import units
-from ballscrew.cases import case_file, catalogue, descriptions, nut_tables
+from ballscrew.cases import case_file, descriptions, nut_tables
 from ballscrew.cases.case import Case
-from ballscrew.cases.nut_kinds import LISTED
 from ballscrew.cases.option_faults import in_options
 from ballscrew.components.nut import Nut, OversizeBallNut
 from ballscrew.errors import Fault, InputError
 from ballscrew.records import Record
+from ballscrew.screw_tables import catalogue
+from ballscrew.screw_tables.nut_kinds import LISTED
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.checks import Check, checks
 from ballscrew.sizing.listed_nut import lists_preload
@@ -25,7 +26,7 @@ from ballscrew.studies.own_screws import tables_of_row
 from ballscrew.studies.run import Run, with_nut
 
 if TYPE_CHECKING:  # its solvers are slow to import, and seldom asked for
-    from ballscrew.studies.self_heating import SelfHeating
+    from ballscrew.axis_studies.self_heating import SelfHeating
 
 #: Defaults of what neither row nor options give.
 GRADE, TEMPERATURE, SPEED, SHARE_OF_RATING = "ISO VG 100", "40 degC", "600 rpm", 0.1
@@ -165,7 +166,7 @@ def _warm(name: str, case: Case, notes: Sequence[str], options: Options) -> Chec
     """The checks of a case, with self-heating where the options ask for it."""
     if not options.self_heating:
         return checked(name, case, notes)
-    from ballscrew.studies.self_heating import self_heating
+    from ballscrew.axis_studies.self_heating import self_heating
 
     heating = self_heating(case)
     return dataclasses.replace(checked(name, heating.warm, notes), heating=heating)

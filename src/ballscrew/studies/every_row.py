@@ -7,9 +7,10 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-from ballscrew.cases import case_file, catalogue
+from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
 from ballscrew.errors import Fault, InputError, raise_if_any
+from ballscrew.screw_tables import catalogue
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.studies.own_screws import tables_of_row
 

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ballscrew.cases.nut_kinds import LISTED, NUTS
 from ballscrew.components.nut import Bodies
 from ballscrew.quantities import fields_of
+from ballscrew.screw_tables.nut_kinds import LISTED, NUTS
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.listed_nut import lists_preload
 

@@ -14,7 +14,6 @@ import numpy as np
 
 from ballscrew import units
 from ballscrew.cases.case import Case
-from ballscrew.cases.nut_kinds import LISTED, NUT_FIELDS
 from ballscrew.cases.nut_tables import dynamic_rating
 from ballscrew.components.contact import RaceState
 from ballscrew.components.nut import Nut
@@ -25,6 +24,7 @@ from ballscrew.friction.result import QUADRANTS, FrictionResult, Quadrant
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Quantity, quantities_of
 from ballscrew.records import Record
+from ballscrew.screw_tables.nut_kinds import LISTED, NUT_FIELDS
 from ballscrew.sizing.rigidity import AxialRigidity, rigidity_iso3408
 from ballscrew.solvers.load_distribution import BallLoads, preload_of
 from ballscrew.studies.nut_state import Flank, NutState, Touching

@@ -8,8 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.cases import torque_card
-from ballscrew.cases.torque_card import TorqueCard, TorquePoint
 from ballscrew.errors import Fault, InputError
 from ballscrew.friction.calibrations import Calibration, calibrated
 from ballscrew.friction.model import FrictionModel
@@ -17,6 +15,8 @@ from ballscrew.quantities import Info, Quantity, fields_of
 from ballscrew.sizing.rules import DRAG_RULES, RULES
 from ballscrew.solvers.load_distribution import preload_of
 from ballscrew.studies.comparison import subject_of
+from ballscrew.torque_cards import torque_card
+from ballscrew.torque_cards.torque_card import TorqueCard, TorquePoint
 from ballscrew.validation.entries import Band, Conditions, Entry, Point, ValidationSet, Values
 
 _TORQUE = Quantity("torque", "N m", Info("T", "torque", "N m"))

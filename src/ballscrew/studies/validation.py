@@ -11,12 +11,12 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew import units
-from ballscrew.cases.catalogue import COLUMNS
 from ballscrew.cases.schema import MODELS
 from ballscrew.components.traits import traits_of
 from ballscrew.errors import Fault, InputError, fault_of, nearest, raise_if_any
 from ballscrew.friction.calibrations import Calibration, calibrated, calibration
 from ballscrew.friction.model import FrictionModel
+from ballscrew.screw_tables.catalogue import COLUMNS
 from ballscrew.studies import torque_cards
 from ballscrew.tables.headings import Column
 from ballscrew.tables.rows import made, read

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 
 from ballscrew import units
+from ballscrew.axis_studies.duty import NUMBERS, DutyReport
 from ballscrew.files import atomic_write
 from ballscrew.motion.profiles import Trapezoid
-from ballscrew.output.text.check import quantity_of
 from ballscrew.quantities import Info, Quantity, fields_of
-from ballscrew.studies.duty import NUMBERS, DutyReport
 from ballscrew.table_files.row_tables import RowTable, put, write_csv, xlsx_bytes
+from ballscrew.text.check import quantity_of
 
 _MOTION = fields_of(Trapezoid)
 _TORQUE, _ENERGY, _TURNING = NUMBERS["torque_rms"], NUMBERS["energy_lost"], NUMBERS["mean_speed"]

@@ -11,15 +11,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ballscrew import units
-from ballscrew.cases.nut_kinds import LISTED, NUT_FIELDS, kind_of
 from ballscrew.errors import Fault, InputError
 from ballscrew.files import atomic_write, check_writable
 from ballscrew.friction.result import FrictionResult
-from ballscrew.output.text.check import quantity_of
 from ballscrew.quantities import Quantity, quantities_of
+from ballscrew.screw_tables.nut_kinds import LISTED, NUT_FIELDS, kind_of
 from ballscrew.solvers.load_distribution import BallLoads
 from ballscrew.studies.check import RATINGS, Checked
 from ballscrew.studies.run import Run
+from ballscrew.text.check import quantity_of
 
 if TYPE_CHECKING:  # its solvers are slow to import
     from ballscrew.studies.fit import FitReport

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from ballscrew import units
+from ballscrew.axis_studies.warm_up import EQUILIBRIUM, PLACE, SERIES, WarmUpReport
 from ballscrew.files import atomic_write
 from ballscrew.quantities import Quantity
-from ballscrew.studies.warm_up import EQUILIBRIUM, PLACE, SERIES, WarmUpReport
 from ballscrew.table_files.row_tables import RowTable, put, write_csv, xlsx_bytes
 
 _GROWTH, _TEMPERATURE = SERIES["shaft_growth"], SERIES["shaft_temperature"]

@@ -14,10 +14,10 @@ from ballscrew.cases.schema import LAWS
 from ballscrew.components.contact import RaceState
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.friction.result import FrictionResult
-from ballscrew.output.text.run import SHOWN
 from ballscrew.quantities import fields_of, quantities_of
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.studies.run import OF_ONE_BALL
+from ballscrew.text.run import SHOWN
 from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.uncertainty.bands import Interval, OutputBand
 from ballscrew.web.answer_parts import (

@@ -15,18 +15,18 @@ from fastapi.routing import APIRoute
 from starlette.responses import Response
 
 from ballscrew import units
+from ballscrew.axis_studies import duty as duties
 from ballscrew.cases import case_file
-from ballscrew.cases import catalogue as rows
 from ballscrew.cases.schema import json_schema
+from ballscrew.documents import comparison as comparison_documents
+from ballscrew.documents import duty as duty_documents
+from ballscrew.documents import sweep as sweep_documents
+from ballscrew.documents import validation as validation_documents
 from ballscrew.errors import Fault, InputError, nearest, raise_if_any
-from ballscrew.output.documents import comparison as comparison_documents
-from ballscrew.output.documents import duty as duty_documents
-from ballscrew.output.documents import sweep as sweep_documents
-from ballscrew.output.documents import validation as validation_documents
 from ballscrew.output.json_text import plain
+from ballscrew.screw_tables import catalogue as rows
 from ballscrew.sizing.catalogue import catalogue as shipped
 from ballscrew.studies import band as bands
-from ballscrew.studies import duty as duties
 from ballscrew.studies import run as runs
 from ballscrew.studies import sweep as sweeps
 from ballscrew.studies import validation

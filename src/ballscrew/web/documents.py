@@ -11,11 +11,11 @@ from typing import Any
 from ballscrew import units
 from ballscrew.cases import case_file
 from ballscrew.cases.descriptions import assumed, title
-from ballscrew.output.documents import band as band_documents
-from ballscrew.output.documents import run as run_documents
-from ballscrew.output.text import band as band_text
+from ballscrew.documents import band as band_documents
+from ballscrew.documents import run as run_documents
 from ballscrew.studies import band as bands
 from ballscrew.studies import run as runs
+from ballscrew.text import band as band_text
 from ballscrew.web.templates import fill_records, filled, template
 
 #: Runs that are kept: the page asks for the drawing of what it has just asked the numbers of.

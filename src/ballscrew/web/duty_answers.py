@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ballscrew.studies.duty import NUMBERS
+from ballscrew.axis_studies.duty import NUMBERS
 from ballscrew.web.answer_parts import (
     Closed,
     Number,

@@ -10,7 +10,6 @@ from pydantic import BaseModel, ConfigDict
 
 from ballscrew import units
 from ballscrew._version import __version__
-from ballscrew.cases.nut_kinds import LISTED, LOSSES, NUT_FIELDS
 from ballscrew.cases.schema import DEFAULT_MODEL, LAWS, MODELS
 from ballscrew.components.contact import RaceState
 from ballscrew.components.materials import Lubricant, Material
@@ -24,6 +23,7 @@ from ballscrew.friction.result import MECHANISMS, FrictionResult
 from ballscrew.friction.validity import NUT_REASONS
 from ballscrew.papers.olaru2005 import case as paper
 from ballscrew.quantities import Info, Quantity, fields_of, quantities_of
+from ballscrew.screw_tables.nut_kinds import LISTED, LOSSES, NUT_FIELDS
 from ballscrew.sizing.catalogue import catalogue
 from ballscrew.sizing.installation import Installation, Limits
 from ballscrew.solvers.load_distribution import BallLoads

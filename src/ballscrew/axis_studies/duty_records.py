@@ -1,0 +1,225 @@
+"""Verdicts and warnings of a duty: brake, motor and checks; motions that do not close, jump, or are too short."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ballscrew import units
+from ballscrew.axis.axis import Axis
+from ballscrew.axis_studies.duty import NUMBERS, DutyReport
+from ballscrew.components.screw import BallScrew
+from ballscrew.friction.plausibility import implausible
+from ballscrew.friction.validity import CONDITIONS, NUT_CONDITIONS
+from ballscrew.motion.profiles import Segments, Trapezoid
+from ballscrew.motion.trajectory import Trajectory
+from ballscrew.quantities import Quantity, fields_of
+from ballscrew.records import Record, Severity
+from ballscrew.sizing.checks import Check
+
+_LENGTH, _SPEED = fields_of(Trapezoid)["stroke"], fields_of(Trapezoid)["speed"]
+_TORQUE, _TURNING = NUMBERS["torque_rms"], NUMBERS["mean_speed"]
+_RATIO = fields_of(Axis)["transmission_ratio"]
+#: Shares of the stroke and of the largest speed below which a difference is one of rounding.
+_CLOSES, _JUMPS = 1e-9, 1e-9
+#: The same where the motion was recorded.
+_NOISE = 0.01
+#: Points at which the curve of a motor is looked at for its highest torque.
+_CURVE_POINTS = 1000
+
+
+def verdicts(report: DutyReport) -> list[Record]:
+    """Whether the axis falls, whether the motor suffices, and whether all checks hold."""
+    return [_brake(report), *_motor(report), _checks(report)]
+
+
+def _brake(report: DutyReport) -> Record:
+    brake = report.brake
+    hold, rated = (units.shown(torque, _TORQUE) for torque in (brake.holding_torque, brake.brake_torque))
+    moving = [found for found in brake.conditions if found.falls or found.goes_on]
+    if not brake.load_torque:
+        text = "no brake is needed to hold it: no load turns the screw at rest"
+    elif not moving:
+        least = min(found.safety for found in brake.conditions)
+        text = f"stays with the motor off: friction from rest is at least {least:.3g} times the torque of the load"
+    else:
+        names = "in all conditions" if len(moving) == len(brake.conditions) else ", ".join(c.condition for c in moving)
+        starts = "falls" if brake.starts else "stays, but goes on falling once it is started,"
+        fastest = units.shown(max(found.speed_after_stroke for found in moving), _SPEED)
+        text = (
+            f"{starts} with the motor off ({names}), after the stroke at up to {fastest}; {hold} at the motor hold "
+            f"it, a brake of {rated} with a factor of {brake.brake_factor:g} and no help of friction"
+        )
+    return Record(
+        id="verdict.brake", subject="brake", text=text, severity="warning" if brake.falls else "info",
+        holds=not brake.falls, value=brake.holding_torque, unit="N m",
+    )  # fmt: skip
+
+
+def _motor(report: DutyReport) -> list[Record]:
+    if report.motor is None:
+        return []
+    failed = [check for check in report.motor.checks if check.holds is False]
+    names = ", ".join(check.name.removeprefix("motor_").replace("_", " ") for check in failed)
+    text = f"the motor does not suffice: {names}" if failed else "the motor suffices"
+    severity: Severity = "error" if failed else "info"
+    return [Record(id="verdict.motor", subject="motor", text=text, severity=severity, holds=not failed)]
+
+
+def _checks(report: DutyReport) -> Record:
+    failed = [check.name.replace("_", " ") for check in report.checks if check.holds is False]
+    not_judged = sum(check.holds is None for check in report.checks)
+    text = f"fails: {', '.join(failed)}" if failed else "passes all checks"
+    text += f"; {not_judged} of {len(report.checks)} not judged" if not_judged else ""
+    holds = False if failed else None if not_judged else True
+    return Record(id="verdict.checks", subject="checks", text=text, severity="error" if failed else "info", holds=holds)
+
+
+def warnings(report: DutyReport) -> list[Record]:
+    """What is strange about inputs and motion, what fails and how to mend it, and where the model ends."""
+    parts: dict[str, object] = {"axis": report.axis, "motion": report.motion}
+    if isinstance(report.motion, Segments):
+        parts |= {f"motion.segment {i}": part for i, part in enumerate(report.motion.segments, start=1)}
+    strange = units.in_display_units_of(implausible(parts))
+    return [
+        *report.case.implausible(),
+        *strange,
+        *_open_cycle(report),
+        *_jumps(report),
+        *_short_stroke(report),
+        *_too_fast(report),
+        *_beyond_motor(report),
+        *_validity(report),
+    ]
+
+
+def _warning(name: str, subject: str, text: str, value: float, limit: float | None, quantity: Quantity) -> Record:
+    return Record(
+        id=f"duty.{name}", subject=subject, text=text, severity="warning", holds=False, value=value, limit=limit,
+        unit=quantity.unit,
+    )  # fmt: skip
+
+
+def _open_cycle(report: DutyReport) -> list[Record]:
+    states = report.duty.states
+    left = float(states.position[-1] - states.position[0])
+    least = _CLOSES if not isinstance(report.motion, Trajectory) else _NOISE
+    if abs(left) <= least * max(states.stroke, 1e-12):
+        return []
+    one_way = getattr(report.motion, "returns", True) is False
+    remedy = "return = true adds the way back" if one_way else "add a move back"
+    text = (
+        f"the motion ends {units.shown(abs(left), _LENGTH)} from where it began: "
+        f"the numbers are of this way alone, not of a cycle that repeats; {remedy}"
+    )
+    return [_warning("open_cycle", "motion", text, left, 0.0, _LENGTH)]
+
+
+def _jumps(report: DutyReport) -> list[Record]:
+    """Speeds that differ where one phase ends and the next begins; the last is followed by the first."""
+    states = report.duty.states
+    ends, names = states.speeds_of_ends, states.phases
+    least = _JUMPS if not isinstance(report.motion, Trajectory) else _NOISE
+    floor = least * float(np.max(np.abs(states.speed)))
+    found: list[Record] = []
+    for number, (_, before) in enumerate(ends):
+        after = ends[(number + 1) % len(ends)][0]
+        if abs(after - before) <= floor:
+            continue
+        here, there = names[number], names[(number + 1) % len(ends)]
+        text = (
+            f"the speed jumps from {units.shown(before, _SPEED)} (“{here}”) to {units.shown(after, _SPEED)} "
+            f"(“{there}”): no torque is counted for it; put a move with a distance between them"
+        )
+        found.append(_warning("speed_jump", f"motion.phase {number + 1}", text, abs(after - before), 0.0, _SPEED))
+    return found
+
+
+def loaded_circuit(screw: BallScrew) -> float:
+    """Advance of the nut over the loaded turns of one ball circuit or more in a row, m."""
+    turn = math.pi * screw.pitch_circle_diameter / math.cos(screw.lead_angle)
+    return float(screw.loaded_balls * screw.ball_diameter / turn * screw.lead)
+
+
+def _short_stroke(report: DutyReport) -> list[Record]:
+    stroke, needed = report.duty.states.stroke, loaded_circuit(report.case.screw)
+    if stroke >= needed or stroke == 0:
+        return []
+    text = (
+        f"the stroke {units.shown(stroke, _LENGTH)} is shorter than the loaded turns of the nut, "
+        f"{units.shown(needed, _LENGTH)}: the balls do not change their places, and grease is not spread; "
+        "put a longer stroke in between now and then"
+    )
+    return [_warning("short_stroke", "motion.stroke", text, stroke, needed, _LENGTH)]
+
+
+def _too_fast(report: DutyReport) -> list[Record]:
+    """The way out where the shaft would whirl, or the balls be too fast."""
+    found: list[Record] = []
+    for name, remedy in (
+        ("critical_speed", "hold the ends firmer, shorten the shaft, or take a greater lead"),
+        ("diameter_speed_product", "take a greater lead, or a nut made for it and its limits.diameter_speed_product"),
+    ):
+        check = _check(report, name)
+        if check is None or check.holds is not False or check.utilisation is None:
+            continue
+        speed = float(np.max(np.abs(report.duty.states.speed)))
+        turning = units.shown(float(np.max(np.abs(report.duty.screw_speed))), _TURNING)
+        most = units.shown(speed / check.utilisation, _SPEED)
+        text = (
+            f"{turning} are {check.utilisation:.3g} times what the {name.replace('_', ' ')} permits: "
+            f"move at {most} at most, {remedy}"
+        )
+        found.append(_warning(name, "motion.speed", text, speed, speed / check.utilisation, _SPEED))
+    return found
+
+
+def _check(report: DutyReport, name: str) -> Check | None:
+    return next((check for check in report.checks if check.name == name), None)
+
+
+def _beyond_motor(report: DutyReport) -> list[Record]:
+    """The state that asks for the most, where the curve of the motor does not reach it."""
+    against = report.motor
+    if against is None or against.utilisation[against.worst] <= 1:
+        return []
+    duty, motor, at = report.duty, against.motor, against.worst
+    fastest, most = float(np.max(np.abs(duty.motor_speed))), float(motor.largest_speed)
+    if fastest > most:
+        text = (
+            f"the cycle turns the motor at up to {units.shown(fastest, _TURNING)}, above its largest speed "
+            f"{units.shown(most, _TURNING)}: take a lower speed, a greater lead, or another ratio"
+        )
+        return [_warning("motor_speed", "motor.largest_speed", text, fastest, most, _TURNING)]
+    torque = abs(float(duty.torque[at]))
+    there = float(motor.peak_at(duty.motor_speed[at : at + 1])[0])
+    phase = duty.states.phases[int(duty.states.phase[at])]
+    speed = units.shown(abs(float(duty.motor_speed[at])), _TURNING)
+    highest = float(np.max(motor.peak_at(np.linspace(0.0, most, _CURVE_POINTS))))
+    never = "; its curve reaches that at no speed" if highest < torque else ""
+    text = (
+        f"“{phase}” asks for {units.shown(torque, _TORQUE)} at {speed}, where the motor has "
+        f"{units.shown(there, _TORQUE)}{never}: take a lower acceleration, a larger motor, or another ratio"
+    )
+    return [_warning("motor_torque", "motor.curve", text, torque, there, _TORQUE)]
+
+
+def _validity(report: DutyReport) -> list[Record]:
+    """Conditions of the model that fail while the axis moves, with the share of that time."""
+    states, known = report.duty.states, {**CONDITIONS, **NUT_CONDITIONS}
+    weight = np.where(states.direction != 0, states.weight, 0.0)
+    found: list[Record] = []
+    for name, mask in report.duty.screw.validity.items():
+        share = float(np.sum(weight * ~mask)) / max(float(np.sum(weight)), 1e-300)
+        condition = known.get(name)
+        if not share or condition is None:
+            continue
+        text = f"{condition.text} (in {share:.2g} of the time in motion)"
+        found.append(
+            Record(
+                id=f"validity.{name}", subject=condition.subject, text=text, severity="warning", holds=False,
+                value=share, limit=0.0,
+            )
+        )  # fmt: skip
+    return found

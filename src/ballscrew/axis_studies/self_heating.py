@@ -1,0 +1,103 @@
+"""Self-heating of a case: the operating point at the temperature and preload in which it ends."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+
+from ballscrew import units
+from ballscrew.axis_studies.warm_up import EQUILIBRIUM, duty_of, length_of
+from ballscrew.cases.case import Case
+from ballscrew.components.materials import TEMPERATURE
+from ballscrew.errors import Fault, InputError
+from ballscrew.friction.result import FrictionResult
+from ballscrew.quantities import quantities_of
+from ballscrew.records import Record
+from ballscrew.thermal.steady_heat import steady_heat
+from ballscrew.thermal.surroundings import Surroundings
+from ballscrew.thermal.warm_up import Equilibrium
+
+OPTION = "--self-heating"
+_TORQUE = quantities_of(FrictionResult)["screw_torque"]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class SelfHeating:
+    """A case as it was given, and as it is once it is warm."""
+
+    given: Case
+    warm: Case
+    equilibrium: Equilibrium
+    #: Friction torque of the screw at the operating point, as given and warm, N m.
+    torque_given: float
+    torque: float
+
+    @property
+    def numbers(self) -> Mapping[str, float]:
+        """Temperatures in K, margin and gain of the loop, preloads in N and torques in N m."""
+        end = self.equilibrium
+        return {
+            "oil_temperature": end.oil_temperature,
+            "oil_temperature_given": float(self.given.lubricant.temperature or float("nan")),
+            "nut_temperature": end.nut_temperature,
+            "shaft_temperature": end.shaft_temperature,
+            "margin": end.margin,
+            "gain": 1 - end.margin,
+            "preload": end.preload,
+            "preload_given": end.network.preload_set,
+            "screw_torque": self.torque,
+            "screw_torque_given": self.torque_given,
+            "growth": end.growth,
+        }
+
+    @property
+    def record(self) -> Record:
+        """What was taken in place of what, and what it does."""
+        end, found = self.equilibrium, self.numbers
+        oil, given = (units.shown(found[name], TEMPERATURE) for name in ("oil_temperature", "oil_temperature_given"))
+        nut = units.shown(end.nut_temperature, TEMPERATURE)
+        warm, cold = (units.shown(value, _TORQUE) for value in (self.torque, self.torque_given))
+        preload = ""
+        if end.network.preload_set:
+            there, before = (
+                units.shown(value, EQUILIBRIUM["preload"]) for value in (end.preload, end.network.preload_set)
+            )
+            preload = f", preload {there} in place of {before}"
+        text = (
+            f"self-heating: oil at {oil} in place of {given} (nut {nut}){preload}; friction torque {warm}, not {cold}; "
+            f"gain of the loop {1 - end.margin:z.2f}, which runs away at 1"
+        )
+        return Record(
+            id="verdict.self_heating", subject="lubricant.temperature", text=text, severity="info", holds=True,
+            value=end.oil_temperature, unit="K",
+        )  # fmt: skip
+
+
+def self_heating(case: Case) -> SelfHeating:
+    """The case at the steady state of its operating point, going to and fro in its surroundings.
+
+    Raises :class:`~ballscrew.errors.InputError` where there is none, and as
+    :func:`~ballscrew.axis_studies.warm_up.duty_of` does.
+    """
+    point = dataclasses.replace(case, axis=None, motion=None)
+    surroundings = case.surroundings or Surroundings()
+    duty, _ = duty_of(point, surroundings)
+    end = steady_heat(duty, surroundings, shaft_length=length_of(case, surroundings))
+    if not end.exists:
+        remedy = "see when with ballscrew warm-up; cool the shaft, turn slower, or preload less"
+        raise InputError(
+            Fault(OPTION, "finds no steady state in the range of oil and preload", f"margin {end.margin:.3g}", remedy)
+        )
+    screw, oil = case.screw, case.lubricant.at(end.oil_temperature)
+    if end.network.preload_set:
+        screw = dataclasses.replace(screw, nut=screw.nut.changed("preload", end.preload))
+    warm = dataclasses.replace(
+        case, screw=screw, lubricant=oil, oil={**case.oil, "temperature": end.oil_temperature}
+    )  # fmt: skip
+    return SelfHeating(case, warm, end, _torque(case), _torque(warm))
+
+
+def _torque(case: Case) -> float:
+    point = case.operation
+    found = case.model(case.screw, case.lubricant, axial_load=point.axial_load, screw_speed=point.screw_speed)
+    return float(found.screw_torque)

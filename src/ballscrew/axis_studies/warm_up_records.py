@@ -1,0 +1,110 @@
+"""Verdicts and warnings of warming up: where it ends, what becomes of the preload, and what is strange."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ballscrew import units
+from ballscrew.axis_studies.warm_up import PLACE, SERIES, WarmUpReport
+from ballscrew.friction.plausibility import implausible
+from ballscrew.motion.states import Numbers
+from ballscrew.records import Record
+
+#: A cycle longer than this share of the time is not short: an assumption.
+LONG_CYCLE = 0.02
+#: So many times as far while it stands as at work, and it is said.
+_FARTHER = 1.05
+
+
+def verdicts(report: WarmUpReport) -> list[Record]:
+    """Where it ends, whether it was stopped, a lost stretch, and the preload."""
+    return [*report.warm_up.records, *_preload(report)]
+
+
+def _preload(report: WarmUpReport) -> list[Record]:
+    """The farthest that the preload goes from what was set at work, and where it goes on while the axis stands."""
+    found = report.warm_up
+    if not found.network.preload_set:
+        return []
+    start, at = float(found.preload[0]), _farthest(found.preload[found.works])
+    farthest = float(found.preload[at])
+    lost = farthest <= 0
+    if lost:
+        text = f"the preload {_force(start)} is lost at work: the nut grows away from the shaft"
+    else:
+        text = f"the preload goes from {_force(start)} to {_force(farthest)} ({_change(farthest, start)}) at work"
+    worst = float(found.preload[_farthest(found.preload)])
+    if abs(worst - start) > _FARTHER * abs(farthest - start):
+        text += (
+            f", and while it stands to {_force(worst)} ({_change(worst, start)}): nut and shaft cool at their own rates"
+        )
+    return [
+        Record(
+            id="verdict.preload", subject="preload", text=text, severity="warning" if lost else "info",
+            holds=not lost, value=farthest, unit="N",
+        )
+    ]  # fmt: skip
+
+
+def _farthest(preload: Numbers) -> int:
+    return int(np.argmax(np.abs(preload - preload[0])))
+
+
+def _force(value: float) -> str:
+    return units.shown(value, SERIES["preload"])
+
+
+def _change(value: float, start: float) -> str:
+    return f"{100 * (value / start - 1):+.0f} %"
+
+
+def warnings(report: WarmUpReport) -> list[Record]:
+    """What is strange about the inputs and the oil as warm as it becomes, and what of the motion does not count."""
+    case = report.case
+    warmest = case.lubricant.at(float(np.max(report.warm_up.oil_temperature)))
+    parts = {"surroundings": report.surroundings, "lubricant": warmest}
+    strange = [*case.implausible(), *units.in_display_units_of(implausible(parts))]
+    once = {(record.id, record.subject): record for record in strange}
+    return [*once.values(), *_assumed_length(report), *_own_temperatures(report), *_long_cycle(report)]
+
+
+def _assumed_length(report: WarmUpReport) -> list[Record]:
+    if not report.length_is_assumed:
+        return []
+    length = report.warm_up.network.shaft.length
+    text = (
+        f"the length of the shaft is not given and taken as {units.shown(length, PLACE)}, on which the growth depends: "
+        "give surroundings.shaft_length, or an [installation]"
+    )
+    return [
+        Record(
+            id="warm_up.assumed_length", subject="surroundings.shaft_length", text=text, severity="warning",
+            value=float(length), unit="m",
+        )
+    ]  # fmt: skip
+
+
+def _own_temperatures(report: WarmUpReport) -> list[Record]:
+    given = report.duty.states.temperature
+    if np.isnan(given).all():
+        return []
+    text = "the motion has temperatures of the oil of its own, which do not count: the oil is as warm as nut and shaft"
+    return [Record(id="warm_up.own_temperatures", subject="motion.segment", text=text, severity="warning")]
+
+
+def _long_cycle(report: WarmUpReport) -> list[Record]:
+    """A cycle that is not short against the hours: its heat is spread over the stroke all the same."""
+    cycle, hours = report.duty.states.cycle_time, float(report.warm_up.time[-1])
+    if cycle <= LONG_CYCLE * hours:
+        return []
+    shown = SERIES["time"]
+    text = (
+        f"a cycle takes {units.shown(cycle, shown, 3)} of {units.shown(hours, shown, 3)}: its heat is spread over the "
+        "stroke as if it were short, so that the place where the nut is now is warmer than this"
+    )
+    return [
+        Record(
+            id="warm_up.long_cycle", subject="motion", text=text, severity="warning", value=cycle,
+            limit=LONG_CYCLE * hours, unit="s",
+        )
+    ]  # fmt: skip

@@ -1,0 +1,113 @@
+"""``ballscrew run --band --json``: the document of a band; all in SI."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from ballscrew import units
+from ballscrew.cases import uncertain_inputs
+from ballscrew.cases.case_file import Case
+from ballscrew.cases.uncertain_inputs import Uncertain
+from ballscrew.documents.run import document as run_document
+from ballscrew.evaluation.outputs import known_outputs
+from ballscrew.friction.validity import NUT_REASONS
+from ballscrew.records import Record, documents
+from ballscrew.studies.band import BandReport
+from ballscrew.studies.run import Run
+from ballscrew.uncertainty.bands import OutputBand
+
+_TORQUE = "screw_torque"
+
+
+def document(run: Run, report: BandReport) -> dict[str, Any]:
+    """The document of a run with its band."""
+    case, band = run.case, report.band
+    found = run_document(run)
+    found["band"] = {
+        "level": band.level,
+        "samples": band.count,
+        "seed": band.seed,
+        **{name: _output(one) for name, one in band.outputs.items()},
+        "self_locking_share": band.self_locking_share,
+        "invalid_share": band.invalid_share,
+        "reasons": report.reasons_by_share,
+        "laws": {
+            slot: [{"name": law.name, "factor": math.exp(law.shift)} for law in laws]
+            for slot, laws in band.alternatives.items()
+        },
+        "inputs": {name: _input(case, name, one) for name, one in report.inputs.items()},
+    }
+    return {
+        **found,
+        "verdicts": [*found["verdicts"], *documents(verdicts(case, report))],
+        "warnings": [*found["warnings"], *documents(warnings(report))],
+    }
+
+
+def verdicts(case: Case, report: BandReport) -> list[Record]:
+    """The friction torque with its band, the log of a fit, and the share of self-locking samples."""
+    band, torque = report.band, report.band[_TORQUE]
+    quantity = known_outputs(case.screw.nut)[_TORQUE].quantity
+    if not math.isfinite(torque.median):
+        text = "no band: the friction torque is no number here"
+        return [Record(id="band.no_torque", subject=_TORQUE, text=text, severity="warning", unit=quantity.unit)]
+    if float(case.operation.axial_load) == 0 and torque.both == (0.0, 0.0):
+        text = "no band: without load there is no friction torque"
+        return [Record(id="band.no_load", subject="axial_load", text=text, value=0.0, unit="N")]
+    low, high = (units.shown(end, quantity) for end in torque.both)
+    text = (
+        f"friction torque {units.shown(torque.value, quantity)} at the values of the case, "
+        f"median {units.shown(torque.median, quantity)}, "
+        f"{100 * band.level:.4g} % of the samples between {low} and {high}"
+    )
+    records = [Record(id="band.torque", subject=_TORQUE, text=text, value=torque.median, unit=quantity.unit)]
+    if case.fit:
+        text = (
+            f"calibrated to {case.fit.get('log') or 'a log'}: what the fit held counts as known, no law is exchanged; "
+            f"on rows held out the model was off by {case.fit.get('holdout_rms', 'an unknown torque')}"
+        )
+        records.append(Record(id="band.calibrated", subject="model", text=text))
+    if float(case.operation.axial_load) != 0:
+        share = band.self_locking_share
+        text = f"self-locking in {share:.2%} of the samples" if share else "self-locking in none of the samples"
+        records.append(Record(id="band.self_locking_share", subject="self_locking", text=text, value=share))
+    return records
+
+
+def warnings(report: BandReport) -> list[Record]:
+    """Samples outside the model's validity, and samples that are no number."""
+    records: list[Record] = []
+    outside, missing = report.band.invalid_share, report.band[_TORQUE].missing_share
+    if outside > 0:
+        reasons = ", ".join(
+            f"{share:.2%} {reason}: {NUT_REASONS[reason]}" for reason, share in report.reasons_by_share.items()
+        )
+        text = f"{outside:.2%} of the samples lie outside the model's validity ({reasons})"
+        records.append(_share("band.not_valid_share", "valid", text, outside))
+    if missing > 0:
+        text = f"{missing:.2%} of the samples are no number, and left out"
+        records.append(_share("band.missing_share", _TORQUE, text, missing))
+    return records
+
+
+def _share(name: str, subject: str, text: str, value: float) -> Record:
+    return Record(id=name, subject=subject, text=text, severity="warning", holds=False, value=value, limit=0.0)
+
+
+def _output(one: OutputBand) -> dict[str, Any]:
+    return {
+        "value": one.value,
+        "median": one.median,
+        **one.both._asdict(),
+        "parameters": one.parameters._asdict(),
+        "model_form": one.model_form._asdict(),
+        "share_of_parameters": one.share_of_parameters,
+        "missing_share": one.missing_share,
+    }
+
+
+def _input(case: Case, name: str, one: Uncertain) -> dict[str, Any]:
+    quantity = uncertain_inputs.quantity_of(case, name)
+    reason = {"reason": one.reason} if one.reason else {}
+    return {"distribution": one.distribution.describe(quantity.unit), "source": one.source, **reason}

@@ -1,0 +1,64 @@
+"""The JSON documents of checks: one screw, or a list of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from ballscrew.cases import case_file, nut_tables, provenance
+from ballscrew.components.screw import BallScrew
+from ballscrew.documents import run
+from ballscrew.documents.self_heating import with_self_heating
+from ballscrew.quantities import quantities_of
+from ballscrew.records import documents
+from ballscrew.screw_tables.nut_kinds import LISTED, kind_of
+from ballscrew.sizing.checks import Check
+from ballscrew.studies.check import RATINGS, Checked
+
+
+def document(found: Checked) -> dict[str, Any]:
+    """The document of one screw, in SI."""
+    return with_self_heating(_document(found), found.heating)
+
+
+def _document(found: Checked) -> dict[str, Any]:
+    case, lead_angle = found.case, quantities_of(BallScrew)["lead_angle"]
+    root_diameter = nut_tables.root_diameter(case.screw, case.listed)
+    return {
+        "name": found.name,
+        "nut": kind_of(found.nut.nut),
+        "inputs": case_file.inputs(case),
+        "geometry": {"lead_angle": case.screw.lead_angle, "root_diameter": root_diameter},
+        "results": run.results(found.run),
+        "loads": run.loads(found.nut),
+        **run.vendor_rows(found.run),
+        "ratings": {
+            "listed": {name: case.listed.get(name) for name in RATINGS},
+            "computed": None if found.computed is None else {n: getattr(found.computed, f) for n, f in RATINGS.items()},
+        },
+        "checks": [_check(check) for check in found.checks],
+        "verdict": found.verdict,
+        "verdicts": documents(found.verdicts),
+        "assumed": list(found.assumed),
+        "units": {
+            **run.result_units(found.run),
+            "geometry": {"lead_angle": lead_angle.unit, "root_diameter": LISTED["root_diameter"].unit},
+            "ratings": {name: LISTED[name].unit for name in RATINGS},
+        },
+        "warnings": documents(found.run.warnings),
+        "provenance": provenance.of_case(case),
+    }
+
+
+def list_document(found: Sequence[Checked]) -> list[dict[str, Any]]:
+    """The documents of many screws, without the loads ball by ball."""
+    listed = [document(screw) for screw in found]
+    for each in listed:
+        del each["loads"]["balls"], each["units"]["loads"]["balls"]
+    return listed
+
+
+def _check(check: Check) -> dict[str, Any]:
+    """A check as a record, with the older keys ``name``, ``utilisation``, ``passes`` and ``words`` beside it."""
+    older = {"name": check.name, "utilisation": check.utilisation, "passes": check.holds, "words": check.text}
+    return {**check.record.document(), **older}

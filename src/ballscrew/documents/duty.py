@@ -1,0 +1,169 @@
+"""The JSON document of a duty: the numbers of a cycle, its parts, life, brake, motor and the rule of catalogues."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ballscrew.axis.brake import Brake, LetGo
+from ballscrew.axis.drive import MotorCheck
+from ballscrew.axis_studies import duty_records
+from ballscrew.axis_studies.duty import NUMBERS, DutyReport, slug_of
+from ballscrew.cases import case_file, provenance
+from ballscrew.records import documents
+
+if TYPE_CHECKING:  # loads xarray
+    from ballscrew.axis_studies.duty_band import DutyBandReport
+
+_OF_LET_GO: Mapping[str, str] = {
+    "temperature": "K", "load_torque": "N m", "breakaway_torque": "N m", "running_torque": "N m",
+    "holding_torque": "N m", "acceleration": "m/s^2", "speed_after_stroke": "m/s", "steady_speed": "m/s", "safety": "1",
+}  # fmt: skip
+_OF_PHASE: Mapping[str, str] = {
+    "start": "s", "duration": "s", "largest_load": "N", "torque_peak": "N m", "torque_rms": "N m", "energy": "J",
+}  # fmt: skip
+_BY = ("torque_peak_by", "torque_rms_by", "energy_by", "energy_lost_by")
+
+
+def document(report: DutyReport) -> dict[str, Any]:
+    """The document of a duty, in SI."""
+    return {
+        "inputs": case_file.inputs(report.case),
+        "results": results(report),
+        "units": _units(report),
+        "warnings": documents(duty_records.warnings(report)),
+        "verdicts": documents(duty_records.verdicts(report)),
+        "checks": documents(check.record for check in report.checks),
+        "provenance": provenance.of_case(report.case),
+    }
+
+
+def with_band(found: DutyBandReport) -> dict[str, Any]:
+    """The document of a duty with its bands."""
+    bands = found.bands
+    return {
+        **document(found.report),
+        "band": {
+            "level": bands.level,
+            "samples": bands.count,
+            **{
+                name: {"value": one.value, "median": one.median, **one.band._asdict()}
+                for name, one in bands.numbers.items()
+            },
+            "inputs": {name: {"source": one.source, "given": one.given} for name, one in found.inputs.items()},
+        },
+    }
+
+
+def results(report: DutyReport) -> dict[str, Any]:
+    """All results of a cycle in SI."""
+    duty = report.duty
+    moving = duty.states.direction != 0
+    return {
+        **report.numbers,
+        "torque_by": "rule" if report.by_rule else "mechanics",
+        "torque_peak_by": _by_slug(report.torque_peak_by),
+        "torque_rms_by": _by_slug(report.torque_rms_by),
+        "energy_by": _by_slug(duty.energy_by),
+        "energy_lost_by": _by_slug(duty.energy_lost_by),
+        "largest_load": report.largest_load,
+        "maximum_pressure": _extreme(np.fmax.reduce, duty.screw.maximum_pressure[moving]),
+        "minimum_film_parameter": _extreme(np.fmin.reduce, duty.screw.film_parameter[moving]),
+        "valid": bool(np.all(duty.screw.valid[moving])),
+        "life": _life(report),
+        "brake": _brake(report.brake),
+        **({} if report.motor is None else {"motor": _motor(report.motor)}),
+        "rules": {
+            "mechanics": {"torque_rms": duty.torque_rms, "torque_peak": duty.torque_peak},
+            "catalogue": {
+                "efficiency": report.rule.efficiency,
+                "torque_rms": report.rule.torque_rms,
+                "torque_peak": report.rule.torque_peak,
+            },
+        },
+        "phases": [phase._asdict() for phase in report.phases],
+        **({} if report.smoothing is None else {"smoothing": report.smoothing._asdict()}),
+        "operating_points": duty.screw.points,
+    }
+
+
+def _by_slug(parts: Mapping[str, float]) -> dict[str, float]:
+    return {slug_of(name): float(value) for name, value in parts.items()}
+
+
+def _extreme(end: Any, values: Any) -> float:
+    return float(end(values)) if values.size else float("nan")
+
+
+def _life(report: DutyReport) -> dict[str, Any]:
+    life = report.life
+    return {
+        "dynamic_load_rating": life.dynamic_load_rating,
+        "rating_source": report.rating_source,
+        "preload": life.preload,
+        "load_factor": life.load_factor,
+        "mean_loads": {name.replace(" ", "_"): load for name, load in life.mean_loads.items()},
+        "lives": {name.replace(" ", "_"): turns for name, turns in life.lives.items()},
+        "revolutions": life.revolutions,
+        "revolutions_of_the_worse": life.revolutions_of_the_worse,
+    }
+
+
+def _brake(brake: Brake) -> dict[str, Any]:
+    return {
+        "falls": brake.falls,
+        "starts": brake.starts,
+        "holding_torque": brake.holding_torque,
+        "load_torque": brake.load_torque,
+        "brake_torque": brake.brake_torque,
+        "brake_factor": brake.brake_factor,
+        "conditions": [_let_go(found) for found in brake.conditions],
+    }
+
+
+def _let_go(found: LetGo) -> dict[str, Any]:
+    numbers = {name: getattr(found, name) for name in _OF_LET_GO}
+    return {"condition": found.condition, "falls": found.falls, "goes_on": found.goes_on, **numbers}
+
+
+def _motor(against: MotorCheck) -> dict[str, Any]:
+    duty, at = against.duty, against.worst
+    return {
+        "suffices": all(check.holds is not False for check in against.checks),
+        "utilisation": float(against.utilisation[at]),
+        "worst": {
+            "phase": duty.states.phases[int(duty.states.phase[at])],
+            "torque": float(duty.torque[at]),
+            "speed": float(duty.motor_speed[at]),
+        },
+        "copper_loss": against.copper_loss,
+    }
+
+
+def _units(report: DutyReport) -> dict[str, Any]:
+    by = {name: "J" if name.startswith("energy") else "N m" for name in _BY}
+    torques = {"torque_rms": "N m", "torque_peak": "N m"}
+    motor = {"worst": {"torque": "N m", "speed": "rad/s"}, "copper_loss": "J"}
+    return {
+        **{name: quantity.unit for name, quantity in NUMBERS.items()},
+        **{name: dict.fromkeys((slug_of(part) for part in report.duty.parts), unit) for name, unit in by.items()},
+        "largest_load": "N",
+        "maximum_pressure": "Pa",
+        "minimum_film_parameter": "1",
+        "life": {"dynamic_load_rating": "N", "preload": "N", "mean_loads": "N", "lives": "1", "revolutions": "1"},
+        "brake": {
+            "holding_torque": "N m", "load_torque": "N m", "brake_torque": "N m", "brake_factor": "1",
+            "conditions": dict(_OF_LET_GO),
+        },
+        **({} if report.motor is None else {"motor": motor}),
+        "rules": {"mechanics": torques, "catalogue": {"efficiency": "1", **torques}},
+        "phases": dict(_OF_PHASE),
+        **({} if report.smoothing is None else {"smoothing": _of_smoothing(report)}),
+    }  # fmt: skip
+
+
+def _of_smoothing(report: DutyReport) -> dict[str, str]:
+    recorded = "m" if getattr(report.motion, "position", None) is not None else "m/s"
+    return {"noise": recorded, "acceleration_noise": "m/s^2", "torque_rms_unsmoothed": "N m"}

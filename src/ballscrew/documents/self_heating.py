@@ -1,0 +1,30 @@
+"""Self-heating in the documents of a run and of checks: what was taken in place of what."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from ballscrew.cases import case_file
+
+if TYPE_CHECKING:  # its solvers are slow to import, and seldom asked for
+    from ballscrew.axis_studies.self_heating import SelfHeating
+
+_UNITS: Mapping[str, str] = {
+    "oil_temperature": "K", "oil_temperature_given": "K", "nut_temperature": "K", "shaft_temperature": "K",
+    "margin": "1", "gain": "1", "preload": "N", "preload_given": "N", "screw_torque": "N m",
+    "screw_torque_given": "N m", "growth": "m",
+}  # fmt: skip
+
+
+def with_self_heating(document: Mapping[str, Any], heating: SelfHeating | None) -> dict[str, Any]:
+    """A document with the numbers of self-heating; its inputs are those of the case as it was given."""
+    if heating is None:
+        return dict(document)
+    return {
+        **document,
+        "inputs": case_file.inputs(heating.given),
+        "results": {**document["results"], "self_heating": dict(heating.numbers)},
+        "units": {**document["units"], "self_heating": dict(_UNITS)},
+        "verdicts": [heating.record.document(), *document["verdicts"]],
+    }

@@ -1,0 +1,81 @@
+"""The JSON document of warming up: numbers over time, steady state, heat, drift and compensation."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ballscrew.axis_studies import warm_up_records
+from ballscrew.axis_studies.warm_up import EQUILIBRIUM, SERIES, WarmUpReport
+from ballscrew.cases import case_file, provenance
+from ballscrew.quantities import Quantity
+from ballscrew.records import documents
+
+#: The parts of the heat, which stand together.
+_HEAT = "heat_"
+#: What the network of heat was made with, and its units.
+_NETWORK: Mapping[str, str] = {
+    "ball_conductance": "W/K", "shaft_convection": "W/(m^2 K)", "nut_mass": "kg", "shaft_length": "m",
+    "mean_speed": "rad/s", "stroke": "m",
+}  # fmt: skip
+
+
+def document(report: WarmUpReport) -> dict[str, Any]:
+    """The document of warming up, in SI."""
+    return {
+        "inputs": case_file.inputs(report.case),
+        "results": results(report),
+        "units": _units(),
+        "assumed": list(report.assumed),
+        "warnings": documents(warm_up_records.warnings(report)),
+        "verdicts": documents(warm_up_records.verdicts(report)),
+        "checks": [],
+        "provenance": provenance.of_case(report.case),
+    }
+
+
+def results(report: WarmUpReport) -> dict[str, Any]:
+    """All results in SI: lists over time, heat at the end."""
+    found, network = report.warm_up, report.warm_up.network
+    places, drift = report.drift
+    along, growth = report.compensation
+    stretch = found.stretch_left
+    return {
+        **{name: list(values) for name, values in report.series.items() if not name.startswith(_HEAT)},
+        "works": [bool(value) for value in found.works],
+        "stopped": found.stopped,
+        "equilibrium": {
+            "exists": found.equilibrium.exists, "margin": found.equilibrium.margin, **report.equilibrium,
+        },
+        "heat": {name: float(values[-1]) for name, values in found.heat.items()},
+        "drift": {"place": list(places), "growth": [list(row) for row in drift]},
+        "compensation": {"place": list(along), "growth": list(growth)},
+        "shaft": {"place": list(found.places), "temperature": [list(row) for row in found.shaft_temperature]},
+        "stretch_left": None if stretch is None else list(stretch),
+        "network": {
+            "ball_conductance": network.ball_conductance,
+            "shaft_convection": network.shaft.convection,
+            "nut_mass": network.nut_mass,
+            "shaft_length": network.shaft.length,
+            "mean_speed": report.duty.mean_speed,
+            "stroke": report.duty.states.stroke,
+        },
+    }  # fmt: skip
+
+
+def _units() -> dict[str, Any]:
+    def of(known: Mapping[str, Quantity]) -> dict[str, str]:
+        return {name: quantity.unit for name, quantity in known.items() if not name.startswith(_HEAT)}
+
+    table = {"place": "m", "growth": "m"}
+    return {
+        **of(SERIES),
+        "stopped": "s",
+        "equilibrium": {"margin": "1", **of(EQUILIBRIUM)},
+        "heat": {"generated": "J", "stored": "J", "lost": "J"},
+        "drift": table,
+        "compensation": table,
+        "shaft": {"place": "m", "temperature": "K"},
+        "stretch_left": "m",
+        "network": dict(_NETWORK),
+    }

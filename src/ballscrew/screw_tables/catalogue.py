@@ -1,0 +1,393 @@
+"""Rows of catalogues for people and programs: those shipped, or those of a table of the user's own."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ballscrew import units
+from ballscrew._version import __version__
+from ballscrew.components.nut_losses import Seals
+from ballscrew.components.screw import BallScrew
+from ballscrew.errors import Fault, InputError, closest, nearest, raise_if_any
+from ballscrew.quantities import Quantity, fields_of, quantities_of
+from ballscrew.screw_tables.nut_kinds import LISTED, NUTS, Share, kind_in
+from ballscrew.sizing.catalogue import (
+    CONFORMITY_DOUBT,
+    TURNS_WITHOUT_LOAD,
+    CatalogueRow,
+    UnknownRowError,
+    catalogue,
+    is_shipped,
+)
+from ballscrew.sizing.listed_nut import lists_preload
+from ballscrew.tables import column_names
+from ballscrew.tables.headings import Column
+from ballscrew.tables.rows import Row, made, read
+
+_FIELDS = fields_of(CatalogueRow)
+_DERIVED = {name: quantity for name, quantity in quantities_of(CatalogueRow).items() if name not in _FIELDS}
+_DEFAULTS = {field.name: field.default for field in dataclasses.fields(CatalogueRow)}
+_REQUIRED = ("nominal_diameter", "lead", "ball_diameter", "turns")
+
+
+def _column(name: str, quantity: Quantity | None = None) -> Column:
+    names, hints = column_names.NAMES.get(name, ()), column_names.HINTS.get(name, ())
+    return Column(
+        name,
+        quantity,
+        names,
+        name in _REQUIRED,
+        hints,
+        product=name in column_names.PRODUCTS,
+        capitals=column_names.CAPITALS.get(name, ()),
+        share=_FIELDS.get(column_names.SHARES.get(name, "")),
+        words=column_names.WORDS.get(name, {}),
+    )
+
+
+COLUMNS = (
+    _column("name"),
+    *(_column(name, quantity) for name, quantity in _FIELDS.items()),
+    _column("nut"),
+    _column("spacer_balls"),
+    _column("log"),
+    _column("source"),
+)
+#: Preloads of the kinds of nut, as catalogues have them.
+EXAMPLE_PRELOADS: Mapping[str, str] = {"double": "7 %", "offset-lead": "7 %", "oversize-balls": "5 %"}
+#: Columns of the list: a row of the catalogue in the units people think in.
+_LIST = ("name", "d0 x lead [mm]", "ball [mm]", "turns", "balls/turn", "loaded", "C_a [kN]", "C_0a [kN]", "source")
+_TEXTS = (0, len(_LIST) - 1)
+
+
+class Screws(dict[str, CatalogueRow]):
+    """The rows of a table of one's own by name, its notes, and the logs of the rows that have one."""
+
+    def __init__(self, rows: Sequence[CatalogueRow], file: str, notes: Sequence[str], logs: Mapping[str, Path]) -> None:
+        super().__init__({row.name: row for row in rows})
+        self.file, self.notes, self.logs = file, tuple(notes), logs
+
+    def __missing__(self, name: str) -> CatalogueRow:
+        raise UnknownRowError(Fault(self.file, "unknown row", str(name), nearest(str(name), self, most=5)))
+
+
+def screws(path: str | Path, *, keep_going: bool = False) -> Screws:
+    """The rows of a table of screws of one's own, CSV or a spreadsheet, by name: ``screws("mine.csv")["A"].screw()``.
+
+    ``notes`` of what is returned names columns that are not used, and with ``keep_going`` rows that are left out.
+    Raises :class:`~ballscrew.errors.InputError` with all faults of the table; with ``keep_going`` only if no row is
+    good.
+    """
+    path = Path(path)
+    table = read(path, COLUMNS)
+    taken: dict[str, int] = {}
+    logs: dict[str, Path] = {}
+    found, notes = made(table, lambda row: _made(row, path, taken, logs), keep_going)
+    return Screws(found, path.name, notes, logs)
+
+
+def load(path: Path | None, keep_going: bool = False) -> tuple[Mapping[str, CatalogueRow], Sequence[str]]:
+    """The rows of a table, or those shipped, by name, and what is to be said of rows left out."""
+    if path is None:
+        return catalogue(), ()
+    found = screws(path, keep_going=keep_going)
+    return found, found.notes
+
+
+def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path]) -> CatalogueRow:
+    """The catalogue row of a row of a table; without a name it is called by its sizes."""
+    values = dict(row.values)
+    file, log = path.name, values.pop("log", None)
+    if isinstance(values.get("preload"), Share):
+        values["preload_share"] = float(values.pop("preload"))
+    name = values.setdefault("name", _called_by_sizes(values))
+    values.setdefault("source", f"{file} row {row.line}")
+    faults: list[Fault] = []
+    if name in taken:
+        faults.append(Fault("row.name", "is given twice", name, f"row {taken[name]} has it, too: name both apart"))
+    if isinstance(seals := values.get("seal_torque"), str):
+        values["seal_torque"] = _seal_torque(seals, values, faults)
+    if "spacer_balls" in values:
+        values["spacer_balls"] = values["spacer_balls"] == column_names.YES
+    try:
+        fields: dict[str, Any] = {**values, "nut": kind_in(values.get("nut", ""))}
+        found = CatalogueRow(**fields)
+        found.screw()
+    except InputError as error:
+        # a share stands in the column of the preload
+        of_row = [_in_column(fault, row) for fault in error.faults]
+        raise InputError(*faults, *of_row) from None
+    raise_if_any(faults)
+    taken[name] = row.line
+    if log is not None:
+        logs[name] = path.parent / log
+    return found
+
+
+def _seal_torque(word: str, values: Mapping[str, Any], faults: list[Fault]) -> float | None:
+    """The torque of seals that a word stands for."""
+    if word == column_names.NONE:
+        return 0.0
+    try:
+        return float(Seals.of_table(values["nominal_diameter"], values["lead"]).seal_torque)
+    except InputError as error:
+        remedy = f"{error.faults[0].remedy}; write the torque"
+        faults.append(Fault("row.seal_torque", "no standard seals are known of this size", word, remedy))
+        return None
+
+
+def _in_column(fault: Fault, row: Row) -> Fault:
+    """The fault of a share, in the column of the preload where it stands there."""
+    parent, _, name = fault.where.rpartition(".")
+    column = next((column for column, share in column_names.SHARES.items() if share == name), name)
+    return dataclasses.replace(fault, where=f"{parent}.{column}") if column in row.written else fault
+
+
+def _called_by_sizes(values: Mapping[str, Any]) -> str:
+    sizes = [units.from_si(values[name], _FIELDS[name]) for name in ("nominal_diameter", "lead", "ball_diameter")]
+    return f"{'x'.join(f'{size:.6g}' for size in sizes)}-{values['turns']:g}"
+
+
+def chosen(rows: Mapping[str, CatalogueRow], words: str, file: Path | None = None) -> list[CatalogueRow]:
+    """The rows that have all these words in name, source or kind of nut; a fault names the file they are of."""
+    found = [
+        row
+        for row in rows.values()
+        if all(word in f"{row.name} {row.source} {row.nut}".casefold() for word in words.casefold().split())
+    ]
+    if not found:
+        where = "catalogue" if file is None else file.name
+        raise InputError(Fault(where, "no row has these words", words, "leave them out to see all rows"))
+    return found
+
+
+def named(rows: Mapping[str, CatalogueRow], name: str, where: str = "", file: str | Path | None = None) -> CatalogueRow:
+    """The row of that name, whatever its capitals; a fault is one of ``where`` the name was given, or of the file."""
+    found = {known.casefold(): row for known, row in rows.items()}.get(name.casefold())
+    if found is not None:
+        return rows.get(name, found)
+    containing = [f'"{known}"' for known in rows if name and name.casefold() in known.casefold()][:3]
+    if containing:
+        remedy = f"did you mean {' or '.join(containing)}?"
+    elif closest(name, rows):
+        remedy = nearest(name, rows)
+    else:
+        remedy = f'see "ballscrew catalogue list{"" if file is None else f" --rows {file}"}"'
+    where = where or ("catalogue" if file is None else Path(file).name)
+    raise InputError(Fault(where, "unknown row", name, remedy))
+
+
+# -- for people -----------------------------------------------------------------------------------
+
+
+def list_text(rows: Sequence[CatalogueRow]) -> str:
+    """One line a row."""
+    cells = [list(_LIST), *map(_cells, rows)]
+    widths = [max(len(row[place]) for row in cells) for place in range(len(_LIST))]
+    lines = [
+        "  ".join(
+            cell.ljust(width) if place in _TEXTS else cell.rjust(width)
+            for place, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ).rstrip()
+        for row in cells
+    ]
+    return "\n".join(lines)
+
+
+def _cells(row: CatalogueRow) -> list[str]:
+    size = " x ".join(_number(row, name) for name in ("nominal_diameter", "lead"))
+    numbers = [
+        _number(row, name)
+        for name in (
+            "ball_diameter", "turns", "balls_per_turn", "loaded_balls", "dynamic_load_rating", "static_load_rating",
+        )
+    ]  # fmt: skip
+    return [row.name, size, *numbers, row.source]
+
+
+def _number(row: CatalogueRow, name: str) -> str:
+    value = getattr(row, name)
+    return "-" if value is None else f"{units.from_si(float(value), quantities_of(CatalogueRow)[name]):.5g}"
+
+
+def show_text(row: CatalogueRow) -> str:
+    """Catalogue row of a screw, the values that follow from it, and the assumptions."""
+    kind = f", nut: {row.nut}" if row.nut else ""
+    lines = [f"{row.name} ({row.source}){kind}", "", "Listed"]
+    unlisted = assumed(row)
+    lines += [
+        _line(q, getattr(row, n)) + (_source_of_nut(row) if n == "nut_outer_diameter" else "")
+        for n, q in _FIELDS.items()
+        if n not in unlisted and getattr(row, n) is not None
+    ]
+    lines += ["", "Derived"]
+    lines += [
+        _line(q, getattr(row, n)) + (_root_doubt(row) if n == "groove_root_diameter" else "")
+        for n, q in _DERIVED.items()
+    ]
+    lines += ["", "Assumed", *(f"  {words}" for words in unlisted.values())]
+    return "\n".join(lines)
+
+
+def _source_of_nut(row: CatalogueRow) -> str:
+    return f" ({row.nut_outer_diameter_source})" if row.nut_outer_diameter_source else ""
+
+
+def _line(quantity: Quantity, value: Any) -> str:
+    return f"  {quantity.info.meaning:<58} {units.shown(value, quantity, digits=5)}"
+
+
+def _root_doubt(row: CatalogueRow) -> str:
+    """Change of the root diameter with the conformity, and the value of the catalogue."""
+    quantity = _DERIVED["groove_root_diameter"]
+    around = [
+        dataclasses.replace(row, conformity=row.conformity + doubt).groove_root_diameter
+        for doubt in (CONFORMITY_DOUBT, -CONFORMITY_DOUBT)
+        if 0.5 < row.conformity + doubt <= 1
+    ]
+    span = " to ".join(units.shown(value, quantity, digits=5) for value in around)
+    listed = "" if row.root_diameter is None else f"; listed: {units.shown(row.root_diameter, quantity, digits=5)}"
+    return f" ({span} for a conformity of {row.conformity:g} ± {CONFORMITY_DOUBT:g}{listed})"
+
+
+def assumed(row: CatalogueRow) -> dict[str, str]:
+    """In words, what stands for what a catalogue leaves out, by field."""
+    angle = units.shown(row.contact_angle, _FIELDS["contact_angle"])
+    words = {
+        "starts": "one thread start",
+        "contact_angle": f"contact angle {angle}, the usual one",
+        "conformity": f"conformity {row.conformity:g} ± {CONFORMITY_DOUBT:g}, as most listed root diameters imply",
+    }
+    found = {name: text for name, text in words.items() if getattr(row, name) == _DEFAULTS[name]}
+    if row.pitch_circle_diameter is None:
+        found["pitch_circle_diameter"] = (
+            "pitch circle as large as the nominal diameter; those that a catalogue lists are 1.5 to 5 % larger"
+        )
+    found["loaded_turns"] = f"{TURNS_WITHOUT_LOAD:g} turns without load where the balls leave and enter (ISO 3408-5)"
+    return found
+
+
+def case_text(row: CatalogueRow) -> str:
+    """A complete case file of a row: a usual oil, a tenth of the dynamic load rating, 600 rpm."""
+    screw = row.screw()
+    fields = fields_of(BallScrew)
+    names = [
+        "pitch_circle_diameter",
+        "lead",
+        "ball_diameter",
+        "loaded_balls",
+        "contact_angle",
+        "screw_conformity",
+        "nut_conformity",
+    ]
+    names += ["starts"] if screw.starts > 1 else []
+    unlisted = assumed(row)
+    comments = {
+        "pitch_circle_diameter": "the nominal diameter; the row lists no pitch circle"
+        if row.pitch_circle_diameter is None
+        else "",
+        "loaded_balls": f"{row.balls_per_turn} a turn, {row.loaded_turns:g} of {row.turns:g} turns; one nut body",
+        "contact_angle": "not listed, the usual one" if "contact_angle" in unlisted else "",
+        "screw_conformity": f"not listed, good to {CONFORMITY_DOUBT:g}" if "conformity" in unlisted else "",
+    }
+    listed = [name for name in LISTED if getattr(row, name) is not None]
+    rating = row.dynamic_load_rating
+    load = 1000.0 if rating is None else rating / 10
+    of_load = (
+        "an example; the row lists no dynamic load rating"
+        if rating is None
+        else f"a tenth of C_a = {rating / 1000:.6g} kN"
+    )
+    lines = [
+        f"# {row.name}: {row.source}",
+        "# The screw of a catalogue row; preload, oil and operating point are examples."
+        + (f" Nut: {row.nut}." if row.nut else ""),
+        "",
+        "[screw]",
+        *(_setting(name, _written(getattr(screw, name), fields[name]), comments.get(name, "")) for name in names),
+        *(_setting(name, _written(getattr(row, name), LISTED[name]), "as listed") for name in listed),
+        "",
+        "[nut]",
+        *_nut(row),
+        "",
+        "[bodies]  # elastic screw and nut of a usual size, as ballscrew check takes them; without it they are rigid",
+        *([] if is_shipped(row) else _listed_part(row, "nut_outer_diameter", "nut_outer_diameter")),
+        "",
+        *_seals(row),
+        "[lubricant]",
+        'grade = "ISO VG 100"',
+        'temperature = "40 degC"',
+        "",
+        "[operation]",
+        _setting("axial_load", f'"{load / 1000:.6g} kN"', of_load),
+        _setting("screw_speed", '"600 rpm"', ""),
+    ]
+    # no letters that a terminal or a redirection could write in another encoding than UTF-8
+    return "\n".join(lines).encode("ascii", "backslashreplace").decode()
+
+
+def _nut(row: CatalogueRow) -> list[str]:
+    """The nut of a row, with a preload as an example where its kind has one."""
+    kind = row.nut or "single"
+    lines = [_setting("type", f'"{kind}"', "" if row.nut else "the row says nothing of its nut")]
+    if lists_preload(row) and row.preload_share is not None:
+        lines.append(
+            _setting("preload", f'"{100 * row.preload_share:.12g} %"', "as listed, of the dynamic load rating")
+        )
+    elif lists_preload(row):
+        lines += _listed_part(row, "preload", "preload")
+    elif "preload" in fields_of(NUTS[kind]):
+        comment = "of the dynamic load rating" + ("" if row.dynamic_load_rating else ", computed from the geometry")
+        lines.append(_setting("preload", f'"{EXAMPLE_PRELOADS[kind]}"', f"an example: {comment}"))
+    return [*lines, *(["spacer_balls = true"] if row.spacer_balls else [])]
+
+
+def _listed_part(row: CatalogueRow, name: str, key: str) -> list[str]:
+    value = getattr(row, name)
+    return [] if value is None else [_setting(key, _written(value, _FIELDS[name]), "as listed")]
+
+
+def _seals(row: CatalogueRow) -> list[str]:
+    return ["[losses]", *_listed_part(row, "seal_torque", "seals.seal_torque"), ""] if row.seal_torque else []
+
+
+def _setting(name: str, value: str, comment: str) -> str:
+    setting = f"{name} = {value}"
+    return f"{setting:<38}  # {comment}" if comment else setting
+
+
+def _written(value: float, quantity: Quantity) -> str:
+    text = units.written(value, quantity)
+    return text if quantity.unit == "1" else f'"{text}"'
+
+
+# -- for programs ---------------------------------------------------------------------------------
+
+
+def list_document(rows: Sequence[CatalogueRow]) -> dict[str, Any]:
+    """All rows, SI."""
+    return _with_units({"rows": [_document(row) for row in rows]})
+
+
+def show_document(row: CatalogueRow) -> dict[str, Any]:
+    """One row, SI."""
+    return _with_units({**_document(row), "assumed": assumed(row)})
+
+
+def _document(row: CatalogueRow) -> dict[str, Any]:
+    return {
+        "name": row.name,
+        "nut": row.nut or None,
+        "source": row.source,
+        "row": {name: getattr(row, name) for name in _FIELDS},
+        "derived": {name: getattr(row, name) for name in _DERIVED},
+    }
+
+
+def _with_units(document: dict[str, Any]) -> dict[str, Any]:
+    parts = {"row": _FIELDS, "derived": _DERIVED}
+    found = {part: {name: quantity.unit for name, quantity in names.items()} for part, names in parts.items()}
+    return document | {"units": found, "provenance": {"version": __version__}}

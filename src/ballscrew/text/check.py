@@ -1,0 +1,160 @@
+"""Text of the checks of a screw: one screw in full, or one line for each."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from ballscrew import units
+from ballscrew.cases import descriptions, nut_tables
+from ballscrew.components.screw import BallScrew
+from ballscrew.friction.result import FrictionResult
+from ballscrew.output.wrapping import beside, wrapped
+from ballscrew.quantities import Info, Quantity, quantities_of
+from ballscrew.screw_tables.nut_kinds import LISTED
+from ballscrew.sizing.checks import Check
+from ballscrew.solvers.load_distribution import BallLoads
+from ballscrew.studies.check import RATINGS, Checked
+from ballscrew.studies.nut_state import NutState
+from ballscrew.text.run import rigidity_rows, stiffness_fields
+from ballscrew.text.tables import shown_or_dash
+
+#: The display units of the checks, by SI unit.
+_SHOWN_IN = {"N": "kN", "Pa": "MPa", "s": "h", "rad/s": "rpm", "m rad/s": "mm rpm", "N m": "N m"}
+#: The options for an input that is missing.
+_GIVE = {
+    "installation": "--length and --ends, or [installation]",
+    "limits.running_time": '--set limits.running_time="20000 h"',
+}
+_RESULT, _LOADS = quantities_of(FrictionResult), quantities_of(BallLoads)
+_HEADINGS = ("name", "load", "torque", "eff.", "eff. back", "rigidity", "life", "verdict")
+_WIDTH = 66
+
+
+def quantity_of(check: Check) -> Quantity:
+    """The quantity of a check, in the unit it is shown in."""
+    return Quantity(check.name, check.unit, Info("", check.name, _SHOWN_IN.get(check.unit, "")))
+
+
+def shown(check: Check, value: float | None) -> str:
+    """Four digits and the unit, up to a million without an exponent."""
+    if value is None or not math.isfinite(value):
+        return "–"
+    quantity = quantity_of(check)
+    rounded = float(f"{value:.4g}") if quantity.unit == "1" else float(units.rounded(value, quantity))
+    return f"{rounded:.6g}" + ("" if quantity.unit == "1" else f" {quantity.shown_in}")
+
+
+def _line(what: str, value: str) -> str:
+    return f"  {what:<{_WIDTH}} {value}"
+
+
+def text(found: Checked) -> str:
+    """One screw in full."""
+    case, friction = found.case, found.run.friction
+    source = "" if case.row is None else f" ({case.row.source})"
+    lines = [
+        f"{found.name}{source}: {descriptions.title(found.run.case)}",
+        "",
+        *_geometry(found),
+        "",
+        "Torque and efficiency",
+        *(
+            _line(_RESULT[name].info.meaning, shown_or_dash(getattr(friction, name), _RESULT[name]))
+            for name in ("screw_torque", "drive_torque", "efficiency", "back_driving_efficiency", "friction_power")
+        ),
+        _line("torque without load", shown_or_dash(found.nut.preload_drag, _RESULT["screw_torque"])),
+        *(f"  {record.text}" for record in ([] if found.heating is None else [found.heating.record])),
+        *(f"  {record.text}" for record in found.run.verdicts),
+        "",
+        "Stiffness",
+        *_stiffness(found.nut),
+        "",
+        *_ratings(found),
+        "",
+        *check_lines(found.checks),
+        "",
+        f"verdict: {found.verdict}",
+        *(f"beware  {record.name}: {record.text}" for record in found.run.conditions),
+        "",
+        "assumed",
+        *(f"  {line}" for line in found.assumed),
+    ]
+    return "\n".join(line if "\n" in line else wrapped(line) for line in lines)
+
+
+def _geometry(found: Checked) -> list[str]:
+    screw, known = found.case.screw, quantities_of(BallScrew)
+    lines = [
+        _line(known[name].info.meaning, units.shown(getattr(screw, name), known[name]))
+        for name in ("pitch_circle_diameter", "lead", "lead_angle", "ball_diameter", "loaded_balls", "contact_angle")
+    ]
+    root = nut_tables.root_diameter(screw, found.case.listed)
+    return ["Geometry", *lines, _line(LISTED["root_diameter"].info.meaning, units.shown(root, LISTED["root_diameter"]))]
+
+
+def _stiffness(nut: NutState) -> list[str]:
+    lines = [
+        _line(_LOADS[n].info.meaning, shown_or_dash(float(getattr(nut.loads, n)), _LOADS[n]))
+        for n in stiffness_fields(nut)
+    ]
+    pressure = _RESULT["maximum_pressure"]
+    lines.append(_line(pressure.info.meaning, shown_or_dash(nut.maximum_pressure, pressure)))
+    return [*lines, *(_line(meaning, value) for meaning, value in rigidity_rows(nut.rigidity))]
+
+
+def _ratings(found: Checked) -> list[str]:
+    lines = [f"{'Ratings':<{_WIDTH + 2}} {'listed':>12} {'ISO 3408-5':>12}"]
+    for name, field in RATINGS.items():
+        quantity = LISTED[name]
+        values = found.case.listed.get(name), None if found.computed is None else getattr(found.computed, field)
+        cells = ("–" if value is None else units.shown(value, quantity) for value in values)
+        lines.append(f"  {quantity.info.meaning:<{_WIDTH}} " + " ".join(f"{cell:>12}" for cell in cells))
+    return lines
+
+
+def check_lines(checks: Sequence[Check], give: Mapping[str, str] | None = None) -> list[str]:
+    """A line for each check: value, limit, share used, verdict; ``give`` names what to give for inputs it lacks."""
+    said = _GIVE if give is None else give
+    lines = [f"{'Checks':<26}{'value':>12} {'limit':>12} {'used':>7}  verdict"]
+    for check in checks:
+        used = "–" if check.utilisation is None else f"{check.utilisation:.1%}"
+        verdict = {True: "passes", False: "FAILS", None: ""}[check.holds]
+        explanation = check.text
+        if check.missing in said:
+            explanation = explanation.replace(check.missing, said[check.missing])
+        cells = f"{shown(check, check.value):>12} {shown(check, check.limit):>12} {used:>7}"
+        prefix = f"  {check.name.replace('_', ' '):<24}{cells}  "
+        lines.append(beside(prefix, ": ".join(filter(None, [verdict, explanation]))))
+    return lines
+
+
+def list_text(found: Sequence[Checked]) -> str:
+    """One line a screw; a long verdict goes on below itself."""
+    lines = [list(_HEADINGS), *map(_cells, found)]
+    widths = [max(len(line[place]) for line in lines) for place in range(len(_HEADINGS))]
+    return "\n".join(
+        beside(
+            "".join(
+                (cell.rjust(width) if place else cell.ljust(width)) + "  "
+                for place, (cell, width) in enumerate(zip(numbers, widths, strict=False))
+            ),
+            verdict,
+        )
+        for *numbers, verdict in lines
+    )
+
+
+def _cells(found: Checked) -> list[str]:
+    result = found.run.friction
+    numbers = [
+        units.shown(result.axial_load, LISTED["dynamic_load_rating"]),
+        *(
+            shown_or_dash(getattr(result, name), _RESULT[name])
+            for name in ("screw_torque", "efficiency", "back_driving_efficiency")
+        ),
+    ]
+    # at the same speed as all others: the revolutions would say no more
+    life = shown(found.check("running_time"), found.check("running_time").value)
+    rigidity = shown_or_dash(float(found.nut.loads.rigidity), _LOADS["rigidity"])
+    return [found.name, *numbers, rigidity, life, found.verdict]

@@ -1,0 +1,229 @@
+"""Text of a duty on the terminal: the cycle, what the motor is paid for, power off, life, rules and checks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from ballscrew import units
+from ballscrew.axis.axis import Axis
+from ballscrew.axis.brake import LetGo
+from ballscrew.axis_studies import duty_records
+from ballscrew.axis_studies.duty import NUMBERS, DutyReport
+from ballscrew.cases import descriptions
+from ballscrew.cases.case import Case
+from ballscrew.cases.duty_schema import MOTIONS
+from ballscrew.components.materials import TEMPERATURE
+from ballscrew.motion.profiles import Trapezoid
+from ballscrew.output.wrapping import aligned, wrapped
+from ballscrew.quantities import Quantity, fields_of
+from ballscrew.screw_tables.nut_kinds import LISTED
+from ballscrew.text.check import check_lines
+from ballscrew.text.tables import shown_or_dash
+
+if TYPE_CHECKING:  # loads xarray
+    from ballscrew.axis_studies.duty_band import DutyBandReport
+
+#: Energies that are zero in most cycles.
+_IF_ANY = ("energy_of_process", "energy_stored")
+_WIDTH, _BAR = 66, 24
+_AXIS, _MOTION = fields_of(Axis), fields_of(Trapezoid)
+_FORCE, _SPEED = LISTED["dynamic_load_rating"], _MOTION["speed"]
+_TORQUE, _ENERGY = NUMBERS["torque_rms"], NUMBERS["energy_lost"]
+#: Columns of the axis with its motor off.
+CONDITIONS = ("", "oil", "load", "friction from rest", "in motion", "ratio", "after the stroke", "")
+#: The options for an input of a check that is missing.
+_GIVE = {
+    "installation": "[installation]",
+    "limits.running_time": '--set limits.running_time="20000 h"',
+}
+#: Parts that are less than this share of the largest are not shown.
+_LEAST = 1e-9
+
+
+def text(report: DutyReport, encoding: str = "utf-8") -> str:
+    """A duty in full."""
+    lines = [
+        title(report),
+        "",
+        descriptions.design(report.case, plain_text=True),
+        *_assumptions(report.case),
+        "",
+        "Cycle",
+        *_numbers(report),
+        *_smoothing(report),
+        *(f"  {record.text}" for record in duty_records.verdicts(report)),
+        *(f"beware  {record.name}: {record.text}" for record in duty_records.warnings(report)),
+        "",
+        *_parts(report, "█" if "utf" in encoding.lower() else "#"),
+        "",
+        *_power_off(report),
+        "",
+        *_life(report),
+        "",
+        *_rules(report),
+        "",
+        *check_lines(report.checks, _GIVE),
+    ]
+    return "\n".join(line if "\n" in line else wrapped(line) for line in lines)
+
+
+def band_text(found: DutyBandReport) -> str:
+    """The bands of a duty, one number a line, and where they come from."""
+    bands = found.bands
+    rows = [[f"Band: {100 * bands.level:.4g} % of {bands.count} samples", "case", "median", "from", "to"]]
+    for name, one in bands.numbers.items():
+        quantity = NUMBERS[name]
+        cells = (number(quantity, value) for value in (one.value, one.median, *one.band))
+        rows.append([f"  {quantity.info.meaning}", *cells])
+    given = sum(one.given for one in found.inputs.values())
+    said = (
+        f"  of {len(found.inputs)} uncertain inputs of screw, oil and model, {given} of them given by the case; "
+        "motion, axis and laws are taken as exact"
+    )
+    return "\n".join(["", *aligned(rows), wrapped(said)])
+
+
+def title(report: DutyReport) -> str:
+    """``vertical axis, 400 kg, trapezoid over 500 mm at 30 m/min: double nut, preload 5047 N, model reference``."""
+    case, axis, states = report.case, report.axis, report.duty.states
+    angle = float(axis.inclination)
+    tilt = (
+        "horizontal axis"
+        if angle == 0
+        else "vertical axis"
+        if math.isclose(abs(angle), math.pi / 2)
+        else f"axis at {units.shown(angle, _AXIS['inclination'])}"
+    )
+    kind = next((name for name, cls in MOTIONS.items() if type(report.motion) is cls), "recorded motion")
+    fastest = float(max(abs(states.speed)))
+    travel = f"{kind} over {units.shown(states.stroke, _MOTION['stroke'])} at up to {units.shown(fastest, _SPEED)}"
+    nut = [] if case.nut is None else [descriptions.nut_text(case.nut)]
+    model = descriptions.model_text(case) if case.efficiency is None else f"efficiency {case.efficiency:g}"
+    return f"{tilt}, {units.shown(axis.mass, _AXIS['mass'])}, {travel}: {', '.join([*nut, model])}"
+
+
+def _assumptions(case: Case) -> Sequence[str]:
+    return [*descriptions.assumptions(case), descriptions.left_out(case)] if case.efficiency is None else []
+
+
+def _line(what: str, value: str) -> str:
+    return f"  {what:<{_WIDTH}} {value}"
+
+
+def _numbers(report: DutyReport) -> list[str]:
+    return [
+        _line(quantity.info.meaning, number(quantity, report.numbers[name]))
+        for name, quantity in shown_numbers(report).items()
+    ]
+
+
+def _smoothing(report: DutyReport) -> list[str]:
+    """How a recorded motion was smoothed."""
+    found = report.smoothing
+    if found is None:
+        return []
+    torque = units.shown(found.torque_rms_unsmoothed, _TORQUE)
+    acceleration = units.shown(found.acceleration_noise, _MOTION["acceleration"], 2)
+    return [
+        f"  recorded: {found.samples} samples, each speed from {2 * found.half_width + 1} of them, which leaves a "
+        f"noise of {acceleration} in the acceleration; without smoothing the RMS torque would be {torque}"
+    ]
+
+
+def shown_numbers(report: DutyReport) -> Mapping[str, Quantity]:
+    """The numbers of a cycle, without those that are zero in most of them."""
+    least = _LEAST * report.duty.energy_drawn
+    return {n: q for n, q in NUMBERS.items() if n not in _IF_ANY or abs(report.numbers[n]) > least}
+
+
+def number(quantity: Quantity, value: float) -> str:
+    """A number with its unit; a dash where it is not finite, and large counts without an exponent up to a million."""
+    if not math.isfinite(value):
+        return "endless" if value > 0 else "–"
+    return f"{float(f'{value:.4g}'):.6g}" if quantity.unit == "1" else shown_or_dash(value, quantity)
+
+
+def _parts(report: DutyReport, block: str) -> list[str]:
+    """What the motor is paid for: torque at its peak, share of the RMS torque, energy."""
+    total = report.duty.torque_rms
+    rows, bars = [["What the motor is paid for", "at the peak", "of the RMS", "energy", "share"]], [""]
+    sums = (sum(report.torque_peak_by.values()), total, sum(report.duty.energy_by.values()))
+    for name, values in {**shown_parts(report), "sum": sums}.items():
+        cells = (units.shown(v, q, 3) for v, q in zip(values, (_TORQUE, _TORQUE, _ENERGY), strict=True))
+        share = values[1] / total if total else 0.0
+        rows.append([f"  {name}", *cells, f"{share:.1%}" if total else "–"])
+        bars.append("" if name == "sum" else block * round(_BAR * max(0.0, min(share, 1.0))))
+    return [f"{line}  {bar}".rstrip() for line, bar in zip(aligned(rows), bars, strict=True)]
+
+
+def shown_parts(report: DutyReport) -> Mapping[str, tuple[float, float, float]]:
+    """Parts at the peak, of the RMS torque and of the energy; zero where it is rounding, and left out where all are."""
+    columns = (report.torque_peak_by, report.torque_rms_by, report.duty.energy_by)
+    scales = [max(map(abs, values.values()), default=0.0) for values in columns]
+    found: dict[str, tuple[float, float, float]] = {}
+    for name in report.duty.energy_by:
+        peak, rms, energy = (
+            values[name] if abs(values[name]) > _LEAST * scale else 0.0
+            for values, scale in zip(columns, scales, strict=True)
+        )
+        if peak or rms or energy:
+            found[name] = (peak, rms, energy)
+    return found
+
+
+def _power_off(report: DutyReport) -> list[str]:
+    if not report.brake.load_torque:
+        return ["Motor off: no load turns the screw"]
+    rows = [["Motor off", *CONDITIONS[1:]]]
+    rows += [[f"  {first}", *others] for first, *others in map(condition_cells, report.brake.conditions)]
+    return aligned(rows)
+
+
+def condition_cells(found: LetGo) -> list[str]:
+    """The axis let go in one condition, in the columns of :data:`CONDITIONS`."""
+    says = "falls" if found.falls else "goes on once started" if found.goes_on else "stays"
+    return [
+        found.condition,
+        "–" if found.temperature is None else units.shown(found.temperature, TEMPERATURE, 3),
+        units.shown(abs(found.load_torque), _TORQUE, 3),
+        units.shown(found.breakaway_torque, _TORQUE, 3),
+        units.shown(found.running_torque, _TORQUE, 3),
+        f"{found.safety:.3g}",
+        shown_or_dash(found.speed_after_stroke, _SPEED) if found.goes_on else "–",
+        says,
+    ]
+
+
+def _life(report: DutyReport) -> list[str]:
+    life = report.life
+    rating = life.dynamic_load_rating
+    source = f"dynamic load rating {'–' if rating is None else units.shown(rating, _FORCE)}, {report.rating_source}"
+    loads = [
+        _line(f"mean load of {'the half' if life.preload else 'the flank'} {name}", shown_or_dash(load, _FORCE))
+        for name, load in life.mean_loads.items()
+    ]
+    turns = NUMBERS["life_revolutions"]
+    return [
+        f"Life by ISO 3408-5 ({source})",
+        *loads,
+        _line("turns of both together", number(turns, life.revolutions)),
+        _line("turns by the larger mean load alone, as THK computes", number(turns, life.revolutions_of_the_worse)),
+    ]
+
+
+def _rules(report: DutyReport) -> list[str]:
+    rule, duty = report.rule, report.duty
+    rows = [["Torque of the motor", "peak", "RMS"]]
+    for name, found in (
+        ("  by mechanics" + (": this is physics" if report.by_rule else ""), duty),
+        (f"  by the rule of catalogues (THK), efficiency {rule.efficiency:g}", rule),
+    ):
+        rows.append([name, *(units.shown(value, _TORQUE) for value in (found.torque_peak, found.torque_rms))])
+    note = (
+        "  The rule divides the load by the efficiency also where the load drives the screw, and moves the mass "
+        "without any loss; mechanics does neither."
+    )
+    asked = "  The case asks for the rule: its torques stand above." if report.by_rule else ""
+    return [*aligned(rows), note, *filter(None, [asked])]

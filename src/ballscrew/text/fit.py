@@ -1,0 +1,153 @@
+"""``ballscrew fit``: tables of a calibration on the terminal, and the caption of its picture."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from ballscrew import units
+from ballscrew.calibration.calibrated_model import CalibratedModel
+from ballscrew.calibration.diagnostics import product_of_powers
+from ballscrew.calibration.fit_result import Estimate
+from ballscrew.calibration.next_test import NextTest
+from ballscrew.cases.case_file import Case
+from ballscrew.cases.descriptions import design, model_text
+from ballscrew.friction.result import FrictionResult
+from ballscrew.quantities import Quantity, quantities_of
+from ballscrew.studies.fit import FitReport
+from ballscrew.text.tables import table_of
+
+_TORQUE = quantities_of(FrictionResult)["screw_torque"]
+_FIFTHS = ("lowest", "lower", "middle", "higher", "highest")
+
+
+def print_fit(case: Case, report: FitReport) -> None:
+    """The log, the numbers, what the log cannot tell, how far all descriptions are off, residuals, the next test."""
+    console, model = Console(highlight=False), report.model
+
+    def say(text: str, style: str | None = None) -> None:
+        console.print(text, style=style, markup=False, soft_wrap=True)
+
+    log, (name, _) = model.rows.log, model.rows.log.source or ("log", "")
+    say(f"{name}: {len(log)} of {log.rows} rows used, {model_text(case)}\n", "bold")
+    for line in (*(f"left out: {count} rows, {reason}" for reason, count in log.left_out.items()), *log.notes):
+        say(line, "dim")
+    say(f"torque read as: {model.rows.convention.description}", "dim")
+    if model.rows.outlying.any():
+        say(f"outliers: {int(model.rows.outlying.sum())} rows, which count nothing", "dim")
+    console.print()
+    console.print(_estimates(model))
+    for warning in model.warnings:
+        say(f"beware  {warning}", "yellow")
+    if len(model.estimates) > 1:
+        console.print(_combinations(model))
+    console.print(_scores(model))
+    console.print(_residuals(model))
+    if report.next_test is not None:
+        for line in describe_next_test(report.next_test, model):
+            say(line)
+
+
+def _estimates(model: CalibratedModel) -> Table:
+    table = table_of("Fitted", "", "", "value", "± standard error", "95 % interval", "from")
+    shown = [e for e in model.sensor.values() if not e.name.startswith("torque_wander")]
+    for estimate in (*model.estimates.values(), *shown):
+        table.add_row(
+            spoken(estimate.name),
+            estimate.quantity.shown_in.replace("um", "µm") if estimate.quantity.unit != "1" else "",
+            _number(estimate, estimate.value),
+            "not identified" if estimate.std is None else f"± {_number(estimate, estimate.std, 2)}",
+            interval(estimate),
+            _number(estimate, estimate.start),
+        )
+    return table
+
+
+def interval(estimate: Estimate) -> str:
+    """``0.101 to 0.118``; a dash where there is none."""
+    ends = estimate.interval()
+    if ends is None:
+        return "–"
+    low, high = (_number(estimate, end) for end in ends)
+    return f"{low} to {high}"
+
+
+def _number(estimate: Estimate, value: float, digits: int = 4) -> str:
+    """A value of an estimate in the unit people think in, without the unit."""
+    return f"{units.from_si(value, estimate.quantity):.{digits}g}"
+
+
+def _combinations(model: CalibratedModel) -> Table:
+    table = table_of("\nWhat the log tells, the best known first", "product of powers", "known to", "")
+    for combination in model.identifiability.combinations:
+        error = combination.relative_error
+        table.add_row(
+            product_of_powers(combination.powers),
+            f"{error:.2%}" if error < 1 else "–",
+            "" if combination.identified else "not identified",
+        )
+    return table
+
+
+def _scores(model: CalibratedModel) -> Table:
+    table = table_of("\nHow far off, root mean square without outliers", "", "numbers", "rows fitted", "rows held out")
+    for score in model.scores:
+        held_out = "–" if math.isnan(score.held_out) else _shown(score.held_out, _TORQUE, 3)
+        table.add_row(score.description, str(score.parameters), _shown(score.fitted, _TORQUE, 3), held_out)
+    return table
+
+
+def _residuals(model: CalibratedModel) -> Table:
+    typical = float(np.median(model.rows.friction)) or 1.0
+    size = _shown(typical, _TORQUE, 3)
+    table = table_of(f"\nPredicted less measured, means by fifths of the rows, in % of {size}", "", *_FIFTHS)
+    for name, trend in model.rows.trends.items():
+        pairs = zip(trend.means, trend.errors, strict=True)
+        cells = [f"{100 * mean / typical:+.1f} ± {100 * error / typical:.1f}" for mean, error in pairs]
+        table.add_row(spoken(name), *cells)
+    return table
+
+
+def describe_next_test(test: NextTest, model: CalibratedModel) -> list[str]:
+    """Recommended next test, and the reduction of uncertainty it would give."""
+    known: Mapping[str, Quantity] = {name: quantity for name, (_, quantity) in model.subject.inputs.items()}
+    where = ", ".join(units.shown(value, known[name], 3) for name, value in test.best.items())
+    both = ", half of them in each direction" if model.rows.log.forward.any() and model.rows.log.backward.any() else ""
+    errors = (f"{share:.0%} of the error of the {spoken(name)}" for name, share in test.remaining_error.items())
+    left = f"{test.best_volume:.0%} of the volume of what is open (a random test {test.random_volume:.0%})"
+    return [
+        f"\nnext test: {where}; {test.readings} readings{both}",
+        f"it would leave {left}, {', '.join(errors)}",
+    ]
+
+
+def spoken(name: str) -> str:
+    """The last part of a name, without underscores."""
+    return name.rpartition(".")[2].replace("_", " ")
+
+
+def _shown(value: float, quantity: Quantity, digits: int = 4) -> str:
+    return units.shown(value + 0.0, quantity, digits)
+
+
+def log_and_model(case: Case, report: FitReport) -> str:
+    """The name of the log and the model."""
+    name, _ = report.model.rows.log.source or ("log", "")
+    return f"{name}, {model_text(case)}"
+
+
+def caption(case: Case, report: FitReport) -> str:
+    """The caption of the picture."""
+    estimates = ", ".join(
+        f"{spoken(e.name)} {_shown(e.value, e.quantity)}"
+        + (" (not identified)" if e.std is None else f" ± {_shown(e.std, e.quantity, 2)}")
+        for e in report.model.estimates.values()
+    )
+    remarks = (
+        "Black: means of a fifth of the rows with twice their error. Star: the test to do next; white dots: the log."
+    )
+    return f"{design(case)}. Fitted (± standard error): {estimates}. {remarks}"

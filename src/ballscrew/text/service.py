@@ -1,0 +1,107 @@
+"""``ballscrew service``: the preloads on the terminal, and the sentences of its picture."""
+
+from __future__ import annotations
+
+import math
+
+from rich.console import Console
+from rich.table import Table
+
+from ballscrew import units
+from ballscrew.cases.case import Case
+from ballscrew.cases.descriptions import design, model_text, nut_text
+from ballscrew.components.materials import TEMPERATURE
+from ballscrew.documents.service import preload_quantity, verdicts
+from ballscrew.service.estimate import PreloadEstimate
+from ballscrew.studies.service import TORQUE, ServiceReport
+from ballscrew.text.fit import spoken
+from ballscrew.text.tables import table_of
+
+#: Causes of an interval that are named.
+_MOST_CAUSES = 3
+#: A cause that is less than this share of an interval is not named.
+_LEAST_CAUSE = 0.1
+
+
+def print_service(case: Case, report: ServiceReport) -> None:
+    """The logs, what became of the preload, the preloads, what else could be, and where the interval comes from."""
+    console = Console(highlight=False)
+
+    def say(text: str, style: str | None = None) -> None:
+        console.print(text, style=style, markup=False, soft_wrap=True)
+
+    say(f"{', '.join(names(report))}: {nut_text(case.screw.nut)}, {model_text(case)}\n", "bold")
+    for record in verdicts(case, report)[:1]:
+        say(record.text, "bold" if report.change is not None else None)
+    if report.change is not None:
+        console.print()
+        console.print(_preloads(case, report))
+    for cause in causes(report):
+        say(cause, "dim")
+    if report.change is not None:
+        for record in report.change.warning_records:
+            say(f"{'beware' if record.severity == 'warning' else 'note'}  {record.text}", "yellow")
+        others = verdicts(case, report)[1:]
+        if others:
+            before = "the case's" if report.change.new.fit is None else "the new log's"
+            say(f"\nHad the preload stayed {before}:", "bold")
+        for record in others:
+            say(f"  {record.text}")
+
+
+def names(report: ServiceReport) -> list[str]:
+    """The logs by the names of their files, or the reading."""
+    if report.reading is not None:
+        return [f"{units.shown(report.reading.torque, TORQUE)} without load"]
+    found: list[str] = []
+    for label, one in report.estimates.items():
+        if one.fit is not None:
+            source = one.fit.rows.log.source
+            found.append(label if source is None else source[0])
+    return found
+
+
+def _preloads(case: Case, report: ServiceReport) -> Table:
+    quantity = preload_quantity(case)
+    table = table_of("Preload", "", "rows", "temperature", "preload", "95 % interval", "residual")
+    for label, one in report.estimates.items():
+        table.add_row(
+            label_of(label, one),
+            "–" if one.fit is None else str(len(one.fit.rows.log)),
+            "–" if one.temperature is None else units.shown(one.temperature, TEMPERATURE, 3),
+            units.shown(one.preload, quantity),
+            _interval(one, case),
+            "–" if one.fit is None else units.shown(one.residual_rms, TORQUE, 2),
+        )
+    return table
+
+
+def label_of(label: str, one: PreloadEstimate) -> str:
+    """``new``, ``worn``; a preload that is not from a log is the nominal one."""
+    return "nominal" if label == "new" and one.fit is None else label
+
+
+def _interval(one: PreloadEstimate, case: Case) -> str:
+    low, high = one.interval()
+    if not math.isfinite(high):
+        return "–"
+    return " to ".join(units.shown(end, preload_quantity(case)) for end in (low, high))
+
+
+def causes(report: ServiceReport) -> list[str]:
+    """What the interval comes from, the largest cause first."""
+    of = report.change.ratio_shares if report.change is not None else {}
+    of = report.preload.shares if report.preload is not None else of
+    shares = sorted(((share, name) for name, share in of.items() if math.isfinite(share)), reverse=True)
+    named = [f"{spoken(name)} ({share:.0%})" for share, name in shares[:_MOST_CAUSES] if share >= _LEAST_CAUSE]
+    return [f"most of the interval is from: {', '.join(named)}"] if named else []
+
+
+def caption(case: Case, report: ServiceReport) -> str:
+    """The caption of the picture."""
+    said = verdicts(case, report)[0].text
+    curves = (
+        "Lines: the model with the preload found, at the median load and the mean temperature of each log; "
+        "dots: what was measured, moved there by the model"
+    )
+    return f"{design(case)}. {said}. {curves}; bars: 95 % intervals."

@@ -1,0 +1,113 @@
+"""Text of warming up on the terminal: a few instants, the steady state, the heat, and what was taken."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ballscrew import units
+from ballscrew.axis_studies import warm_up_records
+from ballscrew.axis_studies.duty import NUMBERS
+from ballscrew.axis_studies.warm_up import EQUILIBRIUM, PLACE, SERIES, WarmUpReport
+from ballscrew.cases import descriptions
+from ballscrew.output.wrapping import aligned, wrapped
+from ballscrew.text.tables import shown_or_dash
+
+_SHOWN = ("nut_temperature", "shaft_temperature", "shaft_growth", "preload", "screw_torque", "friction_power")
+_SHORT = {"nut_temperature": "nut", "shaft_temperature": "shaft, mean", "shaft_growth": "growth",
+          "screw_torque": "torque", "friction_power": "friction"}  # fmt: skip
+#: Instants of the table, besides the first and the last of work and of rest.
+_INSTANTS = 6
+_WIDTH = 66
+_MEAN_SPEED = NUMBERS["mean_speed"]
+
+
+def text(report: WarmUpReport) -> str:
+    """Warming up in full."""
+    lines = [
+        title(report),
+        "",
+        descriptions.design(report.case, plain_text=True),
+        "",
+        *_table(report),
+        "",
+        *(record.text for record in warm_up_records.verdicts(report)),
+        *(f"beware  {record.name}: {record.text}" for record in warm_up_records.warnings(report)),
+        "",
+        *_steady(report),
+        "",
+        *_heat(report),
+        "",
+        *_drift(report),
+        "",
+        "assumed",
+        *(f"  {line}" for line in report.assumed),
+    ]
+    return "\n".join(line if "\n" in line else wrapped(line) for line in lines)
+
+
+def title(report: WarmUpReport) -> str:
+    """``stroke 500 mm at 1000 rpm in the mean, 4 h of work, 1 h of rest: double nut, …``."""
+    found, case = report.warm_up, report.case
+    time = SERIES["time"]
+    work = float(found.time[report.last_at_work])
+    rest = float(found.time[-1]) - work
+    stroke = units.shown(report.duty.states.stroke, PLACE)
+    speed = units.shown(report.duty.mean_speed, _MEAN_SPEED)
+    hours = f"{units.shown(work, time)} of work" + (f", {units.shown(rest, time)} of rest" if rest else "")
+    nut = [] if case.nut is None else [descriptions.nut_text(case.nut)]
+    return f"stroke {stroke} at {speed} in the mean, {hours}: {', '.join([*nut, descriptions.model_text(case)])}"
+
+
+def _instants(report: WarmUpReport) -> Sequence[int]:
+    """Indices of the instants of the table."""
+    last, size = report.last_at_work, report.warm_up.time.size
+    work = np.unique(np.linspace(0, last, _INSTANTS + 1).round().astype(int))
+    rest = np.unique(np.linspace(last, size - 1, 3).round().astype(int)) if size - 1 > last else []
+    return [int(at) for at in dict.fromkeys([*work, *rest])]
+
+
+def _table(report: WarmUpReport) -> list[str]:
+    shown = [name for name in _SHOWN if name != "preload" or report.warm_up.network.preload_set]
+    rows = [["time", *(_SHORT.get(name, name) for name in shown), ""]]
+    for at in _instants(report):
+        cells = [shown_or_dash(float(report.series[name][at]), SERIES[name]) for name in shown]
+        works = "" if report.warm_up.works[at] else "stands; torque if it moved"
+        rows.append([units.shown(float(report.series["time"][at]), SERIES["time"], 3), *cells, works])
+    return aligned(rows)
+
+
+def _line(what: str, value: str) -> str:
+    return f"  {what:<{_WIDTH}} {value}"
+
+
+def _steady(report: WarmUpReport) -> list[str]:
+    end = report.warm_up.equilibrium
+    if not end.exists:
+        return [f"Steady state: none (margin {end.margin:.3g})"]
+    lines = [
+        _line(quantity.info.meaning, shown_or_dash(report.equilibrium[name], quantity))
+        for name, quantity in EQUILIBRIUM.items()
+        if name != "preload" or report.warm_up.network.preload_set
+    ]
+    return [f"Steady state, margin to running away {end.margin:.3g} (1 is none of the loop, 0 runs away)", *lines]
+
+
+def _heat(report: WarmUpReport) -> list[str]:
+    return [
+        "Heat until the end",
+        *(
+            _line(SERIES[name].info.meaning, units.shown(float(report.series[name][-1]), SERIES[name]))
+            for name in SERIES
+            if name.startswith("heat_")
+        ),
+    ]
+
+
+def _drift(report: WarmUpReport) -> list[str]:
+    places, growth = report.drift
+    rows = [["Drift of a place on the shaft", *(units.shown(float(place), PLACE) for place in places)]]
+    for at, when in ((report.last_at_work, "  at the end of work"), (-1, "  at the end of rest")):
+        rows.append([when, *(units.shown(float(value), SERIES["shaft_growth"]) for value in growth[at])])
+    return aligned(rows if len(report.warm_up.time) - 1 > report.last_at_work else rows[:2])

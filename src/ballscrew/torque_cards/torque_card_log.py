@@ -1,0 +1,44 @@
+"""A torque card as a log and a case file, as a fit takes them."""
+
+from __future__ import annotations
+
+import math
+import os
+from pathlib import Path
+from typing import Any
+
+from ballscrew import units
+from ballscrew.components.materials import TEMPERATURE
+from ballscrew.files import atomic_write
+from ballscrew.quantities import fields_of
+from ballscrew.torque_cards.torque_card import TorqueCard, TorquePoint, case_tables, log_rows
+
+_HEADINGS = ("speed [rpm]", "axial load [N]", "torque [N m]", "temperature [degC]")
+
+
+def write(card: TorqueCard, folder: Path, log: Path, case: Path) -> None:
+    """Write the log and the case file of a card from a folder."""
+    import tomlkit
+
+    tables: dict[str, Any] = case_tables(card.tables)
+    for section, key in (("screw", "catalogue_file"), ("lubricant", "oil_file")):
+        file = tables[section].get(key)
+        if file is not None:
+            moved = Path(os.path.relpath(folder / file, case.parent)).as_posix()
+            tables[section] = {**tables[section], key: moved}
+    head = f"# Of the torque card {card.name}: {card.title}\n"
+    with atomic_write("--case", case) as path:
+        path.write_text(f"{head}\n{tomlkit.dumps(tables)}", encoding="utf-8")
+    speed, torque = (fields_of(TorquePoint)[name] for name in ("screw_speed", "torque_forward"))
+    lines = [",".join(_HEADINGS)]
+    for row in log_rows(card):
+        temperature = row["temperature"]
+        cells = (
+            units.from_si(row["screw_speed"], speed),
+            row["axial_load"],
+            units.from_si(row["torque"], torque),
+            "" if math.isnan(temperature) else units.from_si(temperature, TEMPERATURE),
+        )
+        lines.append(",".join(cell if isinstance(cell, str) else f"{cell:.9g}" for cell in cells))
+    with atomic_write("--to", log) as path:
+        path.write_text(head + "\n".join(lines) + "\n", encoding="utf-8")
