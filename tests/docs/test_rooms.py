@@ -6,8 +6,8 @@ import pytest
 
 import make_rooms
 
-#: 2,500 is the aim; solvers is the next to be cut (loads of balls, and slip of a ball).
-MOST_LINES = 3050
+#: 2,500 is the aim; equations, components and solvers are libraries of short modules, and the next to be cut.
+MOST_LINES = 3150
 MOST_LINES_OF_A_FILE = 400
 
 
