@@ -20,6 +20,7 @@ from ballscrew.sizing.checks import Check
 
 _LENGTH, _SPEED = fields_of(Trapezoid)["stroke"], fields_of(Trapezoid)["speed"]
 _TORQUE, _TURNING = NUMBERS["torque_rms"], NUMBERS["mean_speed"]
+_INERTIA = fields_of(Axis)["inertia"]
 _RATIO = fields_of(Axis)["transmission_ratio"]
 #: Shares of the stroke and of the largest speed below which a difference is one of rounding.
 _CLOSES, _JUMPS = 1e-9, 1e-9
@@ -46,10 +47,11 @@ def _brake(report: DutyReport) -> Record:
     else:
         names = "in all conditions" if len(moving) == len(brake.conditions) else ", ".join(c.condition for c in moving)
         starts = "falls" if brake.starts else "stays, but goes on falling once it is started,"
+        load = units.shown(brake.load_torque, _TORQUE)
         fastest = units.shown(max(found.speed_after_stroke for found in moving), _SPEED)
         text = (
-            f"{starts} with the motor off ({names}), after the stroke at up to {fastest}; {hold} at the motor hold "
-            f"it, a brake of {rated} with a factor of {brake.brake_factor:g} and no help of friction"
+            f"{starts} with the motor off ({names}), after the stroke at up to {fastest}; a brake is needed: {rated}, "
+            f"{brake.brake_factor:g} times the {load} of the load without friction ({hold} hold it with its help)"
         )
     return Record(
         id="verdict.brake", subject="brake", text=text, severity="warning" if brake.falls else "info",
@@ -85,6 +87,7 @@ def warnings(report: DutyReport) -> list[Record]:
     return [
         *report.case.implausible(),
         *strange,
+        *_nothing_turns(report),
         *_open_cycle(report),
         *_jumps(report),
         *_short_stroke(report),
@@ -99,6 +102,17 @@ def _warning(name: str, subject: str, text: str, value: float, limit: float | No
         id=f"duty.{name}", subject=subject, text=text, severity="warning", holds=False, value=value, limit=limit,
         unit=quantity.unit,
     )  # fmt: skip
+
+
+def _nothing_turns(report: DutyReport) -> list[Record]:
+    """Inertia that is not given, where something accelerates."""
+    if report.axis.inertia or not np.any(report.duty.states.acceleration):
+        return []
+    text = (
+        "the inertia of motor, coupling and screw is zero: no torque is counted that accelerates them, often a quarter "
+        'of the peak; give [axis] inertia = "45 kg cm^2"'
+    )
+    return [_warning("no_inertia", "axis.inertia", text, 0.0, None, _INERTIA)]
 
 
 def _open_cycle(report: DutyReport) -> list[Record]:
@@ -119,9 +133,10 @@ def _open_cycle(report: DutyReport) -> list[Record]:
 def _jumps(report: DutyReport) -> list[Record]:
     """Speeds that differ where one phase ends and the next begins; the last is followed by the first."""
     states = report.duty.states
+    if isinstance(report.motion, Trajectory):  # smoothing leaves it a speed at its ends
+        return []
     ends, names = states.speeds_of_ends, states.phases
-    least = _JUMPS if not isinstance(report.motion, Trajectory) else _NOISE
-    floor = least * float(np.max(np.abs(states.speed)))
+    floor = _JUMPS * float(np.max(np.abs(states.speed)))
     found: list[Record] = []
     for number, (_, before) in enumerate(ends):
         after = ends[(number + 1) % len(ends)][0]

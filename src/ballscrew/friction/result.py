@@ -15,7 +15,7 @@ from ballscrew.equations import transmission
 from ballscrew.friction import directions, loaded_balls
 from ballscrew.friction.balls import MECHANISMS as MECHANISMS
 from ballscrew.friction.loaded_balls import LoadedBalls, LoadedPair
-from ballscrew.friction.plausibility import implausible
+from ballscrew.friction.plausibility import implausible, starved
 from ballscrew.friction.validity import (
     NUT_CONDITIONS,
     imbalance_records,
@@ -360,7 +360,8 @@ class FrictionResult(VendorTerms):
         """Inputs that no ball screw has, an imbalance of power, and the conditions that fail somewhere, as records."""
         contacts = [contact for pair in self.pairs for contact in (pair.screw, pair.nut)]
         unbalanced = imbalance_records(self.power_imbalance, self.nut_torque)
-        return [*implausible(self.parts), *unbalanced, *warning_records(self.validity, contacts, NUT_CONDITIONS)]
+        strange = [*implausible(self.parts), *starved(self.parts, self.entrainment_speed)]
+        return [*strange, *unbalanced, *warning_records(self.validity, contacts, NUT_CONDITIONS)]
 
     @property
     def warnings(self) -> list[str]:
