@@ -9,6 +9,7 @@ from ballscrew import units
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
 from ballscrew.cases.provenance import of_case
+from ballscrew.components.materials import TEMPERATURE
 from ballscrew.evaluation.outputs import inputs_of
 from ballscrew.quantities import Quantity
 from ballscrew.records import Record, documents
@@ -100,11 +101,30 @@ def _of_alternative(one: Alternative) -> Record:
 def _of_reading(case: Case, report: ServiceReport) -> Record:
     assert report.preload is not None
     quantity = preload_quantity(case)
-    value, low, high = (units.shown(x, quantity) for x in (report.preload.preload, *report.preload.interval()))
+    found = (report.preload.preload, *report.preload.interval())
+    value, low, high = (units.shown(x, quantity) for x in found)
+    text = f"preload {value} ({low} to {high})"
+    nominal = getattr(case.screw.nut, "preload", None)
+    if nominal:
+        share, least, most = (f"{x / nominal:.0%}" for x in found)
+        text += f", {share} of the {units.shown(nominal, quantity)} of the case ({least} to {most})"
     return Record(
-        id="service.preload", subject=PRELOAD, text=f"preload {value} ({low} to {high})",
+        id="service.preload", subject=PRELOAD, text=f"{text}{_taken_at(case, report)}",
         value=report.preload.preload, unit="N",
     )  # fmt: skip
+
+
+def _taken_at(case: Case, report: ServiceReport) -> str:
+    """The speed and the temperature that a reading is taken at, and whose they are."""
+    if report.reading is None:
+        return ""
+    speed = units.shown(report.reading.screw_speed, inputs_of(case.model, case.screw, case.lubricant)["screw_speed"][1])
+    given = report.reading.temperature
+    warm = case.lubricant.temperature if given is None else given
+    if warm is None:
+        return f"; taken at {speed}"
+    whose = "" if given is not None else ", the oil of the case"
+    return f"; taken at {speed} and {units.shown(warm, TEMPERATURE, 3)}{whose}"
 
 
 def _estimate(one: PreloadEstimate) -> dict[str, Any]:
