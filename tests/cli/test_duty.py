@@ -192,7 +192,8 @@ def test_warnings_name_the_remedy(found, settings, name, words):
 
 
 def test_a_plain_cycle_warns_of_nothing(found):
-    assert document(found(VERTICAL, "model.name=constant-efficiency", "model.efficiency=0.9"))["warnings"] == []
+    given = ("model.name=constant-efficiency", "model.efficiency=0.9", "axis.inertia=1 kg cm^2")
+    assert document(found(VERTICAL, *given))["warnings"] == []
 
 
 def test_a_jump_of_the_speed_is_named(found):

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from ballscrew.axis.drive import MotorCheck
 from ballscrew.axis.duty import duty
 from ballscrew.axis.duty_band import duty_band, numbers_of_cycle
 from ballscrew.axis.motor import Motor
+from ballscrew.axis.vendor_rule import VendorRule
 from ballscrew.errors import InputError
 from ballscrew.motion.profiles import SCurve, Segment, Segments, Sine, Trapezoid
 from support.strategies import MODELS, floats, powers
@@ -67,7 +69,7 @@ def axes(draw):
         mass=draw(powers(1, 2000)),
         inclination=draw(floats(-math.pi / 2, math.pi / 2)),
         counterweight=draw(floats(0, 300)),
-        counterforce=draw(floats(-500, 500)),
+        counterforce=draw(floats(0, 500)),
         guide_friction_coefficient=draw(floats(0, 0.2)),
         guide_seal_force=draw(floats(0, 50)),
         inertia=draw(powers(1e-5, 1e-1)),
@@ -173,7 +175,7 @@ def test_a_motor_that_fits_and_one_that_does_not():
     fastest, peak = float(np.max(found.motor_speed)), found.torque_peak
     fits = Motor(rated_torque=1.01 * found.torque_rms, peak_torque=1.01 * peak, largest_speed=1.01 * fastest)
     assert all(check.holds for check in MotorCheck(found, fits).checks)
-    weak = dataclasses.replace(fits, curve=((0.0, 1.01 * peak), (fastest, 0.5 * peak)))
+    weak = dataclasses.replace(fits, curve=((0.0, 1.01 * peak), (1.01 * fastest, 0.5 * peak)))
     rms, torque, speed = MotorCheck(found, weak).checks
     assert (rms.holds, torque.holds, speed.holds) == (True, False, True)
     slow = dataclasses.replace(fits, largest_speed=0.9 * fastest)
@@ -199,3 +201,80 @@ def test_a_band_of_a_cycle():
     assert all(each.band.low < each.value < each.band.high for each in bands)
     with pytest.raises(InputError, match="model"):
         duty_band(duty(0.9, ROW.screw(), axis=axis, motion=SHORT), uncertain={})
+
+
+def test_an_oil_without_a_temperature():
+    """It has one viscosity; a recorded motion and power off take it."""
+    plain = bs.Lubricant(viscosity=0.088)
+    found = duty(MODELS["reference"], ROW.screw(nut=NUTS[1]), plain, axis=UPRIGHT, motion=SHORT)
+    assert math.isfinite(found.torque_rms)
+    assert {one.condition for one in brake_of(found).conditions} == {"as in the case", "dry"}
+
+
+def test_a_machine_upside_down_is_the_same():
+    """Positive motion downwards, with a counterweight: every torque changes its sign, and its time."""
+    balanced = dataclasses.replace(UPRIGHT, counterweight=60.0, counterforce=100.0, guide_seal_force=20.0)
+    turned = dataclasses.replace(balanced, inclination=-math.pi / 2)
+    up, down = (duty(0.9, ROW.screw(), axis=axis, motion=SHORT) for axis in (balanced, turned))
+    assert down.torque_rms == pytest.approx(up.torque_rms, rel=1e-12)
+    assert down.energy_drawn == pytest.approx(up.energy_drawn, rel=1e-12)
+    assert brake_of(down).brake_torque == pytest.approx(brake_of(up).brake_torque, rel=1e-12)
+
+
+def test_power_fails_in_motion():
+    """Friction falls from creep on (Stribeck): an axis that would stay at rest may go on falling."""
+    light = dataclasses.replace(UPRIGHT, mass=33.0)
+    found = duty(MODELS["reference"], ROW.screw(nut=NUTS[1]), OIL, axis=light, motion=SHORT)
+    for one in brake_of(found).conditions[:3]:
+        speeds = np.geomspace(0.01, float(np.max(found.screw_speed)), 200)
+        load = np.full_like(speeds, found.axis.gravity_force)
+        warm = np.full_like(speeds, one.temperature or 313.15)
+        least = float(np.min(found.driven.along(load, -speeds, warm).torque))
+        assert one.running_torque == pytest.approx(least, rel=5e-3)
+        assert one.goes_on == (one.running_torque < abs(one.load_torque))
+
+
+def test_elements_beside_the_screw_count_everywhere():
+    """In the torque, with the motor off and by the rule; not under the name of another part."""
+
+    class Rubs:
+        """A constant drag."""
+
+        def __call__(self, state):
+            return SimpleNamespace(friction_effort=0.3)
+
+    bare, more = (
+        duty(0.9, ROW.screw(), axis=UPRIGHT, motion=SHORT, also=also) for also in (None, {"wiper of the shaft": Rubs()})
+    )
+    moving = bare.states.direction != 0
+    assert (more.torque - bare.torque)[moving] == pytest.approx(0.3 * bare.states.direction[moving], rel=1e-9)
+    assert brake_of(more).holding_torque == pytest.approx(brake_of(bare).holding_torque - 0.3, rel=1e-9)
+    assert VendorRule(more, 0.9).torque_peak == pytest.approx(VendorRule(bare, 0.9).torque_peak + 0.3, rel=1e-9)
+    with pytest.raises(InputError, match=r"duty\.also"):
+        duty(0.9, ROW.screw(), axis=UPRIGHT, motion=SHORT, also={"gravity": Rubs()})
+
+
+def test_loads_that_are_no_number_have_no_life():
+    axis = dataclasses.replace(UPRIGHT, mass=1e308, counterweight=1e308)
+    with np.errstate(all="ignore"):
+        found = duty(0.9, ROW.screw(), axis=axis, motion=SHORT)
+        assert math.isnan(CycleLife(found, NUTS[0], 0.0, 38e3).revolutions)
+        assert brake_of(found).falls
+
+
+@pytest.mark.parametrize(
+    ("build", "named"),
+    [
+        (lambda: duty(1.2, ROW.screw(), axis=UPRIGHT, motion=SHORT), "model.efficiency"),
+        (lambda: duty(math.nan, ROW.screw(), axis=UPRIGHT, motion=SHORT), "model.efficiency"),
+        (lambda: duty(MODELS["reference"], ROW.screw(), axis=UPRIGHT, motion=SHORT), "duty.lubricant"),
+        (lambda: dataclasses.replace(UPRIGHT, transmission_efficiency=0.4), "axis.transmission_efficiency"),
+        (lambda: Motor(rated_torque=1, peak_torque=2, largest_speed=9, curve=((0, 5), (9, 5))), "motor.curve"),
+        (lambda: Motor(rated_torque=1, peak_torque=2, largest_speed=9, curve=((0, 2), (5, 2))), "motor.curve"),
+        (lambda: Segment(distance=0.1, speed=-0.1, acceleration=1.0), "segment.speed"),
+        (lambda: Segment(duration=1.0, speed=0.1, acceleration=1.0), "segment.acceleration"),
+    ],
+)
+def test_what_contradicts_is_refused(build, named):
+    with pytest.raises(InputError, match=named):
+        build()

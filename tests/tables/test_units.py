@@ -73,7 +73,7 @@ def test_written_values_in_si(name, written, expected):
         *(
             ("screw_speed", f"600 {unit}", problem, 'write it in rpm, such as "1500 rpm"')
             for unit, problem in {
-                "Hz": "unknown unit",
+                "Hz": "wrong unit",
                 "1/s": "wrong unit",
             }.items()
         ),

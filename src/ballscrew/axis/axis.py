@@ -67,8 +67,9 @@ class Axis(ByValue):
             "F_c",
             "constant force that lifts, of a gas spring or a cylinder",
             "N",
+            at_least=0,
             hint="0 N for none",
-            usual=(-1e6, 1e6),
+            usual=(0, 1e6),
         ),
     ] = 0.0
     guide_friction_coefficient: Annotated[
@@ -111,7 +112,14 @@ class Axis(ByValue):
         Ratio, Info("i", "turns of the motor for one of the screw", above=0, hint="1 for a coupling", usual=(0.05, 100))
     ] = 1.0
     transmission_efficiency: Annotated[
-        Ratio, Info(r"\eta_t", "efficiency of belt or gears", above=0, at_most=1, hint="belts have 0.95 to 0.98")
+        Ratio,
+        Info(
+            r"\eta_t",
+            "efficiency of belt or spur gears, the same both ways",
+            at_least=0.7,
+            at_most=1,
+            hint="belts have 0.95 to 0.98; a worm gear is no such thing: add its friction to bearing_torque",
+        ),
     ] = 1.0
     #: Whether a brake holds the axis in rests, and the motor gives no torque there.
     brake_holds: bool = False
@@ -121,9 +129,15 @@ class Axis(ByValue):
 
     @property
     def gravity_force(self) -> Force:
-        r"""Force of the weight against positive motion, :math:`m g \sin\theta - m_c g - F_c`, N."""
+        r"""Force of the weight against positive motion, N.
+
+        .. math:: F = m g \sin\theta \mp \left(m_c g + F_c\right)
+
+        What balances it lifts: minus where positive motion is upwards, or level, plus where it is downwards.
+        """
         weight = self.mass * GRAVITY * math.sin(self.inclination)
-        return weight - self.counterweight * GRAVITY - self.counterforce
+        lifts = self.counterweight * GRAVITY + self.counterforce
+        return weight - (lifts if self.inclination >= 0 else -lifts)
 
     @property
     def guide_force(self) -> Force:

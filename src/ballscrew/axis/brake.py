@@ -10,10 +10,10 @@ import numpy as np
 from scipy.optimize import root_scalar
 
 from ballscrew._arrays import ByValue
-from ballscrew.axis.axis import Axis
 from ballscrew.axis.duty import Duty
-from ballscrew.axis.screw_friction import ModelledScrew, Screw
+from ballscrew.axis.screw_friction import ModelledScrew
 from ballscrew.friction.breakaway import breakaway
+from ballscrew.motion.states import Numbers
 from ballscrew.quantities import Acceleration, AngularSpeed, Force, Length, Ratio, Speed, Temperature, Torque
 
 #: Factor on the holding torque by which brakes of vertical axes are chosen where nothing else is known: an assumption.
@@ -24,6 +24,8 @@ COLD, HOT = 278.15, 333.15
 CREEP = 2 * math.pi * 1e-3
 #: Speeds of the screw up to which a steady fall is looked for, rad/s.
 FASTEST = 2 * math.pi * 200
+#: Speeds from creep to the fastest of the duty at which friction is asked for.
+SPEEDS = 25
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -34,22 +36,22 @@ class LetGo(ByValue):
     temperature: Temperature | None
     #: Torque of the load about the motor, without friction, N m, positive where it would turn it backwards.
     load_torque: Torque
-    #: Friction about the motor from rest, and in slow motion, N m.
+    #: Friction about the motor from rest, and the least of it at the speeds of the duty, N m.
     breakaway_torque: Torque
     running_torque: Torque
     #: True where the load alone starts the axis.
     falls: bool
-    #: True where the axis goes on once something has started it.
+    #: True where the axis goes on at any of these speeds, once something has started it.
     goes_on: bool
-    #: Acceleration as it starts, m/s²; zero where it stays.
+    #: Largest acceleration, with the least friction, m/s²; zero where it stays.
     acceleration: Acceleration
-    #: Speed after the stroke, m/s, and the steady speed at which friction holds the load; infinite if there is none.
+    #: Speed after the stroke at most, m/s, and that at which friction holds the load; infinite if there is none.
     speed_after_stroke: Speed
     steady_speed: Speed
 
     @property
     def holding_torque(self) -> Torque:
-        """Torque that keeps the axis at rest, with the friction of slow motion to help, N m; zero where it stays."""
+        """Torque that stops the axis, with its least friction to help, N m; zero where it stays."""
         return max(abs(self.load_torque) - self.running_torque, 0.0)
 
     @property
@@ -98,94 +100,102 @@ def brake_of(duty: Duty, *, brake_factor: Ratio = BRAKE_FACTOR, process_force: F
     """The axis of a duty with its motor off.
 
     As the case has it, with the oil at 5 °C and at 60 °C, and dry: all contacts at the boundary, none of the rolling
-    that oil makes. An oil without a grade has one temperature only.
+    that oil makes. An oil without a grade has one temperature only. What belt or gears lose is not counted on.
     """
-    axis, driven = duty.axis, duty.driven
-    load = axis.gravity_force + process_force
-    found = [_let_go(axis, driven, load, duty.states.stroke, "as in the case", None)]
-    if isinstance(driven, ModelledScrew):
-        if driven.lubricant.temperature is not None:
-            found += [
-                _let_go(axis, driven, load, duty.states.stroke, name, at) for name, at in (("cold", COLD), ("hot", HOT))
-            ]
-        found.append(_dry(axis, driven, load, duty.states.stroke))
+    off = _Off(duty, duty.axis.gravity_force + process_force)
+    found = [off.let_go("as in the case", None)]
+    if isinstance(duty.driven, ModelledScrew):
+        if duty.driven.lubricant.temperature is not None:
+            found += [off.let_go(name, at) for name, at in (("cold", COLD), ("hot", HOT))]
+        found.append(off.dry(duty.driven))
     return Brake(conditions=found, brake_factor=brake_factor)
 
 
-def _arm(axis: Axis, driven: Screw) -> Length:
-    """Force along the axis to torque at the motor."""
-    return float(driven.lead) / (2 * math.pi) / axis.transmission_ratio
+@dataclasses.dataclass(frozen=True, eq=False)
+class _Off:
+    """A duty with its motor off, under a load."""
 
+    duty: Duty
+    load: Force
 
-def _friction(axis: Axis, driven: Screw, load: Force, speed: AngularSpeed, temperature: Temperature | None) -> Torque:
-    """Friction about the motor at a load and a speed of the screw, guides and bearings with it."""
-    warm = np.array([np.nan if temperature is None else temperature])
-    falling = math.copysign(speed, -load)
-    screw = float(driven.along(np.array([load]), np.array([falling]), warm).torque[0])
-    along = (axis.guide_force + axis.guide_seal_force) * _arm(axis, driven)
-    return (screw + axis.bearing_torque) / axis.transmission_ratio + along
+    @property
+    def arm(self) -> Length:
+        """Force along the axis to torque at the motor."""
+        return float(self.duty.driven.lead) / (2 * math.pi) / self.duty.axis.transmission_ratio
 
+    @property
+    def pull(self) -> Torque:
+        """Size of the torque of the load about the motor."""
+        return abs(self.load) * self.arm
 
-def _let_go(
-    axis: Axis, driven: Screw, load: Force, stroke: Length, condition: str, temperature: Temperature | None
-) -> LetGo:
-    arm = _arm(axis, driven)
-    pull = abs(load) * arm
-    running = _friction(axis, driven, load, CREEP, temperature)
-    started = running if not isinstance(driven, ModelledScrew) else _from_rest(axis, driven, load, temperature)
+    def with_supports(self, screw_torque: Numbers, speed: Numbers, temperature: Temperature | None) -> Numbers:
+        """Friction about the motor: of the screw, of guides, and of what holds the shaft."""
+        axis = self.duty.axis
+        warm = None if temperature is None else np.full_like(speed, temperature)
+        beside = self.duty.supports_at(np.full_like(speed, self.load), speed, warm)
+        along = (axis.guide_force + axis.guide_seal_force) * self.arm
+        return (screw_torque + sum(beside.values(), np.zeros_like(speed))) / axis.transmission_ratio + along
 
-    def left(speed: AngularSpeed) -> Torque:
-        """Torque that is left to accelerate at a speed of the screw."""
-        return pull - _friction(axis, driven, load, speed, temperature)
+    def friction(self, speeds: Numbers, temperature: Temperature | None) -> Numbers:
+        """Friction about the motor at sizes of the speed of the screw, in the direction of the fall."""
+        warm = np.full_like(speeds, np.nan if temperature is None else temperature)
+        falling = np.copysign(speeds, -self.load)
+        found = self.duty.driven.along(np.full_like(speeds, self.load), falling, warm)
+        return self.with_supports(found.torque, falling, temperature)
 
-    steady = math.inf
-    goes_on = load != 0 and running < pull
-    if goes_on and left(FASTEST) < 0:
-        steady = root_scalar(left, bracket=(CREEP, FASTEST), rtol=1e-6).root * float(driven.lead) / (2 * math.pi)
-    return _record(axis, driven, load, stroke, condition, temperature, started, running, steady)
+    def from_rest(self, driven: ModelledScrew, temperature: Temperature | None) -> Torque:
+        """Friction about the motor from rest."""
+        oil = driven.lubricant if temperature is None else driven.lubricant.at(temperature)
+        screw = float(breakaway(driven.model, driven.screw, oil, axial_load=self.load).torque)
+        return float(self.with_supports(np.array([screw]), np.zeros(1), temperature)[0])
 
+    def let_go(self, condition: str, temperature: Temperature | None) -> LetGo:
+        """The axis in one condition of its oil; power may fail at any speed of the duty."""
+        driven = self.duty.driven
+        lead = float(driven.lead)
+        fastest = max(float(np.max(np.abs(self.duty.screw_speed))), 10 * CREEP)
+        speeds = np.geomspace(CREEP, fastest, SPEEDS)
+        friction = self.friction(speeds, temperature)
+        least = int(np.argmin(friction))  # a NaN is taken as the least
+        started = self.from_rest(driven, temperature) if isinstance(driven, ModelledScrew) else float(friction[0])
 
-def _dry(axis: Axis, driven: ModelledScrew, load: Force, stroke: Length) -> LetGo:
-    from_rest = _from_rest(axis, driven, load, None)
-    return _record(axis, driven, load, stroke, "dry", None, from_rest, from_rest, math.inf)
+        def left(speed: AngularSpeed) -> Torque:
+            """Torque that is left to accelerate at a speed of the screw."""
+            return self.pull - float(self.friction(np.array([speed]), temperature)[0])
 
+        steady, slowest = math.inf, float(speeds[least])
+        if left(slowest) > 0 > left(FASTEST):
+            steady = root_scalar(left, bracket=(slowest, FASTEST), rtol=1e-6).root * lead / (2 * math.pi)
+        return self._record(condition, temperature, started, float(friction[least]), steady)
 
-def _from_rest(axis: Axis, driven: ModelledScrew, load: Force, temperature: Temperature | None) -> Torque:
-    """Friction about the motor from rest, guides and bearings with it."""
-    oil = driven.lubricant if temperature is None else driven.lubricant.at(temperature)
-    screw = float(breakaway(driven.model, driven.screw, oil, axial_load=load).torque)
-    along = (axis.guide_force + axis.guide_seal_force) * _arm(axis, driven)
-    return (screw + axis.bearing_torque) / axis.transmission_ratio + along
+    def dry(self, driven: ModelledScrew) -> LetGo:
+        """The axis without oil: friction from rest at all speeds."""
+        from_rest = self.from_rest(driven, None)
+        return self._record("dry", None, from_rest, from_rest, math.inf)
 
-
-def _record(
-    axis: Axis,
-    driven: Screw,
-    load: Force,
-    stroke: Length,
-    condition: str,
-    temperature: Temperature | None,
-    started: Torque,
-    running: Torque,
-    steady: Speed,
-) -> LetGo:
-    arm = _arm(axis, driven)
-    pull = abs(load) * arm
-    goes_on = load != 0 and running < pull
-    inertia = axis.inertia + axis.moving_mass * arm**2
-    acceleration = (pull - running) / inertia * arm if goes_on and inertia else 0.0
-    return LetGo(
-        condition=condition,
-        temperature=temperature,
-        load_torque=load * arm,
-        breakaway_torque=started,
-        running_torque=running,
-        falls=load != 0 and started < pull,
-        goes_on=goes_on,
-        acceleration=acceleration,
-        speed_after_stroke=min(math.sqrt(2 * acceleration * stroke), steady),
-        steady_speed=steady if goes_on else 0.0,
-    )
+    def _record(
+        self, condition: str, temperature: Temperature | None, started: Torque, running: Torque, steady: Speed
+    ) -> LetGo:
+        # a friction that is no number holds nothing
+        goes_on = self.load != 0 and not running >= self.pull
+        inertia = self.duty.axis.inertia + self.duty.axis.moving_mass * self.arm**2
+        acceleration = 0.0
+        if goes_on:
+            acceleration = (self.pull - running) / inertia * self.arm if inertia else math.inf
+        return LetGo(
+            condition=condition,
+            temperature=temperature,
+            load_torque=self.load * self.arm,
+            breakaway_torque=started,
+            running_torque=running,
+            falls=self.load != 0 and not started >= self.pull,
+            goes_on=goes_on,
+            acceleration=acceleration,
+            speed_after_stroke=min(math.sqrt(2 * acceleration * self.duty.states.stroke), steady)
+            if self.duty.states.stroke
+            else 0.0,
+            steady_speed=steady if goes_on else 0.0,
+        )
 
 
 def conditions_by_name(brake: Brake) -> Mapping[str, LetGo]:

@@ -83,12 +83,12 @@ class CycleLife(ByValue):
             return {}
         rated = self.dynamic_load_rating
         loads = {name: self.load_factor * load for name, load in self.mean_loads.items()}
-        return {name: life.basic_life(rated, load) if load > 0 else math.inf for name, load in loads.items()}
+        return {name: math.inf if load == 0 else life.basic_life(rated, load) for name, load in loads.items()}
 
     @property
     def revolutions(self) -> Ratio:
         """Turns that nine of ten screws outlive, by both flanks or halves (ISO3408-5); NaN without a rating."""
-        if not self.lives:
+        if not self.lives or any(math.isnan(found) for found in self.lives.values()):
             return math.nan
         worst = min(self.lives.values())
         return worst if math.isinf(worst) else float(life.combined_life(*self.lives.values()))
@@ -96,7 +96,8 @@ class CycleLife(ByValue):
     @property
     def revolutions_of_the_worse(self) -> Ratio:
         """Turns by the larger mean load alone (THKGeneral); NaN without a rating."""
-        return min(self.lives.values(), default=math.nan)
+        found = [*self.lives.values()]
+        return math.nan if any(map(math.isnan, found)) else min(found, default=math.nan)
 
     @property
     def cycles(self) -> Ratio:

@@ -22,12 +22,19 @@ class MotorCheck(ByValue):
 
     duty: Duty
     motor: Motor
+    #: The torque that is checked, N m; None for that of the duty.
+    by_rule: Numbers | None = None
+
+    @property
+    def torque(self) -> Numbers:
+        """Torque of the motor, N m."""
+        return self.duty.torque if self.by_rule is None else self.by_rule
 
     @lazy
     def utilisation(self) -> Numbers:
         """Torque over the peak torque at the speed of each state; infinite beyond the largest speed."""
         peak = self.motor.peak_at(self.duty.motor_speed)
-        size = np.abs(self.duty.torque)
+        size = np.abs(self.torque)
         return np.where(peak > 0, size / np.where(peak > 0, peak, 1.0), np.where(size > 0, math.inf, 0.0))
 
     @lazy
@@ -41,7 +48,7 @@ class MotorCheck(ByValue):
         K_t, R = self.motor.torque_constant, self.motor.resistance
         if K_t is None or R is None:
             return None
-        return self.duty.states.integral(R * (self.duty.torque / K_t) ** 2)
+        return self.duty.states.integral(R * (self.torque / K_t) ** 2)
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -50,12 +57,13 @@ class MotorCheck(ByValue):
         speed = float(np.max(np.abs(self.duty.motor_speed)))
         name = self.duty.states.phases[int(self.duty.states.phase[at])]
         peak = float(motor.peak_at(self.duty.motor_speed[at : at + 1])[0])
+        rms = math.sqrt(self.duty.states.integral(self.torque**2) / self.duty.states.cycle_time)
         of_rms = "RMS torque, rests included, against the rated torque"
         of_peak = f"torque against the curve of the motor, worst in “{name}”"
         of_speed = "speed of the motor against its largest"
         return (
-            _check("motor_rms_torque", self.duty.torque_rms, motor.rated_torque, "N m", of_rms),
-            _check("motor_peak_torque", float(abs(self.duty.torque[at])), peak, "N m", of_peak),
+            _check("motor_rms_torque", rms, motor.rated_torque, "N m", of_rms),
+            _check("motor_peak_torque", float(abs(self.torque[at])), peak, "N m", of_peak),
             _check("motor_speed", speed, motor.largest_speed, "rad/s", of_speed),
         )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from ballscrew.axis.screw_friction import ConstantEfficiency, ModelledScrew, Scr
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import BallScrew
-from ballscrew.errors import accepts_units
+from ballscrew.errors import MISSING, Fault, accepts_units, raise_if_any
 from ballscrew.friction.element import FrictionElement
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import MECHANISMS
@@ -25,7 +25,7 @@ from ballscrew.quantities import Energy, Ratio
 
 #: Parts of the torque that store energy and give it back.
 STORED = ("acceleration of the mass", "acceleration of what turns", "gravity")
-PROCESS = "process"
+PROCESS, BEARINGS = "process", "support bearings"
 #: Names of the parts of the torque that are not friction of the screw, with their meanings.
 PARTS: Mapping[str, str] = {
     "acceleration of the mass": "inertia of what moves along",
@@ -34,7 +34,7 @@ PARTS: Mapping[str, str] = {
     PROCESS: "force of the process",
     "guides": "friction of the guides by their load",
     "guide seals": "seals of the guides",
-    "support bearings": "friction of the support bearings",
+    BEARINGS: "friction of the support bearings",
     "transmission": "loss of belt or gears",
     "brake": "torque that the brake holds in rests",
     "imbalance of the model": "torque without friction of a model that breaks virtual work",
@@ -55,14 +55,24 @@ def duty(
 
     ``model`` is a model of the friction of the screw, or one efficiency for all of its states. ``also`` has further
     elements on the shaft of the screw, such as support bearings, by name: they get its load and its speed.
-    Raises :class:`~ballscrew.errors.InputError` as the model does.
+    Raises :class:`~ballscrew.errors.InputError` as the model does, for a model without a lubricant, and for elements
+    with the name of another part of the torque.
     """
+    taken = {*PARTS, *MECHANISMS.values(), *screw.nut.losses} if also else set[str]()
+    faults = [
+        Fault("duty.also", "has the name of another part of the torque", name, "call it otherwise")
+        for name in also or {}
+        if name in taken
+    ]
+    if isinstance(model, FrictionModel) and lubricant is None:
+        faults.append(Fault("duty.lubricant", MISSING, "", 'give bs.Lubricant.from_grade("ISO VG 100", 313.15)'))
+    raise_if_any(faults)
     states = motion if isinstance(motion, MotionStates) else motion.states()
     driven: Screw
-    if isinstance(model, FrictionModel):
-        driven = ModelledScrew(model, screw, lubricant or Lubricant.from_grade("ISO VG 100"))
+    if isinstance(model, FrictionModel) and lubricant is not None:
+        driven = ModelledScrew(model, screw, lubricant)
     else:
-        driven = ConstantEfficiency(screw.lead, model)
+        driven = ConstantEfficiency(screw.lead, cast("Any", model))
     return Duty(axis, driven, states, also or {})
 
 
@@ -108,13 +118,26 @@ class Duty(ByValue):
     def shaft_friction(self) -> Mapping[str, Numbers]:
         """Friction torques about the shaft of the screw by mechanism and element, their magnitudes, N m."""
         found = {MECHANISMS.get(name, name): torque for name, torque in self.screw.contributions.items()}
-        if self.axis.bearing_torque:
-            found["support bearings"] = np.full_like(self.screw_speed, self.axis.bearing_torque)
+        return {**found, **self.support_friction}
+
+    @lazy
+    def support_friction(self) -> Mapping[str, Numbers]:
+        """Friction torques about the shaft beside the screw, by element, their magnitudes, N m."""
         warm = self.states.temperature
-        temperature = None if np.isnan(warm).all() else warm
+        own = getattr(getattr(self.driven, "lubricant", None), "temperature", None)
+        warm = warm if own is None else np.where(np.isnan(warm), own, warm)
+        return self.supports_at(self.axial_load, self.screw_speed, None if np.isnan(warm).all() else warm)
+
+    def supports_at(
+        self, axial_load: Numbers, screw_speed: Numbers, temperature: Numbers | None
+    ) -> Mapping[str, Numbers]:
+        """Friction torques beside the screw at loads and speeds of it, by element, their magnitudes, N m."""
+        found: dict[str, Numbers] = {}
+        if self.axis.bearing_torque:
+            found[BEARINGS] = np.full_like(screw_speed, self.axis.bearing_torque)
         for name, element in self.also.items():
-            state = OperatingState(self.axial_load, self.screw_speed, temperature)
-            found[name] = np.broadcast_to(element(state).friction_effort, self.screw_speed.shape)
+            state = OperatingState(axial_load, screw_speed, temperature)
+            found[name] = np.broadcast_to(element(state).friction_effort, screw_speed.shape)
         return found
 
     @lazy

@@ -9,7 +9,7 @@ from typing import Annotated
 import numpy as np
 
 from ballscrew._arrays import ByValue
-from ballscrew.errors import Fault, faults_of, raise_if_any
+from ballscrew.errors import Fault, faults_of, raise_if_any, shown
 from ballscrew.motion.states import Numbers
 from ballscrew.quantities import AngularSpeed, Array, Info, Torque, Unit
 
@@ -44,9 +44,26 @@ class Motor(ByValue):
         speeds = [speed for speed, _ in self.curve]
         if any(after <= before for before, after in itertools.pairwise(speeds)):
             faults.append(Fault("motor.curve", "the speeds do not rise", "", "give points (speed, torque) by speed"))
+        if len(self.curve) == 1:
+            faults.append(Fault("motor.curve", "has one point only", "", "give two at least, or leave it out"))
+        faults += self._misfits()
         if any(not (speed >= 0 and torque >= 0) for speed, torque in self.curve):
             faults.append(Fault("motor.curve", "must not be negative", "", "give sizes of speeds and torques"))
         raise_if_any(faults)
+
+    def _misfits(self) -> list[Fault]:
+        """Faults of a curve against the numbers of the data sheet beside it."""
+        if len(self.curve) < 2:
+            return []
+        found: list[Fault] = []
+        highest, last = max(torque for _, torque in self.curve), self.curve[-1][0]
+        if highest > self.peak_torque * (1 + 1e-9):
+            given, remedy = f"{highest:g} N m", "check the unit of the points, or give the peak torque of the curve"
+            found.append(Fault("motor.curve", "lies above the peak torque", given, remedy))
+        if last < self.largest_speed * (1 - 1e-9):
+            remedy = "add a point at the largest speed"
+            found.append(Fault("motor.curve", "ends below the largest speed", shown(last, "rad/s"), remedy))
+        return found
 
     def peak_at(self, speed: Numbers) -> Numbers:
         """Largest torque at speeds of either sign, N m; zero beyond the largest speed."""

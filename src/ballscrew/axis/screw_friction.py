@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping, Sequence
-from typing import Any, Protocol
+from typing import Annotated, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,11 +13,12 @@ from ballscrew._arrays import ByValue
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import transmission
+from ballscrew.errors import faults_of, raise_if_any
 from ballscrew.evaluation.evaluator import evaluator
 from ballscrew.evaluation.outputs import known_outputs
 from ballscrew.friction.model import FrictionModel
 from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Length, Ratio
+from ballscrew.quantities import Info, Length, Ratio
 
 #: More balls than this in all points together, and the model is compiled.
 WORTH_RECORDING = 200_000
@@ -109,7 +110,7 @@ class ModelledScrew(ByValue):
         axial_load, screw_speed, temperature = points
         values: dict[str, Any] = {"axial_load": axial_load, "screw_speed": screw_speed}
         oil = self.lubricant
-        if np.any(temperature != temperature[:1]):
+        if not _is_one(temperature):
             values["temperature"] = temperature
         elif not np.isnan(temperature[:1]).all() and float(temperature[0]) != oil.temperature:
             oil = oil.at(float(temperature[0]))
@@ -124,7 +125,7 @@ class ModelledScrew(ByValue):
 def _distinct(axial_load: Numbers, screw_speed: Numbers, temperature: Numbers) -> tuple[Numbers, Any]:
     """Distinct operating points, one column each, and the place of every state among them; all where few repeat."""
     every = np.stack([axial_load, screw_speed, temperature])
-    if np.all((temperature == temperature[:1]) | np.isnan(temperature)):
+    if _is_one(temperature):
         # load and speed as one complex number sort ten times as fast as columns of three
         pairs, back = np.unique(axial_load + 1j * screw_speed, return_inverse=True)
         found = np.stack([pairs.real, pairs.imag, np.full(pairs.size, temperature[0] if temperature.size else np.nan)])
@@ -133,16 +134,26 @@ def _distinct(axial_load: Numbers, screw_speed: Numbers, temperature: Numbers) -
     return (every, slice(None)) if found.shape[1] > REPEATED * every.shape[1] else (found, back.reshape(-1))
 
 
+def _is_one(temperature: Numbers) -> bool:
+    """True where all temperatures are the same; NaN, that of an oil without one, is the same as NaN."""
+    return bool(np.all((temperature == temperature[:1]) | (np.isnan(temperature) & np.isnan(temperature[:1]))))
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class ConstantEfficiency(ByValue):
     r"""A screw of one efficiency at all loads and speeds: :math:`M_S = |M_{Sa}| (1/\eta - 1)`.
 
     It knows no oil, no speed and no preload. Lowering, the load drives with :math:`\eta_b = 2 - 1/\eta`: the friction
-    torque is the same both ways.
+    torque is the same both ways. Raises :class:`~ballscrew.errors.InputError` for what is no efficiency.
     """
 
     lead: Length
-    efficiency: Ratio
+    efficiency: Annotated[
+        Ratio, Info(r"\eta", "efficiency at all loads and speeds", above=0, at_most=1, hint="catalogues have 0.9")
+    ]
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("model", self))
 
     def along(self, axial_load: Numbers, screw_speed: Numbers, temperature: Numbers) -> ScrewFriction:  # noqa: ARG002
         """Friction at loads with their signs."""

@@ -44,7 +44,8 @@ class VendorRule(ByValue):
         axis, lead = self.duty.axis, float(self.duty.driven.lead)
         arm = lead / (2 * math.pi) / axis.transmission_ratio
         inertia = axis.inertia + axis.moving_mass * arm**2
-        friction = self.duty.states.direction * axis.bearing_torque / axis.transmission_ratio
+        rubs = sum(self.duty.support_friction.values(), np.zeros_like(self.force))
+        friction = self.duty.states.direction * rubs / axis.transmission_ratio
         turned = self.force * arm / self.efficiency + friction
         held = np.where((self.duty.states.direction == 0) & axis.brake_holds, 0.0, turned)
         return held / axis.transmission_efficiency + inertia * self.duty.states.acceleration / arm

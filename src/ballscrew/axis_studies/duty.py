@@ -20,7 +20,7 @@ from ballscrew.axis.vendor_rule import VendorRule
 from ballscrew.cases.case import Case
 from ballscrew.cases.nut_tables import dynamic_rating
 from ballscrew.components.nut import OversizeBallNut
-from ballscrew.errors import InputError
+from ballscrew.errors import Fault, InputError
 from ballscrew.friction.result import MECHANISMS
 from ballscrew.motion.profiles import Motion
 from ballscrew.motion.trajectory import HALF_WIDTHS, Trajectory
@@ -127,7 +127,9 @@ class DutyReport:
     @lazy
     def motor(self) -> MotorCheck | None:
         """The duty against the motor of the case."""
-        return None if self.case.motor is None else MotorCheck(self.duty, self.case.motor)
+        if self.case.motor is None:
+            return None
+        return MotorCheck(self.duty, self.case.motor, self.rule.torque if self.by_rule else None)
 
     @lazy
     def numbers(self) -> Mapping[str, float]:
@@ -256,6 +258,9 @@ class DutyReport:
         if life.dynamic_load_rating is None:
             give, missing = "not checked: give dynamic_load_rating", "dynamic_load_rating"
             return [Check(name, None, None, unit, None, None, give, missing) for name, unit in _LIFE]
+        if not self.duty.revolutions:
+            text = "not judged: nothing turns"
+            return [Check(name, None, None, unit, None, None, text) for name, unit in _LIFE]
         found: list[Check] = []
         for (name, unit), value, words in zip(
             _LIFE,
@@ -286,6 +291,10 @@ def duty(case: Case) -> DutyReport:
     found = axis_duty.duty(driver, case.screw, case.lubricant, axis=case.axis, motion=case.motion)
     rating, source = _rating(case)
     preload = float(preload_of(case.screw, case.screw.nut))
+    if not math.isfinite(found.torque_rms):
+        at = found.states.phases[int(found.states.phase[int(np.argmin(np.isfinite(found.torque)))])]
+        problem, remedy = "is no number with these inputs", "look at mass, acceleration, oil and temperature"
+        raise InputError(Fault("duty.torque", problem, f"in “{at}”", remedy))
     life = CycleLife(found, case.screw.nut, preload, rating)
     rule = VendorRule(found, RULE_EFFICIENCY if case.efficiency is None else case.efficiency)
     report = DutyReport(case, case.axis, case.motion, found, life, source, rule)

@@ -46,7 +46,8 @@ def _brake(report: DutyReport) -> Record:
         text = f"stays with the motor off: friction from rest is at least {least:.3g} times the torque of the load"
     else:
         names = "in all conditions" if len(moving) == len(brake.conditions) else ", ".join(c.condition for c in moving)
-        starts = "falls" if brake.starts else "stays, but goes on falling once it is started,"
+        goes = _way(report)
+        starts = goes if brake.starts else f"stays, but {goes} once it is started,"
         load = units.shown(brake.load_torque, _TORQUE)
         fastest = units.shown(max(found.speed_after_stroke for found in moving), _SPEED)
         text = (
@@ -57,6 +58,14 @@ def _brake(report: DutyReport) -> Record:
         id="verdict.brake", subject="brake", text=text, severity="warning" if brake.falls else "info",
         holds=not brake.falls, value=brake.holding_torque, unit="N m",
     )  # fmt: skip
+
+
+def _way(report: DutyReport) -> str:
+    """What the load does with the axis: lower it, raise it (a counterweight), or move it along."""
+    load, inclination = report.brake.conditions[0].load_torque, report.axis.inclination
+    if not inclination:
+        return "moves"
+    return "falls" if (load > 0) == (inclination > 0) else "rises"
 
 
 def _motor(report: DutyReport) -> list[Record]:

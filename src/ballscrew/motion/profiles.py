@@ -10,7 +10,7 @@ from typing import Annotated, Any, Protocol
 import numpy as np
 
 from ballscrew._arrays import ByValue
-from ballscrew.errors import MISSING, Fault, faults_of, raise_if_any
+from ballscrew.errors import MISSING, Fault, faults_of, raise_if_any, shown
 from ballscrew.motion.moves import move, rest
 from ballscrew.motion.states import MotionStates, Numbers, Phase, PolynomialPhase, states_of
 from ballscrew.quantities import Acceleration, Duration, Force, Frequency, Info, Jerk, Length, Speed, Temperature
@@ -195,6 +195,12 @@ class Segment(ByValue):
             faults.append(Fault("segment.distance", "must not be zero", "0 m", "give a duration for a rest"))
         elif self.distance is not None and not abs(self.speed) > 0:
             faults.append(Fault("segment.speed", MISSING, "", "a move needs a speed"))
+        elif self.distance is not None and self.distance > 0 > self.speed:
+            given, remedy = shown(self.speed, "m/s"), "of a move give its size, and the sign to the distance"
+            faults.append(Fault("segment.speed", "is against the distance", given, remedy))
+        if self.duration is not None and self.acceleration is not None:
+            given, remedy = shown(self.acceleration, "m/s^2"), "leave it out, or give a distance, no duration"
+            faults.append(Fault("segment.acceleration", "does not count at constant speed", given, remedy))
         raise_if_any(faults)
 
 

@@ -48,7 +48,7 @@ class Trajectory(ByValue):
     speed: Numbers | None = None
     #: Force of the process, positive against positive motion, N.
     force: Numbers | None = None
-    #: Temperature of the oil, K; NaN for that of the case.
+    #: Temperature of the oil, K; where a row has none, that between the rows beside it.
     temperature: Numbers | None = None
     #: Half width of the smoothing; None for the one that the noise asks for.
     half_width: int | None = None
@@ -80,6 +80,12 @@ class Trajectory(ByValue):
     @lazy
     def _step(self) -> float:
         return float(np.median(np.diff(self.time)))
+
+    @lazy
+    def _filled_temperature(self) -> Numbers:
+        """Temperatures, between the rows that have one; NaN where none has."""
+        none = np.full(np.shape(self.time), np.nan)
+        return none if self.temperature is None else _filled(self.time, np.asarray(self.temperature, dtype=float))
 
     @lazy
     def noise(self) -> float:
@@ -148,11 +154,17 @@ class Trajectory(ByValue):
             acceleration=np.diff(speed) / step,
             direction=np.sign(mean),
             force=_middle(nothing if self.force is None else self.force),
-            temperature=_middle(nothing * np.nan if self.temperature is None else self.temperature),
+            temperature=_middle(self._filled_temperature),
             phase=np.zeros(step.shape, dtype=np.intp),
             phases=(_NAME,),
             speeds_of_ends=((float(speed[0]), float(speed[-1])),),
         )
+
+
+def _filled(time: Numbers, values: Numbers) -> Numbers:
+    """Values with straight lines where there are none, if there is any."""
+    known = ~np.isnan(values)
+    return np.interp(time, time[known], values[known]) if known.any() else values
 
 
 def faults_of_times(time: Numbers, where: str, lines: np.ndarray) -> list[Fault]:

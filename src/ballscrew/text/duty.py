@@ -32,7 +32,7 @@ _AXIS, _MOTION = fields_of(Axis), fields_of(Trapezoid)
 _FORCE, _SPEED = LISTED["dynamic_load_rating"], _MOTION["speed"]
 _TORQUE, _ENERGY = NUMBERS["torque_rms"], NUMBERS["energy_lost"]
 #: Columns of the axis with its motor off.
-CONDITIONS = ("", "oil", "load", "friction from rest", "creeping", "ratio", "after the stroke", "")
+CONDITIONS = ("", "oil", "load", "friction from rest", "least in motion", "ratio", "after the stroke", "")
 #: The options for an input of a check that is missing.
 _GIVE = {
     "installation": "[installation]",

@@ -227,13 +227,19 @@ def network_of(duty: Duty, surroundings: Surroundings, *, shaft_length: Length |
         shaft.spread(places, heated, nut_length),
         float(conductance_of_balls(at_load, screw.nut, nut_length)) if balls is None else float(balls),
         float(mass),
-        duty.axis.bearing_torque * mean_speed / 2,
+        _power_of_supports(duty) / 2,
         friction,
         set_to,
         _approach(at_load),
         float(heat.thermal_approach(screw.contact_angle, EXPANSION, 1.0, screw.pitch_circle_diameter)),
         (float(np.min(places)), float(np.max(places))),
     )
+
+
+def _power_of_supports(duty: Duty) -> Power:
+    """Mean friction power of what the shaft is held by, W."""
+    torque = sum(duty.support_friction.values(), np.zeros_like(duty.screw_speed))
+    return duty.states.integral(torque * np.abs(duty.screw_speed)) / duty.states.cycle_time
 
 
 def conductance_of_balls(result: FrictionResult, nut: Nut, nut_length: Length) -> Conductance:

@@ -126,20 +126,24 @@ def warm_up(
     network = network_of(duty, surroundings or Surroundings(), shaft_length=shaft_length)
     start = np.full(network.size, float(network.surroundings.ambient))
     instants = np.linspace(0.0, time, outputs)
-    states, stopped = _integrated(network, start, instants, works=True)
-    instants = instants[: states.shape[1]]
+    instants, states, stopped = _integrated(network, start, instants, works=True)
     works = np.ones(instants.size, dtype=bool)
     if cool_down and stopped is None:
         later = np.linspace(0.0, cool_down, max(2, round(outputs * cool_down / time)))
-        cooling, _ = _integrated(network.standing, states[:, -1], later, works=False)
+        later, cooling, _ = _integrated(network.standing, states[:, -1], later, works=False)
         states = np.concatenate([states, cooling[:, 1:]], axis=1)
         instants = np.concatenate([instants, time + later[1:]])
         works = np.concatenate([works, np.zeros(later.size - 1, dtype=bool)])
     return WarmUp(duty, network, instants, states, works, stopped)
 
 
-def _integrated(network: Network, start: Numbers, instants: Numbers, *, works: bool) -> tuple[Numbers, Duration | None]:
-    """Temperatures, and below them generated and lost heat, at instants; and the time at which friction was unknown."""
+def _integrated(
+    network: Network, start: Numbers, instants: Numbers, *, works: bool
+) -> tuple[Numbers, Numbers, Duration | None]:
+    """Instants, temperatures and below them generated and lost heat, and the time at which friction was unknown.
+
+    That time is the last instant where there is one.
+    """
     A, C = network.conductances, network.capacity
     n = network.size
     first = start if start.size > n else np.concatenate([start, [0.0, 0.0]])
@@ -179,8 +183,12 @@ def _integrated(network: Network, start: Numbers, instants: Numbers, *, works: b
     )
     if not found.success:
         raise InputError(Fault("warm_up", "could not be integrated", str(found.message), "check the surroundings"))
-    stopped = float(found.t_events[0][0]) if works and found.t_events[0].size else None
-    return np.asarray(found.y), stopped
+    if not works or not found.t_events[0].size:
+        return np.asarray(found.t), np.asarray(found.y), None
+    stopped, last = float(found.t_events[0][0]), np.asarray(found.y_events[0][0])
+    earlier = found.t < stopped
+    states = np.concatenate([found.y[:, earlier], last[:, None]], axis=1)
+    return np.append(found.t[earlier], stopped), states, stopped
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
