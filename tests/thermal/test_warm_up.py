@@ -92,7 +92,7 @@ def test_runaway_is_a_verdict():
     assert hot.time[-1] == hot.stopped
     assert hot.nut_temperature[-1] > hot.nut_temperature[0]
     assert math.isnan(end.nut_temperature)
-    assert {record.id for record in hot.records} == {"verdict.equilibrium", "warning.stopped"}
+    assert {record.id for record in hot.records} == {"verdict.equilibrium", "warning.bracing", "warning.stopped"}
 
 
 def test_a_coolant_in_the_shaft():
@@ -191,3 +191,21 @@ def test_steady_temperatures_are_linear_in_the_heat():
 def test_bad_input_is_named(build, named):
     with pytest.raises(InputError, match=named):
         build()
+
+
+def test_the_way_of_bracing_decides():
+    """Halves that are pushed apart lose preload as the shaft between them grows, halves pulled together gain."""
+    ends = {}
+    for bracing in ("", "apart", "together"):
+        where = dataclasses.replace(PLAIN, bracing=bracing)
+        found = warm_up(to_and_fro(500), where, time=3600.0, outputs=5)
+        ends[bracing] = found.equilibrium.preload
+        assert bool(found.network.by_bracing) == (not bracing)
+        assert ("warning.bracing" in {record.id for record in found.records}) == (not bracing)
+    assert ends["apart"] < ends[""] < ends["together"]
+    network = warm_up(to_and_fro(500), PLAIN, time=60.0, outputs=2).network
+    half = float(ROW.screw().loaded_turns * ROW.lead)
+    along = 11.7e-6 * half * math.sin(ROW.contact_angle) / 2
+    assert network.approach_of_unknown_sign == pytest.approx(along, rel=1e-12)
+    alone = warm_up(to_and_fro(500, nut=bs.OversizeBallNut(preload=2000.0)), PLAIN, time=60.0, outputs=2)
+    assert not alone.network.by_bracing

@@ -239,7 +239,8 @@ def inputs(
     if motor is not None:
         found["motor"] = {**_numbers(motor), "curve": [list(point) for point in motor.curve]}
     if surroundings is not None:
-        found["surroundings"] = _numbers(surroundings)
+        bracing = {"bracing": surroundings.bracing} if surroundings.bracing else {}
+        found["surroundings"] = {**_numbers(surroundings), **bracing}
     return found
 
 

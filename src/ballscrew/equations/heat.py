@@ -81,6 +81,24 @@ def gap_conductance(
     return xp.pi * k * d_m * l_n / s
 
 
+def thermal_approach_along(
+    contact_angle: Angle,
+    expansion: TemperatureCoefficient,
+    temperature_excess: TemperatureDifference,
+    distance: Length,
+) -> Length:
+    r"""Approach along the normals of a ball by the shaft that grows between two halves of a nut braced together.
+
+    .. math:: \delta = \frac{\beta \theta s (\sin\alpha)}{2}
+
+    Of halves a distance s apart, for a shaft warmer than its nut: what halves that are pulled together gain, and halves
+    that are pushed apart lose. Bodies are free, as in :func:`thermal_approach`.
+    """
+    alpha, beta, theta, s = contact_angle, expansion, temperature_excess, distance
+    xp = namespace(alpha, beta, theta, s)
+    return beta * theta * s * xp.sin(alpha) / 2
+
+
 def thermal_approach(
     contact_angle: Angle,
     expansion: TemperatureCoefficient,

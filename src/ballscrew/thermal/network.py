@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ import numpy as np
 from ballscrew._arrays import ByValue
 from ballscrew.axis.duty import Duty
 from ballscrew.components.nut import Nut, SingleNut
+from ballscrew.components.screw import BallScrew
 from ballscrew.equations import geometry, heat, hertz
 from ballscrew.errors import Fault, InputError
 from ballscrew.friction.result import FrictionResult
@@ -55,6 +57,19 @@ class Network(ByValue):
     approach_per_kelvin: float
     #: Places of the middle of the nut at the ends of its travel, m from the fixed bearing.
     ends: tuple[Length, Length]
+    #: What the shaft's growth between the halves of the nut adds or takes per kelvin, where it is not known which.
+    approach_of_unknown_sign: float = 0.0
+
+    @functools.cached_property
+    def by_bracing(self) -> Mapping[str, Network]:
+        """The network for both ways of bracing, where the way is not known and counts."""
+        if not self.approach_of_unknown_sign:
+            return {}
+        radial, along = self.approach_per_kelvin, self.approach_of_unknown_sign
+        return {
+            name: dataclasses.replace(self, approach_per_kelvin=radial + sign * along, approach_of_unknown_sign=0.0)
+            for name, sign in air.BRACINGS.items()
+        }
 
     @property
     def size(self) -> int:
@@ -221,6 +236,9 @@ def network_of(duty: Duty, surroundings: Surroundings, *, shaft_length: Length |
     if mass is None:
         wall = math.pi / 4 * (NUT_WALL**2 - 1) * screw.pitch_circle_diameter**2
         mass = DENSITY * float(wall) * nut_length
+    radial = float(heat.thermal_approach(screw.contact_angle, EXPANSION, 1.0, screw.pitch_circle_diameter))
+    apart = _distance_of_halves(screw)
+    along = float(heat.thermal_approach_along(screw.contact_angle, EXPANSION, 1.0, apart)) if set_to else 0.0
     return Network(
         shaft,
         surroundings,
@@ -231,9 +249,18 @@ def network_of(duty: Duty, surroundings: Surroundings, *, shaft_length: Length |
         friction,
         set_to,
         _approach(at_load),
-        float(heat.thermal_approach(screw.contact_angle, EXPANSION, 1.0, screw.pitch_circle_diameter)),
+        radial + air.BRACINGS.get(surroundings.bracing, 0.0) * along,
         (float(np.min(places)), float(np.max(places))),
+        0.0 if surroundings.bracing else along,
     )
+
+
+def _distance_of_halves(screw: BallScrew) -> Length:
+    """Distance between the middles of the two halves of a nut; zero of a nut of one body and one kind of balls."""
+    if screw.nut.halves == 1:
+        return 0.0
+    nut: Any = screw.nut
+    return float(nut.spacing + screw.loaded_turns * screw.lead)
 
 
 def _power_of_supports(duty: Duty) -> Power:

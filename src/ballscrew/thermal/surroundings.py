@@ -11,6 +11,8 @@ from ballscrew.quantities import Conductance, HeatTransfer, Info, Length, Mass, 
 
 #: Air at 40 °C: kinematic viscosity m²/s, thermal conductivity W/(m K), Prandtl number; as recalled.
 AIR_VISCOSITY, AIR_CONDUCTIVITY, AIR_PRANDTL = 17.0e-6, 0.0270, 0.706
+#: How halves may be braced, and the sign with which the growth of the shaft between them adds to their preload.
+BRACINGS = {"apart": -1.0, "together": 1.0}
 #: Convection of a body that does not move, W/(m² K): natural convection and radiation together, an assumption.
 STILL = 9.0
 
@@ -133,6 +135,10 @@ class Surroundings(ByValue):
         ),
     ] = None
 
+    #: How the halves of a preloaded nut are braced: pushed "apart" (a spacer, the usual way), pulled "together"; empty
+    #: where it is not known, and then only the radial growth counts.
+    bracing: str = ""
+
     def __post_init__(self) -> None:
         optional = (
             "nut_mass",
@@ -145,6 +151,9 @@ class Surroundings(ByValue):
             "stretch",
         )
         faults = faults_of("surroundings", self, optional=optional)
+        if self.bracing not in ("", *BRACINGS):
+            remedy = f"write {' or '.join(BRACINGS)}, or leave it out"
+            faults.append(Fault("surroundings.bracing", "unknown way of bracing", str(self.bracing), remedy))
         if self.coolant is not None and not self.bore:
             faults.append(
                 Fault("surroundings.coolant", "has no bore to flow through", "", 'give {surroundings.bore}"12 mm"')

@@ -303,6 +303,11 @@ class WarmUp(ByValue):
         return _records(self)
 
 
+def _ending(end: Equilibrium) -> str:
+    """The preload in a steady state, or that there is none."""
+    return f"{end.preload:.0f} N" if end.exists else "no steady state"
+
+
 def _records(found: WarmUp) -> list[Record]:
     end = found.equilibrium
     celsius = 273.15
@@ -324,6 +329,14 @@ def _records(found: WarmUp) -> list[Record]:
             limit=0.0,
         )
     ]
+    both = {name: equilibrium(one) for name, one in found.network.by_bracing.items()}
+    if both:
+        told = ", ".join(f"{name} {_ending(one)}" for name, one in both.items())
+        text = (
+            "the growth of the shaft between the halves of the nut is left out, as it is not said how they are braced: "
+            f"{told}; give [surroundings] bracing"
+        )
+        verdicts.append(Record(id="warning.bracing", subject="preload", text=text, severity="warning", holds=False))
     if found.stopped is not None:
         text = f"stopped after {found.stopped / 3600:.2f} h: beyond it oil or preload are outside what the model knows"
         verdicts.append(
