@@ -17,8 +17,16 @@ const LONGEST_QUOTE = 40;
 const OF_USE = ["operation", "lubricant", "model", "losses", "installation", "limits"];
 /** Fields of an oil that the others follow from. */
 const OF_OIL = [
-  "viscosity", "grade", "oil", "temperature", "kinematic_viscosity_40", "kinematic_viscosity_100", "density_15",
-  "pour_point", "lowest_temperature", "highest_temperature",
+  "viscosity",
+  "grade",
+  "oil",
+  "temperature",
+  "kinematic_viscosity_40",
+  "kinematic_viscosity_100",
+  "density_15",
+  "pour_point",
+  "lowest_temperature",
+  "highest_temperature",
 ];
 
 /** @type {Vocabulary} */
