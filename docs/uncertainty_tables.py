@@ -1,7 +1,11 @@
-"""Parts of the page on uncertainty: default uncertainties, a figure, and the coverage of vendors' rows."""
+"""Parts of the page on uncertainty: default uncertainties, a figure, and the coverage of vendors' rows.
+
+``python docs/uncertainty_tables.py`` prints the coverage, which takes minutes; with ``--write`` into docs/coverage.inc.
+"""
 
 from __future__ import annotations
 
+import argparse
 import dataclasses
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -25,6 +29,8 @@ from ballscrew.validation.rows import screw_of
 from ballscrew.validation.sets import SETS
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
+#: Where the coverage stands: too slow for each build of the pages.
+PAGE = Path(__file__).parent / "coverage.inc"
 #: Kinds of nut by set, and preloads in per cent of the dynamic load rating for which a band of torques is stated.
 _PRELOADS = {"rexroth-double-nut": (DoubleNut, (7, 10)), "rexroth-single-nut": (OversizeBallNut, (5,))}
 CALIBRATION = "rexroth-2006"
@@ -40,7 +46,6 @@ def write(folder: Path) -> None:
         report = band.band(case, options)
         style.save(figures.picture(case, report, band.curve(case, report, options)), folder, "band")
     (folder / "assumed.md").write_text(assumed_table(), encoding="utf-8")
-    (folder / "coverage.md").write_text(coverage_table(), encoding="utf-8")
 
 
 def assumed_table() -> str:
@@ -137,3 +142,18 @@ def _case(model: FrictionModel, values: Values, nut: Nut) -> case_file.Case:
         oil={"grade": at.grade, "temperature": at.temperature},
         calibration=None if model == FrictionModel.reference() else calibration(CALIBRATION),
     )
+
+
+def main() -> None:
+    """Print or write the coverage."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--write", action="store_true", help=f"into {PAGE.name}")
+    table = coverage_table()
+    if parser.parse_args().write:
+        PAGE.write_text(table, encoding="utf-8")
+    else:
+        print(table)
+
+
+if __name__ == "__main__":
+    main()

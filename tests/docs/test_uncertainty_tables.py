@@ -1,0 +1,11 @@
+"""The coverage on the page on uncertainty is what its command writes."""
+
+import pytest
+
+import uncertainty_tables
+
+
+@pytest.mark.long
+def test_the_coverage_is_current():
+    """If it was meant to move: python docs/uncertainty_tables.py --write."""
+    assert uncertainty_tables.PAGE.read_text(encoding="utf-8") == uncertainty_tables.coverage_table()
