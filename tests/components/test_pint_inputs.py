@@ -11,6 +11,7 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
+from ballscrew.axis.screw_friction import ConstantEfficiency
 from ballscrew.components import nut_losses
 from ballscrew.components.nut import Scatter
 from ballscrew.components.operating_state import OperatingState
@@ -80,6 +81,7 @@ PARTS = [
     bs.TorqueSeries(torque=np.ones(3), time=np.arange(3.0), temperature=np.full(3, 300.0), screw_speed=np.ones(3)),
     bs.MovingLog(time=np.arange(3.0), force=np.ones(3), position=np.ones(3)),
     bs.Axis(mass=100.0, inclination=1.0, counterweight=5.0, guide_seal_force=3.0, inertia=1e-3, bearing_torque=0.1),
+    ConstantEfficiency(lead=0.01, efficiency=0.9),
     bs.Motor(rated_torque=1.0, peak_torque=3.0, largest_speed=300.0, torque_constant=0.5, resistance=1.0),
     bs.Trapezoid(stroke=0.1, speed=0.2, acceleration=2.0, dwell=1.0),
     bs.SCurve(stroke=0.1, speed=0.2, acceleration=2.0, jerk=30.0),

@@ -210,3 +210,12 @@ def test_monte_carlo_is_compiled():
     assert (found.engine, expected.engine) == ("compiled", "numpy")
     assert np.allclose(found.screw_torque_quantiles, expected.screw_torque_quantiles, rtol=1e-3, atol=0)
     assert np.allclose(found.screw_torque_mean, expected.screw_torque_mean, rtol=1e-12, atol=0)
+
+
+@pytest.mark.parametrize("kind", ["double", "oversize"])
+def test_sizes_that_vary_at_one_preload(kind):
+    """A size of the screw varies and the preload does not: the nut without load is another at each point."""
+    sizes = xr.DataArray(np.linspace(9e-3, 12e-3, LOADS.size), dims="point")
+    outputs = ["screw_torque", "rigidity", "remaining_preload"]
+    plan = plan_of(NUTS[kind], REFERENCE, outputs, {**POINTS, "lead": sizes})
+    assert_same(filled(plan, "compiled"), filled(plan, "numpy"))

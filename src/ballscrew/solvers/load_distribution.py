@@ -205,8 +205,9 @@ def _one_by_one(
     flat = [np.broadcast_to(np.asarray(number, dtype=float), shape).reshape(-1) for number in numbers]
     count = flat[0].size
     if compiled:
-        # what is one number is worked out once; a single point is two, so that sums have one order
-        flat = [each[:1] if np.ndim(n) == 0 else each for n, each in zip(numbers, flat, strict=True)]
+        # where the load alone varies, the rest is worked out once; a single point is two, so that sums have one order
+        if not any(np.ndim(number) for number in numbers[1:]):
+            flat = [flat[0], *(each[:1] for each in flat[1:])]
         flat[0] = np.resize(flat[0], max(count, FEWEST_POINTS))
     balls = int(screw.carrying_balls)
     case = NutCase(

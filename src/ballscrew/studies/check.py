@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from ballscrew import units
 from ballscrew.cases import case_file, descriptions, nut_tables
@@ -24,9 +24,6 @@ from ballscrew.studies.every_row import Done, OfRows, copied, each, place_of
 from ballscrew.studies.nut_state import NutState
 from ballscrew.studies.own_screws import tables_of_row
 from ballscrew.studies.run import Run, with_nut
-
-if TYPE_CHECKING:  # its solvers are slow to import, and seldom asked for
-    from ballscrew.axis_studies.self_heating import SelfHeating
 
 #: Defaults of what neither row nor options give.
 GRADE, TEMPERATURE, SPEED, SHARE_OF_RATING = "ISO VG 100", "40 degC", "600 rpm", 0.1
@@ -58,8 +55,9 @@ class Checked:
     computed: Ratings | None
     checks: Sequence[Check]
     assumed: Sequence[str]
-    #: What self-heating did, where it was asked for; the case is then the warm one.
-    heating: SelfHeating | None = None
+    #: What self-heating did (:class:`~ballscrew.axis_studies.self_heating.SelfHeating`), where it was asked for; the
+    #: case is then the warm one. Its room is loaded for those who ask.
+    heating: Any = None
 
     @property
     def verdict(self) -> str:
