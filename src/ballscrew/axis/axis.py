@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -159,8 +158,3 @@ class Axis(ByValue):
             guides=states.direction * self.guide_force,
             guide_seals=states.direction * self.guide_seal_force,
         )
-
-    @property
-    def parts(self) -> Mapping[str, float]:
-        """Its numbers by name."""
-        return {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from scipy.optimize import root_scalar
@@ -196,8 +196,3 @@ class _Off:
             else 0.0,
             steady_speed=steady if goes_on else 0.0,
         )
-
-
-def conditions_by_name(brake: Brake) -> Mapping[str, LetGo]:
-    """The conditions of a brake by name."""
-    return {found.condition: found for found in brake.conditions}

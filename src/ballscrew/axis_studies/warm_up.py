@@ -87,11 +87,6 @@ class WarmUpReport:
         return self.warm_up.duty
 
     @property
-    def at_start(self) -> float:
-        """Mean friction torque of the screw at the start, N m."""
-        return float(self.warm_up.screw_torque[0])
-
-    @property
     def last_at_work(self) -> int:
         """Index of the last instant of work."""
         return int(np.flatnonzero(self.warm_up.works)[-1])

@@ -12,6 +12,7 @@ from ballscrew import units
 from ballscrew.axis_studies import warm_up_records
 from ballscrew.axis_studies.warm_up import PLACE, SERIES, WarmUpReport
 from ballscrew.figures import style
+from ballscrew.quantities import Quantity
 from ballscrew.text import warm_up as text
 
 _TITLE_CHARACTERS, _LABEL_SIZE, _LEVELS = 100, 8.0, 12
@@ -59,8 +60,8 @@ def _shaft(figure: Figure, panel: Axes, report: WarmUpReport) -> None:
     )
 
 
-def _label(quantity: object) -> str:
-    return units.label(quantity).replace("degC", "°C")  # pyright: ignore[reportArgumentType]
+def _label(quantity: Quantity) -> str:
+    return units.label(quantity).replace("degC", "°C")
 
 
 def _temperatures(panel: Axes, report: WarmUpReport) -> None:

@@ -45,8 +45,8 @@ class _Rows(BallScrew):
     """Rows of balls without a lead: the screw whose helix is a circle. Its lead is a number that nothing reads."""
 
     @property
-    def lead_angle(self) -> Angle:  # pyright: ignore[reportIncompatibleVariableOverride]
-        """None."""
+    def lead_angle(self) -> Angle:  # pyright: ignore[reportIncompatibleVariableOverride]  (no lead)
+        """Zero: the balls run in a plane."""
         return 0.0
 
 

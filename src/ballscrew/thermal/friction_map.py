@@ -7,7 +7,7 @@ import functools
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import RectBivariateSpline
+from scipy.interpolate import CubicSpline, RectBivariateSpline
 
 from ballscrew._arrays import ByValue
 from ballscrew.axis.duty import Duty
@@ -50,8 +50,6 @@ class FrictionMap(ByValue):
 
     @functools.cached_property
     def _curve(self) -> Any:
-        from scipy.interpolate import CubicSpline
-
         return CubicSpline(self.temperatures, self.power[:, 0])
 
     def at(self, temperature: Temperature, preload: Force) -> Power:

@@ -18,7 +18,7 @@ from ballscrew.equations import geometry, heat, hertz
 from ballscrew.errors import Fault, InputError
 from ballscrew.friction.result import FrictionResult
 from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Conductance, Force, Length, Power, Temperature
+from ballscrew.quantities import Conductance, Force, Length, Power
 from ballscrew.solvers.load_distribution import preload_of
 from ballscrew.thermal import surroundings as air
 from ballscrew.thermal.friction_map import COLDEST, HOTTEST, FrictionMap, friction_map
@@ -299,8 +299,3 @@ def _approach(result: FrictionResult) -> Length:
 def steady(network: Network, power: Power) -> Numbers:
     """Temperatures in the steady state with a given friction power of the nut, K."""
     return np.linalg.solve(network.conductances, network.constant + network.source * power)
-
-
-def mean_shaft(network: Network, temperatures: Numbers) -> Temperature:
-    """Mean temperature of the shaft, K; the last axis are the temperatures."""
-    return np.mean(np.asarray(temperatures)[..., : network.shaft.cells], axis=-1)

@@ -44,7 +44,7 @@ class Duty(Closed):
     """A cycle of an axis."""
 
     inputs: Tables
-    results: DutyResults  # pyright: ignore[reportInvalidTypeForm]
+    results: DutyResults  # pyright: ignore[reportInvalidTypeForm]  (a model made from the annotations)
     units: Tables
     verdicts: list[Record]
     checks: list[Record]
