@@ -70,8 +70,10 @@ def plain(network: Network, seconds: float) -> tuple[float, int, float]:
     own = Plain(**fields)
     start = np.full(own.size, START)
     before = time.perf_counter()
-    states, _ = module._integrated(own, start, np.array([0.0, seconds]), works=True)
-    return time.perf_counter() - before, own.calls[0], float(states[own.size - 3, -1])
+    instants, states, stopped = module._integrated(own, start, np.array([0.0, seconds]), works=True)
+    took = time.perf_counter() - before
+    found = WarmUp(duty(), own, instants, states, np.ones(instants.size, dtype=bool), stopped)
+    return took, own.calls[0], float(found.nut_temperature[-1])
 
 
 def transient(surroundings: bs.Surroundings) -> WarmUp:
