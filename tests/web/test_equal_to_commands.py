@@ -107,6 +107,47 @@ def test_run(server, tables, tmp_path):
     assert all(" ".join(line.split()) in flat for line in words["verdicts"])
 
 
+def test_check(server, tables, tmp_path):
+    found = server.post("check", {"case": tables}).json()
+    for one in found["checks"]:
+        assert one["text"] == as_printed({"text": one.pop("display")})["text"]
+    expected = document("check", written(tables, tmp_path), "--json")
+    assert {"name": "case.toml", **found} == expected
+    assert found["holds"] == all(one["holds"] is True for one in found["checks"])
+
+
+def test_a_check_that_is_not_judged_is_no_pass(server, elastic):
+    for section in ("installation", "limits"):
+        elastic.pop(section, None)
+    found = server.post("check", {"case": elastic}).json()
+    of = {one["id"]: one for one in found["checks"]}
+    assert of["check.buckling"]["holds"] is of["check.buckling"]["utilisation"] is None
+    assert of["check.static_safety"]["holds"] is True
+    assert 0 < of["check.static_safety"]["utilisation"] < 1
+    assert found["holds"] is False
+    assert "passes" not in found["verdict"]
+    held = {
+        **elastic,
+        "installation": {"unsupported_length": "1 m", "ends": "fixed-fixed"},
+        "limits": {"running_time": "100 h"},
+    }
+    assert server.post("check", {"case": held}).json()["holds"] is True
+    long = {**held, "installation": {"unsupported_length": "19 m", "ends": "fixed-free"}}
+    found = server.post("check", {"case": long}).json()
+    buckling = next(one for one in found["checks"] if one["id"] == "check.buckling")
+    assert buckling["utilisation"] == buckling["value"] / buckling["limit"] > 1
+    assert (buckling["holds"], found["holds"]) == (False, False)
+
+
+def test_check_of_a_row_without_a_nut(server, elastic):
+    """The nut of the row, which may be one that has no preload."""
+    del elastic["nut"]
+    for row in ("hiwin-40-16k5", "rexroth-40x10x6-6-double"):
+        found = server.post("check", {"case": {**elastic, "screw": {"catalogue": row}}})
+        assert found.status_code == 200, found.text
+        assert any("the nut of the row" in text for text in found.json()["assumed"])
+
+
 def test_compare(server, tables, tmp_path):
     found = server.post("compare", {"case": tables}).json()
     assert_same(found, document("compare", written(tables, tmp_path), "--json"))

@@ -81,8 +81,11 @@ def _motor(report: DutyReport) -> list[Record]:
 def _checks(report: DutyReport) -> Record:
     failed = [check.name.replace("_", " ") for check in report.checks if check.holds is False]
     not_judged = sum(check.holds is None for check in report.checks)
-    text = f"fails: {', '.join(failed)}" if failed else "passes all checks"
-    text += f"; {not_judged} of {len(report.checks)} not judged" if not_judged else ""
+    if not_judged and not failed:
+        text = f"{not_judged} of {len(report.checks)} not judged; the others hold"
+    else:
+        text = f"fails: {', '.join(failed)}" if failed else "passes all checks"
+        text += f"; {not_judged} of {len(report.checks)} not judged" if not_judged else ""
     holds = False if failed else None if not_judged else True
     return Record(id="verdict.checks", subject="checks", text=text, severity="error" if failed else "info", holds=holds)
 

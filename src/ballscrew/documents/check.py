@@ -37,6 +37,7 @@ def _document(found: Checked) -> dict[str, Any]:
             "computed": None if found.computed is None else {n: getattr(found.computed, f) for n, f in RATINGS.items()},
         },
         "checks": [_check(check) for check in found.checks],
+        "holds": found.holds,
         "verdict": found.verdict,
         "verdicts": documents(found.verdicts),
         "assumed": list(found.assumed),

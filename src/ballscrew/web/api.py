@@ -30,8 +30,9 @@ from ballscrew.studies import band as bands
 from ballscrew.studies import run as runs
 from ballscrew.studies import sweep as sweeps
 from ballscrew.studies import validation
+from ballscrew.studies.check import with_nut_named
 from ballscrew.studies.comparison import comparison
-from ballscrew.web import answers, documents, duty_answers, limits, memory, openapi, vocabulary
+from ballscrew.web import answers, check_answers, documents, duty_answers, limits, memory, openapi, vocabulary
 from ballscrew.web.bodies import BandBody, CaseBody, DutyBody, SweepBody, case_of, read
 from ballscrew.web.problems import Refused
 from ballscrew.web.request_queue import Deadline, RequestQueue
@@ -105,25 +106,43 @@ async def _disconnected(request: Request) -> None:
         pass
 
 
-async def _of_run(request: Request, work: Callable[[runs.Run], Response]) -> Response:
-    """Quick work on the run of a case; heavy work where many balls are computed one by one."""
+async def _of_body(request: Request, work: Callable[[runs.Run], Response]) -> Response:
+    """Work on the run of the case in the body."""
     body: CaseBody = await read(request, CaseBody)
+    return await _of_run(request, body.case, work)
+
+
+async def _of_run(request: Request, tables: Mapping[str, Any], work: Callable[[runs.Run], Response]) -> Response:
+    """Quick work on the run of a case; heavy work where many balls are computed one by one."""
 
     def quick() -> case_file.Case | Response:
-        case = case_of(body.case)
+        case = case_of(tables)
         many = limits.balls_of(case) > limits.MANY_BALLS
-        return case if many else work(documents.run_of(case, body.case))
+        return case if many else work(documents.run_of(case, tables))
 
     found = await _queue(request).quick(quick)
     if isinstance(found, Response):
         return found
-    return await _heavy(request, lambda _: work(documents.run_of(found, body.case)))
+    return await _heavy(request, lambda _: work(documents.run_of(found, tables)))
 
 
 @router.post("/run", openapi_extra=openapi.body(CaseBody), response_model=answers.Run, responses=openapi.problems_of())
 async def run(request: Request) -> Response:
     """Friction at the operating point of a case: the document of ``ballscrew run --json``, with sentences."""
-    return await _of_run(request, lambda found: _json(documents.run(found)))
+    return await _of_body(request, lambda found: _json(documents.run(found)))
+
+
+@router.post(
+    "/check",
+    openapi_extra=openapi.body(CaseBody),
+    response_model=check_answers.Checks,
+    responses=openapi.problems_of(),
+)
+async def check(request: Request) -> Response:
+    """Life, strength and speed against their limits: the document of ``ballscrew check --json`` but its name."""
+    body: CaseBody = await read(request, CaseBody)
+    tables, notes = with_nut_named(body.case)
+    return await _of_run(request, tables, lambda found: _json(documents.check(found, notes)))
 
 
 @router.post(
@@ -272,7 +291,7 @@ async def drawing(request: Request) -> Response:
     """The ball between its grooves and the slip in its contact, to scale, as SVG."""
     from ballscrew.report.drawing import drawing as drawn
 
-    return await _of_run(request, lambda found: Response(drawn(found), media_type="image/svg+xml"))
+    return await _of_body(request, lambda found: Response(drawn(found), media_type="image/svg+xml"))
 
 
 @router.post(
@@ -290,7 +309,7 @@ async def drawing_template(request: Request) -> Response:
             picture = drawn(found)
         return _json(template(picture, quantities))
 
-    return await _of_run(request, work)
+    return await _of_body(request, work)
 
 
 @router.post("/report", openapi_extra=openapi.body(CaseBody), responses=openapi.text(*KINDS.values()))
