@@ -21,6 +21,7 @@ from ballscrew.records import Record
 from ballscrew.screw_tables.nut_kinds import LISTED
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.installation import Installation, Limits
+from ballscrew.supports.mounted_bearing import MountedBearing
 from ballscrew.thermal.surroundings import Surroundings
 from ballscrew.uncertainty.distributions import Distribution
 
@@ -80,6 +81,8 @@ class Case:
     efficiency: float | None = None
     #: Whether the operating point is that of steady travel in the motion, as the file gives none.
     travels: bool = False
+    #: The bearings of the shaft by their place on it.
+    bearings: Mapping[str, MountedBearing] = dataclasses.field(default_factory=dict[str, MountedBearing])
 
     @property
     def nut(self) -> Nut | None:

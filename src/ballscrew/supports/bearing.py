@@ -117,7 +117,7 @@ class SupportBearing(ByValue):
         Length | None, Info("d_w", "ball diameter", "mm", above=0, hint="0.3 (D - d) where it is not known")
     ] = None
     balls: Annotated[
-        Count | None, Info("z", "balls in one row", at_least=3, whole=True, hint="left out, 0.9 of a full circle")
+        Count | None, Info("z_r", "balls in one row", at_least=3, whole=True, hint="left out, 0.9 of a full circle")
     ] = None
     conformity: Annotated[
         Ratio | None,
