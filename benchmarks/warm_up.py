@@ -7,7 +7,8 @@ and fro at 1000 rpm over half a metre, four hours.
 - ``first``: the first transient of a duty, with the map of its friction.
 - ``transient``: the next ones, with other surroundings.
 - ``steady``: the steady state alone.
-- ``many``: transients for a band, in all and extrapolated to a thousand.
+- ``many``: transients one by one, in all and extrapolated to a thousand.
+- ``band``: a thousand transients for a band, side by side (``bs.warm_up_band``), on one processor.
 - ``plain``: the same four hours with the model called at every right-hand side; temperatures of both are compared.
 """
 
@@ -130,6 +131,7 @@ def measured(many: int, processes: int, rounds: int) -> dict[str, float]:
     found["many"] = time.perf_counter() - before
     found["many_number"] = len(ends)
     found["thousand"] = 1000 * found["many"] / len(ends)
+    found["band"] = timed(lambda: bs.warm_up_band(duty(), AIR, samples=1000), 1)
     network = warm_up(duty(), AIR, time=HOURS, outputs=2).network
     short = timed(lambda: warm_up(duty(), AIR, time=HOURS, outputs=2), rounds)
     took, calls, temperature = plain(network, HOURS)
@@ -161,6 +163,7 @@ def main() -> None:
         f"{found['many_number']:.0f} other surroundings                 {found['many']:.1f} s on {given.processes} "
         f"processors: {found['thousand']:.0f} s a thousand (asked: 180 s on two)"
     )
+    print(f"a band of a thousand, side by side    {found['band']:.1f} s on one processor")
     print(
         f"model itself as right-hand side       {found['plain']:.2f} s for the same, "
         f"{found['plain_calls']:.0f} calls: {found['plain_over_ours']:.0f} times as long; temperatures differ by "

@@ -97,6 +97,40 @@ def test_example_in_all_forms(ballscrew, tmp_path):
     assert (tmp_path / "all" / "warm_up.xlsx").read_bytes().startswith(b"PK")
 
 
+def test_band_in_all_forms(ballscrew, tmp_path):
+    """JSON, text, picture and table of a band; a number that the file gives with its own band is the case's."""
+    (tmp_path / "case.toml").write_text(POINT + 'ball_conductance = "4 ± 1 W/K"\nshaft_share = "0.5 ± 0"\n', "utf-8")
+    common = ["warm-up", "case.toml", "--hours", "0.5", "--band", "--samples", "16"]
+    done = ballscrew(*common, "--json", "--to", "all")
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout, parse_constant=lambda constant: pytest.fail(f"{constant} in JSON"))
+    band, results = found["band"], found["results"]
+    assert (band["samples"], band["level"]) == (16, 0.95)
+    assert band["time"] == results["time"]
+    for name in ("nut_temperature", "shaft_temperature", "shaft_growth", "preload", "screw_torque"):
+        one = band[name]
+        assert len(one["low"]) == len(one["median"]) == len(one["high"]) == len(band["time"])
+        assert one["low"][-1] <= results[name][-1] <= one["high"][-1]
+    inputs = band["inputs"]
+    assert inputs["surroundings.ball_conductance"] == {
+        "distribution": "4 W/K ± 1 W/K", "source": "given", "given": True,
+    }  # fmt: skip
+    assert "surroundings.shaft_share" not in inputs  # exact
+    assert not inputs["surroundings.nut_conductance"]["given"]
+    assert {"temperature", "axial_load", "screw_speed"}.isdisjoint(inputs)
+    assert found["inputs"]["surroundings"]["ball_conductance"] == 4.0
+    assert band["equilibrium"]["exists_share"] == 1
+    assert (tmp_path / "all" / "warm_up.png").stat().st_size > 10_000
+    with (tmp_path / "all" / "warm_up_band.csv").open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    assert [float(row["temperature of the nut, high [degC]"]) for row in rows] == pytest.approx(
+        [value - 273.15 for value in band["nut_temperature"]["high"]], abs=1e-6
+    )
+    said = " ".join(ballscrew(*common, "--only-given").stdout.split())
+    assert "Band: 95 % of 16 samples" in said
+    assert "of 1 uncertain inputs of surroundings, screw, oil and model, 1 of them given" in said
+
+
 def test_an_operating_point_goes_to_and_fro(case):
     report = warmed_up(case(POINT), hours=0.5)
     written = plain(document_of(report))
@@ -228,6 +262,11 @@ def test_columns_of_the_shaft(case):
         (["--hours", "0"], "--hours: must be above 0 and at most 8766 (0) · write --hours 4"),
         (["--hours", "nan"], "--hours: must be above 0 and at most 8766 (nan) · write --hours 4"),
         (["--cool-down", "-1"], "--cool-down: must be 0 to 8766 (-1) · write --cool-down 1"),
+        (["--samples", "64"], "--samples: needs --band (64) · add --band"),
+        (["--band", "--samples", "1"], "--samples: must be a whole number from 2 to 2^30 (1) · such as 2**14"),
+        (["--band", "--level", "2"], "--level: must lie between 0 and 1 (2.0) · 0.95 is usual"),
+        (["--set", "surroundings.shaft_length=1 m ± 1 mm"],
+         "surroundings.shaft_length: takes no distribution (1 m ± 1 mm) · write one number: \"1 m\""),
         (["--to", "a.doc"],
          "--to: unknown kind of file (a.doc) · end it in .csv, .xlsx, .png, .svg or .pdf, or name a folder"),
         (["--set", "surroundings.ambient=-40 degC"],

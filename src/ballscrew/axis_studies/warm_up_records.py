@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from ballscrew import units
@@ -9,6 +11,9 @@ from ballscrew.axis_studies.warm_up import PLACE, SERIES, WarmUpReport
 from ballscrew.friction.plausibility import implausible
 from ballscrew.motion.states import Numbers
 from ballscrew.records import Record
+
+if TYPE_CHECKING:  # its room of distributions is slow to import
+    from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
 
 #: A cycle longer than this share of the time is not short: an assumption.
 LONG_CYCLE = 0.02
@@ -66,6 +71,19 @@ def warnings(report: WarmUpReport) -> list[Record]:
     strange = [*case.implausible(), *units.in_display_units_of(implausible(parts))]
     once = {(record.id, record.subject): record for record in strange}
     return [*once.values(), *_assumed_length(report), *_own_temperatures(report), *_long_cycle(report)]
+
+
+def band_records(found: WarmUpBandReport) -> list[Record]:
+    """A warning where samples have no steady state, or leave what is known and with it the bands."""
+    bands = found.bands
+    away, lost = 1 - bands.steady_share, 1 - float(bands.known_share[-1])
+    if not away and not lost:
+        return []
+    text = (
+        f"{100 * away:.2g} % of {bands.count} samples have no steady state within the range of oil and preload, and "
+        f"{100 * lost:.2g} % leave it before the end: from then on they are not in the bands, whose ends are too narrow"
+    )
+    return [Record(id="band.no_steady_state", subject="equilibrium", text=text, severity="warning", value=away)]
 
 
 def _assumed_length(report: WarmUpReport) -> list[Record]:

@@ -77,6 +77,8 @@ class Case:
     motor: Motor | None = None
     #: Where the heat goes: of ``ballscrew warm-up``.
     surroundings: Surroundings | None = None
+    #: Distributions of numbers of the surroundings that the file gives, named as ``surroundings.ball_conductance``.
+    uncertain_surroundings: Mapping[str, Distribution] = dataclasses.field(default_factory=dict[str, Distribution])
     #: The efficiency of the rule that stands in for the model; None where the model counts.
     efficiency: float | None = None
     #: Whether the operating point is that of steady travel in the motion, as the file gives none.

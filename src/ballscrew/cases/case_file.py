@@ -212,12 +212,14 @@ def build(
         lubricant = Lubricant.from_grade("ISO VG 100")
     if faults or screw is None or lubricant is None or operation is None or friction_model is None:
         raise InputError(*in_options(faults, chosen))
+    inputs, exact = uncertain_inputs.parse_distributions(tables, friction_model, screw, lubricant)
+    of_air, exact_air = uncertain_inputs.parse_surroundings(tables)
     calibrated_by = tables.get("model", {}).get("calibration")
     return Case(
         friction_model, screw, lubricant, operation, sweep, oil, made.row, made.listed, mounted, limits, notes,
-        *uncertain_inputs.parse_distributions(tables, friction_model, screw, lubricant),
+        inputs, exact | exact_air,
         None if calibrated_by is None else named_calibration(calibrated_by),
-        fit, axis, motion, motor, surroundings, efficiency, travels, bearings,
+        fit, axis, motion, motor, surroundings, of_air, efficiency, travels, bearings,
     )  # fmt: skip
 
 

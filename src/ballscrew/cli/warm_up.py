@@ -11,10 +11,14 @@ from ballscrew.cli.common_options import AllowCode, CaseFile, ModelName
 
 if TYPE_CHECKING:
     from ballscrew.axis_studies.warm_up import WarmUpReport
+    from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
+    from ballscrew.cases.case import Case
 
-_TO, _HOURS, _COOL_DOWN = "--to", "--hours", "--cool-down"
+_TO, _HOURS, _COOL_DOWN, _BAND = "--to", "--hours", "--cool-down", "--band"
 #: Files that a folder gets.
-_TABLES, _COMPENSATION, _PICTURE = ("warm_up.csv", "warm_up.xlsx"), "compensation.csv", "warm_up.png"
+_TABLES, _COMPENSATION, _BANDS, _PICTURE = (
+    ("warm_up.csv", "warm_up.xlsx"), "compensation.csv", "warm_up_band.csv", "warm_up.png"
+)  # fmt: skip
 #: The longest time, h: a year.
 _LONGEST = 8766.0
 
@@ -40,12 +44,23 @@ def warm_up(
             help="Write a folder of tables and a picture; or one .csv, .xlsx, .png, .svg or .pdf; repeat.",
         ),
     ] = None,
+    band: Annotated[
+        bool, typer.Option(_BAND, help="How far off it all may be, by uncertain surroundings and friction.")
+    ] = False,
+    samples: Annotated[int | None, typer.Option("--samples", metavar="N", help="With --band: transients, 512.")] = None,
+    level: Annotated[
+        float | None, typer.Option("--level", metavar="SHARE", help="With --band: share in the band, 0.95.")
+    ] = None,
+    only_given: Annotated[
+        bool, typer.Option("--only-given", help="With --band: only what the file says is uncertain.")
+    ] = False,
     allow_code: AllowCode = False,
 ) -> None:
     """Temperatures, growth, preload and torque over hours, and the state in which they end.
 
     A case with an [axis] and a [motion] does its motion; one with an [operation] goes to and fro over half the shaft.
-    [surroundings] has where the heat goes. The verdict says if there is no end: it runs away.
+    [surroundings] has where the heat goes. The verdict says if there is no end: it runs away. With --band
+    transients are drawn with other surroundings, among them the conduction through the balls, the least known.
     """
     from ballscrew.axis_studies import warm_up as studies
     from ballscrew.documents import warm_up as documents
@@ -54,11 +69,21 @@ def warm_up(
 
     _check_hours(hours, cool_down)
     loaded = studies.load(case, settings or [], model, allow_code=allow_code)
-    files = [path for place in to or [] for path in _files(place)]
-    report = studies.warmed_up(loaded, hours, cool_down)
-    typer.echo(json_text(documents.document(report)) if as_json else text.text(report))
+    _check_band(band, samples, level, only_given)
+    files = [path for place in to or [] for path in _files(place, band)]
+    if not band:
+        report, banded = studies.warmed_up(loaded, hours, cool_down), None
+        typer.echo(json_text(documents.document(report)) if as_json else text.text(report))
+    else:
+        banded = _banded(loaded, hours, cool_down, samples, level, only_given)
+        report = banded.report
+        written = (
+            json_text(documents.with_band(banded)) if as_json else f"{text.text(report)}\n{text.band_text(banded)}"
+        )
+        typer.echo(written)
     for path in files:
-        _write(path, report, compensation=path.name == _COMPENSATION and path.parent in (to or []))
+        own = path.name if path.parent in (to or []) else ""
+        _write(path, report, banded, own)
         typer.echo(f"{path}", err=as_json)
 
 
@@ -74,7 +99,30 @@ def _check_hours(hours: float, cool_down: float) -> None:
     raise_if_any(faults)
 
 
-def _files(place: Path) -> list[Path]:
+def _check_band(band: bool, samples: int | None, level: float | None, only_given: bool) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` for options without a band."""
+    from ballscrew.errors import Fault, raise_if_any
+
+    given = {"--samples": samples, "--level": level, "--only-given": only_given or None}
+    faults = [
+        Fault(name, f"needs {_BAND}", str(value), f"add {_BAND}") for name, value in given.items() if value is not None
+    ]
+    raise_if_any([] if band else faults)
+
+
+def _banded(
+    case: Case, hours: float, cool_down: float, samples: int | None, level: float | None, only_given: bool
+) -> WarmUpBandReport:
+    from ballscrew.axis_studies import warm_up_band as studies  # loads xarray
+    from ballscrew.cli.progress import progress
+
+    with progress("band") as done:
+        return studies.band(
+            case, hours, cool_down, samples=samples, level=level, only_given=only_given, done=done
+        )  # fmt: skip
+
+
+def _files(place: Path, band: bool) -> list[Path]:
     """The files of a place: itself if it ends as one, or those of a folder, which is made. They can be written."""
     from ballscrew.errors import Fault, InputError
     from ballscrew.figures.files import SUFFIXES
@@ -92,7 +140,7 @@ def _files(place: Path) -> list[Path]:
             place.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise write_error(_TO, place, error) from None
-        found = [place / name for name in (*_TABLES, _COMPENSATION, _PICTURE)]
+        found = [place / name for name in (*_TABLES, _COMPENSATION, *((_BANDS,) if band else ()), _PICTURE)]
     for path in found:
         if path.suffix.lower() in row_tables.KINDS:
             row_tables.check_path(path)
@@ -101,15 +149,18 @@ def _files(place: Path) -> list[Path]:
     return found
 
 
-def _write(path: Path, report: WarmUpReport, *, compensation: bool) -> None:
+def _write(path: Path, report: WarmUpReport, bands: WarmUpBandReport | None, own: str) -> None:
+    """Write one file; ``own`` is its name in a folder, by which it has a table of its own."""
     from ballscrew.table_files import row_tables, warm_up_tables
 
-    if compensation:
+    if own == _COMPENSATION:
         warm_up_tables.write_compensation(path, report)
+    elif own == _BANDS and bands is not None:
+        warm_up_tables.write_band(path, bands)
     elif path.suffix.lower() in row_tables.KINDS:
-        warm_up_tables.write(path, report)
+        warm_up_tables.write(path, report, bands)
     else:
         from ballscrew.figures import files
         from ballscrew.figures import warm_up as figures  # matplotlib is slow to import
 
-        files.draw(lambda: figures.picture(report), path, _TO)
+        files.draw(lambda: figures.picture(report, bands), path, _TO)

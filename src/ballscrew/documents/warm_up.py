@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ballscrew.axis_studies import warm_up_records
 from ballscrew.axis_studies.warm_up import EQUILIBRIUM, SERIES, WarmUpReport
+from ballscrew.axis_studies.warm_up_records import band_records
 from ballscrew.cases import case_file, provenance
 from ballscrew.quantities import Quantity
 from ballscrew.records import documents
+
+if TYPE_CHECKING:
+    from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
 
 #: The parts of the heat, which stand together.
 _HEAT = "heat_"
@@ -31,6 +35,34 @@ def document(report: WarmUpReport) -> dict[str, Any]:
         "verdicts": documents(warm_up_records.verdicts(report)),
         "checks": [],
         "provenance": provenance.of_case(report.case),
+    }
+
+
+def with_band(found: WarmUpBandReport) -> dict[str, Any]:
+    """The document of warming up with its bands."""
+    whole, bands = document(found.report), found.bands
+    return {
+        **whole,
+        "warnings": [*whole["warnings"], *documents(band_records(found))],
+        "band": {
+            "level": bands.level,
+            "samples": bands.count,
+            "time": list(bands.time),
+            **{
+                name: {"low": list(one.low), "median": list(one.median), "high": list(one.high)}
+                for name, one in bands.series.items()
+            },
+            "known_share": list(bands.known_share),
+            "equilibrium": {
+                "exists_share": bands.steady_share,
+                "margin": bands.margin._asdict(),
+                **{name: one._asdict() for name, one in bands.steady.items()},
+            },
+            "inputs": {
+                name: {"distribution": one.description, "source": one.source, "given": one.given}
+                for name, one in found.inputs.items()
+            },
+        },
     }
 
 

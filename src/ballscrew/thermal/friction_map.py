@@ -60,6 +60,16 @@ class FrictionMap(ByValue):
         held = min(max(preload, 0.0), self.preloads[-1])
         return float(self._spline.ev(warm, np.sqrt(held)))
 
+    def at_all(self, temperatures: Numbers, preloads: Numbers) -> Numbers:
+        """The same at many temperatures and preloads; NaN where the map has not the point."""
+        known = (temperatures >= self.temperatures[0]) & (temperatures <= self.temperatures[-1])
+        warm = np.where(known, temperatures, self.temperatures[0])
+        if self._spline is None:
+            return np.where(known, self._curve(warm), np.nan)
+        known &= preloads <= self.preloads[-1]
+        held = np.where(known, np.maximum(preloads, 0.0), 0.0)
+        return np.where(known, self._spline.ev(warm, np.sqrt(held)), np.nan)
+
     def has(self, temperature: Temperature, preload: Force) -> bool:
         """True where the map has the point."""
         inside = self.temperatures[0] <= temperature <= self.temperatures[-1]

@@ -34,6 +34,24 @@ ZERO_CELSIUS = 273.15
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
+class FrictionFactor(ByValue):
+    """By how much the friction is another than that of the map, where its inputs are uncertain.
+
+    Known at two temperatures of the oil, between which it goes evenly, and beyond which it stays.
+    """
+
+    #: The lower first; of networks side by side each is an array.
+    temperatures: tuple[Any, Any]
+    factors: tuple[Any, Any]
+
+    def at(self, temperature: Any) -> Any:
+        """The factor at a temperature of the oil."""
+        cold, warm = self.temperatures
+        share = np.clip((temperature - cold) / (warm - cold), 0.0, 1.0)
+        return self.factors[0] + share * (self.factors[1] - self.factors[0])
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
 class Network(ByValue):
     r"""Heat balance :math:`C \dot T = -A T + b + s P(T) + B` of shaft cells, nut and two bearings, in this order.
 
@@ -59,6 +77,7 @@ class Network(ByValue):
     ends: tuple[Length, Length]
     #: What the shaft's growth between the halves of the nut adds or takes per kelvin, where it is not known which.
     approach_of_unknown_sign: float = 0.0
+    friction_factor: FrictionFactor | None = None
 
     @functools.cached_property
     def by_bracing(self) -> Mapping[str, Network]:
@@ -168,7 +187,15 @@ class Network(ByValue):
 
     def power(self, temperatures: Numbers) -> Power:
         """Mean friction power of the nut, W."""
-        return self.friction.at(float(self.of_oil @ temperatures), float(self.preload(self.of_excess @ temperatures)))
+        oil = float(self.of_oil @ temperatures)
+        found = self.friction.at(oil, float(self.preload(self.of_excess @ temperatures)))
+        return found if self.friction_factor is None else found * float(self.friction_factor.at(oil))
+
+    def powers(self, temperatures: Numbers) -> Numbers:
+        """The same of many temperatures, W: one row each; NaN where friction is not known."""
+        oil = temperatures @ self.of_oil
+        found = self.friction.at_all(oil, self.preload(temperatures @ self.of_excess))
+        return found if self.friction_factor is None else found * self.friction_factor.at(oil)
 
     def inside(self, temperatures: Numbers) -> bool:
         """True where the friction is known: oil and preload within the map."""

@@ -18,7 +18,7 @@ from ballscrew.errors import Fault, InputError, accepts_units
 from ballscrew.motion.states import Numbers
 from ballscrew.quantities import Duration, Energy, Length, Power, Ratio
 from ballscrew.records import Record
-from ballscrew.thermal.network import Network, network_of, steady
+from ballscrew.thermal.network import Network, network_of
 from ballscrew.thermal.surroundings import Surroundings
 
 #: Relative and absolute tolerance of the integration; temperatures are then right to 1e-5 K.
@@ -78,19 +78,16 @@ def equilibrium(network: Network) -> Equilibrium:
 
     Of several the coolest is taken, which is the one that a cold machine reaches.
     """
-    idle, per_watt = steady(network, 0.0), steady(network, 1.0) - steady(network, 0.0)
+    idle, per_watt = np.linalg.solve(network.conductances, np.stack([network.constant, network.source], axis=1)).T
 
     def surplus(power: Power) -> Power:
         """Friction beyond the power that the temperatures are those of."""
         return network.power(idle + per_watt * power) - power
 
-    def inside(power: Power) -> bool:
-        return network.inside(idle + per_watt * power)
-
     largest = 2 * max(float(np.max(network.friction.power)), 1e-9)
     powers = np.concatenate([[0.0], np.geomspace(1e-6, 1.0, _POWERS) * largest])
-    known = np.array([inside(power) for power in powers])
-    values = np.array([surplus(power) for power in powers])
+    values = network.powers(idle + powers[:, None] * per_watt) - powers
+    known = np.isfinite(values)
     for i in range(powers.size - 1):
         if values[i] >= 0 > values[i + 1] and known[i] and known[i + 1]:
             power = root_scalar(surplus, bracket=(powers[i], powers[i + 1]), xtol=1e-12, rtol=1e-14).root
