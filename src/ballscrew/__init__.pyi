@@ -28,6 +28,8 @@ from ballscrew.components.screw import BallScrew as BallScrew
 from ballscrew.errors import InputError as InputError
 from ballscrew.evaluation.derivatives import derivatives as derivatives
 from ballscrew.evaluation.evaluator import evaluator as evaluator
+from ballscrew.exports.export import Export as Export
+from ballscrew.exports.hand_over import hand_over as hand_over
 from ballscrew.friction.breakaway import Breakaway as Breakaway
 from ballscrew.friction.breakaway import breakaway as breakaway
 from ballscrew.friction.model import FrictionModel as FrictionModel

@@ -1,0 +1,189 @@
+"""``hand_over``: a model with its screw and oil, as files for another program."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.screw import BallScrew
+from ballscrew.errors import Fault, InputError, accepts_units, nearest, raise_if_any, si_value
+from ballscrew.evaluation.outputs import OPERATION, known_outputs
+from ballscrew.evaluation.plan import Configuration
+from ballscrew.exports import subject as subjects
+from ballscrew.exports.export import Export
+from ballscrew.exports.subject import PRELOADS, TEMPERATURE, HandOver, Input, usual_range
+from ballscrew.exports.targets import Option, export_of, options_of, target_module
+from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.validity import LARGEST_PRESSURE
+from ballscrew.quantities import Quantity, within_bounds
+
+#: Speeds of tables and fits, rad/s: both directions up to 2865 rpm, where most ball screws stop.
+SPEEDS = (-300.0, 300.0)
+#: Temperatures of tables and fits, K: 10 °C to 80 °C.
+TEMPERATURES = (283.15, 353.15)
+#: Preload and parameters of tables and fits, as shares of their value in the case.
+SHARES = (0.5, 1.5)
+#: Loads among which the largest is looked for, N.
+_LOADS = np.geomspace(1.0, 1e7, 141)
+
+
+@accepts_units("hand_over")
+def hand_over(
+    model: FrictionModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    to: str = "c",
+    *,
+    ranges: Mapping[str, tuple[float, float]] | None = None,
+    parameters: Sequence[str] = (),
+    outputs: Sequence[str] = (),
+    derivatives: Sequence[str] = (),
+    **options: Any,
+) -> Export:
+    """Hand a model over to another program: the files of a target, their range, and their worst error.
+
+    The inputs of every export are ``axial_load``, ``screw_speed`` and ``temperature`` with their signs and in SI, the
+    ``preload`` of a nut that has one, and the ``parameters`` named, which may be any inputs of a sweep, such as
+    ``friction.boundary_friction_coefficient``. All else is as given here. The outputs are ``screw_torque``,
+    ``drive_torque``, ``ideal_torque``, ``holding_torque``, ``friction_power``, further ``outputs`` named as those of a
+    sweep, their ``derivatives`` by some inputs, and ``valid``.
+
+    A target that is the model itself computes it within the bounds of the model. A table or a fit is made over
+    ``ranges``, of inputs by name in SI; by default loads up to where the contacts yield (4.2 GPa, ISO76), 300 rad/s
+    either way, 283.15 K to 353.15 K, and half to one and a half times each other value. Beyond its range an export
+    takes the nearest value, and its ``valid`` is 0. ``options`` are choices of the target.
+
+    Raises :class:`~ballscrew.errors.InputError` for unknown targets, names and options, bad ranges, and a model that
+    the target cannot take, with what to do instead.
+    """
+    found = handed(
+        model,
+        screw,
+        lubricant,
+        to,
+        ranges=ranges,
+        parameters=parameters,
+        outputs=outputs,
+        derivatives=derivatives,
+        **options,
+    )
+    return export_of(to)(found)
+
+
+def handed(
+    model: FrictionModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    to: str,
+    *,
+    ranges: Mapping[str, tuple[float, float]] | None = None,
+    parameters: Sequence[str] = (),
+    outputs: Sequence[str] = (),
+    derivatives: Sequence[str] = (),
+    **options: Any,
+) -> HandOver:
+    """What :func:`hand_over` gives to the function of a target."""
+    target_module(to)
+    known = options_of(to)
+    faults = [Fault(f"hand_over.{n}", "unknown option", "", nearest(n, known)) for n in options if n not in known]
+    subject = Configuration(model, screw, lubricant)
+    faults += _faults(subject, parameters, outputs)
+    raise_if_any(faults)
+    inputs = _inputs(subject, parameters, ranges or {})
+    names = [one.name for one in inputs]
+    raise_if_any(
+        [Fault("hand_over.derivatives", "is no input", n, nearest(n, names)) for n in derivatives if n not in names]
+    )
+    return HandOver(
+        subject,
+        inputs,
+        subjects.output_named(subject, outputs),
+        tuple(dict.fromkeys(derivatives)),
+        {name: _option(name, one, options.get(name, one.default)) for name, one in known.items()},
+        frozenset(ranges or ()),
+    )
+
+
+def _faults(subject: Configuration, parameters: Sequence[str], outputs: Sequence[str]) -> list[Fault]:
+    inputs, known = subject.inputs, known_outputs(subject.nut)
+    faults = [
+        Fault("hand_over.parameters", "unknown input", n, nearest(n, inputs)) for n in parameters if n not in inputs
+    ]
+    return faults + [
+        Fault("hand_over.outputs", "unknown output", n, nearest(n, known)) for n in outputs if n not in known
+    ]
+
+
+def _option(name: str, option: Option, value: Any) -> Any:
+    """The value of a choice, of the type of its usual one."""
+    value = si_value(f"hand_over.{name}", value, None if option.quantity is None else option.quantity.unit)
+    kind = type(option.default)
+    if kind is float and isinstance(value, int) and not isinstance(value, bool):
+        return float(value)
+    if type(value) is not kind:
+        raise InputError(Fault(f"hand_over.{name}", f"must be a {kind.__name__}", repr(value), option.meaning))
+    return value
+
+
+def _inputs(
+    subject: Configuration, parameters: Sequence[str], ranges: Mapping[str, tuple[float, float]]
+) -> tuple[Input, ...]:
+    """The inputs of an export, each with its bounds and its range."""
+    known = subject.inputs
+    names = [*OPERATION[:2], TEMPERATURE]
+    names += [n for n in PRELOADS if n in known and subject.value_of(n) is not None]
+    names = list(dict.fromkeys([*names, *(n.removeprefix("nut.") for n in parameters)]))
+    raise_if_any([Fault("hand_over.ranges", "is no input", n, nearest(n, names)) for n in ranges if n not in names])
+    return tuple(_input(subject, name, ranges.get(name)) for name in names)
+
+
+def _input(subject: Configuration, name: str, asked: tuple[float, float] | None) -> Input:
+    fixed = name == TEMPERATURE and name not in subject.inputs
+    quantity = subjects.ANY_TEMPERATURE if fixed else subject.inputs[name][1]
+    value = 0.0 if name in OPERATION else 313.15 if fixed else subject.value_of(name)
+    if value is None or np.ndim(value):
+        raise InputError(Fault(f"hand_over.{name}", "must have one value", "", "give it in the case"))
+    bounds = usual_range(quantity)
+    return Input(quantity, float(value), bounds, _range(subject, quantity, float(value), bounds, asked))
+
+
+def _range(
+    subject: Configuration,
+    quantity: Quantity,
+    value: float,
+    bounds: tuple[float, float],
+    asked: tuple[float, float] | None,
+) -> tuple[float, float]:
+    """The range asked for, or the usual one, within the bounds."""
+    if asked is not None:
+        return _checked(quantity, asked)
+    if quantity.name == OPERATION[0]:
+        largest = _largest_load(subject)
+        return -largest, largest
+    usual = {OPERATION[1]: SPEEDS, TEMPERATURE: TEMPERATURES}
+    least, greatest = usual.get(quantity.name, (min(s * value for s in SHARES), max(s * value for s in SHARES)))
+    return max(least, bounds[0]), min(greatest, bounds[1])
+
+
+def _checked(quantity: Quantity, asked: tuple[float, float]) -> tuple[float, float]:
+    where = f"hand_over.ranges.{quantity.name}"
+    ends = np.asarray(si_value(where, asked, quantity.unit), dtype=float)
+    if ends.shape != (2,) or not np.all(np.isfinite(ends)) or not ends[0] < ends[1]:
+        raise InputError(Fault(where, "must be the least and the greatest value", str(asked), "such as (-5e3, 5e3)"))
+    if not np.all(within_bounds(quantity.info, ends)):
+        raise InputError(Fault(where, "is beyond the bounds of the model", str(asked), quantity.info.hint))
+    return float(ends[0]), float(ends[1])
+
+
+def _largest_load(subject: Configuration) -> float:
+    """The largest load at which no contact yields, to two digits and downwards."""
+    with np.errstate(all="ignore"):
+        found = subject.at({OPERATION[0]: _LOADS, OPERATION[1]: np.full_like(_LOADS, 10.0)})
+    pressure = np.asarray(found.maximum_pressure, dtype=float)
+    holds = np.isfinite(pressure) & (pressure <= LARGEST_PRESSURE)
+    largest = float(_LOADS[holds][-1]) if np.any(holds) else float(_LOADS[-1])
+    digit = 10.0 ** (np.floor(np.log10(largest)) - 1)
+    return float(np.floor(largest / digit) * digit)

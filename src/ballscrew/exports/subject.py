@@ -1,0 +1,252 @@
+"""What is handed over: the recorded model with its inputs and outputs, their names, units and ranges."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew._version import __version__
+from ballscrew.errors import Fault, InputError
+from ballscrew.evaluation.derivatives import slope_name
+from ballscrew.evaluation.evaluator import Evaluator, evaluator
+from ballscrew.evaluation.outputs import OPERATION, Output, known_outputs
+from ballscrew.evaluation.plan import Configuration
+from ballscrew.exports.worst_error import POINTS
+from ballscrew.quantities import Info, Quantity
+from ballscrew.references import citations_of
+from ballscrew.tracing.gradient import UnknownDerivativeError, partials
+from ballscrew.tracing.merging import merged_program
+from ballscrew.tracing.program import Program
+from ballscrew.tracing.tape import CannotRecordError, Tape
+
+#: The temperature, which is an input of every export: of an oil that is given by its numbers it changes nothing.
+TEMPERATURE = "temperature"
+#: What sets the preload of a nut, of which it has one.
+PRELOADS = ("preload", "oversize")
+#: The outputs of every export: they are finite wherever the model holds.
+OUTPUTS = ("screw_torque", "drive_torque", "ideal_torque", "holding_torque", "friction_power", "valid")
+#: Temperatures of a fixed oil, K.
+ANY_TEMPERATURE = Quantity(TEMPERATURE, "K", Info("T", "oil temperature; without effect here", "degC", usual=(0, 1e4)))
+
+
+@dataclasses.dataclass(frozen=True)
+class Input:
+    """An input of an export: its quantity, its usual value, and its ranges, in SI."""
+
+    quantity: Quantity
+    #: The value of the case; of load and speed zero.
+    value: float
+    #: The range over which the model is computed, by the bounds of the quantity.
+    bounds: tuple[float, float]
+    #: The range over which tables are made, parameters fitted and errors measured.
+    range: tuple[float, float]
+
+    @property
+    def name(self) -> str:
+        """The name, as sweeps have it."""
+        return self.quantity.name
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class HandOver:
+    """A recorded model with named inputs and outputs in SI; :func:`~ballscrew.exports.hand_over.hand_over` makes it.
+
+    The inputs are ``axial_load``, ``screw_speed``, ``temperature``, the preload of a nut that has one, and the
+    parameters asked for.
+    """
+
+    subject: Configuration
+    inputs: tuple[Input, ...]
+    outputs: tuple[Output, ...]
+    #: Inputs by which the outputs are derived as well.
+    derivatives: tuple[str, ...]
+    #: Choices of the target, complete.
+    options: Mapping[str, Any]
+    #: Whether the person gave ranges; if not, targets that are the model itself have its bounds.
+    ranges_given: frozenset[str] = frozenset()
+
+    @property
+    def input_names(self) -> tuple[str, ...]:
+        """The names of the inputs, in their order."""
+        return tuple(one.name for one in self.inputs)
+
+    @property
+    def output_names(self) -> tuple[str, ...]:
+        """The names of the outputs and of their derivatives, ``valid`` last."""
+        numbers = [o.name for o in self.outputs if o.dtype is not bool]
+        slopes = [slope_name(name, x) for name in numbers for x in self.derivatives]
+        return (*[o.name for o in self.outputs if o.name != "valid"], *slopes, "valid")
+
+    @functools.cached_property
+    def units(self) -> Mapping[str, str]:
+        """The SI unit of each input, output and derivative."""
+        found = {one.name: one.quantity.unit for one in self.inputs}
+        found |= {o.name: "1" if o.dtype is bool else o.quantity.unit for o in self.outputs}
+        for o in self.outputs:
+            found |= {slope_name(o.name, x): f"({o.quantity.unit})/({found[x]})" for x in self.derivatives}
+        return found
+
+    @functools.cached_property
+    def meanings(self) -> Mapping[str, str]:
+        """A few words for each input, output and derivative."""
+        found = {one.name: one.quantity.info.meaning for one in self.inputs}
+        found |= {o.name: o.quantity.info.meaning for o in self.outputs}
+        found["valid"] = "1 where the model holds and no input is beyond its range, else 0"
+        for o in self.outputs:
+            found |= {slope_name(o.name, x): f"derivative of {o.name} by {x}" for x in self.derivatives}
+        return found
+
+    @property
+    def formula_range(self) -> dict[str, tuple[float, float]]:
+        """The range of a target that is the model itself: its bounds, or what was asked for."""
+        return {one.name: one.range if one.name in self.ranges_given else one.bounds for one in self.inputs}
+
+    @property
+    def working_range(self) -> dict[str, tuple[float, float]]:
+        """The range of a target that is a table or a fit."""
+        return {one.name: one.range for one in self.inputs}
+
+    @property
+    def has_effect(self) -> Mapping[str, bool]:
+        """Whether the model has each input: not the temperature of an oil that is given by its numbers."""
+        return {name: name in self.subject.inputs for name in self.input_names}
+
+    @functools.cached_property
+    def program(self) -> Program:
+        """The recorded model: inputs in their order, an output for each name. It neither clamps nor checks ranges.
+
+        Raises :class:`~ballscrew.errors.InputError` for a model that cannot be recorded as one list of steps.
+        """
+        tape = Tape(len(self.inputs), None, [self._is_nonnegative(one.name) for one in self.inputs])
+        points = {n: tape.value(i) for i, n in enumerate(self.input_names) if self.has_effect[n]}
+        try:
+            with self.subject.recording():
+                result = self.subject.at(points)
+                values = {o.name: o.read(result) for o in self.outputs}
+                by = [self.input_names.index(x) for x in self.derivatives]
+                for o in self.outputs:
+                    if by and o.dtype is not bool:
+                        slopes = partials(tape, values[o.name], by)
+                        values |= {slope_name(o.name, x): s for x, s in zip(self.derivatives, slopes, strict=True)}
+                return merged_program(tape, {name: values[name] for name in self.output_names})
+        except CannotRecordError as error:
+            remedy = "take a table (--to table), or a nut without bodies, deviations and scatter"
+            raise InputError(
+                Fault("hand_over.to", f"needs a model that can be recorded: {error}", "", remedy)
+            ) from None
+        except UnknownDerivativeError as unknown:
+            raise InputError(Fault("hand_over.derivatives", f"{unknown} has no derivative here", "", "")) from None
+
+    def _is_nonnegative(self, name: str) -> bool:
+        return self.has_effect[name] and self.subject.is_nonnegative(name)
+
+    def evaluate(self, points: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
+        """The model at points, by NumPy: the truth for the worst error.
+
+        Inputs that are missing have their usual value; arrays broadcast. Beyond the bounds of the model the nearest
+        value counts, and ``valid`` is False.
+        """
+        given = {one.name: np.asarray(points.get(one.name, one.value), dtype=float) for one in self.inputs}
+        limits = self.formula_range
+        inside = functools.reduce(
+            np.logical_and, [(limits[n][0] <= values) & (values <= limits[n][1]) for n, values in given.items()]
+        )
+        clamped = {n: np.clip(values, *limits[n]) for n, values in given.items()}
+        found = self._by_program(clamped, inside.shape) if self.is_recordable else self._by_solver(clamped)
+        found = {n: np.array(np.broadcast_to(values, inside.shape)) for n, values in found.items()}
+        found["valid"] = found["valid"].astype(bool) & inside
+        return found
+
+    @property
+    def is_recordable(self) -> bool:
+        """Whether the model is one list of steps: not where each ball is solved by itself, on plain arrays."""
+        try:
+            return bool(self.program.outputs) or True
+        except InputError:
+            return False
+
+    def _by_program(self, given: Mapping[str, NDArray[Any]], shape: tuple[int, ...]) -> dict[str, NDArray[Any]]:
+        program = self.program
+        arrays = [np.ascontiguousarray(np.broadcast_to(values, shape)).ravel() for values in given.values()]
+        masks = {i for i, step in program.steps if step.is_mask}
+        found = {
+            n: np.empty(arrays[0].size, dtype=bool if program.outputs.get(n) in masks else float)
+            for n in self.output_names
+        }
+        with np.errstate(all="ignore"):
+            program.interpreter.run(arrays, found)
+        return {name: values.reshape(shape) for name, values in found.items()}
+
+    def _by_solver(self, given: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+        return self._evaluator(**{n: values for n, values in given.items() if self.has_effect[n]})
+
+    @functools.cached_property
+    def _evaluator(self) -> Evaluator:
+        inputs = [name for name in self.input_names if self.has_effect[name]]
+        outputs = [o.name for o in self.outputs]
+        subject = self.subject
+        return evaluator(
+            subject.model,
+            subject.screw,
+            subject.lubricant,
+            inputs=inputs,
+            outputs=outputs,
+            by=self.derivatives,
+            engine="numpy",
+        )
+
+    def sample(self, count: int = POINTS, seed: int = 20) -> dict[str, NDArray[np.float64]]:
+        """Random points of the working range in all four quadrants, the same each time.
+
+        Half of the loads and speeds are spread evenly, half by ratios down to a ten-thousandth of the range; some are
+        zero. The first points are the corners of load and speed at the middle of all else.
+        """
+        random = np.random.default_rng(seed)
+        found: dict[str, NDArray[np.float64]] = {}
+        for one in self.inputs:
+            least, greatest = one.range
+            values = random.uniform(least, greatest, count)
+            if one.name in OPERATION:
+                small = values * 10.0 ** random.uniform(-4, 0, count)
+                values = np.where(random.random(count) < 0.5, np.clip(small, least, greatest), values)
+                values = np.where((random.random(count) < 0.01) & (least <= 0 <= greatest), 0.0, values)
+            values[:4] = 0.5 * (least + greatest)
+            found[one.name] = values
+        ends = [one.range for one in self.inputs[:2]]
+        found[OPERATION[0]][:4] = np.repeat(ends[0], 2)[:count]
+        found[OPERATION[1]][:4] = np.tile(ends[1], 2)[:count]
+        return found
+
+    @functools.cached_property
+    def provenance(self) -> dict[str, Any]:
+        """Version, model, sources and the values of all inputs that are numbers, in SI."""
+        subject = self.subject
+        values = {n: subject.value_of(n) for n, (part, _) in subject.inputs.items() if part != "operation"}
+        numbers = {n: v for n, v in values.items() if v is not None and np.ndim(v) == 0 and not n.startswith("nut.")}
+        return {
+            "version": __version__,
+            "model": subject.model.label,
+            "nut": type(subject.nut).__name__,
+            "references": list(citations_of(subject.model)),
+            "inputs": numbers,
+        }
+
+
+def usual_range(quantity: Quantity) -> tuple[float, float]:
+    """The bounds of a quantity, and where it has none the range beyond which no ball screw is known."""
+    info = quantity.info
+    usual = info.usual or (-np.inf, np.inf)
+    ends = (info.above, info.at_least, usual[0]), (info.below, info.at_most, usual[1])
+    least, greatest = (next(float(end) for end in found if end is not None) for found in ends)
+    return least, greatest
+
+
+def output_named(subject: Configuration, names: Sequence[str]) -> tuple[Output, ...]:
+    """Outputs by name, those of every export first."""
+    known = known_outputs(subject.nut)
+    return tuple(known[name] for name in dict.fromkeys([*OUTPUTS, *names]))

@@ -1,0 +1,56 @@
+"""The targets by name, each in a module of its own that is loaded when it is asked for.
+
+A new target is a module of this room with ``export(handed: HandOver) -> Export``, perhaps with its choices as
+``OPTIONS``, and a line here.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+from ballscrew.errors import Fault, InputError, nearest
+from ballscrew.exports.export import Export
+from ballscrew.exports.subject import HandOver
+from ballscrew.quantities import Quantity
+
+_ROOM = __name__.rpartition(".")[0]
+
+
+class Target(NamedTuple):
+    """A target: the module that makes its export, and a few words for people."""
+
+    module: str
+    meaning: str
+
+
+class Option(NamedTuple):
+    """A choice that a target has: its usual value (and type), its meaning, its quantity if it has a unit."""
+
+    default: Any
+    meaning: str
+    quantity: Quantity | None = None
+
+
+TARGETS: Mapping[str, Target] = {
+    "c": Target("c99", "C99 source of the model, with libm only"),
+}
+
+
+def target_module(name: str) -> Any:
+    """The module of a target. Raises :class:`~ballscrew.errors.InputError` for an unknown one."""
+    if name not in TARGETS:
+        remedy = nearest(name, TARGETS) + f" (known: {', '.join(TARGETS)})"
+        raise InputError(Fault("hand_over.to", "unknown target", str(name), remedy))
+    return importlib.import_module(f"{_ROOM}.{TARGETS[name].module}")
+
+
+def export_of(name: str) -> Callable[[HandOver], Export]:
+    """The function that makes the export of a target."""
+    return target_module(name).export
+
+
+def options_of(name: str) -> Mapping[str, Option]:
+    """The choices that a target has, by name."""
+    return getattr(target_module(name), "OPTIONS", {})

@@ -1,0 +1,34 @@
+"""``ballscrew hand-over``: the files that were written, their range, and their worst error, as text."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from ballscrew import units
+from ballscrew.exports.export import Export
+from ballscrew.exports.worst_error import WorstError
+from ballscrew.output.wrapping import wrapped
+from ballscrew.quantities import Quantity
+
+
+def text(export: Export, written: Sequence[Path]) -> str:
+    """The files, the range, the worst error of each output, and the warnings."""
+    lines = [*(f"{path}" for path in written), "range, beyond which the nearest value counts and valid is 0:"]
+    lines += [f"  {name}: {_ends(ends, export.quantities[name])}" for name, ends in export.valid_range.items()]
+    lines += ["worst error against the model over this range:"] if export.worst_error else []
+    lines += [f"  {_error(one)}" for one in export.worst_error]
+    lines += [f"warning: {record.text}" for record in export.warnings]
+    return "\n".join(map(wrapped, lines))
+
+
+def _ends(ends: tuple[float, float], quantity: Quantity) -> str:
+    least, greatest = (units.shown(end, quantity) for end in ends)
+    return f"{least} to {greatest}"
+
+
+def _error(one: WorstError) -> str:
+    if one.output == "valid":
+        return f"valid: {'the same at all' if one.value == 0 else 'differs at some of'} {one.points} points"
+    value = f"{one.value:.2g}" + ("" if one.unit == "1" else f" {one.unit}")
+    return f"{one.output}: {value}, relative {one.relative:.2g}, of its largest value {one.of_largest:.2g}"

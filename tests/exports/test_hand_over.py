@@ -1,0 +1,105 @@
+"""The frame of exports: targets, requests, ranges, files."""
+
+import numpy as np
+import pytest
+
+import ballscrew as bs
+from ballscrew.exports.export import Export
+from ballscrew.exports.targets import TARGETS, export_of
+from ballscrew.exports.worst_error import worst_errors
+
+OIL = bs.Lubricant.from_grade("ISO VG 100", temperature=313.15)
+
+
+@pytest.fixture(scope="module")
+def handed(handed_over):
+    return handed_over(bs.FrictionModel.corrected(), bs.DoubleNut(preload=900.0))
+
+
+def test_every_target_has_a_module():
+    assert all(callable(export_of(name)) for name in TARGETS)
+
+
+def test_an_unknown_target_is_refused_with_the_list(ballscrew, example, tmp_path):
+    done = ballscrew("hand-over", example, "--to", "fortran", "-o", tmp_path / "out")
+    assert done.returncode == 2
+    assert done.stderr.startswith("hand_over.to: unknown target (fortran)")
+    assert all(name in done.stderr for name in TARGETS)
+    assert not (tmp_path / "out").exists()
+
+
+def test_the_recorded_model_is_the_model(handed):
+    points = handed.sample(50)
+    found = handed.evaluate(points)
+    screw = handed.subject.screw
+    for i in (0, 3, 10, 20, 30, 40):
+        oil = bs.Lubricant.from_grade("ISO VG 100", temperature=points["temperature"][i])
+        here = bs.BallScrew(**{**vars_of(screw), "nut": bs.DoubleNut(preload=points["preload"][i])})
+        wanted = handed.subject.model(
+            here, oil, axial_load=points["axial_load"][i], screw_speed=points["screw_speed"][i]
+        )
+        for name in ("screw_torque", "drive_torque", "holding_torque", "friction_power", "valid"):
+            assert found[name][i] == pytest.approx(float(getattr(wanted, name)), rel=1e-11, abs=1e-14)
+
+
+def vars_of(part):
+    return {name: getattr(part, name) for name in part.__dataclass_fields__}
+
+
+def test_beyond_the_bounds_the_nearest_value_counts_and_is_not_valid(handed):
+    greatest = handed.formula_range["temperature"][1]
+    state = {"axial_load": 1000.0, "screw_speed": 50.0}
+    beyond, at = (handed.evaluate({**state, "temperature": value}) for value in (greatest + 50.0, greatest))
+    assert beyond["screw_torque"] == at["screw_torque"]
+    assert at["valid"]
+    assert not beyond["valid"]
+
+
+def test_points_are_in_all_quadrants_and_at_rest(handed):
+    points = handed.sample()
+    load, speed = np.sign(points["axial_load"]), np.sign(points["screw_speed"])
+    assert {(a, b) for a, b in zip(load, speed, strict=True)} >= {(1, 1), (1, -1), (-1, 1), (-1, -1), (1, 0), (0, 1)}
+
+
+def test_the_worst_error_is_that_of_the_worst_point(handed):
+    def off(points):
+        found = handed.evaluate(points)
+        found["drive_torque"] = found["drive_torque"] + np.where(points["axial_load"] > 0.0, 0.25, 0.125)
+        return found
+
+    errors = {one.output: one for one in worst_errors(handed, off)}
+    assert errors["drive_torque"].value == pytest.approx(0.25, rel=1e-9)
+    assert errors["drive_torque"].at["axial_load"] > 0
+    assert errors["screw_torque"].value == errors["valid"].value == 0.0
+
+
+@pytest.mark.parametrize(
+    ("change", "expected"),
+    [
+        ({"parameters": ["friction.boundry"]}, "hand_over.parameters: unknown input"),
+        ({"outputs": ["torque_of_screw"]}, "hand_over.outputs: unknown output"),
+        ({"derivatives": ["lead"]}, "hand_over.derivatives: is no input (lead)"),
+        ({"ranges": {"axial_load": (5.0, 1.0)}}, "hand_over.ranges.axial_load: must be the least and the greatest"),
+        ({"ranges": {"temperature": (1.0, 300.0)}}, "hand_over.ranges.temperature: is beyond the bounds"),
+        ({"digits": 4}, "hand_over.digits: unknown option"),
+    ],
+)
+def test_faults_name_field_and_remedy(handed, change, expected):
+    subject = handed.subject
+    with pytest.raises(bs.InputError) as fault:
+        bs.hand_over(subject.model, subject.screw, subject.lubricant, to="c", **change)
+    assert str(fault.value).startswith(expected)
+
+
+def test_balls_that_differ_are_refused_with_a_remedy(handed):
+    screw = bs.BallScrew(**{**vars_of(handed.subject.screw), "nut": bs.DoubleNut(preload=900.0, bodies=bs.Bodies())})
+    with pytest.raises(bs.InputError, match=r"hand_over\.to: needs a model that can be recorded.*--to table"):
+        bs.hand_over(handed.subject.model, screw, OIL, to="c")
+
+
+def test_nothing_is_written_where_a_place_is_taken(tmp_path):
+    (tmp_path / "b").mkdir()
+    export = Export(target="c", files={"a": b"1", "b": b"2"}, valid_range={}, worst_error=())
+    with pytest.raises(bs.InputError, match="--out: cannot be written"):
+        export.write(tmp_path)
+    assert not (tmp_path / "a").exists()
