@@ -44,6 +44,8 @@ from ballscrew.moving_logs.motion_fit import MotionFit as MotionFit
 from ballscrew.moving_logs.motion_fit import fit_motion as fit_motion
 from ballscrew.moving_logs.moving_log import MovingLog as MovingLog
 from ballscrew.screw_tables.catalogue import screws as screws
+from ballscrew.selection.selection import Selection as Selection
+from ballscrew.selection.selection import select as select
 from ballscrew.service.condition import condition as condition
 from ballscrew.service.condition_values import Condition as Condition
 from ballscrew.service.preload_change import PreloadChange as PreloadChange
