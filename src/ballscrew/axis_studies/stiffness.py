@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ballscrew import units
 from ballscrew._arrays import lazy
@@ -70,7 +71,7 @@ class ChainReport:
         return [int(np.argmin(np.abs(self.chain.position - place))) for place in places]
 
     @lazy
-    def _within(self) -> Numbers:
+    def _within(self) -> NDArray[np.intp]:
         """Indices of the places within the travel, or of those that the person asked for."""
         if self.asked:
             return np.arange(self.chain.position.size)
