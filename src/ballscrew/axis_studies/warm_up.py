@@ -157,8 +157,11 @@ class WarmUpReport:
             found.append(
                 f"to and fro over {units.shown(self.stroke, PLACE)}, half the shaft, under the load of the case"
             )
-        if not self.duty.axis.bearing_torque:
-            found.append("no heat of the support bearings: their friction is not given (axis.bearing_torque)")
+        first, last = (units.shown(power, SERIES["friction_power"], 3) for power in network.bearing_power)
+        if any(network.bearing_power):
+            found.append(f"bearings make {first} at the fixed end and {last} at the other, whatever they warm up to")
+        else:
+            found.append("no heat of the support bearings: their friction is not given ([bearings.fixed])")
         defaults = {field.name: field.default for field in dataclasses.fields(Surroundings)}
         found += [
             f"{_OF[name].info.meaning} {shown(name, defaults[name])}: the default"
@@ -186,14 +189,17 @@ def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None
         raise InputError(
             Fault("lubricant.viscosity", problem, units.shown(case.lubricant.viscosity, _VISCOSITY), remedy)
         )
+    also = {bearing.name: bearing for bearing in case.bearings.values()}
     if case.motion is not None and case.axis is not None:
-        return axis_duty.duty(case.model, case.screw, case.lubricant, axis=case.axis, motion=case.motion), None
+        return axis_duty.duty(
+            case.model, case.screw, case.lubricant, axis=case.axis, motion=case.motion, also=also
+        ), None
     length = length_of(case, surroundings)
     stroke = SHARE_OF_SHAFT * length if surroundings.stroke is None else float(surroundings.stroke)
     point = case.operation
     duty = to_and_fro(
         case.model, case.screw, case.lubricant, axial_load=float(point.axial_load),
-        screw_speed=float(point.screw_speed), stroke=stroke,
+        screw_speed=float(point.screw_speed), stroke=stroke, also=also,
     )  # fmt: skip
     return duty, stroke
 

@@ -202,6 +202,7 @@ def build(
     nut, notes = nut_tables.nut_of(sections, *made, faults)
     mounted = nut_tables.installation(sections, faults) if "installation" in sections else None
     bearings = support_tables.bearings(sections, folder, lubricant, mounted, faults)
+    mounted = support_tables.mounted_on(mounted, bearings)
     limits = nut_tables.limits(sections, faults) if "limits" in sections else USUAL_LIMITS
     screw = made.screw if made.screw is None or nut is None else dataclasses.replace(made.screw, nut=nut)
     operation = _operation(sections, faults) if "operation" in sections else None

@@ -50,6 +50,7 @@ EXAMPLES: Mapping[str, str | float] = {
     "lip_friction": "80 N/m",
     "seal_torque": "0.2 N m",
     "bearing_rigidity": "500 N/um",
+    "mount_rigidity": "1000 N/um",
     "accuracy_factor": 0.55,
     "balls": 165,
     "unsupported_length": "1 m",

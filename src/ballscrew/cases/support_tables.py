@@ -12,7 +12,7 @@ from ballscrew.cases.oils import named_oil
 from ballscrew.cases.sections import Sections
 from ballscrew.cases.support_schema import OIL
 from ballscrew.components.materials import Lubricant
-from ballscrew.errors import MISSING, Fault, InputError, nearest
+from ballscrew.errors import MISSING, Fault, InputError, nearest, shown
 from ballscrew.quantities import fields_of
 from ballscrew.sizing.installation import Ends, Installation
 from ballscrew.supports.element_laws import (
@@ -63,6 +63,11 @@ def _contradictions(sections: Sections, tables: Mapping[str, Any], mounted: Inst
     if "second_fixed" in tables and "floating" in tables:
         remedy = "leave one out"
         faults.append(Fault("bearings.floating", "is at the end of the second fixed bearing", "", remedy))
+    own = [place for place, table in tables.items() if place != "floating" and "rigidity" in table]
+    if mounted is not None and mounted.bearing_rigidity is not None and own:
+        remedy = f"leave one out: the other is bearings.{own[0]}.rigidity"
+        given = shown(mounted.bearing_rigidity, "N/m")
+        faults.append(Fault("installation.bearing_rigidity", "is given beside that of the bearing", given, remedy))
     far = {Ends.FIXED_FIXED: "second_fixed", Ends.FIXED_SUPPORTED: "floating"}
     given = next((place for place in far.values() if place in tables), None)
     if mounted is not None and given is not None and far.get(mounted.ends) != given:
@@ -111,6 +116,14 @@ def _bearing(
     return _made(
         where, lambda: MountedBearing(place=place, element=element, **{"load_share": share, **mounting}), faults
     )
+
+
+def mounted_on(mounted: Installation | None, found: Mapping[str, MountedBearing]) -> Installation | None:
+    """The installation with the rigidity that the maker of its fixed bearing prints, unless it has its own."""
+    rigidity = found["fixed"].rigidity if "fixed" in found else None
+    if mounted is None or mounted.bearing_rigidity is not None or rigidity is None:
+        return mounted
+    return dataclasses.replace(mounted, bearing_rigidity=rigidity)
 
 
 def guided(

@@ -32,6 +32,8 @@ DutyResults = model(
     Open,
     **quantities(NUMBERS),
     energy_lost_by=(Numbers, field("energy lost in a cycle by mechanism, SI", "J")),
+    energy_lost_in=(dict[str, Numbers], field("energy lost in a cycle by element and mechanism, SI", "J")),
+    heat_by_element=(Numbers, field("mean heat of each element over the cycle, SI", "W")),
     torque_rms_by=(Numbers, field("parts of the RMS torque, SI", "N m")),
     torque_peak_by=(Numbers, field("parts of the peak torque, SI", "N m")),
     brake=(PowerOff, ...),
