@@ -196,9 +196,9 @@ def _limits(case: Case) -> Rows:
 
 
 def _moved(case: Case) -> dict[str, Rows]:
-    """Axis, motion with its segments, and motor."""
+    """Axis, motion with its segments, motor, and surroundings."""
     segments: tuple[Any, ...] = getattr(case.motion, "segments", ())
-    parts = {"Axis": case.axis, "Motion": case.motion, "Motor": case.motor}
+    parts = {"Axis": case.axis, "Motion": case.motion, "Motor": case.motor, "Surroundings": case.surroundings}
     parts |= {f"Segment {number}: {part.name}".rstrip(": "): part for number, part in enumerate(segments, start=1)}
     found: dict[str, Rows] = {}
     for title, part in parts.items():
@@ -208,7 +208,8 @@ def _moved(case: Case) -> dict[str, Rows]:
             def source(name: str, part: Any = part, usual: Mapping[str, Any] = usual) -> str:
                 return DEFAULT if getattr(part, name) == usual.get(name) else CASE
 
-            found[title] = _part(case, part, fields_of(part), source)
+            known = {name: q for name, q in fields_of(part).items() if getattr(part, name) is not None}
+            found[title] = _part(case, part, known, source)
     return found
 
 
