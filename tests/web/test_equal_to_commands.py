@@ -225,6 +225,29 @@ def test_duty(server, tmp_path):
     assert server.post("run", {"case": tables}).status_code == 422
 
 
+def test_warm_up(server, tmp_path):
+    """Of a motion and of an operating point, with bands and without; refused as on the command line."""
+    tables = tables_of(next(path for path in EXAMPLES if path.stem == "warm_up"))
+    words = ("warm-up", written(tables, tmp_path), "--json", "--hours", "0.5", "--cool-down", "0.25")
+    assert server.post("warm-up", {"case": tables, "hours": 0.5, "cool_down": 0.25}).json() == document(*words)
+    for name in ("axis", "motion"):
+        del tables[name]
+    words = ("warm-up", written(tables, tmp_path), "--json", "--hours", "0.5", "--band", "--samples", "8")
+    body = {"case": tables, "hours": 0.5, "band": True, "samples": 8}
+    assert server.post("warm-up", body).json() == document(*words)
+    for more, line in (
+        ({"hours": 0.0}, "--hours: must be above 0 and at most 8766 (0) · write --hours 4"),
+        ({"samples": 8}, "--samples: needs --band (8) · add --band"),
+        (
+            {"band": True, "samples": 5000},
+            "--samples: too many (5,000) · 1,024 at most here; the rest by ballscrew warm-up",
+        ),
+    ):
+        found = server.post("warm-up", {"case": tables, **more})
+        assert found.status_code == 422
+        assert found.json()["lines"] == [line]
+
+
 def test_catalogue(server):
     assert server.get("catalogue").json() == json.loads(printed("catalogue", "list", "--json"))
     found = server.get("catalogue", params={"words": "Double 40x"}).json()

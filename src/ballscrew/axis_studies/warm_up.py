@@ -17,7 +17,7 @@ from ballscrew.axis.to_and_fro import to_and_fro
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
 from ballscrew.components.materials import Lubricant
-from ballscrew.errors import Fault, InputError
+from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.motion.states import Numbers
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Info, Length, Quantity, fields_of
@@ -26,6 +26,8 @@ from ballscrew.thermal.surroundings import Surroundings
 from ballscrew.thermal.warm_up import WarmUp, warm_up
 
 HOUR = 3600.0
+#: The longest time, h: a year.
+LONGEST = 8766.0
 #: The stroke of one operating point over the shaft between its bearings.
 SHARE_OF_SHAFT = 0.5
 #: The shaft of an operating point where nothing tells a length, m.
@@ -171,11 +173,35 @@ class WarmUpReport:
         return found
 
 
+def check_hours(hours: float, cool_down: float) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` for times that are none."""
+    faults: list[Fault] = []
+    if not 0 < hours <= LONGEST:
+        faults.append(Fault("--hours", f"must be above 0 and at most {LONGEST:g}", f"{hours:g}", "write --hours 4"))
+    if not 0 <= cool_down <= LONGEST:
+        faults.append(Fault("--cool-down", f"must be 0 to {LONGEST:g}", f"{cool_down:g}", "write --cool-down 1"))
+    raise_if_any(faults)
+
+
+def option_faults(band: bool, samples: int | None, level: float | None, only_given: bool) -> list[Fault]:
+    """Options of a band where none is asked for."""
+    given = {"--samples": samples, "--level": level, "--only-given": only_given or None}
+    return [
+        Fault(name, "needs --band", str(value), "add --band")
+        for name, value in given.items()
+        if value is not None and not band
+    ]
+
+
+def moves(tables: Mapping[str, Any]) -> bool:
+    """True of the tables of a case whose motion counts, and not its operating point."""
+    return "motion" in tables or "axis" in tables
+
+
 def load(path: str | Path, settings: Sequence[str], model: str | None, *, allow_code: bool = False) -> Case:
     """The case of a file; its motion counts where it has one, or else its operating point."""
     tables = case_file.override(case_file.read(path), settings)
-    moves = "motion" in tables or "axis" in tables
-    return case_file.build(tables, model, Path(path).parent, allow_code=allow_code, moves=moves)
+    return case_file.build(tables, model, Path(path).parent, allow_code=allow_code, moves=moves(tables))
 
 
 def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None]:

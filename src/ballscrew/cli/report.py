@@ -29,7 +29,8 @@ def report(
 ) -> None:
     """A report to file: drawing, results, curves, band, checks, inputs and sources on up to four pages.
 
-    Of a case with a motion it has the cycle, too, on up to six pages. The .html is one file that asks for
+    Of a case with a motion it has the cycle, too, on two pages more, and with [surroundings] four hours of warming up
+    on one. The .html is one file that asks for
     nothing from outside; the .pdf can be read by machines, too (PDF/UA-1). The same case gives the same bytes.
     """
     from ballscrew.errors import Fault, InputError

@@ -14,19 +14,17 @@ if TYPE_CHECKING:
     from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
     from ballscrew.cases.case import Case
 
-_TO, _HOURS, _COOL_DOWN, _BAND = "--to", "--hours", "--cool-down", "--band"
+_TO, _BAND = "--to", "--band"
 #: Files that a folder gets.
 _TABLES, _COMPENSATION, _BANDS, _PICTURE = (
     ("warm_up.csv", "warm_up.xlsx"), "compensation.csv", "warm_up_band.csv", "warm_up.png"
 )  # fmt: skip
-#: The longest time, h: a year.
-_LONGEST = 8766.0
 
 
 def warm_up(
     case: CaseFile,
-    hours: Annotated[float, typer.Option(_HOURS, metavar="H", help="Hours of work.")] = 4.0,
-    cool_down: Annotated[float, typer.Option(_COOL_DOWN, metavar="H", help="Hours of rest after them.")] = 0.0,
+    hours: Annotated[float, typer.Option("--hours", metavar="H", help="Hours of work.")] = 4.0,
+    cool_down: Annotated[float, typer.Option("--cool-down", metavar="H", help="Hours of rest after them.")] = 0.0,
     model: ModelName = None,
     settings: Annotated[
         list[str] | None,
@@ -64,12 +62,13 @@ def warm_up(
     """
     from ballscrew.axis_studies import warm_up as studies
     from ballscrew.documents import warm_up as documents
+    from ballscrew.errors import raise_if_any
     from ballscrew.output.json_text import as_json as json_text
     from ballscrew.text import warm_up as text
 
-    _check_hours(hours, cool_down)
+    studies.check_hours(hours, cool_down)
     loaded = studies.load(case, settings or [], model, allow_code=allow_code)
-    _check_band(band, samples, level, only_given)
+    raise_if_any(studies.option_faults(band, samples, level, only_given))
     files = [path for place in to or [] for path in _files(place, band)]
     if not band:
         report, banded = studies.warmed_up(loaded, hours, cool_down), None
@@ -85,29 +84,6 @@ def warm_up(
         own = path.name if path.parent in (to or []) else ""
         _write(path, report, banded, own)
         typer.echo(f"{path}", err=as_json)
-
-
-def _check_hours(hours: float, cool_down: float) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` for times that are none."""
-    from ballscrew.errors import Fault, raise_if_any
-
-    faults: list[Fault] = []
-    if not 0 < hours <= _LONGEST:
-        faults.append(Fault(_HOURS, f"must be above 0 and at most {_LONGEST:g}", f"{hours:g}", "write --hours 4"))
-    if not 0 <= cool_down <= _LONGEST:
-        faults.append(Fault(_COOL_DOWN, f"must be 0 to {_LONGEST:g}", f"{cool_down:g}", "write --cool-down 1"))
-    raise_if_any(faults)
-
-
-def _check_band(band: bool, samples: int | None, level: float | None, only_given: bool) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` for options without a band."""
-    from ballscrew.errors import Fault, raise_if_any
-
-    given = {"--samples": samples, "--level": level, "--only-given": only_given or None}
-    faults = [
-        Fault(name, f"needs {_BAND}", str(value), f"add {_BAND}") for name, value in given.items() if value is not None
-    ]
-    raise_if_any([] if band else faults)
 
 
 def _banded(

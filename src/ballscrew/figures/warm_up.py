@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -20,6 +20,9 @@ if TYPE_CHECKING:  # slow to import
     from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
 
 _TITLE_CHARACTERS, _LABEL_SIZE, _LEVELS, _SHADE = 100, 8.0, 12, 0.15
+
+#: Inches on a page of a report.
+_PAGE = (7.1, 4.2)
 
 
 def picture(report: WarmUpReport, found: WarmUpBandReport | None = None) -> Figure:
@@ -42,6 +45,19 @@ def picture(report: WarmUpReport, found: WarmUpBandReport | None = None) -> Figu
         if held:
             _shade(found, panels[3], "preload", style.PURPLE)
         _shade(found, panels[4], "screw_torque", style.RED)
+    return figure
+
+
+def panels(report: WarmUpReport) -> Figure:
+    """Temperatures, growth, preload or friction, and torque for a page of a report, without a caption."""
+    figure = Figure(figsize=_PAGE, layout="constrained")
+    places: Any = figure.subplots(2, 2)
+    first, second, third, fourth = places.ravel()
+    _temperatures(first, report)
+    _drift(second, report)
+    held = report.warm_up.network.preload_set
+    _over_time(third, report, "preload" if held else "friction_power", style.PURPLE)
+    _over_time(fourth, report, "screw_torque", style.RED)
     return figure
 
 

@@ -196,9 +196,9 @@ def _limits(case: Case) -> Rows:
 
 
 def _moved(case: Case) -> dict[str, Rows]:
-    """Axis with its bearings and guides, motion with its segments, and motor."""
+    """Axis with its bearings and guides, motion with its segments, motor, and surroundings."""
     segments: tuple[Any, ...] = getattr(case.motion, "segments", ())
-    parts = {"Axis": case.axis, "Motion": case.motion, "Motor": case.motor}
+    parts = {"Axis": case.axis, "Motion": case.motion, "Motor": case.motor, "Surroundings": case.surroundings}
     parts |= {f"Segment {number}: {part.name}".rstrip(": "): part for number, part in enumerate(segments, start=1)}
     parts |= {bearing.name.capitalize(): bearing.element for bearing in case.bearings.values()}
     parts |= {"Guides": None if case.axis is None else case.axis.guides}

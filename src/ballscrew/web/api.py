@@ -16,12 +16,15 @@ from starlette.responses import Response
 
 from ballscrew import units
 from ballscrew.axis_studies import duty as duties
+from ballscrew.axis_studies import warm_up as warm_ups
+from ballscrew.axis_studies import warm_up_band as warm_up_bands
 from ballscrew.cases import case_file
 from ballscrew.cases.schema import json_schema
 from ballscrew.documents import comparison as comparison_documents
 from ballscrew.documents import duty as duty_documents
 from ballscrew.documents import sweep as sweep_documents
 from ballscrew.documents import validation as validation_documents
+from ballscrew.documents import warm_up as warm_up_documents
 from ballscrew.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.output.json_text import plain
 from ballscrew.screw_tables import catalogue as rows
@@ -32,8 +35,18 @@ from ballscrew.studies import sweep as sweeps
 from ballscrew.studies import validation
 from ballscrew.studies.check import with_nut_named
 from ballscrew.studies.comparison import comparison
-from ballscrew.web import answers, check_answers, documents, duty_answers, limits, memory, openapi, vocabulary
-from ballscrew.web.bodies import BandBody, CaseBody, DutyBody, SweepBody, case_of, read
+from ballscrew.web import (
+    answers,
+    check_answers,
+    documents,
+    duty_answers,
+    limits,
+    memory,
+    openapi,
+    vocabulary,
+    warm_up_answers,
+)
+from ballscrew.web.bodies import BandBody, CaseBody, DutyBody, SweepBody, WarmUpBody, case_of, read
 from ballscrew.web.problems import Refused
 from ballscrew.web.request_queue import Deadline, RequestQueue
 from ballscrew.web.templates import template
@@ -211,6 +224,32 @@ async def duty(request: Request) -> Response:
 
     def work(_: Deadline) -> Response:
         return _json(duty_documents.document(duties.duty(case_of(body.case, moves=True))))
+
+    return await _heavy(request, work)
+
+
+@router.post(
+    "/warm-up",
+    openapi_extra=openapi.body(WarmUpBody),
+    response_model=warm_up_answers.WarmUp,
+    responses=openapi.problems_of(),
+)
+async def warm_up(request: Request) -> Response:
+    """How a case warms up, and where that ends: the document of ``ballscrew warm-up --json``."""
+    body: WarmUpBody = await read(request, WarmUpBody)
+    raise_if_any(warm_ups.option_faults(body.band, body.samples, body.level, body.only_given))
+    warm_ups.check_hours(body.hours, body.cool_down)
+
+    def work(done: Deadline) -> Response:
+        case = case_of(body.case, moves=warm_ups.moves(body.case))
+        limits.check_warm_up(case, body.samples)
+        if not body.band:
+            return _json(warm_up_documents.document(warm_ups.warmed_up(case, body.hours, body.cool_down)))
+        found = warm_up_bands.band(
+            case, body.hours, body.cool_down, samples=body.samples, level=body.level, only_given=body.only_given,
+            done=done,
+        )  # fmt: skip
+        return _json(warm_up_documents.with_band(found))
 
     return await _heavy(request, work)
 

@@ -50,6 +50,17 @@ class DutyBody(CaseBody):
     """A case with an axis and a motion; it needs no operating point."""
 
 
+class WarmUpBody(CaseBody):
+    """A case that warms up by its motion or its operating point, the hours of work and of rest, perhaps with bands."""
+
+    hours: float = Field(default=4.0, strict=True)
+    cool_down: float = Field(default=0.0, strict=True)
+    band: bool = Field(default=False, strict=True)
+    samples: int | None = Field(default=None, strict=True)
+    level: float | None = Field(default=None, strict=True)
+    only_given: bool = Field(default=False, strict=True)
+
+
 class SweepBody(CaseBody):
     """A case, the axes to vary (as ``--vary``), and the outputs to return."""
 

@@ -12,7 +12,7 @@ from ballscrew.cases.schema import json_schema
 from ballscrew.sizing.catalogue import catalogue
 from ballscrew.web import problems
 from ballscrew.web.answer_parts import Problem
-from ballscrew.web.bodies import BandBody, DutyBody, SweepBody
+from ballscrew.web.bodies import BandBody, DutyBody, SweepBody, WarmUpBody
 from ballscrew.web.vocabulary import vocabulary
 
 _CASE, _SUMMARY = "Case", "Friction losses of ball screws"
@@ -51,6 +51,9 @@ def _bodies(kind: type[BaseModel]) -> dict[str, Any]:
     more: dict[str, Any] = {}
     if kind is SweepBody:
         more = {"vary": {"axial_load": "100:4000:5 N", "screw_speed": "10, 100 rpm"}, "outputs": ["efficiency"]}
+    if kind is WarmUpBody:
+        more = {"hours": 1.0, "band": True, "samples": 16}
+        paper = {**paper, "lubricant": {"grade": "ISO VG 100", "temperature": "40 degC"}}
     if kind is BandBody:
         more = {"samples": 64, "level": 0.9}
     return {"paper": {"case": paper, **more}, "nut": {"case": nut, **more}}
