@@ -38,6 +38,8 @@ ANY_TEMPERATURE = Quantity(TEMPERATURE, "K", Info("T", "oil temperature; without
 class Input:
     """An input of an export: its quantity, its usual value, and its ranges, in SI."""
 
+    #: The name, as sweeps have it: ``preload``, ``friction.boundary_friction_coefficient``.
+    name: str
     quantity: Quantity
     #: The value of the case; of load and speed zero.
     value: float
@@ -45,11 +47,6 @@ class Input:
     bounds: tuple[float, float]
     #: The range over which tables are made, parameters fitted and errors measured.
     range: tuple[float, float]
-
-    @property
-    def name(self) -> str:
-        """The name, as sweeps have it."""
-        return self.quantity.name
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
