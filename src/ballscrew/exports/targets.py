@@ -36,6 +36,7 @@ class Option(NamedTuple):
 TARGETS: Mapping[str, Target] = {
     "c": Target("c99", "C99 source of the model, with libm only"),
     "table": Target("table", "table over load and speed: CSV, JSON, NetCDF, Parquet"),
+    "modelica": Target("modelica", "Modelica component with the interfaces of its standard library"),
 }
 
 
