@@ -1,6 +1,6 @@
 # make demo: set up and reproduce the paper.  make test: set up and run the tests (make test-all: the long ones too).
 # make app: the page in the browser.
-.PHONY: app demo test test-all lint types layers js docs bench hostile constraints floors readme rooms screenshots clean
+.PHONY: app demo test test-all lint types layers js docs bench hostile constraints floors readme rooms interpreter screenshots clean
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -81,6 +81,15 @@ readme: $(READY)
 
 rooms: $(READY)
 	$(BIN)/python docs/make_rooms.py
+
+# the prebuilt interpreter and FMU of exports, for Linux on x86-64, by gcc: the same sources and the same gcc give the same bytes
+C_SOURCES := src/ballscrew/data/exports
+LINUX64 := $(C_SOURCES)/linux64
+
+interpreter:
+	gcc -std=c99 -O2 -Wall -Wextra -pedantic -Werror -shared -fPIC -fvisibility=hidden -s -Wl,--build-id=none \
+		-include tools/exports/old_glibc.h $(C_SOURCES)/*.c -o $(LINUX64)/ballscrew.so -lm
+	cat $(C_SOURCES)/*.c $(C_SOURCES)/*.h | sha256sum | cut -d " " -f 1 > $(LINUX64)/sources.sha256
 
 screenshots: $(READY)
 	$(BIN)/python docs/make_screenshots.py

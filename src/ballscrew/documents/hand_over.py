@@ -20,6 +20,7 @@ def document(export: Export, case: Case, written: Sequence[Path]) -> dict[str, A
             "target": export.target,
             "files": [str(path) for path in written],
             "valid_range": {name: list(ends) for name, ends in export.valid_range.items()},
+            "measured_range": {name: list(ends) for name, ends in export.measured_range.items()},
             "worst_error": {one.output: one.document() for one in export.worst_error},
         },
         "units": {one.output: one.unit for one in export.worst_error},

@@ -10,6 +10,8 @@ import numpy as np
 from ballscrew.exports import c_source
 from ballscrew.exports.c_source import number
 from ballscrew.exports.export import Export
+from ballscrew.exports.interpreter import errors_of_program
+from ballscrew.exports.readme import readme
 from ballscrew.exports.subject import HandOver
 
 #: Points of the test vector.
@@ -141,6 +143,15 @@ int main(int count, char **arguments)
 }
 """
 
+_NOTES = """\
+ballscrew.c and ballscrew.h are strict C99 and need libm only:
+  cc -std=c99 -O2 -c ballscrew.c
+  cc -std=c99 -O2 ballscrew.c main.c -lm && ./a.out && ./a.out test_vector.csv
+  cc -shared -fPIC -O2 ballscrew.c -o ballscrew.so -lm
+Do not compile with -ffast-math. main.c is an example, and tests the compiled code against test_vector.csv: inputs and
+outputs of the model in Python. The header can be included in C++.
+"""
+
 
 def export(handed: HandOver) -> Export:
     """The model as C99: source, header, example with a test vector, and a text."""
@@ -151,9 +162,10 @@ def export(handed: HandOver) -> Export:
         "main.c": _example(handed),
         "test_vector.csv": test_vector(handed),
     }
-    return Export.of(
-        handed, "c", {name: text.encode() for name, text in files.items()}, valid_range=limits, worst_error=()
-    )
+    errors = errors_of_program(handed)
+    files["README.txt"] = readme(handed, "C99 source", _NOTES, errors)
+    content = {name: text.encode() for name, text in files.items()}
+    return Export.of(handed, "c", content, valid_range=limits, worst_error=errors)
 
 
 def title(handed: HandOver) -> str:

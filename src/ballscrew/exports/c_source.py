@@ -19,25 +19,30 @@ from ballscrew.tracing.steps import Operand, Step, choose
 #: Steps of a function.
 STEPS_OF_A_FUNCTION = 250
 
-_INFIX: Mapping[Any, str] = {
+INFIX: Mapping[Any, str] = {
     np.add: "+", np.subtract: "-", np.multiply: "*", np.divide: "/",
     np.equal: "==", np.not_equal: "!=", np.less: "<", np.less_equal: "<=", np.greater: ">", np.greater_equal: ">=",
     np.bitwise_and: "&", np.bitwise_or: "|", np.bitwise_xor: "^",
     np.logical_and: "&", np.logical_or: "|", np.logical_xor: "^",
 }  # fmt: skip
-_CALLS: Mapping[Any, str] = {
+CALLS: Mapping[Any, str] = {
     np.sqrt: "sqrt", np.absolute: "fabs", np.exp: "exp", np.expm1: "expm1", np.log: "log", np.log1p: "log1p",
     np.sin: "sin", np.cos: "cos", np.tan: "tan", np.arcsin: "asin", np.arccos: "acos", np.arctan: "atan",
     np.arctan2: "atan2", np.sinh: "sinh", np.cosh: "cosh", np.tanh: "tanh", np.arcsinh: "asinh", np.power: "pow",
     np.floor: "floor", np.ceil: "ceil", np.cbrt: "cbrt", np.hypot: "hypot",
 }  # fmt: skip
-_TESTS: Mapping[Any, str] = {np.isnan: "isnan", np.isinf: "isinf", np.isfinite: "isfinite"}
-_EXTREMES: Mapping[Any, str] = {np.maximum: "greater_of", np.minimum: "less_of"}
+TESTS: Mapping[Any, str] = {np.isnan: "isnan", np.isinf: "isinf", np.isfinite: "isfinite"}
+EXTREMES: Mapping[Any, str] = {np.maximum: "greater_of", np.minimum: "less_of"}
 #: Functions of the source that have no name in the library; those of NumPy hand on what is not a number.
 _OWN: Mapping[str, str] = {
     "greater_of": "static double greater_of(double a, double b) { return a > b || a != a ? a : b; }",
     "less_of": "static double less_of(double a, double b) { return a < b || a != a ? a : b; }",
-    "remainder_of": "static double remainder_of(double a, double b) { return a - floor(a / b) * b; }",
+    "remainder_of": """\
+static double remainder_of(double a, double b)
+{
+    const double m = fmod(a, b);
+    return m == 0.0 ? copysign(0.0, b) : (b < 0.0) != (m < 0.0) ? m + b : m;
+}""",
 }
 
 
@@ -142,17 +147,17 @@ def expression(step: Step, operand: Callable[[tuple[str, Operand]], str]) -> str
     function, values = step.function, [operand(one) for one in step.operands]
     if function is choose:
         return "{} ? {} : {}".format(*values)
-    if function in _INFIX:
-        return f"{values[0]} {_INFIX[function]} {values[1]}"
+    if function in INFIX:
+        return f"{values[0]} {INFIX[function]} {values[1]}"
     if function in (np.invert, np.logical_not):
         return f"!{values[0]}"
-    if function in _TESTS:
-        return f"{_TESTS[function]}({values[0]}) != 0"
-    if function in _EXTREMES:
-        return f"{_EXTREMES[function]}({values[0]}, {values[1]})"
+    if function in TESTS:
+        return f"{TESTS[function]}({values[0]}) != 0"
+    if function in EXTREMES:
+        return f"{EXTREMES[function]}({values[0]}, {values[1]})"
     if function is np.remainder:
         return f"remainder_of({values[0]}, {values[1]})"
-    if function in _CALLS:
-        return f"{_CALLS[function]}({', '.join(values)})"
+    if function in CALLS:
+        return f"{CALLS[function]}({', '.join(values)})"
     remedy = "write the law with functions of the C library, or take a table (--to table)"
     raise InputError(Fault("hand_over.to", f"C has no {function.__name__}", "", remedy))

@@ -27,6 +27,10 @@ class Export:
     valid_range: Mapping[str, tuple[float, float]]
     #: The worst error of each output over the range, measured when this was made.
     worst_error: tuple[WorstError, ...]
+    #: The range over which the error was measured.
+    measured_range: Mapping[str, tuple[float, float]] = dataclasses.field(
+        default_factory=dict[str, tuple[float, float]]
+    )
     warnings: tuple[Record, ...] = ()
     #: Version, model, sources, and all inputs with their values.
     provenance: Mapping[str, Any] = dataclasses.field(default_factory=dict[str, Any])
@@ -50,6 +54,7 @@ class Export:
             files=files,
             valid_range=valid_range,
             worst_error=tuple(worst_error),
+            measured_range=handed.working_range,
             warnings=(*_warnings(handed), *warnings),
             provenance=handed.provenance,
             quantities={one.name: one.quantity for one in handed.inputs},

@@ -147,11 +147,12 @@ def _input(subject: Configuration, name: str, asked: tuple[float, float] | None)
     if value is None or np.ndim(value):
         raise InputError(Fault(f"hand_over.{name}", "must have one value", "", "give it in the case"))
     bounds = usual_range(quantity)
-    return Input(quantity, float(value), bounds, _range(subject, quantity, float(value), bounds, asked))
+    return Input(name, quantity, float(value), bounds, _range(subject, name, quantity, float(value), bounds, asked))
 
 
 def _range(
     subject: Configuration,
+    name: str,
     quantity: Quantity,
     value: float,
     bounds: tuple[float, float],
@@ -159,17 +160,17 @@ def _range(
 ) -> tuple[float, float]:
     """The range asked for, or the usual one, within the bounds."""
     if asked is not None:
-        return _checked(quantity, asked)
-    if quantity.name == OPERATION[0]:
+        return _checked(name, quantity, asked)
+    if name == OPERATION[0]:
         largest = _largest_load(subject)
         return -largest, largest
     usual = {OPERATION[1]: SPEEDS, TEMPERATURE: TEMPERATURES}
-    least, greatest = usual.get(quantity.name, (min(s * value for s in SHARES), max(s * value for s in SHARES)))
+    least, greatest = usual.get(name, (min(s * value for s in SHARES), max(s * value for s in SHARES)))
     return max(least, bounds[0]), min(greatest, bounds[1])
 
 
-def _checked(quantity: Quantity, asked: tuple[float, float]) -> tuple[float, float]:
-    where = f"hand_over.ranges.{quantity.name}"
+def _checked(name: str, quantity: Quantity, asked: tuple[float, float]) -> tuple[float, float]:
+    where = f"hand_over.ranges.{name}"
     ends = np.asarray(si_value(where, asked, quantity.unit), dtype=float)
     if ends.shape != (2,) or not np.all(np.isfinite(ends)) or not ends[0] < ends[1]:
         raise InputError(Fault(where, "must be the least and the greatest value", str(asked), "such as (-5e3, 5e3)"))

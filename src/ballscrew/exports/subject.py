@@ -16,7 +16,6 @@ from ballscrew.evaluation.derivatives import slope_name
 from ballscrew.evaluation.evaluator import Evaluator, evaluator
 from ballscrew.evaluation.outputs import OPERATION, Output, known_outputs
 from ballscrew.evaluation.plan import Configuration
-from ballscrew.exports.worst_error import POINTS
 from ballscrew.quantities import Info, Quantity
 from ballscrew.references import citations_of
 from ballscrew.tracing.gradient import UnknownDerivativeError, partials
@@ -28,6 +27,8 @@ from ballscrew.tracing.tape import CannotRecordError, Tape
 TEMPERATURE = "temperature"
 #: What sets the preload of a nut, of which it has one.
 PRELOADS = ("preload", "oversize")
+#: Points at which an error is measured.
+POINTS = 2000
 #: The outputs of every export: they are finite wherever the model holds.
 OUTPUTS = ("screw_torque", "drive_torque", "ideal_torque", "holding_torque", "friction_power", "valid")
 #: Temperatures of a fixed oil, K.
@@ -38,6 +39,8 @@ ANY_TEMPERATURE = Quantity(TEMPERATURE, "K", Info("T", "oil temperature; without
 class Input:
     """An input of an export: its quantity, its usual value, and its ranges, in SI."""
 
+    #: The name, as sweeps have it: ``preload``, ``friction.boundary_friction_coefficient``.
+    name: str
     quantity: Quantity
     #: The value of the case; of load and speed zero.
     value: float
@@ -45,11 +48,6 @@ class Input:
     bounds: tuple[float, float]
     #: The range over which tables are made, parameters fitted and errors measured.
     range: tuple[float, float]
-
-    @property
-    def name(self) -> str:
-        """The name, as sweeps have it."""
-        return self.quantity.name
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from ballscrew.exports.subject import HandOver
+from ballscrew.exports.subject import HandOver
 
-#: Points at which an error is measured.
-POINTS = 2000
 #: Values at points by name.
 Values = Mapping[str, NDArray[Any]]
 

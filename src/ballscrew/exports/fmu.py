@@ -1,0 +1,251 @@
+"""``--to fmu``: a Functional Mock-up Unit for co-simulation and model exchange, without Python and without a compiler.
+
+The FMU has the recorded model as data and the prebuilt interpreter of the package; its sources are in it. Variables are
+those of every export; ``friction_torque`` has the sign of the motion. What differs is rest: friction goes through
+zero over the speed of regularisation, so that a solver gets a continuous torque.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import uuid
+import zipfile
+from collections.abc import Mapping
+from typing import NamedTuple
+from xml.etree import ElementTree as xml
+
+import numpy as np
+
+from ballscrew.errors import Fault, InputError
+from ballscrew.evaluation.outputs import OPERATION
+from ballscrew.exports import interpreter
+from ballscrew.exports.export import Export
+from ballscrew.exports.program_file import program_file
+from ballscrew.exports.readme import readme
+from ballscrew.exports.subject import TEMPERATURE, HandOver
+from ballscrew.exports.targets import Option
+from ballscrew.records import Record
+
+#: The speed over which friction goes through zero, rad/s, as in ``data/exports/fmi_model.c``.
+REGULARISATION_SPEED = 0.01
+#: The name of the model in an FMU, of its library and of its file.
+IDENTIFIER = "ballscrew"
+OPTIONS: Mapping[str, Option] = {"version": Option(2, "version of the standard, 2 or 3")}
+_SOURCES = ("ballscrew_program.c", "fmi_model.c")
+_HEADERS = ("ballscrew_program.h", "fmi_model.h")
+#: The exponents of the base units, as FMI writes units.
+_BASE_UNITS: Mapping[str, Mapping[str, int]] = {
+    "N": {"kg": 1, "m": 1, "s": -2},
+    "N m": {"kg": 1, "m": 2, "s": -2},
+    "rad/s": {"rad": 1, "s": -1},
+    "K": {"K": 1},
+    "W": {"kg": 1, "m": 2, "s": -3},
+    "m": {"m": 1},
+    "Pa": {"kg": 1, "m": -1, "s": -2},
+    "Pa s": {"kg": 1, "m": -1, "s": -1},
+    "1/Pa": {"kg": -1, "m": 1, "s": 2},
+    "N/m": {"kg": 1, "s": -2},
+    "m/s": {"m": 1, "s": -1},
+    "rad": {"rad": 1},
+    "kg/m^3": {"kg": 1, "m": -3},
+    "s": {"s": 1},
+}
+_FRICTION_TORQUE = "friction torque with its sign, which is that of the speed; continuous through rest"
+_REGULARISATION = (
+    "speed over which friction goes through zero, as tanh; 0 takes the sign of the speed. "
+    "Warning: continuous friction holds nothing, a load at rest creeps; holding_torque tells what holds"
+)
+
+
+class Variable(NamedTuple):
+    """A variable of an FMU; its value reference is its place among them."""
+
+    name: str
+    causality: str
+    variability: str
+    unit: str
+    description: str
+    start: float | None = None
+    least: float | None = None
+    greatest: float | None = None
+
+
+def export(handed: HandOver) -> Export:
+    """The model as an FMU of version 2.0 or 3.0. Raises :class:`~ballscrew.errors.InputError` for another version."""
+    version = handed.options["version"]
+    if version not in (2, 3):
+        raise InputError(Fault("hand_over.version", "must be 2 or 3", str(version), "2 is read by most tools"))
+    if handed.derivatives:
+        remedy = "leave them out, or take the source (--to c)"
+        raise InputError(Fault("hand_over.derivatives", "an FMU has none here", "", remedy))
+    program = program_file(handed)
+    listed = variables(handed)
+    token = uuid.UUID(hashlib.sha256(program + repr(listed).encode()).hexdigest()[:32])
+    describe, platform, source = (_fmi2, "linux64", "fmi2.c") if version == 2 else (_fmi3, "x86_64-linux", "fmi3.c")
+    text = readme(handed, f"FMU {version}.0", _NOTES)
+    content = {
+        "modelDescription.xml": _document(describe(handed, listed, str(token))),
+        f"binaries/{platform}/{IDENTIFIER}.so": interpreter.data(interpreter.LINUX64),
+        "resources/program.bin": program,
+        **{f"sources/{name}": interpreter.data(name) for name in (*_SOURCES, *_HEADERS, source)},
+        f"documentation/{'README.txt' if version == 2 else 'index.html'}": (
+            text if version == 2 else f"<!DOCTYPE html>\n<title>ballscrew</title>\n<pre>\n{_escaped(text)}</pre>\n"
+        ).encode(),
+    }
+    if version == 3:
+        content["sources/buildDescription.xml"] = _document(_build_description())
+    text = (
+        f"friction passes through zero over {REGULARISATION_SPEED:g} rad/s (parameter regularisation_speed), so that "
+        "a load at rest creeps: where holding matters, brake where holding_torque says so"
+    )
+    warning = Record(id="hand_over.rest", subject="regularisation_speed", text=text, severity="warning", holds=False)
+    return Export.of(
+        handed,
+        "fmu",
+        {f"{IDENTIFIER}.fmu": _archive(content)},
+        valid_range=handed.formula_range,
+        worst_error=interpreter.errors_of_program(handed),
+        warnings=[warning],
+    )
+
+
+_NOTES = """\
+screw_torque is the size of the friction. friction_torque is tanh(screw_speed / regularisation_speed) times it, and
+drive_torque is ideal_torque + friction_torque: from twenty times the regularisation speed on those of the model to the
+last digit. regularisation_speed = 0 takes the sign of the speed.
+
+The library for Linux on x86-64 was run; other platforms need the sources compiled: fmi2.c (or fmi3.c), fmi_model.c and
+ballscrew_program.c, with the C library and libm. It needs no Python, and one thread for each instance.
+"""
+
+
+def variables(handed: HandOver) -> tuple[Variable, ...]:
+    """The variables in the order of their value references: inputs, regularisation speed, outputs, friction torque."""
+    limits, found = handed.formula_range, list[Variable]()
+    for one in handed.inputs:
+        is_input = one.name in (*OPERATION, TEMPERATURE)
+        kind = ("input", "continuous") if is_input else ("parameter", "tunable")
+        ends = [end if np.isfinite(end) else None for end in limits[one.name]]
+        found.append(Variable(one.name, *kind, one.quantity.unit, handed.meanings[one.name], one.value, *ends))
+    found.append(
+        Variable("regularisation_speed", "parameter", "tunable", "rad/s", _REGULARISATION, REGULARISATION_SPEED, 0.0)
+    )
+    for name in handed.output_names:
+        found.append(Variable(name, "output", "continuous", handed.units[name], handed.meanings[name]))
+    found.append(Variable("friction_torque", "output", "continuous", "N m", _FRICTION_TORQUE))
+    return tuple(found)
+
+
+def _fmi2(handed: HandOver, listed: tuple[Variable, ...], token: str) -> xml.Element:
+    """The description of version 2.0."""
+    root = xml.Element("fmiModelDescription", {"fmiVersion": "2.0", "guid": f"{{{token}}}", **_heading(handed)})
+    root.set("numberOfEventIndicators", "0")
+    for kind in ("ModelExchange", "CoSimulation"):
+        flags = {"modelIdentifier": IDENTIFIER, "canGetAndSetFMUstate": "true"}
+        flags |= {"canHandleVariableCommunicationStepSize": "true"} if kind == "CoSimulation" else {}
+        files = xml.SubElement(xml.SubElement(root, kind, flags), "SourceFiles")
+        for name in ("fmi2.c", *_SOURCES):
+            xml.SubElement(files, "File", {"name": name})
+    _units(root, listed)
+    _experiment(root)
+    parent = xml.SubElement(root, "ModelVariables")
+    for reference, variable in enumerate(listed):
+        scalar = xml.SubElement(parent, "ScalarVariable", _attributes(variable, reference))
+        xml.SubElement(scalar, "Real", _of_type(variable))
+    structure = xml.SubElement(root, "ModelStructure")
+    for kind in ("Outputs", "InitialUnknowns"):
+        unknowns = xml.SubElement(structure, kind)
+        for place, variable in enumerate(listed, start=1):
+            if variable.causality == "output":
+                xml.SubElement(unknowns, "Unknown", {"index": str(place)})
+    return root
+
+
+def _fmi3(handed: HandOver, listed: tuple[Variable, ...], token: str) -> xml.Element:
+    """The description of version 3.0."""
+    heading = {"fmiVersion": "3.0", "instantiationToken": f"{{{token}}}", **_heading(handed)}
+    root = xml.Element("fmiModelDescription", heading)
+    for kind in ("ModelExchange", "CoSimulation"):
+        flags = {"modelIdentifier": IDENTIFIER, "canGetAndSetFMUState": "true"}
+        flags |= {"canHandleVariableCommunicationStepSize": "true"} if kind == "CoSimulation" else {}
+        xml.SubElement(root, kind, flags)
+    _units(root, listed)
+    _experiment(root)
+    parent = xml.SubElement(root, "ModelVariables")
+    time = {"name": "time", "valueReference": str(len(listed)), "causality": "independent", "variability": "continuous"}
+    xml.SubElement(parent, "Float64", time)
+    for reference, variable in enumerate(listed):
+        xml.SubElement(parent, "Float64", {**_attributes(variable, reference), **_of_type(variable)})
+    structure = xml.SubElement(root, "ModelStructure")
+    for kind in ("Output", "InitialUnknown"):
+        for reference, variable in enumerate(listed):
+            if variable.causality == "output":
+                xml.SubElement(structure, kind, {"valueReference": str(reference)})
+    return root
+
+
+def _build_description() -> xml.Element:
+    """Which sources make the library, for version 3.0."""
+    root = xml.Element("fmiBuildDescription", {"fmiVersion": "3.0"})
+    configuration = xml.SubElement(root, "BuildConfiguration", {"modelIdentifier": IDENTIFIER})
+    files = xml.SubElement(configuration, "SourceFileSet", {"language": "C99"})
+    for name in ("fmi3.c", *_SOURCES):
+        xml.SubElement(files, "SourceFile", {"name": name})
+    return root
+
+
+def _heading(handed: HandOver) -> dict[str, str]:
+    return {
+        "modelName": IDENTIFIER,
+        "description": f"Friction of a ball screw, model {handed.subject.model.label}",
+        "generationTool": f"ballscrew {handed.provenance['version']}",
+        "variableNamingConvention": "flat",
+    }
+
+
+def _units(root: xml.Element, listed: tuple[Variable, ...]) -> None:
+    definitions = xml.SubElement(root, "UnitDefinitions")
+    for unit in dict.fromkeys(variable.unit for variable in listed if variable.unit in _BASE_UNITS):
+        exponents = {name: str(power) for name, power in _BASE_UNITS[unit].items()}
+        xml.SubElement(xml.SubElement(definitions, "Unit", {"name": unit}), "BaseUnit", exponents)
+
+
+def _experiment(root: xml.Element) -> None:
+    xml.SubElement(root, "DefaultExperiment", {"startTime": "0", "stopTime": "1", "stepSize": "0.001"})
+
+
+def _attributes(variable: Variable, reference: int) -> dict[str, str]:
+    return {
+        "name": variable.name,
+        "valueReference": str(reference),
+        "description": variable.description,
+        "causality": variable.causality,
+        "variability": variable.variability,
+    }
+
+
+def _of_type(variable: Variable) -> dict[str, str]:
+    found = {"unit": variable.unit} if variable.unit in _BASE_UNITS else {}
+    numbers = {"min": variable.least, "max": variable.greatest, "start": variable.start}
+    return found | {name: repr(float(value)) for name, value in numbers.items() if value is not None}
+
+
+def _document(root: xml.Element) -> bytes:
+    xml.indent(root)
+    return xml.tostring(root, encoding="UTF-8", xml_declaration=True)
+
+
+def _escaped(text: str) -> str:
+    return text.replace("&", "&amp;").replace("<", "&lt;")
+
+
+def _archive(content: Mapping[str, bytes]) -> bytes:
+    """Files as a ZIP archive, the same bytes each time."""
+    made = io.BytesIO()
+    with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, held in content.items():
+            entry = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
+            entry.compress_type, entry.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
+            archive.writestr(entry, held)
+    return made.getvalue()

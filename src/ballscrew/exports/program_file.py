@@ -1,0 +1,95 @@
+"""A program as a file of data for the interpreter in C; ``data/exports/ballscrew_program.c`` states the format."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ballscrew.errors import Fault, InputError
+from ballscrew.exports.subject import HandOver
+from ballscrew.tracing.program import Program
+from ballscrew.tracing.steps import choose
+
+#: The operations of the interpreter, each at its number.
+OPERATIONS: Mapping[Any, int] = {
+    np.add: 0, np.subtract: 1, np.multiply: 2, np.divide: 3, choose: 4, np.sqrt: 5, np.minimum: 6, np.maximum: 7,
+    np.exp: 8, np.log: 9, np.power: 10, np.absolute: 11, np.greater: 12, np.greater_equal: 13, np.less: 14,
+    np.less_equal: 15, np.equal: 16, np.not_equal: 17, np.bitwise_and: 18, np.logical_and: 18, np.bitwise_or: 19,
+    np.logical_or: 19, np.bitwise_xor: 20, np.logical_xor: 20, np.invert: 21, np.logical_not: 21, np.isfinite: 22,
+    np.isnan: 23, np.isinf: 24, np.sin: 25, np.cos: 26, np.tan: 27, np.arcsin: 28, np.arccos: 29, np.arctan: 30,
+    np.arctan2: 31, np.sinh: 32, np.cosh: 33, np.tanh: 34, np.arcsinh: 35, np.expm1: 36, np.log1p: 37, np.floor: 38,
+    np.ceil: 39, np.cbrt: 40, np.hypot: 41, np.remainder: 42,
+}  # fmt: skip
+_MAGIC = b"BSCREW01"
+#: Most places, as each has two bytes.
+_MOST_PLACES = 2**16
+
+
+def program_file(handed: HandOver) -> bytes:
+    """The recorded model as the bytes of a file.
+
+    Raises :class:`~ballscrew.errors.InputError` for a model that cannot be recorded, for an operation that the
+    interpreter lacks, and for a program that is too large.
+    """
+    limits = handed.formula_range
+    inputs = {one.name: (one.value, *limits[one.name]) for one in handed.inputs}
+    return file_of(handed.program, inputs, handed.output_names)
+
+
+def file_of(program: Program, inputs: Mapping[str, tuple[float, float, float]], outputs: Sequence[str]) -> bytes:
+    """A program as the bytes of a file: each input with its usual, least and greatest value; ``valid`` is last."""
+    constants, places, code, size = _assembled(program)
+    if size > _MOST_PLACES:
+        remedy = "ask for fewer outputs and derivatives, or take the source (--to c)"
+        raise InputError(Fault("hand_over.to", "the program is too large for the interpreter", "", remedy))
+    names = b"".join(name.encode() + b"\0" for name in (*inputs, *outputs))
+    numbers = [end for ends in zip(*inputs.values(), strict=True) for end in ends] + constants
+    words = [*(places[name] for name in outputs), *(word for step in code for word in step)]
+    further = size - program.inputs - len(constants)
+    return b"".join(
+        [
+            _MAGIC,
+            struct.pack("<6I", len(inputs), len(outputs), len(constants), further, len(code), len(names)),
+            names,
+            np.array(numbers, dtype="<f8").tobytes(),
+            np.array(words, dtype="<u2").tobytes(),
+        ]
+    )
+
+
+def _assembled(program: Program) -> tuple[list[float], dict[str, int], list[tuple[int, ...]], int]:
+    """The constants, the place of each output, the steps, and the number of places; a place is used again."""
+    constants: dict[str, int] = {}
+
+    def constant(value: float) -> int:
+        return constants.setdefault(float(value).hex(), program.inputs + len(constants))
+
+    for _, step in program.steps:
+        for kind, o in step.operands:
+            if kind != "step":
+                constant(float(o))
+    places = {name: constant(float(value)) for name, value in program.constants.items()}
+    last = {int(o): i for i, step in program.steps for kind, o in step.operands if kind == "step"}
+    kept = set(program.outputs.values())
+    place = {i: i for i in range(program.inputs)}
+    free: list[int] = []
+    size = program.inputs + len(constants)
+    code: list[tuple[int, ...]] = []
+    for i, step in program.steps:
+        if step.function not in OPERATIONS:
+            remedy = "write the law with functions of the C library, or take a table (--to table)"
+            problem = f"the interpreter has no {step.function.__name__}"
+            raise InputError(Fault("hand_over.to", problem, "", remedy))
+        operands = [place[int(o)] if kind == "step" else constant(float(o)) for kind, o in step.operands]
+        ended = {int(o) for kind, o in step.operands if kind == "step" and int(o) >= program.inputs}
+        free += [place[o] for o in sorted(ended) if last[o] == i and o not in kept]
+        if not free:
+            free.append(size)
+            size += 1
+        place[i] = free.pop()
+        code.append((OPERATIONS[step.function], *operands, *[0] * (3 - len(operands)), place[i]))
+    places |= {name: place[i] for name, i in program.outputs.items()}
+    return [float.fromhex(text) for text in constants], places, code, size
