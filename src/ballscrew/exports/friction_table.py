@@ -13,6 +13,7 @@ from scipy.interpolate import RegularGridInterpolator
 from ballscrew.errors import Fault, InputError
 from ballscrew.evaluation.evaluator import evaluator
 from ballscrew.evaluation.outputs import OPERATION
+from ballscrew.exports.export import Export
 from ballscrew.exports.nodes import chord_errors, nodes_within
 from ballscrew.exports.subject import POINTS, HandOver
 from ballscrew.exports.targets import Option
@@ -149,6 +150,28 @@ def friction_table(handed: HandOver) -> FrictionTable:
         allowed *= _WORTH * tolerance / error
     assert best is not None
     return best
+
+
+def as_export(
+    handed: HandOver,
+    table: FrictionTable,
+    target: str,
+    files: Mapping[str, bytes],
+    errors: Sequence[WorstError],
+    warnings: Sequence[Record] = (),
+) -> Export:
+    """The export of a target that is a table."""
+    warned = [*table.warnings(handed), *warnings]
+    found = Export.of(handed, target, files, valid_range=table.valid_range, worst_error=errors, warnings=warned)
+    return dataclasses.replace(found, measured_range=table.valid_range)
+
+
+def no_more_axes(table: FrictionTable, what: str) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` for an axis besides load and speed."""
+    others = [name for name in table.axes if name not in OPERATION]
+    if others:
+        remedy = "leave its range out, and the value of the case counts"
+        raise InputError(Fault(f"hand_over.ranges.{others[0]}", f"cannot be an axis of {what}", "", remedy))
 
 
 def interpolated(axes: Mapping[str, Floats], values: Floats, points: Floats) -> Floats:

@@ -12,7 +12,7 @@ from ballscrew.errors import Fault, InputError
 from ballscrew.evaluation.outputs import OPERATION
 from ballscrew.exports import notes
 from ballscrew.exports.export import Export
-from ballscrew.exports.friction_table import DRIVE, INTERPOLATED, FrictionTable, friction_table
+from ballscrew.exports.friction_table import DRIVE, INTERPOLATED, FrictionTable, as_export, friction_table, no_more_axes
 from ballscrew.exports.friction_table import OPTIONS as OF_TABLES
 from ballscrew.exports.lossy_gear import LARGE, LossTable, loss_table
 from ballscrew.exports.subject import HandOver
@@ -125,22 +125,12 @@ def export(handed: HandOver) -> Export:
     if not at_rest > 0:
         raise InputError(Fault("hand_over.speed_at_rest", "must be positive", f"{at_rest:g} rad/s", 'give "1 rpm"'))
     table = friction_table(handed)
-    others = [name for name in table.axes if name not in OPERATION]
-    if others:
-        remedy = "leave its range out; the component has the value of the case"
-        raise InputError(Fault(f"hand_over.ranges.{others[0]}", "cannot be an axis of the component", "", remedy))
+    no_more_axes(table, "the component")
     errors = table.worst_errors(handed)
     gear = loss_table(table)
     text = component(handed, table, at_rest, notes.lines(handed, table.valid_range, errors))
     files = {"BallScrewFriction.mo": text.encode(), "LossyGear.txt": _lossy_gear(handed, gear).encode()}
-    return Export.of(
-        handed,
-        "modelica",
-        files,
-        valid_range=table.valid_range,
-        worst_error=errors,
-        warnings=[*table.warnings(handed), _creeps(at_rest), *_gear_is_off(gear)],
-    )
+    return as_export(handed, table, "modelica", files, errors, [_creeps(at_rest), *_gear_is_off(gear)])
 
 
 def component(handed: HandOver, table: FrictionTable, at_rest: float, about: Sequence[str]) -> str:

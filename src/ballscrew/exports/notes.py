@@ -61,3 +61,12 @@ def lines(handed: HandOver, ends: Mapping[str, tuple[float, float]], found: Sequ
         f"Worst error against the model over this range, at {found[0].points} points, measured when it was made:",
         *(f"  {line}" for line in errors(found)),
     ]
+
+
+def text(
+    handed: HandOver, ends: Mapping[str, tuple[float, float]], found: Sequence[WorstError], of_files: str
+) -> bytes:
+    """A README: what the files are, what is to be known of them, and all numbers that they are made of."""
+    fixed = handed.provenance["inputs"].items()
+    values = [f"  {name} = {value:.9g} {handed.subject.inputs[name][1].unit}" for name, value in fixed]
+    return "\n".join([of_files, *lines(handed, ends, found), "Made of:", *values, ""]).encode()

@@ -16,7 +16,7 @@ from ballscrew.errors import Fault, InputError, nearest
 from ballscrew.exports import notes
 from ballscrew.exports.export import Export
 from ballscrew.exports.friction_table import OPTIONS as OF_TABLES
-from ballscrew.exports.friction_table import FrictionTable, friction_table
+from ballscrew.exports.friction_table import FrictionTable, as_export, friction_table
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.targets import Option
 from ballscrew.exports.worst_error import WorstError
@@ -27,6 +27,10 @@ OPTIONS: Mapping[str, Option] = {
     **OF_TABLES,
     "kinds": Option("", "kinds of files, csv,json,nc,parquet; if left out, those whose libraries are installed"),
 }
+_README = """\
+Each file has the same table: a row or an element for each node, in SI. Interpolate screw_torque and ideal_torque along
+straight lines; never interpolate drive_torque, which jumps at rest. The nodes are not even.
+"""
 
 
 def export(handed: HandOver) -> Export:
@@ -41,14 +45,8 @@ def export(handed: HandOver) -> Export:
         "parquet": _parquet,
     }
     files = {f"friction.{kind}": writers[kind](handed, table, errors) for kind in kinds}
-    return Export.of(
-        handed,
-        "table",
-        files,
-        valid_range=table.valid_range,
-        worst_error=errors,
-        warnings=table.warnings(handed),
-    )
+    files["README.txt"] = notes.text(handed, table.valid_range, errors, _README)
+    return as_export(handed, table, "table", files, errors)
 
 
 def _kinds(text: str) -> list[str]:

@@ -37,6 +37,7 @@ TARGETS: Mapping[str, Target] = {
     "c": Target("c99", "C99 source of the model, with libm only"),
     "table": Target("table", "table over load and speed: CSV, JSON, NetCDF, Parquet"),
     "modelica": Target("modelica", "Modelica component with the interfaces of its standard library"),
+    "matlab": Target("matlab", "table as .mat with a function, and a component of Simscape"),
     "fmu": Target("fmu", "FMU 2.0 or 3.0, co-simulation and model exchange"),
 }
 
