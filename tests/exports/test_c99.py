@@ -9,6 +9,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.exports import c99, c_source, interpreter, program_file
 from ballscrew.exports.export import Export
+from ballscrew.exports.targets import export_of
 from ballscrew.friction.law_names import LAWS
 from ballscrew.solvers.line_slip import TOLERANCE as LINE_TOLERANCE
 from ballscrew.solvers.line_slip import line_slip
@@ -298,3 +299,17 @@ def test_an_export_says_where_it_comes_from(handed_over):
     assert "Olaru2005" in text
     assert "loaded_balls = " in text
     assert f"ballscrew {bs.__version__}" in text
+
+
+@needs_the_library
+def test_a_program_is_called_as_its_text_says(handed_over, tmp_path):
+    handed = handed_over(bs.FrictionModel.olaru2005(), NUTS["double"], to="program")
+    export = export_of("program")(handed)
+    export.write(tmp_path)
+    recipe = export.files["README.txt"].decode().split("ctypes:\n")[1].split("Each thread")[0]
+    lines = "\n".join(line.strip() for line in recipe.splitlines())
+    lines = lines.replace('"linux64', f'"{tmp_path}/linux64').replace('b"program', f'b"{tmp_path}/program')
+    names = {}
+    exec(lines, names)
+    wanted = handed.evaluate({})
+    assert list(names["outputs"]) == pytest.approx([float(wanted[name]) for name in handed.output_names], rel=1e-13)

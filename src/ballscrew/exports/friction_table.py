@@ -197,6 +197,12 @@ def _evaluator(handed: HandOver, axes: Sequence[str], fixed: Mapping[str, float]
     return evaluator(subject.model, subject.screw, subject.lubricant, inputs=axes, outputs=wanted, **held)
 
 
+def speed_candidates(slowest: float, fastest: float) -> Floats:
+    """Positive speeds among which nodes are chosen: a ladder, and even steps."""
+    even = np.linspace(0.0, fastest, _EVEN_STEPS)
+    return np.unique(np.concatenate([np.geomspace(slowest, fastest, 2 * _LADDER), even[even > slowest]]))
+
+
 def _candidates(name: str, low: float, high: float) -> Floats:
     """Positions among which the nodes of an axis are chosen, zero among them where it is in the range."""
     if name not in OPERATION:

@@ -38,6 +38,7 @@ TARGETS: Mapping[str, Target] = {
     "table": Target("table", "table over load and speed: CSV, JSON, NetCDF, Parquet"),
     "modelica": Target("modelica", "Modelica component with the interfaces of its standard library"),
     "matlab": Target("matlab", "table as .mat with a function, and a component of Simscape"),
+    "program": Target("program", "the model as data, with an interpreter in C that is prebuilt for Linux"),
     "fmu": Target("fmu", "FMU 2.0 or 3.0, co-simulation and model exchange"),
 }
 
