@@ -36,6 +36,9 @@ class Option(NamedTuple):
 
 TARGETS: Mapping[str, Target] = {
     "c": Target("c99", "C99 source of the model, with libm only"),
+    "table": Target("table", "table over load and speed: CSV, JSON, NetCDF, Parquet"),
+    "modelica": Target("modelica", "Modelica component with the interfaces of its standard library"),
+    "matlab": Target("matlab", "table as .mat with a function, and a component of Simscape"),
     "program": Target("program", "the model as data, with an interpreter in C that is prebuilt for Linux"),
     "fmu": Target("fmu", "FMU 2.0 or 3.0, co-simulation and model exchange"),
     "mujoco": Target("mujoco", "joint parameters and an engine plugin for MuJoCo"),
