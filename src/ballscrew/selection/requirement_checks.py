@@ -22,6 +22,10 @@ def of(
             "torque of the nut without load",
         ),
         at_least("rigidity", numbers["rigidity"], required.least_rigidity, "N/m", "rigidity of the nut under the load"),
+        at_least(
+            "remaining_preload", float(found.nut.loads.remaining_preload), required.least_remaining_preload, "N",
+            "preload that the load leaves on the relieved half or flank",
+        ),
         at_most("inertia", numbers["inertia"], required.largest_inertia, "kg m^2", "inertia of a solid shaft"),
         step(required, float(found.case.screw.lead)),
     )  # fmt: skip

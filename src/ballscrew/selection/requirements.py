@@ -7,7 +7,7 @@ from typing import Annotated
 
 from ballscrew._arrays import ByValue
 from ballscrew.errors import Fault, faults_of, nearest, raise_if_any
-from ballscrew.quantities import Count, Info, Length, MomentOfInertia, Speed, Stiffness, Torque, fields_of
+from ballscrew.quantities import Count, Force, Info, Length, MomentOfInertia, Speed, Stiffness, Torque, fields_of
 
 #: What the load may do with the screw: drive it or not, must drive it, must not.
 ALLOWED, NEEDED, FORBIDDEN = "allowed", "needed", "forbidden"
@@ -37,6 +37,10 @@ class Requirements(ByValue):
     least_rigidity: Annotated[
         Stiffness | None,
         Info("R_{min}", "least rigidity of the nut under the load", "N/um", above=0, hint="200 N/um to 2000 N/um"),
+    ] = None
+    least_remaining_preload: Annotated[
+        Force | None,
+        Info("F_{r,min}", "least preload that the load leaves", "N", above=0, hint="some per cent of the load"),
     ] = None
     largest_inertia: Annotated[
         MomentOfInertia | None,

@@ -17,7 +17,8 @@ from ballscrew.selection.selection import Ranked, Selection
 
 #: Lines shown where nothing else is said.
 USUAL_LINES = 20
-_LABELS = {
+#: Objectives in the headings of tables.
+LABELS = {
     "loss": "loss", "inertia": "inertia", "reflected_mass": "adds mass", "life": "life", "rigidity": "rigidity",
     "drive_torque": "torque", "preload_torque": "no-load torque", "price_index": "price",
 }  # fmt: skip
@@ -56,7 +57,7 @@ def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) ->
         lines.append(f"… {len(ranked) - len(shown)} more: --first 0 shows all")
     if not ranked:
         lines.append("no candidate")
-    named = " and ".join(_LABELS[name] for name in found.objectives)
+    named = " and ".join(LABELS[name] for name in found.objectives)
     lines += ["", wrapped(f"*  no other candidate that holds is better in {named}, taken together")]
     lines += ["", "assumed", *(wrapped(f"  {note}") for note in found.need.notes)] if found.need.notes else []
     best = found.best
@@ -68,7 +69,7 @@ def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) ->
 def table(ranked: Sequence[Ranked], objectives: Sequence[str]) -> list[str]:
     """A line for each: rank, mark, label, objectives and torque, verdict."""
     names = tuple(dict.fromkeys([*objectives, "drive_torque"]))
-    heading = ["", "", "candidate", *(_LABELS[name] for name in names), "verdict"]
+    heading = ["", "", "candidate", *(LABELS[name] for name in names), "verdict"]
     cells = [
         heading,
         *([str(each.rank), "*" if each.pareto else "", *_cells(each.candidate, names)] for each in ranked),
