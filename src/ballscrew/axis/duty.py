@@ -29,6 +29,8 @@ STORED = ("acceleration of the mass", "acceleration of what turns", "gravity")
 PROCESS, BEARINGS, IMBALANCE = "process", "support bearings", "imbalance of the model"
 #: The nut, the shaft and the balls between them, as an element of the axis.
 NUT = "nut"
+#: Mechanisms of the guides by the names of their contributions.
+_OF_GUIDES: Mapping[str, str] = {**MECHANISMS, GUIDES: "by load"}
 #: A share of the energy drawn that is rounding.
 _ROUNDING = 1e-12
 #: Names of the parts of the torque that are not friction of the screw, with their meanings.
@@ -266,7 +268,7 @@ class Duty(ByValue):
                 name: {part: states.integral(torque * turned) for part, torque in parts.items()}
                 for name, parts in self._supports.items()
             },
-            GUIDES: {part: states.integral(force * travelled) for part, force in rubs.items()},
+            GUIDES: {_OF_GUIDES.get(part, part): states.integral(force * travelled) for part, force in rubs.items()},
             "transmission": {"transmission": lost["transmission"]},
         }
         return {name: parts for name, parts in found.items() if name == NUT or any(parts.values())}
