@@ -218,7 +218,7 @@ def build(
         friction_model, screw, lubricant, operation, sweep, oil, made.row, made.listed, mounted, limits, notes,
         *uncertain_inputs.parse_distributions(tables, friction_model, screw, lubricant),
         None if calibrated_by is None else named_calibration(calibrated_by),
-        fit, axis, motion, motor, surroundings, efficiency, travels, bearings,
+        fit, axis, motion, motor, surroundings, efficiency, travels, bearings, support_tables.distributions(sections),
     )  # fmt: skip
 
 

@@ -33,6 +33,10 @@ STATICS: Mapping[str, Quantity] = {
 }
 
 
+#: Numbers that may have a distribution: friction goes with them in proportion.
+UNCERTAIN = ("torque", "seal_torque", "friction_coefficient", "seal_force")
+
+
 def fields_of_laws(laws: Mapping[str, type]) -> dict[str, Quantity]:
     """The numbers of all laws; of those of one name the first law's."""
     return {name: quantity for cls in reversed(list(laws.values())) for name, quantity in fields_of(cls).items()}
