@@ -151,3 +151,14 @@ def test_the_rule_of_one_efficiency_lends_no_oil():
     with pytest.raises(InputError, match=r"bearings\.fixed\.grade: missing"):
         case_file.build(tables, moves=True)
     assert case_file.build(case_file.override(tomllib.loads(text), rule), moves=True).bearings
+
+
+def test_numbers_that_friction_goes_with_may_have_a_distribution():
+    case = built(
+        BEARINGS, 'bearings.floating.torque="(3 ± 1) N cm"', 'guides.friction_coefficient="uniform(0.002, 0.004)"'
+    )
+    assert case.bearings["floating"].element.torque == pytest.approx(0.03)
+    assert case.axis.guides.friction_coefficient == pytest.approx(0.003)
+    assert set(case.uncertain_supports) == {"bearings.floating.torque", "guides.friction_coefficient"}
+    assert case.uncertain_supports["guides.friction_coefficient"] == bs.Uniform(0.002, 0.004)
+    assert "bearings.fixed.preload" in faults(BEARINGS, 'bearings.fixed.preload="2 ± 0.1 kN"')

@@ -6,6 +6,8 @@ import tomllib
 import numpy as np
 import pytest
 
+from ballscrew.axis_studies.duty import duty
+from ballscrew.axis_studies.duty_records import warnings
 from ballscrew.axis_studies.stiffness import chain_of, load
 from ballscrew.cases import case_file
 from ballscrew.errors import InputError
@@ -131,3 +133,12 @@ def test_a_nut_without_preload_and_load_has_no_rigidity():
     report = chain_of(case_file.build(tables))
     assert np.isnan(report.chain.total).all()
     assert report.verdicts[0].text.startswith("rigidity not known")
+
+
+def test_a_row_that_is_pulled_off_is_said_in_the_duty():
+    settings = ["bearings.fixed.rows=1", 'bearings.fixed.preload="0 N"']
+    records = {(r.id, r.subject): r for r in warnings(duty(load(EXAMPLE, settings)))}
+    found = records["validity.direction", "fixed_bearing"]
+    assert 0 < found.value < 1
+    assert found.text.startswith("fixed bearing: one row carries no load")
+    assert ("validity.direction", "fixed_bearing") not in {(r.id, r.subject) for r in warnings(duty(load(EXAMPLE, [])))}

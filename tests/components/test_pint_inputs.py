@@ -96,6 +96,7 @@ PARTS = [
     MountedBearing(place="fixed", element=KnownBearing(torque=0.1), load_share=0.5, rigidity=1e8),
     SKFConstants(rolling=4e-7, axial_rolling=2.0, sliding=0.02, axial_sliding=0.7),
     LinearGuide(friction_coefficient=0.003, seal_force=3.0),
+    bs.ContactGuide(ball_diameter=0.004, balls=14, lubricant=GRADE, preload=400.0),
     CarriedMass(mass=100.0, along=0.1),
     GuidedTable(masses=(CarriedMass(mass=100.0),), carriage_spacing=0.4, rail_spacing=0.3),
     bs.Surroundings(shaft_length=1.0, ball_conductance=2.0, shaft_convection=10.0, bore=0.01, coolant=290.0),

@@ -9,7 +9,9 @@ import pytest
 import ballscrew as bs
 from ballscrew.axis.axis import GRAVITY
 from ballscrew.axis.brake import brake_of
-from ballscrew.supports.makers_bearing import SKFBearing
+from ballscrew.axis.duty_band import duty_band
+from ballscrew.supports.makers_bearing import KnownBearing, SKFBearing
+from ballscrew.supports.mounted_bearing import MountedBearing
 from ballscrew.supports.table import CarriedMass, GuidedTable
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
@@ -125,3 +127,28 @@ def test_carriages_rub_by_the_load_of_each():
     assert np.max(more) > 1.0
     with pytest.raises(bs.InputError, match=r"axis\.mass: is another one"):
         dataclasses.replace(tipped, mass=MASS + 1)
+
+
+@pytest.mark.parametrize(
+    ("name", "central", "half"), [("bearings.fixed.torque", 0.3, 0.1), ("guides.friction_coefficient", 0.003, 0.001)]
+)
+def test_a_band_by_one_number_of_an_element_is_that_of_the_number(name, central, half):
+    """What is lost goes evenly with it: the quantiles of the one are those of the other, but for the samples' grain."""
+    axis = dataclasses.replace(AXIS, guide_friction_coefficient=0.0, guide_seal_force=0.0, guides=GUIDE)
+    bearing = MountedBearing(place="fixed", element=KnownBearing(torque=0.3), load_share=0.0)
+    found = bs.duty(bs.FrictionModel.reference(), SCREW, OIL, axis=axis, motion=MOTION, also={bearing.name: bearing})
+    samples = 256
+    band = duty_band(found, uncertain={}, beside={name: bs.Uniform(central - half, central + half)}, samples=samples)
+    element = {"bearings.fixed.torque": "fixed bearing", "guides.friction_coefficient": "guides"}[name]
+    part = {"fixed bearing": "known", "guides": "by load"}[element]
+    slope = found.energy_lost_in[element][part] / central
+    grain = 2 / samples * 2 * half * slope
+    energy = band["energy_lost"]
+    assert energy.value == pytest.approx(found.energy_lost, rel=1e-9)
+    assert energy.band.low == pytest.approx(found.energy_lost - 0.95 * half * slope, abs=grain)
+    assert energy.band.high == pytest.approx(found.energy_lost + 0.95 * half * slope, abs=grain)
+
+
+def test_a_band_of_an_element_that_is_not_there_is_refused(duties):
+    with pytest.raises(bs.InputError, match=r"band\.uncertain"):
+        duty_band(duties[0], uncertain={}, beside={"bearings.fixed.torque": bs.Uniform(0.1, 0.2)}, samples=16)

@@ -29,6 +29,8 @@ STORED = ("acceleration of the mass", "acceleration of what turns", "gravity")
 PROCESS, BEARINGS, IMBALANCE = "process", "support bearings", "imbalance of the model"
 #: The nut, the shaft and the balls between them, as an element of the axis.
 NUT = "nut"
+#: Mechanisms of the guides by the names of their contributions.
+_OF_GUIDES: Mapping[str, str] = {**MECHANISMS, GUIDES: "by load"}
 #: A share of the energy drawn that is rounding.
 _ROUNDING = 1e-12
 #: Names of the parts of the torque that are not friction of the screw, with their meanings.
@@ -134,10 +136,28 @@ class Duty(ByValue):
     @lazy
     def _supports(self) -> Mapping[str, Mapping[str, Numbers]]:
         """Friction torques about the shaft beside the screw, by element and mechanism, N m."""
+        return self.supports_at(self.axial_load, self.screw_speed, self._temperature)
+
+    @property
+    def _temperature(self) -> Numbers | None:
+        """Temperature of the oil at the states, K; None where it is that of each oil."""
         warm = self.states.temperature
         own = getattr(getattr(self.driven, "lubricant", None), "temperature", None)
         warm = warm if own is None else np.where(np.isnan(warm), own, warm)
-        return self.supports_at(self.axial_load, self.screw_speed, None if np.isnan(warm).all() else warm)
+        return None if np.isnan(warm).all() else warm
+
+    @lazy
+    def support_validity(self) -> Mapping[str, Mapping[str, Numbers]]:
+        """Masks of the conditions of the elements beside the screw and of the guides, by element and condition."""
+        found: dict[str, Mapping[str, Numbers]] = {}
+        state, back = _distinct(self.axial_load, self.screw_speed, self._temperature)
+        every = np.ones(np.shape(state.screw_speed), dtype=bool)
+        for name, element in self.also.items():
+            found[name] = {reason: (mask & every)[back] for reason, mask in element(state).validity.items()}
+        if self.axis.guides is not None:
+            loads = self.axis.carriage_loads(self.states.acceleration)
+            found[GUIDES] = self.axis.guides.under(loads, self.states.speed).validity
+        return found
 
     def supports_at(
         self, axial_load: Numbers, screw_speed: Numbers, temperature: Numbers | None
@@ -151,9 +171,8 @@ class Duty(ByValue):
             found[BEARINGS] = {"known": np.full_like(screw_speed, self.axis.bearing_torque)}
         if not self.also:
             return found
-        warm = np.full_like(screw_speed, np.nan) if temperature is None else temperature
-        (load, speed, degrees), back = distinct_states(axial_load, screw_speed, warm)
-        state = OperatingState(load, speed, None if temperature is None else degrees)
+        state, back = _distinct(axial_load, screw_speed, temperature)
+        speed = state.screw_speed
         for name, element in self.also.items():
             parts = element(state).contributions
             found[name] = {
@@ -266,7 +285,7 @@ class Duty(ByValue):
                 name: {part: states.integral(torque * turned) for part, torque in parts.items()}
                 for name, parts in self._supports.items()
             },
-            GUIDES: {part: states.integral(force * travelled) for part, force in rubs.items()},
+            GUIDES: {_OF_GUIDES.get(part, part): states.integral(force * travelled) for part, force in rubs.items()},
             "transmission": {"transmission": lost["transmission"]},
         }
         return {name: parts for name, parts in found.items() if name == NUT or any(parts.values())}
@@ -312,3 +331,10 @@ class Duty(ByValue):
             "energy_stored", "mean_speed", "revolutions",
         )  # fmt: skip
         return {"cycle_time": self.states.cycle_time, **{name: getattr(self, name) for name in names}}
+
+
+def _distinct(axial_load: Numbers, screw_speed: Numbers, temperature: Numbers | None) -> tuple[OperatingState, Any]:
+    """The distinct states among these, and the place of each among them."""
+    warm = np.full_like(screw_speed, np.nan) if temperature is None else temperature
+    (load, speed, degrees), back = distinct_states(axial_load, screw_speed, warm)
+    return OperatingState(load, speed, None if temperature is None else degrees), back

@@ -85,6 +85,8 @@ class Case:
     travels: bool = False
     #: The bearings of the shaft by their place on it.
     bearings: Mapping[str, MountedBearing] = dataclasses.field(default_factory=dict[str, MountedBearing])
+    #: Distributions of numbers of bearings and guides that the file gives, by section and field.
+    uncertain_supports: Mapping[str, Distribution] = dataclasses.field(default_factory=dict[str, Distribution])
 
     @property
     def nut(self) -> Nut | None:

@@ -217,11 +217,31 @@ def build(
     of_air, exact_air = uncertain_inputs.parse_surroundings(tables)
     calibrated_by = tables.get("model", {}).get("calibration")
     return Case(
-        friction_model, screw, lubricant, operation, sweep, oil, made.row, made.listed, mounted, limits, notes,
-        inputs, exact | exact_air,
-        None if calibrated_by is None else named_calibration(calibrated_by),
-        fit, axis, motion, motor, surroundings, of_air, efficiency, travels, bearings,
-    )  # fmt: skip
+        model=friction_model,
+        screw=screw,
+        lubricant=lubricant,
+        operation=operation,
+        sweep=sweep,
+        oil=oil,
+        row=made.row,
+        listed=made.listed,
+        installation=mounted,
+        limits=limits,
+        notes=notes,
+        uncertain=inputs,
+        exact=exact | exact_air,
+        calibration=None if calibrated_by is None else named_calibration(calibrated_by),
+        fit=fit,
+        axis=axis,
+        motion=motion,
+        motor=motor,
+        surroundings=surroundings,
+        uncertain_surroundings=of_air,
+        efficiency=efficiency,
+        travels=travels,
+        bearings=bearings,
+        uncertain_supports=support_tables.distributions(sections),
+    )
 
 
 def _beside(name: str, tables: Mapping[str, Any]) -> str:

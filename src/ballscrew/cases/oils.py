@@ -5,14 +5,13 @@ from __future__ import annotations
 import dataclasses
 import functools
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any
 
 from pydantic import Field
 
-from ballscrew._version import __version__
 from ballscrew.cases.fields import section_of
 from ballscrew.cases.schema import read_table
 from ballscrew.components.data_sheet import DataSheet
@@ -23,7 +22,7 @@ from ballscrew.quantities import fields_of
 #: Bytes of a file of oils at most.
 LARGEST_FILE = 4_000_000
 _FIELDS = fields_of(DataSheet)
-_TEXTS: Mapping[str, str] = {
+TEXTS: Mapping[str, str] = {
     "source": "where the numbers are from",
     "base_oil": "base oil of a grease",
     "thickener": "thickener of a grease: the viscosities are those of its base oil",
@@ -117,7 +116,7 @@ def _of_row(fault: Fault, where: str) -> Fault:
 
 @functools.cache
 def _model() -> Any:
-    texts: dict[str, Any] = {name: (Annotated[str, Field(description=words)], "") for name, words in _TEXTS.items()}
+    texts: dict[str, Any] = {name: (Annotated[str, Field(description=words)], "") for name, words in TEXTS.items()}
     return section_of("Oil", _FIELDS, DataSheet, required=True, **texts)
 
 
@@ -137,20 +136,3 @@ def chosen(known: Oils, words: str) -> list[DataSheet]:
     if not found:
         raise InputError(Fault(known.file, "no oil has these words", words, "leave them out to see all oils"))
     return found
-
-
-def list_document(sheets: Sequence[DataSheet]) -> dict[str, Any]:
-    """All oils, SI."""
-    return {
-        "oils": [
-            {
-                "name": sheet.name,
-                **{name: getattr(sheet, name) for name in _FIELDS},
-                "viscosity_index": sheet.viscosity_index,
-                **{name: getattr(sheet, name) or None for name in _TEXTS},
-            }
-            for sheet in sheets
-        ],
-        "units": {name: quantity.unit for name, quantity in _FIELDS.items()},
-        "provenance": {"version": __version__},
-    }

@@ -11,7 +11,7 @@ from pydantic import BaseModel, Field, WithJsonSchema
 from ballscrew.cases.fields import section_of
 from ballscrew.components.materials import grades
 from ballscrew.supports.bearing import SupportBearing
-from ballscrew.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, MOUNTING, STATICS, fields_of_laws
+from ballscrew.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, MOUNTING, STATICS, UNCERTAIN, fields_of_laws
 from ballscrew.supports.guide import LinearGuide
 from ballscrew.supports.mounted_bearing import PLACES, MountedBearing
 
@@ -26,6 +26,7 @@ def support_sections() -> Mapping[str, type[BaseModel]]:
     """The models of the sections."""
     bearing = section_of(
         "Bearing", {**fields_of_laws(BEARING_LAWS), **MOUNTING}, SupportBearing, required=False,
+        uncertain=UNCERTAIN,
         law=(_one_of(BEARING_LAWS, "law of the friction of the bearing, contacts if left out"), None),
         catalogue=(_text("name of a support unit of a catalogue; the other fields then override it"), None),
         **_oil(),
@@ -35,6 +36,7 @@ def support_sections() -> Mapping[str, type[BaseModel]]:
         "bearings": section_of("Bearings", {}, MountedBearing, required=False, **places),
         "guides": section_of(
             "Guides", {**fields_of_laws(GUIDE_LAWS), **STATICS}, LinearGuide, required=False,
+            uncertain=UNCERTAIN,
             law=(_one_of(GUIDE_LAWS, "law of the friction of the guides, maker if left out"), None),
             catalogue=(_text("name of a carriage of a catalogue; the other fields then override it"), None),
             **_oil(),

@@ -20,6 +20,8 @@ from ballscrew.supports.element_laws import (
     GUIDE_LAWS,
     MOUNTING,
     STATICS,
+    UNCERTAIN,
+    fields_of_laws,
     misplaced,
     missing,
     numbers_of,
@@ -27,6 +29,8 @@ from ballscrew.supports.element_laws import (
 from ballscrew.supports.mounted_bearing import MountedBearing
 from ballscrew.supports.rows import guide_rows, support_units
 from ballscrew.supports.table import CarriedMass, GuidedTable
+from ballscrew.uncertainty.distributions import Distribution
+from ballscrew.uncertainty.uncertain_value import UncertainValue, parse_uncertain
 
 #: What a row of a catalogue tells of a bearing.
 _OF_UNIT = ("bore", "outside_diameter", "contact_angle")
@@ -223,6 +227,18 @@ def _made(where: str, make: Callable[[], Any], faults: list[Fault]) -> Any:
             field = field if section else "catalogue"
             faults.append(dataclasses.replace(fault, where=f"{where}.{field}"))
         return None
+
+
+def distributions(sections: Sections) -> Mapping[str, Distribution]:
+    """The distributions of numbers of bearings and guides: ``bearings.fixed.torque``, ``guides.seal_force``."""
+    places = {f"bearings.{place}": table for place, table in sections.tables.get("bearings", {}).items()}
+    known, found = {**fields_of_laws(GUIDE_LAWS), **fields_of_laws(BEARING_LAWS)}, dict[str, Distribution]()
+    for where, table in {**places, "guides": sections.tables.get("guides", {})}.items():
+        for name in UNCERTAIN:
+            written = parse_uncertain(table.get(name), known[name])
+            if isinstance(written, UncertainValue) and written.distribution is not None:
+                found[f"{where}.{name}"] = written.distribution
+    return found
 
 
 def inputs(found: Mapping[str, MountedBearing], axis: Axis | None) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from typing import Any
 from ballscrew.errors import MISSING, Fault
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.supports.bearing import SupportBearing
+from ballscrew.supports.contact_guide import ContactGuide
 from ballscrew.supports.guide import LinearGuide
 from ballscrew.supports.makers_bearing import KnownBearing, PalmgrenBearing, SKFBearing
 from ballscrew.supports.mounted_bearing import MountedBearing
@@ -22,7 +23,7 @@ BEARING_LAWS: Mapping[str, type] = {
     "palmgren": PalmgrenBearing,
     "known": KnownBearing,
 }
-GUIDE_LAWS: Mapping[str, type] = {"maker": LinearGuide}
+GUIDE_LAWS: Mapping[str, type] = {"maker": LinearGuide, "contacts": ContactGuide}
 #: What a bearing has besides the numbers of its law.
 MOUNTING: Mapping[str, Quantity] = fields_of(MountedBearing)
 #: Where the carriages are, and where the middle of the mass is on them.
@@ -30,6 +31,10 @@ STATICS: Mapping[str, Quantity] = {
     **{name: fields_of(GuidedTable)[name] for name in ("carriage_spacing", "rail_spacing")},
     **{name: fields_of(CarriedMass)[name] for name in ("along", "across", "above")},
 }
+
+
+#: Numbers that may have a distribution: friction goes with them in proportion.
+UNCERTAIN = ("torque", "seal_torque", "friction_coefficient", "seal_force")
 
 
 def fields_of_laws(laws: Mapping[str, type]) -> dict[str, Quantity]:

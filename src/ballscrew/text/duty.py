@@ -84,9 +84,10 @@ def band_text(found: DutyBandReport) -> str:
         cells = (number(quantity, value) for value in (one.value, one.median, *one.band))
         rows.append([f"  {quantity.info.meaning}", *cells])
     given = sum(one.given for one in found.inputs.values())
+    beside = ", bearings and guides" if found.report.case.uncertain_supports else ""
     said = (
-        f"  of {len(found.inputs)} uncertain inputs of screw, oil and model, {given} of them given by the case; "
-        "motion, axis and laws are taken as exact"
+        f"  of {len(found.inputs)} uncertain inputs of screw, oil and model{beside}, {given} of them given by the "
+        "case; motion, axis and laws are taken as exact"
     )
     return "\n".join(["", *aligned(rows), wrapped(said)])
 

@@ -20,7 +20,8 @@ _LAWS = {
 }
 #: What is shown of an element, as far as it has it.
 _SHOWN = (
-    "bore", "outside_diameter", "contact_angle", "rows", "preload", "seal_torque", "torque", "friction_coefficient",
+    "bore", "outside_diameter", "ball_diameter", "balls", "contact_angle", "rows", "contacts_per_ball",
+    "preload", "seal_torque", "torque", "friction_coefficient",
     "seal_force", "carriages",
 )  # fmt: skip
 
