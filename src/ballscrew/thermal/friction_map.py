@@ -12,6 +12,7 @@ from scipy.interpolate import CubicSpline, RectBivariateSpline
 from ballscrew._arrays import ByValue
 from ballscrew.axis.duty import Duty
 from ballscrew.axis.screw_friction import ModelledScrew
+from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, InputError
 from ballscrew.evaluation.evaluator import evaluator
 from ballscrew.evaluation.plan import Configuration
@@ -94,16 +95,20 @@ def friction_map(duty: Duty) -> FrictionMap:
     distinct, back = np.unique(states[:, used], axis=1, return_inverse=True)
     weights = np.bincount(back.reshape(-1), weights=duty.states.weight[used], minlength=distinct.shape[1])
     load, speed = distinct
-    temperatures = np.linspace(COLDEST, HOTTEST, _TEMPERATURES)
-    set_to = float(preload_of(driven.screw, driven.screw.nut))
+    temperatures, preloads = grid_of(driven.screw)
     inputs: dict[str, Any] = {"axial_load": load, "screw_speed": speed, "temperature": temperatures[:, None, None]}
-    preloads = np.zeros(1)
-    if set_to:
-        preloads = set_to * np.linspace(0.0, np.sqrt(LARGEST_PRELOAD), _PRELOADS) ** 2
+    if preloads.size > 1:
         inputs["nut.preload"] = preloads[None, :, None]
     heat = _torque(driven, inputs) * np.abs(speed)
     power = np.einsum("tps,s->tp", np.broadcast_to(heat, (temperatures.size, preloads.size, load.size)), weights)
     return FrictionMap(temperatures, preloads, power / duty.states.cycle_time)
+
+
+def grid_of(screw: BallScrew) -> tuple[Numbers, Numbers]:
+    """Temperatures and preloads of a map; one preload alone where the nut has none."""
+    set_to = float(preload_of(screw, screw.nut))
+    preloads = set_to * np.linspace(0.0, np.sqrt(LARGEST_PRELOAD), _PRELOADS) ** 2 if set_to else np.zeros(1)
+    return np.linspace(COLDEST, HOTTEST, _TEMPERATURES), preloads
 
 
 def _torque(driven: ModelledScrew, inputs: dict[str, Any]) -> Numbers:
