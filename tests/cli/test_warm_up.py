@@ -211,7 +211,8 @@ def test_temperatures_of_a_motion_do_not_count(case):
     report = warmed_up(case(POINT + segments), hours=0.01)
     warned = records(plain(document_of(report)), "warnings")
     assert "do not count" in warned["warm_up.own_temperatures"]["text"]
-    assert "its heat is spread" in warned["warm_up.long_cycle"]["text"]  # 4 s of 36 s
+    said = records(plain(document_of(report)), "verdicts")["verdict.long_cycle"]["text"]
+    assert "the heat goes along with the nut" in said  # 4 s of 36 s
 
 
 def test_an_oil_warmer_than_its_data_sheet_goes_is_warned_of(case):

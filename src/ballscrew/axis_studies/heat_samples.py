@@ -15,8 +15,8 @@ from ballscrew.cases.uncertain_inputs import Uncertain
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import Fault, InputError
 from ballscrew.quantities import Quantity
+from ballscrew.thermal.equilibrium import equilibrium
 from ballscrew.thermal.surroundings import PREFIX
-from ballscrew.thermal.warm_up import equilibrium
 from ballscrew.thermal.warm_up_band import sampled
 from ballscrew.uncertainty.default_uncertainties import JUDGEMENT
 from ballscrew.uncertainty.distributions import LogNormal, Normal

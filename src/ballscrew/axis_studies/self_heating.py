@@ -14,9 +14,9 @@ from ballscrew.errors import Fault, InputError
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import quantities_of
 from ballscrew.records import Record
+from ballscrew.thermal.equilibrium import Equilibrium
 from ballscrew.thermal.steady_heat import steady_heat
 from ballscrew.thermal.surroundings import Surroundings
-from ballscrew.thermal.warm_up import Equilibrium
 
 if TYPE_CHECKING:
     import xarray as xr

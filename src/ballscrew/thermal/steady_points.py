@@ -18,6 +18,7 @@ from ballscrew.evaluation.plan import Configuration
 from ballscrew.motion.states import Numbers
 from ballscrew.quantities import Length
 from ballscrew.solvers.load_distribution import preload_of
+from ballscrew.thermal.equilibrium import equilibrium
 from ballscrew.thermal.friction_map import WORTH_COMPILING, FrictionMap, grid_of
 from ballscrew.thermal.network import (
     Network,
@@ -28,7 +29,6 @@ from ballscrew.thermal.network import (
     nut_length_of,
 )
 from ballscrew.thermal.surroundings import Surroundings
-from ballscrew.thermal.warm_up import equilibrium
 
 #: Inputs that follow from the heat, and cannot be given to each point.
 OF_HEAT = ("temperature", "viscosity", "pressure_viscosity_coefficient", "temperature_coefficient")
