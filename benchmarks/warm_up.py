@@ -28,7 +28,7 @@ import numpy as np
 
 import ballscrew as bs
 from ballscrew.axis.duty import Duty
-from ballscrew.thermal.friction_map import friction_map
+from ballscrew.thermal.friction_map import state_maps
 from ballscrew.thermal.network import Network
 from ballscrew.thermal.warm_up import WarmUp, warm_up
 
@@ -119,7 +119,7 @@ def measured(many: int, processes: int, rounds: int) -> dict[str, float]:
     MODEL(SCREW, OIL, axial_load=0.0, screw_speed=1.0)  # imports and tables that every use of the model pays once
     found: dict[str, float] = {"first": timed(lambda: transient(AIR), 1)}
     found["transient"] = timed(lambda: transient(AIR), rounds)
-    found["map"] = timed(lambda: friction_map.__wrapped__(duty()), rounds)
+    found["map"] = timed(lambda: state_maps.__wrapped__(duty()), rounds)
     found["steady"] = timed(lambda: bs.steady_heat(duty(), AIR), rounds)
     surroundings = drawn(many)
     before = time.perf_counter()

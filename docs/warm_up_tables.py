@@ -22,10 +22,10 @@ import numpy as np
 
 import ballscrew as bs
 from ballscrew.axis.duty import Duty
+from ballscrew.thermal.equilibrium import equilibrium
 from ballscrew.thermal.friction_map import FrictionMap
 from ballscrew.thermal.network import Network, network_of
 from ballscrew.thermal.surroundings import Surroundings
-from ballscrew.thermal.warm_up import equilibrium
 from ballscrew.thermal.warm_up_band import WarmUpBand
 
 SPEEDS, PRELOAD, STROKE = (500, 1500, 3000), 3500.0, 0.5
@@ -76,7 +76,7 @@ def results(found: Network, rpm: float) -> dict[str, float]:
 def bands(rpm: float, variant: str, samples: int = SAMPLES) -> WarmUpBand:
     """Bands of the steady state, with what is the least known drawn from its usual distribution."""
     where = dataclasses.replace(AIR, nut_conductance=COOLED if variant == "cooled nut" else BOLTED)
-    return bs.warm_up_band(duty(rpm), where, samples=samples, seed=SEED, time=60.0, outputs=2)
+    return bs.warm_up_band(duty(rpm), where, samples=samples, seed=SEED, outputs=2)
 
 
 def table_of_effects() -> str:

@@ -63,6 +63,7 @@ from ballscrew.sweeps.store_check import verify as verify
 from ballscrew.sweeps.sweep import sweep as sweep
 from ballscrew.thermal.steady_heat import steady_heat as steady_heat
 from ballscrew.thermal.surroundings import Surroundings as Surroundings
+from ballscrew.thermal.warm_sweep import warm_sweep as warm_sweep
 from ballscrew.thermal.warm_up import warm_up as warm_up
 from ballscrew.thermal.warm_up_band import warm_up_band as warm_up_band
 from ballscrew.torque_logs.torque_log import TorqueLog as TorqueLog

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from ballscrew.axis_studies.heat_samples import heat_samples
 from ballscrew.axis_studies.self_heating import self_heating
 from ballscrew.axis_studies.warm_up import SERIES, load, warmed_up
 from ballscrew.documents.warm_up import document as document_of
@@ -210,7 +211,8 @@ def test_temperatures_of_a_motion_do_not_count(case):
     report = warmed_up(case(POINT + segments), hours=0.01)
     warned = records(plain(document_of(report)), "warnings")
     assert "do not count" in warned["warm_up.own_temperatures"]["text"]
-    assert "its heat is spread" in warned["warm_up.long_cycle"]["text"]  # 4 s of 36 s
+    said = records(plain(document_of(report)), "verdicts")["verdict.long_cycle"]["text"]
+    assert "the heat goes along with the nut" in said  # 4 s of 36 s
 
 
 def test_an_oil_warmer_than_its_data_sheet_goes_is_warned_of(case):
@@ -302,8 +304,52 @@ def test_an_oil_without_a_temperature_is_refused(case):
         warmed_up(case(written))
 
 
-def test_self_heating_beside_a_band_is_refused(ballscrew, tmp_path):
+def test_band_and_comparison_with_self_heating(ballscrew, tmp_path, case):
+    """About the warm point; temperature and preload are those of samples of the surroundings, not independent."""
+    (tmp_path / "case.toml").write_text(POINT + DOUBLE, encoding="utf-8")
+    done = ballscrew("run", "case.toml", "--self-heating", "--band", "--samples", "64", "--json")
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    heated = found["results"]["self_heating"]
+    band = found["band"]
+    assert band["screw_torque"]["value"] == pytest.approx(heated["screw_torque"], rel=1e-9)
+    assert "steady states of samples" in band["inputs"]["temperature"]["reason"]
+    heating = self_heating(case(POINT + DOUBLE))
+    heat = heat_samples(heating)
+    oil, preload = heat.samples.values
+    assert heat.samples.names == ("temperature", "preload")
+    assert np.min(oil) < heated["oil_temperature"] < np.max(oil)
+    assert np.corrcoef(oil, np.log(preload))[0, 1] > 0.2  # a nut that holds tighter is warmer
+    drawn = heat.samples.quantiles(np.array([[0.0, 0.5, 1 - 1e-12], [0.3, 0.3, 0.3]]))
+    assert drawn["temperature"].tolist() == [np.min(oil), np.sort(oil)[oil.size // 2], np.max(oil)]
+    only = ballscrew("run", "case.toml", "--self-heating", "--band", "--to", "a.png")
+    assert (only.returncode, (tmp_path / "a.png").exists()) == (2, False)
+    assert "--to: draws a curve over the speed" in only.stderr
+    compared = json.loads(ballscrew("compare", "case.toml", "--self-heating", "--json").stdout)
+    assert compared["case"]["screw_torque"] == pytest.approx(heated["screw_torque"], rel=1e-9)
+    assert compared["assumed"] == found["assumed"]
+
+
+def test_sweep_with_self_heating(ballscrew, tmp_path):
+    """Each point as ``run --self-heating`` has it; assumptions and runaway on the error stream."""
     (tmp_path / "case.toml").write_text(POINT, encoding="utf-8")
-    done = ballscrew("run", "case.toml", "--self-heating", "--band")
-    assert done.returncode == 2
-    assert "--self-heating: is given beside --band · leave one of them out" in done.stderr
+    done = ballscrew("sweep", "case.toml", "--self-heating", "--vary", "screw_speed=500, 1000 rpm")
+    assert done.returncode == 0, done.stderr
+    rows = list(csv.DictReader(done.stdout.splitlines()))
+    alone = json.loads(ballscrew("run", "case.toml", "--self-heating", "--json").stdout)
+    assert float(rows[1]["oil temperature [degC]"]) == pytest.approx(
+        alone["results"]["self_heating"]["oil_temperature"] - 273.15, abs=1e-6
+    )
+    assert float(rows[1]["screw torque [N m]"]) == pytest.approx(alone["results"]["screw_torque"], rel=1e-6)
+    assert "assumed of the heat" in done.stderr
+    assert any("from nut to shaft" in line for line in alone["assumed"])
+    for options, line in (
+        (
+            ["--vary", "temperature=20, 40 degC"],
+            "sweep.temperature: is not free · leave it out: it follows from the heat",
+        ),
+        (["--to", "a.zarr"], "--self-heating: fills no store (a.zarr) · write .nc, .csv or .xlsx"),
+    ):
+        refused = ballscrew("sweep", "case.toml", "--self-heating", *options)
+        assert refused.returncode == 2
+        assert line in refused.stderr.splitlines()

@@ -10,11 +10,12 @@ import pytest
 import ballscrew as bs
 from ballscrew.errors import InputError
 from ballscrew.thermal import warm_up_band as module
+from ballscrew.thermal.equilibrium import equilibrium
 from ballscrew.thermal.marching import Piece, Slot, marched
 from ballscrew.thermal.modes import functions
 from ballscrew.thermal.network import FrictionFactor
 from ballscrew.thermal.surroundings import VARIED
-from ballscrew.thermal.warm_up import equilibrium, warm_up
+from ballscrew.thermal.warm_up import warm_up
 from ballscrew.thermal.warm_up_band import sampled, warm_up_band
 
 SCREW = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=bs.DoubleNut(preload=3500.0))

@@ -21,7 +21,7 @@ from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.motion.states import Numbers
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Info, Length, Quantity, fields_of
-from ballscrew.thermal.network import GAP_SHARE, GREASE_CONDUCTIVITY, NUT_WALL
+from ballscrew.thermal.network import GAP_SHARE, GREASE_CONDUCTIVITY, NUT_WALL, Network
 from ballscrew.thermal.surroundings import Surroundings
 from ballscrew.thermal.warm_up import WarmUp, warm_up
 
@@ -133,44 +133,48 @@ class WarmUpReport:
     @property
     def assumed(self) -> Sequence[str]:
         """Numbers that the case does not give, and what stands in for them."""
-        given, network = self.surroundings, self.warm_up.network
-        found: list[str] = []
+        return assumed_of(self.case, self.surroundings, self.warm_up.network, self.stroke)
 
-        def shown(name: str, value: Any) -> str:
-            return units.shown(value, _OF[name])
 
-        if given.ball_conductance is None:
-            found.append(
-                f"{shown('ball_conductance', network.ball_conductance)} from nut to shaft: balls at rest and grease of "
-                f"{GREASE_CONDUCTIVITY:g} W/(m K) in a gap of {GAP_SHARE:g} ball diameters; "
-                "a factor of three either way is possible"
-            )
-        if given.shaft_convection is None:
-            found.append(
-                f"{shown('shaft_convection', network.shaft.convection)} from the shaft to the air by the mean speed, "
-                "a recalled formula; a factor of two either way is possible"
-            )
-        if given.nut_mass is None:
-            found.append(f"nut of {shown('nut_mass', network.nut_mass)}: {NUT_WALL:g} times as wide as the screw")
-        if given.shaft_length is None:
-            source = "the length of [installation]" if not self.length_is_assumed else "not given, an assumption"
-            found.append(f"shaft of {shown('shaft_length', network.shaft.length)}: {source}")
-        if self.stroke is not None and given.stroke is None:
-            found.append(
-                f"to and fro over {units.shown(self.stroke, PLACE)}, half the shaft, under the load of the case"
-            )
-        first, last = (units.shown(power, SERIES["friction_power"], 3) for power in network.bearing_power)
-        if any(network.bearing_power):
-            found.append(f"bearings make {first} at the fixed end and {last} at the other, whatever they warm up to")
-        else:
-            found.append("no heat of the support bearings: their friction is not given ([bearings.fixed])")
-        defaults = {field.name: field.default for field in dataclasses.fields(Surroundings)}
-        found += [
-            f"{_OF[name].info.meaning} {shown(name, defaults[name])}: the default"
-            for name in ("ambient", "nut_conductance", "shaft_share", "bearing_conductance", "bearing_mass")
-            if getattr(given, name) == defaults[name]
-        ]
-        return found
+def assumed_of(case: Case, given: Surroundings, network: Network, stroke: Length | None) -> Sequence[str]:
+    """Numbers of the heat that a case does not give, and what stands in for them."""
+    found: list[str] = []
+
+    def shown(name: str, value: Any) -> str:
+        return units.shown(value, _OF[name])
+
+    if given.ball_conductance is None:
+        found.append(
+            f"{shown('ball_conductance', network.ball_conductance)} from nut to shaft: balls at rest and grease of "
+            f"{GREASE_CONDUCTIVITY:g} W/(m K) in a gap of {GAP_SHARE:g} ball diameters; "
+            "a factor of three either way is possible"
+        )
+    if given.shaft_convection is None:
+        found.append(
+            f"{shown('shaft_convection', network.shaft.convection)} from the shaft to the air by the mean speed, "
+            "a recalled formula; a factor of two either way is possible"
+        )
+    if given.nut_mass is None:
+        found.append(f"nut of {shown('nut_mass', network.nut_mass)}: {NUT_WALL:g} times as wide as the screw")
+    if given.shaft_length is None:
+        source = "not given, an assumption" if case.installation is None else "the length of [installation]"
+        found.append(f"shaft of {shown('shaft_length', network.shaft.length)}: {source}")
+    if stroke is not None and given.stroke is None:
+        found.append(f"to and fro over {units.shown(stroke, PLACE)}, half the shaft, under the load of the case")
+    first, last = (units.shown(power, SERIES["friction_power"], 3) for power in network.bearing_power)
+    if any(network.bearing_power):
+        found.append(f"bearings make {first} at the fixed end and {last} at the other, whatever they warm up to")
+    elif case.bearings:
+        found.append("the heat of the support bearings is left out here")
+    else:
+        found.append("no heat of the support bearings: their friction is not given ([bearings.fixed])")
+    defaults = {field.name: field.default for field in dataclasses.fields(Surroundings)}
+    found += [
+        f"{_OF[name].info.meaning} {shown(name, defaults[name])}: the default"
+        for name in ("ambient", "nut_conductance", "shaft_share", "bearing_conductance", "bearing_mass")
+        if getattr(given, name) == defaults[name]
+    ]
+    return found
 
 
 def check_hours(hours: float, cool_down: float) -> None:
@@ -204,30 +208,40 @@ def load(path: str | Path, settings: Sequence[str], model: str | None, *, allow_
     return case_file.build(tables, model, Path(path).parent, allow_code=allow_code, moves=moves(tables))
 
 
-def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None]:
-    """The cycle that heats a case, and the stroke where it is of one operating point."""
-    if case.efficiency is not None:
-        problem = "knows no oil, so that nothing changes as it warms up"
-        raise InputError(Fault("model.name", problem, "constant-efficiency", "take a model"))
+def check_oil(case: Case) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` for an oil that has no temperature."""
     if case.lubricant.temperature is None:
         problem = "has no temperature: its viscosity would be the same for ever"
         remedy = 'write grade = "ISO VG 100", or both viscosities of the data sheet, in its place'
         raise InputError(
             Fault("lubricant.viscosity", problem, units.shown(case.lubricant.viscosity, _VISCOSITY), remedy)
         )
+
+
+def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None]:
+    """The cycle that heats a case, and the stroke where it is of one operating point."""
+    if case.efficiency is not None:
+        problem = "knows no oil, so that nothing changes as it warms up"
+        raise InputError(Fault("model.name", problem, "constant-efficiency", "take a model"))
+    check_oil(case)
     also = {bearing.name: bearing for bearing in case.bearings.values()}
     if case.motion is not None and case.axis is not None:
         return axis_duty.duty(
             case.model, case.screw, case.lubricant, axis=case.axis, motion=case.motion, also=also
         ), None
-    length = length_of(case, surroundings)
-    stroke = SHARE_OF_SHAFT * length if surroundings.stroke is None else float(surroundings.stroke)
+    stroke = stroke_of(case, surroundings)
     point = case.operation
     duty = to_and_fro(
         case.model, case.screw, case.lubricant, axial_load=float(point.axial_load),
         screw_speed=float(point.screw_speed), stroke=stroke, also=also,
     )  # fmt: skip
     return duty, stroke
+
+
+def stroke_of(case: Case, surroundings: Surroundings) -> Length:
+    """The stroke of one operating point: of the surroundings, or half the shaft."""
+    length = length_of(case, surroundings)
+    return SHARE_OF_SHAFT * length if surroundings.stroke is None else float(surroundings.stroke)
 
 
 def length_of(case: Case, surroundings: Surroundings) -> Length:

@@ -17,7 +17,6 @@ from ballscrew.thermal.network import Network, network_of
 from ballscrew.thermal.surroundings import PREFIX, VARIED, Surroundings
 from ballscrew.thermal.warm_up_band import (
     OVER_TIME,
-    SAMPLES,
     WarmUpBand,
     uncertain_surroundings,
     warm_up_band,
@@ -67,7 +66,7 @@ def band(
         found = warm_up_band(
             duty, surroundings, time=hours * HOUR, cool_down=cool_down * HOUR, shaft_length=length, joint=joint,
             uncertain={name: one.distribution for name, one in inputs.items() if name not in together},
-            samples=SAMPLES if samples is None else samples, level=0.95 if level is None else level, done=done,
+            samples=samples, level=0.95 if level is None else level, done=done,
         )  # fmt: skip
     except InputError as error:
         raise InputError(*(dataclasses.replace(f, where=_option(f.where)) for f in error.faults)) from None

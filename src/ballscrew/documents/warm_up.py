@@ -76,6 +76,7 @@ def results(report: WarmUpReport) -> dict[str, Any]:
         **{name: list(values) for name, values in report.series.items() if not name.startswith(_HEAT)},
         "works": [bool(value) for value in found.works],
         "stopped": found.stopped,
+        "source": "spread" if found.along is None else "moving",
         "equilibrium": {
             "exists": found.equilibrium.exists, "margin": found.equilibrium.margin, **report.equilibrium,
         },

@@ -21,8 +21,8 @@ from ballscrew.thermal.network import FrictionFactor, Network
 
 #: Steps in the time in which the nut warms up, and in the time that has passed: friction then changes little in one.
 PER_NUT, PER_TIME = 8.0, 30.0
-#: Steps that are kept for the next of the same length.
-_KEPT = 32
+#: Temperatures in all steps that are kept for the next of the same slot and length.
+_KEPT = 2_000_000
 _AS_IT_IS = FrictionFactor((0.0, 1.0), (1.0, 1.0))
 
 
@@ -89,11 +89,11 @@ class Slot(ByValue):
         of_oil, of_excess = self._in_modes
         return self.power(np.sum(of_oil * modes, axis=1), self.preload(np.sum(of_excess * modes, axis=1)))
 
-    def power_of(self, temperatures: Numbers) -> tuple[Numbers, Numbers]:
-        """Preload and friction power of each network by its temperatures: N and W."""
-        oil = np.sum(self._array("of_oil") * temperatures, axis=1)
-        preload = self.preload(np.sum(self._array("of_excess") * temperatures, axis=1))
-        return preload, self.power(oil, preload)
+    def power_of(self, temperatures: Numbers, spread: Numbers) -> tuple[Numbers, Numbers]:
+        """Preload and friction power of each network with its nut over cells of those shares: N and W."""
+        nut, shaft = temperatures[:, -3], temperatures[:, :-3] @ spread
+        preload = self.preload(shaft - nut)
+        return preload, self.power((nut + shaft) / 2, preload)
 
 
 def marched(
@@ -121,7 +121,7 @@ def marched(
         for _ in range(count):
             key = at, float(f"{length / count:.12g}")
             if key not in kept:
-                if len(kept) >= _KEPT:
+                if len(kept) * modes.size >= _KEPT:
                     kept.clear()
                 kept[key] = slots[at].modes.step(key[1])
             modes, power, made, gone = kept[key].after(modes, power, friction)

@@ -18,7 +18,7 @@ from ballscrew.equations import geometry, heat, hertz
 from ballscrew.errors import Fault, InputError
 from ballscrew.friction.result import FrictionResult
 from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Conductance, Force, Length, Power
+from ballscrew.quantities import AngularSpeed, Conductance, Force, HeatTransfer, Length, Power
 from ballscrew.solvers.load_distribution import preload_of
 from ballscrew.supports.mounted_bearing import MountedBearing
 from ballscrew.thermal import surroundings as air
@@ -205,8 +205,10 @@ class Network(ByValue):
         )  # fmt: skip
 
 
-def network_of(duty: Duty, surroundings: Surroundings, *, shaft_length: Length | None = None) -> Network:
-    """The network of a duty in its surroundings.
+def network_of(
+    duty: Duty, surroundings: Surroundings, *, shaft_length: Length | None = None, friction: FrictionMap | None = None
+) -> Network:
+    """The network of a duty in its surroundings; a map of its ``friction`` that is there is not made again.
 
     Raises :class:`~ballscrew.errors.InputError` without a length of the shaft, for a motion that does not fit on it,
     for an ambient temperature at which the oil is not known, and as
@@ -221,7 +223,7 @@ def network_of(duty: Duty, surroundings: Surroundings, *, shaft_length: Length |
     if length is None:
         remedy = 'give {surroundings.shaft_length}"1.2 m", or the unsupported length of the installation'
         raise InputError(Fault("surroundings.shaft_length", "missing", "", remedy))
-    friction = friction_map(duty)
+    friction = friction_map(duty) if friction is None else friction
     driven: Any = duty.driven
     screw, oil = driven.screw, driven.lubricant
     root = geometry.groove_root_diameter(
@@ -230,18 +232,13 @@ def network_of(duty: Duty, surroundings: Surroundings, *, shaft_length: Length |
     if surroundings.bore >= root:
         given = f"{surroundings.bore * 1e3:.4g} mm in a shaft of {float(root) * 1e3:.4g} mm"
         raise InputError(Fault("surroundings.bore", "leaves no shaft", given, "give a smaller bore"))
-    nut_length = float(screw.loaded_turns * screw.lead * screw.nut.halves + NUT_ENDS * screw.lead)
+    nut_length = nut_length_of(screw)
     mean_speed = duty.mean_speed
-    h = surroundings.shaft_convection
-    if h is None:
-        Re = heat.rotational_reynolds(root, mean_speed, air.AIR_VISCOSITY)
-        turning = heat.rotating_shaft_convection(Re, air.AIR_PRANDTL, air.AIR_CONDUCTIVITY, root)
-        h = max(float(turning), air.STILL)
     shaft = Shaft(
         length=float(length),
         diameter=float(root),
         bore=float(surroundings.bore),
-        convection=float(h),
+        convection=convection_of(surroundings, float(root), mean_speed),
         bore_convection=0.0 if surroundings.coolant is None else float(surroundings.coolant_convection),
     )
     start = surroundings.first_position
@@ -276,11 +273,25 @@ def network_of(duty: Duty, surroundings: Surroundings, *, shaft_length: Length |
         _power_of_supports(duty),
         friction,
         set_to,
-        _approach(at_load),
+        float(approach_of(at_load)),
         radial + air.BRACINGS.get(surroundings.bracing, 0.0) * along,
         (float(np.min(places)), float(np.max(places))),
         0.0 if surroundings.bracing else along,
     )
+
+
+def convection_of(surroundings: Surroundings, diameter: Length, speed: AngularSpeed) -> HeatTransfer:
+    """Heat transfer of a shaft to the air: as given, or by its speed, and at least that of a body at rest."""
+    if surroundings.shaft_convection is not None:
+        return float(surroundings.shaft_convection)
+    Re = heat.rotational_reynolds(diameter, speed, air.AIR_VISCOSITY)
+    turning = heat.rotating_shaft_convection(Re, air.AIR_PRANDTL, air.AIR_CONDUCTIVITY, diameter)
+    return max(float(turning), air.STILL)
+
+
+def nut_length_of(screw: BallScrew) -> Length:
+    """Length of a nut: its loaded turns, and what is beyond them."""
+    return float(screw.loaded_turns * screw.lead * screw.nut.halves + NUT_ENDS * screw.lead)
 
 
 def _distance_of_halves(screw: BallScrew) -> Length:
@@ -305,7 +316,7 @@ def _power_of_supports(duty: Duty) -> tuple[Power, Power]:
     return first, last
 
 
-def conductance_of_balls(result: FrictionResult, nut: Nut, nut_length: Length) -> Conductance:
+def conductance_of_balls(result: FrictionResult, nut: Nut, nut_length: Length) -> Any:
     """Heat from nut to shaft for each kelvin: through every ball, and through the grease around them.
 
     A ball conducts through two contacts, each two half spaces and a film in series. Contacts are taken as at rest;
@@ -324,12 +335,12 @@ def conductance_of_balls(result: FrictionResult, nut: Nut, nut_length: Length) -
     gap = heat.gap_conductance(
         GREASE_CONDUCTIVITY, screw.pitch_circle_diameter, nut_length, GAP_SHARE * screw.ball_diameter
     )
-    return float(balls / resistance + gap)
+    return balls / resistance + gap
 
 
-def _approach(result: FrictionResult) -> Length:
+def approach_of(result: FrictionResult) -> Any:
     """Approach of the groove pair of the most loaded ball, both contacts together."""
-    return float(result.screw.mutual_approach + result.nut.mutual_approach)
+    return result.screw.mutual_approach + result.nut.mutual_approach
 
 
 def steady(network: Network, power: Power) -> Numbers:

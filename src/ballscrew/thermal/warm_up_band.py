@@ -17,22 +17,25 @@ from ballscrew.evaluation.evaluator import evaluator
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.motion.states import Numbers
 from ballscrew.quantities import Duration, Length, Ratio, fields_of
+from ballscrew.thermal.equilibrium import Equilibrium, equilibrium
 from ballscrew.thermal.marching import Piece, Slot, marched
+from ballscrew.thermal.moving_source import Itinerary
 from ballscrew.thermal.network import FrictionFactor, Network
 from ballscrew.thermal.surroundings import PREFIX, VARIED, Surroundings
-from ballscrew.thermal.warm_up import Equilibrium, WarmUp, equilibrium, warm_up
+from ballscrew.thermal.warm_up import WarmUp, warm_up
 from ballscrew.uncertainty.band_evaluation import faults_of_inputs, faults_of_options
 from ballscrew.uncertainty.bands import Interval
 from ballscrew.uncertainty.default_uncertainties import default_uncertainties
 from ballscrew.uncertainty.distributions import Distribution, allowed
 from ballscrew.uncertainty.sampling import JointNormal, Sampler, sobol_sequence
 
-SAMPLES = 512
+#: Samples where none are asked for, and of heat that goes along with the nut, which takes longer.
+SAMPLES, SAMPLES_ALONG = 512, 64
 #: What has a band over time, and in the steady state.
 OVER_TIME = ("nut_temperature", "shaft_temperature", "shaft_growth", "preload", "screw_torque")
 STEADY = ("nut_temperature", "oil_temperature", "shaft_temperature", "preload", "screw_torque", "growth", "power")
-#: Networks that go through time together.
-_AT_ONCE = 128
+#: Networks that go through time together; less where each has one for every place of the nut.
+_AT_ONCE, _AT_ONCE_ALONG = 128, 16
 #: States of a duty by which the change of its friction is found, those that make the most heat, and K between the two
 #: temperatures at least.
 _STATES, _APART = 8, 1.0
@@ -105,7 +108,7 @@ def warm_up_band(
     time: Duration = 4 * 3600.0,
     cool_down: Duration = 0.0,
     outputs: int = 121,
-    samples: int = SAMPLES,
+    samples: int | None = None,
     seed: int = 0,
     level: Ratio = 0.95,
     shaft_length: Length | None = None,
@@ -125,6 +128,8 @@ def warm_up_band(
         duty, surroundings, time=time, cool_down=cool_down, outputs=outputs, shaft_length=shaft_length
     )  # fmt: skip
     network = central.network
+    if samples is None:
+        samples = SAMPLES if central.along is None else SAMPLES_ALONG
     drawn = dict(uncertain_surroundings(network) if uncertain is None else uncertain)
     driven: Any = duty.driven
     subject = Configuration(driven.model, driven.screw, driven.lubricant)
@@ -156,12 +161,13 @@ def warm_up_band(
     instants = _instants(time, cool_down, outputs)
     parts: list[dict[str, Numbers]] = []
     ends: list[Equilibrium] = []
-    for first in range(0, samples, _AT_ONCE):
-        some = networks[first : first + _AT_ONCE]
-        parts.append(_transients(some, instants, duty.mean_speed))
+    at_once = _AT_ONCE if central.along is None else _AT_ONCE_ALONG
+    for first in range(0, samples, at_once):
+        some = networks[first : first + at_once]
+        parts.append(_transients(some, instants, duty.mean_speed, central.along))
         ends += [equilibrium(one) for one in some]
         if done is not None:
-            done(min(first + _AT_ONCE, samples), samples)
+            done(min(first + at_once, samples), samples)
     series = {name: np.concatenate([part[name] for part in parts], axis=1) for name in OVER_TIME}
     steady = {name: np.array([_steady(end, name, duty.mean_speed) for end in ends]) for name in STEADY}
     exist = np.array([end.exists for end in ends])
@@ -260,28 +266,38 @@ def _instants(time: Duration, cool_down: Duration, outputs: int) -> tuple[Number
 
 
 def _transients(
-    networks: Sequence[Network], instants: tuple[Numbers, Numbers], speed: float
-) -> dict[str, Numbers]:  # fmt: skip
+    networks: Sequence[Network], instants: tuple[Numbers, Numbers], speed: float, along: Itinerary | None = None
+) -> dict[str, Numbers]:
     """Numbers over time of networks side by side: instants by networks."""
     start = np.array([np.full(one.size, float(one.surroundings.ambient)) for one in networks])
     work, rest = instants
-    slot = Slot.of(networks)
-    every = [start, *(state.temperatures for state in marched([slot], _pieces(work), start))]
+    mean = Slot.of(networks)
+    if along is None:
+        slots, pieces, spreads = (
+            [mean],
+            _pieces(work),
+            np.broadcast_to(networks[0].spread, (work.size, start.shape[1] - 3)),
+        )
+    else:
+        of_slots = zip(*(along.networks(one) for one in networks), strict=True)
+        slots, pieces, spreads = [Slot.of(ones) for ones in of_slots], along.pieces(work), along.spreads_until(work)
+    states = marched(slots, pieces, start, grows=along is None)
+    every = [start, *(state.temperatures for state in states)]
     if rest.size:
-        standing = Slot.of([one.standing for one in networks], works=False)
+        standing = [dataclasses.replace(one.standing, spread=spreads[-1]) for one in networks]
         later = np.concatenate([work[-1:], rest])
-        every += [state.temperatures for state in marched([standing], _pieces(later), every[-1])]
-    ambient = start[:, 0]
-    shaft = networks[0].shaft
+        states = marched([Slot.of(standing, works=False)], _pieces(later), every[-1])
+        every += [state.temperatures for state in states]
+        spreads = np.concatenate([spreads, np.broadcast_to(spreads[-1], (rest.size, spreads.shape[1]))])
+    ambient, shaft = start[:, 0], networks[0].shaft
     found: dict[str, list[Numbers]] = {name: [] for name in OVER_TIME}
-    for temperatures in every:
-        preload, power = slot.power_of(temperatures)
-        mean = np.mean(temperatures[:, :-3], axis=1)
-        growth = shaft.expansion * shaft.length * (mean - ambient)
-        lost = ~np.isfinite(power)
-        row = (temperatures[:, -3], mean, growth, preload, power / speed if speed else np.nan * power)
+    for temperatures, spread in zip(every, spreads, strict=True):
+        preload, power = mean.power_of(temperatures, spread)
+        of_shaft = np.mean(temperatures[:, :-3], axis=1)
+        growth = shaft.expansion * shaft.length * (of_shaft - ambient)
+        row = (temperatures[:, -3], of_shaft, growth, preload, power / speed if speed else np.nan * power)
         for name, values in zip(OVER_TIME, row, strict=True):
-            found[name].append(np.where(lost, np.nan, values))
+            found[name].append(np.where(np.isfinite(power), values, np.nan))
     return {name: np.array(values) for name, values in found.items()}
 
 

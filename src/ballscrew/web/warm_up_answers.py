@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 from ballscrew.axis_studies.warm_up import EQUILIBRIUM, SERIES
 from ballscrew.quantities import Quantity
@@ -49,6 +49,7 @@ WarmUpResults = model(
     **{name: _lists(quantity) for name, quantity in SERIES.items() if not name.startswith("heat_")},
     works=(list[bool], ...),
     stopped=(Number, field("time after which oil or preload are outside what is known, SI", "s")),
+    source=(Literal["spread", "moving"], field("whether the heat is spread over the stroke, or goes with the nut")),
     equilibrium=(Equilibrium, ...),
     heat=(Heat, ...),
     drift=(Tables, ...),
