@@ -36,6 +36,7 @@ class Option(NamedTuple):
 
 TARGETS: Mapping[str, Target] = {
     "c": Target("c99", "C99 source of the model, with libm only"),
+    "program": Target("program", "the model as data, with an interpreter in C that is prebuilt for Linux"),
     "fmu": Target("fmu", "FMU 2.0 or 3.0, co-simulation and model exchange"),
     "mujoco": Target("mujoco", "joint parameters and an engine plugin for MuJoCo"),
     "urdf": Target("urdf", "friction of a joint in URDF, SDF and USD"),
