@@ -160,6 +160,14 @@ def test_a_copy_goes_on_as_the_original(folder, axis):
     assert list(d.sensordata) == list(other.sensordata)
 
 
+def test_older_versions_get_linear_damping(subject):
+    export = bs.hand_over(*subject, to="mujoco", load=LOAD, polynomial=False)
+    m = mujoco.MjModel.from_xml_string(export.files["axis_parameters.xml"].decode())
+    stated = json.loads(export.files["axis.json"])["joint"]
+    assert [m.dof_frictionloss[0], m.dof_damping[0]] == pytest.approx([stated["friction"], *stated["damping"]])
+    assert not np.any(m.dof_dampingpoly)
+
+
 @pytest.mark.parametrize(
     ("what", "instead", "says"),
     [

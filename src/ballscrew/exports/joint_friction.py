@@ -69,6 +69,8 @@ class JointFriction:
     coefficients: tuple[float, ...]
     #: Friction of the model at rest under that load, N m.
     at_rest: float
+    #: Share of the points of the fit at which the model holds.
+    share_valid: float
 
     @property
     def arm(self) -> float:
@@ -120,12 +122,15 @@ class JointFriction:
 def joint_friction(handed: HandOver, degree: int) -> JointFriction:
     """The joint of a model, with damping up to a power of the speed.
 
-    Raises :class:`~ballscrew.errors.InputError` without a load, and where the model does not hold at it.
+    Raises :class:`~ballscrew.errors.InputError` without a load, and where the model has no friction at it.
     """
     load, lowest = handed.options["load"], handed.options["lowest_speed"]
     highest = max(map(abs, handed.working_range[OPERATION[1]]))
     if math.isnan(load):
         raise InputError(Fault("hand_over.load", "missing", "", 'a joint is fitted at one load: give load="4 kN"'))
+    least, greatest = handed.formula_range[OPERATION[0]]
+    if not least <= load <= greatest:
+        raise InputError(Fault("hand_over.load", "is beyond the bounds of the model", units.shown(load, LOAD)))
     if not handed.options["inertia"] >= 0:
         raise InputError(Fault("hand_over.inertia", "must be 0 or more", str(handed.options["inertia"]), "in kg m^2"))
     if not 0 < lowest < highest:
@@ -135,20 +140,21 @@ def joint_friction(handed: HandOver, degree: int) -> JointFriction:
         )
     both = _both_ways(handed, np.geomspace(lowest, highest, SPEEDS))
     found = handed.evaluate({OPERATION[0]: np.append(np.full(both.size, load), load), OPERATION[1]: np.append(both, 0)})
-    torque, holds = found["screw_torque"], found["valid"]
-    if not np.all(holds):
-        where = units.shown(load, LOAD)
-        raise InputError(
-            Fault("hand_over.load", "the model does not hold at this load and all speeds", where, "take a smaller load")
-        )
+    torque = found["screw_torque"]
     if not np.all(torque > 0):
-        raise InputError(
-            Fault("hand_over.load", "no friction at this load", units.shown(load, LOAD), "take a larger load")
-        )
+        shown = units.shown(load, LOAD)
+        raise InputError(Fault("hand_over.load", "the model has no friction at this load", shown, "take another load"))
     fitted = least_largest_error(np.abs(both) / highest, torque[:-1], degree)
     coefficients = tuple(float(c) / highest**power for power, c in enumerate(fitted))
-    turning = handed.options["inertia"]
-    return JointFriction(handed.subject.screw.lead, turning, load, (lowest, highest), coefficients, float(torque[-1]))
+    return JointFriction(
+        lead=handed.subject.screw.lead,
+        inertia=handed.options["inertia"],
+        load=load,
+        speeds=(lowest, highest),
+        coefficients=coefficients,
+        at_rest=float(torque[-1]),
+        share_valid=float(np.mean(found["valid"])),
+    )
 
 
 def least_largest_error(speed: NDArray[np.float64], torque: NDArray[np.float64], degree: int) -> NDArray[np.float64]:
@@ -220,17 +226,33 @@ class JointErrors(NamedTuple):
             f"at {load}, {100 * near:.2g} % from none to {twice}, and {100 * self.over_loads.relative:.2g} % at {worst}"
         )
 
-    @property
-    def warning(self) -> Record:
-        """The errors as a warning."""
-        return Record(
-            id="hand_over.no_load",
-            subject="screw_torque",
-            text=f"{self.text}; beyond its range, and below the lowest speed of the fit, it goes on as fitted",
-            severity="warning",
-            holds=False,
-            value=self.over_loads.relative,
-        )
+    def warnings(self, joint: JointFriction) -> list[Record]:
+        """The errors as a warning, and one where the model itself does not hold at all speeds of the fit."""
+        found = [
+            Record(
+                id="hand_over.no_load",
+                subject="screw_torque",
+                text=f"{self.text}; beyond its range, and below the lowest speed of the fit, it goes on as fitted",
+                severity="warning",
+                holds=False,
+                value=self.over_loads.relative,
+            )
+        ]
+        if joint.share_valid < 1:
+            load, share = units.shown(joint.load, LOAD), 100 * joint.share_valid
+            text = f"at {load} the model itself holds at {share:.0f} % of the speeds of the fit; ballscrew run says why"
+            found.append(
+                Record(
+                    id="hand_over.fit_validity",
+                    subject="screw_speed",
+                    text=text,
+                    severity="warning",
+                    holds=False,
+                    value=joint.share_valid,
+                    limit=1.0,
+                )
+            )
+        return found
 
 
 def joint_errors(handed: HandOver, joint: JointFriction) -> JointErrors:

@@ -47,7 +47,7 @@ HARD = "0.9999 0.9999 0.001"
 def export(handed: HandOver) -> Export:
     """Sources of the plugin with their Makefile, two axes in MJCF, their numbers as JSON, and a script that runs them.
 
-    Raises :class:`~ballscrew.errors.InputError` without a load, where the model does not hold at it, and for a plugin
+    Raises :class:`~ballscrew.errors.InputError` without a load, where the model has no friction at it, and for a plugin
     name that MuJoCo would not find.
     """
     name = handed.options["plugin"]
@@ -73,7 +73,7 @@ def export(handed: HandOver) -> Export:
         {path: text.encode() for path, text in files.items()},
         valid_range=handed.formula_range,
         worst_error=errors.of_export,
-        warnings=[errors.warning],
+        warnings=errors.warnings(joint),
     )
     return dataclasses.replace(made, measured_range=joint_range(handed))
 

@@ -30,7 +30,7 @@ EDGE = 0.2
 def export(handed: HandOver) -> Export:
     """A vertical axis in URDF, SDF and USD, whose weight is the load of the fit, and its numbers as JSON.
 
-    Raises :class:`~ballscrew.errors.InputError` without a load, and where the model does not hold at it.
+    Raises :class:`~ballscrew.errors.InputError` without a load, and where the model has no friction at it.
     """
     joint = joint_friction(handed, 1)
     errors = joint_errors(handed, joint)
@@ -44,7 +44,7 @@ def export(handed: HandOver) -> Export:
         {path: text.encode() for path, text in files.items()},
         valid_range=joint_range(handed),
         worst_error=errors.of_export,
-        warnings=[errors.warning],
+        warnings=errors.warnings(joint),
     )
     return dataclasses.replace(made, measured_range=joint_range(handed))
 

@@ -143,16 +143,18 @@ static void act(const mjModel *m, mjData *d, int instance) {
   /* the root of what the shaft passes on at an assumed load, less that load: a secant */
   double arm = two_pi / LEAD, passed = arm * (torque - accelerating), scale = fabs(passed);
   double load = passed, friction = 0, before = 0, missed_before = 0;
-  for (int turn = 0; turn < MOST_TURNS; turn++) {
+  int found = 0;
+  for (int turn = 0; turn < MOST_TURNS && !found; turn++) {
     s->limit = model(s, load, copysign(speed, holding));
     friction = clamped(holding, s->limit);
     double missed = passed - arm * friction - load;
-    if (fabs(missed) <= close_enough * (scale + fabs(load))) break;
+    found = fabs(missed) <= close_enough * (scale + fabs(load));
     double slope = turn ? (missed - missed_before) / (load - before) : -1;
     before = load;
     missed_before = missed;
     load += slope < -0.1 ? -missed / slope : missed;
   }
+  if (!found) s->sensed[HOLDS] = 0;
   s->sensed[LOAD] = passed - arm * friction;
   s->sensed[FRICTION] = friction;
   s->sensed[ACCELERATING] = accelerating;
@@ -163,8 +165,8 @@ static void compute(const mjModel *m, mjData *d, int instance, int capability) {
   if (capability == mjPLUGIN_ACTUATOR) act(m, d, instance);
   if (capability == mjPLUGIN_SENSOR)
     for (int i = 0; i < m->nsensor; i++)
-      if (m->sensor_plugin[i] == instance)
-        memcpy(d->sensordata + m->sensor_adr[i], screw_of(d, instance)->sensed, SENSED * sizeof(double));
+      for (int k = 0; k < SENSED && m->sensor_plugin[i] == instance; k++)
+        d->sensordata[m->sensor_adr[i] + k] = screw_of(d, instance)->sensed[k];
 }
 
 /* After the velocities of a step: the spring is twisted by the turn, and slips. */
