@@ -38,6 +38,9 @@ TARGETS: Mapping[str, Target] = {
     "table": Target("table", "table over load and speed: CSV, JSON, NetCDF, Parquet"),
     "modelica": Target("modelica", "Modelica component with the interfaces of its standard library"),
     "matlab": Target("matlab", "table as .mat with a function, and a component of Simscape"),
+    "linuxcnc": Target("linuxcnc", "HAL file with the friction over speed, for lincurve"),
+    "beckhoff": Target("beckhoff", "friction table of TwinCAT CNC and of ISG-kernel"),
+    "drive": Target("drive", "friction over speed as a few points, for the characteristic of a drive"),
     "program": Target("program", "the model as data, with an interpreter in C that is prebuilt for Linux"),
     "fmu": Target("fmu", "FMU 2.0 or 3.0, co-simulation and model exchange"),
 }
