@@ -15,11 +15,11 @@ import numpy as np
 
 from ballscrew.errors import Fault, InputError
 from ballscrew.exports.export import Export
-from ballscrew.exports.friction_curve import OPTIONS as OF_CURVES
-from ballscrew.exports.friction_curve import FrictionCurve, about, friction_curve
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.targets import Option
 from ballscrew.records import Record
+from ballscrew.table_exports.friction_curve import OPTIONS as OF_CURVES
+from ballscrew.table_exports.friction_curve import FrictionCurve, about, friction_curve
 
 #: Entries of the list at most, if the control is not told otherwise (P-COMP-00042, P-COMP-00062).
 ENTRIES = 20

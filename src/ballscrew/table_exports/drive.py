@@ -9,10 +9,10 @@ from collections.abc import Mapping
 
 from ballscrew.errors import Fault, InputError
 from ballscrew.exports.export import Export
-from ballscrew.exports.friction_curve import OPTIONS as OF_CURVES
-from ballscrew.exports.friction_curve import about, friction_curve
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.targets import Option
+from ballscrew.table_exports.friction_curve import OPTIONS as OF_CURVES
+from ballscrew.table_exports.friction_curve import about, friction_curve
 
 OPTIONS: Mapping[str, Option] = {
     **OF_CURVES,

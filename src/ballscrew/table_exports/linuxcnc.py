@@ -9,10 +9,10 @@ import numpy as np
 
 from ballscrew.errors import Fault, InputError
 from ballscrew.exports.export import Export
-from ballscrew.exports.friction_curve import OPTIONS as OF_CURVES
-from ballscrew.exports.friction_curve import FrictionCurve, about, friction_curve
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.targets import Option
+from ballscrew.table_exports.friction_curve import OPTIONS as OF_CURVES
+from ballscrew.table_exports.friction_curve import FrictionCurve, about, friction_curve
 
 #: Points of a lincurve (its manual page), half of them for each direction.
 POINTS = 16

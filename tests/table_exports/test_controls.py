@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.exports import beckhoff, drive, linuxcnc
-from ballscrew.exports.friction_curve import friction_curve
+from ballscrew.table_exports import beckhoff, drive, linuxcnc
+from ballscrew.table_exports.friction_curve import friction_curve
 
 RANGES = {"axial_load": (-3000.0, 3000.0), "screw_speed": (-100.0, 100.0)}
 #: The example of the manual: infosys.beckhoff.com, tf5200_friction_comp, Parameterisation.
