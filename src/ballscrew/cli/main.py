@@ -27,6 +27,7 @@ from ballscrew.cli import (
     duty,
     fit,
     hand_over,
+    names,
     oils,
     optimise,
     report,
@@ -47,7 +48,6 @@ app = typer.Typer(
     name="ballscrew",
     help="What a ball screw loses to friction: torque, efficiency, back-driving, and why, term by term.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
@@ -95,6 +95,7 @@ for command in (
     cite.cite,
 ):
     app.command(cls=_Command)(command)
+app.command("list", cls=_Command)(names.list_names)
 
 
 def _version(wanted: bool) -> None:

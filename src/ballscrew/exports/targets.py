@@ -20,7 +20,7 @@ _ROOM = __name__.rpartition(".")[0]
 
 
 class Target(NamedTuple):
-    """A target: the module that makes its export, and a few words for people."""
+    """A target: the module that makes its export, of this room or ``.room.module``, and a few words for people."""
 
     module: str
     meaning: str
@@ -36,9 +36,12 @@ class Option(NamedTuple):
 
 TARGETS: Mapping[str, Target] = {
     "c": Target("c99", "C99 source of the model, with libm only"),
-    "table": Target("table", "table over load and speed: CSV, JSON, NetCDF, Parquet"),
-    "modelica": Target("modelica", "Modelica component with the interfaces of its standard library"),
-    "matlab": Target("matlab", "table as .mat with a function, and a component of Simscape"),
+    "table": Target(".table_exports.table", "table over load and speed: CSV, JSON, NetCDF, Parquet"),
+    "modelica": Target(".table_exports.modelica", "Modelica component with the interfaces of its standard library"),
+    "matlab": Target(".table_exports.matlab", "table as .mat with a function, and a component of Simscape"),
+    "linuxcnc": Target(".table_exports.linuxcnc", "HAL file with the friction over speed, for lincurve"),
+    "beckhoff": Target(".table_exports.beckhoff", "friction table of TwinCAT CNC and of ISG-kernel"),
+    "drive": Target(".table_exports.drive", "friction over speed as a few points, for the characteristic of a drive"),
     "program": Target("program", "the model as data, with an interpreter in C that is prebuilt for Linux"),
     "fmu": Target("fmu", "FMU 2.0 or 3.0, co-simulation and model exchange"),
     "mujoco": Target("mujoco", "joint parameters and an engine plugin for MuJoCo"),
@@ -51,7 +54,7 @@ def target_module(name: str) -> Any:
     if name not in TARGETS:
         remedy = nearest(name, TARGETS) + f" (known: {', '.join(TARGETS)})"
         raise InputError(Fault("hand_over.to", "unknown target", str(name), remedy))
-    return importlib.import_module(f"{_ROOM}.{TARGETS[name].module}")
+    return importlib.import_module(f".{TARGETS[name].module}", _ROOM)
 
 
 def export_of(name: str) -> Callable[[HandOver], Export]:

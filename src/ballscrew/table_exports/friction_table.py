@@ -14,12 +14,12 @@ from ballscrew.errors import Fault, InputError
 from ballscrew.evaluation.evaluator import evaluator
 from ballscrew.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
-from ballscrew.exports.nodes import chord_errors, nodes_within
 from ballscrew.exports.subject import POINTS, HandOver
 from ballscrew.exports.targets import Option
 from ballscrew.exports.worst_error import Values, WorstError, worst_errors
 from ballscrew.friction import directions
 from ballscrew.records import Record
+from ballscrew.table_exports.nodes import chord_errors, nodes_within
 
 Floats = NDArray[np.float64]
 

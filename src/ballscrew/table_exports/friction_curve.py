@@ -10,13 +10,13 @@ import numpy as np
 from ballscrew.errors import Fault, InputError
 from ballscrew.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
-from ballscrew.exports.friction_table import INTERPOLATED, Floats, speed_candidates
-from ballscrew.exports.nodes import best_nodes, chord_errors
 from ballscrew.exports.subject import POINTS, HandOver
 from ballscrew.exports.targets import Option
 from ballscrew.exports.worst_error import WorstError, worst_errors
 from ballscrew.quantities import Force, Info, Quantity, unit_of
 from ballscrew.records import Record
+from ballscrew.table_exports.friction_table import INTERPOLATED, Floats, speed_candidates
+from ballscrew.table_exports.nodes import best_nodes, chord_errors
 
 _LOAD = Quantity("load", unit_of(Force) or "", Info("F", "axial load of the curve", "N"))
 #: Choices of every target that is a curve.

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from ballscrew.evaluation.outputs import OPERATION
-from ballscrew.exports.friction_table import INTERPOLATED, FrictionTable
+from ballscrew.table_exports.friction_table import INTERPOLATED, FrictionTable
 
 Floats = NDArray[np.float64]
 

@@ -10,8 +10,8 @@ import xarray as xr
 from scipy.interpolate import RegularGridInterpolator
 
 import ballscrew as bs
-from ballscrew.exports.friction_table import friction_table
-from ballscrew.exports.table import export
+from ballscrew.table_exports.friction_table import friction_table
+from ballscrew.table_exports.table import export
 
 RANGES = {"axial_load": (-3000.0, 5000.0), "screw_speed": (-60.0, 100.0)}
 
