@@ -261,6 +261,7 @@ class DutyReport:
             root_diameter=case.listed.get("root_diameter"),
             installation=case.installation,
             limits=case.limits,
+            speed_limit_source="" if case.row is None else case.row.speed_limit_source,
         )
         return [check for check in found if check.name in _OF_EXTREMES]
 

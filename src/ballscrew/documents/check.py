@@ -60,6 +60,6 @@ def list_document(found: Sequence[Checked]) -> list[dict[str, Any]]:
 
 
 def check_document(check: Check) -> dict[str, Any]:
-    """A check as a record, with the older keys ``name``, ``utilisation``, ``passes`` and ``words`` beside it."""
+    """A check as a record, what it lacks, and the older keys ``name``, ``utilisation``, ``passes`` and ``words``."""
     older = {"name": check.name, "utilisation": check.utilisation, "passes": check.holds, "words": check.text}
-    return {**check.record.document(), **older}
+    return {**check.record.document(), "missing": check.missing, **older}

@@ -267,6 +267,7 @@ def checked(name: str, case: Case, notes: Sequence[str] = (), known: Run | None 
         root_diameter=case.listed.get("root_diameter"),
         installation=case.installation,
         limits=case.limits,
+        speed_limit_source="" if case.row is None else case.row.speed_limit_source,
     )
     of_ratings = [f"{name.replace('_', ' ')} computed from the geometry: none is listed" for name in stand_ins]
     of_rigidity = [f"rigidity: {text}" for text in run.nut.rigidity.assumed]

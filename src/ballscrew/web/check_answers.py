@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from ballscrew.web.answer_parts import Closed, Number, Provenance, Record, Tables, Template, field
+from ballscrew.web.answer_parts import Closed, Number, Provenance, Record, Tables, Template, VendorRows, field
 from ballscrew.web.answers import Results
 
 
@@ -13,6 +13,7 @@ class OneCheck(Record):
 
     name: str
     utilisation: Number = Field(description="share of the limit that is used: above 1 it fails")
+    missing: str = Field(description="the input without which it is not judged; empty where it is")
     passes: bool | None = Field(description="as ``holds``")
     words: str = Field(description="as ``text``")
     display: Template
@@ -30,7 +31,7 @@ class Checks(Closed):
     geometry: dict[str, Number]
     results: Results  # pyright: ignore[reportInvalidTypeForm]  (a model made from the annotations)
     loads: Tables
-    vendor_rows: Tables = field(optional=True)
+    vendor_rows: VendorRows = field(optional=True)
     ratings: Tables
     assumed: list[str]
     units: Tables

@@ -23,6 +23,12 @@ const SYMBOLS = {
 };
 /** Results that have the units of another one. @type {Record<string, string>} */
 const SAME_UNIT = { preload_drag: "screw_torque" };
+/** Digits of a number whose interval is not known. */
+export const DIGITS = 3;
+/** Decimals at most; smaller numbers are written with a power of ten. */
+const MOST_DECIMALS = 6;
+/** A leading digit below this is written with a second one (as the Particle Data Group rounds). */
+const TWO_DIGITS_BELOW = 3.55;
 const PLACEHOLDER = /\{(\d{1,4})\}/g;
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
@@ -192,7 +198,7 @@ export function inDisplayUnit(name, value) {
  */
 function withUnit(value, unit, count) {
   const text = digits(value, count);
-  return unit && text !== "–" ? `${text} ${symbol(unit)}` : text;
+  return unit && text !== "–" ? `${text}\u00a0${symbol(unit)}` : text; // units do not wrap
 }
 
 /**
@@ -203,6 +209,42 @@ function withUnit(value, unit, count) {
  */
 export function formatted(name, value, count = 4) {
   return withUnit(inDisplayUnit(name, value), unitOf(name), count);
+}
+
+/**
+ * A number in SI as text in a unit, or in that which the current system has in its place.
+ *
+ * @param {number | null | undefined} value
+ * @param {string} metric
+ * @param {string} si
+ */
+export function formattedIn(value, metric, si, count = 4) {
+  if (si === "1") return digits(value, count);
+  const unit = inSystem(metric);
+  return withUnit(value === null || value === undefined ? value : fromSI(value, unit, si), unit, count);
+}
+
+/**
+ * The power of ten at which numbers end that are known to an interval: half of its width is written with one or two digits.
+ *
+ * @param {number} low
+ * @param {number} high
+ */
+export function lastPlace(low, high) {
+  const half = Math.abs(high - low) / 2;
+  const power = Math.floor(Math.log10(half));
+  return power - (half / 10 ** power < TWO_DIGITS_BELOW ? 1 : 0);
+}
+
+/**
+ * A number that ends at a power of ten, with the zeros that say so.
+ *
+ * @param {number} value
+ * @param {number} place
+ */
+export function toPlace(value, place) {
+  if (place < -MOST_DECIMALS || Math.abs(value) >= 1e6) return digits(value, DIGITS);
+  return place < 0 ? value.toFixed(-place) : String(Math.round(value / 10 ** place) * 10 ** place);
 }
 
 /**
