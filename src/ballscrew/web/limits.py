@@ -13,6 +13,7 @@ from ballscrew.cases.case_file import (
 )
 from ballscrew.components.nut import OversizeBallNut
 from ballscrew.errors import Fault, InputError, raise_if_any
+from ballscrew.selection.need import Need
 from ballscrew.studies import sweep as sweeps
 from ballscrew.uncertainty.bands import NUT_SAMPLES, SAMPLES
 
@@ -26,6 +27,8 @@ MOST_BALLS_IN_ALL = 250_000
 SHORT_POINTS, SHORT_POINTS_OF_NUT, SHORT_BALLS = 1_000, 200, 5_000
 #: With more balls than this, a single point is heavy work.
 MANY_BALLS = 300
+#: Combinations of nut, preload and oil for each row of the catalogue.
+MOST_CHOICES = 24
 #: Balls with two contacts that take as long as one with four.
 _FOUR_CONTACTS = 3
 
@@ -66,6 +69,15 @@ def check_motion(case: Case) -> None:
     if states * balls > MOST_BALLS_IN_ALL:
         remedy = "fewer segments, or a nut whose balls are alike; the rest by ballscrew duty"
         raise InputError(Fault("motion", "has too many states to compute ball by ball", f"{states:,}", remedy))
+
+
+def check_need(need: Need) -> Need:
+    """The need, unless it has more choices for each row than are computed here."""
+    choices = max(1, len(need.nuts)) * max(1, len(need.preloads)) * len(need.oils)
+    if choices > MOST_CHOICES:
+        remedy = f"{MOST_CHOICES} at most here; the rest by ballscrew select"
+        raise InputError(Fault("need", "has too many choices of nut, preload and oil", str(choices), remedy))
+    return need
 
 
 def is_short(case: Case, plan: sweeps.Plan) -> bool:
