@@ -33,7 +33,7 @@ def select(
         str | None, typer.Option("--filter", metavar="WORDS", help='Only rows with these words: "rexroth 40x".')
     ] = None,
     objectives: Objectives = None,
-    holds: Annotated[bool, typer.Option("--holds", help="Only candidates whose checks hold.")] = False,
+    holds: Annotated[bool, typer.Option("--holds", help="Only candidates of which no check fails.")] = False,
     front: Annotated[bool, typer.Option("--front", help="Only members of the Pareto front.")] = False,
     first: Annotated[int, typer.Option("--first", metavar="N", min=0, help="Lines shown; 0 for all.")] = 20,
     model: ModelName = None,
@@ -76,7 +76,7 @@ def select(
             keep_going=keep_going,
             done=done,
         )
-    kept = [each for each in found.ranked if (each.candidate.holds or not holds) and (each.pareto or not front)]
+    kept = [each for each in found.ranked if (each.candidate.fits or not holds) and (each.pareto or not front)]
     if as_json:
         document = documents.document(found)
         ranks = {each.rank for each in kept}

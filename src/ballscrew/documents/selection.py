@@ -100,6 +100,9 @@ def verdict(found: Candidate) -> str:
         for check in found.failed
     ]
     open_ = sum(check.holds is None for check in found.checks)
-    text = f"fails: {', '.join(failed)}" if failed else "holds"
-    text += f"; {open_} of {len(found.checks)} not judged" if open_ else ""
+    if not failed and open_:
+        text = f"{open_} of {len(found.checks)} not judged; the others hold"
+    else:
+        text = f"fails: {', '.join(failed)}" if failed else "holds"
+        text += f"; {open_} of {len(found.checks)} not judged" if open_ else ""
     return text if found.valid else f"{text}; outside the model's validity"

@@ -71,9 +71,9 @@ def _along(panel: Axes, found: Optimisation, name: str) -> None:
 
 def _members(panel: Axes, found: Optimisation, x: str, value: Callable[[Member], float]) -> None:
     groups = (
-        ("fails", [m for m in found.members if not m.holds], {"marker": "x", "color": style.GREY}),
+        ("fails", [m for m in found.members if not m.fits], {"marker": "x", "color": style.GREY}),
         (
-            "holds", [m for m in found.members if m.holds and not m.pareto],
+            "holds", [m for m in found.members if m.fits and not m.pareto],
             {"marker": "o", "facecolors": "white", "edgecolors": style.GREY},
         ),
         ("front by the full model", [m for m in found.members if m.pareto], {"marker": "o", "color": style.RED}),

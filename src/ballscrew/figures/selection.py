@@ -43,15 +43,15 @@ def caption(found: Selection) -> str:
     return (
         f"{found.need.name}: {required}. Filled: on the Pareto front of "
         f"{', '.join(found.objectives).replace('_', ' ')} "
-        "among the candidates whose checks hold; circles: hold; crosses: fail. Numbers are ranks."
+        "among the candidates of which no check fails, as the circles; crosses: fail. Numbers are ranks."
     )
 
 
 def _panel(panel: Axes, ranked: Sequence[Ranked], x: str, y: str) -> None:
     groups = (
-        ("fails", [each for each in ranked if not each.candidate.holds], {"marker": "x", "color": style.SHADE}),
+        ("fails", [each for each in ranked if not each.candidate.fits], {"marker": "x", "color": style.SHADE}),
         (
-            "holds", [each for each in ranked if each.candidate.holds and not each.pareto],
+            "no check fails", [each for each in ranked if each.candidate.fits and not each.pareto],
             {"marker": "o", "facecolors": "white", "edgecolors": style.GREY},
         ),
         ("Pareto front", [each for each in ranked if each.pareto], {"marker": "o", "color": style.RED}),

@@ -20,7 +20,7 @@ from ballscrew.selection import requirement_checks
 from ballscrew.selection.candidates import objectives as objectives_of
 from ballscrew.selection.need import Need, need_of
 from ballscrew.selection.objectives import OBJECTIVES, USUAL_LENGTH
-from ballscrew.selection.pareto import fronts
+from ballscrew.selection.pareto import front
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.checks import Check
 from ballscrew.sizing.listed_nut import PRELOADED
@@ -52,7 +52,12 @@ class Member:
 
     @property
     def holds(self) -> bool:
-        """Whether no check fails by the full model."""
+        """Whether all checks were judged and hold by the full model."""
+        return all(check.holds for check in self.checks)
+
+    @property
+    def fits(self) -> bool:
+        """Whether no check fails by the full model; one that could not be judged does not."""
         return all(check.holds is not False for check in self.checks)
 
     @property
@@ -216,9 +221,10 @@ def _member(
 
 
 def _marked(members: Sequence[Member], objectives: Sequence[str]) -> list[Member]:
-    """Members by their first objective, with the front of those that hold marked."""
-    fitting = [each for each in members if each.holds and each.valid]
+    """Members by their first objective, with the front of those of which no check fails marked."""
+    fitting = [each for each in members if each.fits and each.valid]
     costs = np.array([[OBJECTIVES[n].sign * each.objectives[n] for n in objectives] for each in fitting])
-    best = {id(m) for m, front in zip(fitting, fronts(costs.reshape(len(fitting), -1)), strict=True) if front == 0}
+    leads = front(costs.reshape(len(fitting), -1))
+    best = {id(member) for member, is_best in zip(fitting, leads, strict=True) if is_best}
     ordered = sorted(members, key=lambda each: OBJECTIVES[objectives[0]].sign * each.objectives[objectives[0]])
     return [dataclasses.replace(each, pareto=id(each) in best) for each in ordered]

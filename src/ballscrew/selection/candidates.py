@@ -74,7 +74,12 @@ class Candidate:
 
     @property
     def holds(self) -> bool:
-        """Whether no check fails; one that cannot be judged does not."""
+        """Whether all checks were judged and hold."""
+        return all(check.holds for check in self.checks)
+
+    @property
+    def fits(self) -> bool:
+        """Whether no check fails; one that could not be judged does not."""
         return not self.failed
 
     @property

@@ -181,6 +181,8 @@ def _need(tables: dict[str, Any], folder: Path, name: str) -> Need:
         names = ()
         faults += error.faults
     raise_if_any(faults)
+    if required.accuracy:
+        notes.append(f"grade {required.accuracy} of ISO 3408-3 is not judged: no row lists its grades; ask the maker")
     if objectives is None and prices:
         names = (*names, "price_index")
     return Need(

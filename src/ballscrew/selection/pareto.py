@@ -6,22 +6,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def fronts(costs: NDArray[np.float64]) -> NDArray[np.int64]:
-    """The number of the front of each row of costs, all to be small: 0 where no other row is better.
+def front(costs: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Whether no other row is better, for each row of costs, all to be small.
 
-    A row beats another that it is nowhere above and somewhere below. Front 1 is what is not beaten once front 0 is
-    taken away, and so on (non-dominated sorting). Rows with NaN are in no front: -1.
+    A row beats another that it is nowhere above and somewhere below; equal rows beat each other not. Rows with NaN are
+    on no front.
     """
-    found = np.full(len(costs), -1)
-    left = np.flatnonzero(~np.isnan(costs).any(axis=1))
-    number = 0
-    while left.size:
-        here = costs[left]
-        beaten = np.array(
-            [bool(np.any((here <= row).all(axis=1) & (here < row).any(axis=1))) for row in here], dtype=bool
-        )
-        found[left[~beaten]] = number
-        left, number = left[beaten], number + 1
+    found = np.zeros(len(costs), dtype=bool)
+    known = np.flatnonzero(~np.isnan(costs).any(axis=1))
+    # a row that beats another comes before it in the order of its columns, one after the other
+    order = known[np.lexsort(costs[known].T[::-1])]
+    kept: list[int] = []
+    for place in order:
+        best, row = costs[kept], costs[place]
+        if not np.any((best <= row).all(axis=1) & (best < row).any(axis=1)):
+            kept.append(int(place))
+    found[kept] = True
     return found
 
 

@@ -30,7 +30,7 @@ def of(
         step(required, float(found.case.screw.lead)),
     )  # fmt: skip
     drives = back_driving(required, found) if report is None else _of_axis(required, report)
-    return tuple(check for check in (*bounds, drives, _accuracy(required)) if check is not None)
+    return tuple(check for check in (*bounds, drives) if check is not None)
 
 
 def at_most(name: str, value: float, limit: float | None, unit: str, text: str) -> Check | None:
@@ -92,10 +92,3 @@ def _of_axis(required: Requirements, report: DutyReport) -> Check | None:
     every = all(found.falls for found in brake.conditions)
     least = min(found.holding_torque for found in brake.conditions)
     return Check("back_driving", least, 0.0, "N m", None, every, "torque that the load has left in every condition")
-
-
-def _accuracy(required: Requirements) -> Check | None:
-    if not required.accuracy:
-        return None
-    text = f"grade {required.accuracy} of ISO 3408-3: not judged, as no row lists its grades; ask the maker"
-    return Check("accuracy", None, None, "1", None, None, text)

@@ -16,7 +16,7 @@ from ballscrew.screw_tables import catalogue
 from ballscrew.selection.candidates import Candidate, Variant, case_of, judged, variants
 from ballscrew.selection.need import Need, need_of
 from ballscrew.selection.objectives import OBJECTIVES, objectives_named
-from ballscrew.selection.pareto import fronts
+from ballscrew.selection.pareto import front
 from ballscrew.studies.every_row import Done, each
 
 #: Variants at most: more take hours.
@@ -25,7 +25,7 @@ MOST_VARIANTS = 20_000
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Ranked:
-    """A candidate with its rank, from 1, and whether no other one that holds beats it in all objectives."""
+    """A candidate with its rank, from 1, and whether no other one that fits beats it in all objectives."""
 
     rank: int
     candidate: Candidate
@@ -46,7 +46,7 @@ class Selection:
 
     @property
     def holding(self) -> Sequence[Ranked]:
-        """The candidates whose checks hold."""
+        """The candidates whose checks were all judged and hold."""
         return [found for found in self.ranked if found.candidate.holds]
 
     @property
@@ -72,10 +72,10 @@ def select(
     """Every row of the catalogue with every nut, preload and oil of a need, judged and ranked.
 
     Each candidate is the case that ``ballscrew check`` would take, of a need with a motion that of ``ballscrew duty``:
-    nothing is estimated. First come those whose checks hold, within the validity of the model before those outside,
-    members of the Pareto front before others, then by the first of the ``objectives``; those that fail follow by
-    their largest utilisation. ``rows`` is a table of one's own in place of the catalogue, ``words`` what rows must have
-    in name, source or kind of nut.
+    nothing is estimated. First come those of which no check fails, within the validity of the model before those
+    outside, members of the Pareto front before others, then by the first of the ``objectives``; those that fail follow
+    by their largest utilisation. ``rows`` is a table of one's own in place of the catalogue, ``words`` what rows must
+    have in name, source or kind of nut.
 
     Raises :class:`~ballscrew.errors.InputError` for faults of the need, and of rows; with ``keep_going`` rows at fault
     are left out, with a note, if any other is good.
@@ -104,16 +104,16 @@ def select(
 
 def ranked(candidates: Sequence[Candidate], objectives: Sequence[str]) -> list[Ranked]:
     """Candidates in their order, see :func:`select`."""
-    fitting = [found for found in candidates if found.holds]
+    fitting = [found for found in candidates if found.fits]
     # an estimate beyond the validity of the model beats nothing that is within it
     fitting = [found for found in fitting if found.valid] or fitting
     costs = np.array([costs_of(found, objectives) for found in fitting]).reshape(len(fitting), len(objectives))
-    best = {id(found) for found, front in zip(fitting, fronts(costs), strict=True) if front == 0}
+    best = {id(found) for found, leads in zip(fitting, front(costs), strict=True) if leads}
 
     def key(found: Candidate) -> tuple[Any, ...]:
         first = costs_of(found, objectives[:1])[0]
         number = math.inf if math.isnan(first) else first
-        if not found.holds:
+        if not found.fits:
             return (1, found.worst, number, found.variant.label)
         return (0, not found.valid, id(found) not in best, number, found.variant.label)
 

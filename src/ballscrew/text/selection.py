@@ -58,10 +58,12 @@ def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) ->
     if not ranked:
         lines.append("no candidate")
     named = " and ".join(LABELS[name] for name in found.objectives)
-    lines += ["", wrapped(f"*  no other candidate that holds is better in {named}, taken together")]
+    lines += ["", wrapped(f"*  of those of which no check fails, no other is better in {named}, taken together")]
     lines += ["", "assumed", *(wrapped(f"  {note}") for note in found.need.notes)] if found.need.notes else []
-    best = found.best
-    if best is None:
+    missing = sorted({check.missing for each in ranked for check in each.candidate.checks if check.missing})
+    if missing:
+        lines += ["", wrapped(f"nothing holds that was not judged: give {', '.join(missing)}")]
+    elif found.best is None:
         lines += ["", "no candidate holds within the validity of the model: look at what fails first, and by how much"]
     return "\n".join(lines)
 

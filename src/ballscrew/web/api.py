@@ -22,12 +22,15 @@ from ballscrew.cases import case_file
 from ballscrew.cases.schema import json_schema
 from ballscrew.documents import comparison as comparison_documents
 from ballscrew.documents import duty as duty_documents
+from ballscrew.documents import selection as selection_documents
 from ballscrew.documents import sweep as sweep_documents
 from ballscrew.documents import validation as validation_documents
 from ballscrew.documents import warm_up as warm_up_documents
 from ballscrew.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.output.json_text import plain
 from ballscrew.screw_tables import catalogue as rows
+from ballscrew.selection.need import need_of
+from ballscrew.selection.selection import select as selected
 from ballscrew.sizing.catalogue import catalogue as shipped
 from ballscrew.studies import band as bands
 from ballscrew.studies import run as runs
@@ -43,10 +46,21 @@ from ballscrew.web import (
     limits,
     memory,
     openapi,
+    select_answers,
     vocabulary,
     warm_up_answers,
 )
-from ballscrew.web.bodies import BandBody, CaseBody, DutyBody, SweepBody, WarmUpBody, case_of, read
+from ballscrew.web.bodies import (
+    BandBody,
+    CaseBody,
+    DutyBody,
+    NeedBody,
+    SweepBody,
+    WarmUpBody,
+    case_of,
+    read,
+    refuse_paths,
+)
 from ballscrew.web.problems import Refused
 from ballscrew.web.request_queue import Deadline, RequestQueue
 from ballscrew.web.templates import template
@@ -250,6 +264,24 @@ async def warm_up(request: Request) -> Response:
             done=done,
         )  # fmt: skip
         return _json(warm_up_documents.with_band(found))
+
+    return await _heavy(request, work)
+
+
+@router.post(
+    "/select",
+    openapi_extra=openapi.body(NeedBody),
+    response_model=select_answers.Select,
+    responses=openapi.problems_of(),
+)
+async def select(request: Request) -> Response:
+    """Screws of the catalogue for a need, ranked: the document of ``ballscrew select --json``."""
+    body: NeedBody = await read(request, NeedBody)
+
+    def work(done: Deadline) -> Response:
+        refuse_paths(body.need)
+        need = limits.check_need(need_of(body.need))
+        return _json(selection_documents.document(selected(need, words=body.words or None, done=done)))
 
     return await _heavy(request, work)
 

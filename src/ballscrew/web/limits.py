@@ -13,6 +13,7 @@ from ballscrew.cases.case_file import (
 )
 from ballscrew.components.nut import OversizeBallNut
 from ballscrew.errors import Fault, InputError, raise_if_any
+from ballscrew.selection.need import Need
 from ballscrew.studies import sweep as sweeps
 from ballscrew.uncertainty.bands import NUT_SAMPLES, SAMPLES
 
@@ -28,6 +29,8 @@ MOST_BALLS_TO_WARM, MOST_TRANSIENTS = 10_000, 1_024
 SHORT_POINTS, SHORT_POINTS_OF_NUT, SHORT_BALLS = 1_000, 200, 5_000
 #: With more balls than this, a single point is heavy work.
 MANY_BALLS = 300
+#: Combinations of nut, preload and oil for each row of the catalogue.
+MOST_CHOICES = 24
 #: Balls with two contacts that take as long as one with four.
 _FOUR_CONTACTS = 3
 
@@ -81,6 +84,15 @@ def check_warm_up(case: Case, samples: int | None) -> None:
         remedy = f"{MOST_TRANSIENTS:,} at most here; the rest by ballscrew warm-up"
         faults.append(Fault("--samples", "too many", f"{samples:,}", remedy))
     raise_if_any(faults)
+
+
+def check_need(need: Need) -> Need:
+    """The need, unless it has more choices for each row than are computed here."""
+    choices = max(1, len(need.nuts)) * max(1, len(need.preloads)) * len(need.oils)
+    if choices > MOST_CHOICES:
+        remedy = f"{MOST_CHOICES} at most here; the rest by ballscrew select"
+        raise InputError(Fault("need", "has too many choices of nut, preload and oil", str(choices), remedy))
+    return need
 
 
 def is_short(case: Case, plan: sweeps.Plan) -> bool:
