@@ -11,8 +11,8 @@ from typing import Any
 from ballscrew import units
 from ballscrew.axis.axis import Axis
 from ballscrew.axis.motor import Motor
-from ballscrew.cases.duty_schema import MOTIONS
-from ballscrew.cases.fields import example_of
+from ballscrew.case_schema.duty_schema import MOTIONS
+from ballscrew.case_schema.fields import example_of
 from ballscrew.components.data_sheet import DataSheet
 from ballscrew.components.materials import Lubricant, Material, grades
 from ballscrew.components.nut import Bodies, Scatter

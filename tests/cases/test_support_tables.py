@@ -6,7 +6,8 @@ import tomllib
 import pytest
 
 import ballscrew as bs
-from ballscrew.cases import case_file, schema
+from ballscrew.case_schema import schema
+from ballscrew.cases import case_file
 from ballscrew.errors import InputError
 from ballscrew.supports.makers_bearing import KnownBearing, SKFBearing
 from ballscrew.supports.rows import guide_rows, support_units

@@ -12,7 +12,7 @@ from schemathesis import GenerationMode
 from schemathesis.specs.openapi.checks import positive_data_acceptance
 from schemathesis.specs.openapi.definitions import OPENAPI_31
 
-from ballscrew.cases.schema import json_schema
+from ballscrew.case_schema.schema import json_schema
 from ballscrew.studies import validation
 from ballscrew.web import api, problems
 from ballscrew.web.request_queue import RequestQueue

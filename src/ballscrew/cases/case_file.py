@@ -14,16 +14,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ballscrew import units
-from ballscrew.cases import duty_tables, nut_tables, support_tables, uncertain_inputs
-from ballscrew.cases.case import USUAL_LIMITS
-from ballscrew.cases.case import Case as Case
-from ballscrew.cases.duty_schema import DUTY_TABLES
-from ballscrew.cases.inputs import inputs as inputs
-from ballscrew.cases.lubricants import lubricant_of
-from ballscrew.cases.named_calibration import calibrated_by_table, with_calibration
-from ballscrew.cases.option_faults import in_options
-from ballscrew.cases.provenance import references as references
-from ballscrew.cases.schema import (
+from ballscrew.case_schema.duty_schema import DUTY_TABLES
+from ballscrew.case_schema.option_faults import in_options
+from ballscrew.case_schema.schema import (
     DEFAULT_MODEL,
     LAWS,
     MODELS,
@@ -31,8 +24,15 @@ from ballscrew.cases.schema import (
     law_of,
     name_of_law,
 )
-from ballscrew.cases.sections import Sections, validated_sections
-from ballscrew.cases.support_schema import SUPPORT_TABLES
+from ballscrew.case_schema.sections import Sections, validated_sections
+from ballscrew.case_schema.support_schema import SUPPORT_TABLES
+from ballscrew.cases import duty_tables, nut_tables, support_tables, uncertain_inputs
+from ballscrew.cases.case import USUAL_LIMITS
+from ballscrew.cases.case import Case as Case
+from ballscrew.cases.inputs import inputs as inputs
+from ballscrew.cases.lubricants import lubricant_of
+from ballscrew.cases.named_calibration import calibrated_by_table, with_calibration
+from ballscrew.cases.provenance import references as references
 from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import MATERIALS, BallScrew

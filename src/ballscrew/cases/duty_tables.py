@@ -15,7 +15,7 @@ import numpy as np
 from ballscrew import units
 from ballscrew.axis.axis import Axis
 from ballscrew.axis.motor import Motor
-from ballscrew.cases.duty_schema import (
+from ballscrew.case_schema.duty_schema import (
     CONSTANT_EFFICIENCY,
     KEYS,
     MOTIONS,
@@ -25,8 +25,8 @@ from ballscrew.cases.duty_schema import (
     duty_sections,
     fields_of_motion,
 )
-from ballscrew.cases.schema import MODELS, read_table
-from ballscrew.cases.sections import Sections
+from ballscrew.case_schema.schema import MODELS, read_table
+from ballscrew.case_schema.sections import Sections
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.errors import MISSING, Fault, InputError, nearest
 from ballscrew.motion.profiles import Motion, Segment

@@ -12,8 +12,8 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from ballscrew.cases.fields import section_of
-from ballscrew.cases.schema import read_table
+from ballscrew.case_schema.fields import section_of
+from ballscrew.case_schema.schema import read_table
 from ballscrew.components.data_sheet import DataSheet
 from ballscrew.errors import Fault, InputError, nearest
 from ballscrew.files import read_bytes

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew.axis.axis import Axis
+from ballscrew.case_schema.sections import Sections
+from ballscrew.case_schema.support_schema import OIL
 from ballscrew.cases.oils import named_oil
-from ballscrew.cases.sections import Sections
-from ballscrew.cases.support_schema import OIL
 from ballscrew.components.materials import Lubricant
 from ballscrew.errors import MISSING, Fault, InputError, nearest, shown
 from ballscrew.quantities import fields_of

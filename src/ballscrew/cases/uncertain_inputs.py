@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ballscrew.case_schema.fields import is_share, without_percent
 from ballscrew.cases.case import Case
-from ballscrew.cases.fields import is_share, without_percent
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, raise_if_any

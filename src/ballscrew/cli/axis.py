@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, CaseFile, ModelName
+from ballscrew.command_options.common_options import AllowCode, CaseFile, ModelName
 
 if TYPE_CHECKING:
     from ballscrew.axis_studies.stiffness import ChainReport

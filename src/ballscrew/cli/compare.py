@@ -7,7 +7,14 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName, SelfHeatingOption, Settings
+from ballscrew.command_options.common_options import (
+    AllowCode,
+    CalibrationName,
+    CaseFile,
+    ModelName,
+    SelfHeatingOption,
+    Settings,
+)
 
 
 def compare(

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import (
+from ballscrew.command_options.common_options import (
     AllowCode,
     CalibrationName,
     Inertia,
@@ -117,8 +117,8 @@ def fit(
     check_rows(rows, row)
     _check_log(log, rows, picture)
     if rows is not None:
-        from ballscrew.cli.fit_options import options
         from ballscrew.cli.fit_rows import fit_rows
+        from ballscrew.command_options.fit_options import options
 
         fit_rows(
             case, rows, row, functools.partial(
@@ -134,8 +134,8 @@ def fit(
     loaded = case_file.build(tables, model, case.parent, calibration=calibration, allow_code=allow_code)
 
     # pandas is slow to import: only for a good case
-    from ballscrew.cli.fit_options import check_to, moving_options, options
-    from ballscrew.cli.progress import progress
+    from ballscrew.command_options.fit_options import check_to, moving_options, options
+    from ballscrew.command_options.progress import progress
     from ballscrew.figures import files
     from ballscrew.studies.fit_log import steady_log
     from ballscrew.studies.moving_log import is_moving

@@ -42,7 +42,7 @@ from ballscrew.cli import (
     validate,
     warm_up,
 )
-from ballscrew.cli.common_options import CALIBRATION_NAMES, MODEL_NAMES
+from ballscrew.command_options.common_options import CALIBRATION_NAMES, MODEL_NAMES
 
 app = typer.Typer(
     name="ballscrew",
@@ -60,7 +60,7 @@ class _Command(TyperCommand):
     """A command whose help names models and calibrations. Their source is slow to load: only when it is asked for."""
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
-        from ballscrew.cases.schema import DEFAULT_MODEL, MODELS
+        from ballscrew.case_schema.schema import DEFAULT_MODEL, MODELS
         from ballscrew.friction.calibrations import calibrations
 
         models = ", ".join(f"{name} (default)" if name == DEFAULT_MODEL else name for name in MODELS)

@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, CalibrationName, ModelName
 from ballscrew.cli.select import Need, Objectives, check_file, names_of
+from ballscrew.command_options.common_options import AllowCode, CalibrationName, ModelName
 
 _TO = "--to"
 
@@ -48,7 +48,7 @@ def optimise(
     The need is that of ballscrew select; its table [optimise] has bounds and objectives. Each member is evaluated by
     the full model and all checks. Needs the extra optimise.
     """
-    from ballscrew.cli.progress import progress
+    from ballscrew.command_options.progress import progress
     from ballscrew.documents import optimisation as documents
     from ballscrew.optimisation.optimisation import optimise as optimised
     from ballscrew.output.json_text import as_json as json_text

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName, Settings
+from ballscrew.command_options.common_options import AllowCode, CalibrationName, CaseFile, ModelName, Settings
 
 #: What each kind of file needs beyond the core.
 _NEEDS = {".html": ("jinja2",), ".pdf": ("typst",)}
@@ -46,7 +46,7 @@ def report(
 
     loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     check_writable(_TO, to)
-    from ballscrew.cli.progress import progress
+    from ballscrew.command_options.progress import progress
     from ballscrew.report.contents import report_bytes
 
     with progress("report") as done:

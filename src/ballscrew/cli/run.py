@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ballscrew.cli.common_options import (
+from ballscrew.command_options.common_options import (
     AllowCode,
     CalibrationName,
     CaseFile,
@@ -79,7 +79,7 @@ def run(
         loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     if has_band:
         from ballscrew.cli import band as band_command
-        from ballscrew.cli.progress import progress
+        from ballscrew.command_options.progress import progress
         from ballscrew.studies.band import Options
 
         options = Options(samples, level, only_given)
@@ -121,7 +121,7 @@ def _check_self_heating(asked: bool, rows: Path | None) -> None:
 
 def _of_rows(cases: OfRows[RowCase], as_json: bool, to: Path | None, keep_going: bool) -> None:
     """Results of each row: one line each, and a table in a file."""
-    from ballscrew.cli.progress import progress
+    from ballscrew.command_options.progress import progress
     from ballscrew.documents.run import list_document
     from ballscrew.output import json_text
     from ballscrew.studies import every_row

@@ -9,6 +9,6 @@ def schema() -> None:
     """JSON Schema of a case file."""
     import json
 
-    from ballscrew.cases.schema import json_schema
+    from ballscrew.case_schema.schema import json_schema
 
     typer.echo(json.dumps(json_schema(), indent=2, ensure_ascii=False))

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, CalibrationName, KeepGoing, ModelName, say_of_rows
+from ballscrew.command_options.common_options import AllowCode, CalibrationName, KeepGoing, ModelName, say_of_rows
 
 _TO = "--to"
 Need = Annotated[
@@ -55,7 +55,7 @@ def select(
     Each is judged by the full model and all checks. The exit code is 0 where none holds, too: the list says what
     fails, and by how much.
     """
-    from ballscrew.cli.progress import progress
+    from ballscrew.command_options.progress import progress
     from ballscrew.documents import selection as documents
     from ballscrew.output.json_text import as_json as json_text
     from ballscrew.selection.selection import select as selected

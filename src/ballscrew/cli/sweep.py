@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ballscrew.cli.common_options import (
+from ballscrew.command_options.common_options import (
     AllowCode,
     CalibrationName,
     CaseFile,
@@ -87,7 +87,7 @@ def sweep(
     With --self-heating each point goes to and fro until it is warm, and has its own temperature and preload.
     """
     from ballscrew.cases import case_file
-    from ballscrew.cli.progress import progress
+    from ballscrew.command_options.progress import progress
     from ballscrew.studies import sweep as studies
     from ballscrew.table_files import sweep_files
     from ballscrew.text import sweep as text
@@ -149,7 +149,7 @@ def _of_rows(
     verbose: bool,
 ) -> None:
     """The sweeps of all rows as one dataset."""
-    from ballscrew.cli.progress import progress
+    from ballscrew.command_options.progress import progress
     from ballscrew.studies import sweep_rows
     from ballscrew.table_files import sweep_files
     from ballscrew.text import sweep as text

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, CaseFile, ModelName
+from ballscrew.command_options.common_options import AllowCode, CaseFile, ModelName
 
 if TYPE_CHECKING:
     from ballscrew.axis_studies.warm_up import WarmUpReport
@@ -90,7 +90,7 @@ def _banded(
     case: Case, hours: float, cool_down: float, samples: int | None, level: float | None, only_given: bool
 ) -> WarmUpBandReport:
     from ballscrew.axis_studies import warm_up_band as studies  # loads xarray
-    from ballscrew.cli.progress import progress
+    from ballscrew.command_options.progress import progress
 
     with progress("band") as done:
         return studies.band(

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from ballscrew import units
 from ballscrew._arrays import ByValue
-from ballscrew.cases.fields import section_of
-from ballscrew.cases.schema import read_table
+from ballscrew.case_schema.fields import section_of
+from ballscrew.case_schema.schema import read_table
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, InputError, faults_of, nearest, raise_if_any
 from ballscrew.quantities import Count, Info, Quantity, Ratio, fields_of

@@ -6,9 +6,9 @@ import dataclasses
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from ballscrew.case_schema.schema import LAWS, name_of_law
 from ballscrew.cases.case_file import Case
 from ballscrew.cases.lubricants import described
-from ballscrew.cases.schema import LAWS, name_of_law
 from ballscrew.components.data_sheet import DataSheet
 from ballscrew.components.materials import TEMPERATURE, Lubricant, nominal_oil
 from ballscrew.components.oil_grades import OilState

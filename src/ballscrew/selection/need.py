@@ -10,9 +10,9 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
+from ballscrew.case_schema.fields import section_of
+from ballscrew.case_schema.schema import read_table
 from ballscrew.cases import case_file
-from ballscrew.cases.fields import section_of
-from ballscrew.cases.schema import read_table
 from ballscrew.components.materials import grades
 from ballscrew.errors import MISSING, Fault, InputError, nearest, raise_if_any
 from ballscrew.quantities import fields_of

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from ballscrew.axis_studies.heat_samples import HeatSamples
+from ballscrew.case_schema.schema import LAWS
 from ballscrew.cases import uncertain_inputs
 from ballscrew.cases.case_file import Case
-from ballscrew.cases.schema import LAWS
 from ballscrew.cases.uncertain_inputs import Uncertain
 from ballscrew.components.traits import traits_of
 from ballscrew.errors import InputError

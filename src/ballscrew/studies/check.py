@@ -9,9 +9,9 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from ballscrew import units
+from ballscrew.case_schema.option_faults import in_options
 from ballscrew.cases import case_file, descriptions, nut_tables
 from ballscrew.cases.case import Case
-from ballscrew.cases.option_faults import in_options
 from ballscrew.components.nut import Nut, OversizeBallNut
 from ballscrew.errors import Fault, InputError
 from ballscrew.records import Record

@@ -16,8 +16,8 @@ import numpy as np
 import xarray as xr
 
 from ballscrew import units
+from ballscrew.case_schema.schema import name_of_law
 from ballscrew.cases.case_file import Case
-from ballscrew.cases.schema import name_of_law
 from ballscrew.components.materials import TEMPERATURE, Material, nominal_oil
 from ballscrew.components.screw import MATERIALS
 from ballscrew.components.traits import traits_of

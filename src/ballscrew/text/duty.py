@@ -11,9 +11,9 @@ from ballscrew.axis.axis import Axis
 from ballscrew.axis.brake import LetGo
 from ballscrew.axis_studies import duty_records
 from ballscrew.axis_studies.duty import NUMBERS, DutyReport
+from ballscrew.case_schema.duty_schema import MOTIONS
 from ballscrew.cases import descriptions
 from ballscrew.cases.case import Case
-from ballscrew.cases.duty_schema import MOTIONS
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.motion.profiles import Trapezoid
 from ballscrew.output.wrapping import aligned, beside, wrapped

@@ -10,7 +10,7 @@ from typing import Annotated, Any, TypeAlias
 
 from pydantic import BaseModel, Field
 
-from ballscrew.cases.schema import LAWS
+from ballscrew.case_schema.schema import LAWS
 from ballscrew.components.contact import RaceState
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.friction.result import FrictionResult

@@ -15,9 +15,9 @@ import anyio
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import ClientDisconnect, Request
 
+from ballscrew.case_schema.schema import read_table
 from ballscrew.cases import case_file
 from ballscrew.cases.case_file import Case
-from ballscrew.cases.schema import read_table
 from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.sizing.catalogue import catalogue
 from ballscrew.web.limits import check_motion

@@ -8,7 +8,7 @@ from fastapi import FastAPI, Path
 from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel
 
-from ballscrew.cases.schema import json_schema
+from ballscrew.case_schema.schema import json_schema
 from ballscrew.sizing.catalogue import catalogue
 from ballscrew.web import problems
 from ballscrew.web.answer_parts import Problem

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict
 
 from ballscrew import units
 from ballscrew._version import __version__
-from ballscrew.cases.schema import DEFAULT_MODEL, LAWS, MODELS
+from ballscrew.case_schema.schema import DEFAULT_MODEL, LAWS, MODELS
 from ballscrew.components.contact import RaceState
 from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.nut import Bodies, Scatter

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, Field, WithJsonSchema
 
-from ballscrew.cases.fields import section_of
+from ballscrew.case_schema.fields import section_of
 from ballscrew.components.materials import grades
 from ballscrew.supports.bearing import SupportBearing
 from ballscrew.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, MOUNTING, STATICS, UNCERTAIN, fields_of_laws

@@ -11,7 +11,7 @@ from pydantic import BaseModel, BeforeValidator, Field, WithJsonSchema
 from ballscrew import units
 from ballscrew.axis.axis import Axis
 from ballscrew.axis.motor import Motor
-from ballscrew.cases.fields import json_of, section_of, si_value
+from ballscrew.case_schema.fields import json_of, section_of, si_value
 from ballscrew.errors import Fault
 from ballscrew.motion.profiles import SCurve, Segment, Segments, Sine, Trapezoid
 from ballscrew.quantities import Info, Quantity, fields_of

@@ -18,11 +18,11 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 
 from ballscrew.axis.axis import Axis
 from ballscrew.axis.motor import Motor
-from ballscrew.cases.duty_schema import CONSTANT_EFFICIENCY, DUTY_TABLES, duty_sections, efficiency_field
-from ballscrew.cases.fields import EXAMPLES as EXAMPLES
-from ballscrew.cases.fields import defaults_of, json_of, read_preload, section_of
-from ballscrew.cases.law_import import OUTSIDE, law_from_outside, with_plain_numbers
-from ballscrew.cases.support_schema import SUPPORT_TABLES, support_sections
+from ballscrew.case_schema.duty_schema import CONSTANT_EFFICIENCY, DUTY_TABLES, duty_sections, efficiency_field
+from ballscrew.case_schema.fields import EXAMPLES as EXAMPLES
+from ballscrew.case_schema.fields import defaults_of, json_of, read_preload, section_of
+from ballscrew.case_schema.law_import import OUTSIDE, law_from_outside, with_plain_numbers
+from ballscrew.case_schema.support_schema import SUPPORT_TABLES, support_sections
 from ballscrew.components.data_sheet import SHEET_TEMPERATURE, DataSheet
 from ballscrew.components.materials import INPUTS_OF_SHEET, Lubricant, Material, grades
 from ballscrew.components.nut import Bodies, DoubleNut, Scatter
