@@ -174,6 +174,11 @@ def test_duty(server, tmp_path):
     assert server.post("run", {"case": tables}).status_code == 422
 
 
+def test_axis(server, tmp_path):
+    tables = tables_of(next(path for path in EXAMPLES if path.stem == "feed_axis"))
+    assert server.post("axis", {"case": tables}).json() == document("axis", written(tables, tmp_path), "--json")
+
+
 def test_catalogue(server):
     assert server.get("catalogue").json() == json.loads(printed("catalogue", "list", "--json"))
     found = server.get("catalogue", params={"words": "Double 40x"}).json()

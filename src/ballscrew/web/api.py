@@ -16,10 +16,12 @@ from starlette.responses import Response
 
 from ballscrew import units
 from ballscrew.axis_studies import duty as duties
+from ballscrew.axis_studies import stiffness as chains
 from ballscrew.cases import case_file
 from ballscrew.cases.schema import json_schema
 from ballscrew.documents import comparison as comparison_documents
 from ballscrew.documents import duty as duty_documents
+from ballscrew.documents import stiffness as chain_documents
 from ballscrew.documents import sweep as sweep_documents
 from ballscrew.documents import validation as validation_documents
 from ballscrew.errors import Fault, InputError, nearest, raise_if_any
@@ -192,6 +194,20 @@ async def duty(request: Request) -> Response:
 
     def work(_: Deadline) -> Response:
         return _json(duty_documents.document(duties.duty(case_of(body.case, moves=True))))
+
+    return await _heavy(request, work)
+
+
+@router.post(
+    "/axis", openapi_extra=openapi.body(DutyBody), response_model=duty_answers.Chain, responses=openapi.problems_of()
+)
+async def axis(request: Request) -> Response:
+    """What gives way between motor and table: the document of ``ballscrew axis --json``."""
+    body: DutyBody = await read(request, DutyBody)
+
+    def work(_: Deadline) -> Response:
+        moves = "motion" in body.case and "axis" in body.case
+        return _json(chain_documents.document(chains.chain_of(case_of(body.case, moves=moves))))
 
     return await _heavy(request, work)
 
