@@ -13,6 +13,7 @@ from ballscrew.cases import case_file
 from ballscrew.errors import InputError
 from ballscrew.sizing.installation import Ends
 from ballscrew.supports.stiffness import stiffness_over_stroke
+from ballscrew.table_files import duty_tables
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "feed_axis.toml"
@@ -142,3 +143,11 @@ def test_a_row_that_is_pulled_off_is_said_in_the_duty():
     assert 0 < found.value < 1
     assert found.text.startswith("fixed bearing: one row carries no load")
     assert ("validity.direction", "fixed_bearing") not in {(r.id, r.subject) for r in warnings(duty(load(EXAMPLE, [])))}
+
+
+def test_the_table_of_the_heat_is_all_that_is_lost(case):
+    report = duty(case)
+    table = duty_tables.heat(report)
+    assert table.headings == ["element", "mechanism", "energy in a cycle [J]", "mean heat [W]"]
+    assert sum(row[2] for row in table.rows) == pytest.approx(report.numbers["energy_lost"], rel=1e-9)
+    assert sum(row[3] for row in table.rows) == pytest.approx(sum(report.duty.heat.values()), rel=1e-9)

@@ -32,10 +32,10 @@ class ContactGuide(ByValue):
     r"""The carriages of a table by their balls, which roll between rail and carriage at half its speed.
 
     A :class:`~ballscrew.friction.element.FrictionElement` whose effort is a force along the rail, N, called as
-    :class:`~ballscrew.supports.guide.LinearGuide`. The contacts are those of the screw on a path without curvature:
-    two for each ball, in rows braced against each other (:math:`z Q \sin\alpha = P`, half of the rows against each
-    direction of the load), or four, of balls too big for a pointed arch. With two contacts a ball rolls about an axis
-    along its contacts' tangent and does not spin; with four it must slide.
+    :class:`~ballscrew.LinearGuide`. The contacts are those of the screw on a path without curvature: two for each ball,
+    in rows braced against each other (:math:`z Q \sin\alpha = P`, half of the rows against each direction of the load),
+    or four, of balls too big for a pointed arch. With two contacts a ball rolls about an axis along its contacts'
+    tangent and does not spin; with four it must slide. Under load the contacts climb the grooves.
 
     What catalogues leave out is assumed: a conformity of 0.52, the roughness of the paper, and no rows that carry less
     than others. A load across the rail counts as one that presses. Left out: what the return path and fresh grease

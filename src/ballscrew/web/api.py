@@ -13,6 +13,7 @@ from starlette.responses import Response
 
 from ballscrew import units
 from ballscrew.axis_studies import duty as duties
+from ballscrew.axis_studies import stiffness as chains
 from ballscrew.axis_studies import warm_up as warm_ups
 from ballscrew.axis_studies import warm_up_band as warm_up_bands
 from ballscrew.case_schema.schema import json_schema
@@ -20,6 +21,7 @@ from ballscrew.cases import case_file
 from ballscrew.documents import comparison as comparison_documents
 from ballscrew.documents import duty as duty_documents
 from ballscrew.documents import selection as selection_documents
+from ballscrew.documents import stiffness as chain_documents
 from ballscrew.documents import sweep as sweep_documents
 from ballscrew.documents import validation as validation_documents
 from ballscrew.documents import warm_up as warm_up_documents
@@ -208,6 +210,20 @@ async def select(request: Request) -> Response:
         refuse_paths(body.need)
         need = limits.check_need(need_of(body.need))
         return as_json(selection_documents.document(selected(need, words=body.words or None, done=done)))
+
+    return await heavy(request, work)
+
+
+@router.post(
+    "/axis", openapi_extra=openapi.body(DutyBody), response_model=duty_answers.Chain, responses=openapi.problems_of()
+)
+async def axis(request: Request) -> Response:
+    """What gives way between motor and table: the document of ``ballscrew axis --json``."""
+    body: DutyBody = await read(request, DutyBody)
+
+    def work(_: Deadline) -> Response:
+        moves = "motion" in body.case and "axis" in body.case
+        return as_json(chain_documents.document(chains.chain_of(case_of(body.case, moves=moves))))
 
     return await heavy(request, work)
 
