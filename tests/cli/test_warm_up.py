@@ -147,6 +147,28 @@ def test_an_operating_point_goes_to_and_fro(case):
     assert {name for name in SERIES if not name.startswith("heat_")} <= set(written["units"])
 
 
+def test_a_cycle_like_that_of_the_drift_test(ballscrew, tmp_path):
+    """Full stroke at half of rapid, with an hour of rest; drift at both ends and the middle."""
+    done = ballscrew("warm-up", EXAMPLE, "--drift-cycle", "--json")
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert found["inputs"]["motion"]["speed"] == pytest.approx(10 / 60 / 2)
+    assert found["inputs"]["motion"]["stroke"] == pytest.approx(0.8)
+    assert found["results"]["time"][-1] == 5 * 3600
+    assert len(found["results"]["drift"]["place"]) == 3
+    (tmp_path / "case.toml").write_text(POINT, encoding="utf-8")
+    for words, line in (
+        (["case.toml", "--drift-cycle"],
+         "--drift-cycle: has no motion whose stroke it could take · add [axis] and [motion]"),
+        ([EXAMPLE, "--feed-share", "0.4"], "--feed-share: needs --drift-cycle (0.4) · add --drift-cycle"),
+        ([EXAMPLE, "--drift-cycle", "--feed-share", "2"],
+         "--feed-share: must be above 0 and at most 1 (2) · write --feed-share 0.5"),
+    ):  # fmt: skip
+        refused = ballscrew("warm-up", *words)
+        assert refused.returncode == 2
+        assert line in refused.stderr.splitlines()
+
+
 def test_stroke_and_length_are_those_of_the_case(case):
     mounted = POINT.replace('[surroundings]\nshaft_length = "1 m"', "[installation]") + (
         'unsupported_length = "0.8 m"\nends = "fixed-supported"\n'
