@@ -34,7 +34,7 @@ BOLTED, COOLED = 10.0, 80.0
 AIR = Surroundings(shaft_length=1.2, nut_conductance=BOLTED)
 VARIANTS = ("nothing", "oil", "oil and preload", "cooled nut")
 #: The band.
-SAMPLES, SEED = 512, 20
+SAMPLES, SEED = 256, 20
 
 
 def duty(rpm: float) -> Duty:

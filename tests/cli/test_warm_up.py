@@ -1,12 +1,14 @@
 """``ballscrew warm-up`` and ``--self-heating``: words, JSON, tables and picture; what is refused, and how."""
 
 import csv
+import dataclasses
 import json
 import math
 
 import numpy as np
 import pytest
 
+import ballscrew as bs
 from ballscrew.axis_studies.heat_samples import heat_samples
 from ballscrew.axis_studies.self_heating import self_heating
 from ballscrew.axis_studies.warm_up import SERIES, load, warmed_up
@@ -145,6 +147,28 @@ def test_an_operating_point_goes_to_and_fro(case):
     assert "preload" not in said.partition("Steady state")[0].partition("time ")[2]
     # every quantity of the series has its unit in the document
     assert {name for name in SERIES if not name.startswith("heat_")} <= set(written["units"])
+
+
+def test_a_cycle_like_that_of_the_drift_test(ballscrew, tmp_path):
+    """Full stroke at half of rapid, with an hour of rest; drift at both ends and the middle."""
+    done = ballscrew("warm-up", EXAMPLE, "--drift-cycle", "--json")
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert found["inputs"]["motion"]["speed"] == pytest.approx(10 / 60 / 2)
+    assert found["inputs"]["motion"]["stroke"] == pytest.approx(0.8)
+    assert found["results"]["time"][-1] == 5 * 3600
+    assert len(found["results"]["drift"]["place"]) == 3
+    (tmp_path / "case.toml").write_text(POINT, encoding="utf-8")
+    for words, line in (
+        (["case.toml", "--drift-cycle"],
+         "--drift-cycle: has no motion whose stroke it could take · add [axis] and [motion]"),
+        ([EXAMPLE, "--feed-share", "0.4"], "--feed-share: needs --drift-cycle (0.4) · add --drift-cycle"),
+        ([EXAMPLE, "--drift-cycle", "--feed-share", "2"],
+         "--feed-share: must be above 0 and at most 1 (2) · write --feed-share 0.5"),
+    ):  # fmt: skip
+        refused = ballscrew("warm-up", *words)
+        assert refused.returncode == 2
+        assert line in refused.stderr.splitlines()
 
 
 def test_stroke_and_length_are_those_of_the_case(case):
@@ -353,3 +377,40 @@ def test_sweep_with_self_heating(ballscrew, tmp_path):
         refused = ballscrew("sweep", "case.toml", "--self-heating", *options)
         assert refused.returncode == 2
         assert line in refused.stderr.splitlines()
+
+
+def test_fit_with_self_heating(ballscrew, tmp_path, case):
+    """Of torques made warm by their own heat the fit finds the coefficient again; without it, it does not."""
+    truth, loaded = 0.15, case(POINT)
+    model = dataclasses.replace(
+        loaded.model, friction=dataclasses.replace(loaded.model.friction, boundary_friction_coefficient=truth)
+    )
+    lines = ["axial load [N],screw speed [rpm],friction torque [N m]"]
+    for force in (2000.0, 4000.0, 8000.0):
+        for rpm in (100, 300, 600, 1000, 1500, 2000):
+            point = {"axial_load": force, "screw_speed": rpm * math.tau / 60}
+            duty = bs.to_and_fro(model, loaded.screw, loaded.lubricant, **point, stroke=0.5)
+            oil = loaded.lubricant.at(bs.steady_heat(duty, loaded.surroundings).oil_temperature)
+            lines.append(f"{force},{rpm},{float(model(loaded.screw, oil, **point).screw_torque):.12g}")
+    (tmp_path / "log.csv").write_text("\n".join(lines), "utf-8")
+    (tmp_path / "case.toml").write_text(POINT, "utf-8")
+    common = ["fit", "log.csv", "--case", "case.toml", "--holdout", "0", "--json"]
+    found, cold = (
+        json.loads(ballscrew(*common, *options).stdout) for options in (["--self-heating"], [])
+    )  # fmt: skip
+    estimate = found["estimates"]["boundary_friction_coefficient"]
+    assert estimate["value"] == pytest.approx(truth, rel=0.01)
+    assert abs(cold["estimates"]["boundary_friction_coefficient"]["value"] / truth - 1) > 0.02
+    assert "in the steady state of the measured torque" in found["assumed"][0]
+    assert "assumed" not in cold
+    (tmp_path / "warm.csv").write_text(
+        "\n".join([lines[0] + ",temperature [degC]", *(f"{line},40" for line in lines[1:])]), "utf-8"
+    )
+    (tmp_path / "drive.csv").write_text("\n".join([lines[0].replace("friction", "drive"), *lines[1:]]), "utf-8")
+    for name, line in (
+        ("warm.csv", "--self-heating: is given beside a log with temperatures · leave it out"),
+        ("drive.csv", "--self-heating: needs a log of friction torque: of a torque that is that of the drive"),
+    ):
+        refused = ballscrew("fit", name, "--case", "case.toml", "--self-heating")
+        assert refused.returncode == 2
+        assert line in refused.stderr

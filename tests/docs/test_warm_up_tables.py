@@ -2,8 +2,10 @@
 
 import math
 
+import numpy as np
 import pytest
 
+import ballscrew as bs
 import warm_up_tables as tables
 
 
@@ -33,6 +35,18 @@ def test_effects_one_after_the_other(rpm):
     assert oil["growth"] < nothing["growth"]
     # without any effect the heat is that of the start
     assert nothing["margin"] == pytest.approx(1.0, abs=1e-9)
+
+
+def test_a_short_stroke_warms_the_shaft_where_it_is():
+    """The rise beyond a stroke of 150 mm, as the page has it."""
+    screw = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=bs.DoubleNut(preload=tables.PRELOAD))
+    oil = bs.Lubricant.from_grade("ISO VG 100", tables.AIR.ambient)
+    speed = 1000 * math.tau / 60
+    duty = bs.to_and_fro(bs.FrictionModel.reference(), screw, oil, axial_load=0.0, screw_speed=speed, stroke=0.15)
+    found = bs.warm_up(duty, tables.AIR, time=3 * 3600.0, outputs=2)
+    rise = found.shaft_temperature[-1] - tables.AIR.ambient
+    shares = np.interp([0.8, 0.9], found.places, rise) / np.max(rise)
+    assert shares == pytest.approx([0.26, 0.10], abs=0.01)
 
 
 def test_bands_hold_the_middle():

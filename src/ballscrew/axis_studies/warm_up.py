@@ -18,6 +18,7 @@ from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
 from ballscrew.components.materials import Lubricant
 from ballscrew.errors import Fault, InputError, raise_if_any
+from ballscrew.motion.profiles import Trapezoid
 from ballscrew.motion.states import Numbers
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Info, Length, Quantity, fields_of
@@ -32,6 +33,8 @@ LONGEST = 8766.0
 SHARE_OF_SHAFT = 0.5
 #: The shaft of an operating point where nothing tells a length, m.
 LENGTH = 1.0
+#: Feed of a drift test as a share of rapid, hours of rest after it, and the acceleration where a motion jumps: choices.
+FEED_SHARE, REST, USUAL_ACCELERATION = 0.5, 1.0, 1.0
 #: Distance of the places of a compensation table, m.
 STEP = 0.05
 _OF, _VISCOSITY = fields_of(Surroundings), fields_of(Lubricant)["viscosity"]
@@ -195,6 +198,29 @@ def option_faults(band: bool, samples: int | None, level: float | None, only_giv
         for name, value in given.items()
         if value is not None and not band
     ]
+
+
+def drift_cycle(case: Case, share: float = FEED_SHARE) -> Case:
+    """The case with a cycle like that of the drift test of ISO 230-3: the full stroke to and fro at a share of rapid.
+
+    The standard could not be read: stroke and rapid are those of the motion of the case, its acceleration the largest,
+    and the share is a choice. Raises :class:`~ballscrew.errors.InputError` without a motion, and for shares that are
+    none.
+    """
+    faults: list[Fault] = []
+    if case.axis is None or case.motion is None:
+        faults.append(Fault("--drift-cycle", "has no motion whose stroke it could take", "", "add [axis] and [motion]"))
+    if not 0 < share <= 1:
+        faults.append(Fault("--feed-share", "must be above 0 and at most 1", f"{share:g}", "write --feed-share 0.5"))
+    raise_if_any(faults)
+    assert case.motion is not None
+    states = case.motion.states()
+    cycle = Trapezoid(
+        stroke=states.stroke,
+        speed=share * float(np.max(np.abs(states.speed))),
+        acceleration=float(np.max(np.abs(states.acceleration))) or USUAL_ACCELERATION,
+    )
+    return dataclasses.replace(case, motion=cycle)
 
 
 def moves(tables: Mapping[str, Any]) -> bool:

@@ -24,7 +24,18 @@ _TABLES, _COMPENSATION, _BANDS, _PICTURE = (
 def warm_up(
     case: CaseFile,
     hours: Annotated[float, typer.Option("--hours", metavar="H", help="Hours of work.")] = 4.0,
-    cool_down: Annotated[float, typer.Option("--cool-down", metavar="H", help="Hours of rest after them.")] = 0.0,
+    cool_down: Annotated[
+        float | None, typer.Option("--cool-down", metavar="H", help="Hours of rest after them, 0.")
+    ] = None,
+    drift_cycle: Annotated[
+        bool,
+        typer.Option(
+            "--drift-cycle", help="A cycle like that of ISO 230-3: full stroke at a share of rapid, an hour of rest."
+        ),
+    ] = False,
+    feed_share: Annotated[
+        float | None, typer.Option("--feed-share", metavar="SHARE", help="With --drift-cycle: feed over rapid, 0.5.")
+    ] = None,
     model: ModelName = None,
     settings: Annotated[
         list[str] | None,
@@ -62,19 +73,24 @@ def warm_up(
     """
     from ballscrew.axis_studies import warm_up as studies
     from ballscrew.documents import warm_up as documents
-    from ballscrew.errors import raise_if_any
+    from ballscrew.errors import Fault, InputError, raise_if_any
     from ballscrew.output.json_text import as_json as json_text
     from ballscrew.text import warm_up as text
 
-    studies.check_hours(hours, cool_down)
+    rest = (studies.REST if drift_cycle else 0.0) if cool_down is None else cool_down
+    studies.check_hours(hours, rest)
+    if feed_share is not None and not drift_cycle:
+        raise InputError(Fault("--feed-share", "needs --drift-cycle", f"{feed_share:g}", "add --drift-cycle"))
     loaded = studies.load(case, settings or [], model, allow_code=allow_code)
+    if drift_cycle:
+        loaded = studies.drift_cycle(loaded, studies.FEED_SHARE if feed_share is None else feed_share)
     raise_if_any(studies.option_faults(band, samples, level, only_given))
     files = [path for place in to or [] for path in _files(place, band)]
     if not band:
-        report, banded = studies.warmed_up(loaded, hours, cool_down), None
+        report, banded = studies.warmed_up(loaded, hours, rest), None
         typer.echo(json_text(documents.document(report)) if as_json else text.text(report))
     else:
-        banded = _banded(loaded, hours, cool_down, samples, level, only_given)
+        banded = _banded(loaded, hours, rest, samples, level, only_given)
         report = banded.report
         written = (
             json_text(documents.with_band(banded)) if as_json else f"{text.text(report)}\n{text.band_text(banded)}"

@@ -23,6 +23,8 @@ from ballscrew.thermal.network import FrictionFactor, Network
 PER_NUT, PER_TIME = 8.0, 30.0
 #: Temperatures in all steps that are kept for the next of the same slot and length.
 _KEPT = 2_000_000
+#: A share of a doubling or of a step that is rounding.
+_ROUNDING = 1e-9
 _AS_IT_IS = FrictionFactor((0.0, 1.0), (1.0, 1.0))
 
 
@@ -116,10 +118,9 @@ def marched(
         if first and friction is not None:
             power = friction(modes)
         first = False
-        longest = max(shortest, (begins - since) / PER_TIME) if grows else shortest
-        count = 1 if friction is None else max(1, int(np.ceil(length / longest)))
-        for _ in range(count):
-            key = at, float(f"{length / count:.12g}")
+        steps = [length] if friction is None else _steps(begins - since, length, shortest, grows=grows)
+        for step in steps:
+            key = at, float(f"{step:.12g}")
             if key not in kept:
                 if len(kept) * modes.size >= _KEPT:
                     kept.clear()
@@ -128,6 +129,17 @@ def marched(
             generated, lost = generated + made, lost + gone
         if shown:
             yield State(slots[at].modes.temperatures(modes), generated, lost)
+
+
+def _steps(begins: Duration, length: Duration, shortest: Duration, *, grows: bool) -> Iterator[Duration]:
+    """Lengths of the steps in a time; where they grow, they double as the time does, so that few differ."""
+    now, end = begins, begins + length
+    while now < end:
+        doublings = int(np.floor(np.log2(max(now / (PER_TIME * shortest), 1.0)) + _ROUNDING)) if grows else 0
+        until = min(end, PER_TIME * shortest * 2.0 ** (doublings + 1)) if grows else end
+        count = max(1, int(np.ceil((until - now) / (shortest * 2.0**doublings) - _ROUNDING)))
+        yield from [(until - now) / count] * count
+        now = until
 
 
 def _nut_time(network: Network) -> Duration:
