@@ -120,7 +120,14 @@ def test_operations_compiled(tmp_path):
     source = tmp_path / "operations.c"
     head = "#include <math.h>\nvoid evaluate(const double *x, double *outputs);\n"
     source.write_text(
-        "\n".join([head, *made.texts, f"void evaluate(const double *x, double *outputs)\n{{\n{body}}}\n"])
+        "\n".join(
+            [
+                head,
+                *c_source.own_functions(made.texts),
+                *made.texts,
+                f"void evaluate(const double *x, double *outputs)\n{{\n{body}}}\n",
+            ]
+        )
     )
     found = evaluated(library(tmp_path, source).evaluate, POINTS, len(made.results))
     for (name, values), column in zip(_in_order(by_numpy(program), made.results).items(), found.T, strict=True):
