@@ -7,6 +7,7 @@ import functools
 import platform
 import sys
 import weakref
+from collections.abc import Mapping
 from importlib import resources
 
 import numpy as np
@@ -17,11 +18,21 @@ from ballscrew.exports.subject import HandOver
 from ballscrew.exports.worst_error import Values, WorstError, worst_errors
 
 #: Sources of the interpreter, package data.
-SOURCES = ("ballscrew_program.c", "ballscrew_program.h")
+SOURCES = ("ballscrew_program.c", "ballscrew_list.c", "ballscrew_loads.c")
+HEADERS = ("ballscrew_program.h", "ballscrew_list.h", "ballscrew_loads.h")
 #: The prebuilt library for Linux on x86-64.
 LINUX64 = "linux64/ballscrew.so"
-#: Points at which an interpreted program is compared with the model.
-POINTS = 500
+#: Prebuilt libraries by platform, and the names that FMI 2 and FMI 3 have for it. All but the first were cross-compiled
+#: and never run.
+LIBRARIES: Mapping[str, tuple[str, str]] = {
+    LINUX64: ("linux64", "x86_64-linux"),
+    "win64/ballscrew.dll": ("win64", "x86_64-windows"),
+    "darwin64/ballscrew.dylib": ("darwin64", "x86_64-darwin"),
+    "aarch64-linux/ballscrew.so": ("", "aarch64-linux"),
+    "aarch64-darwin/ballscrew.dylib": ("", "aarch64-darwin"),
+}
+#: Points at which an interpreted program is compared with the model; with elastic bodies each takes milliseconds.
+POINTS, POINTS_OF_ELASTIC_BODIES = 500, 50
 
 
 def data(name: str) -> bytes:
@@ -34,7 +45,8 @@ def errors_of_program(handed: HandOver) -> tuple[WorstError, ...]:
     if not runs_here():
         return ()
     program = Interpreted(program_file(handed))
-    return worst_errors(handed, program.at, points=handed.sample(POINTS))
+    count = POINTS_OF_ELASTIC_BODIES if handed.has_elastic_bodies else POINTS
+    return worst_errors(handed, program.at, points=handed.sample(count))
 
 
 def runs_here() -> bool:
