@@ -55,8 +55,15 @@ def test_the_joint_is_as_far_off_as_it_says(handed):
     assert abs(float(joint.torque(speed) / true) - 1) == pytest.approx(worst.relative, rel=1e-9)
     assert worst.relative < 0.02
     assert errors.over_loads.relative > 5 * worst.relative
-    assert f"{100 * worst.relative:.2g} %" in errors.warnings(joint)[0].text
-    assert len(errors.warnings(joint)) == 1
+    (warning,) = errors.warnings(joint)
+    assert f"{100 * worst.relative:.2g} % off the model at 1 kN" in warning.text
+    assert f"{errors.over_loads.value:.2g} N m off at" in warning.text
+
+
+def test_without_a_load_no_range_around_it_is_named(handed):
+    idle = dataclasses.replace(handed, options={**handed.options, "load": 0.0})
+    errors = joint_friction.joint_errors(idle, joint_friction.joint_friction(idle, 1))
+    assert "off the model at 0 kN, and" in errors.text
 
 
 def test_of_a_slide_it_is_the_same_power(handed):

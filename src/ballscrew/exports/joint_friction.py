@@ -39,8 +39,9 @@ JOINT_OPTIONS: Mapping[str, Option] = {
 }
 #: Speeds of the fit in each direction, spread by ratios.
 SPEEDS = 60
-#: Speeds at which the error is measured in each direction: not those of the fit.
-MEASURED = 499
+#: Speeds at which the error is measured in each direction: not those of the fit. Fewer, and fewer loads, where each
+#: ball is solved by itself.
+MEASURED, FEWER, FEWER_LOADS = 499, 49, 300
 #: The damping is kept from driving up to so many times the highest speed.
 BEYOND = 1e4
 #: Loads of the table of errors, as shares of the load of the fit.
@@ -216,14 +217,13 @@ class JointErrors(NamedTuple):
     @property
     def text(self) -> str:
         """The errors in words."""
-        load, twice, worst = (
-            units.shown(one.relative_at[OPERATION[0]], LOAD)
-            for one in (self.at_load, self.by_load[-1], self.over_loads)
-        )
-        near = max(one.relative for one in self.by_load)
+        load, half, twice = (units.shown(one.at[OPERATION[0]], LOAD) for one in (self.at_load, *self.by_load[1::3]))
+        near = max(one.relative for one in self.by_load[1:])
+        around = f"{_percent(near)} from {half} to {twice}, " if half != twice else ""
+        worst = units.shown(self.over_loads.at[OPERATION[0]], LOAD)
         return (
-            f"The friction of the joint knows no load: it is at most {100 * self.at_load.relative:.2g} % off the model "
-            f"at {load}, {100 * near:.2g} % from none to {twice}, and {100 * self.over_loads.relative:.2g} % at {worst}"
+            f"The friction of the joint knows no load: it is at most {_percent(self.at_load.relative)} off the model "
+            f"at {load}, {around}and {self.over_loads.value:.2g} N m off at {worst}"
         )
 
     def warnings(self, joint: JointFriction) -> list[Record]:
@@ -235,7 +235,8 @@ class JointErrors(NamedTuple):
                 text=f"{self.text}; beyond its range, and below the lowest speed of the fit, it goes on as fitted",
                 severity="warning",
                 holds=False,
-                value=self.over_loads.relative,
+                value=self.over_loads.value,
+                unit=self.over_loads.unit,
             )
         ]
         if joint.share_valid < 1:
@@ -255,12 +256,17 @@ class JointErrors(NamedTuple):
         return found
 
 
+def _percent(share: float) -> str:
+    return f"{100 * share:.2g} %" if share < 1 else f"{100 * share:.0f} %"
+
+
 def joint_errors(handed: HandOver, joint: JointFriction) -> JointErrors:
     """The errors of a joint that knows no load, all else as in the case."""
-    points = handed.sample()
+    quick = handed.is_recordable
+    points = handed.sample() if quick else handed.sample(FEWER_LOADS)
     speed = points[OPERATION[1]]
     moving = np.copysign(np.clip(np.abs(speed), *joint.speeds), speed)
-    both = _both_ways(handed, np.geomspace(*joint.speeds, MEASURED))
+    both = _both_ways(handed, np.geomspace(*joint.speeds, MEASURED if quick else FEWER))
     by_load = tuple(_error(handed, joint, np.full(both.size, share * joint.load), both) for share in SHARES)
     return JointErrors(by_load[SHARES.index(1.0)], _error(handed, joint, points[OPERATION[0]], moving), by_load)
 

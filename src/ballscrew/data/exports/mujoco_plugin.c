@@ -31,13 +31,14 @@
 #define LEAD @LEAD@ /* m a turn */
 #define INERTIA @INERTIA@ /* kg m2 */
 enum { LOAD, FRICTION, ACCELERATING, HOLDS, SENSED }; /* of the sensor */
+enum { TWIST, LAST_LOAD, STATES };                    /* of the spring, rad; in the step before, N */
 
 /* Those of the model, and "inertia" at the end; filled when the library is loaded. */
 static const char *attributes[BALLSCREW_INPUT_COUNT + 1];
 
 static const double two_pi = 6.283185307179586;
 static const double steps_of_the_spring = 5.0; /* radians of its swing: one step is a fifth of a radian */
-static const double close_enough = 1e-12;      /* of the load */
+static const double close_enough = 1e-10;      /* of the load */
 enum { MOST_TURNS = 40 };
 
 typedef struct {
@@ -105,7 +106,7 @@ static void copy(mjData *to, const mjModel *m, const mjData *from, int instance)
   *screw_of(to, instance) = *screw_of(from, instance);
 }
 
-static int state_size(const mjModel *m, int instance) { return (void)m, (void)instance, 1; } /* twist, rad */
+static int state_size(const mjModel *m, int instance) { return (void)m, (void)instance, STATES; }
 
 static int sensor_size(const mjModel *m, int instance, int sensor) {
   return (void)m, (void)instance, (void)sensor, SENSED;
@@ -113,7 +114,7 @@ static int sensor_size(const mjModel *m, int instance, int sensor) {
 
 static void reset(const mjModel *m, mjtNum *state, void *data, int instance) {
   (void)m, (void)data, (void)instance;
-  state[0] = 0;
+  state[TWIST] = state[LAST_LOAD] = 0;
 }
 
 /* The friction of the model under a load. */
@@ -138,11 +139,12 @@ static void act(const mjModel *m, mjData *d, int instance) {
   double swings = m->dof_M0[s->dof] / (s->gear * s->gear); /* inertia of all that moves, at the shaft */
   double time = steps_of_the_spring * m->opt.timestep;
   s->stiffness = swings / (time * time);
-  double holding = s->stiffness * d->plugin_state[m->plugin_stateadr[instance]] + 2 * swings / time * speed;
+  const mjtNum *state = d->plugin_state + m->plugin_stateadr[instance];
+  double holding = s->stiffness * state[TWIST] + 2 * swings / time * speed;
 
-  /* the root of what the shaft passes on at an assumed load, less that load: a secant */
+  /* the root of what the shaft passes on at an assumed load, less that load: a secant, from the load of the last step */
   double arm = two_pi / LEAD, passed = arm * (torque - accelerating), scale = fabs(passed);
-  double load = passed, friction = 0, before = 0, missed_before = 0;
+  double load = state[LAST_LOAD], friction = 0, before = 0, missed_before = 0;
   int found = 0;
   for (int turn = 0; turn < MOST_TURNS && !found; turn++) {
     s->limit = model(s, load, copysign(speed, holding));
@@ -172,8 +174,10 @@ static void compute(const mjModel *m, mjData *d, int instance, int capability) {
 /* After the velocities of a step: the spring is twisted by the turn, and slips. */
 static void advance(const mjModel *m, mjData *d, int instance) {
   const Screw *s = screw_of(d, instance);
-  mjtNum *twist = d->plugin_state + m->plugin_stateadr[instance];
-  *twist = clamped(*twist + s->gear * d->qvel[s->dof] * m->opt.timestep, s->limit / s->stiffness);
+  mjtNum *state = d->plugin_state + m->plugin_stateadr[instance];
+  double twist = state[TWIST] + s->gear * d->qvel[s->dof] * m->opt.timestep;
+  state[TWIST] = clamped(twist, s->limit / s->stiffness);
+  state[LAST_LOAD] = s->sensed[LOAD];
 }
 
 mjPLUGIN_LIB_INIT(ballscrew) {
