@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import logging
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -22,6 +23,7 @@ from ballscrew.records import Record
 from ballscrew.table_exports.nodes import chord_errors, nodes_within
 
 Floats = NDArray[np.float64]
+_log = logging.getLogger(__name__)
 
 #: Choices of every target that is a table.
 OPTIONS: Mapping[str, Option] = {
@@ -142,6 +144,7 @@ def friction_table(handed: HandOver) -> FrictionTable:
         for name, values in found.items():
             _check_finite(name, axes, values)
         error = _measured(evaluate, axes, found[INTERPOLATED[0]])
+        _log.info("a table of %s nodes is off by up to %.2g of the friction", valid.shape, error)
         if best is not None and error > _WORTH * best.error:
             break
         best = FrictionTable(axes, found, valid, fixed, error)
