@@ -1,7 +1,10 @@
 """The C source against the model in Python: every operation, presets, laws, nuts, and what is beyond the range."""
 
 import dataclasses
+import hashlib
+import json
 import subprocess
+from importlib import resources
 
 import numpy as np
 import pytest
@@ -208,7 +211,7 @@ def test_every_law_interpreted_is_the_model(handed_over, slot):
 
 @needs_the_library
 def test_at_rest_and_without_load_there_are_numbers(handed_over):
-    handed = handed_over(bs.FrictionModel.corrected(), NUTS["double"])
+    handed = handed_over(bs.FrictionModel.olaru2005(), NUTS["double"])
     at = interpreter.Interpreted(program_file.program_file(handed)).at
     points = {"axial_load": [0.0, 0.0, 500.0, -500.0], "screw_speed": [0.0, 20.0, 0.0, 0.0]}
     points = {n: np.array(v) for n, v in points.items()} | {
@@ -224,7 +227,7 @@ def test_at_rest_and_without_load_there_are_numbers(handed_over):
 @needs_the_library
 def test_beyond_the_range_the_nearest_value_counts(handed_over):
     handed = handed_over(
-        bs.FrictionModel.corrected(),
+        bs.FrictionModel.olaru2005(),
         NUTS["double"],
         ranges={"axial_load": (-2000.0, 2000.0)},
         derivatives=["screw_speed"],
@@ -255,6 +258,9 @@ def test_derivatives_are_the_slope(handed_over):
 def test_the_example_passes_its_test_vector(ballscrew, example, tmp_path):
     done = ballscrew("hand-over", example, "--to", "c", "-o", "made", "--json")
     assert done.returncode == 0, done.stderr
+    results = json.loads(done.stdout)["results"]
+    assert results["worst_error"]["screw_torque"]["relative"] <= ROUNDING or not interpreter.runs_here()
+    assert results["valid_range"].keys() == {"axial_load", "screw_speed", "temperature"}
     folder = tmp_path / "made"
     assert {path.name for path in folder.iterdir()} == {
         "ballscrew.c", "ballscrew.h", "main.c", "test_vector.csv", "README.txt",
@@ -282,9 +288,6 @@ def test_the_header_can_be_included_in_cpp(handed_over, tmp_path):
 
 
 def test_the_prebuilt_library_is_of_these_sources():
-    import hashlib
-    from importlib import resources
-
     folder = resources.files("ballscrew").joinpath("data", "exports")
     sources = sorted(p.name for p in folder.iterdir() if p.name.endswith(".c"))
     sources += sorted(p.name for p in folder.iterdir() if p.name.endswith(".h"))

@@ -12,6 +12,8 @@ import ballscrew as bs
 from ballscrew.exports import fmu, interpreter
 from ballscrew.exports.program_file import program_file
 
+from .compiled import library, needs_a_compiler
+
 pytestmark = pytest.mark.skipif(not interpreter.runs_here(), reason="the prebuilt library is for Linux on x86-64")
 BOUNDARY = "friction.boundary_friction_coefficient"
 POINTS = 201
@@ -20,7 +22,7 @@ TORQUES = ("screw_torque", "ideal_torque", "holding_torque", "friction_power")
 
 @pytest.fixture(scope="module")
 def handed(handed_over):
-    return handed_over(bs.FrictionModel.corrected(), bs.DoubleNut(preload=900.0), parameters=[BOUNDARY])
+    return handed_over(bs.FrictionModel.olaru2005(), bs.DoubleNut(preload=900.0), parameters=[BOUNDARY])
 
 
 @pytest.fixture(scope="module", params=[2, 3])
@@ -133,6 +135,17 @@ def test_what_is_in_it(file, version):
     assert "holds nothing" in listed["regularisation_speed"].get("description")
 
 
+@needs_a_compiler
+def test_its_sources_make_its_library(file, version, tmp_path):
+    """Those that the description names, and nothing else."""
+    with zipfile.ZipFile(file) as archive:
+        archive.extractall(tmp_path)
+    where = {2: ("modelDescription.xml", "File"), 3: ("sources/buildDescription.xml", "SourceFile")}[version]
+    named = [one.get("name") for one in ElementTree.parse(tmp_path / where[0]).iter(where[1])]
+    made = library(tmp_path, *(tmp_path / "sources" / name for name in dict.fromkeys(named)))
+    assert getattr(made, f"fmi{version}DoStep")
+
+
 def test_the_same_model_makes_the_same_bytes(handed):
     first, other = (bs.hand_over(*parts(handed), to="fmu").files["ballscrew.fmu"] for _ in range(2))
     assert first == other
@@ -163,21 +176,21 @@ def test_resources_are_found_by_path_and_by_uri(handed, tmp_path, form):
     folder = tmp_path / "a b%20c" / "resources"
     folder.mkdir(parents=True)
     (folder / "program.bin").write_bytes(program_file(handed))
-    library = interpreter.library()
-    library.fmi2Instantiate.restype = ctypes.c_void_p
-    library.fmi2Instantiate.argtypes = [
+    prebuilt = interpreter.library()
+    prebuilt.fmi2Instantiate.restype = ctypes.c_void_p
+    prebuilt.fmi2Instantiate.argtypes = [
         ctypes.c_char_p,
         ctypes.c_int,
         *[ctypes.c_char_p] * 2,
         *[ctypes.c_void_p],
         *[ctypes.c_int] * 2,
     ]
-    library.fmi2FreeInstance.argtypes = [ctypes.c_void_p]
+    prebuilt.fmi2FreeInstance.argtypes = [ctypes.c_void_p]
 
     def instance(place):
-        return library.fmi2Instantiate(b"screw", 1, b"", place.encode(), None, 0, 0)
+        return prebuilt.fmi2Instantiate(b"screw", 1, b"", place.encode(), None, 0, 0)
 
     found = instance(form.format(plain=folder, quoted=quote(str(folder))))
     assert found
-    library.fmi2FreeInstance(found)
+    prebuilt.fmi2FreeInstance(found)
     assert not instance(form.format(plain=tmp_path, quoted=quote(str(tmp_path))))

@@ -1,5 +1,7 @@
 """The frame of exports: targets, requests, ranges, files."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -91,10 +93,13 @@ def test_faults_name_field_and_remedy(handed, change, expected):
     assert str(fault.value).startswith(expected)
 
 
-def test_balls_that_differ_are_refused_with_a_remedy(handed):
-    screw = bs.BallScrew(**{**vars_of(handed.subject.screw), "nut": bs.DoubleNut(preload=900.0, bodies=bs.Bodies())})
+def test_a_law_that_cannot_be_recorded_is_refused_with_a_remedy(handed):
+    def of_a_table(conditions):
+        return np.interp(conditions.film_parameter, [0.0, 1.0, 3.0], [0.12, 0.06, 0.01])
+
+    model = dataclasses.replace(handed.subject.model, friction=of_a_table)
     with pytest.raises(bs.InputError, match=r"hand_over\.to: needs a model that can be recorded.*--to table"):
-        bs.hand_over(handed.subject.model, screw, OIL, to="c")
+        bs.hand_over(model, handed.subject.screw, OIL, to="c")
 
 
 def test_nothing_is_written_where_a_place_is_taken(tmp_path):

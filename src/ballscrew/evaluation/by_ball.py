@@ -82,7 +82,7 @@ class ByBall:
         self.engine: Engine = engine
         self.reason = reason
         self.names = names
-        self._stages, self._cut = made_of.once("stages", lambda: _stages(made_of.program, names))
+        self._stages, self._cut = made_of.once("stages", lambda: stages_by_ball(made_of.program, names))
         self._program = made_of.program
         self._before = None if engine == "compiled" else self._cut.points.interpreter.with_own_buffers()
         self._of_points = self._cut.columns.interpreter.with_own_buffers()
@@ -195,7 +195,7 @@ def by_ball(
         if made_of is None:
             # a law from outside may ask for the grade of the oil
             subject = plan.subject if key is None else _without_grade(plan.subject)
-            program = _recorded(subject, wanted, names)
+            program = recorded_by_ball(subject, wanted, names)
             made_of = Recording(program) if key is None else _structures.add(key, program)
         return _by_an_engine(plan, engine, names, made_of, asked)
     except CannotRecordError as error:
@@ -205,7 +205,7 @@ def by_ball(
 def _by_an_engine(
     plan: Plan, engine: Engine | None, names: tuple[str, ...], made_of: Recording, asked: int
 ) -> ByBall | str:
-    stages, cut = made_of.once("stages", lambda: _stages(made_of.program, names))
+    stages, cut = made_of.once("stages", lambda: stages_by_ball(made_of.program, names))
     why = why_numpy(engine)
     try:
         if engine != "numpy" and kernels.available():
@@ -265,7 +265,7 @@ def _recorded_outputs(plan: Plan) -> Mapping[str, Output]:
     return usual if usual.keys() >= set(plan.outputs) else plan.wanted
 
 
-def _recorded(subject: Configuration, wanted: Mapping[str, Output], names: Sequence[str]) -> Program:
+def recorded_by_ball(subject: Configuration, wanted: Mapping[str, Output], names: Sequence[str]) -> Program:
     """The outputs wanted as a program of all inputs, the results of the solver for the nut, and those for each ball."""
     groups = [COLUMNS] * (len(names) + len(OF_LOADS)) + [ROWS | COLUMNS] * len(OF_BALLS)
     nonnegative = [subject.is_nonnegative(name) for name in names] + [False] * len(OF_LOADS) + [True] * len(OF_BALLS)
@@ -280,7 +280,8 @@ def _recorded(subject: Configuration, wanted: Mapping[str, Output], names: Seque
         return merged_program(tape, {name: output.read(result) for name, output in wanted.items()})
 
 
-def _stages(program: Program, names: Sequence[str]) -> tuple[Stages, Split]:
+def stages_by_ball(program: Program, names: Sequence[str]) -> tuple[Stages, Split]:
+    """Such a program cut at its reductions, and its first part cut along points and balls."""
     groups = [COLUMNS] * (len(names) + len(OF_LOADS)) + [ROWS | COLUMNS] * len(OF_BALLS)
     stages = cut_at_reductions(program, groups)
     return stages, split(stages.before, groups)

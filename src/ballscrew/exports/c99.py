@@ -7,12 +7,14 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ballscrew.exports import c_source
-from ballscrew.exports.c_source import number
+from ballscrew.exports import c_source, c_two_levels
+from ballscrew.exports.c_source import Body, number
 from ballscrew.exports.export import Export
 from ballscrew.exports.interpreter import errors_of_program
 from ballscrew.exports.readme import readme
 from ballscrew.exports.subject import HandOver
+from ballscrew.exports.two_levels import two_levels
+from ballscrew.tracing.program import Program
 
 #: Points of the test vector.
 TEST_POINTS = 100
@@ -74,7 +76,6 @@ const double ballscrew_greatest[] = {{{greatest}}};
 void ballscrew_evaluate(const double *inputs, double *outputs)
 {{
     double x[BALLSCREW_INPUT_COUNT];
-    double v[{room}];
     int inside = 1;
     int i;
     for (i = 0; i < BALLSCREW_INPUT_COUNT; i++) {{
@@ -82,7 +83,7 @@ void ballscrew_evaluate(const double *inputs, double *outputs)
         inside = inside && given >= least && given <= greatest;
         x[i] = given < least ? least : given > greatest ? greatest : given;
     }}
-{calls}
+{statements}
 {results}
 }}
 """
@@ -186,9 +187,9 @@ def header(handed: HandOver) -> str:
 
 def source(handed: HandOver) -> str:
     """The source."""
-    made = c_source.functions(handed.program)
+    body = c_two_levels.body(two_levels(handed)) if handed.has_elastic_bodies else _body(handed.program)
     limits = handed.formula_range
-    results = {**made.results, "valid": f"inside && {made.results['valid']} != 0.0"}
+    results = {**body.results, "valid": f"inside && {body.results['valid']} != 0.0"}
     return _SOURCE.format(
         title=title(handed),
         version=handed.provenance["version"],
@@ -197,11 +198,15 @@ def source(handed: HandOver) -> str:
         usual=_numbers([one.value for one in handed.inputs]),
         least=_numbers([limits[name][0] for name in handed.input_names]),
         greatest=_numbers([limits[name][1] for name in handed.input_names]),
-        functions="\n\n".join(made.texts),
-        room=made.room,
-        calls="\n".join(f"    {call}" for call in made.calls),
+        functions="\n\n".join([*c_source.own_functions(body.texts), *body.texts]),
+        statements="\n".join(f"    {line}" for line in body.statements),
         results="\n".join(f"    outputs[{k}] = {results[name]};" for k, name in enumerate(handed.output_names)),
     )
+
+
+def _body(program: Program) -> Body:
+    made = c_source.functions(program)
+    return Body(made.texts, (f"double v[{made.room}];", *made.calls), made.results)
 
 
 def _example(handed: HandOver) -> str:

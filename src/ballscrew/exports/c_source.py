@@ -56,19 +56,30 @@ def number(value: float) -> str:
 
 
 class Functions(NamedTuple):
-    """A program as functions of C, which read the inputs ``x``, and read and write the array ``v``."""
+    """A program as functions of C, which read an array of inputs, and read and write one of work space."""
 
     texts: tuple[str, ...]
     #: Statements that call them, in order.
     calls: tuple[str, ...]
     #: The expression of each output after the calls.
     results: Mapping[str, str]
-    #: Numbers in the array ``v``.
+    #: Numbers in the work space.
     room: int
 
 
-def functions(program: Program) -> Functions:
-    """A program as functions of C. Raises :class:`~ballscrew.errors.InputError` for an operation that C lacks."""
+class Body(NamedTuple):
+    """The evaluation of a model in C, between its inputs ``x`` and its outputs: functions, statements, results."""
+
+    texts: tuple[str, ...]
+    statements: tuple[str, ...]
+    results: Mapping[str, str]
+
+
+def functions(program: Program, name: str = "part", inputs: str = "x", room: str = "v") -> Functions:
+    """A program as functions of C, with the names of its functions and of the arrays that they are called with.
+
+    Raises :class:`~ballscrew.errors.InputError` for an operation that C lacks.
+    """
     steps = program.steps
     parts = [steps[i : i + STEPS_OF_A_FUNCTION] for i in range(0, len(steps), STEPS_OF_A_FUNCTION)]
     part_of = {i: k for k, part in enumerate(parts) for i, _ in part}
@@ -77,14 +88,18 @@ def functions(program: Program) -> Functions:
     texts: list[str] = []
     for k, part in enumerate(parts):
         lines = _lines(part, part_of, k, places, masks)
-        lines = [f"(void){name};" for name in "xv" if not any(f"{name}[" in line for line in lines)] + lines
-        head = f"static void part_{k}(const double *x, double *v)"
+        lines = [f"(void){each};" for each in "xv" if not any(f"{each}[" in line for line in lines)] + lines
+        head = f"static void {name}_{k}(const double *x, double *v)"
         texts.append("\n".join([head, "{", *(f"    {line}" for line in lines), "}"]))
-    own = [text for word, text in _OWN.items() if any(f"{word}(" in part for part in texts)]
-    results = {n: f"v[{places[i]}]" if i in part_of else f"x[{i}]" for n, i in program.outputs.items()}
+    results = {n: f"{room}[{places[i]}]" if i in part_of else f"{inputs}[{i}]" for n, i in program.outputs.items()}
     results |= {n: number(float(value)) for n, value in program.constants.items()}
-    calls = tuple(f"part_{k}(x, v);" for k in range(len(parts)))
-    return Functions((*own, *texts), calls, results, max(places.values(), default=0) + 1)
+    calls = tuple(f"{name}_{k}({inputs}, {room});" for k in range(len(parts)))
+    return Functions(tuple(texts), calls, results, max(places.values(), default=0) + 1)
+
+
+def own_functions(texts: Sequence[str]) -> list[str]:
+    """The functions that these texts call and the C library lacks."""
+    return [text for word, text in _OWN.items() if any(f"{word}(" in part for part in texts)]
 
 
 def _last_uses(program: Program, part_of: Mapping[int, int], end: int) -> dict[int, int]:

@@ -32,8 +32,8 @@ REGULARISATION_SPEED = 0.01
 #: The name of the model in an FMU, of its library and of its file.
 IDENTIFIER = "ballscrew"
 OPTIONS: Mapping[str, Option] = {"version": Option(2, "version of the standard, 2 or 3")}
-_SOURCES = ("ballscrew_program.c", "fmi_model.c")
-_HEADERS = ("ballscrew_program.h", "fmi_model.h")
+_SOURCES = (*interpreter.SOURCES, "fmi_model.c")
+_HEADERS = (*interpreter.HEADERS, "fmi_model.h")
 #: The exponents of the base units, as FMI writes units.
 _BASE_UNITS: Mapping[str, Mapping[str, int]] = {
     "N": {"kg": 1, "m": 1, "s": -2},
@@ -115,8 +115,8 @@ screw_torque is the size of the friction. friction_torque is tanh(screw_speed / 
 drive_torque is ideal_torque + friction_torque: from twenty times the regularisation speed on those of the model to the
 last digit. regularisation_speed = 0 takes the sign of the speed.
 
-The library for Linux on x86-64 was run; other platforms need the sources compiled: fmi2.c (or fmi3.c), fmi_model.c and
-ballscrew_program.c, with the C library and libm. It needs no Python, and one thread for each instance.
+The library for Linux on x86-64 was run; other platforms need the sources compiled: all files
+of the folder sources, with the C library and libm. It needs no Python, and one thread for each instance.
 """
 
 

@@ -26,8 +26,8 @@ SPEEDS = (-300.0, 300.0)
 TEMPERATURES = (283.15, 353.15)
 #: Preload and parameters of tables and fits, as shares of their value in the case.
 SHARES = (0.5, 1.5)
-#: Loads among which the largest is looked for, N.
-_LOADS = np.geomspace(1.0, 1e7, 141)
+#: Loads among which the largest is looked for, N, and how many more between two of them.
+_LOADS, _BETWEEN = np.geomspace(1.0, 1e7, 15), 16
 
 
 @accepts_units("hand_over")
@@ -181,10 +181,14 @@ def _checked(name: str, quantity: Quantity, asked: tuple[float, float]) -> tuple
 
 def _largest_load(subject: Configuration) -> float:
     """The largest load at which no contact yields, to two digits and downwards."""
-    with np.errstate(all="ignore"):
-        found = subject.at({OPERATION[0]: _LOADS, OPERATION[1]: np.full_like(_LOADS, 10.0)})
-    pressure = np.asarray(found.maximum_pressure, dtype=float)
-    holds = np.isfinite(pressure) & (pressure <= LARGEST_PRESSURE)
-    largest = float(_LOADS[holds][-1]) if np.any(holds) else float(_LOADS[-1])
+    loads = _LOADS
+    for _ in range(2):
+        with np.errstate(all="ignore"):
+            found = subject.at({OPERATION[0]: loads, OPERATION[1]: np.full_like(loads, 10.0)})
+        pressure = np.asarray(found.maximum_pressure, dtype=float)
+        holds = np.isfinite(pressure) & (pressure <= LARGEST_PRESSURE)
+        largest = float(loads[holds][-1]) if np.any(holds) else float(loads[-1])
+        following = loads[loads > largest]
+        loads = np.geomspace(largest, following[0] if following.size else largest, _BETWEEN)
     digit = 10.0 ** (np.floor(np.log10(largest)) - 1)
     return float(np.floor(largest / digit) * digit)

@@ -17,11 +17,12 @@ from ballscrew.exports.subject import HandOver
 from ballscrew.exports.worst_error import Values, WorstError, worst_errors
 
 #: Sources of the interpreter, package data.
-SOURCES = ("ballscrew_program.c", "ballscrew_program.h")
+SOURCES = ("ballscrew_program.c", "ballscrew_list.c", "ballscrew_loads.c")
+HEADERS = ("ballscrew_program.h", "ballscrew_list.h", "ballscrew_loads.h")
 #: The prebuilt library for Linux on x86-64.
 LINUX64 = "linux64/ballscrew.so"
-#: Points at which an interpreted program is compared with the model.
-POINTS = 500
+#: Points at which an interpreted program is compared with the model; with elastic bodies each takes milliseconds.
+POINTS, POINTS_OF_ELASTIC_BODIES = 500, 50
 
 
 def data(name: str) -> bytes:
@@ -34,7 +35,8 @@ def errors_of_program(handed: HandOver) -> tuple[WorstError, ...]:
     if not runs_here():
         return ()
     program = Interpreted(program_file(handed))
-    return worst_errors(handed, program.at, points=handed.sample(POINTS))
+    count = POINTS_OF_ELASTIC_BODIES if handed.has_elastic_bodies else POINTS
+    return worst_errors(handed, program.at, points=handed.sample(count))
 
 
 def runs_here() -> bool:

@@ -11,7 +11,7 @@ from ballscrew.exports.subject import HandOver
 _NOTES = """\
 program.bin is the model; ballscrew_program.c, strict C99 with libm only, reads and runs it, and states its format. The
 library linux64/ballscrew.so, prebuilt for Linux on x86-64, has the functions of ballscrew_program.h; elsewhere:
-  cc -std=c99 -O2 -shared -fPIC ballscrew_program.c -o ballscrew.so -lm
+  cc -std=c99 -O2 -shared -fPIC *.c -o ballscrew.so -lm
 Any program that calls functions of C can call it; one that reads it with Python's ctypes:
   import ctypes
   library = ctypes.CDLL("linux64/ballscrew.so")
@@ -33,7 +33,7 @@ def export(handed: HandOver) -> Export:
     )
     files = {
         "program.bin": program_file(handed),
-        **{name: interpreter.data(name) for name in (*interpreter.SOURCES, interpreter.LINUX64)},
+        **{name: interpreter.data(name) for name in (*interpreter.SOURCES, *interpreter.HEADERS, interpreter.LINUX64)},
         "README.txt": readme(handed, "Program for an interpreter", notes, errors).encode(),
     }
     return Export.of(handed, "program", files, valid_range=handed.formula_range, worst_error=errors)

@@ -10,6 +10,7 @@ import numpy as np
 
 from ballscrew.errors import Fault, InputError
 from ballscrew.exports.subject import HandOver
+from ballscrew.exports.two_levels import TwoLevels, two_levels
 from ballscrew.tracing.program import Program
 from ballscrew.tracing.steps import choose
 
@@ -23,7 +24,8 @@ OPERATIONS: Mapping[Any, int] = {
     np.arctan2: 31, np.sinh: 32, np.cosh: 33, np.tanh: 34, np.arcsinh: 35, np.expm1: 36, np.log1p: 37, np.floor: 38,
     np.ceil: 39, np.cbrt: 40, np.hypot: 41, np.remainder: 42,
 }  # fmt: skip
-_MAGIC = b"BSCREW01"
+_MAGIC = b"BSCREW02"
+_REDUCTIONS: Mapping[Any, int] = {np.sum: 0, np.max: 1, np.argmax: 2, np.take_along_axis: 3}
 #: Most places, as each has two bytes.
 _MOST_PLACES = 2**16
 
@@ -36,28 +38,60 @@ def program_file(handed: HandOver) -> bytes:
     """
     limits = handed.formula_range
     inputs = {one.name: (one.value, *limits[one.name]) for one in handed.inputs}
-    return file_of(handed.program, inputs, handed.output_names)
+    model = two_levels(handed) if handed.has_elastic_bodies else handed.program
+    return file_of(model, inputs, handed.output_names)
 
 
-def file_of(program: Program, inputs: Mapping[str, tuple[float, float, float]], outputs: Sequence[str]) -> bytes:
-    """A program as the bytes of a file: each input with its usual, least and greatest value; ``valid`` is last."""
+def file_of(
+    model: Program | TwoLevels, inputs: Mapping[str, tuple[float, float, float]], outputs: Sequence[str]
+) -> bytes:
+    """A model as the bytes of a file: each input with its usual, least and greatest value; ``valid`` is last."""
+    names = b"".join(name.encode() + b"\0" for name in (*inputs, *outputs))
+    ranges = [end for ends in zip(*inputs.values(), strict=True) for end in ends]
+    levels = 1 if isinstance(model, Program) else 2
+    body = _list(model, outputs) if isinstance(model, Program) else _of_two_levels(model, outputs)
+    head = _MAGIC + _counts(len(inputs), len(outputs), len(names), levels)
+    return head + names + np.array(ranges, dtype="<f8").tobytes() + body
+
+
+def _of_two_levels(parts: TwoLevels, outputs: Sequence[str]) -> bytes:
+    """A nut with elastic bodies."""
+    at_points, of_ball = list(parts.points.outputs), list(parts.each_ball.outputs)
+    of_ball += list(parts.each_ball.constants)
+    tables = [(int(by_ball), what if by_ball else at_points.index(str(what))) for by_ball, what in parts.tables]
+    reductions = [
+        (_REDUCTIONS[one.function], of_ball.index(one.values), one.place or 0) for one in parts.stages.reductions
+    ]
+    whole, numbers = parts.nut[:4], parts.nut[4:]
+    return b"".join(
+        [
+            _counts(len(parts.inputs), *parts.inputs),
+            _counts(0 if parts.preload is None else parts.preload + 1, parts.solved),
+            _counts(len(tables), *(word for table in tables for word in table)),
+            _counts(len(reductions), *(word for one in reductions for word in one)),
+            _counts(*whole),
+            np.array(numbers, dtype="<f8").tobytes(),
+            _list(parts.points, at_points),
+            _list(parts.each_ball, of_ball),
+            _list(parts.behind, outputs),
+        ]
+    )
+
+
+def _counts(*numbers: Any) -> bytes:
+    return struct.pack(f"<{len(numbers)}I", *numbers)
+
+
+def _list(program: Program, outputs: Sequence[str]) -> bytes:
+    """A list of steps."""
     constants, places, code, size = _assembled(program)
     if size > _MOST_PLACES:
         remedy = "ask for fewer outputs and derivatives, or take the source (--to c)"
         raise InputError(Fault("hand_over.to", "the program is too large for the interpreter", "", remedy))
-    names = b"".join(name.encode() + b"\0" for name in (*inputs, *outputs))
-    numbers = [end for ends in zip(*inputs.values(), strict=True) for end in ends] + constants
     words = [*(places[name] for name in outputs), *(word for step in code for word in step)]
     further = size - program.inputs - len(constants)
-    return b"".join(
-        [
-            _MAGIC,
-            struct.pack("<6I", len(inputs), len(outputs), len(constants), further, len(code), len(names)),
-            names,
-            np.array(numbers, dtype="<f8").tobytes(),
-            np.array(words, dtype="<u2").tobytes(),
-        ]
-    )
+    counts = _counts(program.inputs, len(outputs), len(constants), further, len(code))
+    return counts + np.array(constants, dtype="<f8").tobytes() + np.array(words, dtype="<u2").tobytes()
 
 
 def _assembled(program: Program) -> tuple[list[float], dict[str, int], list[tuple[int, ...]], int]:

@@ -161,6 +161,11 @@ class HandOver:
         return found
 
     @property
+    def has_elastic_bodies(self) -> bool:
+        """Whether each ball is solved by itself, between elastic bodies or with deviations."""
+        return self.subject.nut.one_by_one
+
+    @property
     def is_recordable(self) -> bool:
         """Whether the model is one list of steps: not where each ball is solved by itself, on plain arrays."""
         try:

@@ -197,8 +197,8 @@ def _one_by_one(
     numbers = [
         *point,
         getattr(nut, "spacing", 0.0),
-        *_bodies(screw, bodies),
-        np.inf if bodies is None or not bodies.swelling else _radial_stiffness(screw, bodies),
+        *body_stiffness(screw, bodies),
+        np.inf if bodies is None or not bodies.swelling else radial_stiffness(screw, bodies),
         np.nan if oversize is None else oversize,
     ]
     shape = np.broadcast_shapes(*(np.shape(number) for number in numbers))
@@ -296,7 +296,7 @@ def _load_deflection(screw: BallScrew, raceway: Raceway, rolling_radius: Length)
     return deflection.contact_load_deflection(coefficient, screw.equivalent_modulus(raceway), rolling_radius)
 
 
-def _bodies(screw: BallScrew, bodies: Bodies | None) -> tuple[Any, Any, Any]:
+def body_stiffness(screw: BallScrew, bodies: Bodies | None) -> tuple[Any, Any, Any]:
     """Stiffness per length of screw and nut (E A), and the axial distance of balls that carry, one after the other."""
     step = _step(screw)
     if bodies is None:
@@ -307,7 +307,7 @@ def _bodies(screw: BallScrew, bodies: Bodies | None) -> tuple[Any, Any, Any]:
     return screw.screw_material.young_modulus * core, screw.nut_material.young_modulus * tube, step
 
 
-def _radial_stiffness(screw: BallScrew, bodies: Bodies) -> Stiffness:
+def radial_stiffness(screw: BallScrew, bodies: Bodies) -> Stiffness:
     """Radial force of the balls of one nut body over the gap that it opens between nut and screw."""
     whole: Any = bodies.sized(screw)
     nut, shaft = screw.nut_material, screw.screw_material

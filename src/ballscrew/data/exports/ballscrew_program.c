@@ -1,139 +1,149 @@
 /* The interpreter of a model as data.
 
-   The file, all numbers with the least byte first: the letters BSCREW01; the numbers (4 bytes each) of inputs, outputs,
-   constants, further places, steps, and bytes of names; the names of inputs and outputs, each with a zero behind it;
-   for each input its usual value, then for each the least, then for each the greatest one (8 bytes each); the constants;
-   the place of each output (2 bytes each); the steps, each an operation, three operands and a result (2 bytes each).
-   Places are numbered over inputs, constants and further places. Truth values are 1 and 0. The last output is "valid".
+   The file, all numbers with the least byte first: the letters BSCREW02; four counts of four bytes: inputs, outputs,
+   bytes of names, levels; the names of inputs and outputs, each with a zero behind it; for each input its usual value,
+   then for each the least, then for each the greatest one, of eight bytes each. Then comes the model.
 
-   Do not compile with -ffast-math: limits at rest and without load need infinities and numbers that are none. */
+   A model of one level is a list of steps from the inputs to the outputs. One of two levels is a nut with elastic
+   bodies: how many inputs its lists read, and which; the place of the preload among the inputs and one, or zero; the
+   place of what the solver of the loads leaves; how many values a ball reads, of each whether it is one of its own, and
+   which; how many reductions over the balls, of each its kind (sum, greatest, place of the greatest, value at a place),
+   of which value of a ball, and the reduction with the place; the numbers of the nut; the lists of points, of balls, and
+   behind the reductions. All of these are numbers of four bytes, those of the nut from the fifth on of eight.
+
+   A list of steps is described in ballscrew_list.h. The last output is "valid". */
 #include "ballscrew_program.h"
 
-#include <math.h>
-#include <stdint.h>
+#include "ballscrew_list.h"
+#include "ballscrew_loads.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAGIC = 8, COUNTS = 6, WORDS_OF_A_STEP = 5, OPERATIONS = 43, LARGEST_FILE = 64 * 1024 * 1024 };
+enum { ARRAYS_OF_BALLS = 4, MOST_BALLS = 100000, LARGEST_FILE = 64 * 1024 * 1024 };
+enum { SUM, GREATEST, PLACE, AT_PLACE, KINDS_OF_REDUCTIONS };
 
 struct ballscrew_program {
-    size_t inputs, outputs, steps;
+    size_t inputs, outputs, levels;
     char *text;
     const char **input_names, **output_names;
     double *usual, *least, *greatest;
-    double *v;
-    uint16_t *places, *code;
+    list lists[3]; /* of points, of balls, and behind; or the first alone */
+    ballscrew_nut nut;
+    size_t read, preload, solved, tables, reductions;
+    size_t *inputs_read, *table, *reduction;
+    double *room, *balls, *given;
 };
 
-static uint16_t word(const unsigned char *at)
+static void read_nut(source *s, ballscrew_nut *nut)
 {
-    return (uint16_t)(at[0] | at[1] << 8);
+    double v[9] = {0.0};
+    nut->halves = (int)ballscrew_count(s, 2);
+    nut->balls = (int)ballscrew_count(s, MOST_BALLS);
+    nut->four_contacts = (int)ballscrew_count(s, 1);
+    nut->swells = (int)ballscrew_count(s, 1);
+    ballscrew_numbers(s, v, 9);
+    nut->load_deflection = v[0];
+    nut->centre_distance = v[1];
+    nut->contact_angle = v[2];
+    nut->lead_cosine = v[3];
+    nut->step = v[4];
+    nut->spacing = v[5];
+    nut->link = v[6];
+    nut->first_share = v[7];
+    nut->radial_stiffness = v[8];
+    s->is_sound = s->is_sound && nut->halves > 0 && nut->balls > 0;
 }
 
-static size_t count(const unsigned char *at)
+static void read_two_levels(source *s, ballscrew_program *p)
 {
-    return (size_t)at[0] | (size_t)at[1] << 8 | (size_t)at[2] << 16 | (size_t)at[3] << 24;
+    size_t i, all;
+    p->read = ballscrew_count(s, p->inputs);
+    p->inputs_read = ballscrew_room(s, p->read, sizeof *p->inputs_read);
+    for (i = 0; s->is_sound && i < p->read; i++)
+        p->inputs_read[i] = ballscrew_count(s, p->inputs - 1);
+    p->preload = ballscrew_count(s, p->inputs);
+    p->solved = ballscrew_count(s, 65536);
+    p->tables = ballscrew_count(s, 65536);
+    p->table = ballscrew_room(s, 2 * p->tables, sizeof *p->table);
+    for (i = 0; s->is_sound && i < 2 * p->tables; i++)
+        p->table[i] = ballscrew_count(s, 65536);
+    p->reductions = ballscrew_count(s, 65536);
+    p->reduction = ballscrew_room(s, 3 * p->reductions, sizeof *p->reduction);
+    for (i = 0; s->is_sound && i < 3 * p->reductions; i++)
+        p->reduction[i] = ballscrew_count(s, 65536);
+    read_nut(s, &p->nut);
+    for (i = 0; i < 3 && s->is_sound; i++)
+        ballscrew_list_read(s, &p->lists[i]);
+    if (!s->is_sound)
+        return;
+    for (i = 0; i < p->tables; i++)
+        s->is_sound = s->is_sound && p->table[2 * i] < 2
+            && p->table[2 * i + 1] < (p->table[2 * i] ? ARRAYS_OF_BALLS : p->lists[0].outputs);
+    for (i = 0; i < p->reductions; i++)
+        s->is_sound = s->is_sound && p->reduction[3 * i] < KINDS_OF_REDUCTIONS
+            && p->reduction[3 * i + 1] < p->lists[1].outputs && p->reduction[3 * i + 2] < p->reductions;
+    s->is_sound = s->is_sound && p->lists[1].inputs == p->tables && p->solved < p->lists[0].inputs
+        && p->read <= p->lists[0].inputs && p->lists[2].inputs == p->lists[0].inputs + p->reductions;
+    all = (size_t)p->nut.halves * (size_t)p->nut.balls;
+    p->room = ballscrew_room(s, BALLSCREW_LOADS_ROOM(all), sizeof *p->room);
+    p->balls = ballscrew_room(s, BALLSCREW_LOADS_SIZE(all), sizeof *p->balls);
+    p->given = ballscrew_room(s, p->inputs, sizeof *p->given);
 }
 
-static double number(const unsigned char *at)
+static void read_names(source *s, ballscrew_program *p, size_t size)
 {
-    uint64_t bits = 0;
-    double found;
-    int i;
-    for (i = 7; i >= 0; i--)
-        bits = bits << 8 | at[i];
-    memcpy(&found, &bits, sizeof found);
-    return found;
-}
-
-static const unsigned char *numbers(const unsigned char *at, double *to, size_t n)
-{
+    const unsigned char *const text = ballscrew_bytes(s, size);
+    char *at, *end;
     size_t i;
-    for (i = 0; i < n; i++, at += 8)
-        to[i] = number(at);
-    return at;
-}
-
-static int words(const unsigned char *at, uint16_t *to, size_t n, size_t places)
-{
-    size_t i;
-    int inside = 1;
-    for (i = 0; i < n; i++) {
-        to[i] = word(at + 2 * i);
-        inside = inside && to[i] < places;
-    }
-    return inside;
-}
-
-static int steps_are_sound(const uint16_t *code, size_t steps, size_t first, size_t places)
-{
-    size_t k, i;
-    for (k = 0; k < steps; k++, code += WORDS_OF_A_STEP) {
-        if (code[0] >= OPERATIONS || code[4] < first)
-            return 0;
-        for (i = 1; i < WORDS_OF_A_STEP; i++)
-            if (code[i] >= places)
-                return 0;
-    }
-    return 1;
-}
-
-static int names_of(ballscrew_program *p, size_t size)
-{
-    char *at = p->text, *const end = p->text + size;
-    size_t i;
+    p->text = ballscrew_room(s, size, 1);
+    p->input_names = ballscrew_room(s, p->inputs + 1, sizeof *p->input_names);
+    p->output_names = ballscrew_room(s, p->outputs + 1, sizeof *p->output_names);
+    if (!s->is_sound)
+        return;
+    memcpy(p->text, text, size);
+    at = p->text;
+    end = at + size;
     for (i = 0; i < p->inputs + p->outputs; i++) {
         char *const stop = at < end ? memchr(at, 0, (size_t)(end - at)) : NULL;
-        if (stop == NULL)
-            return 0;
+        if (stop == NULL) {
+            s->is_sound = 0;
+            return;
+        }
         *(i < p->inputs ? &p->input_names[i] : &p->output_names[i - p->inputs]) = at;
         at = stop + 1;
     }
-    return 1;
 }
 
 ballscrew_program *ballscrew_program_of(const unsigned char *bytes, size_t size)
 {
-    size_t n[COUNTS], i, places, wanted;
-    const unsigned char *at = bytes + MAGIC + 4 * COUNTS;
-    ballscrew_program *p;
-    if (size < MAGIC + 4 * COUNTS || size > LARGEST_FILE || memcmp(bytes, "BSCREW01", MAGIC) != 0)
-        return NULL;
-    for (i = 0; i < COUNTS; i++) {
-        n[i] = count(bytes + MAGIC + 4 * i);
-        if (n[i] > size)
-            return NULL;
-    }
-    places = n[0] + n[2] + n[3];
-    wanted = MAGIC + 4 * COUNTS + n[5] + 8 * (3 * n[0] + n[2]) + 2 * (n[1] + WORDS_OF_A_STEP * n[4]);
-    if (size != wanted || n[0] == 0 || n[1] == 0 || places > 65536)
-        return NULL;
-    p = calloc(1, sizeof *p);
-    if (p == NULL)
-        return NULL;
-    p->inputs = n[0];
-    p->outputs = n[1];
-    p->steps = n[4];
-    p->text = malloc(n[5] + 1);
-    p->input_names = calloc(n[0] + 1, sizeof *p->input_names);
-    p->output_names = calloc(n[1] + 1, sizeof *p->output_names);
-    p->usual = malloc(3 * n[0] * sizeof *p->usual);
-    p->v = calloc(places, sizeof *p->v);
-    p->places = malloc(n[1] * sizeof *p->places);
-    p->code = malloc((WORDS_OF_A_STEP * n[4] + 1) * sizeof *p->code);
-    if (!p->text || !p->input_names || !p->output_names || !p->usual || !p->v || !p->places || !p->code) {
-        ballscrew_program_free(p);
+    source s = {bytes, size, 1};
+    ballscrew_program *const p = calloc(1, sizeof *p);
+    const unsigned char *const letters = ballscrew_bytes(&s, 8);
+    size_t size_of_names;
+    if (p == NULL || letters == NULL || memcmp(letters, "BSCREW02", 8) != 0) {
+        free(p);
         return NULL;
     }
-    memcpy(p->text, at, n[5]);
-    p->least = p->usual + n[0];
-    p->greatest = p->least + n[0];
-    at = numbers(at + n[5], p->usual, 3 * n[0]);
-    at = numbers(at, p->v + n[0], n[2]);
-    if (!names_of(p, n[5]) || !words(at, p->places, n[1], places)
-        || !words(at + 2 * n[1], p->code, WORDS_OF_A_STEP * n[4], 65536)
-        || !steps_are_sound(p->code, n[4], n[0] + n[2], places)) {
+    p->inputs = ballscrew_count(&s, 65536);
+    p->outputs = ballscrew_count(&s, 65536);
+    size_of_names = ballscrew_count(&s, LARGEST_FILE);
+    p->levels = ballscrew_count(&s, 2);
+    read_names(&s, p, size_of_names);
+    p->usual = ballscrew_room(&s, 3 * p->inputs, sizeof *p->usual);
+    ballscrew_numbers(&s, p->usual, 3 * p->inputs);
+    s.is_sound = s.is_sound && p->inputs > 0 && p->outputs > 0 && p->levels > 0;
+    if (s.is_sound) {
+        p->least = p->usual + p->inputs;
+        p->greatest = p->least + p->inputs;
+        if (p->levels == 1)
+            ballscrew_list_read(&s, &p->lists[0]);
+        else
+            read_two_levels(&s, p);
+    }
+    if (!s.is_sound || s.left > 0 || p->lists[p->levels == 1 ? 0 : 2].outputs != p->outputs
+        || (p->levels == 1 && p->lists[0].inputs != p->inputs)) {
         ballscrew_program_free(p);
         return NULL;
     }
@@ -161,15 +171,21 @@ ballscrew_program *ballscrew_program_read(const char *path)
 
 void ballscrew_program_free(ballscrew_program *p)
 {
+    int i;
     if (p == NULL)
         return;
+    for (i = 0; i < 3; i++)
+        ballscrew_list_free(&p->lists[i]);
     free(p->text);
     free(p->input_names);
     free(p->output_names);
     free(p->usual);
-    free(p->v);
-    free(p->places);
-    free(p->code);
+    free(p->inputs_read);
+    free(p->table);
+    free(p->reduction);
+    free(p->room);
+    free(p->balls);
+    free(p->given);
     free(p);
 }
 
@@ -188,79 +204,72 @@ const double *ballscrew_program_usual(const ballscrew_program *p)
     return p->usual;
 }
 
-/* As Python has it: with the sign of b. */
-static double remainder_of(double a, double b)
+/* The value of an output after a run. */
+static double output(const list *l, size_t k)
 {
-    const double m = fmod(a, b);
-    return m == 0.0 ? copysign(0.0, b) : (b < 0.0) != (m < 0.0) ? m + b : m;
+    return l->v[l->places[k]];
 }
 
-static void run(double *v, const uint16_t *code, const uint16_t *end)
+/* Takes the values of a ball into the reductions, the last inputs of the last list. */
+static void reduce(const ballscrew_program *p, int is_first)
 {
-    for (; code != end; code += WORDS_OF_A_STEP) {
-        const double a = v[code[1]], b = v[code[2]];
-        double r = 0.0;
-        switch (code[0]) {
-        case 0: r = a + b; break;
-        case 1: r = a - b; break;
-        case 2: r = a * b; break;
-        case 3: r = a / b; break;
-        case 4: r = a != 0.0 ? b : v[code[3]]; break;
-        case 5: r = sqrt(a); break;
-        case 6: r = a < b || a != a ? a : b; break;
-        case 7: r = a > b || a != a ? a : b; break;
-        case 8: r = exp(a); break;
-        case 9: r = log(a); break;
-        case 10: r = pow(a, b); break;
-        case 11: r = fabs(a); break;
-        case 12: r = a > b; break;
-        case 13: r = a >= b; break;
-        case 14: r = a < b; break;
-        case 15: r = a <= b; break;
-        case 16: r = a == b; break;
-        case 17: r = a != b; break;
-        case 18: r = a != 0.0 && b != 0.0; break;
-        case 19: r = a != 0.0 || b != 0.0; break;
-        case 20: r = (a != 0.0) != (b != 0.0); break;
-        case 21: r = a == 0.0; break;
-        case 22: r = isfinite(a) ? 1.0 : 0.0; break;
-        case 23: r = isnan(a) ? 1.0 : 0.0; break;
-        case 24: r = isinf(a) ? 1.0 : 0.0; break;
-        case 25: r = sin(a); break;
-        case 26: r = cos(a); break;
-        case 27: r = tan(a); break;
-        case 28: r = asin(a); break;
-        case 29: r = acos(a); break;
-        case 30: r = atan(a); break;
-        case 31: r = atan2(a, b); break;
-        case 32: r = sinh(a); break;
-        case 33: r = cosh(a); break;
-        case 34: r = tanh(a); break;
-        case 35: r = asinh(a); break;
-        case 36: r = expm1(a); break;
-        case 37: r = log1p(a); break;
-        case 38: r = floor(a); break;
-        case 39: r = ceil(a); break;
-        case 40: r = cbrt(a); break;
-        case 41: r = hypot(a, b); break;
-        case 42: r = remainder_of(a, b); break;
-        default: break;
+    double *const r = p->lists[2].v + p->lists[0].inputs;
+    size_t k, j;
+    for (k = 0; k < p->reductions; k++) {
+        const size_t *const one = p->reduction + 3 * k;
+        const double value = output(&p->lists[1], one[1]);
+        if (one[0] == SUM)
+            r[k] = is_first ? value : r[k] + value;
+        else if (one[0] == GREATEST)
+            r[k] = is_first || value > r[k] || value != value ? value : r[k];
+        else if (one[0] == PLACE && (is_first || value > r[k])) {
+            r[k] = value;
+            for (j = 0; j < p->reductions; j++)
+                if (p->reduction[3 * j] == AT_PLACE && p->reduction[3 * j + 2] == k)
+                    r[j] = output(&p->lists[1], p->reduction[3 * j + 1]);
         }
-        v[code[4]] = r;
     }
+}
+
+static void evaluate_two_levels(ballscrew_program *p, const double *x)
+{
+    list *const points = &p->lists[0], *const ball = &p->lists[1], *const behind = &p->lists[2];
+    const size_t all = (size_t)p->nut.halves * (size_t)p->nut.balls;
+    size_t i, k;
+    for (k = 0; k < p->read; k++)
+        points->v[k] = x[p->inputs_read[k]];
+    points->v[p->solved] = ballscrew_loads(&p->nut, x[0], p->preload ? x[p->preload - 1] : 0.0, p->room, p->balls);
+    ballscrew_list_run(points);
+    for (k = 0; k < p->tables; k++)
+        if (!p->table[2 * k])
+            ball->v[k] = output(points, p->table[2 * k + 1]);
+    for (i = 0; i < all; i++) {
+        for (k = 0; k < p->tables; k++)
+            if (p->table[2 * k])
+                ball->v[k] = p->balls[p->table[2 * k + 1] * all + i];
+        ballscrew_list_run(ball);
+        reduce(p, i == 0);
+    }
+    memcpy(behind->v, points->v, points->inputs * sizeof *behind->v);
+    ballscrew_list_run(behind);
 }
 
 void ballscrew_program_evaluate(ballscrew_program *p, const double *inputs, double *outputs)
 {
+    const list *const last = &p->lists[p->levels == 1 ? 0 : 2];
+    double *const x = p->levels == 1 ? p->lists[0].v : p->given;
     int inside = 1;
     size_t i;
     for (i = 0; i < p->inputs; i++) {
         const double least = p->least[i], greatest = p->greatest[i], given = inputs[i];
         inside = inside && given >= least && given <= greatest;
-        p->v[i] = given < least ? least : given > greatest ? greatest : given;
+        x[i] = given < least ? least : given > greatest ? greatest : given;
     }
-    run(p->v, p->code, p->code + WORDS_OF_A_STEP * p->steps);
+    if (p->levels == 1)
+        ballscrew_list_run(&p->lists[0]);
+    else
+        evaluate_two_levels(p, x);
     for (i = 0; i < p->outputs; i++)
-        outputs[i] = p->v[p->places[i]];
+        outputs[i] = output(last, i);
     outputs[p->outputs - 1] = inside && outputs[p->outputs - 1] != 0.0;
 }

@@ -1,0 +1,173 @@
+"""Nuts with elastic bodies: what each point has, what each ball has, and what follows from sums over the balls.
+
+The friction under known loads of the balls is recorded, as :mod:`ballscrew.evaluation.by_ball` does it; here all
+numbers but the inputs of the export are constants. The loads themselves are solved where the export runs, by
+``data/exports/ballscrew_loads.c``.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import NamedTuple
+
+import numpy as np
+
+from ballscrew.equations.deflection import groove_centre_distance
+from ballscrew.errors import Fault, InputError
+from ballscrew.evaluation.by_ball import recorded_by_ball, stages_by_ball
+from ballscrew.evaluation.outputs import OF_LOADS, OPERATION
+from ballscrew.exports.subject import PRELOADS, HandOver
+from ballscrew.solvers.load_distribution import body_stiffness, pair_load_deflection, radial_stiffness
+from ballscrew.tracing.grid import Split
+from ballscrew.tracing.program import Program
+from ballscrew.tracing.reductions import Stages
+from ballscrew.tracing.tape import CannotRecordError
+
+#: What the solver in C finds besides the loads of the balls.
+SOLVED = "residual"
+_INSTEAD = "take a table (--to table)"
+
+
+class ElasticNut(NamedTuple):
+    """The numbers of a nut for the solver in C, in the order of its structure, in SI."""
+
+    halves: int
+    balls: int
+    four_contacts: int
+    swells: int
+    load_deflection: float
+    centre_distance: float
+    contact_angle: float
+    lead_cosine: float
+    step: float
+    spacing: float
+    link: float
+    first_share: float
+    radial_stiffness: float
+
+    @property
+    def all_balls(self) -> int:
+        """The balls of all halves."""
+        return self.halves * self.balls
+
+
+@dataclasses.dataclass(frozen=True)
+class TwoLevels:
+    """A recording of a nut with elastic bodies, in parts that run one after the other."""
+
+    #: The inputs of the export that the programs read, as places among all; then the loads and the balls follow.
+    inputs: tuple[int, ...]
+    #: The place of the preload among the inputs of the export; None where the nut has none.
+    preload: int | None
+    nut: ElasticNut
+    stages: Stages
+    cut: Split
+
+    @property
+    def points(self) -> Program:
+        """What does not depend on the ball."""
+        return self.cut.columns
+
+    @property
+    def each_ball(self) -> Program:
+        """What each ball has; its inputs are :attr:`tables`."""
+        return self.cut.points
+
+    @property
+    def behind(self) -> Program:
+        """What follows from the results of the reductions, its last inputs."""
+        return self.stages.behind
+
+    @property
+    def tables(self) -> list[tuple[bool, int | str]]:
+        """Of each input of a ball, whether it is an array over the balls, and which; or else the output at points."""
+        first = len(self.inputs) + len(OF_LOADS)
+        return [(True, int(name) - first) if kind == "points" else (False, name) for kind, name in self.cut.tables]
+
+    @property
+    def solved(self) -> int:
+        """The place of the residual of the solver among the inputs of the programs."""
+        return len(self.inputs) + OF_LOADS.index(SOLVED)
+
+
+def two_levels(handed: HandOver) -> TwoLevels:
+    """The recording of a nut whose bodies are elastic.
+
+    Raises :class:`~ballscrew.errors.InputError` for balls or a lead that deviate, for an oversize instead of a preload,
+    for inputs that change the bodies, for outputs that only Python's solver has, for derivatives, and for laws that
+    cannot be recorded.
+    """
+    subject = handed.subject
+    _check(handed)
+    names = [name for name in handed.input_names if handed.has_effect[name]]
+    wanted = {output.name: output for output in handed.outputs}
+    try:
+        program = recorded_by_ball(subject, wanted, names)
+        stages, cut = stages_by_ball(program, names)
+    except CannotRecordError as error:
+        problem = f"needs a model that can be recorded: {error}"
+        raise InputError(Fault("hand_over.to", problem, "", _INSTEAD)) from None
+    found = TwoLevels(
+        tuple(handed.input_names.index(name) for name in names),
+        next((handed.input_names.index(name) for name in PRELOADS if name in names), None),
+        elastic_nut(handed),
+        stages,
+        cut,
+    )
+    others = set(range(len(names), len(names) + len(OF_LOADS))) - {found.solved}
+    read = {
+        int(o) for part in (found.points, found.behind) for _, s in part.steps for k, o in s.operands if k == "step"
+    }
+    if missing := others & (read | {*found.behind.outputs.values()}):
+        what = ", ".join(OF_LOADS[i - len(names)] for i in sorted(missing))
+        raise InputError(Fault("hand_over.outputs", f"need what the solver in C has not: {what}", "", _INSTEAD))
+    return found
+
+
+def _check(handed: HandOver) -> None:
+    nut, faults = handed.subject.nut, list[Fault]()
+    if nut.deviations is not None or nut.bodies is None:
+        problem, remedy = (
+            "balls or a lead that deviate are solved in Python only",
+            f"{_INSTEAD}, or leave [deviations] out",
+        )
+        faults.append(Fault("hand_over.to", problem, "", remedy))
+    if getattr(nut, "oversize", None) is not None:
+        faults.append(Fault("nut.oversize", "is not for elastic bodies here", "", "give the preload that it makes"))
+    if handed.derivatives:
+        remedy = "leave them out, or leave [bodies] out"
+        faults.append(Fault("hand_over.derivatives", "are not for elastic bodies", "", remedy))
+    inputs = handed.subject.inputs
+    for name in handed.input_names:
+        of_bodies = handed.has_effect[name] and inputs[name][0] in ("screw", "nut")
+        if of_bodies and name not in (*OPERATION, *PRELOADS) and not name.startswith("losses."):
+            remedy = "export each value by itself, or leave [bodies] out"
+            faults.append(Fault("hand_over.parameters", "changes the loads of balls in elastic bodies", name, remedy))
+    if faults:
+        raise InputError(*faults)
+
+
+def elastic_nut(handed: HandOver) -> ElasticNut:
+    """The numbers of the nut for the solver in C."""
+    screw, nut = handed.subject.screw, handed.subject.nut
+    assert nut.bodies is not None, "elastic bodies, as was checked"
+    bodies = nut.bodies.sized(screw)
+    screw_bar, nut_bar, step = body_stiffness(screw, bodies)
+    link = 1 / (1 / screw_bar + 1 / nut_bar)
+    return ElasticNut(
+        halves=nut.halves,
+        balls=int(screw.carrying_balls),
+        four_contacts=int(nut.contacts_per_ball == 4),
+        swells=int(bodies.swelling),
+        load_deflection=float(pair_load_deflection(screw)),
+        centre_distance=float(
+            groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
+        ),
+        contact_angle=float(screw.contact_angle),
+        lead_cosine=float(np.cos(screw.lead_angle)),
+        step=float(step),
+        spacing=float(getattr(nut, "spacing", 0.0)),
+        link=float(link),
+        first_share=1.0 if bodies.same_side else float(link / screw_bar),
+        radial_stiffness=float(radial_stiffness(screw, bodies)) if bodies.swelling else 0.0,
+    )
