@@ -43,6 +43,7 @@ from ballscrew.motion.profiles import Trapezoid as Trapezoid
 from ballscrew.moving_logs.motion_fit import MotionFit as MotionFit
 from ballscrew.moving_logs.motion_fit import fit_motion as fit_motion
 from ballscrew.moving_logs.moving_log import MovingLog as MovingLog
+from ballscrew.moving_logs.read_log import read_log as read_log
 from ballscrew.optimisation.optimisation import Optimisation as Optimisation
 from ballscrew.optimisation.optimisation import optimise as optimise
 from ballscrew.screw_tables.catalogue import screws as screws

@@ -133,6 +133,15 @@ def test_faults_name_field_and_remedy(handed, module, options, expected):
     assert str(fault.value).startswith(expected)
 
 
+def test_friction_that_no_speed_changes_takes_two_points(handed_over):
+    """Without load the printed equations leave the force between the balls, which does not depend on speed."""
+    subject = handed_over(bs.FrictionModel.olaru2005(), bs.SingleNut(), to="linuxcnc", ranges=RANGES)
+    text = linuxcnc.export(subject).files["ballscrew.hal"].decode()
+    torques = [float(line.split()[-1]) for line in text.splitlines() if ".y-val-" in line]
+    assert "personality=4\n" in text
+    assert np.abs(torques) == pytest.approx(torques[-1])
+
+
 def test_a_load_beyond_the_range_is_refused(handed_over):
     subject = handed_over(bs.FrictionModel.olaru2005(), bs.SingleNut(), to="drive", ranges=RANGES, load=4000.0)
     with pytest.raises(bs.InputError, match=r"hand_over\.load: is beyond the range"):

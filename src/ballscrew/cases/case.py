@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from ballscrew import units
+from ballscrew._displayed import Displayed
 from ballscrew.axis.axis import Axis
 from ballscrew.axis.motor import Motor
 from ballscrew.components.materials import Lubricant
@@ -44,7 +45,7 @@ class PreloadNote(NamedTuple):
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Case:
+class Case(Displayed):
     """The content of a case file: a model, a screw, a lubricant, an operating point, perhaps a sweep."""
 
     model: FrictionModel

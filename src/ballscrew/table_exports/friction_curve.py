@@ -15,7 +15,7 @@ from ballscrew.exports.targets import Option
 from ballscrew.exports.worst_error import WorstError, worst_errors
 from ballscrew.quantities import Force, Info, Quantity, unit_of
 from ballscrew.records import Record
-from ballscrew.table_exports.friction_table import INTERPOLATED, Floats, speed_candidates
+from ballscrew.table_exports.friction_table import INTERPOLATED, Floats, model_over, speed_candidates
 from ballscrew.table_exports.nodes import best_nodes, chord_errors
 
 _LOAD = Quantity("load", unit_of(Force) or "", Info("F", "axial load of the curve", "N"))
@@ -74,7 +74,8 @@ def friction_curve(handed: HandOver, count: int, slowest: float | None = None) -
         problem = "must be positive and below the range of speeds"
         raise InputError(Fault("hand_over.slowest", problem, f"{first:g} rad/s", "give a smaller one"))
     speeds = speed_candidates(first, fastest)
-    both = np.column_stack([_friction(handed, fixed, sign * speeds) for sign in (1.0, -1.0)])
+    friction = model_over(handed, OPERATION[1:2], fixed)
+    both = np.column_stack([friction(sign * speeds)[INTERPOLATED[0]] for sign in (1.0, -1.0)])
     torques = both.max(axis=1)
     if not np.all(torques > 0):
         problem = "there is no friction at this load and some speed"
@@ -91,10 +92,6 @@ def friction_curve(handed: HandOver, count: int, slowest: float | None = None) -
     others = {**points, OPERATION[0]: np.resize(loads, len(points[OPERATION[1]]))}
     (elsewhere,) = worst_errors(handed, approximate, points=others, outputs=INTERPOLATED[:1])
     return FrictionCurve(*curve, fixed, error, elsewhere.value)
-
-
-def _friction(handed: HandOver, fixed: Mapping[str, float], speeds: Floats) -> Floats:
-    return handed.evaluate({**fixed, OPERATION[1]: speeds})[INTERPOLATED[0]]
 
 
 def _points(handed: HandOver, fixed: Mapping[str, float], first: float, fastest: float) -> dict[str, Floats]:

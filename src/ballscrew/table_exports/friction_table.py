@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import logging
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -22,6 +23,7 @@ from ballscrew.records import Record
 from ballscrew.table_exports.nodes import chord_errors, nodes_within
 
 Floats = NDArray[np.float64]
+_log = logging.getLogger(__name__)
 
 #: Choices of every target that is a table.
 OPTIONS: Mapping[str, Option] = {
@@ -131,7 +133,7 @@ def friction_table(handed: HandOver) -> FrictionTable:
     chosen = {n: ends for n, ends in handed.working_range.items() if n in OPERATION or n in handed.ranges_given}
     ranges = {name: ends for name, ends in chosen.items() if handed.has_effect[name]}
     fixed = {one.name: one.value for one in handed.inputs if one.name not in ranges}
-    evaluate = _evaluator(handed, list(ranges), fixed)
+    evaluate = model_over(handed, list(ranges), fixed)
     candidates = {name: _candidates(name, *ends) for name, ends in ranges.items()}
     chords = {name: chord_errors(values, *_along(evaluate, name, candidates)) for name, values in candidates.items()}
     allowed, best = tolerance / len(ranges), None
@@ -142,6 +144,7 @@ def friction_table(handed: HandOver) -> FrictionTable:
         for name, values in found.items():
             _check_finite(name, axes, values)
         error = _measured(evaluate, axes, found[INTERPOLATED[0]])
+        _log.info("a table of %s nodes is off by up to %.2g of the friction", valid.shape, error)
         if best is not None and error > _WORTH * best.error:
             break
         best = FrictionTable(axes, found, valid, fixed, error)
@@ -182,7 +185,7 @@ def interpolated(axes: Mapping[str, Floats], values: Floats, points: Floats) -> 
 _Evaluate = Callable[..., dict[str, Any]]
 
 
-def _evaluator(handed: HandOver, axes: Sequence[str], fixed: Mapping[str, float]) -> _Evaluate:
+def model_over(handed: HandOver, axes: Sequence[str], fixed: Mapping[str, float]) -> _Evaluate:
     """The model as a function of the axes: as it was recorded, or, with balls solved one by one, compiled."""
     wanted = [one.name for one in handed.outputs if one.name not in _MADE_OF_OTHERS]
     if handed.is_recordable:

@@ -47,12 +47,12 @@ def _text(handed: HandOver, curve: FrictionCurve, length: str, unit: float) -> s
         for k, pair in enumerate(zip(x.tolist(), y.tolist(), strict=True))
         for axis, value in zip("xy", pair, strict=True)
     ]
-    joint = handed.options["joint"]
+    slowest, joint = float(curve.speeds[0]) * per_speed, handed.options["joint"]
     return "\n".join(
         [
             *(f"# {line}" for line in about(handed, curve)),
             f"# In: speed of the axis, {length}/s. Out: torque on the shaft, unit {unit:g} N m, with its sign.",
-            f"# Between {x[POINTS // 2 - 1]:.3g} and {x[POINTS // 2]:.3g} {length}/s it is a line through zero: "
+            f"# Between {-slowest:.3g} and {slowest:.3g} {length}/s it is a line through zero: "
             "at rest it is 0, and holds nothing.",
             "# It is a feed-forward of the speed that is commanded, never of the one that is measured.",
             f"loadrt lincurve names={_NAME} personality={len(x)}",

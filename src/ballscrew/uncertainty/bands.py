@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ballscrew._displayed import Displayed
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, accepts_units, nearest, raise_if_any
@@ -71,7 +72,7 @@ class OutputBand:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Band:
+class Band(Displayed):
     """Result of :func:`band`, by output."""
 
     level: float
