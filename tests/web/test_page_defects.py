@@ -1,4 +1,4 @@
-"""Defects that the page once had, one test each, on one page that stays open: its address leads from case to case."""
+"""Defects that the page once had, and what came in their place, on one page that stays open: its address leads on."""
 
 import io
 import json
@@ -182,6 +182,7 @@ def test_a_grade_and_another_nut_are_no_faults(go):
     here = go("#A=paper&band=0").choose("lubricant.grade", "ISO VG 68")
     assert here.page.locator("#faults p").count() == 0
     assert here.page.locator("#f-lubricant-viscosity").input_value() == ""
+    assert here.page.locator("#f-lubricant-temperature").input_value() == "40"
     here.type("lubricant.viscosity", "50")
     assert here.page.locator("#faults p").count() == 0
     assert here.page.locator("#f-lubricant-grade").input_value() == ""
@@ -318,3 +319,21 @@ def test_nothing_passes_that_was_not_judged(go):
     assert "2 of 8 checks not judged" in here.text("#summary")
     here.type("installation.unsupported_length", "300")
     assert "All 8 checks hold" in here.text("#summary")
+
+
+def test_cold_and_hot(go, server):
+    """Whether it drives back, cold, now and hot, at speed and at rest."""
+    of_grade = "&A.lubricant.viscosity=&A.lubricant.pressure_viscosity_coefficient=&A.lubricant.grade=ISO+VG+100"
+    of_grade += "&A.lubricant.temperature=40+degC"
+    here = go(f"#A=paper{of_grade}&band=0")
+    case = server.get("vocabulary").json()["starts"]["paper"]["case"]
+    for place, temperature in enumerate(("0 degC", "40 degC", "80 degC")):
+        cells = here.page.locator(f"#temperatures tbody tr >> nth={place}")
+        oil = {"grade": "ISO VG 100", "temperature": temperature}
+        found = server.post("run", {"case": {**case, "lubricant": oil}}).json()["results"]
+        assert cells.locator("th").inner_text().replace("\u00a0", " ") == temperature.replace("deg", "°")
+        torque = float(cells.locator("data").get_attribute("value"))
+        assert torque == pytest.approx(found["screw_torque"], rel=1e-9)
+        assert ("self-locking" in cells.inner_text()) == found["self_locking"]
+    go("#A=paper&band=0")
+    assert "Choose a grade" in here.text("#temperatures")
