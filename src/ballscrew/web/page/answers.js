@@ -16,6 +16,8 @@ import * as temperatures from "./temperatures.js";
 /** Points of a curve and of one side of the map; fewer for a whole nut, which takes longer. */
 const POINTS = { curve: 41, curveOfNut: 15, map: 21, mapOfNut: 11 };
 const BAND_DELAY = 400;
+/** Milliseconds to wait where the server has too much to do. */
+const BUSY_DELAY = 3000;
 /** Milliseconds after which a page in the background counts as painted. */
 const PAINT_TIMEOUT = 500;
 
@@ -222,7 +224,7 @@ async function drawCharts(body, answer, signal, start) {
   });
   measurePaint("chart", start, signal);
   displayed.hotAndCold = undefined;
-  if (!hotAndCold) temperatures.leaveOut();
+  if (!hotAndCold) temperatures.leaveOut(answer);
   else {
     await drawn("temperatures", hotAndCold, (found) => {
       displayed.hotAndCold = found;
@@ -294,6 +296,10 @@ export function showBand(wanted) {
       found = { state: "done", answer: await ask("band", body, signal) };
     } catch (error) {
       found = { state: "failed", lines: linesOf(error) };
+      if (error instanceof Problem && error.isBusy && !signal.aborted) {
+        bandTimer = setTimeout(() => showBand(wanted), BUSY_DELAY); // nobody has asked for it by hand
+        return;
+      }
     }
     if (!signal.aborted) display(found);
   }, BAND_DELAY);

@@ -1,9 +1,12 @@
 // Requests to the server. A refusal comes as a problem with its faults.
 
+const TOO_MANY = 429;
+
 export class Problem extends Error {
-  /** @param {{ title: string, lines?: string[], faults?: FaultLine[] }} document */
+  /** @param {{ title: string, status?: number, lines?: string[], faults?: FaultLine[] }} document */
   constructor(document) {
     super(document.title);
+    this.isBusy = document.status === TOO_MANY;
     this.faults = document.faults ?? [];
     this.lines = document.lines?.length ? document.lines : [document.title];
   }

@@ -28,9 +28,13 @@ export function question(answer) {
   };
 }
 
-/** Say why there is nothing to show. */
-export function leaveOut() {
-  const words = "The oil is given by one viscosity, at one temperature. Choose a grade to see it cold and hot.";
+/** Say why there is nothing to show. @param {Run} answer */
+export function leaveOut(answer) {
+  const { axial_load: load, screw_speed: speed } = operationOf(answer);
+  const words =
+    load && speed
+      ? "The oil is given by one viscosity, at one temperature. Choose a grade to see it cold and hot."
+      : "Without load, or at rest, there is nothing to compare.";
   byId("temperatures").replaceChildren(element("p", {}, words));
 }
 
