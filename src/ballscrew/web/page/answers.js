@@ -16,8 +16,8 @@ import * as temperatures from "./temperatures.js";
 /** Points of a curve and of one side of the map; fewer for a whole nut, which takes longer. */
 const POINTS = { curve: 41, curveOfNut: 15, map: 21, mapOfNut: 11 };
 const BAND_DELAY = 400;
-/** Milliseconds to wait where the server has too much to do. */
-const BUSY_DELAY = 3000;
+/** Milliseconds to wait where the server has too much to do, as it says itself. */
+const BUSY_DELAY = 1000;
 /** Milliseconds after which a page in the background counts as painted. */
 const PAINT_TIMEOUT = 500;
 
