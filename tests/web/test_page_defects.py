@@ -351,3 +351,21 @@ def test_cold_and_hot(go, server):
         assert ("self-locking" in cells.inner_text()) == found["self_locking"]
     go("#A=paper&band=0")
     assert "Choose a grade" in here.text("#temperatures")
+
+
+def test_a_decimal_comma(go):
+    """As most of Europe writes; it stays as it was typed, and a thousand is not taken for one."""
+    here = go("#A=paper&band=0").type("operation.axial_load", "2512,4").type("screw.screw_conformity", "0,53")
+    assert "2512 N" in here.text("#case")
+    field = here.page.locator("#f-operation-axial_load")
+    here.page.locator("#add").click()  # which makes the form anew
+    assert field.input_value() == "2512,4"
+    before = here.settle().numbers()["results"]
+    here.unit("operation.axial_load", "kN")
+    assert field.input_value() == "2.5124"
+    assert here.numbers()["results"] == before
+    assert (
+        before
+        == go("#A=paper&A.operation.axial_load=2512.4+N&A.screw.screw_conformity=0.53&band=0").numbers()["results"]
+    )
+    assert "could be two numbers" in here.type("operation.axial_load", "1,234 N").text("main")
