@@ -230,6 +230,8 @@ def test_letters_of_charts_and_drawing_can_be_read(visit, scheme):
 
 def test_changing_to_dark_redraws(visit):
     here = visit(scheme="light").open()
+    here.page.locator("#torque-chart").scroll_into_view_if_needed()
+    here.page.wait_for_selector("#torque-chart .xtick text")
     ink = "getComputedStyle(document.querySelector('#torque-chart .xtick text')).fill"
     before = here.page.evaluate(ink)
     here.page.emulate_media(color_scheme="dark")

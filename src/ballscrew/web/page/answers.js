@@ -8,14 +8,16 @@ import { byId, csv, save } from "./dom.js";
 import * as drawings from "./drawing.js";
 import { showFailure } from "./plot.js";
 import * as results from "./results.js";
-import { linesOf, Problem, sendJson } from "./server.js";
+import { ask, linesOf, Problem, sendJson } from "./server.js";
 import { LETTERS } from "./state.js";
 import * as stiffness from "./stiffness.js";
+import * as temperatures from "./temperatures.js";
 
 /** Points of a curve and of one side of the map; fewer for a whole nut, which takes longer. */
 const POINTS = { curve: 41, curveOfNut: 15, map: 21, mapOfNut: 11 };
 const BAND_DELAY = 400;
-const MOST_CACHED = 50;
+/** Milliseconds to wait where the server has too much to do, as it says itself. */
+const BUSY_DELAY = 1000;
 /** Milliseconds after which a page in the background counts as painted. */
 const PAINT_TIMEOUT = 500;
 
@@ -33,13 +35,12 @@ const PAINT_TIMEOUT = 500;
  * @property {Sweep} [alongSpeed]
  * @property {Sweep} [alongLoad]
  * @property {Sweep} [everywhere]
+ * @property {Sweep} [hotAndCold]
  * @property {Template} [drawing]
  * @property {import("./compare.js").Answers} [designs]
  * @property {Compare} [models]
  */
 
-/** Answers by their addresses and bodies, as text. @type {Map<string, any>} */
-const cache = new Map();
 /** @type {Mechanisms} */
 let mechanisms;
 let requests = new AbortController();
@@ -63,24 +64,6 @@ export function setVocabulary(vocabulary, goTo) {
 /** The answer on the page, or none yet. */
 export function current() {
   return displayed;
-}
-
-/**
- * The answer of an address to a body; of the same body again it is not asked again.
- *
- * @param {"run" | "check" | "band"} address
- * @param {Body} body
- * @param {AbortSignal} signal
- */
-async function ask(address, body, signal) {
-  const key = `${address} ${JSON.stringify(body)}`;
-  const cached = cache.get(key);
-  if (cached) return cached;
-  const found = await sendJson(address, body, signal);
-  const [oldest] = cache.keys();
-  if (cache.size > MOST_CACHED) cache.delete(oldest);
-  cache.set(key, found);
-  return found;
 }
 
 /**
@@ -232,12 +215,22 @@ async function drawCharts(body, answer, signal, start) {
     },
     ["efficiency"],
   );
-  const others = Promise.allSettled([drawing, alongLoad, everywhere]);
+  const asked = temperatures.question(answer);
+  const hotAndCold = asked && sweep(asked.vary, asked.outputs);
+  const others = Promise.allSettled([drawing, alongLoad, everywhere, hotAndCold]);
   await drawn("torque-chart", alongSpeed, (found) => {
     displayed.alongSpeed = found;
     return charts.torque(found, answer, mechanisms);
   });
   measurePaint("chart", start, signal);
+  displayed.hotAndCold = undefined;
+  if (!hotAndCold) temperatures.leaveOut(answer);
+  else {
+    await drawn("temperatures", hotAndCold, (found) => {
+      displayed.hotAndCold = found;
+      temperatures.show(found, answer);
+    });
+  }
   await drawn("map-chart", everywhere, (found) => {
     displayed.everywhere = found;
     return charts.map(found, answer);
@@ -267,6 +260,7 @@ export function redisplay() {
   }
   if (everywhere) charts.map(everywhere, answer);
   if (alongLoad) curves.pressure(alongLoad, answer);
+  if (displayed.hotAndCold) temperatures.show(displayed.hotAndCold, answer);
   if (drawing) drawings.show(drawing);
   if (designs) showDesigns(designs, starts, mechanisms);
   if (models) showModels(models);
@@ -302,6 +296,10 @@ export function showBand(wanted) {
       found = { state: "done", answer: await ask("band", body, signal) };
     } catch (error) {
       found = { state: "failed", lines: linesOf(error) };
+      if (error instanceof Problem && error.isBusy && !signal.aborted) {
+        bandTimer = setTimeout(() => showBand(wanted), BUSY_DELAY); // nobody has asked for it by hand
+        return;
+      }
     }
     if (!signal.aborted) display(found);
   }, BAND_DELAY);

@@ -12,6 +12,7 @@ const OILS = {
 const OF_SHEET = ["density_15", "pour_point", "lowest_temperature", "highest_temperature"];
 /** Properties that belong to the oil that is replaced. */
 const OF_VISCOSITY = ["pressure_viscosity_coefficient", "temperature_coefficient"];
+const USUAL_TEMPERATURE = "40 degC";
 const USUAL_ENDS = "fixed-supported";
 
 /**
@@ -34,7 +35,12 @@ export function consequences(path, text, given, nuts) {
   if (section === "lubricant" && Object.hasOwn(OILS, field)) {
     const more = field === "viscosity" || field === "grade" ? OF_SHEET : [];
     const ofOld = given("lubricant.viscosity") !== undefined && field !== "viscosity" ? OF_VISCOSITY : [];
-    return without([...OILS[field], ...more, ...ofOld]);
+    const found = without([...OILS[field], ...more, ...ofOld]);
+    // that which counts where none is given, to be seen
+    if (field !== "viscosity" && given("lubricant.temperature") === undefined) {
+      found["lubricant.temperature"] = USUAL_TEMPERATURE;
+    }
+    return found;
   }
   if (path === "nut.type" && Object.hasOwn(nuts, text)) {
     const { fields, usual_preload: usual } = nuts[text];

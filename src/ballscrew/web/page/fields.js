@@ -140,7 +140,7 @@ function quantityField(path, node, input, value, state, onChange) {
   select.addEventListener("change", () => onChange({ path, unit: select.value, rebuild: true }));
   input.addEventListener("input", () => {
     const text = input.value.trim();
-    const isBare = text !== "" && /^[\s\d.eE+±-]*$/.test(text);
+    const isBare = text !== "" && /^[\s\d.,'eE+±-]*$/.test(text);
     if (isBare && !select.value) select.value = unit;
     reportText(onChange, path, input, isBare ? `${text} ${select.value}` : text);
   });
@@ -192,7 +192,7 @@ export function showEffective(field, node, value) {
 function step(event, input) {
   if (event.key !== "ArrowUp" && event.key !== "ArrowDown") return;
   const text = input.value || input.placeholder;
-  const value = Number(text);
+  const value = Number(units.withPoint(text));
   if (!text.trim() || !Number.isFinite(value)) return;
   event.preventDefault();
   const power = Math.floor(Math.log10(Math.abs(value)) + 1e-9) - (event.shiftKey ? 0 : 1);

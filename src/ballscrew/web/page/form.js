@@ -237,7 +237,7 @@ export function showFaults(faults) {
       markWrong(field, inWords(fault));
     } else if (!field) others.push(`${labelOf(fault.where)}: ${inWords(fault)}`);
   }
-  const [first] = wrong.values();
+  const [first] = [...byId("form").querySelectorAll(".field.wrong")];
   if (first && !first.contains(document.activeElement)) first.scrollIntoView({ block: "nearest" });
   const links = [...wrong].map(([path, field]) =>
     element("button", { type: "button", onclick: () => jumpTo(field) }, labelOf(path)),

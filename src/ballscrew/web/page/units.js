@@ -1,6 +1,7 @@
 // Units. Inputs are kept as text with a unit, as they were typed; only what is displayed is converted.
 
 const NUMBER = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i;
+const COMMA = /^(\s*[-+]?\d*),(\d+)/;
 /** @type {Record<string, string>} */
 const SYMBOLS = {
   um: "µm",
@@ -118,21 +119,34 @@ export function fromSI(value, unit, si) {
 }
 
 /**
+ * A number with a point in place of its decimal comma; as it is where the comma may stand between thousands.
+ *
+ * @param {string} text
+ */
+export function withPoint(text) {
+  return text.replace(COMMA, (whole, before, after) =>
+    after.length === 3 && /[1-9]/.test(before) ? whole : `${before}.${after}`,
+  );
+}
+
+/**
  * The number and the unit of an input; null where it is something else, such as a distribution.
  *
  * @param {unknown} text
  * @param {string | undefined} si
  */
 export function parse(text, si) {
-  const match = NUMBER.exec(String(text));
+  const written = String(text);
+  const match = NUMBER.exec(withPoint(written));
   if (!match) return null;
+  const digits = written.trimStart().slice(0, match[1].length); // as they were typed
   const unit = match[2]
     .replace("µ", "u")
     .replace("°C", "degC")
     .replace("°F", "degF")
     .replace(/^°$/, "deg")
     .replace("·", " ");
-  return conversion(unit, si) ? { number: Number(match[1]), digits: match[1], unit } : null;
+  return conversion(unit, si) ? { number: Number(match[1]), digits, unit } : null;
 }
 
 /**
