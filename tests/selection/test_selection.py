@@ -3,7 +3,9 @@
 import csv
 import json
 import math
+import tomllib
 
+import jsonschema_rs
 import numpy as np
 import pytest
 
@@ -186,3 +188,14 @@ def test_front_and_hypervolume_of_known_points():
     cube = np.array([[0.0, 0.0, 0.0], [0.5, 0.5, 0.5]])
     assert hypervolume(cube, np.ones(3)) == pytest.approx(1.0)
     assert hypervolume(cube[1:], np.ones(3)) == pytest.approx(0.125)
+
+
+def test_the_schema_knows_what_is_read(ballscrew):
+    schema = json.loads(ballscrew("schema", "--need").stdout)
+    validator = jsonschema_rs.validator_for(schema)
+    validator.validate(tomllib.loads(EXAMPLE.read_text(encoding="utf-8")))
+    validator.validate(FEW)
+    validator.validate({"force": "6 kN", "feed": "15 m/min", "nut": ["single", "double"], "preload": "2 %"})
+    validator.validate({"need": {"force": "6 kN", "speed": "15 rpm", "least_rigidity": "500 N/um"}})
+    for wrong in ({"forse": "6 kN"}, {"need": {"leest_rigidity": "5 N/um"}}, {"optimise": {"population": 1}}):
+        assert not validator.is_valid(wrong), wrong
