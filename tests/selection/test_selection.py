@@ -83,9 +83,11 @@ def test_order_and_front():
         'oil = "ISO VG 68"\nnut = "double"\npreload = "2 %"',
         '[need]\nforce = "6 kN"\nfeed = "15 m/min"\nends = "fixed-supported"\nlife = "20000 h"\nlength = "1 m"\n'
         'oil = "ISO VG 68"\nnut = "double"\npreload = "2 %"',
+        '[operation]\nforce = "6 kN"\nfeed = "15 m/min"\n[installation]\nends = "fixed-supported"\nlength = "1 m"\n'
+        '[limits]\nlife = "20000 h"\n[lubricant]\noils = "ISO VG 68"\n[nut]\nnut_type = "double"\npreload = "2 %"',
+        'lubricant = "ISO VG 68"\n'
         '[operation]\naxial_load = "6 kN"\nfeed = "15 m/min"\n[installation]\nends = "fixed-supported"\n'
-        'unsupported_length = "1 m"\n[limits]\nrunning_time = "20000 h"\n[lubricant]\ngrade = "ISO VG 68"\n'
-        '[nut]\ntype = "double"\npreload = "2 %"',
+        'unsupported_length = "1 m"\n[limits]\nrunning_time = "20000 h"\n[nut]\ntype = "double"\npreload = "2 %"',
     ],
 )
 def test_all_ways_to_write_a_need(written, tmp_path):
@@ -164,6 +166,8 @@ def test_tables_pictures_and_own_rows(ballscrew, tmp_path):
         ({"operation": {"screw_speed": "600 rpm"}}, "operation.axial_load"),
         ({"operation": {"axial_load": "2 kN"}}, "operation.screw_speed"),
         ({"forse": "2 kN"}, 'did you mean "force"'),
+        ({"duty": [{"force": "2 kN"}]}, "write [axis] and [motion]"),
+        ({**FEW, "limits": {"life": 20000}}, "limits.running_time: needs a unit"),
         ({**FEW, "force": "2 kN"}, "is given twice"),
         ({**FEW, "need": {"back_driving": "perhaps"}}, "need.back_driving"),
         ({**FEW, "need": {"largest_step": "1 um"}}, "counts_per_turn"),
