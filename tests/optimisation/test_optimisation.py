@@ -2,6 +2,7 @@
 
 import json
 import math
+import time
 
 import numpy as np
 import pytest
@@ -222,3 +223,15 @@ def test_without_pymoo_a_fault_says_how_to_get_it(monkeypatch):
 def test_a_motion_is_refused():
     with pytest.raises(InputError, match="is too much for a search"):
         bs.optimise(ROOT / "examples" / "vertical_axis.toml")
+
+
+@pytest.mark.long
+@pytest.mark.compiles
+def test_twelve_thousand_designs_take_five_seconds():
+    """Once the model is recorded and compiled, on a machine that does nothing else; the double nut is the slower."""
+    pytest.importorskip("pymoo")
+    _, space, model = model_of(NEED, engine="compiled")
+    start = time.perf_counter()
+    found = searches.search(model.costs, space.lower, space.upper, population=200, generations=60, seed=0)
+    assert found.evaluations == 12_000
+    assert time.perf_counter() - start < 5

@@ -3,7 +3,9 @@
 import csv
 import json
 import math
+import tomllib
 
+import jsonschema_rs
 import numpy as np
 import pytest
 
@@ -81,9 +83,11 @@ def test_order_and_front():
         'oil = "ISO VG 68"\nnut = "double"\npreload = "2 %"',
         '[need]\nforce = "6 kN"\nfeed = "15 m/min"\nends = "fixed-supported"\nlife = "20000 h"\nlength = "1 m"\n'
         'oil = "ISO VG 68"\nnut = "double"\npreload = "2 %"',
+        '[operation]\nforce = "6 kN"\nfeed = "15 m/min"\n[installation]\nends = "fixed-supported"\nlength = "1 m"\n'
+        '[limits]\nlife = "20000 h"\n[lubricant]\noils = "ISO VG 68"\n[nut]\nnut_type = "double"\npreload = "2 %"',
+        'lubricant = "ISO VG 68"\n'
         '[operation]\naxial_load = "6 kN"\nfeed = "15 m/min"\n[installation]\nends = "fixed-supported"\n'
-        'unsupported_length = "1 m"\n[limits]\nrunning_time = "20000 h"\n[lubricant]\ngrade = "ISO VG 68"\n'
-        '[nut]\ntype = "double"\npreload = "2 %"',
+        'unsupported_length = "1 m"\n[limits]\nrunning_time = "20000 h"\n[nut]\ntype = "double"\npreload = "2 %"',
     ],
 )
 def test_all_ways_to_write_a_need(written, tmp_path):
@@ -162,6 +166,8 @@ def test_tables_pictures_and_own_rows(ballscrew, tmp_path):
         ({"operation": {"screw_speed": "600 rpm"}}, "operation.axial_load"),
         ({"operation": {"axial_load": "2 kN"}}, "operation.screw_speed"),
         ({"forse": "2 kN"}, 'did you mean "force"'),
+        ({"duty": [{"force": "2 kN"}]}, "write [axis] and [motion]"),
+        ({**FEW, "limits": {"life": 20000}}, "limits.running_time: needs a unit"),
         ({**FEW, "force": "2 kN"}, "is given twice"),
         ({**FEW, "need": {"back_driving": "perhaps"}}, "need.back_driving"),
         ({**FEW, "need": {"largest_step": "1 um"}}, "counts_per_turn"),
@@ -186,3 +192,14 @@ def test_front_and_hypervolume_of_known_points():
     cube = np.array([[0.0, 0.0, 0.0], [0.5, 0.5, 0.5]])
     assert hypervolume(cube, np.ones(3)) == pytest.approx(1.0)
     assert hypervolume(cube[1:], np.ones(3)) == pytest.approx(0.125)
+
+
+def test_the_schema_knows_what_is_read(ballscrew):
+    schema = json.loads(ballscrew("schema", "--need").stdout)
+    validator = jsonschema_rs.validator_for(schema)
+    validator.validate(tomllib.loads(EXAMPLE.read_text(encoding="utf-8")))
+    validator.validate(FEW)
+    validator.validate({"force": "6 kN", "feed": "15 m/min", "nut": ["single", "double"], "preload": "2 %"})
+    validator.validate({"need": {"force": "6 kN", "speed": "15 rpm", "least_rigidity": "500 N/um"}})
+    for wrong in ({"forse": "6 kN"}, {"need": {"leest_rigidity": "5 N/um"}}, {"optimise": {"population": 1}}):
+        assert not validator.is_valid(wrong), wrong

@@ -105,4 +105,6 @@ def verdict(found: Candidate) -> str:
     else:
         text = f"fails: {', '.join(failed)}" if failed else "holds"
         text += f"; {open_} of {len(found.checks)} not judged" if open_ else ""
+    if found.checked.nut.preload_is_lost:
+        text += "; the load takes the preload away"
     return text if found.valid else f"{text}; outside the model's validity"

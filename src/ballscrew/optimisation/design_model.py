@@ -30,7 +30,7 @@ _OUTPUTS = (
     "maximum_pressure", "valid",
 )  # fmt: skip
 #: The objectives that the model has a say in, which uncertain inputs move.
-_OF_MODEL = ("loss", "rigidity", "drive_torque", "preload_torque")
+OF_MODEL = ("loss", "rigidity", "drive_torque", "preload_torque")
 _DENSITY = Installation.__dataclass_fields__["shaft_density"].default
 
 
@@ -234,7 +234,7 @@ class DesignModel:
         """
         assert self.sampled is not None
         rigid = dataclasses.replace(self, by_balls=None)
-        wanted = [name for name in self.space.objectives if name in _OF_MODEL]
+        wanted = [name for name in self.space.objectives if name in OF_MODEL]
         load, found = float(self.case.operation.axial_load), dict[str, Numbers]()
         if {*wanted} - {"preload_torque"}:
             at = rigid._at(designs, load, speed, self.sampled.factors)

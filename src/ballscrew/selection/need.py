@@ -11,7 +11,7 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from ballscrew.case_schema.fields import section_of
-from ballscrew.case_schema.schema import read_table
+from ballscrew.case_schema.schema import read_table, sections
 from ballscrew.cases import case_file
 from ballscrew.components.materials import grades
 from ballscrew.errors import MISSING, Fault, InputError, nearest, raise_if_any
@@ -32,7 +32,7 @@ SHORT_NAMES: Mapping[str, str] = {
     **dict.fromkeys(("life", "running_time", "lifetime"), "limits.running_time"),
     **dict.fromkeys(("nut", "nuts", "nut_type", "nut_types"), "nut.type"),
     **dict.fromkeys(("preload", "preloads", "preload_class"), "nut.preload"),
-    **dict.fromkeys(("oil", "oils", "grade", "grades"), "lubricant.oils"),
+    **dict.fromkeys(("oil", "oils", "grade", "grades", "lubricant"), "lubricant.oils"),
     "temperature": "lubricant.temperature",
     **dict.fromkeys(("back_driving", "back_drive", "backdriving", "back_drives"), "need.back_driving"),
     **dict.fromkeys(("accuracy", "accuracy_class", "accuracy_grade"), "need.accuracy"),
@@ -99,6 +99,9 @@ def need_of(need: str | Path | Mapping[str, Any] | Need, settings: Sequence[str]
         tables, folder, name = copy.deepcopy(dict(need)), Path(), "need"
     else:
         tables, folder, name = case_file.read(need), Path(need).parent, Path(need).name
+    if isinstance(tables.get("duty"), list):
+        remedy = "write [axis] and [motion], with [[motion.segment]] for its parts"
+        raise InputError(Fault("duty", "must be a table", "a list", remedy))
     tables = {_SECTIONS.get(key, key): value for key, value in case_file.override(tables, settings).items()}
     faults: list[Fault] = []
     tables = _in_places(tables, faults)
@@ -126,12 +129,23 @@ def _in_places(tables: dict[str, Any], faults: list[Fault]) -> dict[str, Any]:
             if not where:
                 del made[key]
             _put(made, place, value, f"{where}{key}", faults)
-    operation = made.get("operation")
-    if isinstance(operation, dict) and "feed" in operation:
-        _put(made, "need.feed", operation.pop("feed"), "operation.feed", faults)
-        if not operation:
-            del made["operation"]
+    for section in ("operation", "installation", "limits", "lubricant", "nut"):
+        _short_in(made, section, faults)
     return made
+
+
+def _short_in(made: dict[str, Any], section: str, faults: list[Fault]) -> None:
+    """Short names in the section of a case, such as ``operation.feed`` and ``limits.life``."""
+    table = made.get(section)
+    if not isinstance(table, dict):
+        return
+    known = sections()[section].model_fields
+    for key in [key for key in table if key in SHORT_NAMES and key not in known]:
+        place = SHORT_NAMES[key]
+        if place.partition(".")[0] in (section, "need") and place != f"{section}.{key}":
+            _put(made, place, table.pop(key), f"{section}.{key}", faults)
+    if not table:
+        del made[section]
 
 
 def _put(made: dict[str, Any], place: str, value: Any, where: str, faults: list[Fault]) -> None:

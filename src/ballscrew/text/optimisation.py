@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ballscrew import units
-from ballscrew.optimisation.design_space import VARIABLES
+from ballscrew.optimisation.design_model import OF_MODEL
+from ballscrew.optimisation.design_space import VARIABLES, DesignSpace
 from ballscrew.optimisation.optimisation import Member, Optimisation
 from ballscrew.output.wrapping import beside, wrapped
 from ballscrew.text import selection
@@ -34,11 +35,11 @@ def text(found: Optimisation) -> str:
     if not found.members:
         lines = [title(found), "", "no design within the bounds holds: ask for less, or widen [optimise.bounds]"]
     else:
-        lines = [title(found), "", *table(found.members, found.space.objectives)]
+        lines = [title(found), "", *table(found.members, found.space)]
     quantile = found.space.options.quantile
     said = [*found.notes]
     if quantile is not None:
-        said.append(f"searched by the {quantile:g} quantile of uncertain inputs; the numbers above are at their centre")
+        said.append(f"q {quantile:g}: that quantile over the uncertain inputs, by the search; all else at their centre")
     change = {name: value for name, value in found.largest_change.items() if value > _SAME}
     if change:
         words = ", ".join(f"{LABELS[name]} {value:.2g}" for name, value in change.items())
@@ -52,11 +53,13 @@ def text(found: Optimisation) -> str:
     return "\n".join([*lines, "", "notes", *(wrapped(f"  {line}") for line in said)])
 
 
-def table(members: Sequence[Member], objectives: Sequence[str]) -> list[str]:
-    """A line for each: mark, variables, objectives, and what decides."""
-    names = tuple(members[0].variables)
-    heading = ["", *(_HEADINGS[name] for name in names), *(LABELS[name] for name in objectives), "near its limit"]
-    cells = [heading, *(_cells(each, names, objectives) for each in members)]
+def table(members: Sequence[Member], space: DesignSpace) -> list[str]:
+    """A line for each: mark, variables, objectives with their quantiles, and what decides."""
+    names, objectives, quantile = space.names, space.objectives, space.options.quantile
+    with_quantile = () if quantile is None else tuple(name for name in objectives if name in OF_MODEL)
+    heading = ["", *(_HEADINGS[name] for name in names), *(LABELS[name] for name in objectives)]
+    heading += [*(f"{LABELS[name]}, q {quantile:g}" for name in with_quantile), "near its limit"]
+    cells = [heading, *(_cells(each, names, objectives, with_quantile) for each in members)]
     widths = [max(len(line[place]) for line in cells) for place in range(len(heading))]
     return [
         beside("".join(cell.rjust(width) + "  " for cell, width in zip(numbers, widths, strict=False)), words)
@@ -64,11 +67,12 @@ def table(members: Sequence[Member], objectives: Sequence[str]) -> list[str]:
     ]
 
 
-def _cells(found: Member, names: Sequence[str], objectives: Sequence[str]) -> list[str]:
+def _cells(found: Member, names: Sequence[str], objectives: Sequence[str], with_quantile: Sequence[str]) -> list[str]:
     return [
         "*" if found.pareto else "",
         *(shown(name, found.variables[name]) for name in names),
         *(selection.shown(name, found.objectives[name]) for name in objectives),
+        *(selection.shown(name, found.searched[name]) for name in with_quantile),
         _limits(found),
     ]
 
@@ -81,7 +85,8 @@ def _limits(found: Member) -> str:
         if check.utilisation is not None
     ]
     others = [f"FAILS {c.name.replace('_', ' ')}" for c in found.checks if c.holds is False and c.utilisation is None]
-    words = ", ".join([*near, *others])
+    lost = ["the load takes the preload away"] if found.checked.nut.preload_is_lost else []
+    words = ", ".join([*near, *others, *lost])
     return words if found.valid else f"{words}; outside the model's validity".removeprefix("; ")
 
 

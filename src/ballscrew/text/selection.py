@@ -69,12 +69,15 @@ def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) ->
 
 
 def table(ranked: Sequence[Ranked], objectives: Sequence[str]) -> list[str]:
-    """A line for each: rank, mark, label, objectives and torque, verdict."""
-    names = tuple(dict.fromkeys([*objectives, "drive_torque"]))
-    heading = ["", "", "candidate", *(LABELS[name] for name in names), "verdict"]
+    """A line for each: rank, mark, label, objectives, verdict. An oil is named where there are several."""
+    heading = ["", "", "candidate", *(LABELS[name] for name in objectives), "verdict"]
+    several = len({each.candidate.variant.oil_name for each in ranked}) > 1
     cells = [
         heading,
-        *([str(each.rank), "*" if each.pareto else "", *_cells(each.candidate, names)] for each in ranked),
+        *(
+            [str(each.rank), "*" if each.pareto else "", *_cells(each.candidate, objectives, several)]
+            for each in ranked
+        ),
     ]
     widths = [max(len(line[place]) for line in cells) for place in range(len(heading))]
     lines: list[str] = []
@@ -87,8 +90,11 @@ def table(ranked: Sequence[Ranked], objectives: Sequence[str]) -> list[str]:
     return lines
 
 
-def _cells(found: Candidate, names: Sequence[str]) -> list[str]:
-    return [found.variant.label, *(shown(name, found.objectives[name]) for name in names), verdict(found)]
+def _cells(found: Candidate, names: Sequence[str], with_oil: bool) -> list[str]:
+    one = found.variant
+    nut = "" if one.nut == (one.row.nut or "single") else one.nut
+    label = ", ".join(filter(None, [one.row.name, nut, one.preload, one.oil_name if with_oil else ""]))
+    return [label, *(shown(name, found.objectives[name]) for name in names), verdict(found)]
 
 
 def shown(name: str, value: float) -> str:
