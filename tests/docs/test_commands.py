@@ -103,25 +103,25 @@ def served(command, place):
             page = _page_of(server, log)
         finally:
             server.send_signal(signal.SIGINT)
-            code = server.wait(30)
+            code = server.wait(300)
     assert "<html" in page.lower(), f"{command}\nno page came: {page[:200]}"
     assert code in (0, 130, -signal.SIGINT), f"{command}\nended with {code}\n{log.read_text()}"
 
 
 def _page_of(server, log):
     """What stands at the address that it says it listens on."""
-    for _ in range(300):
+    for _ in range(3000):
         said = log.read_text(encoding="utf-8")
         address = re.search(r"http://[\w.:-]+", said)
         assert server.poll() is None, f"it ended by itself\n{said}"
         if address:
             try:
-                with urllib.request.urlopen(f"{address[0]}/", timeout=5) as answer:
+                with urllib.request.urlopen(f"{address[0]}/", timeout=60) as answer:
                     return answer.read().decode()
             except OSError:
                 pass  # it says where it will listen before it does
         time.sleep(0.1)
-    raise AssertionError(f"no page within half a minute\n{log.read_text()}")
+    raise AssertionError(f"no page within five minutes\n{log.read_text()}")
 
 
 #: What commands did that stood on a page before.

@@ -167,7 +167,7 @@ def test_killed_in_the_middle_it_goes_on_where_it_was(tmp_path, monkeypatch):
     chunks = [f"{name}/c/{number}/0/0" for number in finished for name in ("screw_torque", "efficiency")]
     before = times(path, chunks), {name: (path / name).read_bytes() for name in chunks}
     process = started(path, 0)
-    _, said = process.communicate(timeout=60)
+    _, said = process.communicate(timeout=600)
     assert process.returncode == 0, said
     assert (times(path, chunks), {name: (path / name).read_bytes() for name in chunks}) == before
     monkeypatch.setattr(sys, "argv", ["", str(tmp_path / "whole.zarr"), "0"])

@@ -84,7 +84,7 @@ class Server:
         """End it as Ctrl-C does: its exit code and what it said of errors."""
         self.client.close()
         self.process.send_signal(signal.SIGINT)
-        code = self.process.wait(60)
+        code = self.process.wait(300)
         said = self.said()
         self.errors.close()
         self._output.close()
@@ -242,7 +242,7 @@ def browser():
     if CHROMIUM is None:
         pytest.skip("needs chromium: apt-get install chromium")
     with sync_playwright() as playwright:
-        found = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        found = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"], timeout=180_000)
         yield found
         found.close()
 
