@@ -123,6 +123,11 @@ def bare(name: str) -> str:
     return "".join(_WORDS.get(found[0], found[0]) for found in _WORD.finditer(plain))
 
 
+def known_heading_of(cell: Any, place: int, columns: Sequence[Column]) -> Heading | None:
+    """As :func:`heading_of`, for columns whose names have letters: a cell without any, a number, is not looked at."""
+    return heading_of(cell, place, columns) if isinstance(cell, str) and any(map(str.isalpha, cell)) else None
+
+
 def heading_of(cell: Any, place: int, columns: Sequence[Column]) -> Heading | None:
     """The heading that a cell is, with its unit; None where no column is meant."""
     if not isinstance(cell, str) or not 0 < len(cell) <= LONGEST_HEADING:
@@ -188,7 +193,7 @@ def headings_in(
     """The row of the headings, and the headings of known columns."""
     best: tuple[int, list[Heading]] = (0, [])
     for number, record in enumerate(found[:within]):
-        headings = [heading_of(cell, place, columns) for place, cell in enumerate(record.cells)]
+        headings = [known_heading_of(cell, place, columns) for place, cell in enumerate(record.cells)]
         known = [heading for heading in headings if heading is not None]
         if len(known) > len(best[1]):
             best = number, known
