@@ -90,7 +90,7 @@ def test_cf_attributes_are_in_the_files(swept, tmp_path):
     ids=["angle under load", "double", "ball by ball"],
 )
 def test_a_whole_nut(nut, seed_screw, seed_oil, tmp_path):
-    axes = {"axial_load": np.linspace(10, 4000, 40), "screw_speed": [1.0, 60.0]}
+    axes = {"axial_load": np.linspace(10, 4000, 40), "screw_speed": [1.0, 60.0], "engine": "numpy"}
     found = bs.sweep(
         bs.FrictionModel.corrected(), seed_screw, seed_oil, nut=nut, to=tmp_path / "m.zarr", block_size=9, **axes
     )
