@@ -12,6 +12,7 @@ import pytest
 
 from ballscrew import __version__
 from ballscrew.cases import case_file
+from support.documents import ITERATED, assert_same
 from support.fit_logs import (
     EXAMPLES,
     FRICTION,
@@ -101,9 +102,10 @@ def test_names_may_come_with_commas_or_one_by_one(fit, log):
     together = document_of(fit(path, "--json", "--free", f"{FRICTION}, constant_torque"))
     apart = document_of(fit(path, "--json", "--free", FRICTION, "--free", "constant_torque"))
     full = document_of(fit(path, "--json", "--free", f"model.friction.{FRICTION}", "--free", "constant_torque"))
-    assert together == apart
+    assert_same(together, apart, ITERATED)
     assert list(full["estimates"]) == [f"model.friction.{FRICTION}", "constant_torque"]
-    assert [e["value"] for e in full["estimates"].values()] == [e["value"] for e in apart["estimates"].values()]
+    values = [[estimate["value"] for estimate in one["estimates"].values()] for one in (full, apart)]
+    assert_same(*values, ITERATED)
 
 
 def test_as_a_program(case, log):
@@ -255,7 +257,7 @@ def test_nothing_is_held_out_if_not_wanted(fit, log):
 def test_a_seed_holds_out_other_rows(fit, log):
     path = log()
     one, again, other = (document_of(fit(path, "--json", "--seed", seed)) for seed in (1, 1, 2))
-    assert one == again
+    assert_same(one, again, ITERATED)
     assert one["holdout_rms"] != other["holdout_rms"]
 
 

@@ -103,25 +103,25 @@ def served(command, place):
             page = _page_of(server, log)
         finally:
             server.send_signal(signal.SIGINT)
-            code = server.wait(30)
+            code = server.wait(300)
     assert "<html" in page.lower(), f"{command}\nno page came: {page[:200]}"
     assert code in (0, 130, -signal.SIGINT), f"{command}\nended with {code}\n{log.read_text()}"
 
 
 def _page_of(server, log):
     """What stands at the address that it says it listens on."""
-    for _ in range(300):
+    for _ in range(3000):
         said = log.read_text(encoding="utf-8")
         address = re.search(r"http://[\w.:-]+", said)
         assert server.poll() is None, f"it ended by itself\n{said}"
         if address:
             try:
-                with urllib.request.urlopen(f"{address[0]}/", timeout=5) as answer:
+                with urllib.request.urlopen(f"{address[0]}/", timeout=60) as answer:
                     return answer.read().decode()
             except OSError:
                 pass  # it says where it will listen before it does
         time.sleep(0.1)
-    raise AssertionError(f"no page within half a minute\n{log.read_text()}")
+    raise AssertionError(f"no page within five minutes\n{log.read_text()}")
 
 
 #: What commands did that stood on a page before.
@@ -146,6 +146,20 @@ def _run_by_the_docs(page):
     return all(block.info.startswith("{command}") for block in blocks(page) if _typed_in(block))
 
 
+def _plain(command):
+    return command.removeprefix(".venv/bin/")
+
+
+#: Commands that the build of the docs runs on some page. On a page with others besides, they are needed only for the
+#: files that they write.
+BUILT = {
+    _plain(block.info.removeprefix("{command}").strip())
+    for page in PAGES
+    for block in blocks(page)
+    if block.info.startswith("{command}")
+}
+
+
 def test_the_long_pages_are_run_by_the_build_of_the_docs():
     """Each of their commands stands in a block that runs while the page is built, one after the other."""
     assert sum(not _run_by_the_docs(page) for page in PAGES) >= 10
@@ -159,6 +173,8 @@ def test_the_long_pages_are_run_by_the_build_of_the_docs():
 def test_the_commands_of_a_page_do_what_it_says(page, place, commands):
     for line, command in EVERY[page]:
         if left_out(command):
+            continue
+        if _plain(command) in BUILT and not WRITES.search(command) and not _run_by_the_docs(page):
             continue
         if SERVES.match(command):
             served(command, place)

@@ -324,6 +324,15 @@ def outcome_of_arrays(kind, constant, at):
     }
 
 
+@functools.cache
+def slopes_there(kind, constant):
+    """Points, all derivatives there, and the numbers themselves."""
+    at = points(300, kind, away=0.05)
+    if kind == "single":
+        at[0] = np.where(at[0] == 0, 1.0, at[0])
+    return at, played(recorded(kind, constant, slopes=True), at), outcome(kind, constant, *at)
+
+
 @pytest.mark.parametrize("constant", [False, True])
 @pytest.mark.parametrize("kind", ["single", "oversize", "double"])
 @pytest.mark.parametrize("by", INPUTS)
@@ -334,10 +343,7 @@ def test_derivatives_are_those_of_differences(kind, constant, by):
     """
     if kind == "single" and by == "preload":
         return
-    at = points(300, kind, away=0.05)
-    if kind == "single":
-        at[0] = np.where(at[0] == 0, 1.0, at[0])
-    slopes, row = played(recorded(kind, constant, slopes=True), at), INPUTS.index(by)
+    (at, slopes, numbers), row = slopes_there(kind, constant), INPUTS.index(by)
     scale = np.maximum(np.abs(at[row]), at[1] if by == "load" and kind != "single" else 0.0)
 
     def differences(step):
@@ -347,7 +353,7 @@ def test_derivatives_are_those_of_differences(kind, constant, by):
         return {name: (above[name] - below[name]) / (2 * step * scale) for name in above}
 
     ones, twos = differences(1e-4), differences(2e-4)
-    for name, value in outcome(kind, constant, *at).items():
+    for name, value in numbers.items():
         one, two = ones[name] + 0 * at[0], twos[name] + 0 * at[0]
         expected = one + (one - two) / 3
         # without a number there is no slope: 1e-300 of nothing

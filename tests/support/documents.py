@@ -8,9 +8,11 @@ from typing import Any
 #: NumPy and a compiled kernel round the last digits differently. Which one answers also depends on the kernels that
 #: other tests of the same run have left in the cache.
 ROUNDING = 1e-10
+#: Where numbers come out of iterations, which stop a little elsewhere.
+ITERATED = 1e-6
 
 
-def differences(found: Any, expected: Any, at: str = "") -> list[str]:
+def differences(found: Any, expected: Any, relative: float = ROUNDING, at: str = "") -> list[str]:
     """Where two documents differ: numbers by more than rounding, all else at all."""
     if type(found) is not type(expected):
         kinds = {type(found), type(expected)}
@@ -19,18 +21,22 @@ def differences(found: Any, expected: Any, at: str = "") -> list[str]:
     if isinstance(expected, dict):
         if list(found) != list(expected):
             return [f"{at}: fields {list(found)} are not {list(expected)}"]
-        return [line for name in expected for line in differences(found[name], expected[name], f"{at}.{name}")]
+        return [
+            line for name in expected for line in differences(found[name], expected[name], relative, f"{at}.{name}")
+        ]
     if isinstance(expected, list):
         if len(found) != len(expected):
             return [f"{at}: {len(found)} entries are not {len(expected)}"]
         pairs = zip(found, expected, strict=True)
-        return [line for i, (one, other) in enumerate(pairs) for line in differences(one, other, f"{at}[{i}]")]
+        return [
+            line for i, (one, other) in enumerate(pairs) for line in differences(one, other, relative, f"{at}[{i}]")
+        ]
     if isinstance(expected, float) and isinstance(found, (int, float)) and math.isfinite(expected):
-        return [] if math.isclose(found, expected, rel_tol=ROUNDING) else [f"{at}: {found!r} is not {expected!r}"]
+        return [] if math.isclose(found, expected, rel_tol=relative) else [f"{at}: {found!r} is not {expected!r}"]
     return [] if found == expected else [f"{at}: {found!r} is not {expected!r}"]
 
 
-def assert_same(found: Any, expected: Any) -> None:
+def assert_same(found: Any, expected: Any, relative: float = ROUNDING) -> None:
     """Fail where two documents differ by more than rounding."""
-    lines = differences(found, expected)
+    lines = differences(found, expected, relative)
     assert not lines, "\n".join(lines[:10])

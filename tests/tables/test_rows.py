@@ -13,12 +13,15 @@ import xlsxwriter
 from ballscrew import units
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import Fault, InputError
+from ballscrew.motion import trajectory_file
+from ballscrew.moving_logs import columns as moving_logs
 from ballscrew.quantities import fields_of
 from ballscrew.screw_tables.catalogue import COLUMNS
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.studies.validation import columns_of
 from ballscrew.tables import decimals, rows
-from ballscrew.tables.headings import Column, heading_of
+from ballscrew.tables.headings import Column, heading_of, known_heading_of
+from ballscrew.torque_logs import columns as torque_logs
 from ballscrew.validation.sets import SETS
 
 FIELDS = fields_of(CatalogueRow)
@@ -26,6 +29,15 @@ LEAD, BALL = Column("lead", FIELDS["lead"], ("Ph", "P"), True), Column("ball_dia
 TURNS, STARTS = Column("turns", FIELDS["turns"], ("i",)), Column("starts", FIELDS["starts"])
 NAME = Column("name", aliases=("model",))
 COLUMN = (NAME, LEAD, BALL, TURNS, STARTS)
+
+
+def test_names_of_columns_have_letters():
+    """So numbers, which most cells of a log are, need not be looked at to find its headings."""
+    known = [*COLUMNS, *torque_logs.COLUMNS, *moving_logs.COLUMNS, *trajectory_file.COLUMNS]
+    names = [name for column in known for name in (column.name, *column.aliases, *column.hints, *column.capitals)]
+    assert all(any(map(str.isalpha, name)) for name in names)
+    assert known_heading_of("-12.5", 0, known) is None
+    assert known_heading_of("lead_mm", 0, COLUMN) == heading_of("lead_mm", 0, COLUMN) is not None
 
 
 @pytest.fixture

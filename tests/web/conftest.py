@@ -84,7 +84,7 @@ class Server:
         """End it as Ctrl-C does: its exit code and what it said of errors."""
         self.client.close()
         self.process.send_signal(signal.SIGINT)
-        code = self.process.wait(60)
+        code = self.process.wait(300)
         said = self.said()
         self.errors.close()
         self._output.close()
@@ -94,6 +94,11 @@ class Server:
         """What it has written of errors."""
         self.errors.seek(0)
         return self.errors.read()
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Of a file whose tests are all long, those are made while it is collected, which takes seconds."""
+    return (collection_path.name == "test_fields_of_a_case.py" and config.getoption("markexpr") == "not long") or None
 
 
 @pytest.fixture(scope="module")
@@ -243,7 +248,7 @@ def browser():
     if CHROMIUM is None:
         pytest.skip("needs chromium: apt-get install chromium")
     with sync_playwright() as playwright:
-        found = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        found = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"], timeout=180_000)
         yield found
         found.close()
 

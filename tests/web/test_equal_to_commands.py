@@ -154,10 +154,10 @@ def test_compare(server, tables, tmp_path):
 
 
 def banded():
-    """Each file with few samples; all as the page asks for them, which of one file is enough in the short run."""
+    """Each way to ask with one file, and one way with a file of each kind; the others of their product are long."""
     for path in EXAMPLES:
         for options in ({}, {"samples": 100, "level": 0.8}, {"samples": 64, "only_given": True}):
-            short = path == PAPER or "level" in options
+            short = path == PAPER or ("level" in options and path.stem in ("catalogue_screw", "vertical_axis"))
             yield pytest.param(path, options, marks=[] if short else [pytest.mark.long], id=path.stem)
 
 
@@ -263,18 +263,19 @@ def test_catalogue(server):
         assert row == json.loads(printed("catalogue", "show", name.upper(), "--json"))
 
 
-def test_each_row_of_the_catalogue_is_a_case(server):
-    """The page starts from them."""
-    for name in catalogue():
+@pytest.mark.parametrize("every", [4, pytest.param(1, marks=pytest.mark.long)])
+def test_each_row_of_the_catalogue_is_a_case(server, every):
+    """The page starts from them; that each row is a screw is tested by ``check`` (tests/cli/test_check.py)."""
+    for name in list(catalogue())[::every]:
         case = server.get(f"catalogue/{name}").json()["case"]
         assert server.post("run", {"case": case}).status_code == 200
 
 
-#: All of them, and one by its name.
-ALL, ONE, *SETS = ["", *validation.SETS]
+#: One by its name is quick; the others, and all of them, take seconds.
+ONE, *SETS = validation.SETS
 
 
-@pytest.mark.parametrize("name", [ALL, ONE, *(pytest.param(name, marks=pytest.mark.long) for name in SETS)])
+@pytest.mark.parametrize("name", [ONE, *(pytest.param(name, marks=pytest.mark.long) for name in ["", *SETS])])
 def test_validate(server, name):
     found = server.get("validate", params={"set": name}).json()
     assert_same(found, document("validate", *[name] * bool(name), "--json"))

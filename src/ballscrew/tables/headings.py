@@ -70,24 +70,32 @@ class Column:
         return bare(name) in self._names or self._is_in_capitals(name)
 
     def _is_in_capitals(self, name: str) -> bool:
-        return "".join(_WORD.findall(unicodedata.normalize("NFKC", name))) in self.capitals
+        return bool(self.capitals) and "".join(_WORD.findall(unicodedata.normalize("NFKC", name))) in self.capitals
 
     @functools.cached_property
     def _names(self) -> frozenset[str]:
         return frozenset(map(bare, {self.name, *self.aliases} - {*self.capitals}))
 
+    @functools.cached_property
+    def _hints(self) -> frozenset[str]:
+        return frozenset(map(bare, self.hints))
+
+    @functools.cached_property
+    def _longest(self) -> int:
+        """Letters of a text at most that is a name, two of them, or one and a hint."""
+        longest = max(map(len, self._names))
+        return longest + max(longest, *map(len, self._hints), 0)
+
     def is_named(self, text: str) -> bool:
         """Test whether a text is a name of the column, or two of them, or one and a hint: "Dynamic load rating Ca"."""
         if self.answers_to(text):
             return True
-        hints = frozenset(map(bare, self.hints))
-        longest = max(map(len, self._names))
-        if len(bare(text)) > longest + max(longest, *map(len, hints), 0):
+        if len(bare(text)) > self._longest:
             return False
         for word in list(_WORD.finditer(text))[1:]:
             halves = (text[: word.start()], text[word.start() :])
             named = [self.answers_to(half) for half in halves]
-            if any(named) and all(own or bare(half) in hints for own, half in zip(named, halves, strict=True)):
+            if any(named) and all(own or bare(half) in self._hints for own, half in zip(named, halves, strict=True)):
                 return True
         return False
 
@@ -121,6 +129,11 @@ def bare(name: str) -> str:
     """A name without what does not count: capitals, blanks, hyphens, subscripts."""
     plain = unicodedata.normalize("NFKC", name).casefold().translate(_LETTERS)
     return "".join(_WORDS.get(found[0], found[0]) for found in _WORD.finditer(plain))
+
+
+def known_heading_of(cell: Any, place: int, columns: Sequence[Column]) -> Heading | None:
+    """As :func:`heading_of`, for columns whose names have letters: a cell without any, a number, is not looked at."""
+    return heading_of(cell, place, columns) if isinstance(cell, str) and any(map(str.isalpha, cell)) else None
 
 
 def heading_of(cell: Any, place: int, columns: Sequence[Column]) -> Heading | None:
@@ -188,7 +201,7 @@ def headings_in(
     """The row of the headings, and the headings of known columns."""
     best: tuple[int, list[Heading]] = (0, [])
     for number, record in enumerate(found[:within]):
-        headings = [heading_of(cell, place, columns) for place, cell in enumerate(record.cells)]
+        headings = [known_heading_of(cell, place, columns) for place, cell in enumerate(record.cells)]
         known = [heading for heading in headings if heading is not None]
         if len(known) > len(best[1]):
             best = number, known

@@ -17,7 +17,7 @@ from ballscrew import units
 from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.tables import decimals
 from ballscrew.tables.cells import shown, text_of, value_of
-from ballscrew.tables.headings import NOTHING, Column, Heading, checked, heading_of, headings_in, unused
+from ballscrew.tables.headings import NOTHING, Column, Heading, checked, headings_in, known_heading_of, unused
 from ballscrew.tables.sheets import Record, records
 
 T = TypeVar("T")
@@ -62,7 +62,7 @@ class Table:
 
 def read(path: Path, columns: Sequence[Column]) -> Table:
     """The table of a file. Raises :class:`~ballscrew.errors.InputError` for faults of the table as a whole."""
-    found = records(path, lambda cell: heading_of(cell, 0, columns) is not None)
+    found = records(path, lambda cell: known_heading_of(cell, 0, columns) is not None)
     start, matched = headings_in(path, found, columns)
     body = found[start + 1 :]
     headings = checked(path, matched, found[start], body, columns)

@@ -28,6 +28,7 @@ from ballscrew.tables.headings import (
     fits,
     heading_of,
     headings_in,
+    known_heading_of,
     spelt,
     unused,
 )
@@ -158,7 +159,7 @@ def temperatures_among(unused: Sequence[str]) -> list[str]:
 
 def is_heading(cell: str) -> bool:
     """Test whether a cell is a known heading."""
-    return heading_of(cell, 0, COLUMNS) is not None
+    return known_heading_of(cell, 0, COLUMNS) is not None
 
 
 def layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Layout:
@@ -273,7 +274,7 @@ def _match_rank(one: _GivenColumn, cell: str) -> int:
 
 def _without_column(column: Column, cell: Any) -> Any:
     """A cell; empty where it would be read as this column."""
-    heading = heading_of(cell, 0, COLUMNS)
+    heading = known_heading_of(cell, 0, COLUMNS)
     return "" if heading is not None and heading.column is column else cell
 
 
