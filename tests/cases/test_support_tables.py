@@ -11,6 +11,7 @@ from ballscrew.cases import case_file
 from ballscrew.errors import InputError
 from ballscrew.supports.makers_bearing import KnownBearing, SKFBearing
 from ballscrew.supports.rows import guide_rows, support_units
+from ballscrew.web.bodies import case_of
 
 CASE = """
 [screw]
@@ -163,3 +164,10 @@ def test_numbers_that_friction_goes_with_may_have_a_distribution():
     assert set(case.uncertain_supports) == {"bearings.floating.torque", "guides.friction_coefficient"}
     assert case.uncertain_supports["guides.friction_coefficient"] == bs.Uniform(0.002, 0.004)
     assert "bearings.fixed.preload" in faults(BEARINGS, 'bearings.fixed.preload="2 ± 0.1 kN"')
+
+
+@pytest.mark.parametrize("section", ["bearings.fixed", "guides"])
+def test_a_request_reads_no_file_of_the_server(section):
+    more = BEARINGS.replace(f"[{section}]", f'[{section}]\noil_file = "/etc/passwd"')
+    with pytest.raises(InputError, match=rf"{section}\.oil_file: is not taken from a request"):
+        case_of(tomllib.loads(CASE + more), moves=True)

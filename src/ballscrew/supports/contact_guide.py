@@ -20,7 +20,7 @@ from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Angle, Array, Count, Force, Info, Length, Mask, Power, Ratio, Speed, Temperature
 from ballscrew.records import Record
 from ballscrew.supports.bearing import CONFORMITY, bearing_model, rows_of_balls
-from ballscrew.supports.guide import SEALS
+from ballscrew.supports.guide import SEALS, Carriages
 
 #: Diameter of the circle that stands for a straight path, in balls: what is left of its curvature is a share of about
 #: 1e-6 of the force.
@@ -47,10 +47,13 @@ class ContactGuide(ByValue):
         Length, Info("d_w", "ball diameter", "mm", above=0, hint="3 mm to 10 mm", usual=(1e-3, 0.03))
     ]
     balls: Annotated[
-        Count, Info("z_r", "loaded balls in one row of one carriage", at_least=1, whole=True, hint="10 to 30")
+        Count,
+        Info("z_r", "loaded balls in one row of one carriage", at_least=1, at_most=1000, whole=True, hint="10 to 30"),
     ]
     lubricant: Lubricant
-    rows: Annotated[Count, Info("i", "rows of balls of a carriage", at_least=2, whole=True, hint="2 or 4")] = 4
+    rows: Annotated[
+        Count, Info("i", "rows of balls of a carriage", at_least=2, at_most=8, whole=True, hint="2 or 4")
+    ] = 4
     contacts_per_ball: Annotated[
         Count,
         Info("n_c", "contacts of a ball: 2 in circular arcs, 4 in pointed ones", at_least=2, at_most=4, whole=True),
@@ -91,7 +94,7 @@ class ContactGuide(ByValue):
         Force,
         Info("f_s", "force of the seals of one carriage", "N", at_least=0, hint="2 N to 5 N", usual=(0.0, 200.0)),
     ] = 0.0
-    carriages: Annotated[Count, Info("n", "carriages of the table", at_least=1, whole=True, hint="4")] = 4
+    carriages: Carriages = 4
     #: A model of the friction of screws, for its laws of contact; by default the reference.
     model: FrictionModel | None = None
 

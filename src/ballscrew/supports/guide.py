@@ -14,6 +14,7 @@ from ballscrew.quantities import Count, Force, Info, Ratio, Speed, Temperature
 from ballscrew.supports import formulas
 from ballscrew.supports.makers_bearing import MakersFriction
 
+Carriages = Annotated[Count, Info("n", "carriages of the table", at_least=1, at_most=100, whole=True, hint="2 or 4")]
 #: Names of the parts, as those of the torque of an axis.
 GUIDES, SEALS = "guides", "guide seals"
 
@@ -48,7 +49,7 @@ class LinearGuide(ByValue):
         Force,
         Info("f", "force of the seals of one carriage", "N", at_least=0, hint="2 N to 5 N", usual=(0.0, 200.0)),
     ]
-    carriages: Annotated[Count, Info("n", "carriages of the table", at_least=1, whole=True, hint="4")] = 4
+    carriages: Carriages = 4
 
     def __post_init__(self) -> None:
         raise_if_any(faults_of("guide", self))
