@@ -72,16 +72,22 @@ def warnings(report: WarmUpReport) -> list[Record]:
 
 
 def band_records(found: WarmUpBandReport) -> list[Record]:
-    """A warning where samples have no steady state, or leave what is known and with it the bands."""
-    bands = found.bands
+    """What is not in the bands: how halves are braced, and samples that have no steady state or leave what is known."""
+    bands, said = found.bands, list[Record]()
+    if bands.warm_up.network.by_bracing:
+        text = (
+            "the bands have the radial growth alone: how the halves of the nut are braced moves the preload farther; "
+            "give [surroundings] bracing"
+        )
+        said.append(Record(id="band.bracing", subject="preload", text=text, severity="warning"))
     away, lost = 1 - bands.steady_share, 1 - float(bands.known_share[-1])
     if not away and not lost:
-        return []
+        return said
     text = (
         f"{100 * away:.2g} % of {bands.count} samples have no steady state within the range of oil and preload, and "
         f"{100 * lost:.2g} % leave it before the end: from then on they are not in the bands, whose ends are too narrow"
     )
-    return [Record(id="band.no_steady_state", subject="equilibrium", text=text, severity="warning", value=away)]
+    return [*said, Record(id="band.no_steady_state", subject="equilibrium", text=text, severity="warning", value=away)]
 
 
 def _assumed_length(report: WarmUpReport) -> list[Record]:

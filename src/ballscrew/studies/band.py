@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ballscrew.axis_studies.heat_samples import HeatSamples
 from ballscrew.case_schema.schema import LAWS
 from ballscrew.cases import uncertain_inputs
 from ballscrew.cases.case_file import Case
@@ -24,6 +23,9 @@ from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.uncertainty.bands import Band, BandCurve
 from ballscrew.uncertainty.default_uncertainties import JUDGEMENT
 from ballscrew.uncertainty.sampling import JointParts
+
+if TYPE_CHECKING:  # its solvers are slow to import
+    from ballscrew.axis_studies.heat_samples import HeatSamples
 
 #: Points of the curve, of a screw and of a whole nut, and how far it goes beyond the operating point.
 _POINTS, _NUT_POINTS, _BEYOND = 25, 9, 2.0

@@ -54,7 +54,7 @@ def text(report: WarmUpReport) -> str:
 def band_text(found: WarmUpBandReport) -> str:
     """The bands at the end of work and in the steady state, and the inputs that they come from."""
     bands, report = found.bands, found.report
-    last = int(np.flatnonzero(bands.time <= report.warm_up.time[report.last_at_work])[-1])
+    last, stopped = bands.last_at_work, report.warm_up.stopped is not None
     head = f"Band: {100 * bands.level:.4g} % of {bands.count} samples"
     rows = [[head, "case", "median", "from", "to", "steady, from", "to"]]
     for name, one in bands.series.items():
@@ -62,9 +62,8 @@ def band_text(found: WarmUpBandReport) -> str:
             continue
         quantity = SERIES[name]
         steady = bands.steady["growth" if name == "shaft_growth" else name]
-        numbers = (
-            report.series[name][report.last_at_work], one.median[last], one.low[last], one.high[last], *steady
-        )  # fmt: skip
+        central = float("nan") if stopped else report.series[name][report.last_at_work]
+        numbers = (central, one.median[last], one.low[last], one.high[last], *steady)
         rows.append([f"  {quantity.info.meaning}", *(shown_or_dash(float(value), quantity) for value in numbers)])
     given = sum(one.given for one in found.inputs.values())
     said = (

@@ -25,7 +25,7 @@ from ballscrew.thermal.network import Network, nut_length_of
 #: their heat is spread.
 LONG_CYCLE = 0.02
 #: Slots in the time in which the nut goes its own length, in a cycle at least, and at most.
-PER_NUT_LENGTH, LEAST, MOST = 8.0, 8, 2000
+PER_NUT_LENGTH, LEAST, MOST = 8.0, 8, 400
 #: Instants of a slot at which it is asked where the nut is.
 _INSTANTS = 8
 #: Shorter pieces than this share of a cycle are rounding.

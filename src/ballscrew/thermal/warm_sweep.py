@@ -10,7 +10,7 @@ import xarray as xr
 
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, InputError
+from ballscrew.errors import Fault, InputError, accepts_units
 from ballscrew.evaluation.outputs import attributes_of
 from ballscrew.evaluation.plan import Configuration, Plan
 from ballscrew.friction.model import FrictionModel
@@ -32,6 +32,7 @@ STEADY = "validity_steady_state"
 _OF = {"warm_preload": "preload", "shaft_growth": "growth", "heat_margin": "margin"}
 
 
+@accepts_units("sweep")
 def warm_sweep(
     model: FrictionModel,
     screw: BallScrew,

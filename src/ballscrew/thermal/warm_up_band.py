@@ -62,8 +62,9 @@ class WarmUpBand(ByValue):
     count: int
     #: The uncertain inputs.
     uncertain: Mapping[str, Distribution]
-    #: Instants, s.
+    #: Instants, s, and the index of the last one of work, which the central transient may not reach.
     time: Numbers
+    last_at_work: int
     #: Bands over time by :data:`OVER_TIME`, SI.
     series: Mapping[str, SeriesBand]
     #: Share of the samples whose friction is known at each instant: of the others oil or preload left the map before.
@@ -173,7 +174,7 @@ def warm_up_band(
     exist = np.array([end.exists for end in ends])
     margins = np.array([end.margin for end in ends])
     return WarmUpBand(
-        central, level, samples, drawn, np.concatenate(instants),
+        central, level, samples, drawn, np.concatenate(instants), outputs - 1,
         {name: SeriesBand(*_quantiles(of, level)) for name, of in series.items()},
         np.mean(np.isfinite(series["screw_torque"]), axis=1),
         {name: _interval(of[exist], level) for name, of in steady.items()},
