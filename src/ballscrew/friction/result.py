@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Annotated, Any, NamedTuple
 
 from ballscrew._arrays import lazy
+from ballscrew._displayed import Drawn
 from ballscrew.components.contact import RaceState
 from ballscrew.components.frame import Frame
 from ballscrew.components.laws import BallChain, IdealTorqueLaw
@@ -48,7 +49,7 @@ class Quadrant(NamedTuple):
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True, repr=False)
-class FrictionResult(VendorTerms):
+class FrictionResult(VendorTerms, Drawn):
     """Friction of a ball screw at one operating point, or at an array of them.
 
     ``screw_torque``, ``nut_torque`` and ``contributions`` are magnitudes: friction opposes the motion. ``ideal_torque``

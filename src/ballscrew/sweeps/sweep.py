@@ -17,6 +17,7 @@ from ballscrew.evaluation.engines import SweepEngine
 from ballscrew.evaluation.evaluation import Evaluation
 from ballscrew.evaluation.plan import Configuration, Plan
 from ballscrew.friction.model import FrictionModel
+from ballscrew.sweeps import accessor as accessor
 from ballscrew.sweeps.stream import stream
 
 if TYPE_CHECKING:

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ballscrew._displayed import Displayed
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, accepts_units, nearest, raise_if_any
@@ -39,7 +40,7 @@ from ballscrew.uncertainty.band_evaluation import (
     sample_probabilities,
 )
 from ballscrew.uncertainty.distributions import Distribution
-from ballscrew.uncertainty.sampling import JointNormal
+from ballscrew.uncertainty.sampling import Joint
 
 #: Default number of samples, and for a nut whose balls differ, every one of which is solved for.
 SAMPLES, NUT_SAMPLES = 2**14, 2**10
@@ -71,7 +72,7 @@ class OutputBand:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Band:
+class Band(Displayed):
     """Result of :func:`band`, by output."""
 
     level: float
@@ -116,7 +117,7 @@ def band(
     axial_load: Force,
     screw_speed: AngularSpeed,
     alternatives: Sequence[Candidate] = (),
-    joint: JointNormal | None = None,
+    joint: Joint | None = None,
     outputs: Sequence[str] = ("screw_torque",),
     samples: int | None = None,
     seed: int = 0,
@@ -203,7 +204,7 @@ def band_along(
     axial_load: Force,
     screw_speed: AngularSpeed,
     alternatives: Sequence[Candidate] = (),
-    joint: JointNormal | None = None,
+    joint: Joint | None = None,
     samples: int | None = None,
     seed: int = 0,
     level: float = 0.95,

@@ -1,0 +1,127 @@
+"""The sections of a case file that a motion and its heat need, as pydantic models."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterable, Mapping
+from typing import Annotated, Any
+
+from pydantic import BaseModel, BeforeValidator, Field, WithJsonSchema
+
+from ballscrew import units
+from ballscrew.axis.axis import Axis
+from ballscrew.axis.motor import Motor
+from ballscrew.case_schema.fields import json_of, section_of, si_value
+from ballscrew.errors import Fault
+from ballscrew.motion.profiles import SCurve, Segment, Segments, Sine, Trapezoid
+from ballscrew.quantities import Info, Quantity, fields_of
+from ballscrew.thermal.surroundings import BRACINGS, VARIED, Surroundings
+
+#: The tables of a case that moves.
+DUTY_TABLES = ("axis", "motion", "motor", "surroundings")
+#: The rule of one efficiency, by the name of a model.
+CONSTANT_EFFICIENCY = "constant-efficiency"
+EFFICIENCY = Quantity(
+    "efficiency",
+    "1",
+    Info(r"\eta", "efficiency at all loads and speeds", above=0, at_most=1, hint="catalogues have 0.9"),
+)
+#: Kinds of motion, by the names of a case file.
+MOTIONS: Mapping[str, type] = {"trapezoid": Trapezoid, "s-curve": SCurve, "sine": Sine, "segments": Segments}
+#: The kind of a motion that is read from a file.
+TRAJECTORY = "trajectory"
+#: The key of a case file for a field of a motion, where they differ: a word of Python, and the tables of a list.
+KEYS: Mapping[str, str] = {"returns": "return", "segments": "segment"}
+#: Speed and torque of a point of the curve of a motor.
+POINT = (fields_of(Motor)["largest_speed"], fields_of(Motor)["peak_torque"])
+
+
+class Counterforce(float):
+    """A counterweight that is written as a force."""
+
+
+def read_counterweight(raw: object) -> float:
+    """A counterweight as a mass in kg, or as a constant force in N."""
+    known = fields_of(Axis)
+    force = units.parse("", raw, known["counterforce"])
+    return si_value(raw, known["counterweight"]) if isinstance(force, Fault) else Counterforce(force)
+
+
+def fields_of_motion(kind: str) -> set[str]:
+    """The keys that a motion of a kind may have, besides its kind."""
+    if kind == TRAJECTORY:
+        return {"file"}
+    cls = MOTIONS[kind]
+    return {*fields_of(cls), *(key for name, key in KEYS.items() if name in cls.__dataclass_fields__)}
+
+
+@functools.cache
+def duty_sections() -> Mapping[str, type[BaseModel]]:
+    """The models of the sections."""
+    axis = fields_of(Axis)
+    weight = json_of(axis["counterweight"], 0.0) | {"examples": ["150 kg", "1.5 kN"]}
+    of_motions: dict[str, Quantity] = {}
+    for cls in reversed(list(MOTIONS.values())):
+        of_motions |= fields_of(cls)
+    segment = section_of(
+        "Segment", fields_of(Segment), Segment, required=False,
+        name=(Annotated[str, Field(description="name of the segment in results")], None),
+    )  # fmt: skip
+    back: Any = {"return": (_flag("whether the cycle has the way back, true if left out"), None)}
+    return {
+        "axis": section_of(
+            "Axis", {name: q for name, q in axis.items() if name != "counterweight"}, Axis, required=True,
+            counterweight=(
+                Annotated[Any, BeforeValidator(read_counterweight), WithJsonSchema(weight)],
+                Field(default=None),
+            ),
+            brake_holds=(_flag("whether a brake holds the axis in rests, and the motor gives no torque there"), None),
+        ),
+        "motion": section_of(
+            "Motion", of_motions, Trapezoid, required=False,
+            kind=(_one_of((*MOTIONS, TRAJECTORY), "kind of motion"), None),
+            file=(Annotated[str, Field(description="table of a recorded motion, beside the case file")], None),
+            segment=(
+                Annotated[
+                    list[Any],
+                    WithJsonSchema({"type": "array", "minItems": 1, "items": segment.model_json_schema()}),
+                ],
+                Field(default=None, description="parts of a motion of segments, one after the other"),
+            ),
+            **back,
+        ),
+        "segment": segment,
+        "motor": section_of(
+            "Motor", fields_of(Motor), Motor, required=True,
+            curve=(Annotated[list[Any], WithJsonSchema(_curve())], Field(default=None)),
+        ),
+        "surroundings": section_of(
+            "Surroundings", fields_of(Surroundings), Surroundings, required=False, uncertain=VARIED,
+            bracing=(_one_of(BRACINGS, "how the halves of a nut are braced: pushed apart, or together"), None),
+        ),
+    }  # fmt: skip
+
+
+def efficiency_field() -> tuple[Any, Any]:
+    """The field ``efficiency`` of the section of the model, of the rule of one efficiency."""
+    read = BeforeValidator(functools.partial(si_value, quantity=EFFICIENCY))
+    schema = json_of(EFFICIENCY, 0.9) | {"description": f'{EFFICIENCY.info.meaning}, of name = "{CONSTANT_EFFICIENCY}"'}
+    return Annotated[float, read, WithJsonSchema(schema)], Field(default=None)
+
+
+def _curve() -> dict[str, Any]:
+    point = {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}
+    return {
+        "type": "array",
+        "items": point,
+        "description": "peak torque over speed, straight between points",
+        "examples": [[["0 rpm", "7 N m"], ["3000 rpm", "5 N m"]]],
+    }
+
+
+def _flag(meaning: str) -> Any:
+    return Annotated[bool, Field(strict=True, description=meaning)]
+
+
+def _one_of(names: Iterable[str], meaning: str) -> Any:
+    return Annotated[str, WithJsonSchema({"type": "string", "enum": list(names), "description": meaning})]

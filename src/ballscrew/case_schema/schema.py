@@ -1,0 +1,363 @@
+"""The case file as pydantic models, made from the annotations of the parts.
+
+One section is one model: a field for every quantity of the part, text with a unit in, SI out. The
+JSON Schema of the whole (``ballscrew schema``) comes from the same models. The names of models and
+laws stand here and nowhere else.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import reprlib
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema, create_model
+
+from ballscrew.axis.axis import Axis
+from ballscrew.axis.motor import Motor
+from ballscrew.case_schema.duty_schema import CONSTANT_EFFICIENCY, DUTY_TABLES, duty_sections, efficiency_field
+from ballscrew.case_schema.fields import EXAMPLES as EXAMPLES
+from ballscrew.case_schema.fields import defaults_of, json_of, read_preload, section_of
+from ballscrew.case_schema.law_import import OUTSIDE, law_from_outside, with_plain_numbers
+from ballscrew.case_schema.support_schema import SUPPORT_TABLES, support_sections
+from ballscrew.components.data_sheet import SHEET_TEMPERATURE, DataSheet
+from ballscrew.components.materials import INPUTS_OF_SHEET, Lubricant, Material, grades
+from ballscrew.components.nut import Bodies, DoubleNut, Scatter
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.outside_laws import name_of as outside_name
+from ballscrew.components.screw import MATERIALS, BallScrew
+from ballscrew.errors import MISSING, Fault, InputError, closest, nearest
+from ballscrew.friction.calibrations import calibrations
+from ballscrew.friction.law_names import LAWS as LAWS
+from ballscrew.friction.law_names import coefficients
+from ballscrew.friction.model import FrictionModel, presets
+from ballscrew.quantities import Quantity, fields_of
+from ballscrew.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS
+from ballscrew.sizing.installation import Installation, Limits
+
+MODELS = presets()
+DEFAULT_MODEL = "reference"
+
+_SLOTS = {**LAWS, **LOSSES}
+
+#: The tables on the nut and on how the screw is mounted; all may be left out.
+NUT_TABLES = ("nut", "bodies", "deviations", "losses", "installation", "limits")
+
+
+#: A law from outside in the JSON Schema.
+_OUTSIDE = {
+    "type": "string",
+    "pattern": f"^{OUTSIDE.pattern}$",
+    "description": "a law of your own, module:name; only with --allow-code",
+}
+
+
+def coefficients_of(slot: str, name: str) -> Mapping[str, Quantity]:
+    """The coefficients of a law by name; none for a law that is a function."""
+    law = _SLOTS[slot][name]
+    return fields_of(law) if isinstance(law, type) else {}
+
+
+def name_of_law(slot: str, law: Any) -> str:
+    """Name of a law in the case file: one from outside ``module:name``."""
+    named = (name for name, known in _SLOTS[slot].items() if known is law or known is type(law))
+    return next(named, None) or outside_name(law)
+
+
+@functools.cache
+def _coefficients(slot: str, name: str) -> type[BaseModel]:
+    """The model of a table that sets coefficients of a law."""
+    known = coefficients_of(slot, name)
+    return section_of(name, known, _SLOTS[slot][name], required=False, uncertain=known)
+
+
+def _slot(slot: str) -> tuple[Any, Any]:
+    """The field of a slot: the name of a law, or a table with its coefficients; see :func:`law_of` for the check."""
+    plain = [name for name in _SLOTS[slot] if not coefficients_of(slot, name)]
+    tables = [{"law": {"enum": plain}}] if plain else []
+    tables += [
+        {
+            "law": {"const": name},
+            **{
+                field: json_of(q, defaults_of(_SLOTS[slot][name]).get(field), slot in LAWS)
+                for field, q in found.items()
+            },
+        }
+        for name in _SLOTS[slot]
+        if (found := coefficients_of(slot, name))
+    ]
+    schema = {
+        "description": f"law of {_place(slot)}: its name, or a table with coefficients",
+        "anyOf": [
+            {"type": "string", "enum": list(_SLOTS[slot])},
+            *([_OUTSIDE] if slot in LAWS else []),
+            *({"type": "object", "properties": table, "additionalProperties": False} for table in tables),
+        ],
+    }
+    return Annotated[Any, WithJsonSchema(schema)], Field(default=None)
+
+
+@functools.cache
+def sections() -> Mapping[str, type[BaseModel]]:
+    """The models of the sections of a case file."""
+    material = section_of("Material", fields_of(Material), Material, required=False)
+    oil = {**fields_of(Lubricant), **fields_of(DataSheet), "temperature": SHEET_TEMPERATURE}
+    stated = Annotated[str, Field(description="name of an oil or a grease of the library; other fields override it")]
+    oil_file = Annotated[str, Field(description="table with the oil, beside the case file, in place of the library")]
+    grade = Annotated[
+        str, WithJsonSchema({"type": "string", "enum": grades(), "description": "instead of a viscosity"})
+    ]
+    model_name = Annotated[str, WithJsonSchema({"type": "string", "enum": [*MODELS, CONSTANT_EFFICIENCY]})]
+    screw = {**fields_of(BallScrew), **LISTED}
+    materials = dict.fromkeys(MATERIALS, (material, None))
+    row = Annotated[str, Field(description="name of a catalogue row; the other fields then override it")]
+    file = Annotated[str, Field(description="table with the row, beside the case file, in place of the rows shipped")]
+    preload = json_of(NUT_FIELDS["preload"], None) | {"examples": ["3 kN", "7 %"]}
+    same_side = Annotated[bool, Field(strict=True, description="whether screw and nut are held on the same side")]
+    swelling = Annotated[bool, Field(strict=True, description="whether the balls widen the nut and shrink the screw")]
+    spacers = Annotated[
+        bool, Field(strict=True, description="whether every second ball is a spacer, smaller and without load")
+    ]
+    return {
+        "screw": section_of(
+            "Screw", screw, BallScrew, required=True, uncertain=fields_of(BallScrew),
+            catalogue=(row, None), catalogue_file=(file, None), **materials,
+        ),
+        "screw_of_row": section_of(
+            "ScrewOfRow", screw, BallScrew, required=False, uncertain=fields_of(BallScrew),
+            catalogue=(row, ...), catalogue_file=(file, None), **materials,
+        ),
+        "lubricant": section_of(
+            "Lubricant", oil, Lubricant, required=False,
+            uncertain={*fields_of(Lubricant), *INPUTS_OF_SHEET, "temperature"},
+            grade=(grade, None), oil=(stated, None), oil_file=(oil_file, None),
+        ),
+        "operation": section_of(
+            "Operation", fields_of(OperatingState), OperatingState, required=True, uncertain=fields_of(OperatingState)
+        ),
+        "model": section_of(
+            "Model", fields_of(FrictionModel), FrictionModel, required=False, uncertain=fields_of(FrictionModel),
+            name=(model_name, Field(default=None, json_schema_extra={"default": DEFAULT_MODEL})),
+            calibration=(_one_of(calibrations(), "named calibration of two of its numbers"), None),
+            efficiency=efficiency_field(),
+            **{slot: _slot(slot) for slot in LAWS},
+        ),
+        "nut": section_of(
+            "Nut", {name: q for name, q in NUT_FIELDS.items() if name != "preload"}, DoubleNut, required=False,
+            uncertain=NUT_FIELDS,
+            type=(_one_of(NUTS, "kind of nut"), None),
+            spacer_balls=(spacers, None),
+            preload=(Annotated[Any, BeforeValidator(read_preload), WithJsonSchema(preload)], None),
+        ),
+        "bodies": section_of(
+            "Bodies", fields_of(Bodies), Bodies, required=False,
+            same_side=(same_side, None), swelling=(swelling, None),
+        ),
+        "deviations": section_of("Deviations", fields_of(Scatter), Scatter, required=False),
+        "losses": section_of("Losses", {}, Scatter, required=False, **{slot: _slot(slot) for slot in LOSSES}),
+        "installation": section_of(
+            "Installation", fields_of(Installation), Installation, required=False,
+            ends=(_one_of(ENDS, "how the ends of the shaft are held"), None),
+        ),
+        "limits": section_of("Limits", fields_of(Limits), Limits, required=False),
+        **duty_sections(),
+        **support_sections(),
+    }  # fmt: skip
+
+
+def _one_of(names: Iterable[str], meaning: str) -> Any:
+    """A text that must be one of these names; the check is that of whoever looks the name up."""
+    return Annotated[str, WithJsonSchema({"type": "string", "enum": list(names), "description": meaning})]
+
+
+#: A motion stands in for an operating point, and the rule of one efficiency knows no oil.
+_ALTERNATIVES: dict[str, Any] = {
+    "allOf": [
+        {"anyOf": [{"required": ["operation"]}, {"required": ["axis", "motion"]}]},
+        {
+            "anyOf": [
+                {"required": ["lubricant"]},
+                {
+                    "properties": {"model": {"properties": {"name": {"const": CONSTANT_EFFICIENCY}}}},
+                    "required": ["model"],
+                },
+            ]
+        },
+    ]
+}
+
+
+@functools.cache
+def case_file() -> type[BaseModel]:
+    """The model of a whole case file."""
+    parts = sections()
+    screw: Any = parts["screw"] | parts["screw_of_row"]
+    others: dict[str, Any] = {
+        name: (parts[name], Field(default=None))
+        for name in ("lubricant", "operation", *NUT_TABLES, *DUTY_TABLES, *SUPPORT_TABLES)
+    }
+    axes = Annotated[
+        dict[str, str],
+        Field(description='axes of a sweep by field, "100:4000:14 N" (start:stop:count) or "100, 200, 500 N"'),
+    ]
+    fit = Annotated[dict[str, Any], Field(description="what ballscrew fit left beside the numbers that it found")]
+    return create_model(
+        "BallscrewCase",
+        __config__=ConfigDict(extra="forbid", title="ballscrew case file", json_schema_extra=_ALTERNATIVES),
+        screw=(screw, ...),
+        **others,
+        model=(parts["model"], Field(default=None)),
+        sweep=(axes, Field(default=None)),
+        calibration=(fit, Field(default=None)),
+    )
+
+
+def json_schema() -> dict[str, Any]:
+    """JSON Schema of a case file."""
+    schema = without_null(case_file().model_json_schema())
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}
+
+
+def without_null(schema: Any) -> Any:
+    """A schema without defaults of null, which no case file can hold."""
+    if isinstance(schema, dict):
+        return {k: without_null(v) for k, v in schema.items() if not (k == "default" and v is None)}
+    return [without_null(item) for item in schema] if isinstance(schema, list) else schema
+
+
+def validated(section: str, table: Any, faults: list[Fault]) -> dict[str, Any]:
+    """The values of a section that are set, in SI; what is wrong goes to the list of faults.
+
+    Laws are left as they are written: what they may be depends on the model (:func:`law_of`).
+    """
+    of_row = section == "screw" and isinstance(table, dict) and ("catalogue" in table or "catalogue_file" in table)
+    return read_table(section, sections()["screw_of_row" if of_row else section], table, faults)
+
+
+def law_of(slot: str, written: Any, present: Any, faults: list[Fault], folder: Path | None = None) -> Any:
+    """The law that is written for a slot; what is wrong with it goes to the list of faults.
+
+    A name stands for the law with its own coefficients. A table sets coefficients: of the law that it
+    names with ``law``, or else of the law at present in the slot. ``module:name`` is a law from outside, which may be
+    imported from a ``folder``, or not at all where there is none.
+    """
+    where = _place(slot)
+    if not isinstance(written, str | dict):
+        remedy = f"write {slot} = {_either(_SLOTS[slot])}"
+        faults.append(Fault(where, "must be the name of a law, or a table", reprlib.repr(written), remedy))
+        return present
+    table = {"law": written} if isinstance(written, str) else dict(written)
+    place = where if isinstance(written, str) else f"{where}.law"
+    named = table.pop("law", None)
+    name = name_of_law(slot, present) if named is None else named
+    if isinstance(name, str) and ":" in name and slot in LAWS:  # losses take no law from outside
+        return _from_outside(where, place, name, table, folder, faults)
+    if not isinstance(name, str) or name not in _SLOTS[slot]:
+        given = name if isinstance(name, str) else reprlib.repr(name)
+        faults.append(Fault(place, "unknown law", given, nearest(given, _SLOTS[slot])))
+        return present
+    before = len(faults)
+    faults += [_no_coefficient(slot, name, field) for field in table if field not in coefficients_of(slot, name)]
+    if len(faults) > before or not coefficients_of(slot, name):
+        return _SLOTS[slot][name]
+    values = read_table(where, _coefficients(slot, name), table, faults)
+    return dataclasses.replace(present, **values) if named is None else _SLOTS[slot][name](**values)
+
+
+def _from_outside(
+    where: str, place: str, written: str, table: Mapping[str, Any], folder: Path | None, faults: list[Fault]
+) -> Any:
+    """A law from outside, with the coefficients of a table where it is a dataclass."""
+    before = len(faults)
+    try:
+        found = law_from_outside(place, written, folder)
+        plain = with_plain_numbers(where, found, table, faults)
+        if len(faults) > before or not isinstance(found, type):
+            return found
+        known = coefficients(found)
+        section = section_of(found.__name__, known, found, required=False, uncertain=known)
+        values = read_table(where, section, {n: v for n, v in table.items() if n in known}, faults)
+        return found if len(faults) > before else found(**values, **plain)
+    except InputError as error:
+        faults += error.faults
+        return None
+
+
+def _no_coefficient(slot: str, name: str, field: str) -> Fault:
+    known = coefficients_of(slot, name)
+    elsewhere = [other for other in _SLOTS[slot] if field in coefficients_of(slot, other)]
+    guess = nearest(field, known) if closest(field, known) else ""
+    remedy = f"{guess} " if guess else ""
+    if elsewhere:
+        remedy = f"it belongs to {slot}.law = {_either(elsewhere)}; "
+    has = ", ".join(known) or "no coefficients"
+    return Fault(f"{_place(slot)}.{field}", f'no coefficient of the law "{name}"', "", f"{remedy}{name} has {has}")
+
+
+def _place(slot: str) -> str:
+    """Key of a slot in the file."""
+    return f"{'losses' if slot in LOSSES else 'model'}.{slot}"
+
+
+def _either(names: Iterable[str]) -> str:
+    return " or ".join(f'"{name}"' for name in names)
+
+
+def read_table(where: str, model: type[BaseModel], table: Any, faults: list[Fault]) -> dict[str, Any]:
+    """The values of a table that are set; what is wrong goes to the list of faults, in our words."""
+    try:
+        return model.model_validate(table).model_dump(exclude_unset=True)
+    except ValidationError as error:
+        found = [_fault(where, model, dict(problem)) for problem in error.errors(include_url=False)]
+    # a misspelt key is one fault, not also a missing one
+    meant = {f"{fault.where.rpartition('.')[0]}.{fault.meant}" for fault in found if fault.meant}
+    if "screw.catalogue" in meant:
+        meant |= {f"screw.{name}" for name in fields_of(BallScrew)}
+    faults += [fault for fault in found if not (fault.problem == MISSING and fault.where in meant)]
+    return {}
+
+
+def _fault(section: str, model: type[BaseModel], problem: dict[str, Any]) -> Fault:
+    """A fault in our words from an error in pydantic's."""
+    path = [str(part) for part in problem["loc"]]
+    where = ".".join([section, *path])
+    given = problem["input"] if isinstance(problem["input"], str) else reprlib.repr(problem["input"])
+    match problem["type"]:
+        case "fault":
+            return Fault(where, problem["ctx"]["problem"], problem["ctx"]["given"], problem["ctx"]["remedy"])
+        case "missing":
+            parts = (BallScrew, OperatingState, DataSheet, Axis, Motor)
+            quantity = {n: q for part in parts for n, q in fields_of(part).items()}.get(path[-1])
+            unit = "" if quantity is None else f" {quantity.shown_in}"
+            sample = "a number" if quantity is not None and quantity.unit == "1" else f'"…{unit}"'
+            return Fault(where, MISSING, "", f"add {{{where}}}{sample}")
+        case "extra_forbidden":
+            # a coefficient of a law, written without the slot of its law
+            slots = [slot for slot in LAWS if any(path[-1] in coefficients_of(slot, name) for name in LAWS[slot])]
+            if where == f"model.{path[-1]}" and slots:
+                return Fault(where, "unknown key", "", f'did you mean "{slots[0]}.{path[-1]}"?')
+            known = _known(model, path[:-1])
+            return Fault(where, "unknown key", "", nearest(path[-1], known), meant=closest(path[-1], known))
+        case "model_type" | "dict_type" | "model_attributes_type":
+            return Fault(where, "must be a table", given, f"write [{where}]")
+        case "list_type":
+            sample = f"[[{where}]]" if path[-1] == "segment" else f'{path[-1]} = [["0 rpm", "7 N m"]]'
+            return Fault(where, "must be a list", given, f"write {sample}")
+        case "bool_type":
+            return Fault(where, "must be true or false", given, "without quotes")
+        case "string_type":
+            return Fault(where, "must be text", given, "put it in quotes")
+        case _:
+            return Fault(where, problem["msg"], given)
+
+
+def _known(model: type[BaseModel], path: list[str]) -> list[str]:
+    """Names of the keys at a place in the file."""
+    for part in path:
+        inner = model.model_fields[part].annotation
+        assert isinstance(inner, type)
+        model = inner
+    return list(model.model_fields)

@@ -1,0 +1,30 @@
+"""``ballscrew list``: the names that case files and options take. The work is done in ``studies/names``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def list_names(
+    kind: Annotated[str, typer.Argument(metavar="KIND", help="grades, laws, models, inputs or outputs.")],
+    case: Annotated[
+        Path | None, typer.Argument(help="A case file; inputs and outputs are then those of its model and nut.")
+    ] = None,
+    words: Annotated[
+        list[str] | None, typer.Option("--word", metavar="WORD", help="Only lines with this word, such as film.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+) -> None:
+    """List names: grades of oils, laws of friction, models, inputs to vary and outputs to ask for."""
+    from ballscrew.cases import case_file
+    from ballscrew.documents import names as documents
+    from ballscrew.output.json_text import as_json as json_text
+    from ballscrew.studies import names as studies
+    from ballscrew.text import names as text
+
+    found = studies.names(kind, None if case is None else case_file.load(case))
+    found = [one for one in found if all(word.lower() in " ".join(one).lower() for word in words or ())]
+    typer.echo(json_text(documents.document(kind, found)) if as_json else text.text(found))

@@ -1,0 +1,131 @@
+"""Options and messages that several commands share."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Generator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from ballscrew.studies.every_row import OfRows, RowCase
+
+#: Stand for the names of the models and of the calibrations in help texts; replaced when the help is shown.
+MODEL_NAMES, CALIBRATION_NAMES = "{models}", "{calibrations}"
+CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML); ballscrew catalogue show NAME --case makes one.")]
+ModelName = Annotated[
+    str | None,
+    typer.Option("--model", metavar="NAME", help=f"{MODEL_NAMES}; wins over the file."),
+]
+CalibrationName = Annotated[
+    str | None,
+    typer.Option("--calibration", metavar="NAME", help=f"{CALIBRATION_NAMES}, or none; wins over the file."),
+]
+Settings = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set operation.axial_load="4 kN".'),
+]
+AllowCode = Annotated[
+    bool, typer.Option("--allow-code", help='Let the case name laws of your own, "module:name", and run their code.')
+]
+SelfHeatingOption = Annotated[
+    bool,
+    typer.Option("--self-heating", help="Take the oil as warm as friction makes it in the [surroundings] of the case."),
+]
+Verbose = Annotated[bool, typer.Option("--verbose", help="Say on the error stream what evaluates the model, and why.")]
+#: Options of logs.
+TorqueKind = Annotated[
+    str | None,
+    typer.Option("--kind", metavar="KIND", help="Of torque: friction or drive; if left out, the model tells."),
+]
+TorqueConstant = Annotated[
+    str | None, typer.Option("--torque-constant", metavar="VALUE", help='Of a motor current: "0.5 N m/A".')
+]
+Inertia = Annotated[
+    str | None,
+    typer.Option("--inertia", metavar="VALUE", help='What the torque accelerates, at the screw: "2e-3 kg m^2".'),
+]
+#: Options of tables of screws.
+Rows = Annotated[
+    Path | None,
+    typer.Option(
+        "--rows",
+        metavar="FILE",
+        help="A table of screws of your own, .csv or .xlsx: each in place of that of the case.",
+    ),
+]
+Row = Annotated[str | None, typer.Option("--row", metavar="NAME", help="Only this row of --rows.")]
+KeepGoing = Annotated[bool, typer.Option("--keep-going", help="Leave faulty rows out, and say how many.")]
+
+
+def check_rows(rows: Path | None, row: str | None) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` for a row without a table."""
+    if row is not None and rows is None:
+        from ballscrew.errors import Fault, InputError
+
+        raise InputError(Fault("--row", "needs a table of screws", row, "add --rows FILE"))
+
+
+def cases_of_rows(
+    case: Path,
+    rows: Path,
+    row: str | None,
+    settings: Sequence[str] | None,
+    model: str | None,
+    *,
+    calibration: str | None,
+    allow_code: bool,
+    keep_going: bool,
+) -> OfRows[RowCase]:
+    """The case with each screw of a table, or that of one row, in place of its own."""
+    from ballscrew.command_options.progress import progress
+    from ballscrew.studies import every_row
+
+    with progress("rows read") as done:
+        return every_row.cases(
+            case,
+            rows,
+            row,
+            settings=settings or [],
+            model=model,
+            calibration=calibration,
+            allow_code=allow_code,
+            keep_going=keep_going,
+            done=done,
+        )
+
+
+def say_of_rows(notes: Sequence[str], interrupted: bool) -> None:
+    """What is to be said of rows on the error stream; after Ctrl-C the command ends as it always does."""
+    for note in notes:
+        typer.echo(note, err=True)
+    if interrupted:
+        raise KeyboardInterrupt
+
+
+def say_engine(attributes: Mapping[str, Any]) -> None:
+    """The engine that evaluated, and why it was that one, on the error stream."""
+    reason = attributes.get("engine_reason")
+    typer.echo(f"evaluated by {attributes['engine']}" + (f": {reason}" if reason else ""), err=True)
+
+
+@contextlib.contextmanager
+def log_on_stderr() -> Generator[None]:
+    """Show on the error stream what the package logs."""
+    import logging  # not for those who ask for help only
+
+    class Echo(logging.Handler):
+        def emit(self, record: logging.LogRecord) -> None:
+            typer.echo(record.getMessage(), err=True)
+
+    logger, handler = logging.getLogger("ballscrew"), Echo()
+    before = logger.level
+    logger.addHandler(handler)
+    logger.setLevel(logging.INFO)
+    try:
+        yield
+    finally:
+        logger.setLevel(before)
+        logger.removeHandler(handler)

@@ -1,0 +1,1 @@
+"""Notebooks: tables and pictures of results, cases, bands and sweeps."""

@@ -1,0 +1,101 @@
+"""Names that case files and commands take, each from its one source: grades, laws, models, inputs and outputs."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+from ballscrew.case_schema.schema import LAWS, MODELS, coefficients_of
+from ballscrew.cases.case import Case
+from ballscrew.components.materials import Lubricant, grades
+from ballscrew.components.nut import DoubleNut
+from ballscrew.errors import Fault, InputError, nearest
+from ballscrew.evaluation.outputs import inputs_of, known_outputs
+from ballscrew.evaluation.plan import Configuration
+from ballscrew.friction.model import FrictionModel
+from ballscrew.quantities import Quantity
+from ballscrew.sizing.catalogue import catalogue
+
+
+class Name(NamedTuple):
+    """A name: the group that it belongs to, its SI unit (empty where it has none), and its meaning."""
+
+    group: str
+    name: str
+    unit: str
+    meaning: str
+
+
+def names(kind: str, case: Case | None = None) -> list[Name]:
+    """The names of a kind; inputs and outputs are those of a case, or of the reference model with a double nut.
+
+    Raises :class:`~ballscrew.errors.InputError` for an unknown kind.
+    """
+    if kind not in KINDS:
+        raise InputError(Fault("list", "unknown kind of names", kind, nearest(kind, KINDS)))
+    return KINDS[kind](case)
+
+
+def _subject(case: Case | None) -> Configuration:
+    if case is not None:
+        return Configuration(case.model, case.screw, case.lubricant)
+    row = next(iter(catalogue().values()))
+    oil = Lubricant.from_grade("ISO VG 100", temperature=313.15)
+    return Configuration(MODELS["reference"], row.screw(nut=DoubleNut(preload=1000.0)), oil)
+
+
+def _grades(_: Case | None) -> list[Name]:
+    found: list[Name] = []
+    for grade in grades():
+        oil = Lubricant.from_grade(grade, temperature=313.15)
+        found.append(Name("grade", grade, "", f"{1000 * float(oil.viscosity):.4g} mPa s at 40 °C"))
+    return found
+
+
+def _laws(_: Case | None) -> list[Name]:
+    return [
+        Name(slot, name, "", _meaning(law) + _coefficients(slot, name))
+        for slot, laws in LAWS.items()
+        for name, law in laws.items()
+    ]
+
+
+def _coefficients(slot: str, name: str) -> str:
+    found = coefficients_of(slot, name)
+    return f" ({', '.join(found)})" if found else ""
+
+
+def _meaning(law: Any) -> str:
+    """The first sentence of a law, on one line."""
+    text = "" if law is None else (inspect.getdoc(law) or "").partition("\n\n")[0].replace("\n", " ")
+    return text.partition(". ")[0].rstrip(".") or "none"
+
+
+def _models(_: Case | None) -> list[Name]:
+    return [Name("model", name, "", _meaning(getattr(FrictionModel, name.replace("-", "_"), None))) for name in MODELS]
+
+
+def _inputs(case: Case | None) -> list[Name]:
+    subject = _subject(case)
+    known = inputs_of(subject.model, subject.screw, subject.lubricant)
+    return [_of(part, name, quantity) for name, (part, quantity) in known.items() if not name.startswith("nut.")]
+
+
+def _outputs(case: Case | None) -> list[Name]:
+    found = known_outputs(_subject(case).nut)
+    return [_of("output", name, output.quantity) for name, output in found.items()]
+
+
+def _of(group: str, name: str, quantity: Quantity) -> Name:
+    return Name(group, name, "" if quantity.unit == "1" else quantity.unit, quantity.info.meaning)
+
+
+#: The kinds of names, and the function that lists each.
+KINDS: Mapping[str, Callable[[Case | None], list[Name]]] = {
+    "grades": _grades,
+    "laws": _laws,
+    "models": _models,
+    "inputs": _inputs,
+    "outputs": _outputs,
+}

@@ -1,0 +1,1 @@
+"""Targets of a hand-over that are tables and curves: grids with an error, in files that programs and controls read."""

@@ -1,0 +1,265 @@
+"""The friction of a ball screw as a table over its inputs, with straight lines between its values."""
+
+from __future__ import annotations
+
+import dataclasses
+import logging
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import RegularGridInterpolator
+
+from ballscrew.errors import Fault, InputError
+from ballscrew.evaluation.evaluator import evaluator
+from ballscrew.evaluation.outputs import OPERATION
+from ballscrew.exports.export import Export
+from ballscrew.exports.subject import POINTS, HandOver
+from ballscrew.exports.targets import Option
+from ballscrew.exports.worst_error import Values, WorstError, worst_errors
+from ballscrew.friction import directions
+from ballscrew.records import Record
+from ballscrew.table_exports.nodes import chord_errors, nodes_within
+
+Floats = NDArray[np.float64]
+_log = logging.getLogger(__name__)
+
+#: Choices of every target that is a table.
+OPTIONS: Mapping[str, Option] = {
+    "tolerance": Option(0.01, "error of the friction that a table may have, as a share of the friction: 0.01"),
+}
+#: Friction below this share of the largest, or beyond the validity of the model, counts with this share of the largest.
+LEAST_SHARE = 0.05
+#: The numbers that straight lines interpolate; all else is made of them.
+INTERPOLATED = ("screw_torque", "ideal_torque")
+#: What jumps at rest, and is not interpolated.
+DRIVE = "drive_torque"
+#: What is made of the others.
+_MADE_OF_OTHERS = ("holding_torque", "friction_power")
+#: Positions among which nodes are chosen: a ladder up from this share of the largest, and even steps.
+_LEAST_LOAD, _LEAST_SPEED = 1e-5, 1e-8
+_LADDER, _EVEN_STEPS, _OTHER_STEPS = 60, 61, 17
+#: Values of the other axes at which the nodes of an axis are chosen, by the number of axes.
+_PROBES: Mapping[int, int] = {2: 9, 3: 5}
+_FEWEST_PROBES = 3
+_CHECKED_POINTS = 4000
+#: Points at which the error of a nut is measured whose balls are solved one by one.
+_SLOW_POINTS = 200
+_TRIES = 4
+#: A finer table is worth its size where it brings the error down to this share.
+_WORTH = 0.7
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class FrictionTable:
+    """Friction over a grid of load, speed and perhaps other inputs, in SI. Everything is finite.
+
+    Between the nodes ``screw_torque`` and ``ideal_torque`` are read along straight lines. The torque on the shaft is
+    not: it jumps at rest, and is made of the two as ``ideal_torque + sign(screw_speed) · screw_torque``.
+    """
+
+    #: The nodes of each axis.
+    axes: Mapping[str, Floats]
+    #: Values at the nodes: those interpolated, ``drive_torque``, and further outputs asked for.
+    values: Mapping[str, Floats]
+    valid: NDArray[np.bool_]
+    #: The values of the inputs that are no axes.
+    fixed: Mapping[str, float]
+    #: Error of the friction between the nodes as a share of it, or of a twentieth of the largest where it is smaller.
+    error: float
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Number of nodes of each axis."""
+        return self.valid.shape
+
+    @property
+    def valid_range(self) -> dict[str, tuple[float, float]]:
+        """The ends of the axes, and the value of each other input twice."""
+        ends = {name: (float(nodes[0]), float(nodes[-1])) for name, nodes in self.axes.items()}
+        return {**ends, **{name: (value, value) for name, value in self.fixed.items()}}
+
+    def at(self, points: Values) -> dict[str, NDArray[Any]]:
+        """What a program computes with the table at points: the friction, and the torques made of it.
+
+        Beyond the axes the nearest value counts. A point is valid where all nodes around it are.
+        """
+        where = np.column_stack([np.clip(points[name], nodes[0], nodes[-1]) for name, nodes in self.axes.items()])
+        found = {name: interpolated(self.axes, self.values[name], where) for name in self.values if name != DRIVE}
+        friction, ideal = (found[name] for name in INTERPOLATED)
+        found[DRIVE] = ideal + np.sign(points[OPERATION[1]]) * friction
+        found["holding_torque"] = directions.holding_torque(ideal, friction)
+        inside = [(nodes[0] <= points[name]) & (points[name] <= nodes[-1]) for name, nodes in self.axes.items()]
+        surrounded = interpolated(self.axes, self.valid.astype(float), where) > 1 - 1e-9
+        return {**found, "valid": np.logical_and.reduce([surrounded, *inside])}
+
+    def worst_errors(self, handed: HandOver) -> tuple[WorstError, ...]:
+        """The worst error of each output against the model, over points of the range."""
+        count = POINTS if handed.is_recordable else _SLOW_POINTS
+        points = handed.sample(count)
+        points |= {name: np.full(count, value) for name, value in self.fixed.items()}
+        names = [name for name in (*self.values, "holding_torque", "valid") if name in handed.output_names]
+        return worst_errors(handed, self.at, points=points, outputs=names)
+
+    def warnings(self, handed: HandOver) -> list[Record]:
+        """A warning where the table is coarser than was asked for."""
+        tolerance = handed.options["tolerance"]
+        if self.error <= tolerance:
+            return []
+        text = f"the friction between the nodes is off by up to {100 * self.error:.2g} %, not {100 * tolerance:.2g} %"
+        text += '; a smaller range makes it finer: --range axial_load="-5:5 kN"'
+        return [
+            Record(
+                id="hand_over.tolerance", subject="screw_torque", text=text, severity="warning", holds=False,
+                value=self.error, limit=tolerance,
+            )
+        ]  # fmt: skip
+
+
+def friction_table(handed: HandOver) -> FrictionTable:
+    """The friction over a grid that is fine enough for the option ``tolerance``.
+
+    Axes are load and speed, and each other input whose range was asked for. Zero load and rest are nodes where the
+    ranges have them. The nodes are not even: friction is steep near rest and, without preload, near zero load. The
+    error is measured against the model at points drawn anew between the nodes, and is what it is: a tolerance that
+    cannot be met is no fault.
+
+    Raises :class:`~ballscrew.errors.InputError` where the friction, or an output asked for, is no finite number.
+    """
+    tolerance = float(handed.options["tolerance"])
+    if not 1e-4 <= tolerance < 1:
+        raise InputError(Fault("hand_over.tolerance", "must be from 0.0001 to below 1", f"{tolerance:g}", "give 0.01"))
+    chosen = {n: ends for n, ends in handed.working_range.items() if n in OPERATION or n in handed.ranges_given}
+    ranges = {name: ends for name, ends in chosen.items() if handed.has_effect[name]}
+    fixed = {one.name: one.value for one in handed.inputs if one.name not in ranges}
+    evaluate = model_over(handed, list(ranges), fixed)
+    candidates = {name: _candidates(name, *ends) for name, ends in ranges.items()}
+    chords = {name: chord_errors(values, *_along(evaluate, name, candidates)) for name, values in candidates.items()}
+    allowed, best = tolerance / len(ranges), None
+    for _ in range(_TRIES):  # errors of axes add up to less than their sum, at points that were looked at
+        axes = {name: values[_nodes(name, values, chords[name], allowed)] for name, values in candidates.items()}
+        found = evaluate(*np.meshgrid(*axes.values(), indexing="ij"))
+        valid = found.pop("valid")
+        for name, values in found.items():
+            _check_finite(name, axes, values)
+        error = _measured(evaluate, axes, found[INTERPOLATED[0]])
+        _log.info("a table of %s nodes is off by up to %.2g of the friction", valid.shape, error)
+        if best is not None and error > _WORTH * best.error:
+            break
+        best = FrictionTable(axes, found, valid, fixed, error)
+        if error <= tolerance:
+            break
+        allowed *= _WORTH * tolerance / error
+    assert best is not None
+    return best
+
+
+def as_export(
+    handed: HandOver,
+    table: FrictionTable,
+    target: str,
+    files: Mapping[str, bytes],
+    errors: Sequence[WorstError],
+    warnings: Sequence[Record] = (),
+) -> Export:
+    """The export of a target that is a table."""
+    warned = [*table.warnings(handed), *warnings]
+    found = Export.of(handed, target, files, valid_range=table.valid_range, worst_error=errors, warnings=warned)
+    return dataclasses.replace(found, measured_range=table.valid_range)
+
+
+def no_more_axes(table: FrictionTable, what: str) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` for an axis besides load and speed."""
+    others = [name for name in table.axes if name not in OPERATION]
+    if others:
+        remedy = "leave its range out, and the value of the case counts"
+        raise InputError(Fault(f"hand_over.ranges.{others[0]}", f"cannot be an axis of {what}", "", remedy))
+
+
+def interpolated(axes: Mapping[str, Floats], values: Floats, points: Floats) -> Floats:
+    """Values along straight lines between the nodes of axes, at points (one a row) within them."""
+    return RegularGridInterpolator(tuple(axes.values()), values)(points)
+
+
+_Evaluate = Callable[..., dict[str, Any]]
+
+
+def model_over(handed: HandOver, axes: Sequence[str], fixed: Mapping[str, float]) -> _Evaluate:
+    """The model as a function of the axes: as it was recorded, or, with balls solved one by one, compiled."""
+    wanted = [one.name for one in handed.outputs if one.name not in _MADE_OF_OTHERS]
+    if handed.is_recordable:
+
+        def evaluate(*values: Any) -> dict[str, Any]:
+            found = handed.evaluate({**fixed, **dict(zip(axes, values, strict=True))})
+            return {name: found[name] for name in wanted}
+
+        return evaluate
+    subject = handed.subject
+    held: dict[str, Any] = {name: value for name, value in fixed.items() if handed.has_effect[name]}
+    return evaluator(subject.model, subject.screw, subject.lubricant, inputs=axes, outputs=wanted, **held)
+
+
+def speed_candidates(slowest: float, fastest: float) -> Floats:
+    """Positive speeds among which nodes are chosen: a ladder, and even steps."""
+    even = np.linspace(0.0, fastest, _EVEN_STEPS)
+    return np.unique(np.concatenate([np.geomspace(slowest, fastest, 2 * _LADDER), even[even > slowest]]))
+
+
+def _candidates(name: str, low: float, high: float) -> Floats:
+    """Positions among which the nodes of an axis are chosen, zero among them where it is in the range."""
+    if name not in OPERATION:
+        return np.linspace(low, high, _OTHER_STEPS)
+    largest = max(abs(low), abs(high))
+    ladder = np.geomspace(_LEAST_LOAD if name == OPERATION[0] else _LEAST_SPEED, 1, _LADDER) * largest
+    even = np.linspace(-largest, largest, _EVEN_STEPS)
+    positions = np.unique(np.concatenate([-ladder, [0.0, low, high], even[np.abs(even) > ladder[0]], ladder]))
+    return positions[(positions >= low) & (positions <= high)]
+
+
+def _along(evaluate: _Evaluate, name: str, candidates: Mapping[str, Floats]) -> tuple[Floats, Floats]:
+    """The friction at all candidates of an axis, for a few values of each other axis, and its scale; the axis first."""
+    count = _PROBES.get(len(candidates), _FEWEST_PROBES)
+    grid = {n: values if n == name else _probes(values, count) for n, values in candidates.items()}
+    found = evaluate(*np.meshgrid(*grid.values(), indexing="ij"))
+    friction = found[INTERPOLATED[0]]
+    _check_finite(INTERPOLATED[0], grid, friction)
+    place = list(candidates).index(name)
+    return np.moveaxis(friction, place, 0), np.moveaxis(_scale(friction, found["valid"]), place, 0)
+
+
+def _scale(friction: Floats, valid: NDArray[np.bool_]) -> Floats:
+    """What an error is a share of."""
+    largest = float(np.abs(friction).max())
+    return np.where(valid, np.maximum(np.abs(friction), LEAST_SHARE * largest), largest)
+
+
+def _probes(values: Floats, count: int) -> Floats:
+    return values[np.unique(np.linspace(0, len(values) - 1, count).round().astype(int))]
+
+
+def _nodes(name: str, positions: Floats, chords: Floats, tolerance: float) -> list[int]:
+    kept = np.nonzero(positions == 0)[0].tolist() if name in OPERATION else []
+    return nodes_within(chords, tolerance, kept)
+
+
+def _measured(evaluate: _Evaluate, axes: Mapping[str, Floats], friction: Floats) -> float:
+    """The worst error at points drawn within cells of the grid, each cell as likely as any other."""
+    random = np.random.default_rng(20250101)
+    columns: list[Floats] = []
+    for values in axes.values():
+        cells = random.integers(0, len(values) - 1, _CHECKED_POINTS)
+        columns.append(values[cells] + random.random(_CHECKED_POINTS) * (values[cells + 1] - values[cells]))
+    exact = evaluate(*columns)
+    found = interpolated(axes, friction, np.column_stack(columns))
+    return float(np.max(np.abs(found - exact[INTERPOLATED[0]]) / _scale(exact[INTERPOLATED[0]], exact["valid"])))
+
+
+def _check_finite(output: str, axes: Mapping[str, Floats], values: Floats) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` with the first point at which a value is none."""
+    bad = np.argwhere(~np.isfinite(values))
+    if len(bad):
+        where = ", ".join(f"{name} = {axes[name][i]:.4g}" for name, i in zip(axes, bad[0], strict=True))
+        problem = f"{output} is no finite number at {len(bad)} nodes, the first {where} (SI)"
+        remedy = 'leave this output out, or give a smaller range: --range axial_load="1:5 kN"'
+        raise InputError(Fault("hand_over.to", problem, "", remedy))

@@ -1,0 +1,65 @@
+"""Files for MATLAB, read back by SciPy and run by Octave."""
+
+import io
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+from scipy.io import loadmat
+
+import ballscrew as bs
+from ballscrew.table_exports.friction_table import friction_table
+from ballscrew.table_exports.matlab import export
+
+RANGES = {"axial_load": (-3000.0, 5000.0), "screw_speed": (-60.0, 100.0)}
+
+
+@pytest.fixture(scope="module")
+def handed(handed_over):
+    return handed_over(bs.FrictionModel.olaru2005(), bs.DoubleNut(preload=900.0), to="matlab", ranges=RANGES)
+
+
+@pytest.fixture(scope="module")
+def exported(handed):
+    return export(handed)
+
+
+def test_the_file_has_loads_down_and_speeds_across_with_units(handed, exported):
+    found = loadmat(io.BytesIO(exported.files["ballscrew_friction.mat"]), simplify_cells=True)
+    table = friction_table(handed)
+    assert np.array_equal(found["axial_load"].ravel(), table.axes["axial_load"])
+    assert np.array_equal(found["screw_torque"], table.values["screw_torque"])
+    assert found["units"]["screw_speed"] == "rad/s"
+    assert found["fixed"]["preload"] == 900.0
+
+
+def test_octave_reads_and_interpolates_what_python_does(handed, exported, tmp_path):
+    octave = shutil.which("octave-cli")
+    if octave is None:
+        pytest.skip("octave-cli is not installed")
+    exported.write(tmp_path)
+    random = np.random.default_rng(4)
+    load, speed = random.uniform(-3500, 5500, 200), random.uniform(-70, 110, 200)
+    np.savetxt(tmp_path / "points.txt", np.column_stack([load, speed]), fmt="%.17g")
+    script = (
+        "p = dlmread('points.txt', ' '); [m, d, v] = ballscrew_friction(p(:, 1), p(:, 2)); "
+        "printf('%.17g %.17g %d\\n', [m, d, v]');"
+    )
+    done = subprocess.run(
+        [octave, "--quiet", "--no-gui", "--norc", "--eval", script],
+        cwd=tmp_path, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    found = np.array([line.split() for line in done.stdout.splitlines()], dtype=float)
+    wanted = friction_table(handed).at({"axial_load": load, "screw_speed": speed})
+    for column, name in enumerate(["screw_torque", "drive_torque", "valid"]):
+        assert found[:, column] == pytest.approx(wanted[name].astype(float), rel=1e-12, abs=1e-15)
+    assert 0 < found[:, 2].sum() < 200
+
+
+def test_the_simscape_text_has_the_same_numbers_and_says_that_it_was_not_run(handed, exported):
+    text = exported.files["ballscrew_friction.ssc"].decode()
+    values = text[text.index("screw_torque = {[") + 17 :].partition("]")[0]
+    rows = [[float(word) for word in row.split()] for row in values.split(";")]
+    assert np.array_equal(rows, friction_table(handed).values["screw_torque"])
+    assert "never run" in text
