@@ -85,6 +85,7 @@ rooms: $(READY)
 # the prebuilt interpreter and FMU of exports: for Linux on x86-64 by gcc, for other platforms cross-compiled by zig, and
 # never run. The same sources and the same compilers give the same bytes
 C_SOURCES := src/ballscrew/data/exports
+C_FILES := $(C_SOURCES)/ballscrew_*.c $(C_SOURCES)/fmi*.c
 C_FLAGS := -std=c99 -O2 -Wall -Wextra -pedantic -Werror -shared -fvisibility=hidden -s
 ZIG := out/zig/bin/python -m ziglang cc
 
@@ -93,13 +94,13 @@ out/zig:
 
 interpreter: out/zig
 	mkdir -p $(C_SOURCES)/linux64 $(C_SOURCES)/win64 $(C_SOURCES)/darwin64 $(C_SOURCES)/aarch64-darwin $(C_SOURCES)/aarch64-linux
-	gcc $(C_FLAGS) -fPIC -Wl,--build-id=none -include tools/exports/old_glibc.h $(C_SOURCES)/*.c -o $(C_SOURCES)/linux64/ballscrew.so -lm
-	$(ZIG) $(C_FLAGS) -fPIC -target aarch64-linux-gnu.2.17 $(C_SOURCES)/*.c -o $(C_SOURCES)/aarch64-linux/ballscrew.so -lm
-	$(ZIG) $(C_FLAGS) -target x86_64-windows-gnu $(C_SOURCES)/*.c -o $(C_SOURCES)/win64/ballscrew.dll
-	$(ZIG) $(C_FLAGS) -target x86_64-macos -Wl,-install_name,@rpath/ballscrew.dylib $(C_SOURCES)/*.c -o $(C_SOURCES)/darwin64/ballscrew.dylib
-	$(ZIG) $(C_FLAGS) -target aarch64-macos -Wl,-install_name,@rpath/ballscrew.dylib $(C_SOURCES)/*.c -o $(C_SOURCES)/aarch64-darwin/ballscrew.dylib
+	gcc $(C_FLAGS) -fPIC -Wl,--build-id=none -include tools/exports/old_glibc.h $(C_FILES) -o $(C_SOURCES)/linux64/ballscrew.so -lm
+	$(ZIG) $(C_FLAGS) -fPIC -target aarch64-linux-gnu.2.17 $(C_FILES) -o $(C_SOURCES)/aarch64-linux/ballscrew.so -lm
+	$(ZIG) $(C_FLAGS) -target x86_64-windows-gnu $(C_FILES) -o $(C_SOURCES)/win64/ballscrew.dll
+	$(ZIG) $(C_FLAGS) -target x86_64-macos -Wl,-install_name,@rpath/ballscrew.dylib $(C_FILES) -o $(C_SOURCES)/darwin64/ballscrew.dylib
+	$(ZIG) $(C_FLAGS) -target aarch64-macos -Wl,-install_name,@rpath/ballscrew.dylib $(C_FILES) -o $(C_SOURCES)/aarch64-darwin/ballscrew.dylib
 	rm -f $(C_SOURCES)/win64/*.lib $(C_SOURCES)/win64/*.pdb
-	cat $(C_SOURCES)/*.c $(C_SOURCES)/*.h | sha256sum | cut -d " " -f 1 > $(C_SOURCES)/sources.sha256
+	cat $(C_FILES) $(C_SOURCES)/ballscrew_*.h $(C_SOURCES)/fmi*.h | sha256sum | cut -d " " -f 1 > $(C_SOURCES)/sources.sha256
 
 screenshots: $(READY)
 	$(BIN)/python docs/make_screenshots.py

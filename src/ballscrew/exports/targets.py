@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 from ballscrew.cases.case import Case
-from ballscrew.errors import Fault, InputError, nearest
+from ballscrew.errors import Fault, InputError, closest
 from ballscrew.exports.export import Export
 from ballscrew.exports.subject import HandOver
 from ballscrew.quantities import Quantity
@@ -52,7 +52,8 @@ TARGETS: Mapping[str, Target] = {
 def target_module(name: str) -> Any:
     """The module of a target. Raises :class:`~ballscrew.errors.InputError` for an unknown one."""
     if name not in TARGETS:
-        remedy = nearest(name, TARGETS) + f" (known: {', '.join(TARGETS)})"
+        meant = closest(name, TARGETS)
+        remedy = (f'did you mean "{meant}"? ' if meant else "") + f"known: {', '.join(TARGETS)}"
         raise InputError(Fault("hand_over.to", "unknown target", str(name), remedy))
     return importlib.import_module(f".{TARGETS[name].module}", _ROOM)
 
