@@ -82,14 +82,24 @@ readme: $(READY)
 rooms: $(READY)
 	$(BIN)/python docs/make_rooms.py
 
-# the prebuilt interpreter and FMU of exports, for Linux on x86-64, by gcc: the same sources and the same gcc give the same bytes
+# the prebuilt interpreter and FMU of exports: for Linux on x86-64 by gcc, for other platforms cross-compiled by zig, and
+# never run. The same sources and the same compilers give the same bytes
 C_SOURCES := src/ballscrew/data/exports
-LINUX64 := $(C_SOURCES)/linux64
+C_FLAGS := -std=c99 -O2 -Wall -Wextra -pedantic -Werror -shared -fvisibility=hidden -s
+ZIG := out/zig/bin/python -m ziglang cc
 
-interpreter:
-	gcc -std=c99 -O2 -Wall -Wextra -pedantic -Werror -shared -fPIC -fvisibility=hidden -s -Wl,--build-id=none \
-		-include tools/exports/old_glibc.h $(C_SOURCES)/*.c -o $(LINUX64)/ballscrew.so -lm
-	cat $(C_SOURCES)/*.c $(C_SOURCES)/*.h | sha256sum | cut -d " " -f 1 > $(LINUX64)/sources.sha256
+out/zig:
+	@$(PYTHON) -m venv out/zig && out/zig/bin/python -m pip install --quiet --disable-pip-version-check ziglang==0.17.1
+
+interpreter: out/zig
+	mkdir -p $(C_SOURCES)/linux64 $(C_SOURCES)/win64 $(C_SOURCES)/darwin64 $(C_SOURCES)/aarch64-darwin $(C_SOURCES)/aarch64-linux
+	gcc $(C_FLAGS) -fPIC -Wl,--build-id=none -include tools/exports/old_glibc.h $(C_SOURCES)/*.c -o $(C_SOURCES)/linux64/ballscrew.so -lm
+	$(ZIG) $(C_FLAGS) -fPIC -target aarch64-linux-gnu.2.17 $(C_SOURCES)/*.c -o $(C_SOURCES)/aarch64-linux/ballscrew.so -lm
+	$(ZIG) $(C_FLAGS) -target x86_64-windows-gnu $(C_SOURCES)/*.c -o $(C_SOURCES)/win64/ballscrew.dll
+	$(ZIG) $(C_FLAGS) -target x86_64-macos -Wl,-install_name,@rpath/ballscrew.dylib $(C_SOURCES)/*.c -o $(C_SOURCES)/darwin64/ballscrew.dylib
+	$(ZIG) $(C_FLAGS) -target aarch64-macos -Wl,-install_name,@rpath/ballscrew.dylib $(C_SOURCES)/*.c -o $(C_SOURCES)/aarch64-darwin/ballscrew.dylib
+	rm -f $(C_SOURCES)/win64/*.lib $(C_SOURCES)/win64/*.pdb
+	cat $(C_SOURCES)/*.c $(C_SOURCES)/*.h | sha256sum | cut -d " " -f 1 > $(C_SOURCES)/sources.sha256
 
 screenshots: $(READY)
 	$(BIN)/python docs/make_screenshots.py

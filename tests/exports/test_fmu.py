@@ -123,6 +123,26 @@ def test_another_importer_finds_the_same_digits(handed, tmp_path):
     np.testing.assert_allclose(found, [float(wanted[name]) for name in names], rtol=1e-13)
 
 
+def test_a_third_importer_finds_the_same_digits(handed, file):
+    try:
+        from ecospy import EcosSimulation, EcosSimulationStructure
+        from ecospy.EcosParameterSet import EcosParameterSet
+    except (ImportError, OSError) as missing:
+        pytest.skip(f"needs ecospy, and libtbb12 on Linux: {missing}")
+    point = {"axial_load": -1500.0, "screw_speed": 60.0, "temperature": 320.0}
+    structure, start = EcosSimulationStructure(), EcosParameterSet()
+    structure.add_model("screw", str(file))
+    for name, value in point.items():
+        start.add_real(f"screw::{name}", value)
+    structure.add_parameter_set("start", start)
+    with EcosSimulation(structure=structure, step_size=0.01) as simulation:
+        simulation.init(parameter_set="start")
+        simulation.step(2)
+        found = [simulation.get_real(f"screw::{name}") for name in (*TORQUES, "drive_torque", "valid")]
+    wanted = handed.evaluate(point)
+    np.testing.assert_allclose(found, [float(wanted[n]) for n in (*TORQUES, "drive_torque", "valid")], rtol=1e-13)
+
+
 def test_what_is_in_it(file, version):
     with zipfile.ZipFile(file) as archive:
         held = set(archive.namelist())

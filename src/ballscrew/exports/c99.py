@@ -14,10 +14,9 @@ from ballscrew.exports.interpreter import errors_of_program
 from ballscrew.exports.readme import readme
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.two_levels import two_levels
-from ballscrew.tracing.program import Program
 
-#: Points of the test vector.
-TEST_POINTS = 100
+#: Points of the test vector, and of that of a nut with elastic bodies, each of which takes Python milliseconds.
+TEST_POINTS, TEST_POINTS_OF_ELASTIC_BODIES = 100, 20
 
 _HEADER = """\
 /* {title}. SI units; README.txt has the rest. */
@@ -149,8 +148,9 @@ ballscrew.c and ballscrew.h are strict C99 and need libm only:
   cc -std=c99 -O2 -c ballscrew.c
   cc -std=c99 -O2 ballscrew.c main.c -lm && ./a.out && ./a.out test_vector.csv
   cc -shared -fPIC -O2 ballscrew.c -o ballscrew.so -lm
-Do not compile with -ffast-math. main.c is an example, and tests the compiled code against test_vector.csv: inputs and
-outputs of the model in Python. The header can be included in C++.
+Do not compile with -ffast-math. An evaluation needs {stack} kB of stack and a little, and no other memory. main.c is an
+example, and tests the compiled code against test_vector.csv: inputs and outputs of the model in Python. The header can
+be included in C++.
 """
 
 
@@ -158,13 +158,13 @@ def export(handed: HandOver) -> Export:
     """The model as C99: source, header, example with a test vector, and a text."""
     limits = handed.formula_range
     files = {
-        "ballscrew.c": source(handed),
+        "ballscrew.c": source(handed, body := body_of(handed)),
         "ballscrew.h": header(handed),
         "main.c": _example(handed),
         "test_vector.csv": test_vector(handed),
     }
     errors = errors_of_program(handed)
-    files["README.txt"] = readme(handed, "C99 source", _NOTES, errors)
+    files["README.txt"] = readme(handed, "C99 source", _NOTES.format(stack=-(-body.room * 8 // 1000)), errors)
     content = {name: text.encode() for name, text in files.items()}
     return Export.of(handed, "c", content, valid_range=limits, worst_error=errors)
 
@@ -185,9 +185,9 @@ def header(handed: HandOver) -> str:
     )
 
 
-def source(handed: HandOver) -> str:
-    """The source."""
-    body = c_two_levels.body(two_levels(handed)) if handed.has_elastic_bodies else _body(handed.program)
+def source(handed: HandOver, body: Body | None = None) -> str:
+    """The source; of the body of the evaluation, where it is at hand."""
+    body = body or body_of(handed)
     limits = handed.formula_range
     results = {**body.results, "valid": f"inside && {body.results['valid']} != 0.0"}
     return _SOURCE.format(
@@ -204,9 +204,12 @@ def source(handed: HandOver) -> str:
     )
 
 
-def _body(program: Program) -> Body:
-    made = c_source.functions(program)
-    return Body(made.texts, (f"double v[{made.room}];", *made.calls), made.results)
+def body_of(handed: HandOver) -> Body:
+    """The evaluation of the model in C."""
+    if handed.has_elastic_bodies:
+        return c_two_levels.body(two_levels(handed))
+    made = c_source.functions(handed.program)
+    return Body(made.texts, (f"double v[{made.room}];", *made.calls), made.results, made.room)
 
 
 def _example(handed: HandOver) -> str:
@@ -216,7 +219,7 @@ def _example(handed: HandOver) -> str:
 
 def test_vector(handed: HandOver) -> str:
     """Inputs and outputs at some points of the working range, to the last digit."""
-    points = handed.sample(TEST_POINTS)
+    points = handed.sample(TEST_POINTS_OF_ELASTIC_BODIES if handed.has_elastic_bodies else TEST_POINTS)
     found = handed.evaluate(points)
     columns: Mapping[str, np.ndarray] = {**points, **{n: found[n].astype(float) for n in handed.output_names}}
     rows = zip(*(values.tolist() for values in columns.values()), strict=True)

@@ -73,6 +73,8 @@ class Body(NamedTuple):
     texts: tuple[str, ...]
     statements: tuple[str, ...]
     results: Mapping[str, str]
+    #: Numbers on the stack.
+    room: int
 
 
 def functions(program: Program, name: str = "part", inputs: str = "x", room: str = "v") -> Functions:

@@ -45,7 +45,8 @@ def body(parts: TwoLevels) -> Body:
         *behind.calls,
     ]
     assert {*range(_ARRAYS)} >= {what for by_ball, what in parts.tables if by_ball}
-    return Body((*_solver(), *points.texts, *ball.texts, *behind.texts), tuple(statements), behind.results)
+    room = points.room + ball.room + behind.room + len(parts.tables) + parts.behind.inputs + 15 * balls
+    return Body((*_solver(), *points.texts, *ball.texts, *behind.texts), tuple(statements), behind.results, room)
 
 
 def _reduced(reductions: tuple[Reduction, ...], values: Mapping[str, str]) -> list[str]:

@@ -82,11 +82,11 @@ def export(handed: HandOver) -> Export:
     program = program_file(handed)
     listed = variables(handed)
     token = uuid.UUID(hashlib.sha256(program + repr(listed).encode()).hexdigest()[:32])
-    describe, platform, source = (_fmi2, "linux64", "fmi2.c") if version == 2 else (_fmi3, "x86_64-linux", "fmi3.c")
+    describe, source = (_fmi2, "fmi2.c") if version == 2 else (_fmi3, "fmi3.c")
     text = readme(handed, f"FMU {version}.0", _NOTES)
     content = {
         "modelDescription.xml": _document(describe(handed, listed, str(token))),
-        f"binaries/{platform}/{IDENTIFIER}.so": interpreter.data(interpreter.LINUX64),
+        **_libraries(version),
         "resources/program.bin": program,
         **{f"sources/{name}": interpreter.data(name) for name in (*_SOURCES, *_HEADERS, source)},
         f"documentation/{'README.txt' if version == 2 else 'index.html'}": (
@@ -115,9 +115,19 @@ screw_torque is the size of the friction. friction_torque is tanh(screw_speed / 
 drive_torque is ideal_torque + friction_torque: from twenty times the regularisation speed on those of the model to the
 last digit. regularisation_speed = 0 takes the sign of the speed.
 
-The library for Linux on x86-64 was run; other platforms need the sources compiled: all files
-of the folder sources, with the C library and libm. It needs no Python, and one thread for each instance.
+The library for Linux on x86-64 was run. Those for Windows, macOS and Linux on ARM were cross-compiled and never run:
+where one does not load, compile all files of the folder sources, with the C library and libm. It needs no Python, and
+one thread for each instance.
 """
+
+
+def _libraries(version: int) -> dict[str, bytes]:
+    """The prebuilt libraries at their places in an FMU of a version of the standard."""
+    found: dict[str, bytes] = {}
+    for path, platforms in interpreter.LIBRARIES.items():
+        if platform := platforms[version - 2]:
+            found[f"binaries/{platform}/{path.rpartition('/')[2]}"] = interpreter.data(path)
+    return found
 
 
 def variables(handed: HandOver) -> tuple[Variable, ...]:

@@ -181,7 +181,7 @@ def _checked(name: str, quantity: Quantity, asked: tuple[float, float]) -> tuple
 
 def _largest_load(subject: Configuration) -> float:
     """The largest load at which no contact yields, to two digits and downwards."""
-    loads = _LOADS
+    loads, largest = _LOADS, float(_LOADS[-1])
     for _ in range(2):
         with np.errstate(all="ignore"):
             found = subject.at({OPERATION[0]: loads, OPERATION[1]: np.full_like(loads, 10.0)})

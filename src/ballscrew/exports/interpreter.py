@@ -7,6 +7,7 @@ import functools
 import platform
 import sys
 import weakref
+from collections.abc import Mapping
 from importlib import resources
 
 import numpy as np
@@ -21,6 +22,15 @@ SOURCES = ("ballscrew_program.c", "ballscrew_list.c", "ballscrew_loads.c")
 HEADERS = ("ballscrew_program.h", "ballscrew_list.h", "ballscrew_loads.h")
 #: The prebuilt library for Linux on x86-64.
 LINUX64 = "linux64/ballscrew.so"
+#: Prebuilt libraries by platform, and the names that FMI 2 and FMI 3 have for it. All but the first were cross-compiled
+#: and never run.
+LIBRARIES: Mapping[str, tuple[str, str]] = {
+    LINUX64: ("linux64", "x86_64-linux"),
+    "win64/ballscrew.dll": ("win64", "x86_64-windows"),
+    "darwin64/ballscrew.dylib": ("darwin64", "x86_64-darwin"),
+    "aarch64-linux/ballscrew.so": ("", "aarch64-linux"),
+    "aarch64-darwin/ballscrew.dylib": ("", "aarch64-darwin"),
+}
 #: Points at which an interpreted program is compared with the model; with elastic bodies each takes milliseconds.
 POINTS, POINTS_OF_ELASTIC_BODIES = 500, 50
 

@@ -10,7 +10,8 @@ from ballscrew.exports.subject import HandOver
 
 _NOTES = """\
 program.bin is the model; ballscrew_program.c, strict C99 with libm only, reads and runs it, and states its format. The
-library linux64/ballscrew.so, prebuilt for Linux on x86-64, has the functions of ballscrew_program.h; elsewhere:
+library linux64/ballscrew.so, prebuilt for Linux on x86-64, has the functions of ballscrew_program.h. Those for Windows,
+macOS and Linux on ARM were cross-compiled and never run. Elsewhere:
   cc -std=c99 -O2 -shared -fPIC *.c -o ballscrew.so -lm
 Any program that calls functions of C can call it; one that reads it with Python's ctypes:
   import ctypes
@@ -33,7 +34,10 @@ def export(handed: HandOver) -> Export:
     )
     files = {
         "program.bin": program_file(handed),
-        **{name: interpreter.data(name) for name in (*interpreter.SOURCES, *interpreter.HEADERS, interpreter.LINUX64)},
+        **{
+            name: interpreter.data(name)
+            for name in (*interpreter.SOURCES, *interpreter.HEADERS, *interpreter.LIBRARIES)
+        },
         "README.txt": readme(handed, "Program for an interpreter", notes, errors).encode(),
     }
     return Export.of(handed, "program", files, valid_range=handed.formula_range, worst_error=errors)

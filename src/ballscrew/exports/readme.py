@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from ballscrew.components.materials import OF_A_GRADE
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.worst_error import WorstError
 
@@ -51,4 +52,9 @@ def readme(handed: HandOver, kind: str, notes: str, errors: Sequence[WorstError]
 
 
 def _fixed(handed: HandOver, values: Mapping[str, float]) -> list[str]:
-    return [f"  {name} = {value:.17g}" for name, value in values.items() if name not in handed.input_names]
+    follows = set(OF_A_GRADE) if handed.subject.lubricant.follows_temperature else set()
+    return [
+        f"  {name} = {float(value)!r}{' at the usual temperature' if name in follows else ''}"
+        for name, value in values.items()
+        if name not in handed.input_names
+    ]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,8 @@ from ballscrew.tracing.gradient import UnknownDerivativeError, partials
 from ballscrew.tracing.merging import merged_program
 from ballscrew.tracing.program import Program
 from ballscrew.tracing.tape import CannotRecordError, Tape
+
+T = TypeVar("T")
 
 #: The temperature, which is an input of every export: of an oil that is given by its numbers it changes nothing.
 TEMPERATURE = "temperature"
@@ -159,6 +161,16 @@ class HandOver:
         found = {n: np.array(np.broadcast_to(values, inside.shape)) for n, values in found.items()}
         found["valid"] = found["valid"].astype(bool) & inside
         return found
+
+    @functools.cached_property
+    def _made(self) -> dict[str, Any]:
+        return {}
+
+    def once(self, name: str, make: Callable[[], T]) -> T:
+        """Something that targets make of it, made once."""
+        if name not in self._made:
+            self._made[name] = make()
+        return self._made[name]
 
     @property
     def has_elastic_bodies(self) -> bool:

@@ -97,6 +97,10 @@ def two_levels(handed: HandOver) -> TwoLevels:
     for inputs that change the bodies, for outputs that only Python's solver has, for derivatives, and for laws that
     cannot be recorded.
     """
+    return handed.once("two levels", lambda: _two_levels(handed))
+
+
+def _two_levels(handed: HandOver) -> TwoLevels:
     subject = handed.subject
     _check(handed)
     names = [name for name in handed.input_names if handed.has_effect[name]]

@@ -224,7 +224,7 @@ static double balance(chain *c, double guess, double *x, double *room)
     }
     for (tried = 0; tried < STEPS_OF_GAPS; tried++) {
         double push[2] = {0.0, 0.0}, own[2] = {0.0, 0.0}, through[2][2] = {{0.0, 0.0}, {0.0, 0.0}};
-        double now[2], step[2] = {0.0, 0.0}, m[2][2], largest = 0.0;
+        double now[2] = {0.0, 0.0}, step[2] = {0.0, 0.0}, m[2][2], largest = 0.0;
         for (i = 0; i < n; i++) {
             const ball here = ball_at(c, i, x[i]);
             b = c->bodies == 2 && i >= n / 2;
