@@ -21,6 +21,7 @@ import ballscrew as bs
 from ballscrew.exports import c99, fmu, interpreter, program_file
 from ballscrew.exports.hand_over import handed
 from ballscrew.exports.subject import HandOver
+from ballscrew.exports.two_levels import two_levels
 from timing import seconds
 
 PRESETS = ("olaru2005", "corrected", "reference")
@@ -30,7 +31,10 @@ NUTS = {
     "double": bs.DoubleNut(preload=900.0),
     "offset lead": bs.OffsetLeadNut(preload=900.0),
     "oversize balls": bs.OversizeBallNut(preload=900.0),
+    "double, elastic": bs.DoubleNut(preload=900.0, bodies=bs.Bodies()),
 }
+#: Points at which a nut with elastic bodies is evaluated: each takes Python milliseconds.
+POINTS_OF_ELASTIC_BODIES = 1000
 HEADINGS = (
     "model", "nut", "steps", "export to C, s", "source, kB", "gcc -O2, s", "compiled, µs", "interpreted, µs",
     "export to FMU, s", "FMU, kB", "largest relative difference", "other validity",
@@ -76,7 +80,12 @@ def compiled(one: HandOver, folder: Path) -> tuple[float, Any]:
     return took, ctypes.CDLL(str(made)).many
 
 
-def rows(presets: tuple[str, ...], count: int) -> Iterator[tuple[str, ...]]:
+def steps(one: HandOver) -> int:
+    """Steps of a program, of a nut with elastic bodies those of each ball."""
+    return len((two_levels(one).each_ball if one.has_elastic_bodies else one.program).steps)
+
+
+def rows(presets: tuple[str, ...], most: int) -> Iterator[tuple[str, ...]]:
     """A row for each model and nut."""
     oil = bs.Lubricant.from_grade("ISO VG 100", temperature=313.15)
     for preset in presets:
@@ -89,6 +98,7 @@ def rows(presets: tuple[str, ...], count: int) -> Iterator[tuple[str, ...]]:
                 continue  # its slip knows no balls with four contacts
             to_c = seconds(lambda model=model, screw=screw: bs.hand_over(model, screw, oil, to="c"))
             to_fmu = seconds(lambda model=model, screw=screw: bs.hand_over(model, screw, oil, to="fmu"))
+            count = min(most, POINTS_OF_ELASTIC_BODIES) if one.has_elastic_bodies else most
             points = one.sample(count)
             wanted = one.evaluate(points)
             given = np.ascontiguousarray(np.stack([points[name] for name in one.input_names], axis=-1))
@@ -96,14 +106,14 @@ def rows(presets: tuple[str, ...], count: int) -> Iterator[tuple[str, ...]]:
             with tempfile.TemporaryDirectory() as folder:
                 took, many = compiled(one, Path(folder))
                 places = ctypes.c_void_p(given.ctypes.data), ctypes.c_void_p(results.ctypes.data)
-                call = min(seconds(lambda many=many, places=places: many(*places, count)) for _ in range(3)) / count
+                call = min(seconds(lambda many=many, places=(*places, count): many(*places)) for _ in range(3)) / count
             worst, others = difference(dict(zip(one.output_names, results.T, strict=True)), wanted)
             run = interpreter.Interpreted(program_file.program_file(one))
             read = min(seconds(lambda run=run, points=points: run.at(points)) for _ in range(3)) / count
             size = len(bs.hand_over(model, screw, oil, to="fmu").files[f"{fmu.IDENTIFIER}.fmu"])
             source = len(c99.source(one))
             yield (
-                preset, kind, f"{len(one.program.steps):,}", f"{to_c:.2f}", f"{source / 1e3:.0f}", f"{took:.1f}",
+                preset, kind, f"{steps(one):,}", f"{to_c:.2f}", f"{source / 1e3:.0f}", f"{took:.1f}",
                 f"{1e6 * call:.1f}", f"{1e6 * read:.1f}", f"{to_fmu:.2f}", f"{size / 1e3:.0f}", f"{worst:.1e}",
                 f"{others}",
             )  # fmt: skip

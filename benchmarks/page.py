@@ -26,7 +26,7 @@ CASES = {
     "a double nut": "#A=rexroth-40x10x6-6-double",
     "an elastic double nut": "#A=rexroth-40x10x6-6-double&A.bodies.same_side=true",
 }
-SIZE = (1360, 900)
+SIZE = (1360, 1500)  # the first chart is in it
 #: Seconds that a browser has to calm down after its start, and the page to be drawn.
 CALM, DRAWN = 3.0, 5.0
 MEASURES = ("numbers", "chart", "all")

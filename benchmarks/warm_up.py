@@ -7,7 +7,8 @@ and fro at 1000 rpm over half a metre, four hours.
 - ``first``: the first transient of a duty, with the map of its friction.
 - ``transient``: the next ones, with other surroundings.
 - ``steady``: the steady state alone.
-- ``many``: transients for a band, in all and extrapolated to a thousand.
+- ``many``: transients one by one, in all and extrapolated to a thousand.
+- ``band``: a thousand transients for a band, side by side (``bs.warm_up_band``), on one processor.
 - ``plain``: the same four hours with the model called at every right-hand side; temperatures of both are compared.
 """
 
@@ -27,7 +28,7 @@ import numpy as np
 
 import ballscrew as bs
 from ballscrew.axis.duty import Duty
-from ballscrew.thermal.friction_map import friction_map
+from ballscrew.thermal.friction_map import state_maps
 from ballscrew.thermal.network import Network
 from ballscrew.thermal.warm_up import WarmUp, warm_up
 
@@ -70,8 +71,10 @@ def plain(network: Network, seconds: float) -> tuple[float, int, float]:
     own = Plain(**fields)
     start = np.full(own.size, START)
     before = time.perf_counter()
-    states, _ = module._integrated(own, start, np.array([0.0, seconds]), works=True)
-    return time.perf_counter() - before, own.calls[0], float(states[own.size - 3, -1])
+    instants, states, stopped = module._integrated(own, start, np.array([0.0, seconds]), works=True)
+    took = time.perf_counter() - before
+    found = WarmUp(duty(), own, instants, states, np.ones(instants.size, dtype=bool), stopped)
+    return took, own.calls[0], float(found.nut_temperature[-1])
 
 
 def transient(surroundings: bs.Surroundings) -> WarmUp:
@@ -116,7 +119,7 @@ def measured(many: int, processes: int, rounds: int) -> dict[str, float]:
     MODEL(SCREW, OIL, axial_load=0.0, screw_speed=1.0)  # imports and tables that every use of the model pays once
     found: dict[str, float] = {"first": timed(lambda: transient(AIR), 1)}
     found["transient"] = timed(lambda: transient(AIR), rounds)
-    found["map"] = timed(lambda: friction_map.__wrapped__(duty()), rounds)
+    found["map"] = timed(lambda: state_maps.__wrapped__(duty()), rounds)
     found["steady"] = timed(lambda: bs.steady_heat(duty(), AIR), rounds)
     surroundings = drawn(many)
     before = time.perf_counter()
@@ -128,6 +131,7 @@ def measured(many: int, processes: int, rounds: int) -> dict[str, float]:
     found["many"] = time.perf_counter() - before
     found["many_number"] = len(ends)
     found["thousand"] = 1000 * found["many"] / len(ends)
+    found["band"] = timed(lambda: bs.warm_up_band(duty(), AIR, samples=1000), 1)
     network = warm_up(duty(), AIR, time=HOURS, outputs=2).network
     short = timed(lambda: warm_up(duty(), AIR, time=HOURS, outputs=2), rounds)
     took, calls, temperature = plain(network, HOURS)
@@ -159,6 +163,7 @@ def main() -> None:
         f"{found['many_number']:.0f} other surroundings                 {found['many']:.1f} s on {given.processes} "
         f"processors: {found['thousand']:.0f} s a thousand (asked: 180 s on two)"
     )
+    print(f"a band of a thousand, side by side    {found['band']:.1f} s on one processor")
     print(
         f"model itself as right-hand side       {found['plain']:.2f} s for the same, "
         f"{found['plain_calls']:.0f} calls: {found['plain_over_ours']:.0f} times as long; temperatures differ by "

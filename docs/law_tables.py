@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Iterator
 from typing import Any
 
-from ballscrew.cases.schema import LAWS, MODELS, coefficients_of, name_of_law
+from ballscrew.case_schema.schema import LAWS, MODELS, coefficients_of, name_of_law
 from ballscrew.quantities import fields_of
 from ballscrew.units import shown
 

@@ -22,10 +22,10 @@ DOUBLE = "rexroth-40x10x6-6-double"
 LARGEST = 300_000  # bytes of a picture
 COMMAND = [sys.executable, "-m", "ballscrew.cli"]
 
-DESKTOP, PHONE = {"width": 1360, "height": 1000}, {"width": 390, "height": 844}
+DESKTOP, PHONE = {"width": 1360, "height": 1500}, {"width": 390, "height": 844}
 OF_PAGE = {
     "app_light.png": ("light", DESKTOP, "#A=paper"),
-    "app_dark.png": ("dark", DESKTOP, f"#A={DOUBLE}&A.operation.axial_load=7+kN&B=paper&band=1"),
+    "app_dark.png": ("dark", DESKTOP, f"#A={DOUBLE}&A.operation.axial_load=7+kN&B=paper"),
     "app_phone.png": ("light", PHONE, "#A=paper"),
 }
 
@@ -47,11 +47,12 @@ def of_page(browser: Browser, address: str) -> None:
         page.goto(f"{address}/{fragment}")
         page.wait_for_selector("html[data-ready]")
         page.wait_for_selector('#results[aria-busy="false"]')
-        if "band" in fragment:
+        if "band=0" not in fragment:
             page.wait_for_selector("#band-words >> text=95 %")
-        if size is PHONE:  # the answer and the first chart
-            page.evaluate("document.querySelector('#results').scrollIntoView()")
-        page.wait_for_selector("#torque-chart .main-svg")
+        if size is PHONE:  # the answer and the checks
+            page.evaluate("document.querySelector('#numbers').scrollIntoView()")
+        else:
+            page.wait_for_selector("#torque-chart .main-svg")
         page.wait_for_timeout(500)
         save(name, page.screenshot())
         page.close()

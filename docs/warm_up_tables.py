@@ -16,28 +16,25 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 
 import ballscrew as bs
 from ballscrew.axis.duty import Duty
+from ballscrew.thermal.equilibrium import equilibrium
 from ballscrew.thermal.friction_map import FrictionMap
 from ballscrew.thermal.network import Network, network_of
 from ballscrew.thermal.surroundings import Surroundings
-from ballscrew.thermal.warm_up import equilibrium
+from ballscrew.thermal.warm_up_band import WarmUpBand
 
 SPEEDS, PRELOAD, STROKE = (500, 1500, 3000), 3500.0, 0.5
 #: From the nut to its surroundings, W/K: bolted to a table, and on a cooled plate.
 BOLTED, COOLED = 10.0, 80.0
 AIR = Surroundings(shaft_length=1.2, nut_conductance=BOLTED)
 VARIANTS = ("nothing", "oil", "oil and preload", "cooled nut")
-#: The band: samples, seed, and the largest factor either way of what is the least known.
-SAMPLES, SEED = 200, 20
-FACTORS = {"ball_conductance": 3.0, "shaft_convection": 2.0, "nut_conductance": 2.0}
-SHARE = (0.3, 0.7)
-LEVEL = 0.95
+#: The band.
+SAMPLES, SEED = 256, 20
 
 
 def duty(rpm: float) -> Duty:
@@ -76,24 +73,10 @@ def results(found: Network, rpm: float) -> dict[str, float]:
     }
 
 
-def samples(rpm: float, variant: str) -> Iterator[dict[str, float]]:
-    """Numbers of the steady state, with what is the least known drawn within its factors."""
-    draw = np.random.default_rng(SEED)
-    middle = network(rpm, variant)
-    usual = {
-        "ball_conductance": middle.ball_conductance,
-        "shaft_convection": middle.shaft.convection,
-        "nut_conductance": float(middle.surroundings.nut_conductance),
-    }
-    for _ in range(SAMPLES):
-        drawn = {name: usual[name] * factor ** draw.uniform(-1, 1) for name, factor in FACTORS.items()}
-        yield results(network(rpm, variant, shaft_share=draw.uniform(*SHARE), **drawn), rpm)
-
-
-def band(found: list[dict[str, float]], name: str) -> tuple[float, float]:
-    """Ends of the band of those samples that have a steady state."""
-    low, high = np.nanquantile([one[name] for one in found], [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
-    return float(low), float(high)
+def bands(rpm: float, variant: str, samples: int = SAMPLES) -> WarmUpBand:
+    """Bands of the steady state, with what is the least known drawn from its usual distribution."""
+    where = dataclasses.replace(AIR, nut_conductance=COOLED if variant == "cooled nut" else BOLTED)
+    return bs.warm_up_band(duty(rpm), where, samples=samples, seed=SEED, outputs=2)
 
 
 def table_of_effects() -> str:
@@ -118,20 +101,19 @@ def table_of_bands() -> str:
     ]
     for rpm in SPEEDS:
         for variant in VARIANTS[2:]:
-            found = list(samples(rpm, variant))
-            away = np.mean([math.isnan(one["nut"]) for one in found])
+            found = bands(rpm, variant)
             cells = [
-                f"{low:.{digits}f} to {high:.{digits}f} {unit}"
-                for name, unit, digits in (
-                    ("nut", "°C", 0),
-                    ("growth", "µm", 0),
-                    ("preload", "N", 0),
-                    ("torque", "N m", 2),
+                f"{scale * low - zero:.{digits}f} to {scale * high - zero:.{digits}f} {unit}"
+                for name, unit, digits, scale, zero in (
+                    ("nut_temperature", "°C", 0, 1.0, 273.15),
+                    ("growth", "µm", 0, 1e6, 0.0),
+                    ("preload", "N", 0, 1.0, 0.0),
+                    ("screw_torque", "N m", 2, 1.0, 0.0),
                 )
-                for low, high in [band(found, name)]
+                for low, high in [found.steady[name]]
             ]
             kind = "bolted" if variant == VARIANTS[2] else "cooled"
-            lines.append(f"| {rpm} rpm | {kind} | " + " | ".join(cells) + f" | {away:.0%} |")
+            lines.append(f"| {rpm} rpm | {kind} | " + " | ".join(cells) + f" | {1 - found.steady_share:.0%} |")
     return "\n".join(lines) + "\n"
 
 

@@ -44,7 +44,11 @@ from ballscrew.moving_logs.motion_fit import MotionFit as MotionFit
 from ballscrew.moving_logs.motion_fit import fit_motion as fit_motion
 from ballscrew.moving_logs.moving_log import MovingLog as MovingLog
 from ballscrew.moving_logs.read_log import read_log as read_log
+from ballscrew.optimisation.optimisation import Optimisation as Optimisation
+from ballscrew.optimisation.optimisation import optimise as optimise
 from ballscrew.screw_tables.catalogue import screws as screws
+from ballscrew.selection.selection import Selection as Selection
+from ballscrew.selection.selection import select as select
 from ballscrew.service.condition import condition as condition
 from ballscrew.service.condition_values import Condition as Condition
 from ballscrew.service.preload_change import PreloadChange as PreloadChange
@@ -54,12 +58,15 @@ from ballscrew.sizing.catalogue import catalogue as catalogue
 from ballscrew.sizing.rigidity import AxialRigidity as AxialRigidity
 from ballscrew.sizing.rigidity import rigidity_iso3408 as rigidity_iso3408
 from ballscrew.supports.bearing import SupportBearing as SupportBearing
+from ballscrew.supports.contact_guide import ContactGuide as ContactGuide
 from ballscrew.supports.guide import LinearGuide as LinearGuide
 from ballscrew.sweeps.store_check import verify as verify
 from ballscrew.sweeps.sweep import sweep as sweep
 from ballscrew.thermal.steady_heat import steady_heat as steady_heat
 from ballscrew.thermal.surroundings import Surroundings as Surroundings
+from ballscrew.thermal.warm_sweep import warm_sweep as warm_sweep
 from ballscrew.thermal.warm_up import warm_up as warm_up
+from ballscrew.thermal.warm_up_band import warm_up_band as warm_up_band
 from ballscrew.torque_logs.torque_log import TorqueLog as TorqueLog
 from ballscrew.torque_logs.torque_series import TorqueSeries as TorqueSeries
 from ballscrew.uncertainty.bands import band as band

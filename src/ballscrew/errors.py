@@ -64,10 +64,18 @@ class Fault:
     @property
     def text(self) -> str:
         """The problem, the value given, and the remedy."""
+        plain = self.plain
+        given = f" ({plain.given})" if self.given else ""
+        remedy = " · " + _SETTING.sub(r"\1 = ", plain.remedy) if self.remedy else ""
+        return _one_line(f"{plain.problem}{given}{remedy}")
+
+    @property
+    def plain(self) -> Fault:
+        """The fault with its texts cut, and with its bound in them."""
         bound = "" if self.bound is None else shown(self.bound, self.unit)
-        given = f" ({_cut(self.given)})" if self.given else ""
-        remedy = " · " + _SETTING.sub(r"\1 = ", self.remedy) if self.remedy else ""
-        return _one_line(f"{self.problem}{given}{remedy}".replace("{bound}", bound))
+        texts = (self.problem, _cut(self.given), self.remedy)
+        problem, given, remedy = (_one_line(text.replace("{bound}", bound)) for text in texts)
+        return dataclasses.replace(self, problem=problem, given=given, remedy=remedy)
 
 
 def _cut(text: str) -> str:

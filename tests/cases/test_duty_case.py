@@ -6,7 +6,8 @@ import tomllib
 import pytest
 
 from ballscrew.axis.motor import Motor
-from ballscrew.cases import case_file, schema
+from ballscrew.case_schema import schema
+from ballscrew.cases import case_file
 from ballscrew.errors import InputError
 from ballscrew.motion.profiles import SCurve, Segments, Sine, Trapezoid
 from support.commands import ROOT

@@ -10,7 +10,8 @@ import tomllib
 import pytest
 
 import ballscrew as bs
-from ballscrew.cases import case_file, schema
+from ballscrew.case_schema import schema
+from ballscrew.cases import case_file
 from ballscrew.components import laws, lubrication, mixed_friction
 from ballscrew.errors import InputError
 from ballscrew.evaluation.comparison import same_law

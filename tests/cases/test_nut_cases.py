@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
+from ballscrew.case_schema.schema import NUT_TABLES, json_schema, validated
 from ballscrew.cases import case_file
-from ballscrew.cases.schema import NUT_TABLES, json_schema, validated
 from ballscrew.components.nut import Bodies, Deviations
 from ballscrew.components.nut_losses import LipSeals, Seals
 from ballscrew.errors import InputError

@@ -7,7 +7,8 @@ import re
 import pytest
 
 import ballscrew as bs
-from ballscrew.cases import case_file, schema, uncertain_inputs
+from ballscrew.case_schema import schema
+from ballscrew.cases import case_file, uncertain_inputs
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.components.mixed_friction import LoadSharing
 from ballscrew.components.operating_state import OperatingState

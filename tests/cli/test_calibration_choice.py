@@ -7,8 +7,8 @@ import tomllib
 import pytest
 from typer.testing import CliRunner
 
+from ballscrew.case_schema.schema import json_schema
 from ballscrew.cases import case_file, descriptions, fitted_case
-from ballscrew.cases.schema import json_schema
 from ballscrew.cli.main import app
 from ballscrew.errors import InputError
 from ballscrew.friction.calibrations import calibration, calibrations

@@ -11,7 +11,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
 import ballscrew as bs
-from ballscrew.cases import case_file, schema
+from ballscrew.case_schema import schema
+from ballscrew.cases import case_file
 from ballscrew.evaluation.comparison import same_law
 from ballscrew.figures import comparison as figures
 from ballscrew.figures import style

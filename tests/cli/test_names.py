@@ -6,8 +6,8 @@ import pytest
 from typer.testing import CliRunner
 
 import ballscrew as bs
+from ballscrew.case_schema.schema import LAWS, MODELS
 from ballscrew.cases import case_file
-from ballscrew.cases.schema import LAWS, MODELS
 from ballscrew.cli import main
 from ballscrew.studies.names import KINDS, names
 from ballscrew.text.names import text

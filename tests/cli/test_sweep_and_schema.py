@@ -51,7 +51,7 @@ def test_a_sweep_over_the_temperature_of_a_grade(example, ballscrew):
 
 def test_every_example_of_the_schema_parses():
     from ballscrew import units
-    from ballscrew.cases import schema
+    from ballscrew.case_schema import schema
     from ballscrew.errors import Fault, fault_of
     from ballscrew.quantities import fields_of
 

@@ -1,12 +1,15 @@
 """``ballscrew warm-up`` and ``--self-heating``: words, JSON, tables and picture; what is refused, and how."""
 
 import csv
+import dataclasses
 import json
 import math
 
 import numpy as np
 import pytest
 
+import ballscrew as bs
+from ballscrew.axis_studies.heat_samples import heat_samples
 from ballscrew.axis_studies.self_heating import self_heating
 from ballscrew.axis_studies.warm_up import SERIES, load, warmed_up
 from ballscrew.documents.warm_up import document as document_of
@@ -97,6 +100,40 @@ def test_example_in_all_forms(ballscrew, tmp_path):
     assert (tmp_path / "all" / "warm_up.xlsx").read_bytes().startswith(b"PK")
 
 
+def test_band_in_all_forms(ballscrew, tmp_path):
+    """JSON, text, picture and table of a band; a number that the file gives with its own band is the case's."""
+    (tmp_path / "case.toml").write_text(POINT + 'ball_conductance = "4 ± 1 W/K"\nshaft_share = "0.5 ± 0"\n', "utf-8")
+    common = ["warm-up", "case.toml", "--hours", "0.5", "--band", "--samples", "16"]
+    done = ballscrew(*common, "--json", "--to", "all")
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout, parse_constant=lambda constant: pytest.fail(f"{constant} in JSON"))
+    band, results = found["band"], found["results"]
+    assert (band["samples"], band["level"]) == (16, 0.95)
+    assert band["time"] == results["time"]
+    for name in ("nut_temperature", "shaft_temperature", "shaft_growth", "preload", "screw_torque"):
+        one = band[name]
+        assert len(one["low"]) == len(one["median"]) == len(one["high"]) == len(band["time"])
+        assert one["low"][-1] <= results[name][-1] <= one["high"][-1]
+    inputs = band["inputs"]
+    assert inputs["surroundings.ball_conductance"] == {
+        "distribution": "4 W/K ± 1 W/K", "source": "given", "given": True,
+    }  # fmt: skip
+    assert "surroundings.shaft_share" not in inputs  # exact
+    assert not inputs["surroundings.nut_conductance"]["given"]
+    assert {"temperature", "axial_load", "screw_speed"}.isdisjoint(inputs)
+    assert found["inputs"]["surroundings"]["ball_conductance"] == 4.0
+    assert band["equilibrium"]["exists_share"] == 1
+    assert (tmp_path / "all" / "warm_up.png").stat().st_size > 10_000
+    with (tmp_path / "all" / "warm_up_band.csv").open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    assert [float(row["temperature of the nut, high [degC]"]) for row in rows] == pytest.approx(
+        [value - 273.15 for value in band["nut_temperature"]["high"]], abs=1e-6
+    )
+    said = " ".join(ballscrew(*common, "--only-given").stdout.split())
+    assert "Band: 95 % of 16 samples" in said
+    assert "of 1 uncertain inputs of surroundings, screw, oil and model, 1 of them given" in said
+
+
 def test_an_operating_point_goes_to_and_fro(case):
     report = warmed_up(case(POINT), hours=0.5)
     written = plain(document_of(report))
@@ -110,6 +147,28 @@ def test_an_operating_point_goes_to_and_fro(case):
     assert "preload" not in said.partition("Steady state")[0].partition("time ")[2]
     # every quantity of the series has its unit in the document
     assert {name for name in SERIES if not name.startswith("heat_")} <= set(written["units"])
+
+
+def test_a_cycle_like_that_of_the_drift_test(ballscrew, tmp_path):
+    """Full stroke at half of rapid, with an hour of rest; drift at both ends and the middle."""
+    done = ballscrew("warm-up", EXAMPLE, "--drift-cycle", "--json")
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert found["inputs"]["motion"]["speed"] == pytest.approx(10 / 60 / 2)
+    assert found["inputs"]["motion"]["stroke"] == pytest.approx(0.8)
+    assert found["results"]["time"][-1] == 5 * 3600
+    assert len(found["results"]["drift"]["place"]) == 3
+    (tmp_path / "case.toml").write_text(POINT, encoding="utf-8")
+    for words, line in (
+        (["case.toml", "--drift-cycle"],
+         "--drift-cycle: has no motion whose stroke it could take · add [axis] and [motion]"),
+        ([EXAMPLE, "--feed-share", "0.4"], "--feed-share: needs --drift-cycle (0.4) · add --drift-cycle"),
+        ([EXAMPLE, "--drift-cycle", "--feed-share", "2"],
+         "--feed-share: must be above 0 and at most 1 (2) · write --feed-share 0.5"),
+    ):  # fmt: skip
+        refused = ballscrew("warm-up", *words)
+        assert refused.returncode == 2
+        assert line in refused.stderr.splitlines()
 
 
 def test_stroke_and_length_are_those_of_the_case(case):
@@ -176,7 +235,8 @@ def test_temperatures_of_a_motion_do_not_count(case):
     report = warmed_up(case(POINT + segments), hours=0.01)
     warned = records(plain(document_of(report)), "warnings")
     assert "do not count" in warned["warm_up.own_temperatures"]["text"]
-    assert "its heat is spread" in warned["warm_up.long_cycle"]["text"]  # 4 s of 36 s
+    said = records(plain(document_of(report)), "verdicts")["verdict.long_cycle"]["text"]
+    assert "the heat goes along with the nut" in said  # 4 s of 36 s
 
 
 def test_an_oil_warmer_than_its_data_sheet_goes_is_warned_of(case):
@@ -228,6 +288,11 @@ def test_columns_of_the_shaft(case):
         (["--hours", "0"], "--hours: must be above 0 and at most 8766 (0) · write --hours 4"),
         (["--hours", "nan"], "--hours: must be above 0 and at most 8766 (nan) · write --hours 4"),
         (["--cool-down", "-1"], "--cool-down: must be 0 to 8766 (-1) · write --cool-down 1"),
+        (["--samples", "64"], "--samples: needs --band (64) · add --band"),
+        (["--band", "--samples", "1"], "--samples: must be a whole number from 2 to 2^30 (1) · such as 2**14"),
+        (["--band", "--level", "2"], "--level: must lie between 0 and 1 (2.0) · 0.95 is usual"),
+        (["--set", "surroundings.shaft_length=1 m ± 1 mm"],
+         "surroundings.shaft_length: takes no distribution (1 m ± 1 mm) · write one number: \"1 m\""),
         (["--to", "a.doc"],
          "--to: unknown kind of file (a.doc) · end it in .csv, .xlsx, .png, .svg or .pdf, or name a folder"),
         (["--set", "surroundings.ambient=-40 degC"],
@@ -263,8 +328,89 @@ def test_an_oil_without_a_temperature_is_refused(case):
         warmed_up(case(written))
 
 
-def test_self_heating_beside_a_band_is_refused(ballscrew, tmp_path):
+def test_band_and_comparison_with_self_heating(ballscrew, tmp_path, case):
+    """About the warm point; temperature and preload are those of samples of the surroundings, not independent."""
+    (tmp_path / "case.toml").write_text(POINT + DOUBLE, encoding="utf-8")
+    done = ballscrew("run", "case.toml", "--self-heating", "--band", "--samples", "64", "--json")
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    heated = found["results"]["self_heating"]
+    band = found["band"]
+    assert band["screw_torque"]["value"] == pytest.approx(heated["screw_torque"], rel=1e-9)
+    assert "steady states of samples" in band["inputs"]["temperature"]["reason"]
+    heating = self_heating(case(POINT + DOUBLE))
+    heat = heat_samples(heating)
+    oil, preload = heat.samples.values
+    assert heat.samples.names == ("temperature", "preload")
+    assert np.min(oil) < heated["oil_temperature"] < np.max(oil)
+    assert np.corrcoef(oil, np.log(preload))[0, 1] > 0.2  # a nut that holds tighter is warmer
+    drawn = heat.samples.quantiles(np.array([[0.0, 0.5, 1 - 1e-12], [0.3, 0.3, 0.3]]))
+    assert drawn["temperature"].tolist() == [np.min(oil), np.sort(oil)[oil.size // 2], np.max(oil)]
+    only = ballscrew("run", "case.toml", "--self-heating", "--band", "--to", "a.png")
+    assert (only.returncode, (tmp_path / "a.png").exists()) == (2, False)
+    assert "--to: draws a curve over the speed" in only.stderr
+    compared = json.loads(ballscrew("compare", "case.toml", "--self-heating", "--json").stdout)
+    assert compared["case"]["screw_torque"] == pytest.approx(heated["screw_torque"], rel=1e-9)
+    assert compared["assumed"] == found["assumed"]
+
+
+def test_sweep_with_self_heating(ballscrew, tmp_path):
+    """Each point as ``run --self-heating`` has it; assumptions and runaway on the error stream."""
     (tmp_path / "case.toml").write_text(POINT, encoding="utf-8")
-    done = ballscrew("run", "case.toml", "--self-heating", "--band")
-    assert done.returncode == 2
-    assert "--self-heating: is given beside --band · leave one of them out" in done.stderr
+    done = ballscrew("sweep", "case.toml", "--self-heating", "--vary", "screw_speed=500, 1000 rpm")
+    assert done.returncode == 0, done.stderr
+    rows = list(csv.DictReader(done.stdout.splitlines()))
+    alone = json.loads(ballscrew("run", "case.toml", "--self-heating", "--json").stdout)
+    assert float(rows[1]["oil temperature [degC]"]) == pytest.approx(
+        alone["results"]["self_heating"]["oil_temperature"] - 273.15, abs=1e-6
+    )
+    assert float(rows[1]["screw torque [N m]"]) == pytest.approx(alone["results"]["screw_torque"], rel=1e-6)
+    assert "assumed of the heat" in done.stderr
+    assert any("from nut to shaft" in line for line in alone["assumed"])
+    for options, line in (
+        (
+            ["--vary", "temperature=20, 40 degC"],
+            "sweep.temperature: is not free · leave it out: it follows from the heat",
+        ),
+        (["--to", "a.zarr"], "--self-heating: fills no store (a.zarr) · write .nc, .csv or .xlsx"),
+    ):
+        refused = ballscrew("sweep", "case.toml", "--self-heating", *options)
+        assert refused.returncode == 2
+        assert line in refused.stderr.splitlines()
+
+
+def test_fit_with_self_heating(ballscrew, tmp_path, case):
+    """Of torques made warm by their own heat the fit finds the coefficient again; without it, it does not."""
+    truth, loaded = 0.15, case(POINT)
+    model = dataclasses.replace(
+        loaded.model, friction=dataclasses.replace(loaded.model.friction, boundary_friction_coefficient=truth)
+    )
+    lines = ["axial load [N],screw speed [rpm],friction torque [N m]"]
+    for force in (2000.0, 4000.0, 8000.0):
+        for rpm in (100, 300, 600, 1000, 1500, 2000):
+            point = {"axial_load": force, "screw_speed": rpm * math.tau / 60}
+            duty = bs.to_and_fro(model, loaded.screw, loaded.lubricant, **point, stroke=0.5)
+            oil = loaded.lubricant.at(bs.steady_heat(duty, loaded.surroundings).oil_temperature)
+            lines.append(f"{force},{rpm},{float(model(loaded.screw, oil, **point).screw_torque):.12g}")
+    (tmp_path / "log.csv").write_text("\n".join(lines), "utf-8")
+    (tmp_path / "case.toml").write_text(POINT, "utf-8")
+    common = ["fit", "log.csv", "--case", "case.toml", "--holdout", "0", "--json"]
+    found, cold = (
+        json.loads(ballscrew(*common, *options).stdout) for options in (["--self-heating"], [])
+    )  # fmt: skip
+    estimate = found["estimates"]["boundary_friction_coefficient"]
+    assert estimate["value"] == pytest.approx(truth, rel=0.01)
+    assert abs(cold["estimates"]["boundary_friction_coefficient"]["value"] / truth - 1) > 0.02
+    assert "in the steady state of the measured torque" in found["assumed"][0]
+    assert "assumed" not in cold
+    (tmp_path / "warm.csv").write_text(
+        "\n".join([lines[0] + ",temperature [degC]", *(f"{line},40" for line in lines[1:])]), "utf-8"
+    )
+    (tmp_path / "drive.csv").write_text("\n".join([lines[0].replace("friction", "drive"), *lines[1:]]), "utf-8")
+    for name, line in (
+        ("warm.csv", "--self-heating: is given beside a log with temperatures · leave it out"),
+        ("drive.csv", "--self-heating: needs a log of friction torque: of a torque that is that of the drive"),
+    ):
+        refused = ballscrew("fit", name, "--case", "case.toml", "--self-heating")
+        assert refused.returncode == 2
+        assert line in refused.stderr

@@ -5,10 +5,12 @@ top of the body, ``E, R_x, k = equivalent_modulus, rolling_radius, radii_ratio``
 """
 
 import ast
+import functools
 import inspect
 import re
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
 from typing import Any
 from unittest import mock
 
@@ -74,6 +76,7 @@ class _QuickPrediction(ParserATNSimulator):
         self.predictionMode = PredictionMode.SLL
 
 
+@functools.cache
 def parsed(formula: str) -> sympy.Eq:
     """A formula as SymPy reads it, its symbols spelled as in the code."""
     # An unbraced subscript confuses the parser where a differential might stand: c_d R_x.
@@ -96,8 +99,27 @@ def parsed(formula: str) -> sympy.Eq:
     return sympy.Eq(canonical(equation.lhs), canonical(equation.rhs), evaluate=False)
 
 
-def differences(equation: Equation, formula: str) -> list[str]:
-    """What is different between a formula and the code; empty if nothing is."""
+#: A number of a formula; the digit of a subscript is part of a name, and that of ``\sinh^{-1}`` of the function's.
+NUMBER = re.compile(r"(?<![\d_.])(?<!_\{)(?<![A-Z])(?<!sinh\^\{-)\d+(?:\.\d+)?")
+
+
+def lettered(formula: str) -> tuple[str, dict[str, str]]:
+    """A formula with a letter in place of each of its numbers, and the numbers by letter: read once, changed often."""
+    numbers: dict[str, str] = {}
+
+    def letter(match: re.Match[str]) -> str:
+        name = f"{chr(ord('a') + len(numbers) // 26)}{chr(ord('a') + len(numbers) % 26)}"
+        numbers[f"Z_{name}"] = match[0]
+        return f"{{Z_{{{name}}}}}"
+
+    return NUMBER.sub(letter, formula), numbers
+
+
+def differences(equation: Equation, formula: str, numbers: Mapping[str, str] = MappingProxyType({})) -> list[str]:
+    """What is different between a formula and the code; empty if nothing is.
+
+    ``numbers`` are those that letters of the formula stand for.
+    """
     letters = letters_of(equation.function)
     unbound = [name for name in equation.parameters if name not in letters]
     if unbound:
@@ -105,7 +127,7 @@ def differences(equation: Equation, formula: str) -> list[str]:
     if len(set(letters.values())) < len(letters):
         return ["one letter is bound to two parameters"]
     read = parsed(formula)
-    in_formula, in_code = {symbol.name for symbol in read.rhs.free_symbols}, set(letters.values())
+    in_formula, in_code = {symbol.name for symbol in read.rhs.free_symbols} - set(numbers), set(letters.values())
     found = [f"the formula has no {letter}" for letter in sorted(in_code - in_formula)]
     found += [f"the code has no {letter}" for letter in sorted(in_formula - in_code)]
     if not isinstance(read.lhs, sympy.Symbol) or read.lhs in read.rhs.free_symbols:
@@ -115,9 +137,10 @@ def differences(equation: Equation, formula: str) -> list[str]:
     symbols = {name: sympy.Symbol(letters[name], positive=True) for name in equation.parameters}
     (from_code,) = equation(*symbols.values())
     columns = equation.sample(POINTS)
+    given = {sympy.Symbol(name, positive=True): sympy.Rational(number) for name, number in numbers.items()}
     for point in range(POINTS):
         values = {symbols[name]: sympy.Rational(float(column[point])) for name, column in columns.items()}
-        ours, theirs = (side.evalf(30, subs=values) for side in (from_code, read.rhs))
+        ours, theirs = (side.evalf(30, subs=values | given) for side in (from_code, read.rhs))
         # a zero is no Float
         assert ours.is_Number, f"{equation.name} gives no number at {values}"
         assert ours.is_finite, f"{equation.name} gives no finite number at {values}"

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
+from ballscrew.cases import case_file
+from ballscrew.exports import requests
 from ballscrew.exports.export import Export
 from ballscrew.exports.targets import TARGETS, export_of
 from ballscrew.exports.worst_error import worst_errors
@@ -108,3 +110,29 @@ def test_nothing_is_written_where_a_place_is_taken(tmp_path):
     with pytest.raises(bs.InputError, match="--out: cannot be written"):
         export.write(tmp_path)
     assert not (tmp_path / "a").exists()
+
+
+def test_ranges_and_options_are_read_as_people_write_them(example):
+    case = case_file.load(example)
+    asked = requests.Request(ranges=['axial_load="-5:4 kN"'], options=["version=3"], outputs=["efficiency"])
+    export = requests.of_case(case, "fmu", asked)
+    assert export.valid_range["axial_load"] == (-5000.0, 4000.0)
+    assert export.provenance["references"][0] == "Olaru2005"
+    assert "hand_over.temperature" in [record.id for record in export.warnings]  # the oil of this case is its numbers
+
+
+@pytest.mark.parametrize(
+    ("asked", "expected"),
+    [
+        ({"ranges": ["axial_load=5 kN"]}, "--range axial_load: is no range"),
+        ({"ranges": ["axial_load=-5:x kN"]}, "--range axial_load: "),
+        ({"ranges": ["load=-5:5 kN"]}, "--range load: unknown input"),
+        ({"options": ["version"]}, "--option: needs a name and a value"),
+        ({"options": ["version=two"]}, "--option version: must be a number"),
+        ({"options": ["digits=2"]}, "--option digits: unknown option"),
+    ],
+)
+def test_faults_of_text_name_the_option(example, asked, expected):
+    with pytest.raises(bs.InputError) as fault:
+        requests.of_case(case_file.load(example), "fmu", requests.Request(**asked))
+    assert str(fault.value).startswith(expected)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.cases.schema import LAWS
+from ballscrew.case_schema.schema import LAWS
 from ballscrew.components import laws, lubrication, mixed_friction
 from ballscrew.components.conditions import Motion
 from ballscrew.components.contact import ContactLaws, rolling_contact

@@ -16,15 +16,18 @@ import numpy as np
 import pypdf
 import pytest
 
+import ballscrew as bs
+from ballscrew.axis_studies.warm_up import warmed_up
+from ballscrew.axis_studies.warm_up_records import verdicts
 from ballscrew.cases import case_file
-from ballscrew.cli import report
+from ballscrew.cli import report as command
 from ballscrew.components.nut_losses import ConstantTorque
 from ballscrew.errors import InputError
 from ballscrew.friction.result import FrictionResult
 from ballscrew.output import bibliography
 from ballscrew.quantities import fields_of, quantities_of
 from ballscrew.references import bibliography as entries
-from ballscrew.report import contents
+from ballscrew.report import contents, warm_up_section
 from ballscrew.report import curve_figures as figures
 from ballscrew.report.blocks import Bar, Columns, Links, Picture, Table, value
 from ballscrew.report.contents import report_bytes
@@ -331,14 +334,14 @@ def test_every_case_has_a_report_of_few_pages(name):
     content = content_of(name)
     reader = pypdf.PdfReader(io.BytesIO(pdf_bytes(content)))
     assert 1 <= len(reader.pages) <= content.pages
-    moves = case_of(name).motion is not None
-    assert content.pages == (6 if moves else 4)
+    moves, warms = case_of(name).motion is not None, case_of(name).surroundings is not None
+    assert content.pages == 4 + 2 * moves + warms
     words = text_of(reader)
     assert f"page {len(reader.pages)} of {len(reader.pages)}" in words
     assert not _NO_NUMBERS.search(words)
     found = Page(html_bytes(content).decode())
     assert not _NO_NUMBERS.search(found.words)
-    assert len([tag for tag, _ in found.tags if tag == "figure"]) == 4 + moves
+    assert len([tag for tag, _ in found.tags if tag == "figure"]) == 4 + moves + warms
 
 
 # -- as a PDF -------------------------------------------------------------------------------------
@@ -504,7 +507,7 @@ def test_without_the_extra_it_says_what_to_install(monkeypatch, tmp_path):
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name in ("typst", "jinja2") else known(name))
     for kind, needed in (("pdf", "typst"), ("html", "jinja2")):
         with pytest.raises(InputError, match=rf'--to: needs {needed} .* · pip install "ballscrew\[report\]"'):
-            report.report(ROOT / "examples" / "feed_drive.toml", tmp_path / f"x.{kind}")
+            command.report(ROOT / "examples" / "feed_drive.toml", tmp_path / f"x.{kind}")
 
 
 def test_a_run_does_not_wait_for_what_only_a_report_needs():
@@ -567,3 +570,23 @@ def test_pictures_say_what_they_show(content):
     result = run(case_of("catalogue_screw")).friction
     assert f"at 600 rpm {float(result.screw_torque):.3g} N m" in pictures[1].words
     assert f"at 7000 N an efficiency of {float(result.efficiency):.3g}" in pictures[2].words
+
+
+def test_heat_that_cannot_be_computed_says_why():
+    """A case with surroundings whose oil has no temperature still has its report."""
+    case = case_of("feed_drive")
+    oil = bs.Lubricant(viscosity=0.1)
+    blocks = warm_up_section.blocks_of(
+        dataclasses.replace(case, lubricant=oil, oil={}, surroundings=bs.Surroundings(shaft_length=1.0))
+    )
+    assert "Heat is not computed: lubricant.viscosity: has no temperature" in str(blocks)
+
+
+def test_heat_is_that_of_the_command():
+    report = warmed_up(case_of("warm_up"), warm_up_section.HOURS)
+    words = str(warm_up_section.blocks(report))
+    for record in verdicts(report):
+        assert record.text[1:] in words
+    assert all(line in words for line in report.assumed)
+    end = report.equilibrium["nut_temperature"] - 273.15
+    assert f"{end:.2f} degC" in words

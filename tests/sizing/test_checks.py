@@ -194,6 +194,19 @@ def test_dn_value_counts_in_millimetres_and_turns_a_minute():
     assert check.utilisation == pytest.approx(1, rel=1e-12)
 
 
+def test_the_limit_of_the_dn_value_says_whose_it_is():
+    """One limit stands for all makes: only where a make prints it, it is its own."""
+
+    def text(**given):
+        return table(**given)["diameter_speed_product"].text
+
+    assert text().endswith("that of this make is not known")
+    hiwin = bs.catalogue()["hiwin-40-16k5"].speed_limit_source
+    assert text(speed_limit_source=hiwin).endswith("limit of standard nuts, HIWIN S99TE20-1610")
+    assert bs.catalogue()["rexroth-40x10x6-6-double"].speed_limit_source == ""
+    assert "standard nuts" not in text(limits=Limits(diameter_speed_product=13.0))
+
+
 def test_mean_load_is_cubic():
     assert mean_load([1000.0, 2000.0], [3.0, 1.0]) == pytest.approx((11 / 4) ** (1 / 3) * 1000, rel=1e-12)
     # each load takes its share of the life: Palmgren and Miner

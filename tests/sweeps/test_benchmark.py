@@ -60,3 +60,11 @@ def test_engine():
     for name in ("A", "B", "cartesian", "reference"):
         (by_points,) = figures[name]["by_points"].values()
         assert by_points["agreement"] < 1e-12, name
+
+
+@pytest.mark.long
+@pytest.mark.compiles
+def test_the_transient_with_the_map_is_that_with_the_model():
+    figures = figures_of("warm_up.py", "--many", "2", "--rounds", "1")
+    assert figures["difference"] < 1e-3
+    assert figures["plain_over_ours"] > 1

@@ -20,6 +20,7 @@ from ballscrew.errors import InputError
 from ballscrew.evaluation.comparison import Candidate
 from ballscrew.references import bibliography
 from ballscrew.studies import band as interface
+from ballscrew.thermal.surroundings import VARIED
 from ballscrew.uncertainty.bands import band, band_along
 from ballscrew.uncertainty.default_uncertainties import JUDGEMENT, default_distributions, default_uncertainties
 from ballscrew.uncertainty.distributions import LogNormal, Normal, Uniform
@@ -272,7 +273,7 @@ def test_every_source_is_known_and_every_reason_said():
 
 def test_every_input_in_the_file_exists(seed_screw):
     """Each is an input of some model and a preloaded nut, so that no name is misspelt."""
-    from ballscrew.cases.schema import LAWS
+    from ballscrew.case_schema.schema import LAWS
     from ballscrew.evaluation.outputs import inputs_of
 
     model = bs.FrictionModel.reference()
@@ -284,6 +285,7 @@ def test_every_input_in_the_file_exists(seed_screw):
         for law in laws.values()
         for name in inputs_of(dataclasses.replace(model, **{slot: law() if isinstance(law, type) else law}), screw, oil)
     }
+    names |= {f"surroundings.{name}" for name in VARIED}
     assert set(default_uncertainties()) - names == {"viscosity_of_grade", "viscosity_of_sheet"}
 
 

@@ -206,7 +206,8 @@ class Visit:
         return f"#f-{field.replace('.', '-')}"
 
     def text(self, selector: str) -> str:
-        return self.page.locator(selector).inner_text()
+        """Text as it is read: a blank before a unit does not break a line."""
+        return self.page.locator(selector).inner_text().replace("\u00a0", " ")
 
     def numbers(self) -> dict[str, Any]:
         """Every exact number of the answer on the page: results, contacts, parts of the torque by their words."""

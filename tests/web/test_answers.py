@@ -42,6 +42,15 @@ def test_head_of_files(server, path):
     assert found.headers["content-security-policy"]
 
 
+@pytest.mark.parametrize("path", ["schema", "vocabulary", "catalogue/hiwin-40-16k5", "openapi.json", "none"])
+def test_head_of_the_api(server, path):
+    """Defect: it answered 405."""
+    found, whole = server.client.head(f"/api/v1/{path}"), server.get(path)
+    assert (found.status_code, found.content) == (404 if path == "none" else 200, b"")
+    assert found.headers["content-length"] == whole.headers["content-length"]
+    assert server.client.head("/api/v1/run").status_code == 405
+
+
 def test_a_defect_is_said(monkeypatch):
     """Of the server, with the same headers; the server writes where it was, and the answer does not."""
     import asyncio

@@ -12,6 +12,7 @@ import pytest
 from typer.testing import CliRunner
 
 from ballscrew.cli.main import app
+from support.documents import assert_same
 
 DOUBLE = "rexroth-16x5x3-4-double"
 STARTS = {"paper": "#A=paper&A.operation.axial_load=3+kN", "double nut": f"#A={DOUBLE}&A.operation.axial_load=2+kN"}
@@ -39,7 +40,7 @@ def toml_and_json(here, path):
     printed = CliRunner().invoke(app, ["run", str(path), "--json"])
     assert printed.exit_code == 0
     document = json.loads(taken(here, "JSON"))
-    assert document == json.loads(printed.stdout)
+    assert_same(document, json.loads(printed.stdout))
     assert document["results"]["screw_torque"] == here.numbers()["results"]["screw_torque"]
 
 

@@ -6,11 +6,13 @@ from collections import Counter
 import jsonschema_rs
 import pytest
 import schemathesis
-from hypothesis import HealthCheck, settings
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from schemathesis import GenerationMode
 from schemathesis.specs.openapi.checks import positive_data_acceptance
 from schemathesis.specs.openapi.definitions import OPENAPI_31
 
-from ballscrew.cases.schema import json_schema
+from ballscrew.case_schema.schema import json_schema
 from ballscrew.studies import validation
 from ballscrew.web import api, problems
 from ballscrew.web.request_queue import RequestQueue
@@ -41,8 +43,9 @@ def described(*phases):
 
 
 schema = described("examples", "fuzzing")
-#: All fields of a case one by one, a thousand requests: of one address, as all read a case in the same way.
+#: All words of an address one by one. Those of ``POST``, a thousand fields of a case, are in the file of the long run.
 one_by_one = described("coverage")
+OPERATIONS = [(path, method) for path, methods in schema.raw_schema["paths"].items() for method in methods]
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -66,17 +69,16 @@ def check(case):
         assert response.json()["lines"]
 
 
-@schema.parametrize()
-@FEW
-def test_addresses(case):
-    check(case)
+@pytest.mark.parametrize(("path", "method"), OPERATIONS)
+def test_addresses(path, method):
+    """What the description shows, and what else it allows and refuses.
 
-
-@pytest.mark.long
-@one_by_one.include(path="/api/v1/toml").parametrize()
-@FEW
-def test_fields_of_a_case(case):
-    check(case)
+    Without schemathesis' own parametrization, which makes all examples while tests are collected, in each worker.
+    """
+    operation = schema[path][method]
+    for example in operation.get_strategies_from_examples():
+        settings(FEW, max_examples=1)(given(example)(check))()
+    FEW(given(st.one_of([operation.as_strategy(generation_mode=mode) for mode in GenerationMode]))(check))()
 
 
 @one_by_one.exclude(method="POST").parametrize()

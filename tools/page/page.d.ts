@@ -7,6 +7,7 @@ type Schemas = components["schemas"];
 declare global {
   type Run = Schemas["Run"];
   type Sweep = Schemas["Sweep"];
+  type Checks = Schemas["Checks"];
   type Compare = Schemas["Compare"];
   type BandAnswer = Schemas["Band"];
   type Vocabulary = Schemas["Vocabulary"];

@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 from ballscrew import units
-from ballscrew.axis_studies.warm_up import EQUILIBRIUM, duty_of, length_of
+from ballscrew.axis_studies.warm_up import EQUILIBRIUM, assumed_of, check_oil, duty_of, length_of, stroke_of
 from ballscrew.cases.case import Case
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import Fault, InputError
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import quantities_of
 from ballscrew.records import Record
+from ballscrew.thermal.equilibrium import Equilibrium
 from ballscrew.thermal.steady_heat import steady_heat
 from ballscrew.thermal.surroundings import Surroundings
-from ballscrew.thermal.warm_up import Equilibrium
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 OPTION = "--self-heating"
 _TORQUE = quantities_of(FrictionResult)["screw_torque"]
@@ -31,6 +35,14 @@ class SelfHeating:
     #: Friction torque of the screw at the operating point, as given and warm, N m.
     torque_given: float
     torque: float
+    #: The way to and fro, m.
+    stroke: float
+
+    @property
+    def assumed(self) -> Sequence[str]:
+        """Numbers that the case does not give, and what stands in for them."""
+        network = self.equilibrium.network
+        return assumed_of(self.given, network.surroundings, network, self.stroke)
 
     @property
     def numbers(self) -> Mapping[str, float]:
@@ -79,9 +91,8 @@ def self_heating(case: Case) -> SelfHeating:
     Raises :class:`~ballscrew.errors.InputError` where there is none, and as
     :func:`~ballscrew.axis_studies.warm_up.duty_of` does.
     """
-    point = dataclasses.replace(case, axis=None, motion=None)
     surroundings = case.surroundings or Surroundings()
-    duty, _ = duty_of(point, surroundings)
+    duty, stroke = duty_of(_point_of(case), surroundings)
     end = steady_heat(duty, surroundings, shaft_length=length_of(case, surroundings))
     if not end.exists:
         remedy = "see when with ballscrew warm-up; cool the shaft, turn slower, or preload less"
@@ -94,7 +105,34 @@ def self_heating(case: Case) -> SelfHeating:
     warm = dataclasses.replace(
         case, screw=screw, lubricant=oil, oil={**case.oil, "temperature": end.oil_temperature}
     )  # fmt: skip
-    return SelfHeating(case, warm, end, _torque(case), _torque(warm))
+    return SelfHeating(case, warm, end, _torque(case), _torque(warm), float(stroke or 0.0))
+
+
+def _point_of(case: Case) -> Case:
+    """The operating point alone."""
+    return dataclasses.replace(case, axis=None, motion=None)
+
+
+def swept(
+    case: Case, outputs: Sequence[str], varied: Mapping[str, Any], done: Callable[[int, int], None] | None = None
+) -> xr.Dataset:
+    """A sweep whose points are each in their own steady state; ``assumed`` is among its attributes.
+
+    Raises :class:`~ballscrew.errors.InputError` as :func:`~ballscrew.thermal.warm_sweep.warm_sweep` does.
+    """
+    from ballscrew.evaluation.plan import Configuration
+    from ballscrew.thermal import warm_sweep  # loads xarray
+
+    check_oil(case)
+    surroundings, point = case.surroundings or Surroundings(), _point_of(case)
+    stroke = stroke_of(point, surroundings)
+    found, steady = warm_sweep.swept(
+        Configuration(case.model, case.screw, case.lubricant), surroundings, varied, stroke=stroke,
+        shaft_length=length_of(case, surroundings), outputs=outputs, done=done,
+    )  # fmt: skip
+    network = steady.network
+    assumed = [] if network is None else assumed_of(case, surroundings, network, stroke)
+    return found.assign_attrs(assumed="\n".join(assumed))
 
 
 def _torque(case: Case) -> float:

@@ -17,19 +17,24 @@ from ballscrew.axis.to_and_fro import to_and_fro
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
 from ballscrew.components.materials import Lubricant
-from ballscrew.errors import Fault, InputError
+from ballscrew.errors import Fault, InputError, raise_if_any
+from ballscrew.motion.profiles import Trapezoid
 from ballscrew.motion.states import Numbers
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Info, Length, Quantity, fields_of
-from ballscrew.thermal.network import GAP_SHARE, GREASE_CONDUCTIVITY, NUT_WALL
+from ballscrew.thermal.network import GAP_SHARE, GREASE_CONDUCTIVITY, NUT_WALL, Network
 from ballscrew.thermal.surroundings import Surroundings
 from ballscrew.thermal.warm_up import WarmUp, warm_up
 
 HOUR = 3600.0
+#: The longest time, h: a year.
+LONGEST = 8766.0
 #: The stroke of one operating point over the shaft between its bearings.
 SHARE_OF_SHAFT = 0.5
 #: The shaft of an operating point where nothing tells a length, m.
 LENGTH = 1.0
+#: Feed of a drift test as a share of rapid, hours of rest after it, and the acceleration where a motion jumps: choices.
+FEED_SHARE, REST, USUAL_ACCELERATION = 0.5, 1.0, 1.0
 #: Distance of the places of a compensation table, m.
 STEP = 0.05
 _OF, _VISCOSITY = fields_of(Surroundings), fields_of(Lubricant)["viscosity"]
@@ -131,48 +136,112 @@ class WarmUpReport:
     @property
     def assumed(self) -> Sequence[str]:
         """Numbers that the case does not give, and what stands in for them."""
-        given, network = self.surroundings, self.warm_up.network
-        found: list[str] = []
+        return assumed_of(self.case, self.surroundings, self.warm_up.network, self.stroke)
 
-        def shown(name: str, value: Any) -> str:
-            return units.shown(value, _OF[name])
 
-        if given.ball_conductance is None:
-            found.append(
-                f"{shown('ball_conductance', network.ball_conductance)} from nut to shaft: balls at rest and grease of "
-                f"{GREASE_CONDUCTIVITY:g} W/(m K) in a gap of {GAP_SHARE:g} ball diameters; "
-                "a factor of three either way is possible"
-            )
-        if given.shaft_convection is None:
-            found.append(
-                f"{shown('shaft_convection', network.shaft.convection)} from the shaft to the air by the mean speed, "
-                "a recalled formula; a factor of two either way is possible"
-            )
-        if given.nut_mass is None:
-            found.append(f"nut of {shown('nut_mass', network.nut_mass)}: {NUT_WALL:g} times as wide as the screw")
-        if given.shaft_length is None:
-            source = "the length of [installation]" if not self.length_is_assumed else "not given, an assumption"
-            found.append(f"shaft of {shown('shaft_length', network.shaft.length)}: {source}")
-        if self.stroke is not None and given.stroke is None:
-            found.append(
-                f"to and fro over {units.shown(self.stroke, PLACE)}, half the shaft, under the load of the case"
-            )
-        if not self.duty.axis.bearing_torque:
-            found.append("no heat of the support bearings: their friction is not given (axis.bearing_torque)")
-        defaults = {field.name: field.default for field in dataclasses.fields(Surroundings)}
-        found += [
-            f"{_OF[name].info.meaning} {shown(name, defaults[name])}: the default"
-            for name in ("ambient", "nut_conductance", "shaft_share", "bearing_conductance", "bearing_mass")
-            if getattr(given, name) == defaults[name]
-        ]
-        return found
+def assumed_of(case: Case, given: Surroundings, network: Network, stroke: Length | None) -> Sequence[str]:
+    """Numbers of the heat that a case does not give, and what stands in for them."""
+    found: list[str] = []
+
+    def shown(name: str, value: Any) -> str:
+        return units.shown(value, _OF[name])
+
+    if given.ball_conductance is None:
+        found.append(
+            f"{shown('ball_conductance', network.ball_conductance)} from nut to shaft: balls at rest and grease of "
+            f"{GREASE_CONDUCTIVITY:g} W/(m K) in a gap of {GAP_SHARE:g} ball diameters; "
+            "a factor of three either way is possible"
+        )
+    if given.shaft_convection is None:
+        found.append(
+            f"{shown('shaft_convection', network.shaft.convection)} from the shaft to the air by the mean speed, "
+            "a recalled formula; a factor of two either way is possible"
+        )
+    if given.nut_mass is None:
+        found.append(f"nut of {shown('nut_mass', network.nut_mass)}: {NUT_WALL:g} times as wide as the screw")
+    if given.shaft_length is None:
+        source = "not given, an assumption" if case.installation is None else "the length of [installation]"
+        found.append(f"shaft of {shown('shaft_length', network.shaft.length)}: {source}")
+    if stroke is not None and given.stroke is None:
+        found.append(f"to and fro over {units.shown(stroke, PLACE)}, half the shaft, under the load of the case")
+    first, last = (units.shown(power, SERIES["friction_power"], 3) for power in network.bearing_power)
+    if any(network.bearing_power):
+        found.append(f"bearings make {first} at the fixed end and {last} at the other, whatever they warm up to")
+    elif case.bearings:
+        found.append("the heat of the support bearings is left out here")
+    else:
+        found.append("no heat of the support bearings: their friction is not given ([bearings.fixed])")
+    defaults = {field.name: field.default for field in dataclasses.fields(Surroundings)}
+    found += [
+        f"{_OF[name].info.meaning} {shown(name, defaults[name])}: the default"
+        for name in ("ambient", "nut_conductance", "shaft_share", "bearing_conductance", "bearing_mass")
+        if getattr(given, name) == defaults[name]
+    ]
+    return found
+
+
+def check_hours(hours: float, cool_down: float) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` for times that are none."""
+    faults: list[Fault] = []
+    if not 0 < hours <= LONGEST:
+        faults.append(Fault("--hours", f"must be above 0 and at most {LONGEST:g}", f"{hours:g}", "write --hours 4"))
+    if not 0 <= cool_down <= LONGEST:
+        faults.append(Fault("--cool-down", f"must be 0 to {LONGEST:g}", f"{cool_down:g}", "write --cool-down 1"))
+    raise_if_any(faults)
+
+
+def option_faults(band: bool, samples: int | None, level: float | None, only_given: bool) -> list[Fault]:
+    """Options of a band where none is asked for."""
+    given = {"--samples": samples, "--level": level, "--only-given": only_given or None}
+    return [
+        Fault(name, "needs --band", str(value), "add --band")
+        for name, value in given.items()
+        if value is not None and not band
+    ]
+
+
+def drift_cycle(case: Case, share: float = FEED_SHARE) -> Case:
+    """The case with a cycle like that of the drift test of ISO 230-3: the full stroke to and fro at a share of rapid.
+
+    The standard could not be read: stroke and rapid are those of the motion of the case, its acceleration the largest,
+    and the share is a choice. Raises :class:`~ballscrew.errors.InputError` without a motion, and for shares that are
+    none.
+    """
+    faults: list[Fault] = []
+    if case.axis is None or case.motion is None:
+        faults.append(Fault("--drift-cycle", "has no motion whose stroke it could take", "", "add [axis] and [motion]"))
+    if not 0 < share <= 1:
+        faults.append(Fault("--feed-share", "must be above 0 and at most 1", f"{share:g}", "write --feed-share 0.5"))
+    raise_if_any(faults)
+    assert case.motion is not None
+    states = case.motion.states()
+    cycle = Trapezoid(
+        stroke=states.stroke,
+        speed=share * float(np.max(np.abs(states.speed))),
+        acceleration=float(np.max(np.abs(states.acceleration))) or USUAL_ACCELERATION,
+    )
+    return dataclasses.replace(case, motion=cycle)
+
+
+def moves(tables: Mapping[str, Any]) -> bool:
+    """True of the tables of a case whose motion counts, and not its operating point."""
+    return "motion" in tables or "axis" in tables
 
 
 def load(path: str | Path, settings: Sequence[str], model: str | None, *, allow_code: bool = False) -> Case:
     """The case of a file; its motion counts where it has one, or else its operating point."""
     tables = case_file.override(case_file.read(path), settings)
-    moves = "motion" in tables or "axis" in tables
-    return case_file.build(tables, model, Path(path).parent, allow_code=allow_code, moves=moves)
+    return case_file.build(tables, model, Path(path).parent, allow_code=allow_code, moves=moves(tables))
+
+
+def check_oil(case: Case) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` for an oil that has no temperature."""
+    if case.lubricant.temperature is None:
+        problem = "has no temperature: its viscosity would be the same for ever"
+        remedy = 'write grade = "ISO VG 100", or both viscosities of the data sheet, in its place'
+        raise InputError(
+            Fault("lubricant.viscosity", problem, units.shown(case.lubricant.viscosity, _VISCOSITY), remedy)
+        )
 
 
 def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None]:
@@ -180,22 +249,25 @@ def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None
     if case.efficiency is not None:
         problem = "knows no oil, so that nothing changes as it warms up"
         raise InputError(Fault("model.name", problem, "constant-efficiency", "take a model"))
-    if case.lubricant.temperature is None:
-        problem = "has no temperature: its viscosity would be the same for ever"
-        remedy = 'write grade = "ISO VG 100", or both viscosities of the data sheet, in its place'
-        raise InputError(
-            Fault("lubricant.viscosity", problem, units.shown(case.lubricant.viscosity, _VISCOSITY), remedy)
-        )
+    check_oil(case)
+    also = {bearing.name: bearing for bearing in case.bearings.values()}
     if case.motion is not None and case.axis is not None:
-        return axis_duty.duty(case.model, case.screw, case.lubricant, axis=case.axis, motion=case.motion), None
-    length = length_of(case, surroundings)
-    stroke = SHARE_OF_SHAFT * length if surroundings.stroke is None else float(surroundings.stroke)
+        return axis_duty.duty(
+            case.model, case.screw, case.lubricant, axis=case.axis, motion=case.motion, also=also
+        ), None
+    stroke = stroke_of(case, surroundings)
     point = case.operation
     duty = to_and_fro(
         case.model, case.screw, case.lubricant, axial_load=float(point.axial_load),
-        screw_speed=float(point.screw_speed), stroke=stroke,
+        screw_speed=float(point.screw_speed), stroke=stroke, also=also,
     )  # fmt: skip
     return duty, stroke
+
+
+def stroke_of(case: Case, surroundings: Surroundings) -> Length:
+    """The stroke of one operating point: of the surroundings, or half the shaft."""
+    length = length_of(case, surroundings)
+    return SHARE_OF_SHAFT * length if surroundings.stroke is None else float(surroundings.stroke)
 
 
 def length_of(case: Case, surroundings: Surroundings) -> Length:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from ballscrew import units
@@ -10,15 +12,16 @@ from ballscrew.friction.plausibility import implausible
 from ballscrew.motion.states import Numbers
 from ballscrew.records import Record
 
-#: A cycle longer than this share of the time is not short: an assumption.
-LONG_CYCLE = 0.02
+if TYPE_CHECKING:  # its room of distributions is slow to import
+    from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
+
 #: So many times as far while it stands as at work, and it is said.
 _FARTHER = 1.05
 
 
 def verdicts(report: WarmUpReport) -> list[Record]:
     """Where it ends, whether it was stopped, a lost stretch, and the preload."""
-    return [*report.warm_up.records, *_preload(report)]
+    return [*report.warm_up.records, *_preload(report), *_long_cycle(report)]
 
 
 def _preload(report: WarmUpReport) -> list[Record]:
@@ -65,7 +68,20 @@ def warnings(report: WarmUpReport) -> list[Record]:
     parts = {"surroundings": report.surroundings, "lubricant": warmest}
     strange = [*case.implausible(), *units.in_display_units_of(implausible(parts))]
     once = {(record.id, record.subject): record for record in strange}
-    return [*once.values(), *_assumed_length(report), *_own_temperatures(report), *_long_cycle(report)]
+    return [*once.values(), *_assumed_length(report), *_own_temperatures(report)]
+
+
+def band_records(found: WarmUpBandReport) -> list[Record]:
+    """A warning where samples have no steady state, or leave what is known and with it the bands."""
+    bands = found.bands
+    away, lost = 1 - bands.steady_share, 1 - float(bands.known_share[-1])
+    if not away and not lost:
+        return []
+    text = (
+        f"{100 * away:.2g} % of {bands.count} samples have no steady state within the range of oil and preload, and "
+        f"{100 * lost:.2g} % leave it before the end: from then on they are not in the bands, whose ends are too narrow"
+    )
+    return [Record(id="band.no_steady_state", subject="equilibrium", text=text, severity="warning", value=away)]
 
 
 def _assumed_length(report: WarmUpReport) -> list[Record]:
@@ -93,18 +109,18 @@ def _own_temperatures(report: WarmUpReport) -> list[Record]:
 
 
 def _long_cycle(report: WarmUpReport) -> list[Record]:
-    """A cycle that is not short against the hours: its heat is spread over the stroke all the same."""
-    cycle, hours = report.duty.states.cycle_time, float(report.warm_up.time[-1])
-    if cycle <= LONG_CYCLE * hours:
+    """A cycle that is not short against the hours, whose heat goes along with the nut."""
+    if report.warm_up.along is None:
         return []
+    cycle, hours = report.duty.states.cycle_time, float(report.warm_up.time[report.last_at_work])
     shown = SERIES["time"]
     text = (
-        f"a cycle takes {units.shown(cycle, shown, 3)} of {units.shown(hours, shown, 3)}: its heat is spread over the "
-        "stroke as if it were short, so that the place where the nut is now is warmer than this"
+        f"a cycle takes {units.shown(cycle, shown, 3)} of {units.shown(hours, shown, 3)}: the heat goes along with the "
+        "nut; torque is the mean of a cycle at the oil and preload of each instant, and the steady state that of heat "
+        "spread over the stroke"
     )
     return [
         Record(
-            id="warm_up.long_cycle", subject="motion", text=text, severity="warning", value=cycle,
-            limit=LONG_CYCLE * hours, unit="s",
+            id="verdict.long_cycle", subject="motion", text=text, severity="info", holds=True, value=cycle, unit="s"
         )
     ]  # fmt: skip

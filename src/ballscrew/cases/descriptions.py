@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from ballscrew import units
+from ballscrew.case_schema.schema import LAWS, MODELS, name_of_law
 from ballscrew.cases.case import Case
 from ballscrew.cases.lubricants import described, shown_temperature
 from ballscrew.cases.named_calibration import vendor_rows_like
-from ballscrew.cases.schema import LAWS, MODELS, name_of_law
 from ballscrew.components.contact import RaceState
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Bodies, Nut

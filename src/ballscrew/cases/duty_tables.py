@@ -15,7 +15,7 @@ import numpy as np
 from ballscrew import units
 from ballscrew.axis.axis import Axis
 from ballscrew.axis.motor import Motor
-from ballscrew.cases.duty_schema import (
+from ballscrew.case_schema.duty_schema import (
     CONSTANT_EFFICIENCY,
     KEYS,
     MOTIONS,
@@ -25,8 +25,8 @@ from ballscrew.cases.duty_schema import (
     duty_sections,
     fields_of_motion,
 )
-from ballscrew.cases.schema import MODELS, read_table
-from ballscrew.cases.sections import Sections
+from ballscrew.case_schema.schema import MODELS, read_table
+from ballscrew.case_schema.sections import Sections
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.errors import MISSING, Fault, InputError, nearest
 from ballscrew.motion.profiles import Motion, Segment
@@ -71,7 +71,7 @@ def travel(axis: Axis, motion: Motion, lead: float) -> OperatingState:
     """The operating point of steady travel forwards, at the largest speed and without any process."""
     states = motion.states()
     fastest = float(np.max(np.abs(states.speed)))
-    load = axis.gravity_force + axis.guide_force + axis.guide_seal_force
+    load = axis.gravity_force + axis.resting_guide_friction
     return OperatingState(axial_load=load, screw_speed=2 * math.pi * fastest / lead)
 
 

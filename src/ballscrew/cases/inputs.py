@@ -5,10 +5,10 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
-from ballscrew.cases import duty_tables
+from ballscrew.case_schema.duty_schema import CONSTANT_EFFICIENCY
+from ballscrew.case_schema.schema import LAWS, name_of_law
+from ballscrew.cases import duty_tables, support_tables
 from ballscrew.cases.case import USUAL_LIMITS, Case
-from ballscrew.cases.duty_schema import CONSTANT_EFFICIENCY
-from ballscrew.cases.schema import LAWS, name_of_law
 from ballscrew.components.nut import Nut
 from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.quantities import fields_of
@@ -36,6 +36,7 @@ def inputs(case: Case) -> dict[str, Any]:
         **({} if case.installation is None else {"installation": _mounting(case.installation)}),
         **({} if case.limits is USUAL_LIMITS else {"limits": _numbers(case.limits)}),
         **duty_tables.inputs(case.axis, case.motion, case.motor, case.surroundings),
+        **support_tables.inputs(case.bearings, case.axis),
     }
 
 

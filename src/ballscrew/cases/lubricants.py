@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew import units
+from ballscrew.case_schema.sections import Sections
 from ballscrew.cases.oils import named_oil
-from ballscrew.cases.sections import Sections
 from ballscrew.components.data_sheet import SHEET_TEMPERATURE, DataSheet
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.errors import MISSING, Fault, InputError

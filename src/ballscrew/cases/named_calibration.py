@@ -6,8 +6,8 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
+from ballscrew.case_schema.schema import name_of_law
 from ballscrew.cases.case import Case
-from ballscrew.cases.schema import name_of_law
 from ballscrew.errors import Fault, raise_if_any
 from ballscrew.friction.calibrations import calibrated, calibration
 from ballscrew.friction.law_names import coefficients

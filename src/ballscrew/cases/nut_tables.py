@@ -8,9 +8,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from ballscrew.case_schema.schema import law_of
+from ballscrew.case_schema.sections import Sections
 from ballscrew.cases.case import PreloadNote
-from ballscrew.cases.schema import law_of
-from ballscrew.cases.sections import Sections
 from ballscrew.components.nut import Bodies, Nut, Scatter, SingleNut
 from ballscrew.components.nut_losses import ParasiticLaw
 from ballscrew.components.screw import SINGLE_NUT, BallScrew

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from ballscrew._version import __version__
+from ballscrew.case_schema.duty_schema import CONSTANT_EFFICIENCY
 from ballscrew.cases.case import Case
-from ballscrew.cases.duty_schema import CONSTANT_EFFICIENCY
 from ballscrew.components.materials import Lubricant
 from ballscrew.references import citations_of, documentation, keys_in
 

@@ -9,7 +9,7 @@ import typer
 
 from ballscrew.cases.case_file import Case
 from ballscrew.documents import band as documents
-from ballscrew.errors import Fault, raise_if_any
+from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.figures import files
 from ballscrew.output import json_text
 from ballscrew.studies import band
@@ -17,7 +17,7 @@ from ballscrew.studies.run import run as run_case
 from ballscrew.text import band as text
 
 
-def check(wanted: bool, options: band.Options, to: Path | None) -> None:
+def check(wanted: bool, options: band.Options, to: Path | None, self_heating: bool) -> None:
     """Raise :class:`~ballscrew.errors.InputError` for options without a band, and a picture that cannot be."""
     given = {
         "--samples": options.samples,
@@ -33,8 +33,28 @@ def check(wanted: bool, options: band.Options, to: Path | None) -> None:
                 if value is not None
             ]
         )
+    if to is not None and self_heating:
+        problem = "draws a curve over the speed, at each of which the oil has another temperature"
+        raise InputError(Fault("--to", problem, str(to), "leave it out, or see ballscrew sweep --self-heating"))
     if to is not None:
         files.check_picture(to)
+
+
+def run_warm(case: Case, options: band.Options, as_json: bool, done: Callable[[int, int], None]) -> None:
+    """The band of a case as warm as it makes itself: temperature and preload by samples of its surroundings."""
+    from ballscrew.axis_studies.heat_samples import heat_samples
+    from ballscrew.axis_studies.self_heating import self_heating
+    from ballscrew.documents.self_heating import with_self_heating
+    from ballscrew.output.wrapping import wrapped
+
+    heating = self_heating(case)
+    heat = heat_samples(heating, only_given=options.only_given)
+    report = band.band(heating.warm, options, done, heat)
+    if as_json:
+        typer.echo(json_text.as_json(with_self_heating(documents.document(run_case(heating.warm), report), heating)))
+    else:
+        typer.echo(wrapped(heating.record.text))
+        text.print_band(heating.warm, report)
 
 
 def run(case: Case, options: band.Options, to: Path | None, as_json: bool, done: Callable[[int, int], None]) -> None:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import (
+from ballscrew.command_options.common_options import (
     AllowCode,
     CalibrationName,
     ModelName,
@@ -123,7 +123,7 @@ def check(
         say_of_rows(notes, interrupted=False)
         typer.echo(json_of(document(screw)) if as_json else text(screw))
         return
-    from ballscrew.cli.progress import progress
+    from ballscrew.command_options.progress import progress
     from ballscrew.table_files import row_tables
 
     if to is not None:

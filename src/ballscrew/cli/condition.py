@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import (
+from ballscrew.command_options.common_options import (
     AllowCode,
     CalibrationName,
     Inertia,
@@ -73,8 +73,8 @@ def condition(
     output says so first.
     """
     from ballscrew.cases import case_file
-    from ballscrew.cli.condition_options import check_question, options
-    from ballscrew.cli.progress import progress
+    from ballscrew.command_options.condition_options import check_question, options
+    from ballscrew.command_options.progress import progress
     from ballscrew.documents import condition as documents
     from ballscrew.figures import files
     from ballscrew.output.json_text import as_json as json_text

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName
+from ballscrew.command_options.common_options import AllowCode, CalibrationName, CaseFile, ModelName
 
 if TYPE_CHECKING:
     from ballscrew.axis_studies.duty import DutyReport
@@ -94,7 +94,7 @@ def duty(
 
 def _banded(report: DutyReport, samples: int | None, only_given: bool) -> DutyBandReport:
     from ballscrew.axis_studies import duty_band  # loads xarray
-    from ballscrew.cli.progress import progress
+    from ballscrew.command_options.progress import progress
 
     with progress("band") as done:
         return duty_band.band(report, samples, only_given=only_given, done=done)

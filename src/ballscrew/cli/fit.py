@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, NoReturn
 
 import typer
 
-from ballscrew.cli.common_options import (
+from ballscrew.command_options.common_options import (
     AllowCode,
     CalibrationName,
     Inertia,
@@ -16,6 +18,7 @@ from ballscrew.cli.common_options import (
     ModelName,
     Row,
     Rows,
+    SelfHeatingOption,
     TorqueConstant,
     TorqueKind,
     Verbose,
@@ -98,6 +101,7 @@ def fit(
     ] = None,
     rows: Rows = None,
     row: Row = None,
+    self_heating: SelfHeatingOption = False,
     allow_code: AllowCode = False,
     verbose: Verbose = False,
 ) -> None:
@@ -110,15 +114,18 @@ def fit(
 
     A distribution that the case gives a number is its prior. Part of the operating points is held out
     to see how well the model predicts, beside two descriptions without physics. The last lines say where to
-    measure next.
+    measure next. With --self-heating each row of a log of friction torque without temperatures is as warm as its
+    own torque makes it in the steady state.
     """
     from ballscrew.cases import case_file
 
     check_rows(rows, row)
     _check_log(log, rows, picture)
+    if self_heating and rows is not None:
+        _refuse_self_heating("is given beside --rows", "leave one of them out")
     if rows is not None:
-        from ballscrew.cli.fit_options import options
         from ballscrew.cli.fit_rows import fit_rows
+        from ballscrew.command_options.fit_options import options
 
         fit_rows(
             case, rows, row, functools.partial(
@@ -134,8 +141,8 @@ def fit(
     loaded = case_file.build(tables, model, case.parent, calibration=calibration, allow_code=allow_code)
 
     # pandas is slow to import: only for a good case
-    from ballscrew.cli.fit_options import check_to, moving_options, options
-    from ballscrew.cli.progress import progress
+    from ballscrew.command_options.fit_options import check_to, moving_options, options
+    from ballscrew.command_options.progress import progress
     from ballscrew.figures import files
     from ballscrew.studies.fit_log import steady_log
     from ballscrew.studies.moving_log import is_moving
@@ -145,6 +152,8 @@ def fit(
     if moving or test is not None or is_moving(log, column or []):
         from ballscrew.cli.fit_moving import fit_moving
 
+        if self_heating:
+            _refuse_self_heating("is not for a moving axis", "leave it out")
         unused = {
             "--bounds": bool(bounds), "--limits": bool(limits), "--kind": kind is not None,
             "--inertia": inertia is not None, "--to": to is not None,
@@ -166,7 +175,12 @@ def fit(
         # solvers are slow to import: only for a log that can be fitted to
         from ballscrew.studies import fit as studies
 
-        report = studies.fit(loaded, steady, chosen)
+        assumed: Sequence[str] = ()
+        if self_heating:
+            from ballscrew.axis_studies.warm_log import warm_log
+
+            steady, assumed = warm_log(loaded, steady, chosen.kind)
+        report = dataclasses.replace(studies.fit(loaded, steady, chosen), assumed=assumed)
     from ballscrew.cases import fitted_case
     from ballscrew.documents import fit as documents
     from ballscrew.output.json_text import as_json as json_text
@@ -186,6 +200,12 @@ def fit(
 
         files.draw(lambda: figures.picture(loaded, report), picture, "--picture")
         typer.echo(f"{picture}: {len(report.model.rows.log)} rows", err=as_json)
+
+
+def _refuse_self_heating(problem: str, remedy: str) -> NoReturn:
+    from ballscrew.errors import Fault, InputError
+
+    raise InputError(Fault("--self-heating", problem, "", remedy))
 
 
 def _check_log(log: Path | None, rows: Path | None, picture: Path | None) -> None:

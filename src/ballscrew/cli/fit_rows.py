@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from ballscrew.cli.common_options import cases_of_rows, say_of_rows
+from ballscrew.command_options.common_options import cases_of_rows, say_of_rows
 from ballscrew.errors import Fault, InputError
 from ballscrew.files import check_writable
 
@@ -35,7 +35,7 @@ def fit_rows(
 ) -> None:
     """Fit each row to its log; a folder ``to`` gets the calibrated case of each as soon as it is done."""
     from ballscrew.cases import fitted_case
-    from ballscrew.cli.progress import progress
+    from ballscrew.command_options.progress import progress
     from ballscrew.documents import fit as documents
     from ballscrew.output import json_text
     from ballscrew.studies import fit_rows

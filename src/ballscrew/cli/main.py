@@ -17,6 +17,7 @@ from typer.core import TyperCommand
 
 from ballscrew import _pint_plugins
 from ballscrew.cli import (
+    axis,
     card,
     catalogue,
     check,
@@ -29,10 +30,12 @@ from ballscrew.cli import (
     hand_over,
     names,
     oils,
+    optimise,
     report,
     reproduce,
     run,
     schema,
+    select,
     sensitivity,
     serve,
     service,
@@ -40,7 +43,7 @@ from ballscrew.cli import (
     validate,
     warm_up,
 )
-from ballscrew.cli.common_options import CALIBRATION_NAMES, MODEL_NAMES
+from ballscrew.command_options.common_options import CALIBRATION_NAMES, MODEL_NAMES
 
 app = typer.Typer(
     name="ballscrew",
@@ -58,7 +61,7 @@ class _Command(TyperCommand):
     """A command whose help names models and calibrations. Their source is slow to load: only when it is asked for."""
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
-        from ballscrew.cases.schema import DEFAULT_MODEL, MODELS
+        from ballscrew.case_schema.schema import DEFAULT_MODEL, MODELS
         from ballscrew.friction.calibrations import calibrations
 
         models = ", ".join(f"{name} (default)" if name == DEFAULT_MODEL else name for name in MODELS)
@@ -76,10 +79,13 @@ for command in (
     sweep.sweep,
     reproduce.reproduce,
     check.check,
+    select.select,
+    optimise.optimise,
     fit.fit,
     hand_over.hand_over,
     report.report,
     duty.duty,
+    axis.axis,
     warm_up.warm_up,
     compensation.compensation,
     sensitivity.sensitivity,

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName, Settings
+from ballscrew.command_options.common_options import AllowCode, CalibrationName, CaseFile, ModelName, Settings
 
 #: What each kind of file needs beyond the core.
 _NEEDS = {".html": ("jinja2",), ".pdf": ("typst",)}
@@ -29,7 +29,8 @@ def report(
 ) -> None:
     """A report to file: drawing, results, curves, band, checks, inputs and sources on up to four pages.
 
-    Of a case with a motion it has the cycle, too, on up to six pages. The .html is one file that asks for
+    Of a case with a motion it has the cycle, too, on two pages more, and with [surroundings] four hours of warming up
+    on one. The .html is one file that asks for
     nothing from outside; the .pdf can be read by machines, too (PDF/UA-1). The same case gives the same bytes.
     """
     from ballscrew.errors import Fault, InputError
@@ -45,7 +46,7 @@ def report(
 
     loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     check_writable(_TO, to)
-    from ballscrew.cli.progress import progress
+    from ballscrew.command_options.progress import progress
     from ballscrew.report.contents import report_bytes
 
     with progress("report") as done:

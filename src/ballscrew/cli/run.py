@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ballscrew.cli.common_options import (
+from ballscrew.command_options.common_options import (
     AllowCode,
     CalibrationName,
     CaseFile,
@@ -62,7 +62,7 @@ def run(
     With --rows the same for each screw of a table, one line each; oil, operating point and model are those of the case.
     """
     check_rows(rows, row)
-    _check_self_heating(self_heating, band or only_given, rows)
+    _check_self_heating(self_heating, rows)
     has_band = band or only_given or (samples, level) != (None, None) or (to is not None and rows is None)
     if rows is not None:
         cases = cases_of_rows(
@@ -79,13 +79,16 @@ def run(
         loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     if has_band:
         from ballscrew.cli import band as band_command
-        from ballscrew.cli.progress import progress
+        from ballscrew.command_options.progress import progress
         from ballscrew.studies.band import Options
 
         options = Options(samples, level, only_given)
-        band_command.check(band, options, to)
+        band_command.check(band, options, to, self_heating)
         with progress("band") as done:
-            band_command.run(loaded, options, to, as_json, done)
+            if self_heating:
+                band_command.run_warm(loaded, options, as_json, done)
+            else:
+                band_command.run(loaded, options, to, as_json, done)
         return
     from ballscrew.documents.run import document
     from ballscrew.documents.self_heating import with_self_heating
@@ -108,18 +111,17 @@ def run(
         print_run(found)
 
 
-def _check_self_heating(asked: bool, band: bool, rows: Path | None) -> None:
+def _check_self_heating(asked: bool, rows: Path | None) -> None:
     """Raise :class:`~ballscrew.errors.InputError` where self-heating is asked for beside what does not know it."""
     from ballscrew.errors import Fault, InputError
 
-    beside = "--band" if band else "--rows" if rows is not None else ""
-    if asked and beside:
-        raise InputError(Fault("--self-heating", f"is given beside {beside}", "", "leave one of them out"))
+    if asked and rows is not None:
+        raise InputError(Fault("--self-heating", "is given beside --rows", "", "leave one of them out"))
 
 
 def _of_rows(cases: OfRows[RowCase], as_json: bool, to: Path | None, keep_going: bool) -> None:
     """Results of each row: one line each, and a table in a file."""
-    from ballscrew.cli.progress import progress
+    from ballscrew.command_options.progress import progress
     from ballscrew.documents.run import list_document
     from ballscrew.output import json_text
     from ballscrew.studies import every_row

@@ -1,14 +1,21 @@
-"""``ballscrew schema``: the JSON Schema of a case file."""
+"""``ballscrew schema``: the JSON Schema of a case file, or of a need."""
 
 from __future__ import annotations
+
+from typing import Annotated
 
 import typer
 
 
-def schema() -> None:
+def schema(
+    need: Annotated[bool, typer.Option("--need", help="Of a file of ballscrew select and optimise.")] = False,
+) -> None:
     """JSON Schema of a case file."""
     import json
 
-    from ballscrew.cases.schema import json_schema
+    if need:
+        from ballscrew.optimisation.need_schema import json_schema
+    else:
+        from ballscrew.case_schema.schema import json_schema
 
     typer.echo(json.dumps(json_schema(), indent=2, ensure_ascii=False))

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName
+from ballscrew.command_options.common_options import AllowCode, CalibrationName, CaseFile, ModelName
 
 
 def sensitivity(
@@ -51,7 +51,7 @@ def sensitivity(
     much as is usual. Laws are not varied here.
     """
     from ballscrew.cases import case_file
-    from ballscrew.cli import progress
+    from ballscrew.command_options import progress
     from ballscrew.documents import sensitivity as documents
     from ballscrew.figures import files
     from ballscrew.output.json_text import as_json as json_text

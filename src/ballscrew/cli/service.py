@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import (
+from ballscrew.command_options.common_options import (
     AllowCode,
     CalibrationName,
     Inertia,
@@ -72,8 +72,8 @@ def service(
     friction, the oil, the seals.
     """
     from ballscrew.cases import case_file
-    from ballscrew.cli.progress import progress
-    from ballscrew.cli.service_options import check_question, fit_options, reading
+    from ballscrew.command_options.progress import progress
+    from ballscrew.command_options.service_options import check_question, fit_options, reading
     from ballscrew.documents import service as documents
     from ballscrew.figures import files
     from ballscrew.output.json_text import as_json as json_text

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ballscrew.cli.common_options import (
+from ballscrew.command_options.common_options import (
     AllowCode,
     CalibrationName,
     CaseFile,
@@ -18,6 +18,7 @@ from ballscrew.cli.common_options import (
     ModelName,
     Row,
     Rows,
+    SelfHeatingOption,
     Settings,
     Verbose,
     cases_of_rows,
@@ -71,6 +72,7 @@ def sweep(
     rows: Rows = None,
     row: Row = None,
     keep_going: KeepGoing = False,
+    self_heating: SelfHeatingOption = False,
     allow_code: AllowCode = False,
     verbose: Verbose = False,
 ) -> None:
@@ -82,14 +84,16 @@ def sweep(
     ten speeds up to those of the case. One output over two axes comes as a table, load down and
     speed across, ready to paste; otherwise one row a point. A .zarr is filled block by block: stopped
     by whatever, the same command goes on where it was; blocks whose files are damaged are computed again.
+    With --self-heating each point goes to and fro until it is warm, and has its own temperature and preload.
     """
     from ballscrew.cases import case_file
-    from ballscrew.cli.progress import progress
+    from ballscrew.command_options.progress import progress
     from ballscrew.studies import sweep as studies
     from ballscrew.table_files import sweep_files
     from ballscrew.text import sweep as text
 
     check_rows(rows, row)
+    _check_self_heating(self_heating, rows, scheduler)
     if rows is None:
         loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     else:
@@ -103,7 +107,7 @@ def sweep(
             return
         say_of_rows(cases.notes, cases.interrupted)
         (loaded,) = (each.case for each in cases.found.values())
-    plan = studies.plan(loaded, vary or [], output or [], to)
+    plan = studies.plan(loaded, vary or [], output or [], to, heats=self_heating)
     studies.check_store_options(to, verify=verify, trust=trust)
     with _report_interruption(), studies.workers(scheduler, to) as cluster, progress("sweep") as done, log_on_stderr():
         dataset = studies.sweep(loaded, plan, done, to, cluster, verify=verify, trust=trust)
@@ -115,8 +119,24 @@ def sweep(
         if not studies.is_store(to):
             sweep_files.write(dataset, plan, to)
         typer.echo(f"{to}: {text.size(dataset, plan)}, model {loaded.model.label}")
+    if self_heating:
+        typer.echo(text.assumed(dataset), err=True)
     if beware := text.warning(loaded, plan, dataset, to):
         typer.echo(beware, err=True)
+
+
+def _check_self_heating(asked: bool, rows: Path | None, scheduler: str | None) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` where self-heating is asked for beside what does not know it."""
+    from ballscrew.errors import Fault, raise_if_any
+
+    beside = {"--rows": rows, "--scheduler": scheduler}
+    raise_if_any(
+        [
+            Fault("--self-heating", f"is given beside {name}", str(value), "leave one of them out")
+            for name, value in beside.items()
+            if asked and value is not None
+        ]
+    )
 
 
 def _of_rows(
@@ -129,7 +149,7 @@ def _of_rows(
     verbose: bool,
 ) -> None:
     """The sweeps of all rows as one dataset."""
-    from ballscrew.cli.progress import progress
+    from ballscrew.command_options.progress import progress
     from ballscrew.studies import sweep_rows
     from ballscrew.table_files import sweep_files
     from ballscrew.text import sweep as text

@@ -7,22 +7,35 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, CaseFile, ModelName
+from ballscrew.command_options.common_options import AllowCode, CaseFile, ModelName
 
 if TYPE_CHECKING:
     from ballscrew.axis_studies.warm_up import WarmUpReport
+    from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
+    from ballscrew.cases.case import Case
 
-_TO, _HOURS, _COOL_DOWN = "--to", "--hours", "--cool-down"
+_TO, _BAND = "--to", "--band"
 #: Files that a folder gets.
-_TABLES, _COMPENSATION, _PICTURE = ("warm_up.csv", "warm_up.xlsx"), "compensation.csv", "warm_up.png"
-#: The longest time, h: a year.
-_LONGEST = 8766.0
+_TABLES, _COMPENSATION, _BANDS, _PICTURE = (
+    ("warm_up.csv", "warm_up.xlsx"), "compensation.csv", "warm_up_band.csv", "warm_up.png"
+)  # fmt: skip
 
 
 def warm_up(
     case: CaseFile,
-    hours: Annotated[float, typer.Option(_HOURS, metavar="H", help="Hours of work.")] = 4.0,
-    cool_down: Annotated[float, typer.Option(_COOL_DOWN, metavar="H", help="Hours of rest after them.")] = 0.0,
+    hours: Annotated[float, typer.Option("--hours", metavar="H", help="Hours of work.")] = 4.0,
+    cool_down: Annotated[
+        float | None, typer.Option("--cool-down", metavar="H", help="Hours of rest after them, 0.")
+    ] = None,
+    drift_cycle: Annotated[
+        bool,
+        typer.Option(
+            "--drift-cycle", help="A cycle like that of ISO 230-3: full stroke at a share of rapid, an hour of rest."
+        ),
+    ] = False,
+    feed_share: Annotated[
+        float | None, typer.Option("--feed-share", metavar="SHARE", help="With --drift-cycle: feed over rapid, 0.5.")
+    ] = None,
     model: ModelName = None,
     settings: Annotated[
         list[str] | None,
@@ -40,41 +53,68 @@ def warm_up(
             help="Write a folder of tables and a picture; or one .csv, .xlsx, .png, .svg or .pdf; repeat.",
         ),
     ] = None,
+    band: Annotated[
+        bool, typer.Option(_BAND, help="How far off it all may be, by uncertain surroundings and friction.")
+    ] = False,
+    samples: Annotated[int | None, typer.Option("--samples", metavar="N", help="With --band: transients, 512.")] = None,
+    level: Annotated[
+        float | None, typer.Option("--level", metavar="SHARE", help="With --band: share in the band, 0.95.")
+    ] = None,
+    only_given: Annotated[
+        bool, typer.Option("--only-given", help="With --band: only what the file says is uncertain.")
+    ] = False,
     allow_code: AllowCode = False,
 ) -> None:
     """Temperatures, growth, preload and torque over hours, and the state in which they end.
 
     A case with an [axis] and a [motion] does its motion; one with an [operation] goes to and fro over half the shaft.
-    [surroundings] has where the heat goes. The verdict says if there is no end: it runs away.
+    [surroundings] has where the heat goes. The verdict says if there is no end: it runs away. With --band
+    transients are drawn with other surroundings, among them the conduction through the balls, the least known.
     """
     from ballscrew.axis_studies import warm_up as studies
     from ballscrew.documents import warm_up as documents
+    from ballscrew.errors import Fault, InputError, raise_if_any
     from ballscrew.output.json_text import as_json as json_text
     from ballscrew.text import warm_up as text
 
-    _check_hours(hours, cool_down)
+    rest = (studies.REST if drift_cycle else 0.0) if cool_down is None else cool_down
+    studies.check_hours(hours, rest)
+    if feed_share is not None and not drift_cycle:
+        raise InputError(Fault("--feed-share", "needs --drift-cycle", f"{feed_share:g}", "add --drift-cycle"))
     loaded = studies.load(case, settings or [], model, allow_code=allow_code)
-    files = [path for place in to or [] for path in _files(place)]
-    report = studies.warmed_up(loaded, hours, cool_down)
-    typer.echo(json_text(documents.document(report)) if as_json else text.text(report))
+    if drift_cycle:
+        loaded = studies.drift_cycle(loaded, studies.FEED_SHARE if feed_share is None else feed_share)
+    raise_if_any(studies.option_faults(band, samples, level, only_given))
+    files = [path for place in to or [] for path in _files(place, band)]
+    if not band:
+        report, banded = studies.warmed_up(loaded, hours, rest), None
+        typer.echo(json_text(documents.document(report)) if as_json else text.text(report))
+    else:
+        banded = _banded(loaded, hours, rest, samples, level, only_given)
+        report = banded.report
+        written = (
+            json_text(documents.with_band(banded)) if as_json else f"{text.text(report)}\n{text.band_text(banded)}"
+        )
+        typer.echo(written)
     for path in files:
-        _write(path, report, compensation=path.name == _COMPENSATION and path.parent in (to or []))
+        own = path.name if path.parent in (to or []) else ""
+        _write(path, report, banded, own)
         typer.echo(f"{path}", err=as_json)
 
 
-def _check_hours(hours: float, cool_down: float) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` for times that are none."""
-    from ballscrew.errors import Fault, raise_if_any
+def _banded(
+    case: Case, hours: float, cool_down: float, samples: int | None, level: float | None, only_given: bool
+) -> WarmUpBandReport:
+    from ballscrew.axis_studies import warm_up_band as studies  # loads xarray
+    from ballscrew.command_options.progress import progress
 
-    faults: list[Fault] = []
-    if not 0 < hours <= _LONGEST:
-        faults.append(Fault(_HOURS, f"must be above 0 and at most {_LONGEST:g}", f"{hours:g}", "write --hours 4"))
-    if not 0 <= cool_down <= _LONGEST:
-        faults.append(Fault(_COOL_DOWN, f"must be 0 to {_LONGEST:g}", f"{cool_down:g}", "write --cool-down 1"))
-    raise_if_any(faults)
+    with progress("band") as done:
+        return studies.band(
+            case, hours, cool_down, samples=samples, level=level, only_given=only_given, done=done
+        )  # fmt: skip
 
 
-def _files(place: Path) -> list[Path]:
+def _files(place: Path, band: bool) -> list[Path]:
     """The files of a place: itself if it ends as one, or those of a folder, which is made. They can be written."""
     from ballscrew.errors import Fault, InputError
     from ballscrew.figures.files import SUFFIXES
@@ -92,7 +132,7 @@ def _files(place: Path) -> list[Path]:
             place.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise write_error(_TO, place, error) from None
-        found = [place / name for name in (*_TABLES, _COMPENSATION, _PICTURE)]
+        found = [place / name for name in (*_TABLES, _COMPENSATION, *((_BANDS,) if band else ()), _PICTURE)]
     for path in found:
         if path.suffix.lower() in row_tables.KINDS:
             row_tables.check_path(path)
@@ -101,15 +141,18 @@ def _files(place: Path) -> list[Path]:
     return found
 
 
-def _write(path: Path, report: WarmUpReport, *, compensation: bool) -> None:
+def _write(path: Path, report: WarmUpReport, bands: WarmUpBandReport | None, own: str) -> None:
+    """Write one file; ``own`` is its name in a folder, by which it has a table of its own."""
     from ballscrew.table_files import row_tables, warm_up_tables
 
-    if compensation:
+    if own == _COMPENSATION:
         warm_up_tables.write_compensation(path, report)
+    elif own == _BANDS and bands is not None:
+        warm_up_tables.write_band(path, bands)
     elif path.suffix.lower() in row_tables.KINDS:
-        warm_up_tables.write(path, report)
+        warm_up_tables.write(path, report, bands)
     else:
         from ballscrew.figures import files
         from ballscrew.figures import warm_up as figures  # matplotlib is slow to import
 
-        files.draw(lambda: figures.picture(report), path, _TO)
+        files.draw(lambda: figures.picture(report, bands), path, _TO)

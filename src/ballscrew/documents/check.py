@@ -36,7 +36,8 @@ def _document(found: Checked) -> dict[str, Any]:
             "listed": {name: case.listed.get(name) for name in RATINGS},
             "computed": None if found.computed is None else {n: getattr(found.computed, f) for n, f in RATINGS.items()},
         },
-        "checks": [_check(check) for check in found.checks],
+        "checks": [check_document(check) for check in found.checks],
+        "holds": found.holds,
         "verdict": found.verdict,
         "verdicts": documents(found.verdicts),
         "assumed": list(found.assumed),
@@ -58,7 +59,7 @@ def list_document(found: Sequence[Checked]) -> list[dict[str, Any]]:
     return listed
 
 
-def _check(check: Check) -> dict[str, Any]:
-    """A check as a record, with the older keys ``name``, ``utilisation``, ``passes`` and ``words`` beside it."""
+def check_document(check: Check) -> dict[str, Any]:
+    """A check as a record, what it lacks, and the older keys ``name``, ``utilisation``, ``passes`` and ``words``."""
     older = {"name": check.name, "utilisation": check.utilisation, "passes": check.holds, "words": check.text}
-    return {**check.record.document(), **older}
+    return {**check.record.document(), "missing": check.missing, **older}

@@ -36,6 +36,7 @@ def document(case: Case, report: FitReport) -> dict[str, Any]:
         "rows": _rows(model),
         "inputs": case_file.inputs(case),
         "provenance": fitted_case.provenance_of(case, model),
+        **({"assumed": list(report.assumed)} if report.assumed else {}),
     }
 
 

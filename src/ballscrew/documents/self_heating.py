@@ -24,7 +24,8 @@ def with_self_heating(document: Mapping[str, Any], heating: SelfHeating | None) 
     return {
         **document,
         "inputs": case_file.inputs(heating.given),
-        "results": {**document["results"], "self_heating": dict(heating.numbers)},
-        "units": {**document["units"], "self_heating": dict(_UNITS)},
+        "results": {**document.get("results", {}), "self_heating": dict(heating.numbers)},
+        "units": {**document.get("units", {}), "self_heating": dict(_UNITS)},
+        "assumed": [*document.get("assumed", ()), *heating.assumed],
         "verdicts": [heating.record.document(), *document["verdicts"]],
     }

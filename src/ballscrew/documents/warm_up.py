@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ballscrew.axis_studies import warm_up_records
 from ballscrew.axis_studies.warm_up import EQUILIBRIUM, SERIES, WarmUpReport
+from ballscrew.axis_studies.warm_up_records import band_records
 from ballscrew.cases import case_file, provenance
 from ballscrew.quantities import Quantity
 from ballscrew.records import documents
+
+if TYPE_CHECKING:
+    from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
 
 #: The parts of the heat, which stand together.
 _HEAT = "heat_"
 #: What the network of heat was made with, and its units.
 _NETWORK: Mapping[str, str] = {
     "ball_conductance": "W/K", "shaft_convection": "W/(m^2 K)", "nut_mass": "kg", "shaft_length": "m",
-    "mean_speed": "rad/s", "stroke": "m",
+    "mean_speed": "rad/s", "stroke": "m", "bearing_power": "W",
 }  # fmt: skip
 
 
@@ -34,6 +38,34 @@ def document(report: WarmUpReport) -> dict[str, Any]:
     }
 
 
+def with_band(found: WarmUpBandReport) -> dict[str, Any]:
+    """The document of warming up with its bands."""
+    whole, bands = document(found.report), found.bands
+    return {
+        **whole,
+        "warnings": [*whole["warnings"], *documents(band_records(found))],
+        "band": {
+            "level": bands.level,
+            "samples": bands.count,
+            "time": list(bands.time),
+            **{
+                name: {"low": list(one.low), "median": list(one.median), "high": list(one.high)}
+                for name, one in bands.series.items()
+            },
+            "known_share": list(bands.known_share),
+            "equilibrium": {
+                "exists_share": bands.steady_share,
+                "margin": bands.margin._asdict(),
+                **{name: one._asdict() for name, one in bands.steady.items()},
+            },
+            "inputs": {
+                name: {"distribution": one.description, "source": one.source, "given": one.given}
+                for name, one in found.inputs.items()
+            },
+        },
+    }
+
+
 def results(report: WarmUpReport) -> dict[str, Any]:
     """All results in SI: lists over time, heat at the end."""
     found, network = report.warm_up, report.warm_up.network
@@ -44,6 +76,7 @@ def results(report: WarmUpReport) -> dict[str, Any]:
         **{name: list(values) for name, values in report.series.items() if not name.startswith(_HEAT)},
         "works": [bool(value) for value in found.works],
         "stopped": found.stopped,
+        "source": "spread" if found.along is None else "moving",
         "equilibrium": {
             "exists": found.equilibrium.exists, "margin": found.equilibrium.margin, **report.equilibrium,
         },
@@ -59,6 +92,7 @@ def results(report: WarmUpReport) -> dict[str, Any]:
             "shaft_length": network.shaft.length,
             "mean_speed": report.duty.mean_speed,
             "stroke": report.duty.states.stroke,
+            "bearing_power": list(network.bearing_power),
         },
     }  # fmt: skip
 

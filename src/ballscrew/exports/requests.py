@@ -13,7 +13,7 @@ from ballscrew.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.exports.export import Export
 from ballscrew.exports.hand_over import hand_over
-from ballscrew.exports.targets import Option, options_of, target_module
+from ballscrew.exports.targets import Option, options_of, options_of_case, target_module
 
 
 class Request(NamedTuple):
@@ -49,7 +49,7 @@ def of_case(case: Case, to: str, request: Request) -> Export:
         parameters=request.parameters,
         outputs=request.outputs,
         derivatives=request.derivatives,
-        **_options(to, request.options),
+        **{**options_of_case(to, case), **_options(to, request.options)},
     )
     return dataclasses.replace(found, provenance={**found.provenance, **provenance.of_case(case)})
 

@@ -1,7 +1,7 @@
 """The targets by name, each in a module of its own that is loaded when it is asked for.
 
 A new target is a module of this room with ``export(handed: HandOver) -> Export``, perhaps with its choices as
-``OPTIONS``, and a line here.
+``OPTIONS``, with what a case says of them as ``options_of_case(case)``, and a line here.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import importlib
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
+from ballscrew.cases.case import Case
 from ballscrew.errors import Fault, InputError, nearest
 from ballscrew.exports.export import Export
 from ballscrew.exports.subject import HandOver
@@ -43,6 +44,8 @@ TARGETS: Mapping[str, Target] = {
     "drive": Target(".table_exports.drive", "friction over speed as a few points, for the characteristic of a drive"),
     "program": Target("program", "the model as data, with an interpreter in C that is prebuilt for Linux"),
     "fmu": Target("fmu", "FMU 2.0 or 3.0, co-simulation and model exchange"),
+    "mujoco": Target("mujoco", "joint parameters and an engine plugin for MuJoCo"),
+    "urdf": Target("urdf", "friction of a joint in URDF, SDF and USD"),
 }
 
 
@@ -62,3 +65,9 @@ def export_of(name: str) -> Callable[[HandOver], Export]:
 def options_of(name: str) -> Mapping[str, Option]:
     """The choices that a target has, by name."""
     return getattr(target_module(name), "OPTIONS", {})
+
+
+def options_of_case(name: str, case: Case) -> Mapping[str, Any]:
+    """The choices of a target that follow from a case, where the target says so."""
+    found = getattr(target_module(name), "options_of_case", None)
+    return {} if found is None else found(case)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import textwrap
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -15,12 +16,18 @@ from ballscrew.figures import style
 from ballscrew.quantities import Quantity
 from ballscrew.text import warm_up as text
 
-_TITLE_CHARACTERS, _LABEL_SIZE, _LEVELS = 100, 8.0, 12
+if TYPE_CHECKING:  # slow to import
+    from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
+
+_TITLE_CHARACTERS, _LABEL_SIZE, _LEVELS, _SHADE = 100, 8.0, 12, 0.15
+
+#: Inches on a page of a report.
+_PAGE = (7.1, 4.2)
 
 
-def picture(report: WarmUpReport) -> Figure:
-    """All panels; call within the house style."""
-    figure, panels = style.new_figure(caption(report), rows=3, height=2.7)
+def picture(report: WarmUpReport, found: WarmUpBandReport | None = None) -> Figure:
+    """All panels, with bands where there are any; call within the house style."""
+    figure, panels = style.new_figure(caption(report, found), rows=3, height=2.7)
     figure.suptitle(
         "\n".join(textwrap.wrap(text.title(report), _TITLE_CHARACTERS)),
         x=0.012, ha="left", fontsize=11, fontweight="bold",
@@ -32,13 +39,43 @@ def picture(report: WarmUpReport) -> Figure:
     _over_time(panels[3], report, "preload" if held else "friction_power", style.PURPLE)
     _over_time(panels[4], report, "screw_torque", style.RED)
     _compensation(panels[5], report)
+    if found is not None:
+        _shade(found, panels[1], "nut_temperature", style.RED)
+        _shade(found, panels[2], "shaft_growth", style.INK)
+        if held:
+            _shade(found, panels[3], "preload", style.PURPLE)
+        _shade(found, panels[4], "screw_torque", style.RED)
     return figure
 
 
-def caption(report: WarmUpReport) -> str:
+def panels(report: WarmUpReport) -> Figure:
+    """Temperatures, growth, preload or friction, and torque for a page of a report, without a caption."""
+    figure = Figure(figsize=_PAGE, layout="constrained")
+    places: Any = figure.subplots(2, 2)
+    first, second, third, fourth = places.ravel()
+    _temperatures(first, report)
+    _drift(second, report)
+    held = report.warm_up.network.preload_set
+    _over_time(third, report, "preload" if held else "friction_power", style.PURPLE)
+    _over_time(fourth, report, "screw_torque", style.RED)
+    return figure
+
+
+def _shade(found: WarmUpBandReport, panel: Axes, name: str, colour: str) -> None:
+    quantity, one = SERIES[name], found.bands.series[name]
+    hours = units.from_si(found.bands.time, SERIES["time"])
+    low, high = (np.asarray(units.from_si(end, quantity), dtype=float) for end in (one.low, one.high))
+    panel.fill_between(np.asarray(hours, dtype=float), low, high, color=colour, alpha=_SHADE, linewidth=0)
+
+
+def caption(report: WarmUpReport, found: WarmUpBandReport | None = None) -> str:
     """The verdicts, and what the panels show."""
     said = ". ".join(record.text for record in warm_up_records.verdicts(report))
-    return f"{said}. Dashed: the steady state. While the axis stands, the torque is that of a move just then."
+    shaded = ""
+    if found is not None:
+        level, count = f"{100 * found.bands.level:.4g} %", found.bands.count
+        shaded = f" Shaded: {level} of {count} samples (nut, whole shaft, preload, torque)."
+    return f"{said}. Dashed: the steady state.{shaded} While the axis stands, the torque is that of a move just then."
 
 
 def _hours(report: WarmUpReport) -> np.ndarray:

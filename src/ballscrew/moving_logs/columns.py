@@ -13,9 +13,7 @@ from ballscrew.moving_logs.moving_log import quantities
 from ballscrew.quantities import Info, Quantity, Torque, Unit, quantities_of
 from ballscrew.tables import decimals
 from ballscrew.tables.headings import (
-    NEEDS_UNIT,
     NO_COLUMN,
-    SAME_MEANING,
     Column,
     Heading,
     bare,
@@ -34,6 +32,7 @@ from ballscrew.torque_logs.columns import (
     dates_in,
     of_text,
     texts_in,
+    with_option,
     with_unit,
 )
 from ballscrew.torque_logs.log_rows import within
@@ -108,7 +107,7 @@ def moving_layout(path: Path, found: Sequence[Record], flags: Mapping[str, str])
     try:
         good = checked(path, headings, rows[start], body, columns)
     except InputError as error:
-        raise InputError(*(_with_option(fault, headings) for fault in error.faults)) from None
+        raise InputError(*(with_option(fault, headings, _BY_NAME, constants=False) for fault in error.faults)) from None
     _check_needed(path, good)
     rest = unused(found[start], good, body[:WITHIN])
     good = [dataclasses.replace(one, written=written.get((start, one.place), one.written)) for one in good]
@@ -204,21 +203,3 @@ def _check_needed(path: Path, headings: Sequence[Heading]) -> None:
             others = ", ".join(_BY_NAME[name].example for name in family[1:])
             remedy = f'name it: --column {column.name}="your heading [{QUANTITIES[column.name].shown_in}]"; or {others}'
             raise InputError(Fault(path.name, f"has no column of a {meaning}", "", remedy, id=NO_COLUMN))
-
-
-def _with_option(fault: Fault, headings: Sequence[Heading]) -> Fault:
-    """A fault of a column, with the option of the command line that resolves it."""
-    column = _BY_NAME.get(fault.column)
-    if column is None or column.quantity is None:
-        return fault
-    name, unit = column.name, column.quantity.shown_in
-    heading = next((one for one in headings if fault.where.endswith(f'column "{one.written}"')), None)
-    remedy = fault.remedy
-    if fault.id == NO_COLUMN:
-        remedy += f', or name it: --column {name}="your heading [{unit}]"'
-    elif heading is not None and fault.id == NEEDS_UNIT:
-        parts = BRACKETS.fullmatch(heading.written)
-        remedy += f', or give --column {name}="{parts["name"] if parts else heading.written} [{unit}]"'
-    elif heading is not None and fault.id == SAME_MEANING:
-        remedy = f'give --column {name}="{heading.written}" for the one that is meant'
-    return dataclasses.replace(fault, remedy=remedy)

@@ -24,8 +24,8 @@ Done = Callable[[int, int], None]
 Kind = Literal["pdf", "html"]
 #: How far along the work is after its steps, of a hundred: the answer, the band, the curves.
 _ANSWERED, _BANDED, _DRAWN, _ALL = 5, 60, 85, 100
-#: Pages at most, without and with a cycle of motion.
-_PAGES, _PAGES_WITH_CYCLE = 4, 6
+#: Pages at most, and how many more a cycle of motion and the heat may take.
+_PAGES, _PAGES_OF_CYCLE, _PAGES_OF_HEAT = 4, 2, 1
 #: Sources of what a report says besides the model: the ratings and checks.
 _OF_CHECKS = ("ISO3408-5", "ISO76")
 
@@ -74,13 +74,14 @@ def content(case: case_file.Case, done: Done | None = None, samples: int | None 
         Section("How far off it may be", result_tables.band_blocks(case, uncertain)),
         Section("Checks", result_tables.checks(of_checks)),
         *_cycle(case),
+        *_heat(case),
         Section("What to beware of", result_tables.beware(found)),
         Section(
             "Inputs and model", [*_model(case), Columns.of([*inputs, input_tables.laws(case)]), _origins(case, inputs)]
         ),
         Section("Sources", [Links(_sources(case, uncertain))]),
     ]
-    pages = _PAGES if case.motion is None else _PAGES_WITH_CYCLE
+    pages = _PAGES + (case.motion is not None) * _PAGES_OF_CYCLE + (case.surroundings is not None) * _PAGES_OF_HEAT
     return Report("Friction of a ball screw", _subtitle(case), sections, f"ballscrew {__version__}", pages)
 
 
@@ -92,6 +93,15 @@ def _cycle(case: case_file.Case) -> list[Section]:
     from ballscrew.report import duty_section
 
     return [Section("Over a cycle of the motion", duty_section.blocks(duty(case)))]
+
+
+def _heat(case: case_file.Case) -> list[Section]:
+    """The section on the heat of a case that has surroundings."""
+    if case.surroundings is None:
+        return []
+    from ballscrew.report import warm_up_section
+
+    return [Section("As it warms up", warm_up_section.blocks_of(case))]
 
 
 def _subtitle(case: case_file.Case) -> list[str]:

@@ -6,9 +6,9 @@ import dataclasses
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from ballscrew.case_schema.schema import LAWS, name_of_law
 from ballscrew.cases.case_file import Case
 from ballscrew.cases.lubricants import described
-from ballscrew.cases.schema import LAWS, name_of_law
 from ballscrew.components.data_sheet import DataSheet
 from ballscrew.components.materials import TEMPERATURE, Lubricant, nominal_oil
 from ballscrew.components.oil_grades import OilState
@@ -196,10 +196,12 @@ def _limits(case: Case) -> Rows:
 
 
 def _moved(case: Case) -> dict[str, Rows]:
-    """Axis, motion with its segments, and motor."""
+    """Axis with its bearings and guides, motion with its segments, motor, and surroundings."""
     segments: tuple[Any, ...] = getattr(case.motion, "segments", ())
-    parts = {"Axis": case.axis, "Motion": case.motion, "Motor": case.motor}
+    parts = {"Axis": case.axis, "Motion": case.motion, "Motor": case.motor, "Surroundings": case.surroundings}
     parts |= {f"Segment {number}: {part.name}".rstrip(": "): part for number, part in enumerate(segments, start=1)}
+    parts |= {bearing.name.capitalize(): bearing.element for bearing in case.bearings.values()}
+    parts |= {"Guides": None if case.axis is None else case.axis.guides}
     found: dict[str, Rows] = {}
     for title, part in parts.items():
         if part is not None:
@@ -208,7 +210,8 @@ def _moved(case: Case) -> dict[str, Rows]:
             def source(name: str, part: Any = part, usual: Mapping[str, Any] = usual) -> str:
                 return DEFAULT if getattr(part, name) == usual.get(name) else CASE
 
-            found[title] = _part(case, part, fields_of(part), source)
+            given = {name: quantity for name, quantity in fields_of(part).items() if getattr(part, name) is not None}
+            found[title] = _part(case, part, given, source)
     return found
 
 

@@ -104,6 +104,8 @@ class CatalogueRow(ByValue):
     ] = None
     #: Where the outer diameter of the nut is from, if not from the source of the row.
     nut_outer_diameter_source: str = ""
+    #: Where the limit of the DN value that :class:`~ballscrew.sizing.installation.Limits` has stands for this make.
+    speed_limit_source: str = ""
     #: How the nut is braced, by the name that the interfaces know it by; nothing where the catalogue does not say.
     nut: str = ""
     source: str = ""
@@ -230,6 +232,7 @@ def catalogue() -> Mapping[str, CatalogueRow]:
             name=name,
             nut=table["nut"],
             source=table["source"],
+            speed_limit_source=table.get("speed_limit_source", ""),
             nut_outer_diameter_source=table.get("nut_outer_diameter_source", "")
             if "nut_outer_diameter" in fields
             else "",

@@ -92,6 +92,7 @@ def checks(
     root_diameter: Length | None = None,
     installation: Installation | None = None,
     limits: Limits = _USUAL,
+    speed_limit_source: str = "",
 ) -> tuple[Check, ...]:
     """The checks of a screw at one operating point, all of them every time; one without its inputs says so.
 
@@ -100,7 +101,9 @@ def checks(
     nut body or half, as are the loaded balls of the screw.
     ``half_loads`` are the axial forces at the mean load on the loaded flanks and, if they carry any, on the relieved
     ones; where they are not known, those of the closed formula of :func:`loads_of_halves` are taken.
-    ``maximum_pressure`` is that of the most loaded contact. Without a ``root_diameter`` that of the groove is taken.
+    ``maximum_pressure`` is that of the most loaded contact. ``speed_limit_source`` says where the usual limit of the DN
+    value stands for this make; it is that of standard nuts of THK and HIWIN where it is not known. Without a
+    ``root_diameter`` that of the groove is taken.
     Raises :class:`~ballscrew.errors.InputError` for values that are not positive, and a largest load below the mean.
     """
     OperatingState(axial_load=axial_load, screw_speed=screw_speed)
@@ -119,7 +122,7 @@ def checks(
             _shaft_stress(largest, d_r, limits),
             _buckling(screw, largest, d_r, installation, limits),
             _critical_speed(screw, screw_speed, d_r, installation, limits),
-            _diameter_speed_product(screw, screw_speed, limits),
+            _diameter_speed_product(screw, screw_speed, limits, speed_limit_source),
         )
 
 
@@ -239,7 +242,9 @@ def _critical_speed(
     return _at_most(name, speed, critical * limits.critical_speed_share, "rad/s", text)
 
 
-def _diameter_speed_product(screw: BallScrew, speed: AngularSpeed, limits: Limits) -> Check:
-    value = shaft.diameter_speed_product(screw.pitch_circle_diameter, speed)
+def _diameter_speed_product(screw: BallScrew, speed: AngularSpeed, limits: Limits, source: str) -> Check:
+    value, limit = shaft.diameter_speed_product(screw.pitch_circle_diameter, speed), limits.diameter_speed_product
     text = "DN value, pitch circle diameter times speed, which the return of the balls must stand"
-    return _at_most("diameter_speed_product", value, limits.diameter_speed_product, "m rad/s", text)
+    if limit == _USUAL.diameter_speed_product:
+        text += f"; limit of standard nuts, {source or 'of THK and HIWIN: that of this make is not known'}"
+    return _at_most("diameter_speed_product", value, limit, "m rad/s", text)

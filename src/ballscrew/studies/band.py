@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from ballscrew.axis_studies.heat_samples import HeatSamples
+from ballscrew.case_schema.schema import LAWS
 from ballscrew.cases import uncertain_inputs
 from ballscrew.cases.case_file import Case
-from ballscrew.cases.schema import LAWS
 from ballscrew.cases.uncertain_inputs import Uncertain
 from ballscrew.components.traits import traits_of
 from ballscrew.errors import InputError
@@ -22,6 +23,7 @@ from ballscrew.uncertainty import bands
 from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.uncertainty.bands import Band, BandCurve
 from ballscrew.uncertainty.default_uncertainties import JUDGEMENT
+from ballscrew.uncertainty.sampling import JointParts
 
 #: Points of the curve, of a screw and of a whole nut, and how far it goes beyond the operating point.
 _POINTS, _NUT_POINTS, _BEYOND = 25, 9, 2.0
@@ -84,13 +86,19 @@ def alternatives(case: Case) -> list[Candidate]:
 
 
 @overflow_as_input_error()
-def band(case: Case, options: Options, done: Done | None = None) -> BandReport:
-    """Band of a case. Raises :class:`~ballscrew.errors.InputError` that names options of the command line."""
+def band(case: Case, options: Options, done: Done | None = None, heat: HeatSamples | None = None) -> BandReport:
+    """Band of a case, with what its heat leaves open where it is given.
+
+    Raises :class:`~ballscrew.errors.InputError` that names options of the command line.
+    """
     inputs = uncertain_inputs.all_of(case, options.only_given)
+    if heat is not None:
+        # a temperature that varies has the viscosity with it
+        inputs = {**{name: one for name, one in inputs.items() if name != "viscosity"}, **heat.inputs}
     try:
         return BandReport(
             bands.band(
-                **_arguments(case, inputs, options),
+                **_arguments(case, inputs, options, heat),
                 screw_speed=case.operation.screw_speed,
                 axial_load=case.operation.axial_load,
                 outputs=BAND_OUTPUTS,
@@ -123,9 +131,13 @@ def curve(case: Case, report: BandReport, options: Options, done: Done | None = 
     )
 
 
-def _arguments(case: Case, inputs: Mapping[str, Uncertain], options: Options) -> dict[str, Any]:
+def _arguments(
+    case: Case, inputs: Mapping[str, Uncertain], options: Options, heat: HeatSamples | None = None
+) -> dict[str, Any]:
     """Arguments that the band and the curve have in common."""
-    joint = uncertain_inputs.joint_of(case, inputs)
+    own = uncertain_inputs.joint_of(case, {n: u for n, u in inputs.items() if heat is None or n not in heat.inputs})
+    parts = [one for one in (None if heat is None else heat.samples, own) if one is not None]
+    joint = parts[0] if len(parts) == 1 else JointParts(tuple(parts)) if parts else None
     together = () if joint is None else joint.names
     return {
         "model": case.model,

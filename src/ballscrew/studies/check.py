@@ -5,12 +5,13 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from ballscrew import units
+from ballscrew.case_schema.option_faults import in_options
 from ballscrew.cases import case_file, descriptions, nut_tables
 from ballscrew.cases.case import Case
-from ballscrew.cases.option_faults import in_options
 from ballscrew.components.nut import Nut, OversizeBallNut
 from ballscrew.errors import Fault, InputError
 from ballscrew.records import Record
@@ -18,7 +19,7 @@ from ballscrew.screw_tables import catalogue
 from ballscrew.screw_tables.nut_kinds import LISTED
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.checks import Check, checks
-from ballscrew.sizing.listed_nut import lists_preload
+from ballscrew.sizing.listed_nut import PRELOADED, lists_preload
 from ballscrew.sizing.ratings import Ratings, ratings_of
 from ballscrew.studies.every_row import Done, OfRows, copied, each, place_of
 from ballscrew.studies.nut_state import NutState
@@ -62,11 +63,13 @@ class Checked:
     @property
     def verdict(self) -> str:
         """All checks in a few words."""
-        failed = [check.name.replace("_", " ") for check in self.checks if check.holds is False]
-        not_judged = sum(check.holds is None for check in self.checks)
-        text = f"fails: {', '.join(failed)}" if failed else "passes"
-        text += f"; {not_judged} of {len(self.checks)} not judged" if not_judged else ""
+        text = verdict_of(self.checks)
         return text if self.run.friction.valid else f"{text}; outside the model's validity"
+
+    @property
+    def holds(self) -> bool:
+        """All checks were judged and hold."""
+        return all(check.holds for check in self.checks)
 
     @property
     def verdicts(self) -> list[Record]:
@@ -84,6 +87,16 @@ class Checked:
     def check(self, name: str) -> Check:
         """The check of that name."""
         return next(check for check in self.checks if check.name == name)
+
+
+def verdict_of(checks: Sequence[Check]) -> str:
+    """Checks in a few words; they pass only where all of them were judged."""
+    failed = [check.name.replace("_", " ") for check in checks if check.holds is False]
+    not_judged = sum(check.holds is None for check in checks)
+    if not failed and not_judged:
+        return f"{not_judged} of {len(checks)} not judged; the others hold"
+    text = f"fails: {', '.join(failed)}" if failed else "passes"
+    return text + (f"; {not_judged} of {len(checks)} not judged" if not_judged else "")
 
 
 def one(name: str, path: Path | None, options: Options, keep_going: bool) -> tuple[Checked, Sequence[str]]:
@@ -134,18 +147,26 @@ def is_case(name: str) -> bool:
 
 
 def _of_case(path: Path, options: Options) -> Checked:
-    tables = case_file.read(path)
-    notes: list[str] = []
-    if "nut" not in tables:
-        of_row = isinstance(tables.get("screw"), dict) and "catalogue" in tables["screw"]
-        notes.append(
-            "no [nut] given: the nut of the row, without preload" if of_row else "no [nut] given: a single nut"
-        )
-        tables["nut"] = {} if of_row else {"type": "single"}
-    tables = _put(tables, options)
-    if notes and isinstance(tables["nut"], dict) and tables["nut"].get("type") != "single":
-        tables["nut"].setdefault("preload", "0 N")
-    return _warm(path.name, _built(tables, options, path.parent), notes, options)
+    tables, notes = with_nut_named(case_file.read(path), path.parent, options.given)
+    return _warm(path.name, _built(_put(tables, options), options, path.parent), notes, options)
+
+
+def with_nut_named(
+    tables: Mapping[str, Any], folder: Path = Path(), others: Mapping[str, str] = MappingProxyType({})
+) -> tuple[dict[str, Any], Sequence[str]]:
+    """Tables of a case with the nut that they lack, and notes on it: that of the row, or a single one.
+
+    ``others`` are fields that will be put in by ``section.field``: a kind of nut among them counts.
+    """
+    if "nut" in tables:
+        return dict(tables), ()
+    screw = tables.get("screw")
+    if not isinstance(screw, dict) or "catalogue" not in screw:
+        return {**tables, "nut": {"type": "single"}}, ("no [nut] given: a single nut",)
+    row = nut_tables.row_of(screw, folder, None, [])  # where there is none, the case is refused for it
+    kind = others.get("nut.type", "single" if row is None else row.nut or "single")
+    nut = {"preload": "0 N"} if kind in PRELOADED else {}
+    return {**tables, "nut": nut}, ("no [nut] given: the nut of the row, without preload",)
 
 
 def _of_row(row: CatalogueRow, options: Options, case: tuple[dict[str, Any], Path, Path] | None = None) -> Checked:
@@ -221,9 +242,12 @@ def _filled(tables: dict[str, Any], row: CatalogueRow) -> list[str]:
 # -- evaluation -----------------------------------------------------------------------------------
 
 
-def checked(name: str, case: Case, notes: Sequence[str] = ()) -> Checked:
-    """The checks of a case; without a nut, of a single one. ``notes`` are further assumptions."""
-    run = with_nut(case, nut_tables.SINGLE if case.nut is None else case.nut)
+def checked(name: str, case: Case, notes: Sequence[str] = (), known: Run | None = None) -> Checked:
+    """The checks of a case; without a nut, of a single one.
+
+    ``notes`` are further assumptions, ``known`` is the run of the case where it is there already.
+    """
+    run = with_nut(case, case.nut or nut_tables.SINGLE) if known is None or known.nut is None else known
     assert run.nut is not None
     computed = _computed(case)
     rated = {name: case.listed.get(name) for name in RATINGS}
@@ -243,6 +267,7 @@ def checked(name: str, case: Case, notes: Sequence[str] = ()) -> Checked:
         root_diameter=case.listed.get("root_diameter"),
         installation=case.installation,
         limits=case.limits,
+        speed_limit_source="" if case.row is None else case.row.speed_limit_source,
     )
     of_ratings = [f"{name.replace('_', ' ')} computed from the geometry: none is listed" for name in stand_ins]
     of_rigidity = [f"rigidity: {text}" for text in run.nut.rigidity.assumed]

@@ -7,8 +7,8 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from ballscrew.case_schema.schema import LAWS, MODELS, coefficients_of, name_of_law
 from ballscrew.cases import case_file
-from ballscrew.cases.schema import LAWS, MODELS, coefficients_of, name_of_law
 from ballscrew.components.traits import traits_of
 from ballscrew.evaluation.comparison import Candidate, Comparison, Row, RuleRow, compare, same_law
 from ballscrew.overflow import overflow_as_input_error

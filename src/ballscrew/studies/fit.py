@@ -32,6 +32,8 @@ class FitReport:
     #: None where no point within the limits is valid.
     next_test: NextTest | None
     log: TorqueLog
+    #: What the temperatures assume where rows have those of their own heat.
+    assumed: Sequence[str] = ()
 
 
 def fit(case: Case, log: TorqueLog, options: Options) -> FitReport:

@@ -6,8 +6,8 @@ import inspect
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
+from ballscrew.case_schema.schema import LAWS, MODELS, coefficients_of
 from ballscrew.cases.case import Case
-from ballscrew.cases.schema import LAWS, MODELS, coefficients_of
 from ballscrew.components.materials import Lubricant, grades
 from ballscrew.components.nut import DoubleNut
 from ballscrew.errors import Fault, InputError, nearest

@@ -23,8 +23,8 @@ _OF_ROW = frozenset(
 _BRACING = ("preload", "oversize")
 
 
-def tables_of_row(tables: Mapping[str, Any], row: CatalogueRow, file: Path) -> dict[str, Any]:
-    """The tables of a case with the screw of a row of a file in place of its own.
+def tables_of_row(tables: Mapping[str, Any], row: CatalogueRow, file: Path | None) -> dict[str, Any]:
+    """The tables of a case with the screw of a row of a file, or of one shipped, in place of its own.
 
     The geometry is that of the row, and so are the nut, its preload, its seals and its outer diameter where the row
     lists them; what it does not list is that of the case. Sizes of bodies of the case belong to its own screw.
@@ -33,7 +33,8 @@ def tables_of_row(tables: Mapping[str, Any], row: CatalogueRow, file: Path) -> d
     screw = made.get("screw", {})
     if isinstance(screw, Mapping):
         kept = {name: value for name, value in screw.items() if name not in _OF_ROW}
-        made["screw"] = {"catalogue": row.name, "catalogue_file": str(file.resolve()), **kept}
+        of_file = {} if file is None else {"catalogue_file": str(file.resolve())}
+        made["screw"] = {"catalogue": row.name, **of_file, **kept}
     if isinstance(nut := made.get("nut"), Mapping):
         made["nut"] = _nut(nut, row)
     if isinstance(bodies := made.get("bodies"), Mapping):

@@ -16,8 +16,8 @@ import numpy as np
 import xarray as xr
 
 from ballscrew import units
+from ballscrew.case_schema.schema import name_of_law
 from ballscrew.cases.case_file import Case
-from ballscrew.cases.schema import name_of_law
 from ballscrew.components.materials import TEMPERATURE, Material, nominal_oil
 from ballscrew.components.screw import MATERIALS
 from ballscrew.components.traits import traits_of
@@ -61,6 +61,8 @@ class Plan:
     quantities: Mapping[str, Quantity]
     #: SI units of the inputs, by section_field.
     units: Mapping[str, str]
+    #: Whether each point is taken at the temperature and preload in which it ends.
+    heats: bool = False
 
     @property
     def is_table(self) -> bool:
@@ -73,8 +75,11 @@ class Plan:
         return tuple(dict.fromkeys((*self.outputs, "valid")))
 
 
-def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None) -> Plan:
-    """Plan of a sweep. Raises :class:`~ballscrew.errors.InputError` before anything is computed."""
+def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None, *, heats: bool = False) -> Plan:
+    """Plan of a sweep, of one that ``heats`` itself with what the heat does.
+
+    Raises :class:`~ballscrew.errors.InputError` before anything is computed.
+    """
     faults: list[Fault] = []
     known = dict(inputs_of(case.model, case.screw, case.lubricant))
     axes: dict[str, np.ndarray] = {}
@@ -100,8 +105,12 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
         axes = {name: np.linspace(0.1, 1.0, 10) * (getattr(case.operation, name) or 1.0) for name in OPERATION}
     usual = DEFAULT_OUTPUTS if case.screw.nut.is_row else NUT_OUTPUTS
     chosen = tuple(name.replace(".", "_") for name in wanted)
-    chosen = chosen or (("efficiency",) if to is None and len(axes) == 2 else usual)
-    possible = known_outputs(case.screw.nut)
+    heat: Mapping[str, Quantity] = _heat() if heats else {}
+    chosen = chosen or (("efficiency",) if to is None and len(axes) == 2 else (*usual, *heat))
+    possible = {**{name: output.quantity for name, output in known_outputs(case.screw.nut).items()}, **heat}
+    if heats and is_store(to):
+        remedy = "write .nc, .csv or .xlsx"
+        faults.append(Fault("--self-heating", "fills no store", str(to), remedy))
     faults += [Fault("--output", "unknown output", n, nearest(n, possible)) for n in chosen if n not in possible]
     faults += [
         Fault("--output", "is what is varied", n, "leave it out: it is a column anyway") for n in chosen if n in axes
@@ -130,7 +139,14 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
     si |= {
         f"screw_{part}_{name}": quantity.unit for part in MATERIALS for name, quantity in fields_of(Material).items()
     }
-    return Plan(axes, chosen, quantities | {name: possible[name].quantity for name in (*chosen, "valid")}, si)
+    return Plan(axes, chosen, quantities | {name: possible[name] for name in (*chosen, "valid")}, si, heats)
+
+
+def _heat() -> Mapping[str, Quantity]:
+    """What the heat does at each point."""
+    from ballscrew.thermal.warm_sweep import HEAT  # for those only who ask
+
+    return HEAT
 
 
 def _split(written: str) -> tuple[str, str]:
@@ -240,6 +256,11 @@ def sweep(
     varied: dict[str, Any] = {}
     for name, values in plan.axes.items():
         varied |= _oils(case, values) if name == "temperature" else {name: values}
+    if plan.heats:
+        from ballscrew.axis_studies import self_heating
+
+        wanted = tuple(name for name in names if name not in _heat())
+        return self_heating.swept(case, wanted, {**plan.axes, **fixed}, done)
     oil = {f"lubricant_{name}": value for name, value in case.oil.items() if name not in plan.axes}
     if to is not None and is_store(to):
         subject = Configuration(case.model, case.screw, case.lubricant)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew import units
-from ballscrew.cases.schema import MODELS
+from ballscrew.case_schema.schema import MODELS
 from ballscrew.components.traits import traits_of
 from ballscrew.errors import Fault, InputError, fault_of, nearest, raise_if_any
 from ballscrew.friction.calibrations import Calibration, calibrated, calibration

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,6 +13,9 @@ from ballscrew.axis_studies.warm_up import EQUILIBRIUM, PLACE, SERIES, WarmUpRep
 from ballscrew.files import atomic_write
 from ballscrew.quantities import Quantity
 from ballscrew.table_files.row_tables import RowTable, put, write_csv, xlsx_bytes
+
+if TYPE_CHECKING:  # slow to import
+    from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
 
 _GROWTH, _TEMPERATURE = SERIES["shaft_growth"], SERIES["shaft_temperature"]
 
@@ -69,11 +72,22 @@ def steady(report: WarmUpReport) -> RowTable:
     return RowTable(["number", "value", "unit"], rows)
 
 
+def band(found: WarmUpBandReport) -> RowTable:
+    """Ends and median of each band at each instant."""
+    columns: dict[str, list[Any]] = {}
+    _column(columns, SERIES["time"], found.bands.time, "time")
+    for name, one in found.bands.series.items():
+        for end in ("low", "median", "high"):
+            _column(columns, SERIES[name], getattr(one, end), f"{SERIES[name].info.meaning}, {end}")
+    columns["share of samples known"] = [float(share) for share in found.bands.known_share]
+    return _table(columns)
+
+
 def _finite(value: float) -> float | None:
     return float(value) if np.isfinite(value) else None
 
 
-def write(to: Path, report: WarmUpReport) -> None:
+def write(to: Path, report: WarmUpReport, found: WarmUpBandReport | None = None) -> None:
     """Write .csv (numbers over time) or .xlsx (all tables), whole or not at all."""
     with atomic_write("--to", to) as path:
         if to.suffix.lower() == ".xlsx":
@@ -82,10 +96,17 @@ def write(to: Path, report: WarmUpReport) -> None:
                 "steady state": steady(report),
                 "compensation": compensation(report),
                 "shaft": shaft(report),
+                **({} if found is None else {"band": band(found)}),
             }
             path.write_bytes(xlsx_bytes(tables))
         else:
             write_csv(path, series(report))
+
+
+def write_band(to: Path, found: WarmUpBandReport) -> None:
+    """Write the bands over time as .csv, whole or not at all."""
+    with atomic_write("--to", to) as path:
+        write_csv(path, band(found))
 
 
 def write_compensation(to: Path, report: WarmUpReport) -> None:

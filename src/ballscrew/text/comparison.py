@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 
 from rich.console import Console
 
+from ballscrew.case_schema.schema import LAWS, name_of_law
 from ballscrew.cases import case_file, descriptions
-from ballscrew.cases.schema import LAWS, name_of_law
 from ballscrew.documents.comparison import percent, verdicts, warnings
 from ballscrew.evaluation.comparison import Comparison, Row
 from ballscrew.friction.plausibility import IMPLAUSIBLE

@@ -39,6 +39,8 @@ def print_fit(case: Case, report: FitReport) -> None:
     say(f"torque read as: {model.rows.convention.description}", "dim")
     if model.rows.outlying.any():
         say(f"outliers: {int(model.rows.outlying.sum())} rows, which count nothing", "dim")
+    for line in report.assumed:
+        say(f"assumed: {line}", "dim")
     console.print()
     console.print(_estimates(model))
     for warning in model.warnings:

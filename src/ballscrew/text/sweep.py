@@ -19,6 +19,9 @@ from ballscrew.studies.sweep import Plan, implausible, is_store, reasons_of
 from ballscrew.sweeps.store_plan import Blocks
 from ballscrew.sweeps.store_rows import count_false
 
+#: Why a point that heats itself may not be valid, besides the reasons of the model.
+_OF_HEAT = {"steady_state": "no steady state in the range of oil and preload: it runs away, or gets too hot"}
+
 
 @dataclasses.dataclass(frozen=True)
 class _False:
@@ -38,7 +41,7 @@ def warning(case: Case, plan: Plan, dataset: xr.Dataset, to: Path | None = None)
     unusual = [f"beware  {record.name}: {record.text}" for record in implausible(case, plan)]
     if "valid" not in false:
         return "\n".join(unusual)
-    reasons = reasons_of(case)
+    reasons = {**reasons_of(case), **_OF_HEAT}
     counts = {reason: found.count for reason in reasons if (found := false.get(f"validity_{reason}"))}
     told = ", ".join(f"{reason} {count}" for reason, count in counts.items())
     size = dataset["valid"].size
@@ -91,6 +94,21 @@ def _reason(case: Case, point: Mapping[str, float]) -> str:
             found.append(str(units.in_display_units(fault, quantity, given)))
         return "; ".join(found)
     return REASONS["inputs"]
+
+
+def assumed(dataset: xr.Dataset) -> str:
+    """What a sweep that heats itself assumes of the heat, one line each; empty if nothing is."""
+    lines = [line for line in str(dataset.attrs.get("assumed", "")).split("\n") if line]
+    return (
+        "\n".join(
+            [
+                "assumed of the heat; where a number depends on the speed, it is that of the last point",
+                *(f"  {line}" for line in lines),
+            ]
+        )
+        if lines
+        else ""
+    )
 
 
 def size(dataset: xr.Dataset, plan: Plan) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,6 +14,9 @@ from ballscrew.axis_studies.warm_up import EQUILIBRIUM, PLACE, SERIES, WarmUpRep
 from ballscrew.cases import descriptions
 from ballscrew.output.wrapping import aligned, wrapped
 from ballscrew.text.tables import shown_or_dash
+
+if TYPE_CHECKING:
+    from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
 
 _SHOWN = ("nut_temperature", "shaft_temperature", "shaft_growth", "preload", "screw_torque", "friction_power")
 _SHORT = {"nut_temperature": "nut", "shaft_temperature": "shaft, mean", "shaft_growth": "growth",
@@ -45,6 +49,35 @@ def text(report: WarmUpReport) -> str:
         *(f"  {line}" for line in report.assumed),
     ]
     return "\n".join(line if "\n" in line else wrapped(line) for line in lines)
+
+
+def band_text(found: WarmUpBandReport) -> str:
+    """The bands at the end of work and in the steady state, and the inputs that they come from."""
+    bands, report = found.bands, found.report
+    last = int(np.flatnonzero(bands.time <= report.warm_up.time[report.last_at_work])[-1])
+    head = f"Band: {100 * bands.level:.4g} % of {bands.count} samples"
+    rows = [[head, "case", "median", "from", "to", "steady, from", "to"]]
+    for name, one in bands.series.items():
+        if name == "preload" and not report.warm_up.network.preload_set:
+            continue
+        quantity = SERIES[name]
+        steady = bands.steady["growth" if name == "shaft_growth" else name]
+        numbers = (
+            report.series[name][report.last_at_work], one.median[last], one.low[last], one.high[last], *steady
+        )  # fmt: skip
+        rows.append([f"  {quantity.info.meaning}", *(shown_or_dash(float(value), quantity) for value in numbers)])
+    given = sum(one.given for one in found.inputs.values())
+    said = (
+        f"at the end of work, of {len(found.inputs)} uncertain inputs of surroundings, screw, oil and model, "
+        f"{given} of them given by the case; motion and laws are taken as exact. Of the surroundings:"
+    )
+    inputs = [
+        f"  {name} {one.description}{'' if one.given else ': ' + one.reason}"
+        for name, one in found.of_surroundings.items()
+    ]
+    steady = f"{100 * bands.steady_share:.4g} % of the samples have a steady state"
+    beware = [f"beware  {record.name}: {record.text}" for record in warm_up_records.band_records(found)]
+    return "\n".join(["", *aligned(rows), "", *(wrapped(line) for line in (said, *inputs, steady, *beware))])
 
 
 def title(report: WarmUpReport) -> str:

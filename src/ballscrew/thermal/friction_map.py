@@ -12,11 +12,12 @@ from scipy.interpolate import CubicSpline, RectBivariateSpline
 from ballscrew._arrays import ByValue
 from ballscrew.axis.duty import Duty
 from ballscrew.axis.screw_friction import ModelledScrew
+from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, InputError
 from ballscrew.evaluation.evaluator import evaluator
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Force, Power, Temperature
+from ballscrew.quantities import Duration, Force, Power, Temperature
 from ballscrew.solvers.load_distribution import preload_of
 
 #: Temperatures of the oil that the map has, K; beyond them the answer has no meaning.
@@ -60,15 +61,43 @@ class FrictionMap(ByValue):
         held = min(max(preload, 0.0), self.preloads[-1])
         return float(self._spline.ev(warm, np.sqrt(held)))
 
+    def at_all(self, temperatures: Numbers, preloads: Numbers) -> Numbers:
+        """The same at many temperatures and preloads; NaN where the map has not the point."""
+        known = (temperatures >= self.temperatures[0]) & (temperatures <= self.temperatures[-1])
+        warm = np.where(known, temperatures, self.temperatures[0])
+        if self._spline is None:
+            return np.where(known, self._curve(warm), np.nan)
+        known &= preloads <= self.preloads[-1]
+        held = np.where(known, np.maximum(preloads, 0.0), 0.0)
+        return np.where(known, self._spline.ev(warm, np.sqrt(held)), np.nan)
+
     def has(self, temperature: Temperature, preload: Force) -> bool:
         """True where the map has the point."""
         inside = self.temperatures[0] <= temperature <= self.temperatures[-1]
         return bool(inside and (self.preloads.size == 1 or preload <= self.preloads[-1]))
 
 
+@dataclasses.dataclass(frozen=True, eq=False)
+class StateMaps(ByValue):
+    """Friction power of each distinct state of a duty, W, and the time for which each state has it."""
+
+    temperatures: Numbers
+    preloads: Numbers
+    #: Temperatures by preloads by distinct states.
+    power: Numbers
+    #: The distinct state of each state that makes heat, and which states those are.
+    back: Any
+    used: Any
+
+    def mean(self, weights: Numbers, time: Duration) -> FrictionMap:
+        """The map of the mean over a time, in which each state of the duty counts by its weight, s."""
+        of_distinct = np.bincount(self.back, weights=weights[self.used], minlength=self.power.shape[2])
+        return FrictionMap(self.temperatures, self.preloads, self.power @ of_distinct / time)
+
+
 @functools.lru_cache(maxsize=4)
-def friction_map(duty: Duty) -> FrictionMap:
-    """The map of a duty: its distinct states at every temperature and preload; kept for the next surroundings.
+def state_maps(duty: Duty) -> StateMaps:
+    """The friction of the distinct states of a duty at every temperature and preload; kept for the next surroundings.
 
     Raises :class:`~ballscrew.errors.InputError` for an element without an oil, and for an oil that has no temperature.
     """
@@ -82,18 +111,26 @@ def friction_map(duty: Duty) -> FrictionMap:
     states = np.stack([duty.axial_load, duty.screw_speed])
     used = duty.states.weight * np.abs(duty.screw_speed) > 0
     distinct, back = np.unique(states[:, used], axis=1, return_inverse=True)
-    weights = np.bincount(back.reshape(-1), weights=duty.states.weight[used], minlength=distinct.shape[1])
     load, speed = distinct
-    temperatures = np.linspace(COLDEST, HOTTEST, _TEMPERATURES)
-    set_to = float(preload_of(driven.screw, driven.screw.nut))
+    temperatures, preloads = grid_of(driven.screw)
     inputs: dict[str, Any] = {"axial_load": load, "screw_speed": speed, "temperature": temperatures[:, None, None]}
-    preloads = np.zeros(1)
-    if set_to:
-        preloads = set_to * np.linspace(0.0, np.sqrt(LARGEST_PRELOAD), _PRELOADS) ** 2
+    if preloads.size > 1:
         inputs["nut.preload"] = preloads[None, :, None]
     heat = _torque(driven, inputs) * np.abs(speed)
-    power = np.einsum("tps,s->tp", np.broadcast_to(heat, (temperatures.size, preloads.size, load.size)), weights)
-    return FrictionMap(temperatures, preloads, power / duty.states.cycle_time)
+    power = np.array(np.broadcast_to(heat, (temperatures.size, preloads.size, load.size)))
+    return StateMaps(temperatures, preloads, power, back.reshape(-1), used)
+
+
+def friction_map(duty: Duty) -> FrictionMap:
+    """The map of the mean over a cycle of a duty. Raises as :func:`state_maps` does."""
+    return state_maps(duty).mean(duty.states.weight, duty.states.cycle_time)
+
+
+def grid_of(screw: BallScrew) -> tuple[Numbers, Numbers]:
+    """Temperatures and preloads of a map; one preload alone where the nut has none."""
+    set_to = float(preload_of(screw, screw.nut))
+    preloads = set_to * np.linspace(0.0, np.sqrt(LARGEST_PRELOAD), _PRELOADS) ** 2 if set_to else np.zeros(1)
+    return np.linspace(COLDEST, HOTTEST, _TEMPERATURES), preloads
 
 
 def _torque(driven: ModelledScrew, inputs: dict[str, Any]) -> Numbers:

@@ -18,8 +18,9 @@ from ballscrew.equations import geometry, heat, hertz
 from ballscrew.errors import Fault, InputError
 from ballscrew.friction.result import FrictionResult
 from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Conductance, Force, Length, Power
+from ballscrew.quantities import AngularSpeed, Conductance, Force, HeatTransfer, Length, Power
 from ballscrew.solvers.load_distribution import preload_of
+from ballscrew.supports.mounted_bearing import MountedBearing
 from ballscrew.thermal import surroundings as air
 from ballscrew.thermal.friction_map import COLDEST, HOTTEST, FrictionMap, friction_map
 from ballscrew.thermal.shaft import CAPACITY, CONDUCTIVITY, DENSITY, EXPANSION, Shaft
@@ -31,6 +32,24 @@ GAP_SHARE, GREASE_CONDUCTIVITY = 0.1, 0.14
 NUT_WALL, NUT_ENDS = 1.6, 2.0
 #: Zero of the scale in which people give temperatures, K.
 ZERO_CELSIUS = 273.15
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class FrictionFactor(ByValue):
+    """By how much the friction is another than that of the map, where its inputs are uncertain.
+
+    Known at two temperatures of the oil, between which it goes evenly, and beyond which it stays.
+    """
+
+    #: The lower first; of networks side by side each is an array.
+    temperatures: tuple[Any, Any]
+    factors: tuple[Any, Any]
+
+    def at(self, temperature: Any) -> Any:
+        """The factor at a temperature of the oil."""
+        cold, warm = self.temperatures
+        share = np.clip((temperature - cold) / (warm - cold), 0.0, 1.0)
+        return self.factors[0] + share * (self.factors[1] - self.factors[0])
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -47,8 +66,8 @@ class Network(ByValue):
     spread: Numbers
     ball_conductance: Conductance
     nut_mass: float
-    #: Mean friction power of each support bearing, W.
-    bearing_power: Power
+    #: Mean friction power of the first and the last bearing, W.
+    bearing_power: tuple[Power, Power]
     friction: FrictionMap
     #: Preload as it was set, at one temperature everywhere, N.
     preload_set: Force
@@ -59,6 +78,7 @@ class Network(ByValue):
     ends: tuple[Length, Length]
     #: What the shaft's growth between the halves of the nut adds or takes per kelvin, where it is not known which.
     approach_of_unknown_sign: float = 0.0
+    friction_factor: FrictionFactor | None = None
 
     @functools.cached_property
     def by_bracing(self) -> Mapping[str, Network]:
@@ -168,7 +188,15 @@ class Network(ByValue):
 
     def power(self, temperatures: Numbers) -> Power:
         """Mean friction power of the nut, W."""
-        return self.friction.at(float(self.of_oil @ temperatures), float(self.preload(self.of_excess @ temperatures)))
+        oil = float(self.of_oil @ temperatures)
+        found = self.friction.at(oil, float(self.preload(self.of_excess @ temperatures)))
+        return found if self.friction_factor is None else found * float(self.friction_factor.at(oil))
+
+    def powers(self, temperatures: Numbers) -> Numbers:
+        """The same of many temperatures, W: one row each; NaN where friction is not known."""
+        oil = temperatures @ self.of_oil
+        found = self.friction.at_all(oil, self.preload(temperatures @ self.of_excess))
+        return found if self.friction_factor is None else found * self.friction_factor.at(oil)
 
     def inside(self, temperatures: Numbers) -> bool:
         """True where the friction is known: oil and preload within the map."""
@@ -177,8 +205,10 @@ class Network(ByValue):
         )  # fmt: skip
 
 
-def network_of(duty: Duty, surroundings: Surroundings, *, shaft_length: Length | None = None) -> Network:
-    """The network of a duty in its surroundings.
+def network_of(
+    duty: Duty, surroundings: Surroundings, *, shaft_length: Length | None = None, friction: FrictionMap | None = None
+) -> Network:
+    """The network of a duty in its surroundings; a map of its ``friction`` that is there is not made again.
 
     Raises :class:`~ballscrew.errors.InputError` without a length of the shaft, for a motion that does not fit on it,
     for an ambient temperature at which the oil is not known, and as
@@ -193,7 +223,7 @@ def network_of(duty: Duty, surroundings: Surroundings, *, shaft_length: Length |
     if length is None:
         remedy = 'give {surroundings.shaft_length}"1.2 m", or the unsupported length of the installation'
         raise InputError(Fault("surroundings.shaft_length", "missing", "", remedy))
-    friction = friction_map(duty)
+    friction = friction_map(duty) if friction is None else friction
     driven: Any = duty.driven
     screw, oil = driven.screw, driven.lubricant
     root = geometry.groove_root_diameter(
@@ -202,18 +232,13 @@ def network_of(duty: Duty, surroundings: Surroundings, *, shaft_length: Length |
     if surroundings.bore >= root:
         given = f"{surroundings.bore * 1e3:.4g} mm in a shaft of {float(root) * 1e3:.4g} mm"
         raise InputError(Fault("surroundings.bore", "leaves no shaft", given, "give a smaller bore"))
-    nut_length = float(screw.loaded_turns * screw.lead * screw.nut.halves + NUT_ENDS * screw.lead)
+    nut_length = nut_length_of(screw)
     mean_speed = duty.mean_speed
-    h = surroundings.shaft_convection
-    if h is None:
-        Re = heat.rotational_reynolds(root, mean_speed, air.AIR_VISCOSITY)
-        turning = heat.rotating_shaft_convection(Re, air.AIR_PRANDTL, air.AIR_CONDUCTIVITY, root)
-        h = max(float(turning), air.STILL)
     shaft = Shaft(
         length=float(length),
         diameter=float(root),
         bore=float(surroundings.bore),
-        convection=float(h),
+        convection=convection_of(surroundings, float(root), mean_speed),
         bore_convection=0.0 if surroundings.coolant is None else float(surroundings.coolant_convection),
     )
     start = surroundings.first_position
@@ -245,14 +270,28 @@ def network_of(duty: Duty, surroundings: Surroundings, *, shaft_length: Length |
         shaft.spread(places, heated, nut_length),
         float(conductance_of_balls(at_load, screw.nut, nut_length)) if balls is None else float(balls),
         float(mass),
-        _power_of_supports(duty) / 2,
+        _power_of_supports(duty),
         friction,
         set_to,
-        _approach(at_load),
+        float(approach_of(at_load)),
         radial + air.BRACINGS.get(surroundings.bracing, 0.0) * along,
         (float(np.min(places)), float(np.max(places))),
         0.0 if surroundings.bracing else along,
     )
+
+
+def convection_of(surroundings: Surroundings, diameter: Length, speed: AngularSpeed) -> HeatTransfer:
+    """Heat transfer of a shaft to the air: as given, or by its speed, and at least that of a body at rest."""
+    if surroundings.shaft_convection is not None:
+        return float(surroundings.shaft_convection)
+    Re = heat.rotational_reynolds(diameter, speed, air.AIR_VISCOSITY)
+    turning = heat.rotating_shaft_convection(Re, air.AIR_PRANDTL, air.AIR_CONDUCTIVITY, diameter)
+    return max(float(turning), air.STILL)
+
+
+def nut_length_of(screw: BallScrew) -> Length:
+    """Length of a nut: its loaded turns, and what is beyond them."""
+    return float(screw.loaded_turns * screw.lead * screw.nut.halves + NUT_ENDS * screw.lead)
 
 
 def _distance_of_halves(screw: BallScrew) -> Length:
@@ -263,13 +302,21 @@ def _distance_of_halves(screw: BallScrew) -> Length:
     return float(nut.spacing + screw.loaded_turns * screw.lead)
 
 
-def _power_of_supports(duty: Duty) -> Power:
-    """Mean friction power of what the shaft is held by, W."""
-    torque = sum(duty.support_friction.values(), np.zeros_like(duty.screw_speed))
-    return duty.states.integral(torque * np.abs(duty.screw_speed)) / duty.states.cycle_time
+def _power_of_supports(duty: Duty) -> tuple[Power, Power]:
+    """Mean friction power of what holds the shaft at its first and its last end, W, with the oil of the duty.
+
+    What has no end of the shaft as its place heats both alike.
+    """
+    first = last = 0.0
+    for name, torque in duty.support_friction.items():
+        power = duty.states.integral(torque * np.abs(duty.screw_speed)) / duty.states.cycle_time
+        element = duty.also.get(name)
+        far = float(element.at_far_end) if isinstance(element, MountedBearing) else 0.5
+        first, last = first + (1 - far) * power, last + far * power
+    return first, last
 
 
-def conductance_of_balls(result: FrictionResult, nut: Nut, nut_length: Length) -> Conductance:
+def conductance_of_balls(result: FrictionResult, nut: Nut, nut_length: Length) -> Any:
     """Heat from nut to shaft for each kelvin: through every ball, and through the grease around them.
 
     A ball conducts through two contacts, each two half spaces and a film in series. Contacts are taken as at rest;
@@ -288,12 +335,12 @@ def conductance_of_balls(result: FrictionResult, nut: Nut, nut_length: Length) -
     gap = heat.gap_conductance(
         GREASE_CONDUCTIVITY, screw.pitch_circle_diameter, nut_length, GAP_SHARE * screw.ball_diameter
     )
-    return float(balls / resistance + gap)
+    return balls / resistance + gap
 
 
-def _approach(result: FrictionResult) -> Length:
+def approach_of(result: FrictionResult) -> Any:
     """Approach of the groove pair of the most loaded ball, both contacts together."""
-    return float(result.screw.mutual_approach + result.nut.mutual_approach)
+    return result.screw.mutual_approach + result.nut.mutual_approach
 
 
 def steady(network: Network, power: Power) -> Numbers:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from ballscrew.axis.duty import Duty
 from ballscrew.errors import accepts_units
 from ballscrew.quantities import Length
+from ballscrew.thermal.equilibrium import Equilibrium, equilibrium
 from ballscrew.thermal.network import network_of
 from ballscrew.thermal.surroundings import Surroundings
-from ballscrew.thermal.warm_up import Equilibrium, equilibrium
 
 
 @accepts_units("steady_heat")

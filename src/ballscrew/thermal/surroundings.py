@@ -13,6 +13,13 @@ from ballscrew.quantities import Conductance, HeatTransfer, Info, Length, Mass, 
 AIR_VISCOSITY, AIR_CONDUCTIVITY, AIR_PRANDTL = 17.0e-6, 0.0270, 0.706
 #: How halves may be braced, and the sign with which the growth of the shaft between them adds to their preload.
 BRACINGS = {"apart": -1.0, "together": 1.0}
+#: How uncertain inputs of the surroundings are called, and those that may be uncertain: how heat flows, and not where
+#: the screw is.
+PREFIX = "surroundings."
+VARIED = (
+    "ambient", "nut_conductance", "nut_mass", "ball_conductance", "shaft_share", "shaft_convection", "coolant",
+    "coolant_convection", "bearing_conductance", "bearing_mass", "shaft_to_bearing",
+)  # fmt: skip
 #: Convection of a body that does not move, W/(m² K): natural convection and radiation together, an assumption.
 STILL = 9.0
 

@@ -10,97 +10,23 @@ from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
-from scipy.optimize import root_scalar
 
 from ballscrew._arrays import ByValue, lazy
 from ballscrew.axis.duty import Duty
 from ballscrew.errors import Fault, InputError, accepts_units
 from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Duration, Energy, Length, Power, Ratio
+from ballscrew.quantities import Duration, Energy, Length, Power
 from ballscrew.records import Record
-from ballscrew.thermal.network import Network, network_of, steady
+from ballscrew.thermal.equilibrium import Equilibrium, equilibrium
+from ballscrew.thermal.marching import Slot, marched
+from ballscrew.thermal.moving_source import Itinerary, is_long, itinerary_of
+from ballscrew.thermal.network import Network, network_of
 from ballscrew.thermal.surroundings import Surroundings
 
 #: Relative and absolute tolerance of the integration; temperatures are then right to 1e-5 K.
 RTOL, ATOL = 1e-6, 1e-6
-#: Points of the powers among which an equilibrium is looked for.
-_POWERS = 400
 #: A share of a step that is rounding.
 _ROUNDING = 1e-9
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class Equilibrium(ByValue):
-    """The state in which a duty ends, if it ends in one.
-
-    ``margin`` is 1 − g, g being the gain of the loop heat → temperature → friction → heat there: above zero the
-    state is stable. Where there is no equilibrium in the range in which oil and preload are known, the margin is the
-    greatest surplus of what the surroundings take over the friction, as a share of the friction, and negative.
-    """
-
-    network: Network
-    exists: bool
-    margin: Ratio
-    #: Mean friction power of the nut, W; NaN where there is no equilibrium.
-    power: Power
-    #: Temperatures of shaft cells, nut and bearings, K; NaN where there is no equilibrium.
-    temperatures: Numbers
-
-    @property
-    def nut_temperature(self) -> float:
-        """Temperature of the nut, K."""
-        return float(self.temperatures[-3])
-
-    @property
-    def oil_temperature(self) -> float:
-        """Temperature of the oil, K."""
-        return float(self.network.of_oil @ self.temperatures)
-
-    @property
-    def shaft_temperature(self) -> float:
-        """Mean temperature of the shaft, K."""
-        return float(np.mean(self.temperatures[:-3]))
-
-    @property
-    def preload(self) -> float:
-        """Preload, N."""
-        return float(self.network.preload(self.network.of_excess @ self.temperatures))
-
-    @property
-    def growth(self) -> Length:
-        """Growth of the shaft between its bearings, m."""
-        shaft = self.network.shaft
-        return float(shaft.growth_at(self.temperatures[:-3], self.network.surroundings.ambient, shaft.length)[0])
-
-
-def equilibrium(network: Network) -> Equilibrium:
-    r"""The steady state, by one equation for the friction power: :math:`P = f(T(P))`, T being linear in P.
-
-    Of several the coolest is taken, which is the one that a cold machine reaches.
-    """
-    idle, per_watt = steady(network, 0.0), steady(network, 1.0) - steady(network, 0.0)
-
-    def surplus(power: Power) -> Power:
-        """Friction beyond the power that the temperatures are those of."""
-        return network.power(idle + per_watt * power) - power
-
-    def inside(power: Power) -> bool:
-        return network.inside(idle + per_watt * power)
-
-    largest = 2 * max(float(np.max(network.friction.power)), 1e-9)
-    powers = np.concatenate([[0.0], np.geomspace(1e-6, 1.0, _POWERS) * largest])
-    known = np.array([inside(power) for power in powers])
-    values = np.array([surplus(power) for power in powers])
-    for i in range(powers.size - 1):
-        if values[i] >= 0 > values[i + 1] and known[i] and known[i + 1]:
-            power = root_scalar(surplus, bracket=(powers[i], powers[i + 1]), xtol=1e-12, rtol=1e-14).root
-            step = 1e-4 * power
-            gain = (surplus(power + step) - surplus(power - step)) / (2 * step) + 1 if step else 0.0
-            return Equilibrium(network, True, 1 - gain, power, idle + per_watt * power)
-    here = known & (powers > 0)
-    friction = values[here] + powers[here]
-    margin = float(np.max(-values[here] / np.maximum(friction, 1e-12))) if here.any() else -1.0
-    return Equilibrium(network, False, min(margin, 0.0), math.nan, np.full(network.size, np.nan))
 
 
 @accepts_units("warm_up")
@@ -112,12 +38,14 @@ def warm_up(
     cool_down: Duration = 0.0,
     outputs: int = 121,
     shaft_length: Length | None = None,
+    moving: bool | None = None,
 ) -> WarmUp:
     """Temperatures over hours of a duty that starts with everything at the ambient temperature.
 
-    The cycle is short against the hours: the nut heats the shaft where it is, as often as it is there. Then the axis
-    may stand for a time (``cool_down``), in still air unless the convection is given. ``shaft_length`` is taken where
-    the surroundings have none. The oil is as warm as nut and shaft make it, whatever temperatures a motion gives.
+    The nut heats the shaft as often as it is at a place where the cycle is short against the hours, and goes along with
+    its heat where it is long (:mod:`~ballscrew.thermal.moving_source`); ``moving`` chooses one. Then the axis may stand
+    for a time (``cool_down``), in still air unless the convection is given. ``shaft_length`` is taken where the
+    surroundings have none. The oil is as warm as nut and shaft make it, whatever temperatures a motion gives.
     Raises :class:`~ballscrew.errors.InputError` for times that are not positive, and as
     :func:`~ballscrew.thermal.network.network_of` does.
     """
@@ -126,15 +54,36 @@ def warm_up(
     network = network_of(duty, surroundings or Surroundings(), shaft_length=shaft_length)
     start = np.full(network.size, float(network.surroundings.ambient))
     instants = np.linspace(0.0, time, outputs)
-    instants, states, stopped = _integrated(network, start, instants, works=True)
+    along = itinerary_of(duty, network) if (is_long(duty, time) if moving is None else moving) else None
+    last = network
+    if along is None:
+        instants, states, stopped = _integrated(network, start, instants, works=True)
+    else:
+        instants, states, stopped = _followed(network, along, start, instants)
+        last = dataclasses.replace(network, spread=along.spreads_until(instants[-1:])[0])
     works = np.ones(instants.size, dtype=bool)
     if cool_down and stopped is None:
         later = np.linspace(0.0, cool_down, max(2, round(outputs * cool_down / time)))
-        later, cooling, _ = _integrated(network.standing, states[:, -1], later, works=False)
+        later, cooling, _ = _integrated(last.standing, states[:, -1], later, works=False)
         states = np.concatenate([states, cooling[:, 1:]], axis=1)
         instants = np.concatenate([instants, time + later[1:]])
         works = np.concatenate([works, np.zeros(later.size - 1, dtype=bool)])
-    return WarmUp(duty, network, instants, states, works, stopped)
+    return WarmUp(duty, network, instants, states, works, stopped, along)
+
+
+def _followed(
+    network: Network, along: Itinerary, start: Numbers, instants: Numbers
+) -> tuple[Numbers, Numbers, Duration | None]:
+    """As :func:`_integrated`, with the heat where the nut is."""
+    slots = [Slot.of([one]) for one in along.networks(network)]
+    columns = [np.concatenate([start, [0.0, 0.0]])]
+    for state in marched(slots, along.pieces(instants), start[None, :], grows=False):
+        columns.append(np.concatenate([state.temperatures[0], state.generated, state.lost]))
+        if not np.isfinite(columns[-1]).all():
+            columns.pop()
+            break
+    known = instants[: len(columns)]
+    return known, np.array(columns).T, None if known.size == instants.size else float(known[-1])
 
 
 def _integrated(
@@ -205,6 +154,21 @@ class WarmUp(ByValue):
     works: Any
     #: The time after which friction was not known any more (oil too hot, preload too high), s; None where it is known.
     stopped: Duration | None
+    #: Where the nut is slot by slot, if its heat goes along with it; None where it is spread over the stroke.
+    along: Itinerary | None = None
+
+    @lazy
+    def _spreads(self) -> Numbers:
+        """Shares of the cells in the nut: one row, or one for each instant; while it stands, those of the last move."""
+        if self.along is None:
+            return self.network.spread[None, :]
+        last = self.time[np.flatnonzero(self.works)[-1]]
+        return self.along.spreads_until(np.clip(self.time, 0.0, last))
+
+    @lazy
+    def _in_nut(self) -> Numbers:
+        """Temperature of the shaft in the nut, K."""
+        return np.sum(self._spreads * self.shaft_temperature, axis=1)
 
     @property
     def shaft_temperature(self) -> Numbers:
@@ -233,18 +197,20 @@ class WarmUp(ByValue):
     @lazy
     def oil_temperature(self) -> Numbers:
         """Temperature of the oil, K: between nut and shaft."""
-        return self.network.of_oil @ self._temperatures
+        return (self.nut_temperature + self._in_nut) / 2
 
     @lazy
     def preload(self) -> Numbers:
         """Preload, N."""
-        return self.network.preload(self.network.of_excess @ self._temperatures)
+        return self.network.preload(self._in_nut - self.nut_temperature)
 
     @lazy
     def friction_power(self) -> Numbers:
-        """Mean friction power of the nut, W, also what it would be while the axis stands; NaN where it is not known."""
-        network, columns = self.network, self._temperatures.T
-        return np.array([network.power(column) if network.inside(column) else np.nan for column in columns])
+        """Mean friction power of a cycle at the oil and the preload of each instant, W; NaN where it is not known.
+
+        Also what it would be while the axis stands.
+        """
+        return self.network.friction.at_all(self.oil_temperature, self.preload)
 
     @lazy
     def screw_torque(self) -> Numbers:

@@ -16,10 +16,10 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, create_model
 
 from ballscrew import units
+from ballscrew.case_schema.fields import section_of
+from ballscrew.case_schema.schema import read_table, sections, without_null
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
-from ballscrew.cases.fields import section_of
-from ballscrew.cases.schema import read_table, sections, without_null
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import MISSING, Fault, InputError, nearest, raise_if_any
 from ballscrew.quantities import AngularSpeed, Info, Length, Quantity, Temperature, Torque, fields_of

@@ -181,7 +181,7 @@ def layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Lay
     try:
         good = checked(path, headings, rows[start], body, columns)
     except InputError as error:
-        raise InputError(*(_with_option(fault, headings) for fault in error.faults)) from None
+        raise InputError(*(with_option(fault, headings, _BY_NAME, constants=True) for fault in error.faults)) from None
     rest = unused(found[start], good, body[:WITHIN])
     good = [
         dataclasses.replace(heading, written=named.get((start, heading.place), heading.written)) for heading in good
@@ -370,9 +370,12 @@ def texts_in(headings: Sequence[Heading], body: Sequence[Record]) -> list[str]:
     return [cell for cell in cells if isinstance(cell, str)]
 
 
-def _with_option(fault: Fault, headings: Sequence[Heading]) -> Fault:
-    """A fault of a column, with the option of the command line that resolves it."""
-    column = _BY_NAME.get(fault.column)
+def with_option(fault: Fault, headings: Sequence[Heading], columns: Mapping[str, Column], *, constants: bool) -> Fault:
+    """A fault of a column, with the option of the command line that resolves it.
+
+    ``constants``: whether a value may stand for a column; of a torque none may.
+    """
+    column = columns.get(fault.column)
     if column is None or column.quantity is None:
         return fault
     name, unit = column.name, column.quantity.shown_in
@@ -380,7 +383,7 @@ def _with_option(fault: Fault, headings: Sequence[Heading]) -> Fault:
     remedy = fault.remedy
     if fault.id == NO_COLUMN:
         remedy += f', or name it: --column {name}="your heading [{unit}]"'
-        remedy += f'; if it is the same in every row, --column {name}="0 {unit}"' * (name != "torque")
+        remedy += f'; if it is the same in every row, --column {name}="0 {unit}"' * (constants and name != "torque")
     elif heading is not None and fault.id == NEEDS_UNIT:
         parts = BRACKETS.fullmatch(heading.written)
         remedy += f', or give --column {name}="{parts["name"] if parts else heading.written} [{unit}]"'

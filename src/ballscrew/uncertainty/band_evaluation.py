@@ -21,7 +21,7 @@ from ballscrew.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.friction import directions
 from ballscrew.uncertainty.distributions import Distribution, distribution_fault, within
-from ballscrew.uncertainty.sampling import JointNormal, Sampler, sobol_sequence
+from ballscrew.uncertainty.sampling import Joint, Sampler, sobol_sequence
 
 #: How the outputs begin that say for which reason a sample is not valid.
 VALIDITY = "validity_"
@@ -106,7 +106,7 @@ class BandEvaluator:
         cls,
         subject: Configuration,
         uncertain: Mapping[str, Distribution],
-        joint: JointNormal | None,
+        joint: Joint | None,
         point: Mapping[str, Any],
         alternatives: Sequence[Candidate],
         engine: Engine | None,
@@ -215,7 +215,7 @@ def faults_of_point(point: Mapping[str, Any]) -> list[Fault]:
     ]
 
 
-def faults_of_inputs(subject: Configuration, uncertain: Mapping[str, Any], joint: JointNormal | None) -> list[Fault]:
+def faults_of_inputs(subject: Configuration, uncertain: Mapping[str, Any], joint: Joint | None) -> list[Fault]:
     """Faults of the uncertain inputs."""
     known, faults = subject.inputs, list[Fault]()
     for name, distribution in uncertain.items():

@@ -40,7 +40,7 @@ from ballscrew.uncertainty.band_evaluation import (
     sample_probabilities,
 )
 from ballscrew.uncertainty.distributions import Distribution
-from ballscrew.uncertainty.sampling import JointNormal
+from ballscrew.uncertainty.sampling import Joint
 
 #: Default number of samples, and for a nut whose balls differ, every one of which is solved for.
 SAMPLES, NUT_SAMPLES = 2**14, 2**10
@@ -117,7 +117,7 @@ def band(
     axial_load: Force,
     screw_speed: AngularSpeed,
     alternatives: Sequence[Candidate] = (),
-    joint: JointNormal | None = None,
+    joint: Joint | None = None,
     outputs: Sequence[str] = ("screw_torque",),
     samples: int | None = None,
     seed: int = 0,
@@ -204,7 +204,7 @@ def band_along(
     axial_load: Force,
     screw_speed: AngularSpeed,
     alternatives: Sequence[Candidate] = (),
-    joint: JointNormal | None = None,
+    joint: Joint | None = None,
     samples: int | None = None,
     seed: int = 0,
     level: float = 0.95,

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import xarray as xr
@@ -39,6 +39,42 @@ class JointNormal:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
+class JointSamples:
+    """Inputs that depend on each other, known by samples of both: names, and their values by samples."""
+
+    names: tuple[str, ...]
+    values: NDArray[np.float64]
+
+    def quantiles(self, shares: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+        """The samples whose first input has the first of the shares below it; the other shares are not needed."""
+        order = np.argsort(self.values[0])
+        chosen = order[np.minimum((shares[0] * order.size).astype(int), order.size - 1)]
+        return dict(zip(self.names, self.values[:, chosen], strict=True))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class JointParts:
+    """Groups of inputs that depend on each other within a group alone."""
+
+    parts: tuple[JointNormal | JointSamples, ...]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The inputs of all groups."""
+        return tuple(name for part in self.parts for name in part.names)
+
+    def quantiles(self, shares: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+        """The values of all groups for independent shares."""
+        found: dict[str, NDArray[np.float64]] = {}
+        for part in self.parts:
+            found |= part.quantiles(shares[len(found) : len(found) + len(part.names)])
+        return found
+
+
+Joint: TypeAlias = JointNormal | JointSamples | JointParts
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
 class Sampler:
     """A model on a screw, its uncertain inputs, the numbers given to others, and what is wanted of it.
 
@@ -49,7 +85,7 @@ class Sampler:
     inputs: Mapping[str, Distribution]
     fixed: Mapping[str, Any]
     outputs: Sequence[str]
-    joint: JointNormal | None = None
+    joint: Joint | None = None
     engine: Engine | None = None
 
     @property

@@ -62,6 +62,9 @@ class FaultLine(Closed):
     where: str = Field(description="section.field")
     text: str = Field(description="what is wrong, the value, the remedy")
     line: str = Field(description="the field and the text, as the command line prints them")
+    problem: str = Field(description="what is wrong")
+    given: str = Field(description="the value, empty where there is none")
+    remedy: str = Field(description="what to do; {section.field} stands for setting that field")
 
 
 class Problem(Closed):
@@ -93,6 +96,16 @@ class Record(Closed):
     holds: bool | None
     severity: Literal["info", "warning", "error"]
     text: str = Field(description="a sentence for people")
+
+
+class VendorRows(Closed):
+    """Model over vendor for the rows most like the nut, without load."""
+
+    set: str
+    calibration: str | None
+    mean_ratio: Number
+    std_ratio: Number
+    rows: list[str]
 
 
 class Shown(Closed):

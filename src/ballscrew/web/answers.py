@@ -10,7 +10,7 @@ from typing import Annotated, Any, TypeAlias
 
 from pydantic import BaseModel, Field
 
-from ballscrew.cases.schema import LAWS
+from ballscrew.case_schema.schema import LAWS
 from ballscrew.components.contact import RaceState
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.friction.result import FrictionResult
@@ -30,6 +30,7 @@ from ballscrew.web.answer_parts import (
     Record,
     Tables,
     Template,
+    VendorRows,
     field,
     model,
     quantities,
@@ -83,7 +84,7 @@ class Document(Closed):
     inputs: Tables
     results: Results  # pyright: ignore[reportInvalidTypeForm]
     loads: Tables = field("loads of the balls of a nut, SI", optional=True)
-    vendor_rows: Tables = field("model / vendor for the rows most like the nut, without load", optional=True)
+    vendor_rows: VendorRows = field(optional=True)
     units: Tables
     verdicts: list[Record]
     checks: list[Record]

@@ -2,128 +2,102 @@
 
 from __future__ import annotations
 
-import asyncio
 import functools
-import json
 import threading
-from collections.abc import Callable, Coroutine, Mapping
-from typing import Annotated, Any
+from collections.abc import Mapping
+from typing import Annotated
 
 import tomlkit
 from fastapi import APIRouter, Depends, Query, Request
-from fastapi.routing import APIRoute
 from starlette.responses import Response
 
 from ballscrew import units
 from ballscrew.axis_studies import duty as duties
+from ballscrew.axis_studies import stiffness as chains
+from ballscrew.axis_studies import warm_up as warm_ups
+from ballscrew.axis_studies import warm_up_band as warm_up_bands
+from ballscrew.case_schema.schema import json_schema
 from ballscrew.cases import case_file
-from ballscrew.cases.schema import json_schema
 from ballscrew.documents import comparison as comparison_documents
 from ballscrew.documents import duty as duty_documents
+from ballscrew.documents import selection as selection_documents
+from ballscrew.documents import stiffness as chain_documents
 from ballscrew.documents import sweep as sweep_documents
 from ballscrew.documents import validation as validation_documents
+from ballscrew.documents import warm_up as warm_up_documents
 from ballscrew.errors import Fault, InputError, nearest, raise_if_any
-from ballscrew.output.json_text import plain
 from ballscrew.screw_tables import catalogue as rows
+from ballscrew.selection.need import need_of
+from ballscrew.selection.selection import select as selected
 from ballscrew.sizing.catalogue import catalogue as shipped
 from ballscrew.studies import band as bands
 from ballscrew.studies import run as runs
 from ballscrew.studies import sweep as sweeps
 from ballscrew.studies import validation
+from ballscrew.studies.check import with_nut_named
 from ballscrew.studies.comparison import comparison
-from ballscrew.web import answers, documents, duty_answers, limits, memory, openapi, vocabulary
-from ballscrew.web.bodies import BandBody, CaseBody, DutyBody, SweepBody, case_of, read
+from ballscrew.web import (
+    answers,
+    check_answers,
+    documents,
+    duty_answers,
+    limits,
+    openapi,
+    select_answers,
+    vocabulary,
+    warm_up_answers,
+)
+from ballscrew.web.bodies import (
+    BandBody,
+    CaseBody,
+    DutyBody,
+    NeedBody,
+    SweepBody,
+    WarmUpBody,
+    case_of,
+    read,
+    refuse_paths,
+)
+from ballscrew.web.endpoint_parts import (
+    as_bytes,
+    as_json,
+    cancellable,
+    heavy,
+    known_query,
+    of_body,
+    of_run,
+    queue_of,
+    sent,
+)
 from ballscrew.web.problems import Refused
-from ballscrew.web.request_queue import Deadline, RequestQueue
+from ballscrew.web.request_queue import Deadline
 from ballscrew.web.templates import template
 
 #: Media types of a report, by its ``kind``.
 KINDS: Mapping[str, str] = {"pdf": "application/pdf", "html": "text/html; charset=utf-8"}
 
 
-def _known_query(request: Request) -> None:
-    """Refuse query parameters that are unknown to the address or repeated."""
-    route = request.scope["route"]
-    assert isinstance(route, APIRoute)
-    known = [field.alias for field in route.dependant.query_params]
-    given = list(request.query_params.multi_items())
-    twice = sorted({name for name, _ in given if len(request.query_params.getlist(name)) > 1})
-    raise_if_any(
-        [
-            Fault(f"?{n}", "unknown", "", nearest(n, known) if known else "")
-            for n in request.query_params
-            if n not in known
-        ]
-        + [Fault(f"?{name}", "is given twice", "", "give it once") for name in twice if name in known]
-    )
-
-
 _VALIDATION_LOCK = threading.Lock()
-router = APIRouter(prefix="/api/v1", dependencies=[Depends(_known_query)])
-
-
-def _bytes(document: Any) -> bytes:
-    """A document as JSON, with null for numbers that are not finite."""
-    return json.dumps(plain(document), ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()
-
-
-def _json(document: Any) -> Response:
-    return _sent(_bytes(document))
-
-
-def _sent(document: bytes) -> Response:
-    return Response(document, media_type="application/json")
-
-
-def _queue(request: Request) -> RequestQueue:
-    found: RequestQueue = request.app.state.requests
-    return found
-
-
-async def _heavy(request: Request, work: Callable[[Deadline], Any]) -> Any:
-    """Heavy work, cancelled when the client disconnects; its memory is given back."""
-    return await _cancellable(request, _queue(request).heavy(memory.releasing(work)))
-
-
-async def _cancellable(request: Request, work: Coroutine[Any, Any, Any]) -> Any:
-    """Work, cancelled when the client disconnects: the page cancels its requests at the next key."""
-    task = asyncio.ensure_future(work)
-    disconnected = asyncio.ensure_future(_disconnected(request))
-    try:
-        await asyncio.wait((task, disconnected), return_when=asyncio.FIRST_COMPLETED)
-        if not task.done():
-            raise Refused(400, Fault("request", "was interrupted"))  # no client is left to read it
-        return task.result()
-    finally:
-        task.cancel()
-        disconnected.cancel()
-
-
-async def _disconnected(request: Request) -> None:
-    """Wait until the client disconnects; the body has been read."""
-    while (await request.receive())["type"] != "http.disconnect":
-        pass
-
-
-async def _of_run(request: Request, work: Callable[[runs.Run], Response]) -> Response:
-    """Quick work on the run of a case; heavy work where many balls are computed one by one."""
-    body: CaseBody = await read(request, CaseBody)
-
-    def quick() -> case_file.Case | Response:
-        case = case_of(body.case)
-        many = limits.balls_of(case) > limits.MANY_BALLS
-        return case if many else work(documents.run_of(case, body.case))
-
-    found = await _queue(request).quick(quick)
-    if isinstance(found, Response):
-        return found
-    return await _heavy(request, lambda _: work(documents.run_of(found, body.case)))
+router = APIRouter(prefix="/api/v1", dependencies=[Depends(known_query)])
 
 
 @router.post("/run", openapi_extra=openapi.body(CaseBody), response_model=answers.Run, responses=openapi.problems_of())
 async def run(request: Request) -> Response:
     """Friction at the operating point of a case: the document of ``ballscrew run --json``, with sentences."""
-    return await _of_run(request, lambda found: _json(documents.run(found)))
+    return await of_body(request, lambda found: as_json(documents.run(found)))
+
+
+@router.post(
+    "/check",
+    openapi_extra=openapi.body(CaseBody),
+    response_model=check_answers.Checks,
+    responses=openapi.problems_of(),
+)
+async def check(request: Request) -> Response:
+    """Life, strength and speed against their limits: the document of ``ballscrew check --json`` but its name."""
+    body: CaseBody = await read(request, CaseBody)
+    tables, notes = with_nut_named(body.case)
+    return await of_run(request, tables, lambda found: as_json(documents.check(found, notes)))
 
 
 @router.post(
@@ -142,15 +116,15 @@ async def sweep(request: Request) -> Response:
         limits.check_sweep(case, plan)
         return case, plan
 
-    queue = _queue(request)
+    queue = queue_of(request)
     case, plan = await queue.quick(planned)
 
     def work(done: Deadline) -> Response:
-        return _json(sweep_documents.document(case, plan, sweeps.sweep(case, plan, done)))
+        return as_json(sweep_documents.document(case, plan, sweeps.sweep(case, plan, done)))
 
     if limits.is_short(case, plan):
-        return await _cancellable(request, queue.short(work))
-    return await _heavy(request, work)
+        return await cancellable(request, queue.short(work))
+    return await heavy(request, work)
 
 
 @router.post(
@@ -162,9 +136,9 @@ async def compare(request: Request) -> Response:
 
     def work(done: Deadline) -> Response:
         case = case_of(body.case)
-        return _json(comparison_documents.document(case, comparison(case, done)))
+        return as_json(comparison_documents.document(case, comparison(case, done)))
 
-    return await _heavy(request, work)
+    return await heavy(request, work)
 
 
 @router.post(
@@ -178,9 +152,9 @@ async def band(request: Request) -> Response:
         case = case_of(body.case)
         samples = limits.samples_of(case, body.samples)
         found = bands.band(case, bands.Options(samples, body.level, body.only_given), done)
-        return _json(documents.band(case, found))
+        return as_json(documents.band(case, found))
 
-    return await _heavy(request, work)
+    return await heavy(request, work)
 
 
 @router.post(
@@ -191,9 +165,67 @@ async def duty(request: Request) -> Response:
     body: DutyBody = await read(request, DutyBody)
 
     def work(_: Deadline) -> Response:
-        return _json(duty_documents.document(duties.duty(case_of(body.case, moves=True))))
+        return as_json(duty_documents.document(duties.duty(case_of(body.case, moves=True))))
 
-    return await _heavy(request, work)
+    return await heavy(request, work)
+
+
+@router.post(
+    "/warm-up",
+    openapi_extra=openapi.body(WarmUpBody),
+    response_model=warm_up_answers.WarmUp,
+    responses=openapi.problems_of(),
+)
+async def warm_up(request: Request) -> Response:
+    """How a case warms up, and where that ends: the document of ``ballscrew warm-up --json``."""
+    body: WarmUpBody = await read(request, WarmUpBody)
+    raise_if_any(warm_ups.option_faults(body.band, body.samples, body.level, body.only_given))
+    warm_ups.check_hours(body.hours, body.cool_down)
+
+    def work(done: Deadline) -> Response:
+        case = case_of(body.case, moves=warm_ups.moves(body.case))
+        limits.check_warm_up(case, body.samples)
+        if not body.band:
+            return as_json(warm_up_documents.document(warm_ups.warmed_up(case, body.hours, body.cool_down)))
+        found = warm_up_bands.band(
+            case, body.hours, body.cool_down, samples=body.samples, level=body.level, only_given=body.only_given,
+            done=done,
+        )  # fmt: skip
+        return as_json(warm_up_documents.with_band(found))
+
+    return await heavy(request, work)
+
+
+@router.post(
+    "/select",
+    openapi_extra=openapi.body(NeedBody),
+    response_model=select_answers.Select,
+    responses=openapi.problems_of(),
+)
+async def select(request: Request) -> Response:
+    """Screws of the catalogue for a need, ranked: the document of ``ballscrew select --json``."""
+    body: NeedBody = await read(request, NeedBody)
+
+    def work(done: Deadline) -> Response:
+        refuse_paths(body.need)
+        need = limits.check_need(need_of(body.need))
+        return as_json(selection_documents.document(selected(need, words=body.words or None, done=done)))
+
+    return await heavy(request, work)
+
+
+@router.post(
+    "/axis", openapi_extra=openapi.body(DutyBody), response_model=duty_answers.Chain, responses=openapi.problems_of()
+)
+async def axis(request: Request) -> Response:
+    """What gives way between motor and table: the document of ``ballscrew axis --json``."""
+    body: DutyBody = await read(request, DutyBody)
+
+    def work(_: Deadline) -> Response:
+        moves = "motion" in body.case and "axis" in body.case
+        return as_json(chain_documents.document(chains.chain_of(case_of(body.case, moves=moves))))
+
+    return await heavy(request, work)
 
 
 @router.get("/catalogue", response_model=answers.Catalogue, responses=openapi.problems_of())
@@ -201,7 +233,7 @@ async def catalogue(
     words: Annotated[str, Query(description="all of them must be in a row")] = "",
 ) -> Response:
     """Rows of the catalogue with these words: the document of ``ballscrew catalogue list --json``."""
-    return _json(rows.list_document(rows.chosen(shipped(), words)))
+    return as_json(rows.list_document(rows.chosen(shipped(), words)))
 
 
 @router.get("/catalogue/{name}", response_model=answers.Row, responses=openapi.problems_of(404))
@@ -211,7 +243,7 @@ async def row(name: openapi.RowName) -> Response:
         found = rows.named(shipped(), name)
     except InputError as error:
         raise Refused(404, *error.faults) from None
-    return _json({**rows.show_document(found), "case": tomlkit.parse(rows.case_text(found)).unwrap()})
+    return as_json({**rows.show_document(found), "case": tomlkit.parse(rows.case_text(found)).unwrap()})
 
 
 @router.get("/validate", response_model=list[answers.ValidationEntry], responses=openapi.problems_of())
@@ -221,14 +253,14 @@ async def validate(
 ) -> Response:
     """The model against data of vendors and laboratories: the document of ``ballscrew validate --json``."""
     requested = validation.request([set] if set else [])
-    return await _heavy(request, lambda _: _sent(_validated(tuple(data.name for data in requested.sets))))
+    return await heavy(request, lambda _: sent(_validated(tuple(data.name for data in requested.sets))))
 
 
 @functools.cache
 def _validation(names: tuple[str, ...]) -> bytes:
     """The document of some sets; their data are shipped, so it is computed once."""
     found = validation.evaluate(validation.request(names))
-    return _bytes(validation_documents.documents([entry for entries, _ in found for entry in entries]))
+    return as_bytes(validation_documents.documents([entry for entries, _ in found for entry in entries]))
 
 
 def _validated(names: tuple[str, ...]) -> bytes:
@@ -240,30 +272,30 @@ def _validated(names: tuple[str, ...]) -> bytes:
 @router.get("/schema", response_model=answers.CaseSchema, responses=openapi.problems_of())
 async def schema() -> Response:
     """JSON Schema of a case file, as ``ballscrew schema`` prints it."""
-    return _sent(_schema())
+    return sent(_schema())
 
 
 @functools.cache
 def _schema() -> bytes:
-    return _bytes(json_schema())
+    return as_bytes(json_schema())
 
 
 @router.get("/vocabulary", response_model=vocabulary.Vocabulary, responses=openapi.problems_of())
 async def get_vocabulary() -> Response:
     """Units and their factors, results and mechanisms by name, models, and cases to start from."""
-    return _sent(_vocabulary())
+    return sent(_vocabulary())
 
 
 @functools.cache
 def _vocabulary() -> bytes:
-    return _bytes(vocabulary.vocabulary())
+    return as_bytes(vocabulary.vocabulary())
 
 
 @router.post("/toml", openapi_extra=openapi.body(CaseBody), responses=openapi.text("application/toml"))
 async def toml(request: Request) -> Response:
     """The case as a file, ready for ``ballscrew run``."""
     body: CaseBody = await read(request, CaseBody)
-    await _queue(request).quick(lambda: case_of(body.case))
+    await queue_of(request).quick(lambda: case_of(body.case))
     return Response(tomlkit.dumps(body.case), media_type="application/toml")
 
 
@@ -272,7 +304,7 @@ async def drawing(request: Request) -> Response:
     """The ball between its grooves and the slip in its contact, to scale, as SVG."""
     from ballscrew.report.drawing import drawing as drawn
 
-    return await _of_run(request, lambda found: Response(drawn(found), media_type="image/svg+xml"))
+    return await of_body(request, lambda found: Response(drawn(found), media_type="image/svg+xml"))
 
 
 @router.post(
@@ -288,9 +320,9 @@ async def drawing_template(request: Request) -> Response:
     def work(found: runs.Run) -> Response:
         with units.placeholders() as quantities:
             picture = drawn(found)
-        return _json(template(picture, quantities))
+        return as_json(template(picture, quantities))
 
-    return await _of_run(request, work)
+    return await of_body(request, work)
 
 
 @router.post("/report", openapi_extra=openapi.body(CaseBody), responses=openapi.text(*KINDS.values()))
@@ -310,4 +342,4 @@ async def report(
         found = report_bytes(case, "pdf" if kind == "pdf" else "html", done, samples=limits.samples_of(case))
         return Response(found, media_type=KINDS[kind])
 
-    return await _heavy(request, work)
+    return await heavy(request, work)

@@ -15,9 +15,9 @@ import anyio
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import ClientDisconnect, Request
 
+from ballscrew.case_schema.schema import read_table
 from ballscrew.cases import case_file
 from ballscrew.cases.case_file import Case
-from ballscrew.cases.schema import read_table
 from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.sizing.catalogue import catalogue
 from ballscrew.web.limits import check_motion
@@ -48,6 +48,24 @@ class CaseBody(_Body):
 
 class DutyBody(CaseBody):
     """A case with an axis and a motion; it needs no operating point."""
+
+
+class WarmUpBody(CaseBody):
+    """A case that warms up by its motion or its operating point, the hours of work and of rest, perhaps with bands."""
+
+    hours: float = Field(default=4.0, strict=True)
+    cool_down: float = Field(default=0.0, strict=True)
+    band: bool = Field(default=False, strict=True)
+    samples: int | None = Field(default=None, strict=True)
+    level: float | None = Field(default=None, strict=True)
+    only_given: bool = Field(default=False, strict=True)
+
+
+class NeedBody(_Body):
+    """A need: the tables of a file of ``ballscrew select`` as JSON, and words that rows must have."""
+
+    need: Tables
+    words: str = Field(default="", strict=True)
 
 
 class SweepBody(CaseBody):
@@ -166,6 +184,17 @@ def case_of(tables: Mapping[str, Any], *, moves: bool = False) -> Case:
 
     No value in them is read as a path. One that ``moves`` has an axis and a motion.
     """
+    refuse_paths(tables)
+    case = case_file.build(tables, rows=catalogue(), moves=moves)
+    if case.nut is not None and case.nut.one_by_one and case.screw.loaded_balls > MOST_BALLS:
+        given, remedy = f"{case.screw.loaded_balls:g}", f"{MOST_BALLS} at most where balls differ or bodies are elastic"
+        raise InputError(Fault("screw.loaded_balls", "too many to compute one by one", given, remedy))
+    check_motion(case)
+    return case
+
+
+def refuse_paths(tables: Mapping[str, Any]) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` for names of files, and for null, which no case file can have."""
     screw = tables.get("screw")
     if isinstance(screw, Mapping) and "catalogue_file" in screw:
         remedy = "send the numbers of the screw, or name a row that is shipped"
@@ -178,12 +207,6 @@ def case_of(tables: Mapping[str, Any], *, moves: bool = False) -> Case:
     if isinstance(motion, Mapping) and "file" in motion:
         raise InputError(Fault("motion.file", "is not taken from a request", "", "send the motion as segments"))
     raise_if_any([Fault(where, "must not be null", "", "leave it out") for where in _nulls("", tables)])
-    case = case_file.build(tables, rows=catalogue(), moves=moves)
-    if case.nut is not None and case.nut.one_by_one and case.screw.loaded_balls > MOST_BALLS:
-        given, remedy = f"{case.screw.loaded_balls:g}", f"{MOST_BALLS} at most where balls differ or bodies are elastic"
-        raise InputError(Fault("screw.loaded_balls", "too many to compute one by one", given, remedy))
-    check_motion(case)
-    return case
 
 
 def _nulls(where: str, value: Any) -> Iterator[str]:

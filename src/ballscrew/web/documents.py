@@ -5,15 +5,17 @@ from __future__ import annotations
 import json
 import threading
 from collections import OrderedDict
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ballscrew import units
 from ballscrew.cases import case_file
 from ballscrew.cases.descriptions import assumed, title
 from ballscrew.documents import band as band_documents
+from ballscrew.documents import check as check_documents
 from ballscrew.documents import run as run_documents
 from ballscrew.studies import band as bands
+from ballscrew.studies import check as checks
 from ballscrew.studies import run as runs
 from ballscrew.text import band as band_text
 from ballscrew.web.templates import fill_records, filled, template
@@ -59,6 +61,18 @@ def run(found: runs.Run) -> dict[str, Any]:
             "assumed": [template(text, quantities) for text in assumptions],
         },
     }
+
+
+def check(found: runs.Run, notes: Sequence[str] = ()) -> dict[str, Any]:
+    """The document of the checks of a run, each with its text also as a template; a request has no name."""
+    with units.placeholders() as quantities:
+        document = check_documents.document(checks.checked("", found.case, notes, known=found))
+    for one in document["checks"]:
+        one["display"] = template(one["text"], quantities)
+        one["words"] = filled(one["words"], quantities)
+    document["assumed"] = [filled(text, quantities) for text in document["assumed"]]
+    fill_records(document, quantities)
+    return {key: value for key, value in document.items() if key != "name"}
 
 
 def band(case: case_file.Case, found: bands.BandReport) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from ballscrew.cases.case_file import (
 )
 from ballscrew.components.nut import OversizeBallNut
 from ballscrew.errors import Fault, InputError, raise_if_any
+from ballscrew.selection.need import Need
 from ballscrew.studies import sweep as sweeps
 from ballscrew.uncertainty.bands import NUT_SAMPLES, SAMPLES
 
@@ -22,10 +23,14 @@ MOST_AXES, MOST_POINTS, MOST_POINTS_OF_NUT, MOST_RETURNED = 8, 20_000, 2_000, 20
 MOST_SAMPLES, MOST_SAMPLES_OF_NUT = 65_536, 1_024
 #: Balls that are computed one by one, in all points of a sweep or samples of a band.
 MOST_BALLS_IN_ALL = 250_000
+#: States of a duty times balls that are computed one by one: its friction is mapped at 312 temperatures and preloads.
+MOST_BALLS_TO_WARM, MOST_TRANSIENTS = 10_000, 1_024
 #: Points of a sweep of a tenth of a second, and balls in all of them that are computed one by one.
 SHORT_POINTS, SHORT_POINTS_OF_NUT, SHORT_BALLS = 1_000, 200, 5_000
 #: With more balls than this, a single point is heavy work.
 MANY_BALLS = 300
+#: Combinations of nut, preload and oil for each row of the catalogue.
+MOST_CHOICES = 24
 #: Balls with two contacts that take as long as one with four.
 _FOUR_CONTACTS = 3
 
@@ -66,6 +71,28 @@ def check_motion(case: Case) -> None:
     if states * balls > MOST_BALLS_IN_ALL:
         remedy = "fewer segments, or a nut whose balls are alike; the rest by ballscrew duty"
         raise InputError(Fault("motion", "has too many states to compute ball by ball", f"{states:,}", remedy))
+
+
+def check_warm_up(case: Case, samples: int | None) -> None:
+    """Refuse what takes long to warm up: a map of friction of too many states, and bands of too many samples."""
+    faults: list[Fault] = []
+    states = 1 if case.motion is None else len(case.motion.states().time)
+    if states * max(1, balls_of(case)) > MOST_BALLS_TO_WARM:
+        remedy = "fewer segments, or a nut whose balls are alike; the rest by ballscrew warm-up"
+        faults.append(Fault("motion", "has too many states to map their friction", f"{states:,}", remedy))
+    if samples is not None and samples > MOST_TRANSIENTS:
+        remedy = f"{MOST_TRANSIENTS:,} at most here; the rest by ballscrew warm-up"
+        faults.append(Fault("--samples", "too many", f"{samples:,}", remedy))
+    raise_if_any(faults)
+
+
+def check_need(need: Need) -> Need:
+    """The need, unless it has more choices for each row than are computed here."""
+    choices = max(1, len(need.nuts)) * max(1, len(need.preloads)) * len(need.oils)
+    if choices > MOST_CHOICES:
+        remedy = f"{MOST_CHOICES} at most here; the rest by ballscrew select"
+        raise InputError(Fault("need", "has too many choices of nut, preload and oil", str(choices), remedy))
+    return need
 
 
 def is_short(case: Case, plan: sweeps.Plan) -> bool:

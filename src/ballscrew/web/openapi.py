@@ -8,11 +8,11 @@ from fastapi import FastAPI, Path
 from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel
 
-from ballscrew.cases.schema import json_schema
+from ballscrew.case_schema.schema import json_schema
 from ballscrew.sizing.catalogue import catalogue
 from ballscrew.web import problems
 from ballscrew.web.answer_parts import Problem
-from ballscrew.web.bodies import BandBody, DutyBody, SweepBody
+from ballscrew.web.bodies import BandBody, DutyBody, NeedBody, SweepBody, WarmUpBody
 from ballscrew.web.vocabulary import vocabulary
 
 _CASE, _SUMMARY = "Case", "Friction losses of ball screws"
@@ -27,7 +27,8 @@ RowName = Annotated[str, Path(description="whatever its capitals", examples=[nex
 def body(kind: type[BaseModel]) -> dict[str, Any]:
     """The body of a request; its case is a case file."""
     schema = kind.model_json_schema()
-    schema["properties"]["case"] = {"$ref": f"{_THERE}{_CASE}"}
+    if "case" in schema["properties"]:
+        schema["properties"]["case"] = {"$ref": f"{_THERE}{_CASE}"}
     content = {"schema": schema, "examples": {name: {"value": value} for name, value in _bodies(kind).items()}}
     return {"requestBody": {"required": True, "content": {"application/json": content}}}
 
@@ -42,15 +43,22 @@ def _bodies(kind: type[BaseModel]) -> dict[str, Any]:
         "lubricant": {"grade": "ISO VG 100", "temperature": "40 degC"},
         "operation": {"axial_load": "2 kN", "screw_speed": "300 rpm"},
     }
+    if kind is NeedBody:
+        need = {"force": "2 kN", "feed": "15 m/min", "length": "1 m", "ends": "fixed-supported", "life": "20000 h"}
+        return {"few": {"need": {**need, "preload": "2 %"}, "words": "rexroth 32x"}}
     if kind is DutyBody:
         moving: dict[str, Any] = {
             "axis": {"mass": "400 kg", "inclination": "90 deg"},
             "motion": {"kind": "trapezoid", "stroke": "0.5 m", "speed": "10 m/min", "acceleration": "0.5 g"},
+            "installation": {"unsupported_length": "1 m", "ends": "fixed-supported"},
         }
         return {name: {"case": {**case, **moving}} for name, case in (("paper", paper), ("nut", nut))}
     more: dict[str, Any] = {}
     if kind is SweepBody:
         more = {"vary": {"axial_load": "100:4000:5 N", "screw_speed": "10, 100 rpm"}, "outputs": ["efficiency"]}
+    if kind is WarmUpBody:
+        more = {"hours": 1.0, "band": True, "samples": 16}
+        paper = {**paper, "lubricant": {"grade": "ISO VG 100", "temperature": "40 degC"}}
     if kind is BandBody:
         more = {"samples": 64, "level": 0.9}
     return {"paper": {"case": paper, **more}, "nut": {"case": nut, **more}}

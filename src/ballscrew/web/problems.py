@@ -51,5 +51,7 @@ def response(status: int, faults: Sequence[Fault] = ()) -> Response:
 
 
 def _parts(fault: Fault) -> dict[str, str]:
-    """The field, the text without it, and the whole line; all are cut to a length that people read."""
-    return {"where": fault.field, "text": fault.text, "line": str(fault)}
+    """The field, the text without it and its parts, and the whole line; all are cut to a length that people read."""
+    plain = fault.plain
+    parts = {"problem": plain.problem, "given": plain.given, "remedy": plain.remedy}
+    return {"where": fault.field, "text": fault.text, "line": str(fault), **parts}

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict
 
 from ballscrew import units
 from ballscrew._version import __version__
-from ballscrew.cases.schema import DEFAULT_MODEL, LAWS, MODELS
+from ballscrew.case_schema.schema import DEFAULT_MODEL, LAWS, MODELS
 from ballscrew.components.contact import RaceState
 from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.nut import Bodies, Scatter
@@ -23,7 +23,8 @@ from ballscrew.friction.result import MECHANISMS, FrictionResult
 from ballscrew.friction.validity import NUT_REASONS
 from ballscrew.papers.olaru2005 import case as paper
 from ballscrew.quantities import Info, Quantity, fields_of, quantities_of
-from ballscrew.screw_tables.nut_kinds import LISTED, LOSSES, NUT_FIELDS
+from ballscrew.screw_tables.catalogue import EXAMPLE_PRELOADS
+from ballscrew.screw_tables.nut_kinds import LISTED, LOSSES, NUT_FIELDS, NUTS
 from ballscrew.sizing.catalogue import catalogue
 from ballscrew.sizing.installation import Installation, Limits
 from ballscrew.solvers.load_distribution import BallLoads
@@ -63,6 +64,13 @@ class Mechanism(_Table):
     colour: str
 
 
+class NutKind(_Table):
+    """The fields of a kind of nut, and the preload that vendors give it."""
+
+    fields: list[str]
+    usual_preload: str | None
+
+
 class Start(_Table):
     """A case to start from."""
 
@@ -89,6 +97,8 @@ class Vocabulary(_Table):
     reasons: dict[str, str]
     models: list[str]
     default_model: str
+    limits: dict[str, float | None]
+    nuts: dict[str, NutKind]
     starts: dict[str, Start]
     rows: list[StartRow]
 
@@ -105,6 +115,11 @@ def vocabulary() -> dict[str, Any]:
         "reasons": dict(NUT_REASONS),
         "models": list(MODELS),
         "default_model": DEFAULT_MODEL,
+        "limits": {name: getattr(Limits(), name) for name in fields_of(Limits)},
+        "nuts": {
+            name: {"fields": list(fields_of(kind)), "usual_preload": EXAMPLE_PRELOADS.get(name)}
+            for name, kind in NUTS.items()
+        },
         "starts": {
             "paper": {"title": "the screw of Olaru et al. (2005)", "case": _paper()},
         },

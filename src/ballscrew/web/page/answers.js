@@ -1,19 +1,23 @@
 // Answers of the server for the designs, shown as they come: numbers first, then the charts from the top down.
 
 import * as charts from "./charts.js";
+import * as checks from "./checks.js";
 import { showDesigns, showModels } from "./compare.js";
 import * as curves from "./curves.js";
 import { byId, csv, save } from "./dom.js";
+import * as drawings from "./drawing.js";
 import { showFailure } from "./plot.js";
 import * as results from "./results.js";
-import { linesOf, Problem, sendJson } from "./server.js";
+import { ask, linesOf, Problem, sendJson } from "./server.js";
 import { LETTERS } from "./state.js";
-import { filled } from "./units.js";
+import * as stiffness from "./stiffness.js";
+import * as temperatures from "./temperatures.js";
 
 /** Points of a curve and of one side of the map; fewer for a whole nut, which takes longer. */
 const POINTS = { curve: 41, curveOfNut: 15, map: 21, mapOfNut: 11 };
-const BAND_DELAY = 600;
-const MOST_CACHED = 50;
+const BAND_DELAY = 400;
+/** Milliseconds to wait where the server has too much to do, as it says itself. */
+const BUSY_DELAY = 1000;
 /** Milliseconds after which a page in the background counts as painted. */
 const PAINT_TIMEOUT = 500;
 
@@ -25,30 +29,36 @@ const PAINT_TIMEOUT = 500;
  * @property {Body} [body]
  * @property {string} [key]
  * @property {Run} [answer]
+ * @property {Checks} [checks]
  * @property {results.Band | null} band
  * @property {string[]} starts
  * @property {Sweep} [alongSpeed]
  * @property {Sweep} [alongLoad]
  * @property {Sweep} [everywhere]
+ * @property {Sweep} [hotAndCold]
  * @property {Template} [drawing]
  * @property {import("./compare.js").Answers} [designs]
  * @property {Compare} [models]
  */
 
-/** Answers by their bodies, as text. @type {Map<string, Run>} */
-const cache = new Map();
 /** @type {Mechanisms} */
 let mechanisms;
 let requests = new AbortController();
 let bandRequest = new AbortController();
 /** @type {ReturnType<typeof setTimeout>} */
 let bandTimer;
+/** Goes to a field of the form. @type {(path: string) => void} */
+let jump = () => {};
 /** @type {Displayed} */
 let displayed = { band: null, starts: [] };
 
-/** @param {Vocabulary} vocabulary */
-export function setVocabulary(vocabulary) {
+/**
+ * @param {Vocabulary} vocabulary
+ * @param {(path: string) => void} goTo goes to a field of the form
+ */
+export function setVocabulary(vocabulary, goTo) {
   mechanisms = vocabulary.mechanisms;
+  jump = goTo;
 }
 
 /** The answer on the page, or none yet. */
@@ -57,33 +67,19 @@ export function current() {
 }
 
 /**
- * @param {Body} body
- * @param {AbortSignal} signal
- * @returns {Promise<Run>}
- */
-async function run(body, signal) {
-  const key = JSON.stringify(body);
-  const cached = cache.get(key);
-  if (cached) return cached;
-  const found = await sendJson("run", body, signal);
-  const [oldest] = cache.keys();
-  if (cache.size > MOST_CACHED) cache.delete(oldest);
-  cache.set(key, found);
-  return found;
-}
-
-/**
  * Show the answer of the current case, and all designs side by side. Requests of the cases before are cancelled.
  *
  * @param {() => Promise<Record<string, unknown>[]>} cases
  * @param {import("./state.js").State} state
- * @param {(faults: FaultLine[]) => void} report shows faults beside their fields
+ * @param {(faults: FaultLine[]) => results.Refusal} report shows faults beside their fields
  */
-export async function update(cases, { designs, show, band: wanted }, report) {
+export async function update(cases, { designs, show, band: wanted, own }, report) {
   requests.abort();
   requests = new AbortController();
   const { signal } = requests;
   const start = performance.now();
+  clearTimeout(bandTimer);
+  bandRequest.abort();
   /** @type {Body[]} */
   let bodies = [];
   displayed.starts = designs.map((one) => one.start);
@@ -93,26 +89,48 @@ export async function update(cases, { designs, show, band: wanted }, report) {
     if (signal.aborted) return;
     const body = bodies[show];
     const key = JSON.stringify(body);
-    const answer = await run(body, signal);
+    /** @type {Run} */
+    const answer = await ask("run", body, signal);
+    const checked = await checksOf(body, signal);
     if (signal.aborted) return;
-    const { band, designs: before, starts } = displayed;
-    displayed = { body, key, answer, band: displayed.key === key ? band : null, designs: before, starts };
+    const { designs: before, starts } = displayed;
+    /** @type {Displayed} */
+    const known = displayed.key === key ? displayed : { band: null, starts };
+    displayed = { body, key, answer, checks: checked, band: known.band, designs: before, starts };
     report([]);
     results.succeed();
-    results.show(answer, displayed.band);
+    if (wanted && !displayed.band) displayed.band = { state: "pending" };
+    results.show(answer, displayed);
+    checks.show(checked, jump);
+    stiffness.show(answer);
     measurePaint("numbers", start, signal);
-    showBand(wanted);
-    await Promise.all([drawCharts(body, answer, signal, start), showAll(bodies, signal)]);
+    await Promise.all([drawCharts(body, answer, signal, start), showAll(bodies, own, wanted, signal)]);
     await measurePaint("all", start, signal);
+    showBand(wanted);
   } catch (error) {
     if (signal.aborted) return;
-    clearTimeout(bandTimer);
-    bandRequest.abort();
-    report(error instanceof Problem ? error.faults : []);
-    results.fail(linesOf(error));
-    await showAll(bodies, signal);
+    const refusal =
+      error instanceof Problem && error.faults.length ? report(error.faults) : results.refusal(linesOf(error));
+    results.fail(refusal);
+    await showAll(bodies, own, false, signal);
   } finally {
     if (!signal.aborted) byId("results").setAttribute("aria-busy", "false");
+  }
+}
+
+/**
+ * The checks of a case, which are quick once it has been run; none where they cannot be computed.
+ *
+ * @param {Body} body
+ * @param {AbortSignal} signal
+ * @returns {Promise<Checks | undefined>}
+ */
+async function checksOf(body, signal) {
+  try {
+    return await ask("check", body, signal);
+  } catch (error) {
+    if (!(error instanceof Problem)) throw error;
+    return undefined;
   }
 }
 
@@ -197,12 +215,22 @@ async function drawCharts(body, answer, signal, start) {
     },
     ["efficiency"],
   );
-  const others = Promise.allSettled([drawing, alongLoad, everywhere]);
+  const asked = temperatures.question(answer);
+  const hotAndCold = asked && sweep(asked.vary, asked.outputs);
+  const others = Promise.allSettled([drawing, alongLoad, everywhere, hotAndCold]);
   await drawn("torque-chart", alongSpeed, (found) => {
     displayed.alongSpeed = found;
     return charts.torque(found, answer, mechanisms);
   });
   measurePaint("chart", start, signal);
+  displayed.hotAndCold = undefined;
+  if (!hotAndCold) temperatures.leaveOut(answer);
+  else {
+    await drawn("temperatures", hotAndCold, (found) => {
+      displayed.hotAndCold = found;
+      temperatures.show(found, answer);
+    });
+  }
   await drawn("map-chart", everywhere, (found) => {
     displayed.everywhere = found;
     return charts.map(found, answer);
@@ -212,30 +240,28 @@ async function drawCharts(body, answer, signal, start) {
     displayed.alongLoad = found;
     return curves.pressure(found, answer);
   });
-  await drawn("drawing", drawing, showDrawing);
+  await drawn("drawing", drawing, (found) => {
+    displayed.drawing = found;
+    drawings.show(found);
+  });
   await others;
-}
-
-/** @param {Template} template */
-function showDrawing(template) {
-  const found = new DOMParser().parseFromString(filled(template), "image/svg+xml").documentElement;
-  if (found.nodeName !== "svg") return;
-  displayed.drawing = template;
-  byId("drawing").replaceChildren(document.importNode(found, true));
 }
 
 /** Show all of it again in other units, without requests. */
 export function redisplay() {
-  const { answer, alongSpeed, everywhere, alongLoad, drawing, designs, starts, models, band } = displayed;
+  const { answer, checks: checked, alongSpeed, everywhere, alongLoad, drawing, designs, starts, models } = displayed;
   if (!answer) return;
-  results.show(answer, band);
+  results.show(answer, displayed);
+  stiffness.show(answer);
+  checks.show(checked, jump);
   if (alongSpeed) {
     charts.torque(alongSpeed, answer, mechanisms);
     curves.film(alongSpeed, answer);
   }
   if (everywhere) charts.map(everywhere, answer);
   if (alongLoad) curves.pressure(alongLoad, answer);
-  if (drawing) showDrawing(drawing);
+  if (displayed.hotAndCold) temperatures.show(displayed.hotAndCold, answer);
+  if (drawing) drawings.show(drawing);
   if (designs) showDesigns(designs, starts, mechanisms);
   if (models) showModels(models);
 }
@@ -253,50 +279,80 @@ export function showBand(wanted) {
   /** @param {results.Band | null} found */
   const display = (found) => {
     displayed.band = found;
-    results.show(answer, found);
+    results.show(answer, displayed);
   };
   if (!wanted) {
     display(null);
     return;
   }
   if (band && band.state !== "pending") return;
-  const isFirst = byId("band-words").childElementCount === 0;
   display({ state: "pending" });
   bandRequest = new AbortController();
   const { signal } = bandRequest;
-  bandTimer = setTimeout(
-    async () => {
-      /** @type {results.Band} */
-      let found;
-      try {
-        found = { state: "done", answer: await sendJson("band", body, signal) };
-      } catch (error) {
-        found = { state: "failed", lines: linesOf(error) };
+  bandTimer = setTimeout(async () => {
+    /** @type {results.Band} */
+    let found;
+    try {
+      found = { state: "done", answer: await ask("band", body, signal) };
+    } catch (error) {
+      found = { state: "failed", lines: linesOf(error) };
+      if (error instanceof Problem && error.isBusy && !signal.aborted) {
+        bandTimer = setTimeout(() => showBand(wanted), BUSY_DELAY); // nobody has asked for it by hand
+        return;
       }
-      if (!signal.aborted) display(found);
-    },
-    isFirst ? 0 : BAND_DELAY,
-  );
+    }
+    if (!signal.aborted) display(found);
+  }, BAND_DELAY);
 }
 
 /**
+ * All designs at the load and the speed of the first one, or each at its own.
+ *
  * @param {Body[]} bodies
+ * @param {boolean} own
+ * @param {boolean} withBands
  * @param {AbortSignal} signal
  */
-async function showAll(bodies, signal) {
+async function showAll(bodies, own, withBands, signal) {
+  const { operation } = bodies[0]?.case ?? {};
   /** @type {import("./compare.js").Answers} */
   const found = {};
   for (const [place, body] of bodies.entries()) {
+    const at = own || !operation ? body : { case: { ...body.case, operation } };
     try {
-      found[LETTERS[place]] = await run(body, signal);
+      found[LETTERS[place]] = { run: await ask("run", at, signal) };
+      if (bodies.length > 1) found[LETTERS[place]].checks = await checksOf(at, signal);
     } catch (error) {
       if (signal.aborted) return;
-      found[LETTERS[place]] = linesOf(error)[0];
+      found[LETTERS[place]] = { reason: linesOf(error)[0] };
     }
   }
   if (signal.aborted) return;
   displayed.designs = found;
   await showDesigns(found, displayed.starts, mechanisms);
+  if (withBands && bodies.length > 1) addBands(bodies, own, signal);
+}
+
+/**
+ * The bands of the designs, one after the other, once typing has come to rest.
+ *
+ * @param {Body[]} bodies
+ * @param {boolean} own
+ * @param {AbortSignal} signal
+ */
+async function addBands(bodies, own, signal) {
+  await new Promise((resolve) => setTimeout(resolve, BAND_DELAY));
+  for (const [place, body] of bodies.entries()) {
+    const one = displayed.designs?.[LETTERS[place]];
+    if (signal.aborted || !one?.run) continue;
+    const { operation } = bodies[0].case;
+    try {
+      one.band = await ask("band", own ? body : { case: { ...body.case, operation } }, signal);
+    } catch {
+      continue; // of this design there is none
+    }
+    if (!signal.aborted && displayed.designs) showDesigns(displayed.designs, displayed.starts, mechanisms);
+  }
 }
 
 /** Compute and show the case with all models and laws. */
@@ -334,5 +390,5 @@ export function saveTorqueCsv() {
     ...columns.map(([, { values }]) => values[place]),
   ]);
   const content = csv(headings, /** @type {import("./dom.js").Cell[][]} */ (rows));
-  save("torque_over_speed.csv", new Blob([content], { type: "text/csv" }));
+  save("-torque_over_speed.csv", new Blob([content], { type: "text/csv" }));
 }

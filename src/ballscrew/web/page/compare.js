@@ -1,8 +1,9 @@
 // Designs side by side, and the case with other models and laws.
 
 import * as charts from "./charts.js";
+import { verdict } from "./checks.js";
 import { byId, element, scrolling, table } from "./dom.js";
-import { data, greatestPressure, leastFilm, nameOf, numbersOf } from "./results.js";
+import { data, greatestPressure, leastFilm, nameOf, numbersOf, rounded } from "./results.js";
 import * as units from "./units.js";
 
 /** @type {Record<string, string>} */
@@ -16,11 +17,27 @@ const ROWS = {
   preload_drag: "torque without load",
 };
 
-/** An answer by letter, or the line that says why there is none. @typedef {Record<string, Run | string>} Answers */
+/**
+ * What is known of a design: its answer, its checks and its band, or the line that says why there is none.
+ *
+ * @typedef {{ run?: Run, checks?: Checks, band?: BandAnswer, reason?: string }} Known
+ */
+/** By letter. @typedef {Record<string, Known>} Answers */
 
 /** @param {string[]} names */
 function joined(names) {
   return [...new Set(names)].join(", ") || "–";
+}
+
+/**
+ * The change of a result against that of the first design, in percent.
+ *
+ * @param {number | null | undefined} value
+ * @param {number | null | undefined} first
+ */
+function delta(value, first) {
+  if (typeof value !== "number" || typeof first !== "number" || first === 0) return null;
+  return element("span", { class: "delta" }, percentage(value / first - 1, "±0 %"));
 }
 
 /**
@@ -33,9 +50,7 @@ function joined(names) {
 export async function showDesigns(answers, starts, mechanisms) {
   const place = byId("compare");
   const letters = Object.keys(answers);
-  /** @type {Record<string, Run>} */
-  const computed = {};
-  for (const [letter, answer] of Object.entries(answers)) if (typeof answer !== "string") computed[letter] = answer;
+  byId("compare-at").hidden = letters.length < 2;
   if (letters.length < 2) {
     place.replaceChildren(element("p", {}, "Add a design above: up to four are shown here side by side."));
     byId("compare-chart").hidden = true;
@@ -43,30 +58,68 @@ export async function showDesigns(answers, starts, mechanisms) {
   }
   /**
    * @param {string} words
-   * @param {(answer: Run) => string | Node} read
+   * @param {(run: Run, known: Known, isFirst: boolean) => import("./dom.js").Child} read
    */
-  const row = (words, read) => [words, ...letters.map((letter) => (computed[letter] ? read(computed[letter]) : "–"))];
+  const row = (words, read) => [
+    words,
+    ...letters.map((letter, at) => {
+      const { run } = answers[letter];
+      return run ? read(run, answers[letter], at === 0) : "–";
+    }),
+  ];
+  const first = answers[letters[0]].run;
+  const runs = letters.flatMap((letter) => answers[letter].run ?? []);
   /** @param {string} name */
-  const isKnown = (name) => Object.values(computed).some((answer) => numbersOf(answer)[name] !== undefined);
+  const isKnown = (name) => runs.some((run) => numbersOf(run)[name] !== undefined);
+  /** @param {string} name */
+  const cell = (name) => (/** @type {Run} */ run, /** @type {Known} */ known, /** @type {boolean} */ isFirst) => {
+    const value = numbersOf(run)[name];
+    const change = isFirst || !first ? null : delta(value, numbersOf(first)[name]);
+    return element("span", {}, data(name, value, rounded(name, value, known.band).text), change);
+  };
   const rows = [
     ["start", ...starts],
-    row("case", (answer) => units.filled(answer.display.title)),
+    row("case", (run) => units.filled(run.display.title)),
     ...Object.entries(ROWS)
       .filter(([name]) => isKnown(name))
-      .map(([name, words]) => row(words, (answer) => data(name, numbersOf(answer)[name]))),
-    row("least λ", (answer) => units.digits(leastFilm(answer), 3)),
-    row("greatest pressure", (answer) => units.formatted("maximum_pressure", greatestPressure(answer))),
-    row("verdict", (answer) => joined(answer.verdicts.map(nameOf))),
-    ["beware", ...letters.map((letter) => warningsOf(answers[letter]))],
+      .map(([name, words]) => row(words, cell(name))),
+    row("band of the friction torque, 95 %", (run, { band }) => {
+      return rounded("screw_torque", run.results.screw_torque, band).interval ?? "–";
+    }),
+    row("least λ", (run) => units.digits(leastFilm(run), units.DIGITS)),
+    row("greatest pressure", (run) => units.formatted("maximum_pressure", greatestPressure(run), units.DIGITS)),
+    row("checks", (_, { checks }) => (checks ? verdict(checks) : "–")),
+    row("verdict", (run) => joined(run.verdicts.map(nameOf))),
+    [
+      "beware",
+      ...letters.map((letter) => answers[letter].reason ?? joined((answers[letter].run?.warnings ?? []).map(nameOf))),
+    ],
   ];
   const headings = ["", ...letters.map((letter) => `Design ${letter}`)];
-  place.replaceChildren(scrolling("table of the designs", table("designs side by side", headings, rows)));
-  if (Object.keys(computed).length) await charts.designs(computed, mechanisms);
+  const caption = `designs side by side ${conditions(first)}; changes are against Design ${letters[0]}`;
+  place.replaceChildren(scrolling("table of the designs", table(caption, headings, rows)));
+  const computed = Object.fromEntries(
+    letters.flatMap((letter) => {
+      const { run } = answers[letter];
+      return run ? [[letter, run]] : [];
+    }),
+  );
+  if (runs.length) await charts.designs(computed, mechanisms);
 }
 
-/** @param {Run | string} answer */
-function warningsOf(answer) {
-  return typeof answer === "string" ? answer : joined(answer.warnings.map(nameOf));
+/**
+ * Where the designs are compared.
+ *
+ * @param {Run | undefined} first
+ */
+function conditions(first) {
+  const own = /** @type {HTMLInputElement} */ (byId("own")).checked;
+  const { axial_load: load, screw_speed: speed } = /** @type {Record<string, number>} */ (
+    first?.inputs.operation ?? {}
+  );
+  if (own || load === undefined) return "each at its own load and speed";
+  const shown = [units.formatted("axial_load", load), units.formatted("screw_speed", speed)].join(" and ");
+  return `all at ${shown}`;
 }
 
 /** @typedef {{ name: string, slot?: string, counts?: boolean } & Compare["case"]} ComparedRow */
@@ -78,8 +131,8 @@ function validity({ counts, valid, not_valid_because: reasons }) {
 }
 
 /** @param {number | null} change */
-function percentage(change) {
-  return change ? `${change > 0 ? "+" : ""}${units.digits(100 * change, 3)} %` : "–";
+function percentage(change, none = "–") {
+  return change ? `${change > 0 ? "+" : ""}${units.digits(100 * change, 3)} %` : none;
 }
 
 /**

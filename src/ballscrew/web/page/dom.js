@@ -89,15 +89,23 @@ export function scrolling(label, content) {
   return element("div", { class: "scroll whole", tabindex: "0", role: "region", "aria-label": label }, content);
 }
 
+/** The name of the design that files begin with. */
+let design = "";
+
+/** @param {string} name */
+export function nameFiles(name) {
+  design = name;
+}
+
 /**
- * Save a file.
+ * Save a file, whose name begins with that of the design.
  *
  * @param {string} name
  * @param {Blob} content
  */
 export function save(name, content) {
   const address = URL.createObjectURL(content);
-  const link = element("a", { href: address, download: name });
+  const link = element("a", { href: address, download: `ballscrew-${design}${name}` });
   document.body.append(link);
   link.click();
   link.remove();

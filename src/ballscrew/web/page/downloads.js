@@ -13,10 +13,10 @@ const KINDS = {
   HTML: ["report to read", "report?kind=html"],
 };
 
-/** @typedef {{ body?: object, answer?: Run, name: string, saveCsv: () => void }} Current */
+/** @typedef {{ body?: object, answer?: Run, saveCsv: () => void }} Current */
 
 /**
- * Buttons for all kinds; ``current`` gives the case, the answer and the name of the design.
+ * Buttons for all kinds; ``current`` gives the case and the answer.
  *
  * @param {() => Current} current
  */
@@ -40,7 +40,7 @@ function say(text) {
  * @param {string} kind
  * @param {Current} current
  */
-async function saveAs(kind, { body, answer, name, saveCsv }) {
+async function saveAs(kind, { body, answer, saveCsv }) {
   if (!body || !answer || byId("results").classList.contains("stale")) {
     say("The input is at fault: correct it first.");
     return;
@@ -49,10 +49,10 @@ async function saveAs(kind, { body, answer, name, saveCsv }) {
   try {
     if (address) {
       say(`making the ${kind} …`);
-      save(`${name}.${kind.toLowerCase()}`, await (await send(address, body)).blob());
+      save(`.${kind.toLowerCase()}`, await (await send(address, body)).blob());
     } else if (kind === "JSON") {
       const { words, display, ...document } = answer;
-      save(`${name}.json`, new Blob([JSON.stringify(document, null, 2)], { type: "application/json" }));
+      save(".json", new Blob([JSON.stringify(document, null, 2)], { type: "application/json" }));
     } else saveCsv();
     say(`${kind} saved`);
   } catch (error) {

@@ -109,7 +109,7 @@ export function numberField(path, node, { state, given, onChange }, present) {
   input.addEventListener("keydown", (event) => step(event, input));
   if (node["x-si-unit"]) return quantityField(path, node, input, value, state, onChange);
   input.value = value ?? "";
-  input.placeholder = String(present ?? node.examples?.[0] ?? "");
+  input.placeholder = String(present ?? "");
   input.addEventListener("input", () => reportText(onChange, path, input, input.value.trim()));
   return frame(path, node, value !== undefined, input);
 }
@@ -130,7 +130,6 @@ function quantityField(path, node, input, value, state, onChange) {
   const shown = value === undefined ? "" : units.digitsIn(value, unit, si);
   const isOther = shown === null;
   input.value = shown ?? String(value);
-  input.placeholder = value === undefined ? placeholder(node.examples?.[0], unit, si) : "";
   const known = [...new Set([unit, ...units.choices(si).map((one) => one.unit)])];
   const select = element(
     "select",
@@ -141,7 +140,7 @@ function quantityField(path, node, input, value, state, onChange) {
   select.addEventListener("change", () => onChange({ path, unit: select.value, rebuild: true }));
   input.addEventListener("input", () => {
     const text = input.value.trim();
-    const isBare = text !== "" && /^[\s\d.eE+±-]*$/.test(text);
+    const isBare = text !== "" && /^[\s\d.,'eE+±-]*$/.test(text);
     if (isBare && !select.value) select.value = unit;
     reportText(onChange, path, input, isBare ? `${text} ${select.value}` : text);
   });
@@ -167,15 +166,21 @@ function reportText(onChange, path, input, text) {
 }
 
 /**
- * The usual value, where nothing is typed.
+ * Show the value that counts in a field where nothing is typed; nothing where it is not known.
  *
- * @param {string | number | undefined} example
- * @param {string} unit
- * @param {string | undefined} si
+ * @param {HTMLElement} field
+ * @param {SchemaNode | undefined} node
+ * @param {unknown} value in SI
  */
-function placeholder(example, unit, si) {
-  const text = units.digitsIn(example ?? "", unit, si);
-  return text === null ? "" : units.digits(Number(text));
+export function showEffective(field, node, value) {
+  const input = field.querySelector("input");
+  if (!input) return;
+  const select = field.querySelector("select");
+  const si = node?.["x-si-unit"];
+  const number = typeof value === "number" ? value : undefined;
+  const shown =
+    number !== undefined && si ? units.fromSI(number, select?.value || (node?.["x-unit"] ?? ""), si) : number;
+  input.placeholder = shown === undefined ? "" : units.digits(shown);
 }
 
 /**
@@ -187,7 +192,7 @@ function placeholder(example, unit, si) {
 function step(event, input) {
   if (event.key !== "ArrowUp" && event.key !== "ArrowDown") return;
   const text = input.value || input.placeholder;
-  const value = Number(text);
+  const value = Number(units.withPoint(text));
   if (!text.trim() || !Number.isFinite(value)) return;
   event.preventDefault();
   const power = Math.floor(Math.log10(Math.abs(value)) + 1e-9) - (event.shiftKey ? 0 : 1);

@@ -1,8 +1,9 @@
 // The form, made from the JSON Schema of the case file. It shows the texts of the state and reports what is typed.
 
 import { byId, element, within } from "./dom.js";
-import { choiceField, numberField, words } from "./fields.js";
-import { definition, fieldsOf, isLaw, LEFT_OUT, SECTIONS } from "./schema.js";
+import { inWords, labelOf } from "./faults.js";
+import { choiceField, numberField, showEffective, words } from "./fields.js";
+import { definition, fieldOf, fieldsOf, isLaw, LEFT_OUT, SECTIONS } from "./schema.js";
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
 /** @typedef {import("./state.js").State} State */
@@ -199,9 +200,24 @@ function lawFields(path, node, source) {
 }
 
 /**
- * Show faults beside the fields that they name.
+ * Show what counts where nothing is typed.
+ *
+ * @param {(path: string) => unknown} effective values in SI, by path
+ */
+export function showValues(effective) {
+  /** @type {NodeListOf<HTMLElement>} */
+  const fields = byId("form").querySelectorAll("[data-path]");
+  for (const field of fields) {
+    const path = field.dataset.path ?? "";
+    showEffective(field, fieldOf(path), effective(path));
+  }
+}
+
+/**
+ * Show faults beside the fields that they name, and bring the first one into view.
  *
  * @param {FaultLine[]} faults
+ * @returns {import("./results.js").Refusal} what stands above the answer: links to the fields, and faults of no field
  */
 export function showFaults(faults) {
   for (const field of byId("form").querySelectorAll(".field.wrong")) {
@@ -209,15 +225,76 @@ export function showFaults(faults) {
     within(field, ".fault").textContent = "";
     field.querySelector("[aria-invalid]")?.removeAttribute("aria-invalid");
   }
-  for (const { where, text } of faults) {
-    const field = fieldAt(where);
-    if (!field) continue;
-    field.classList.add("wrong");
-    within(field, ".fault").textContent = text;
-    within(field, "input, select").setAttribute("aria-invalid", "true");
-    for (let holder = field.closest("details"); holder; ) {
-      holder.open = true;
-      holder = holder.parentElement?.closest("details") ?? null;
-    }
+  /** @type {Map<string, HTMLElement>} */
+  const wrong = new Map();
+  /** @type {string[]} */
+  const others = [];
+  for (const fault of faults) {
+    const path = pathOf(fault.where);
+    const field = fieldAt(path);
+    if (field && !wrong.has(path)) {
+      wrong.set(path, field);
+      markWrong(field, inWords(fault));
+    } else if (!field) others.push(`${labelOf(fault.where)}: ${inWords(fault)}`);
   }
+  const [first] = [...byId("form").querySelectorAll(".field.wrong")];
+  if (first && !first.contains(document.activeElement)) first.scrollIntoView({ block: "nearest" });
+  const links = [...wrong].map(([path, field]) =>
+    element("button", { type: "button", onclick: () => jumpTo(field) }, labelOf(path)),
+  );
+  const intro = links.length === 1 ? "Not computed. Correct this field: " : "Not computed. Correct these fields: ";
+  const line = links.length ? [element("span", {}, intro, ...links)] : [];
+  const said = faults.map((fault) => `${labelOf(fault.where)}: ${inWords(fault)}`).join(" ");
+  return { lines: [...line, ...others], said };
+}
+
+/**
+ * The field that a fault names; a section that is missing has its first field.
+ *
+ * @param {string} where
+ */
+function pathOf(where) {
+  if (fieldAt(where)) return where;
+  const parts = where.split(".");
+  while (parts.length > 2) {
+    parts.pop();
+    if (fieldAt(parts.join("."))) return parts.join(".");
+  }
+  return where;
+}
+
+/** @param {HTMLElement} field */
+function open(field) {
+  for (let holder = field.closest("details"); holder; ) {
+    holder.open = true;
+    holder = holder.parentElement?.closest("details") ?? null;
+  }
+}
+
+/**
+ * @param {HTMLElement} field
+ * @param {string} text
+ */
+function markWrong(field, text) {
+  field.classList.add("wrong");
+  within(field, ".fault").textContent = text;
+  within(field, "input, select").setAttribute("aria-invalid", "true");
+  open(field);
+}
+
+/** @param {HTMLElement} field */
+function jumpTo(field) {
+  open(field);
+  field.scrollIntoView({ block: "center" });
+  within(field, "input, select").focus();
+}
+
+/**
+ * Go to the field at a path, as a check that lacks it asks for.
+ *
+ * @param {string} path
+ */
+export function jump(path) {
+  const field = fieldAt(path);
+  if (field) jumpTo(field);
 }

@@ -1,18 +1,20 @@
 // The page: its state in the address, the form, and the answer that follows what is typed.
 
 import * as answers from "./answers.js";
-import { byId, element, within } from "./dom.js";
+import { consequences } from "./consequences.js";
+import { byId, element, nameFiles, within } from "./dom.js";
 import * as downloads from "./downloads.js";
 import * as form from "./form.js";
+import * as entries from "./history.js";
 import * as results from "./results.js";
 import * as schema from "./schema.js";
 import { get, linesOf } from "./server.js";
 import * as states from "./state.js";
 import * as units from "./units.js";
 
-/** Browsers stop a page that writes its address at each key. */
-const ADDRESS_DELAY = 300;
 const LONGEST_QUOTE = 40;
+/** The calibration of the button: that of both of its numbers, to the vendor whose rows are shown beside it. */
+const CALIBRATION = "rexroth-2006";
 /** Sections that belong to the use of a screw, not to the screw. */
 const OF_USE = ["operation", "lubricant", "model", "losses", "installation", "limits"];
 /** Fields of an oil that the others follow from. */
@@ -37,10 +39,6 @@ let state;
 const starts = new Map();
 /** Laws of the answer that the form was built with. @type {string | undefined} */
 let laws;
-/** @type {ReturnType<typeof setTimeout>} */
-let addressTimer;
-/** The address to be written. @type {string | undefined} */
-let address;
 
 // -- the case of a design ---------------------------------------------------------------------------
 
@@ -61,7 +59,9 @@ async function startOf(name) {
 
 /** @param {states.Design} design */
 async function caseOf(design) {
-  return states.tables(await startOf(design.start), design.changes, schema.fieldOf);
+  const start = await startOf(design.start);
+  const found = states.tables(start, design.changes, schema.fieldOf);
+  return Object.hasOwn(vocabulary.starts, design.start) ? found : states.named(design.start, start, found);
 }
 
 function current() {
@@ -77,7 +77,6 @@ function current() {
  */
 function onChange({ path = "", text = "", unit, start, rebuild }) {
   if (start !== undefined) {
-    writeAddress();
     state.designs[state.show] = states.design(start, changesOfUse(current()));
     follow({ rebuild: true, keep: true });
     return;
@@ -88,15 +87,27 @@ function onChange({ path = "", text = "", unit, start, rebuild }) {
     return;
   }
   const { changes } = current();
-  const before = states.valueAt(starts.get(current().start), path);
-  if (text === "" && before === undefined) delete changes[path];
+  const tables = states.tables(starts.get(current().start) ?? {}, changes, schema.fieldOf);
+  const others = Object.entries(consequences(path, text, (one) => states.valueAt(tables, one), vocabulary.nuts));
+  for (const [one, value] of [...others, [path, text]]) change(one, value);
+  form.mark(path, path in changes);
+  byId("reset").hidden = !Object.keys(changes).length;
+  follow({ rebuild: rebuild || others.length > 0, path });
+}
+
+/**
+ * Keep a text where it differs from the start.
+ *
+ * @param {string} path
+ * @param {string} text
+ */
+function change(path, text) {
+  const { changes, start } = current();
+  if (text === "" && states.valueAt(starts.get(start), path) === undefined) delete changes[path];
   else changes[path] = text;
   if (text === "") {
     for (const inner of Object.keys(changes)) if (inner.startsWith(`${path}.`)) delete changes[inner];
   }
-  form.mark(path, path in changes);
-  byId("reset").hidden = !Object.keys(changes).length;
-  follow({ rebuild });
 }
 
 /**
@@ -143,35 +154,24 @@ function showNotice(text) {
   byId("notice").hidden = !text;
 }
 
-/** Write the pending address. */
-function writeAddress() {
-  clearTimeout(addressTimer);
-  if (address !== undefined && address !== location.hash) history.replaceState(null, "", address);
-  address = undefined;
-}
-
 /**
  * Write the state into the address, and show it.
  *
- * @param {{ rebuild?: boolean, keep?: boolean, formOnly?: boolean }} options ``rebuild`` makes the form anew,
- *   ``keep`` leaves the state before to the button Back, ``formOnly`` sends no request
+ * @param {{ rebuild?: boolean, keep?: boolean, formOnly?: boolean, path?: string }} options ``rebuild`` makes the form
+ *   anew, ``keep`` leaves the state before to the button Back, ``formOnly`` sends no request, ``path`` was edited
  */
-async function follow({ rebuild = false, keep = false, formOnly = false } = {}) {
+async function follow({ rebuild = false, keep = false, formOnly = false, path } = {}) {
   if (!formOnly) byId("results").setAttribute("aria-busy", "true");
   const fragment = states.toFragment(state);
   if (keep) {
-    writeAddress();
-    if (fragment !== location.hash) history.pushState(null, "", fragment);
+    entries.choose(fragment);
     showNotice("");
-  } else {
-    address = fragment;
-    clearTimeout(addressTimer);
-    addressTimer = setTimeout(writeAddress, ADDRESS_DELAY);
-  }
+  } else if (path) entries.edit(fragment, path);
+  else entries.replace(fragment);
   try {
     if (rebuild) await showForm();
   } catch (error) {
-    results.fail(linesOf(error));
+    results.fail(results.refusal(linesOf(error)));
     return;
   }
   if (!formOnly) await update();
@@ -190,15 +190,27 @@ async function update() {
         laws = found;
         showForm();
       }
-      form.showFaults(faults);
+      form.showValues(faults.length ? () => undefined : effective);
+      return form.showFaults(faults);
     },
   );
+}
+
+/**
+ * The value in SI that counts at a path: of the answer, or the usual limit.
+ *
+ * @param {string} path
+ */
+function effective(path) {
+  const { inputs } = answers.current().answer ?? {};
+  return states.valueAt(inputs, path) ?? states.valueAt({ limits: vocabulary.limits }, path) ?? undefined;
 }
 
 async function showForm() {
   units.setSystem(state.system);
   select("system").value = units.currentSystem();
   checkbox("band").checked = state.band;
+  checkbox("own").checked = state.own;
   const design = current();
   const start = await startOf(design.start);
   if (design !== current()) return; // another one was chosen in the meantime
@@ -214,8 +226,10 @@ async function showForm() {
     const known = states.valueAt(answers.current().answer?.inputs, path);
     return typeof known === "string" ? { law: known } : known;
   };
+  nameFiles(design.start);
   keepFocus(() => {
     form.build(state, vocabulary, given, lawOf);
+    form.showValues(effective);
     showTabs();
   });
 }
@@ -240,7 +254,6 @@ function keepFocus(rebuild) {
 function showTabs() {
   /** @param {() => void} action */
   const turn = (action) => () => {
-    writeAddress();
     action();
     follow({ rebuild: true, keep: true });
   };
@@ -294,7 +307,7 @@ function checkbox(id) {
 
 async function copyLink() {
   const button = byId("share");
-  writeAddress();
+  entries.write();
   try {
     await navigator.clipboard.writeText(location.href);
     button.textContent = "Link copied";
@@ -320,6 +333,15 @@ function addListeners() {
     follow({ formOnly: true });
     answers.showBand(state.band);
   });
+  byId("own").addEventListener("change", () => {
+    state.own = checkbox("own").checked;
+    follow();
+  });
+  byId("calibrate").addEventListener("click", () => {
+    const path = "model.calibration";
+    const tables = states.tables(starts.get(current().start) ?? {}, current().changes, schema.fieldOf);
+    onChange({ path, text: states.valueAt(tables, path) ? "" : CALIBRATION, rebuild: true });
+  });
   byId("share").addEventListener("click", copyLink);
   byId("models-button").addEventListener("click", answers.compareModels);
   byId("form").addEventListener("submit", (event) => event.preventDefault());
@@ -328,17 +350,13 @@ function addListeners() {
     event.preventDefault();
     byId("results").focus();
   });
-  addEventListener("popstate", () => {
-    clearTimeout(addressTimer);
-    address = undefined;
+  entries.begin(() => {
     state = readAddress();
     follow({ rebuild: true });
   });
-  addEventListener("pagehide", writeAddress);
   downloads.build(() => ({
     ...answers.current(),
     saveCsv: answers.saveTorqueCsv,
-    name: `ballscrew-${current().start}`,
   }));
 }
 
@@ -346,7 +364,7 @@ async function begin() {
   const [words, document_] = await Promise.all([get("vocabulary"), get("schema")]);
   vocabulary = words;
   units.setVocabulary(words);
-  answers.setVocabulary(words);
+  answers.setVocabulary(words, form.jump);
   schema.setSchema(document_);
   form.setListener(onChange);
   byId("version").textContent = `Version ${vocabulary.version}.`;
@@ -357,4 +375,4 @@ async function begin() {
   document.documentElement.dataset.ready = "true";
 }
 
-begin().catch((error) => results.fail(linesOf(error)));
+begin().catch((error) => results.fail(results.refusal(linesOf(error))));

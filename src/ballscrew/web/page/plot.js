@@ -26,7 +26,7 @@ const loaded = new Promise((resolve) => {
 });
 const CONFIG = { responsive: true, displaylogo: false, displayModeBar: false };
 const FONT = 'system-ui, "DejaVu Sans", sans-serif';
-const WIDTH_OF_PAPER = 660;
+const ON_PAPER = { width: 660, height: 210 };
 /** Colours of what is printed or saved: light, whatever the screen is. @type {Colours} */
 const PAPER = { ink: "#1c2127", line: "#d5dade", panel: "#ffffff", accent: "#0062a0", second: "#a34a00" };
 
@@ -121,7 +121,7 @@ export async function draw(id, chart) {
   holder.hidden = false;
   if (!holder.querySelector(".plot")) frame(id, chart, holder);
   within(holder, ".plot").setAttribute("aria-label", chart.description);
-  within(holder, ".legend").replaceChildren(...chart.legend(colours()).map(legendItem));
+  showLegend(id, chart.legend(colours()));
   showNumbers(id, holder);
   if (visible.has(id)) await show(id, colours());
   else pending.add(id);
@@ -137,6 +137,17 @@ async function show(id, palette, more = {}) {
   if (!chart) return;
   const { traces, layout: own } = chart.figure(palette);
   await globalThis.Plotly.react(within(byId(id), ".plot"), traces, { ...own, ...more }, CONFIG);
+}
+
+/**
+ * Take a chart away, of which there is nothing to show.
+ *
+ * @param {string} id
+ */
+export function hide(id) {
+  charts.delete(id);
+  pending.delete(id);
+  byId(id).hidden = true;
 }
 
 /**
@@ -181,7 +192,7 @@ function frame(id, { name }, holder) {
 
 /** @param {Chart} chart */
 function saveCsv(chart) {
-  save(`${chart.name}.csv`, new Blob([csv(...chart.numbers())], { type: "text/csv" }));
+  save(`-${chart.name}.csv`, new Blob([csv(...chart.numbers())], { type: "text/csv" }));
 }
 
 /**
@@ -205,6 +216,16 @@ function showNumbers(id, holder) {
 }
 
 /**
+ * The legend below a chart; plotly's own, of the same class, comes before it once something has been pointed at.
+ *
+ * @param {string} id
+ * @param {LegendEntry[]} entries
+ */
+function showLegend(id, entries) {
+  within(byId(id), "ul.legend").replaceChildren(...entries.map(legendItem));
+}
+
+/**
  * An entry of a legend: a key, a name and, where there is one, a value.
  *
  * @param {LegendEntry} entry
@@ -224,7 +245,7 @@ async function saveSvg({ name, figure }) {
     { data: traces, layout: { ...own, ...more } },
     { format: "svg", width: 900, height: 520 },
   );
-  save(`${name}.svg`, new Blob([decodeURIComponent(found.slice(found.indexOf(",") + 1))], { type: "image/svg+xml" }));
+  save(`-${name}.svg`, new Blob([decodeURIComponent(found.slice(found.indexOf(",") + 1))], { type: "image/svg+xml" }));
 }
 
 /**
@@ -236,12 +257,12 @@ async function saveSvg({ name, figure }) {
 function redraw(palette, more) {
   for (const [id, chart] of charts) {
     pending.delete(id);
-    within(byId(id), ".legend").replaceChildren(...chart.legend(palette).map(legendItem));
+    showLegend(id, chart.legend(palette));
     show(id, palette, more);
   }
 }
 
-addEventListener("beforeprint", () => redraw(PAPER, { width: WIDTH_OF_PAPER }));
+addEventListener("beforeprint", () => redraw(PAPER, ON_PAPER));
 addEventListener("afterprint", () => redraw(colours(), { autosize: true }));
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
   screenColours = undefined;

@@ -1,15 +1,16 @@
 // The answer in numbers and words: torque and efficiency, verdicts, contacts, with each warning beside its subject.
 
+import { verdict } from "./checks.js";
 import { byId, element, table } from "./dom.js";
 import * as units from "./units.js";
 
 /** Results of the first table. @type {Record<string, string>} */
 const FIRST = {
-  screw_torque: "friction torque",
   drive_torque: "drive torque",
-  holding_torque: "holding torque",
+  screw_torque: "friction torque",
   efficiency: "efficiency, screw drives",
   back_driving_efficiency: "efficiency, load drives",
+  holding_torque: "holding torque",
   friction_coefficient: "friction coefficient µ of the thread",
   friction_angle: "friction angle ρ of the thread",
   friction_power: "heat",
@@ -47,8 +48,8 @@ export function numbersOf(answer) {
  * @param {string} name
  * @param {number | null | undefined} value
  */
-export function data(name, value) {
-  return element("data", { value: String(value ?? ""), "data-name": name }, units.formatted(name, value));
+export function data(name, value, text = units.formatted(name, value, units.DIGITS)) {
+  return element("data", { value: String(value ?? ""), "data-name": name }, text);
 }
 
 /**
@@ -76,22 +77,46 @@ export function nameOf({ id }) {
 }
 
 /**
- * The interval of a result in the band.
+ * The ends of a result in a band, in the unit that is displayed.
  *
- * @param {Band | null} band
+ * @param {BandAnswer | undefined} answer
  * @param {string} name
  */
-function interval(band, name) {
+function endsOf(answer, name) {
   /** @type {Record<string, any>} */
-  const outputs = band?.state === "done" ? band.answer.band : {};
-  const one = outputs[name];
-  if (typeof one?.low !== "number") return null;
-  const low = units.digits(units.inDisplayUnit(name, one.low));
-  return element("span", { class: "interval" }, `${low} to ${units.formatted(name, one.high)}`);
+  const outputs = answer?.band ?? {};
+  const { low, high } = outputs[name] ?? {};
+  if (typeof low !== "number" || typeof high !== "number") return null;
+  return { low: units.inDisplayUnit(name, low), high: units.inDisplayUnit(name, high) };
+}
+
+/**
+ * A result as text with no more digits than its band leaves it, and the ends of that.
+ *
+ * @param {string} name
+ * @param {number | null | undefined} value
+ * @param {BandAnswer | undefined} band
+ * @returns {{ text: string, interval?: string }}
+ */
+export function rounded(name, value, band) {
+  const ends = endsOf(band, name);
+  const shown = units.inDisplayUnit(name, value);
+  if (!ends || typeof shown !== "number" || ends.high <= ends.low) {
+    return { text: units.formatted(name, value, units.DIGITS) };
+  }
+  const { low, high } = ends;
+  const place = units.lastPlace(low, high);
+  const unit = units.unitOf(name);
+  const end = unit ? `\u00a0${units.symbol(unit)}` : "";
+  return {
+    text: `${units.toPlace(shown, place)}${end}`,
+    interval: `${units.toPlace(low, place)} to ${units.toPlace(high, place)}${end}`,
+  };
 }
 
 /** @type {ReturnType<typeof setTimeout>} */
 let announcement;
+let announced = "";
 
 /**
  * Announce a text to screen readers, once typing has come to rest.
@@ -99,6 +124,8 @@ let announcement;
  * @param {string} text
  */
 function announce(text) {
+  if (text === announced) return;
+  announced = text;
   clearTimeout(announcement);
   announcement = setTimeout(() => {
     byId("said").textContent = text;
@@ -109,29 +136,57 @@ function announce(text) {
  * Show everything of one answer but its charts.
  *
  * @param {Run} answer
- * @param {Band | null} band
+ * @param {{ band: Band | null, checks?: Checks }} beside its band and its checks, as far as they are there
  */
-export function show(answer, band) {
+export function show(answer, { band, checks }) {
   const { results, display, warnings } = answer;
   const numbers = numbersOf(answer);
+  const known = band?.state === "done" ? band.answer : undefined;
   byId("case").textContent = units.filled(display.title);
-  const torque = units.formatted("screw_torque", results.screw_torque);
-  const summary = `Friction torque ${torque}, efficiency ${units.digits(results.efficiency)}.`;
+  const torque = rounded("screw_torque", results.screw_torque, known);
+  const parts = [
+    `Friction torque ${torque.text}${torque.interval ? ` (${torque.interval})` : ""}`,
+    `drive torque ${rounded("drive_torque", results.drive_torque, known).text}`,
+    `efficiency ${rounded("efficiency", results.efficiency, known).text}`,
+  ];
+  const summary = `${parts.join(", ")}.${checks ? ` ${verdict(checks)}` : ""}`;
   byId("summary").textContent = summary;
   if (!byId("results").classList.contains("stale")) {
     announce(summary);
-    document.title = `${torque} · ballscrew`;
+    document.title = `${torque.text} · ballscrew`;
   }
   showVerdicts(answer);
   const rows = Object.entries(FIRST)
     .filter(([name]) => numbers[name] !== undefined)
-    .map(([name, words]) =>
-      element("div", {}, element("dt", {}, words), element("dd", {}, data(name, numbers[name]), interval(band, name))),
-    );
+    .map(([name, words]) => {
+      const { text, interval } = rounded(name, numbers[name], known);
+      // the place of an interval that is still computed is kept
+      const ends = interval || band ? element("span", { class: "interval" }, interval ?? "\u00a0") : null;
+      return element("div", {}, element("dt", {}, words), element("dd", {}, data(name, numbers[name], text), ends));
+    });
   byId("numbers").replaceChildren(element("dl", {}, ...rows));
+  showVendorRows(answer);
   showContacts(answer, warnings.filter(isOfContact));
   showAssumptions(answer);
   showBand(answer, band);
+}
+
+/**
+ * How the model stands against the vendor's rows that are most like this nut.
+ *
+ * @param {Run} answer
+ */
+function showVendorRows({ vendor_rows: near }) {
+  const place = byId("vendor-rows");
+  place.parentElement?.toggleAttribute("hidden", !near);
+  if (!near) return;
+  const ratio = units.digits(near.mean_ratio, 2);
+  const spread = units.digits(near.std_ratio, 1);
+  const how = near.calibration ? `with the calibration ${near.calibration}` : "without calibration";
+  place.textContent =
+    `Torque without load, model over vendor: ${ratio} ± ${spread} ${how}, ` +
+    `for the rows of ${near.set} most like this nut: ${near.rows.join(", ")}.`;
+  byId("calibrate").textContent = near.calibration ? "Take the calibration away" : "Calibrate to the vendor";
 }
 
 /** @param {Run} answer */
@@ -153,7 +208,8 @@ function showVerdicts({ verdicts, warnings, display }) {
       ),
     );
   }
-  const others = warnings.filter((record) => !isOfContact(record));
+  const said = new Set(verdicts.map(({ text }) => text));
+  const others = warnings.filter((record) => !isOfContact(record) && !said.has(record.text));
   byId("verdicts").replaceChildren(...lines, ...others.map(warning));
 }
 
@@ -222,32 +278,51 @@ function showBand(answer, band) {
     const { display, words, warnings } = band.answer;
     const shown = new Set(answer.warnings.map((record) => record.id));
     const others = warnings.filter((record) => !shown.has(record.id));
+    const [first, ...sentences] = display.sentences.map((one) => units.filled(one));
+    const isOpen = place.querySelector("details")?.open ?? false;
     place.replaceChildren(
-      ...display.sentences.map((one) => element("p", {}, units.filled(one))),
-      element("p", { class: "small" }, words.inputs),
-      ...others.map(({ text }) => element("p", { class: "small" }, text)),
+      element(
+        "details",
+        { open: isOpen },
+        element("summary", {}, first),
+        ...sentences.map((one) => element("p", {}, one)),
+        element("p", { class: "small" }, words.inputs),
+        ...others.map(({ text }) => element("p", { class: "small" }, text)),
+      ),
     );
   }
 }
 
 /**
+ * Why there is no answer: lines to show, and all of it to be said.
+ *
+ * @typedef {{ lines: (string | Node)[], said: string }} Refusal
+ */
+
+/** @param {string[]} lines @returns {Refusal} */
+export function refusal(lines) {
+  return { lines, said: lines.join(" ") };
+}
+
+/**
  * Show why there is no valid answer, and dim the one before.
  *
- * @param {string[]} lines
+ * @param {Refusal} refusal
  */
-export function fail(lines) {
-  const place = byId("faults");
+export function fail({ lines, said }) {
   const before = byId("case").textContent;
+  byId("results").classList.remove("waiting");
   byId("results").classList.add("stale");
   byId("results").classList.toggle("empty", !before);
   document.title = "not computed · ballscrew";
-  const words = before ? [...lines, "What stands below is of the input before."] : lines;
-  if ([...place.children].map((one) => one.textContent).join("\n") === words.join("\n")) return;
-  place.replaceChildren(...words.map((line) => element("p", {}, line)));
-  announce(words.join(" "));
+  const standing = "What stands below is of the input before.";
+  const all = before ? [...lines, standing] : lines;
+  byId("faults").replaceChildren(...all.map((line) => element("p", {}, line)));
+  announce(before ? `${said} ${standing}` : said);
 }
 
 export function succeed() {
+  byId("results").classList.remove("waiting");
   byId("results").classList.remove("stale", "empty");
   byId("faults").replaceChildren();
 }

@@ -1,9 +1,12 @@
 // Requests to the server. A refusal comes as a problem with its faults.
 
+const TOO_MANY = 429;
+
 export class Problem extends Error {
-  /** @param {{ title: string, lines?: string[], faults?: FaultLine[] }} document */
+  /** @param {{ title: string, status?: number, lines?: string[], faults?: FaultLine[] }} document */
   constructor(document) {
     super(document.title);
+    this.isBusy = document.status === TOO_MANY;
     this.faults = document.faults ?? [];
     this.lines = document.lines?.length ? document.lines : [document.title];
   }
@@ -68,4 +71,26 @@ export async function send(address, body, signal) {
  */
 export async function sendJson(address, body, signal) {
   return (await send(address, body, signal)).json();
+}
+
+const MOST_CACHED = 50;
+/** Answers by their addresses and bodies, as text. @type {Map<string, any>} */
+const cache = new Map();
+
+/**
+ * The answer of an address to a body; of the same body again it is not asked again.
+ *
+ * @param {"run" | "check" | "band"} address
+ * @param {object} body
+ * @param {AbortSignal} signal
+ */
+export async function ask(address, body, signal) {
+  const key = `${address} ${JSON.stringify(body)}`;
+  const cached = cache.get(key);
+  if (cached) return cached;
+  const found = await sendJson(address, body, signal);
+  const [oldest] = cache.keys();
+  if (cache.size > MOST_CACHED) cache.delete(oldest);
+  cache.set(key, found);
+  return found;
 }

@@ -1,7 +1,7 @@
 // State of the page: up to four designs, each with its start and its changes. All of it is in the address.
 
 export const LETTERS = ["A", "B", "C", "D"];
-const OTHER_KEYS = ["show", "units", "band"];
+const OTHER_KEYS = ["show", "units", "band", "at"];
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
 /** @typedef {(path: string) => SchemaNode | undefined} Schema */
@@ -12,13 +12,15 @@ const OTHER_KEYS = ["show", "units", "band"];
  * @typedef {{ start: string, changes: Record<string, string> }} Design
  */
 /**
- * ``show`` is the place of the current design, ``fields`` has units chosen for single fields.
+ * ``show`` is the place of the current design, ``own`` compares each design at its own load and speed, ``fields`` has
+ * units chosen for single fields.
  *
  * @typedef {object} State
  * @property {Design[]} designs
  * @property {number} show
  * @property {string} system
  * @property {boolean} band
+ * @property {boolean} own
  * @property {Record<string, string>} fields
  */
 
@@ -33,7 +35,7 @@ export function design(start = "paper", changes = {}) {
 
 /** @returns {State} */
 function initial() {
-  return { designs: [design()], show: 0, system: "metric", band: false, fields: {} };
+  return { designs: [design()], show: 0, system: "metric", band: true, own: false, fields: {} };
 }
 
 /**
@@ -50,7 +52,8 @@ export function toFragment(state) {
   if (state.show) parameters.set("show", LETTERS[state.show]);
   if (state.system !== "metric") parameters.set("units", state.system);
   for (const [path, unit] of Object.entries(state.fields)) parameters.set(`unit.${path}`, unit);
-  if (state.band) parameters.set("band", "1");
+  if (!state.band) parameters.set("band", "0");
+  if (state.own) parameters.set("at", "own");
   return `#${parameters}`;
 }
 
@@ -78,7 +81,8 @@ export function fromFragment(fragment, schema, isUnit) {
   }
   state.show = Math.max(0, letters.indexOf(parameters.get("show") ?? ""));
   state.system = parameters.get("units") ?? "metric";
-  state.band = parameters.get("band") === "1";
+  state.band = parameters.get("band") !== "0";
+  state.own = parameters.get("at") === "own";
   return { state, unknown };
 }
 
@@ -151,4 +155,29 @@ function typed(schema, path, text) {
   const types = [field?.type, ...(field?.anyOf ?? []).map((one) => one.type)];
   const plain = field && !field["x-si-unit"] && (types.includes("number") || field.type === "integer");
   return plain && /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(text.trim()) ? Number(text) : text;
+}
+
+/**
+ * The tables of a catalogue row by its name: a file of it, a report and a check keep the name. Where a number of the row
+ * was taken away they stay as they are, since the row would bring it back.
+ *
+ * @param {string} name
+ * @param {Tables} start
+ * @param {Tables} found
+ * @returns {Tables}
+ */
+export function named(name, start, found) {
+  const { screw: listed = {} } = start;
+  const { screw = {} } = found;
+  if (Object.keys(listed).some((field) => !(field in screw))) return found;
+  const changed = Object.entries(screw).filter(([field, value]) => !isSame(value, listed[field]));
+  return { ...found, screw: { catalogue: name, ...Object.fromEntries(changed) } };
+}
+
+/**
+ * @param {unknown} one
+ * @param {unknown} other
+ */
+function isSame(one, other) {
+  return JSON.stringify(one) === JSON.stringify(other);
 }

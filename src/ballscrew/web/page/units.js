@@ -1,6 +1,7 @@
 // Units. Inputs are kept as text with a unit, as they were typed; only what is displayed is converted.
 
 const NUMBER = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i;
+const COMMA = /^(\s*[-+]?\d*),(\d+)/;
 /** @type {Record<string, string>} */
 const SYMBOLS = {
   um: "µm",
@@ -23,6 +24,12 @@ const SYMBOLS = {
 };
 /** Results that have the units of another one. @type {Record<string, string>} */
 const SAME_UNIT = { preload_drag: "screw_torque" };
+/** Digits of a number whose interval is not known. */
+export const DIGITS = 3;
+/** Decimals at most; smaller numbers are written with a power of ten. */
+const MOST_DECIMALS = 6;
+/** A leading digit below this is written with a second one (as the Particle Data Group rounds). */
+const TWO_DIGITS_BELOW = 3.55;
 const PLACEHOLDER = /\{(\d{1,4})\}/g;
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
@@ -112,21 +119,34 @@ export function fromSI(value, unit, si) {
 }
 
 /**
+ * A number with a point in place of its decimal comma; as it is where the comma may stand between thousands.
+ *
+ * @param {string} text
+ */
+export function withPoint(text) {
+  return text.replace(COMMA, (whole, before, after) =>
+    after.length === 3 && /[1-9]/.test(before) ? whole : `${before}.${after}`,
+  );
+}
+
+/**
  * The number and the unit of an input; null where it is something else, such as a distribution.
  *
  * @param {unknown} text
  * @param {string | undefined} si
  */
 export function parse(text, si) {
-  const match = NUMBER.exec(String(text));
+  const written = String(text);
+  const match = NUMBER.exec(withPoint(written));
   if (!match) return null;
+  const digits = written.trimStart().slice(0, match[1].length); // as they were typed
   const unit = match[2]
     .replace("µ", "u")
     .replace("°C", "degC")
     .replace("°F", "degF")
     .replace(/^°$/, "deg")
     .replace("·", " ");
-  return conversion(unit, si) ? { number: Number(match[1]), digits: match[1], unit } : null;
+  return conversion(unit, si) ? { number: Number(match[1]), digits, unit } : null;
 }
 
 /**
@@ -192,7 +212,7 @@ export function inDisplayUnit(name, value) {
  */
 function withUnit(value, unit, count) {
   const text = digits(value, count);
-  return unit && text !== "–" ? `${text} ${symbol(unit)}` : text;
+  return unit && text !== "–" ? `${text}\u00a0${symbol(unit)}` : text; // units do not wrap
 }
 
 /**
@@ -203,6 +223,42 @@ function withUnit(value, unit, count) {
  */
 export function formatted(name, value, count = 4) {
   return withUnit(inDisplayUnit(name, value), unitOf(name), count);
+}
+
+/**
+ * A number in SI as text in a unit, or in that which the current system has in its place.
+ *
+ * @param {number | null | undefined} value
+ * @param {string} metric
+ * @param {string} si
+ */
+export function formattedIn(value, metric, si, count = 4) {
+  if (si === "1") return digits(value, count);
+  const unit = inSystem(metric);
+  return withUnit(value === null || value === undefined ? value : fromSI(value, unit, si), unit, count);
+}
+
+/**
+ * The power of ten at which numbers end that are known to an interval: half of its width is written with one or two digits.
+ *
+ * @param {number} low
+ * @param {number} high
+ */
+export function lastPlace(low, high) {
+  const half = Math.abs(high - low) / 2;
+  const power = Math.floor(Math.log10(half));
+  return power - (half / 10 ** power < TWO_DIGITS_BELOW ? 1 : 0);
+}
+
+/**
+ * A number that ends at a power of ten, with the zeros that say so.
+ *
+ * @param {number} value
+ * @param {number} place
+ */
+export function toPlace(value, place) {
+  if (place < -MOST_DECIMALS || Math.abs(value) >= 1e6) return digits(value, DIGITS);
+  return place < 0 ? value.toFixed(-place) : String(Math.round(value / 10 ** place) * 10 ** place);
 }
 
 /**

@@ -11,11 +11,11 @@ from pydantic import BaseModel, BeforeValidator, Field, WithJsonSchema
 from ballscrew import units
 from ballscrew.axis.axis import Axis
 from ballscrew.axis.motor import Motor
-from ballscrew.cases.fields import json_of, section_of, si_value
+from ballscrew.case_schema.fields import json_of, section_of, si_value
 from ballscrew.errors import Fault
 from ballscrew.motion.profiles import SCurve, Segment, Segments, Sine, Trapezoid
 from ballscrew.quantities import Info, Quantity, fields_of
-from ballscrew.thermal.surroundings import BRACINGS, Surroundings
+from ballscrew.thermal.surroundings import BRACINGS, VARIED, Surroundings
 
 #: The tables of a case that moves.
 DUTY_TABLES = ("axis", "motion", "motor", "surroundings")
@@ -96,7 +96,7 @@ def duty_sections() -> Mapping[str, type[BaseModel]]:
             curve=(Annotated[list[Any], WithJsonSchema(_curve())], Field(default=None)),
         ),
         "surroundings": section_of(
-            "Surroundings", fields_of(Surroundings), Surroundings, required=False,
+            "Surroundings", fields_of(Surroundings), Surroundings, required=False, uncertain=VARIED,
             bracing=(_one_of(BRACINGS, "how the halves of a nut are braced: pushed apart, or together"), None),
         ),
     }  # fmt: skip

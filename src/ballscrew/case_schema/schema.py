@@ -18,10 +18,11 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 
 from ballscrew.axis.axis import Axis
 from ballscrew.axis.motor import Motor
-from ballscrew.cases.duty_schema import CONSTANT_EFFICIENCY, DUTY_TABLES, duty_sections, efficiency_field
-from ballscrew.cases.fields import EXAMPLES as EXAMPLES
-from ballscrew.cases.fields import defaults_of, json_of, read_preload, section_of
-from ballscrew.cases.law_import import OUTSIDE, law_from_outside, with_plain_numbers
+from ballscrew.case_schema.duty_schema import CONSTANT_EFFICIENCY, DUTY_TABLES, duty_sections, efficiency_field
+from ballscrew.case_schema.fields import EXAMPLES as EXAMPLES
+from ballscrew.case_schema.fields import defaults_of, json_of, read_preload, section_of
+from ballscrew.case_schema.law_import import OUTSIDE, law_from_outside, with_plain_numbers
+from ballscrew.case_schema.support_schema import SUPPORT_TABLES, support_sections
 from ballscrew.components.data_sheet import SHEET_TEMPERATURE, DataSheet
 from ballscrew.components.materials import INPUTS_OF_SHEET, Lubricant, Material, grades
 from ballscrew.components.nut import Bodies, DoubleNut, Scatter
@@ -163,6 +164,7 @@ def sections() -> Mapping[str, type[BaseModel]]:
         ),
         "limits": section_of("Limits", fields_of(Limits), Limits, required=False),
         **duty_sections(),
+        **support_sections(),
     }  # fmt: skip
 
 
@@ -194,7 +196,8 @@ def case_file() -> type[BaseModel]:
     parts = sections()
     screw: Any = parts["screw"] | parts["screw_of_row"]
     others: dict[str, Any] = {
-        name: (parts[name], Field(default=None)) for name in ("lubricant", "operation", *NUT_TABLES, *DUTY_TABLES)
+        name: (parts[name], Field(default=None))
+        for name in ("lubricant", "operation", *NUT_TABLES, *DUTY_TABLES, *SUPPORT_TABLES)
     }
     axes = Annotated[
         dict[str, str],

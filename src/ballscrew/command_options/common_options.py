@@ -80,7 +80,7 @@ def cases_of_rows(
     keep_going: bool,
 ) -> OfRows[RowCase]:
     """The case with each screw of a table, or that of one row, in place of its own."""
-    from ballscrew.cli.progress import progress
+    from ballscrew.command_options.progress import progress
     from ballscrew.studies import every_row
 
     with progress("rows read") as done:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ballscrew import units
 from ballscrew.cases.case import Case
-from ballscrew.cli.fit_options import options
+from ballscrew.command_options.fit_options import options
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.errors import Fault, raise_if_any

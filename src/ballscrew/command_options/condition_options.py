@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ballscrew import units
 from ballscrew.cases.case import Case
-from ballscrew.cli import fit_options
+from ballscrew.command_options import fit_options
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import Fault, fault_of, raise_if_any
 from ballscrew.quantities import Quantity

@@ -1,0 +1,101 @@
+"""How fast ``ballscrew optimise`` evaluates designs, and how much better its front is than random search.
+
+``python benchmarks/optimise.py`` prints a table, ``--json`` one object; ``--seeds 5`` takes five seeds. The need is
+``examples/needs/feed_axis.toml``; random search has as many designs, drawn evenly within the same bounds.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import statistics
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ballscrew.optimisation import optimisation as studies
+from ballscrew.optimisation.design_model import DesignModel
+from ballscrew.optimisation.design_space import design_space
+from ballscrew.optimisation.search import Found, search
+from ballscrew.selection.need import need_of
+from ballscrew.selection.pareto import front, hypervolume
+from timing import seconds
+
+NEED = Path(__file__).parents[1] / "examples" / "needs" / "feed_axis.toml"
+POPULATION, GENERATIONS = 200, 60
+#: Loss in W and inertia in kg m² beyond which nothing counts in the hypervolume: three times the least, and ten times.
+REFERENCE = np.array([100.0, 1e-2])
+
+
+def prepared(nut: str) -> tuple[DesignModel, float]:
+    """The model of the need with a kind of nut, and the time to record and compile it."""
+    need = need_of(NEED, [f"optimise.nut={nut}"])
+    space = design_space(need)
+    centre = {name: math.sqrt(low * high) for name, (low, high) in space.bounds.items()}
+    options = {"model": None, "calibration": None, "allow_code": False}
+    case = studies._case(need, space, centre, options)
+    made: list[DesignModel] = []
+    taken = seconds(lambda: made.append(DesignModel.of(case, need, space, 1.0)))
+    return made[0], taken
+
+
+def measured(nut: str, seeds: int) -> dict[str, float]:
+    """Times of the searches, and the hypervolume of their fronts over that of random search."""
+    model, recording = prepared(nut)
+    space, own, others, times, processor = model.space, [], [], [], []
+    for seed in range(seeds):
+        kept: list[Found] = []
+
+        def work(seed: int = seed, kept: list[Found] = kept) -> None:
+            kept.append(
+                search(model.costs, space.lower, space.upper, population=POPULATION, generations=GENERATIONS, seed=seed)
+            )
+
+        before = time.process_time()
+        times.append(seconds(work))
+        processor.append(time.process_time() - before)
+        own.append(hypervolume(kept[0].costs, REFERENCE))
+        shares = np.random.default_rng(seed).random((POPULATION * GENERATIONS, len(space.names)))
+        costs, constraints = model.costs(space.lower + (space.upper - space.lower) * shares)
+        fitting = costs[(constraints <= 0).all(axis=1)]
+        others.append(hypervolume(fitting[front(fitting)], REFERENCE))
+    found = {
+        "designs": float(POPULATION * GENERATIONS),
+        "record_and_compile_s": recording,
+        "search_s": statistics.median(times),
+        "search_processor_s": statistics.median(processor),
+        "hypervolume": statistics.median(own),
+        "hypervolume_of_random_search": statistics.median(others),
+        "hypervolume_ratio": min(a / b for a, b in zip(own, others, strict=True)),
+    }
+    elastic = model.elastic
+    if elastic is not None:
+        start = kept[0].population
+        elastic.costs(start)  # the first of each number of balls is prepared
+        before = time.process_time()
+        found["elastic_generation_s"] = seconds(lambda: elastic.costs(start))
+        found["elastic_generation_processor_s"] = time.process_time() - before
+    return found
+
+
+def main() -> None:
+    """Print all that is measured."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--json", action="store_true")
+    parser.add_argument("--seeds", type=int, default=1)
+    options = parser.parse_args()
+    found: dict[str, Any] = {nut: measured(nut, options.seeds) for nut in ("single", "double")}
+    if options.json:
+        print(json.dumps(found, indent=2))
+        return
+    for nut, numbers in found.items():
+        print(f"{nut} nut")
+        for name, value in numbers.items():
+            print(f"  {name.replace('_', ' '):<32} {value:.4g}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,103 @@
+"""Bands of warming up of a case: over time and in the steady state, with its uncertain inputs and surroundings."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping
+
+from ballscrew.axis_studies.warm_up import HOUR, SERIES, WarmUpReport, duty_of, length_of
+from ballscrew.cases import uncertain_inputs
+from ballscrew.cases.case import Case
+from ballscrew.cases.uncertain_inputs import GIVEN, Uncertain
+from ballscrew.components.materials import TEMPERATURE
+from ballscrew.errors import InputError
+from ballscrew.overflow import overflow_as_input_error
+from ballscrew.quantities import Quantity, fields_of
+from ballscrew.thermal.network import Network, network_of
+from ballscrew.thermal.surroundings import PREFIX, VARIED, Surroundings
+from ballscrew.thermal.warm_up_band import (
+    OVER_TIME,
+    WarmUpBand,
+    uncertain_surroundings,
+    warm_up_band,
+)
+from ballscrew.uncertainty.default_uncertainties import default_uncertainties
+from ballscrew.uncertainty.uncertain_value import describe_distribution
+
+#: What has a band over time.
+BANDS: Mapping[str, Quantity] = {name: SERIES[name] for name in OVER_TIME}
+#: Inputs of an operating point that a transient computes, or that its motion has.
+_OWN = frozenset({TEMPERATURE.name, "axial_load", "screw_speed"})
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class WarmUpBandReport:
+    """The bands of a case that warms up, and the inputs that they come from."""
+
+    report: WarmUpReport
+    bands: WarmUpBand
+    inputs: Mapping[str, Uncertain]
+
+    @property
+    def of_surroundings(self) -> Mapping[str, Uncertain]:
+        """The uncertain inputs of the surroundings, by the names that they have there."""
+        return {name.removeprefix(PREFIX): one for name, one in self.inputs.items() if name.startswith(PREFIX)}
+
+
+@overflow_as_input_error()
+def band(
+    case: Case,
+    hours: float = 4.0,
+    cool_down: float = 0.0,
+    *,
+    samples: int | None = None,
+    level: float | None = None,
+    only_given: bool = False,
+    done: Callable[[int, int], None] | None = None,
+) -> WarmUpBandReport:
+    """The bands of a case that warms up. Raises ``InputError`` that names options of the command line."""
+    surroundings = case.surroundings or Surroundings()
+    duty, stroke = duty_of(case, surroundings)
+    length = length_of(case, surroundings)
+    inputs = inputs_of(case, network_of(duty, surroundings, shaft_length=length), only_given)
+    joint = uncertain_inputs.joint_of(case, inputs)
+    together = () if joint is None else joint.names
+    try:
+        found = warm_up_band(
+            duty, surroundings, time=hours * HOUR, cool_down=cool_down * HOUR, shaft_length=length, joint=joint,
+            uncertain={name: one.distribution for name, one in inputs.items() if name not in together},
+            samples=samples, level=0.95 if level is None else level, done=done,
+        )  # fmt: skip
+    except InputError as error:
+        raise InputError(*(dataclasses.replace(f, where=_option(f.where)) for f in error.faults)) from None
+    return WarmUpBandReport(WarmUpReport(case, surroundings, found.warm_up, stroke), found, inputs)
+
+
+def _option(where: str) -> str:
+    return where.replace("band.", "--", 1) if where.startswith("band.") else where
+
+
+def inputs_of(case: Case, network: Network, only_given: bool) -> Mapping[str, Uncertain]:
+    """The uncertain inputs: those of the friction, and those of the surroundings; none that is computed here."""
+    known = dataclasses.replace(
+        case,
+        exact=case.exact | _OWN,
+        uncertain={name: one for name, one in case.uncertain.items() if name not in _OWN},
+    )
+    found = {
+        name: one
+        for name, one in uncertain_inputs.all_of(known, only_given).items()
+        if name not in _OWN
+    }  # fmt: skip
+    quantities = fields_of(Surroundings)
+    given = case.uncertain_surroundings
+    for name, distribution in given.items():
+        description = describe_distribution(distribution, quantities[name.removeprefix(PREFIX)])
+        found[name] = Uncertain(distribution, GIVEN, True, description)
+    if not only_given:
+        names = [name for name in VARIED if PREFIX + name not in {*given, *case.exact}]
+        for name, distribution in uncertain_surroundings(network, names).items():
+            why = default_uncertainties()[name]
+            description = describe_distribution(distribution, quantities[name.removeprefix(PREFIX)])
+            found[name] = Uncertain(distribution, why.source, False, description, why.reason)
+    return found

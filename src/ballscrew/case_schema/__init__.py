@@ -1,0 +1,1 @@
+"""Sections and fields of case files: names, units, limits, help, and what may stand in each."""

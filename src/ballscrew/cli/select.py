@@ -1,0 +1,117 @@
+"""``ballscrew select``: every row, nut, preload and oil against a need. The work is done in ``selection``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ballscrew.command_options.common_options import AllowCode, CalibrationName, KeepGoing, ModelName, say_of_rows
+
+_TO = "--to"
+Need = Annotated[
+    Path, typer.Argument(metavar="NEED", help="File (TOML) of what the screw has to do; a case file will do.")
+]
+Objectives = Annotated[
+    str | None,
+    typer.Option(
+        "--objectives",
+        metavar="NAMES",
+        help="Compared, the first ranks: loss, inertia, reflected_mass, life, rigidity, drive_torque, …",
+    ),
+]
+
+
+def select(
+    need: Need,
+    rows: Annotated[
+        Path | None,
+        typer.Option("--rows", metavar="FILE", help="A table of screws of your own, .csv or .xlsx, for the catalogue."),
+    ] = None,
+    words: Annotated[
+        str | None, typer.Option("--filter", metavar="WORDS", help='Only rows with these words: "rexroth 40x".')
+    ] = None,
+    objectives: Objectives = None,
+    holds: Annotated[bool, typer.Option("--holds", help="Only candidates of which no check fails.")] = False,
+    front: Annotated[bool, typer.Option("--front", help="Only members of the Pareto front.")] = False,
+    first: Annotated[int, typer.Option("--first", metavar="N", min=0, help="Lines shown; 0 for all.")] = 20,
+    model: ModelName = None,
+    calibration: CalibrationName = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set need.feed="20 m/min".'),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object with all candidates, SI units.")] = False,
+    to: Annotated[
+        list[Path] | None,
+        typer.Option(_TO, "-o", metavar="FILE", help="Also write .csv or .xlsx, .png, .svg or .pdf; repeat."),
+    ] = None,
+    keep_going: KeepGoing = False,
+    allow_code: AllowCode = False,
+) -> None:
+    """Which screw: every row of the catalogue with its nut, preloads and oils against a need, ranked.
+
+    Each is judged by the full model and all checks. The exit code is 0 where none holds, too: the list says what
+    fails, and by how much.
+    """
+    from ballscrew.command_options.progress import progress
+    from ballscrew.documents import selection as documents
+    from ballscrew.output.json_text import as_json as json_text
+    from ballscrew.selection.selection import select as selected
+    from ballscrew.text import selection as text
+
+    for path in to or []:
+        check_file(path)
+    with progress("candidates") as done:
+        found = selected(
+            need,
+            rows=rows,
+            words=words,
+            objectives=None if objectives is None else names_of(objectives),
+            settings=settings or [],
+            model=model,
+            calibration=calibration,
+            allow_code=allow_code,
+            keep_going=keep_going,
+            done=done,
+        )
+    kept = [each for each in found.ranked if (each.candidate.fits or not holds) and (each.pareto or not front)]
+    if as_json:
+        document = documents.document(found)
+        ranks = {each.rank for each in kept}
+        document["candidates"] = [each for each in document["candidates"] if each["rank"] in ranks]
+        typer.echo(json_text(document))
+    else:
+        typer.echo(text.text(found, kept, first))
+    for path in to or []:
+        from ballscrew.table_files import row_tables, selection_tables
+
+        if path.suffix.lower() in row_tables.KINDS:
+            row_tables.write(path, selection_tables.of_selection(kept))
+        else:
+            from ballscrew.figures import files, selection
+
+            files.draw(lambda: selection.picture(found), path, _TO)
+        typer.echo(f"{path}: {len(kept)} candidates", err=True)
+    say_of_rows(found.notes, found.interrupted)
+
+
+def names_of(text: str) -> list[str]:
+    """Names between commas."""
+    return [name.strip().replace("-", "_") for name in text.split(",") if name.strip()]
+
+
+def check_file(path: Path) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` now for a file that could not be written later."""
+    from ballscrew.errors import Fault, InputError
+    from ballscrew.figures.files import SUFFIXES, check_picture
+    from ballscrew.table_files import row_tables
+
+    known = (*row_tables.KINDS, *SUFFIXES)
+    if path.suffix.lower() not in known:
+        raise InputError(Fault(_TO, "unknown kind of file", str(path), f"end it in {', '.join(known)}"))
+    if path.suffix.lower() in row_tables.KINDS:
+        row_tables.check_path(path)
+    else:
+        check_picture(path)

@@ -1,0 +1,110 @@
+"""The JSON document of a selection: the candidates of a need, the best first."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from ballscrew.cases import provenance
+from ballscrew.documents import check as check_documents
+from ballscrew.quantities import fields_of
+from ballscrew.selection.candidates import Candidate
+from ballscrew.selection.need import Need
+from ballscrew.selection.objectives import OBJECTIVES
+from ballscrew.selection.requirements import Requirements
+from ballscrew.selection.selection import Ranked, Selection
+
+#: What is the same for all candidates, or too long for a list.
+_LEFT_OUT = ("units", "provenance", "loads", "name", "checks", "verdict")
+
+
+def document(found: Selection) -> dict[str, Any]:
+    """The document in SI; ``results`` and ``checks`` of a candidate are those of ``ballscrew check --json``."""
+    first = found.ranked[0].candidate if found.ranked else None
+    units: dict[str, Any] = {} if first is None else check_documents.list_document([first.checked])[0]["units"]
+    units.pop("loads", None)
+    best = found.best
+    return {
+        "need": need_document(found.need),
+        "objectives": objectives_document(found.objectives),
+        "best": None if best is None else best.variant.label,
+        "holding": len(found.holding),
+        "candidates": [candidate_document(each) for each in found.ranked],
+        "notes": list(found.notes),
+        "units": {**units, "objectives": {name: each.quantity.unit for name, each in OBJECTIVES.items()}},
+        "provenance": None if first is None else provenance.of_case(first.checked.case),
+    }
+
+
+def need_document(need: Need) -> dict[str, Any]:
+    """A need: its tables as they are written, what it requires in SI, and the choices that are open."""
+    required = need.requirements
+    numbers = {name: getattr(required, name) for name in fields_of(Requirements)}
+    return {
+        "name": need.name,
+        "tables": dict(need.tables),
+        "requirements": {
+            **{name: value for name, value in numbers.items() if value is not None},
+            "back_driving": required.back_driving,
+            **({"accuracy": required.accuracy} if required.accuracy else {}),
+        },
+        "choices": {"nut": list(need.nuts), "preload": list(need.preloads), "oils": [dict(oil) for oil in need.oils]},
+        "rows": need.rows,
+        "assumed": list(need.notes),
+    }
+
+
+def objectives_document(names: Any) -> list[dict[str, Any]]:
+    """Objectives with meaning, unit, and the direction that is better."""
+    return [
+        {
+            "name": name,
+            "meaning": OBJECTIVES[name].quantity.info.meaning,
+            "unit": OBJECTIVES[name].quantity.unit,
+            "better": "more" if OBJECTIVES[name].larger_is_better else "less",
+        }
+        for name in names
+    ]
+
+
+def candidate_document(ranked: Ranked) -> dict[str, Any]:
+    """One candidate: the document of its check, with its rank, what fails, and the numbers that are compared."""
+    found = ranked.candidate
+    whole = check_documents.list_document([found.checked])[0]
+    duty = {} if found.duty is None else {"duty": dict(found.duty.numbers)}
+    return {
+        "rank": ranked.rank,
+        "name": found.name,
+        "label": found.variant.label,
+        "nut": found.variant.nut,
+        "preload": float(found.checked.nut.preload),
+        "oil": found.variant.oil_name,
+        "holds": found.holds,
+        "valid": found.valid,
+        "pareto": ranked.pareto,
+        "worst": found.worst if math.isfinite(found.worst) else None,
+        "fails": [{"name": c.name, "utilisation": c.utilisation} for c in found.failed],
+        "verdict": verdict(found),
+        "objectives": dict(found.objectives),
+        "results": whole.pop("results"),
+        **duty,
+        "checks": [check_documents.check_document(check) for check in found.checks],
+        **{name: part for name, part in whole.items() if name not in (*_LEFT_OUT, "nut")},
+    }
+
+
+def verdict(found: Candidate) -> str:
+    """All checks in a few words, with the utilisation of those that fail."""
+    failed = [
+        check.name.replace("_", " ") + (f" {check.utilisation:.3g} times" if check.utilisation is not None else "")
+        for check in found.failed
+    ]
+    open_ = sum(check.holds is None for check in found.checks)
+    if not failed and open_:
+        text = f"{open_} of {len(found.checks)} not judged; the others hold"
+    else:
+        text = f"fails: {', '.join(failed)}" if failed else "holds"
+        text += f"; {open_} of {len(found.checks)} not judged" if open_ else ""
+    if found.checked.nut.preload_is_lost:
+        text += "; the load takes the preload away"
+    return text if found.valid else f"{text}; outside the model's validity"

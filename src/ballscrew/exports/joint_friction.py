@@ -1,0 +1,296 @@
+"""Friction of a joint that knows no load: dry friction and a polynomial of the speed, fitted at one load."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import re
+from collections.abc import Mapping
+from importlib import resources
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linprog
+
+from ballscrew import units
+from ballscrew.axis.axis import GRAVITY
+from ballscrew.cases.case import Case
+from ballscrew.errors import Fault, InputError
+from ballscrew.evaluation.outputs import OPERATION
+from ballscrew.exports import c99
+from ballscrew.exports.subject import HandOver
+from ballscrew.exports.targets import Option
+from ballscrew.exports.worst_error import Values, WorstError, worst_errors
+from ballscrew.quantities import Info, Quantity
+from ballscrew.records import Record
+
+LOAD = Quantity("load", "N", Info("F", "load of the fit", "kN", hint="4 kN", usual=(-1e7, 1e7)))
+INERTIA = Quantity("inertia", "kg m^2", Info("J", "inertia of all that turns", "kg cm^2", at_least=0, usual=(0, 100)))
+LOWEST_SPEED = Quantity(
+    "lowest_speed", "rad/s", Info(r"\omega", "lowest speed of the fit", "rpm", above=0, usual=(0, 1e4))
+)
+
+#: Choices of every target that has a joint.
+JOINT_OPTIONS: Mapping[str, Option] = {
+    "load": Option(math.nan, "axial load at which the joint is fitted, and weight of the example", LOAD),
+    "inertia": Option(0.0, "moment of inertia of motor, coupling and screw, at the screw", INERTIA),
+    "lowest_speed": Option(5.0, "lowest speed of the fit; the highest is that of the range", LOWEST_SPEED),
+}
+#: Speeds of the fit in each direction, spread by ratios.
+SPEEDS = 60
+#: Speeds at which the error is measured in each direction: not those of the fit. Fewer, and fewer loads, where each
+#: ball is solved by itself.
+MEASURED, FEWER, FEWER_LOADS = 499, 49, 300
+#: The damping is kept from driving up to so many times the highest speed.
+BEYOND = 1e4
+#: Loads of the table of errors, as shares of the load of the fit.
+SHARES = (0.0, 0.5, 1.0, 1.5, 2.0)
+
+
+@dataclasses.dataclass(frozen=True)
+class JointFriction:
+    r"""Friction on the shaft as a polynomial of its speed, whatever the load.
+
+    .. math:: M = M_0 + c_1 |\omega| + c_2 \omega^2 + c_3 |\omega|^3
+
+    The coefficients have the least possible largest relative error against the model at the load of the fit, in both
+    directions, from the lowest to the highest speed. Neither the dry friction nor the damping ever drives.
+    """
+
+    #: Travel for a turn, m.
+    lead: float
+    #: Moment of inertia of all that turns, kg m².
+    inertia: float
+    #: Load of the fit, N.
+    load: float
+    #: Lowest and highest speed of the fit, rad/s.
+    speeds: tuple[float, float]
+    #: :math:`M_0, c_1, …`, in N m and powers of s.
+    coefficients: tuple[float, ...]
+    #: Friction of the model at rest under that load, N m.
+    at_rest: float
+    #: Share of the points of the fit at which the model holds.
+    share_valid: float
+
+    @property
+    def arm(self) -> float:
+        r"""Turn of the shaft for a travel, :math:`2\pi/P_h`, rad/m."""
+        return 2 * math.pi / self.lead
+
+    @property
+    def dry(self) -> float:
+        """Dry friction of the slide, N."""
+        return self.coefficients[0] * self.arm
+
+    @property
+    def damping(self) -> tuple[float, ...]:
+        """Damping of the slide by the powers of its speed: N s/m, N s²/m², N s³/m³."""
+        return tuple(c * self.arm ** (power + 2) for power, c in enumerate(self.coefficients[1:]))
+
+    @property
+    def armature(self) -> float:
+        r"""The inertia of what turns as a mass of the slide, :math:`J (2\pi/P_h)^2`, kg."""
+        return self.inertia * self.arm**2
+
+    @property
+    def mass(self) -> float:
+        """The mass whose weight is the load of the fit, kg; 1 kg where that is none."""
+        return abs(self.load) / GRAVITY or 1.0
+
+    def torque(self, speed: Any) -> NDArray[np.float64]:
+        """Friction on the shaft at a speed of the shaft, N m."""
+        return np.polynomial.polynomial.polyval(np.abs(speed), self.coefficients)
+
+    def document(self) -> dict[str, Any]:
+        """The axis and its joint, in SI."""
+        return {
+            "lead": self.lead,
+            "gear": self.arm,
+            "inertia": self.inertia,
+            "mass": self.mass,
+            "load": self.load,
+            "speeds": list(self.speeds),
+            "joint": {"friction": self.dry, "damping": list(self.damping), "armature": self.armature},
+            "friction_of_the_model_at_rest": self.at_rest * self.arm,
+        }
+
+    def at_points(self, points: Values) -> dict[str, NDArray[np.float64]]:
+        """What the joint says at points of the model."""
+        return {"screw_torque": self.torque(points[OPERATION[1]])}
+
+
+def joint_friction(handed: HandOver, degree: int) -> JointFriction:
+    """The joint of a model, with damping up to a power of the speed.
+
+    Raises :class:`~ballscrew.errors.InputError` without a load, and where the model has no friction at it.
+    """
+    load, lowest = handed.options["load"], handed.options["lowest_speed"]
+    highest = max(map(abs, handed.working_range[OPERATION[1]]))
+    if math.isnan(load):
+        raise InputError(Fault("hand_over.load", "missing", "", 'a joint is fitted at one load: give load="4 kN"'))
+    least, greatest = handed.formula_range[OPERATION[0]]
+    if not least <= load <= greatest:
+        raise InputError(Fault("hand_over.load", "is beyond the bounds of the model", units.shown(load, LOAD)))
+    if not handed.options["inertia"] >= 0:
+        raise InputError(Fault("hand_over.inertia", "must be 0 or more", str(handed.options["inertia"]), "in kg m^2"))
+    if not 0 < lowest < highest:
+        shown = units.shown(lowest, LOWEST_SPEED)
+        raise InputError(
+            Fault("hand_over.lowest_speed", "must be above 0 and below the highest speed of the range", shown)
+        )
+    both = _both_ways(handed, np.geomspace(lowest, highest, SPEEDS))
+    found = handed.evaluate({OPERATION[0]: np.append(np.full(both.size, load), load), OPERATION[1]: np.append(both, 0)})
+    torque = found["screw_torque"]
+    if not np.all(torque > 0):
+        shown = units.shown(load, LOAD)
+        raise InputError(Fault("hand_over.load", "the model has no friction at this load", shown, "take another load"))
+    fitted = least_largest_error(np.abs(both) / highest, torque[:-1], degree)
+    coefficients = tuple(float(c) / highest**power for power, c in enumerate(fitted))
+    return JointFriction(
+        lead=handed.subject.screw.lead,
+        inertia=handed.options["inertia"],
+        load=load,
+        speeds=(lowest, highest),
+        coefficients=coefficients,
+        at_rest=float(torque[-1]),
+        share_valid=float(np.mean(found["valid"])),
+    )
+
+
+def least_largest_error(speed: NDArray[np.float64], torque: NDArray[np.float64], degree: int) -> NDArray[np.float64]:
+    r"""Coefficients of the polynomial with the least largest relative error, by linear programming.
+
+    Of the coefficients and the error :math:`\epsilon`, :math:`|p(x_i)/M_i - 1| \le \epsilon` at all points and
+    :math:`p(x) \ge p(0) \ge 0` from rest to beyond the highest speed.
+    """
+    relative = np.vander(speed, degree + 1, increasing=True) / torque[:, None]
+    ones = np.ones((speed.size, 1))
+    far = np.append(np.linspace(0, 4, 201), np.geomspace(4, BEYOND, 60))
+    beyond = np.vander(far, degree, increasing=True)
+    pushes = np.hstack([np.zeros((len(beyond), 1)), -beyond, np.zeros((len(beyond), 1))])
+    solved = linprog(
+        np.append(np.zeros(degree + 1), 1.0),
+        A_ub=np.vstack([np.hstack([relative, -ones]), np.hstack([-relative, -ones]), pushes]),
+        b_ub=np.concatenate([ones[:, 0], -ones[:, 0], np.zeros(len(beyond))]),
+        bounds=[(0, None), *[(None, None)] * (degree - 1), (0, None), (0, None)],
+    )
+    found = solved.x[:-1]
+    if degree == 3:  # between the points of the constraint: a x + b x² + c x³ rises from rest if b² <= 4 a c
+        found[2] = max(found[2], -2 * math.sqrt(max(found[1], 0.0) * found[3]))
+    return found
+
+
+def joint_range(handed: HandOver) -> dict[str, tuple[float, float]]:
+    """Where a joint holds: its loads and speeds, and all else as in the case."""
+    at_case = {one.name: (one.value, one.value) for one in handed.inputs}
+    return {**at_case, **{name: handed.working_range[name] for name in OPERATION}}
+
+
+def _both_ways(handed: HandOver, speeds: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Speeds in each direction that the range has."""
+    least, greatest = handed.working_range[OPERATION[1]]
+    both = np.concatenate([speeds, -speeds])
+    return both[(least <= both) & (both <= greatest)]
+
+
+class JointErrors(NamedTuple):
+    """The errors of a joint against the model."""
+
+    #: At the load of the fit, over its speeds.
+    at_load: WorstError
+    #: Over the loads of the working range.
+    over_loads: WorstError
+    #: At each of :data:`SHARES` of the load of the fit, over its speeds.
+    by_load: tuple[WorstError, ...]
+
+    def document(self) -> dict[str, Any]:
+        """The errors as they stand in JSON."""
+        by_load = [one.document() for one in self.by_load]
+        return {"joint_errors": by_load, "joint_error_over_loads": self.over_loads.document()}
+
+    @property
+    def of_export(self) -> tuple[WorstError, ...]:
+        """The errors as an export has them, with names of their own."""
+        return self.over_loads, dataclasses.replace(self.at_load, output="screw_torque_at_load")
+
+    @property
+    def text(self) -> str:
+        """The errors in words."""
+        load, half, twice = (units.shown(one.at[OPERATION[0]], LOAD) for one in (self.at_load, *self.by_load[1::3]))
+        near = max(one.relative for one in self.by_load[1:])
+        around = f"{_percent(near)} from {half} to {twice}, " if half != twice else ""
+        worst = units.shown(self.over_loads.at[OPERATION[0]], LOAD)
+        return (
+            f"The friction of the joint knows no load: it is at most {_percent(self.at_load.relative)} off the model "
+            f"at {load}, {around}and {self.over_loads.value:.2g} N m off at {worst}"
+        )
+
+    def warnings(self, joint: JointFriction) -> list[Record]:
+        """The errors as a warning, and one where the model itself does not hold at all speeds of the fit."""
+        found = [
+            Record(
+                id="hand_over.no_load",
+                subject="screw_torque",
+                text=f"{self.text}; beyond its range, and below the lowest speed of the fit, it goes on as fitted",
+                severity="warning",
+                holds=False,
+                value=self.over_loads.value,
+                unit=self.over_loads.unit,
+            )
+        ]
+        if joint.share_valid < 1:
+            load, share = units.shown(joint.load, LOAD), 100 * joint.share_valid
+            text = f"at {load} the model itself holds at {share:.0f} % of the speeds of the fit; ballscrew run says why"
+            found.append(
+                Record(
+                    id="hand_over.fit_validity",
+                    subject="screw_speed",
+                    text=text,
+                    severity="warning",
+                    holds=False,
+                    value=joint.share_valid,
+                    limit=1.0,
+                )
+            )
+        return found
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.2g} %" if share < 1 else f"{100 * share:.0f} %"
+
+
+def joint_errors(handed: HandOver, joint: JointFriction) -> JointErrors:
+    """The errors of a joint that knows no load, all else as in the case."""
+    quick = handed.is_recordable
+    points = handed.sample() if quick else handed.sample(FEWER_LOADS)
+    speed = points[OPERATION[1]]
+    moving = np.copysign(np.clip(np.abs(speed), *joint.speeds), speed)
+    both = _both_ways(handed, np.geomspace(*joint.speeds, MEASURED if quick else FEWER))
+    by_load = tuple(_error(handed, joint, np.full(both.size, share * joint.load), both) for share in SHARES)
+    return JointErrors(by_load[SHARES.index(1.0)], _error(handed, joint, points[OPERATION[0]], moving), by_load)
+
+
+def _error(handed: HandOver, joint: JointFriction, load: NDArray[np.float64], speed: NDArray[np.float64]) -> WorstError:
+    usual = {one.name: np.full(speed.size, one.value) for one in handed.inputs}
+    points = {**usual, OPERATION[0]: load, OPERATION[1]: speed}
+    return worst_errors(handed, joint.at_points, points=points, outputs=["screw_torque"])[0]
+
+
+def options_of_case(case: Case) -> dict[str, float]:
+    """The choices that follow from a case: the load of its operating point, and the inertia at the screw."""
+    found = {"load": float(case.operation.axial_load)}
+    if case.axis is not None:
+        found["inertia"] = float(case.axis.inertia * case.axis.transmission_ratio**2)
+    return found
+
+
+def filled(name: str, values: Mapping[str, str]) -> str:
+    """A file of this package with values in place of ``@NAME@``."""
+    text = resources.files("ballscrew").joinpath(f"data/exports/{name}").read_text(encoding="utf-8")
+    return re.sub(r"@([A-Z]+)@", lambda found: values[found[1]], text)
+
+
+def provenance_line(handed: HandOver) -> str:
+    """What made a file, and of which model."""
+    return f"Made by ballscrew {handed.provenance['version']}. {c99.title(handed)}."

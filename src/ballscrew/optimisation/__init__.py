@@ -1,0 +1,1 @@
+"""Optimisation: free geometries within what is made, searched for a need by several objectives at once."""

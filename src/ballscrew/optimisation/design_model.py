@@ -1,0 +1,274 @@
+"""The model on many designs: costs and constraints by evaluators that are recorded and compiled once."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ballscrew.cases.case import Case
+from ballscrew.cases.uncertain_inputs import all_of, joint_of
+from ballscrew.evaluation.engines import Engine
+from ballscrew.evaluation.evaluator import Evaluator, evaluator
+from ballscrew.evaluation.plan import Configuration
+from ballscrew.optimisation.design_space import RATIOS, DesignSpace
+from ballscrew.optimisation.designs import Designs, Numbers
+from ballscrew.selection.need import Need
+from ballscrew.selection.objectives import OBJECTIVES, reflected_mass, shaft_inertia
+from ballscrew.selection.requirements import ALLOWED, FORBIDDEN, Requirements
+from ballscrew.sizing.installation import Installation
+from ballscrew.uncertainty.sampling import Sampler, sobol_sequence
+
+#: Inputs of the evaluator besides those that are uncertain.
+_SIZES = ("pitch_circle_diameter", "lead", "ball_diameter", "loaded_balls")
+_POINT = ("axial_load", "screw_speed")
+_OUTPUTS = (
+    "screw_torque", "drive_torque", "holding_torque", "friction_power", "rigidity", "remaining_preload",
+    "maximum_pressure", "valid",
+)  # fmt: skip
+#: The objectives that the model has a say in, which uncertain inputs move.
+OF_MODEL = ("loss", "rigidity", "drive_torque", "preload_torque")
+_DENSITY = Installation.__dataclass_fields__["shaft_density"].default
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Sampled:
+    """Samples of uncertain inputs, over their central values, the same for all designs."""
+
+    factors: Mapping[str, Numbers]
+    quantile: float
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class DesignModel:
+    """The model of a case on designs in place of its own screw.
+
+    With rigid bodies all designs are one call. With elastic ones every ball is solved for, as in a run, and designs
+    of as many balls are one call.
+    """
+
+    case: Case
+    space: DesignSpace
+    requirements: Requirements
+    #: Length of shaft whose inertia counts, m.
+    length: float
+    #: The evaluator with rigid bodies.
+    friction: Evaluator
+    sampled: Sampled | None
+    #: The evaluators with elastic bodies, by the number of balls; None where bodies are rigid.
+    by_balls: dict[int, Evaluator] | None = None
+    #: The case with its own nut.
+    elastic_case: Case | None = None
+    engine: Engine | None = None
+
+    @classmethod
+    def of(cls, case: Case, need: Need, space: DesignSpace, length: float, engine: Engine | None = None) -> DesignModel:
+        """The model of a case with any design of a space and rigid bodies; recorded and compiled here."""
+        nut = dataclasses.replace(case.screw.nut, bodies=None, deviations=None)
+        screw = dataclasses.replace(case.screw, nut=nut)
+        sampled = _sampled(dataclasses.replace(case, screw=screw), space)
+        preload = ("preload",) if "preload" in space.names else ()
+        others = () if sampled is None else tuple(sampled.factors)
+        inputs = tuple(dict.fromkeys((*_SIZES, *preload, *_POINT, *others)))
+        friction = evaluator(case.model, screw, case.lubricant, inputs=inputs, outputs=list(_OUTPUTS), engine=engine)
+        rigid = dataclasses.replace(case, screw=screw)
+        return cls(rigid, space, need.requirements, length, friction, sampled, elastic_case=case, engine=engine)
+
+    @property
+    def elastic(self) -> DesignModel | None:
+        """The same with the bodies of the case's own nut; None where these are rigid."""
+        own = self.elastic_case
+        if own is None or not own.screw.nut.one_by_one:
+            return None
+        return dataclasses.replace(self, by_balls={})
+
+    def designs(self, x: Numbers) -> Designs:
+        """The designs of rows of free variables."""
+        return Designs.of(self.space.columns(x), self.case.screw)
+
+    def speed(self, designs: Designs) -> Numbers:
+        """Screw speed of designs: that of the feed, or one for all."""
+        feed = self.requirements.feed
+        if feed is None:
+            return np.full(np.shape(designs.lead), float(self.case.operation.screw_speed))
+        return 2 * math.pi * feed / designs.lead
+
+    def costs(self, x: Numbers) -> tuple[Numbers, Numbers]:
+        """Objectives, less being better, and constraints, at most zero where they hold, of rows of free variables."""
+        designs = self.designs(x)
+        load, speed = float(self.case.operation.axial_load), self.speed(designs)
+        at = self._at(designs, load, speed)
+        numbers = self.objectives(designs, speed, at)
+        used = self.utilisations(designs, speed, at, numbers)
+        if self.sampled is not None:
+            numbers = {**numbers, **self._quantiles(designs, speed, numbers)}
+        costs = [OBJECTIVES[name].sign * numbers[name] for name in self.space.objectives]
+        free = 1 - self.space.options.margin
+        constraints = [value / free - 1 for value in used.values()]
+        constraints += [*self._makeable(designs), np.where(at["valid"], -1.0, 1.0)]
+        return np.column_stack(costs), np.column_stack(constraints)
+
+    def objectives(self, designs: Designs, speed: Numbers, at: Mapping[str, Numbers]) -> dict[str, Numbers]:
+        """The numbers compared, by name, at the central inputs."""
+        wanted = {*self.space.objectives, *(["preload_torque"] if self.requirements.largest_preload_torque else [])}
+        density = _DENSITY if self.case.installation is None else self.case.installation.shaft_density
+        inertia = shaft_inertia(designs.pitch_circle_diameter, self.length, density)
+        found = {
+            "loss": at["friction_power"],
+            "inertia": inertia,
+            "reflected_mass": reflected_mass(inertia, designs.lead),
+            "rigidity": at["rigidity"],
+            "drive_torque": np.abs(at["drive_torque"]),
+        }
+        if "life" in wanted:
+            found["life"] = self._life(designs, speed, at)
+        if "preload_torque" in wanted:
+            found["preload_torque"] = self._idle(designs, speed)
+        return found
+
+    def utilisations(
+        self, designs: Designs, speed: Numbers, at: Mapping[str, Numbers], numbers: Mapping[str, Numbers]
+    ) -> dict[str, Numbers]:
+        """Demand over capacity of all checks and requirements, by name, at the central inputs."""
+        required, case = self.requirements, self.case
+        found = designs.utilisations(
+            axial_load=float(case.operation.axial_load), screw_speed=speed, left=at["remaining_preload"],
+            pressure=at["maximum_pressure"], young_modulus=case.screw.screw_material.young_modulus,
+            installation=case.installation, limits=case.limits,
+        )  # fmt: skip
+        if required.largest_drive_torque is not None:
+            found["drive_torque"] = numbers["drive_torque"] / required.largest_drive_torque
+        if required.largest_preload_torque is not None:
+            found["preload_torque"] = numbers["preload_torque"] / required.largest_preload_torque
+        if required.least_rigidity is not None:
+            found["rigidity"] = required.least_rigidity / numbers["rigidity"]
+        if required.least_remaining_preload is not None:
+            with np.errstate(divide="ignore"):
+                found["remaining_preload"] = required.least_remaining_preload / at["remaining_preload"]
+        if required.largest_inertia is not None:
+            found["inertia"] = numbers["inertia"] / required.largest_inertia
+        if required.largest_step is not None and required.counts_per_turn is not None:
+            found["step"] = designs.lead / required.counts_per_turn / required.largest_step
+        if required.back_driving != ALLOWED:
+            found["back_driving"] = self._back_driving(designs, at)
+        return found
+
+    # -- parts --------------------------------------------------------------------------------------
+
+    def _at(
+        self, designs: Designs, load: float, speed: Numbers, factors: Mapping[str, Numbers] | None = None
+    ) -> dict[str, Numbers]:
+        """The outputs at a load and a speed; of samples, which are of rigid bodies, one column each."""
+        given: dict[str, Any] = {name: getattr(designs, name) for name in _SIZES}
+        given |= {"preload": designs.preload, "axial_load": np.full_like(speed, load), "screw_speed": speed}
+        if self.by_balls is not None and factors is None:
+            return self._at_balls(self.by_balls, given)
+        values: list[Any] = []
+        subject = Configuration(self.case.model, self.case.screw, self.case.lubricant)
+        for name in self.friction.inputs:
+            value = given[name] if name in given else subject.value_of(name)
+            if factors is not None:
+                value = np.asarray(value)[..., np.newaxis] * factors.get(name, np.ones(1))
+            values.append(value)
+        return self.friction(*values)
+
+    def _at_balls(self, kept: dict[int, Evaluator], given: Mapping[str, Any]) -> dict[str, Numbers]:
+        """The outputs with elastic bodies: designs of as many balls in one call."""
+        case, count = self.elastic_case, len(given["loaded_balls"])
+        assert case is not None
+        found = {name: np.zeros(count, dtype=bool if name == "valid" else float) for name in _OUTPUTS}
+        names = tuple(name for name in (*_SIZES, "preload", *_POINT) if name != "loaded_balls")
+        names = names if "preload" in self.space.names else tuple(name for name in names if name != "preload")
+        for number in np.unique(given["loaded_balls"]):
+            balls, here = int(number), given["loaded_balls"] == number
+            if balls not in kept:
+                kept[balls] = evaluator(
+                    case.model, case.screw, case.lubricant, inputs=names, outputs=list(_OUTPUTS),
+                    engine=self.engine, loaded_balls=balls,
+                )  # fmt: skip
+            of_these = kept[balls](*(given[name][here] for name in names))
+            for name, values in of_these.items():
+                found[name][here] = values
+        return found
+
+    def _idle(self, designs: Designs, speed: Numbers) -> Numbers:
+        """Torque of the nut without load, at the speed."""
+        return self._at(designs, 0.0, speed)["screw_torque"]
+
+    def _life(self, designs: Designs, speed: Numbers, at: Mapping[str, Numbers]) -> Numbers:
+        """Running time that nine of ten outlive."""
+        limits = dataclasses.replace(self.case.limits, running_time=1.0)
+        used = designs.utilisations(
+            axial_load=float(self.case.operation.axial_load), screw_speed=speed, left=at["remaining_preload"],
+            pressure=at["maximum_pressure"], young_modulus=1.0, installation=None, limits=limits,
+        )  # fmt: skip
+        with np.errstate(divide="ignore"):
+            return 1 / used["running_time"]
+
+    def _back_driving(self, designs: Designs, at: Mapping[str, Numbers]) -> Numbers:
+        """Above one where the load does what it must not: the torque that it has left over that without friction."""
+        load = float(self.case.operation.axial_load)
+        rest = self._at(designs, load, np.zeros_like(designs.lead))["holding_torque"]
+        scale = designs.lead * abs(load) / (2 * math.pi)
+        left = math.copysign(1.0, load) * np.stack([rest, at["holding_torque"]]) / scale
+        if self.requirements.back_driving == FORBIDDEN:
+            return 1 + np.max(left, axis=0)
+        return 1 - np.min(left, axis=0) + np.finfo(float).eps
+
+    def _makeable(self, designs: Designs) -> list[Numbers]:
+        """Ratios of sizes within those of the catalogue, and room between neighbouring turns."""
+        found = [designs.room - 1]
+        for name, (low, high) in self.space.ratios.items():
+            one, other = RATIOS[name]
+            ratio = getattr(designs, one) / getattr(designs, other)
+            found += [low / ratio - 1, ratio / high - 1]
+        return found
+
+    def _quantiles(self, designs: Designs, speed: Numbers, central: Mapping[str, Numbers]) -> dict[str, Numbers]:
+        """The quantile, on the bad side, of the objectives that the model has a say in.
+
+        Samples are of rigid bodies; with elastic ones they count by their ratio to the central value.
+        """
+        assert self.sampled is not None
+        rigid = dataclasses.replace(self, by_balls=None)
+        wanted = [name for name in self.space.objectives if name in OF_MODEL]
+        load, found = float(self.case.operation.axial_load), dict[str, Numbers]()
+        if {*wanted} - {"preload_torque"}:
+            at = rigid._at(designs, load, speed, self.sampled.factors)
+            read = {"loss": "friction_power", "rigidity": "rigidity", "drive_torque": "drive_torque"}
+            found = {name: _quantile(np.abs(at[read[name]]), name, self.sampled) for name in wanted if name in read}
+        if "preload_torque" in wanted:
+            idle = rigid._at(designs, 0.0, speed, self.sampled.factors)["screw_torque"]
+            found["preload_torque"] = _quantile(idle, "preload_torque", self.sampled)
+        if self.by_balls is not None:
+            alike = rigid.objectives(designs, speed, rigid._at(designs, load, speed))
+            found = {name: value / alike[name] * central[name] for name, value in found.items()}
+        return found
+
+
+def _quantile(values: Numbers, name: str, sampled: Sampled) -> Numbers:
+    share = 1 - sampled.quantile if OBJECTIVES[name].larger_is_better else sampled.quantile
+    return np.quantile(values, share, axis=1)
+
+
+def _sampled(case: Case, space: DesignSpace) -> Sampled | None:
+    """Samples of the uncertain inputs as factors on their central values; None without a quantile."""
+    share = space.options.quantile
+    if share is None:
+        return None
+    inputs = all_of(case)
+    joint = joint_of(case, inputs)
+    alone = {name: each.distribution for name, each in inputs.items() if joint is None or name not in joint.names}
+    subject = Configuration(case.model, case.screw, case.lubricant)
+    sampler = Sampler(subject, alone, {}, (), joint)
+    shares = sobol_sequence(len(sampler.names), int(space.options.samples), int(space.options.seed))
+    # conformity and angle enter the ratings and the groove, too: those of a design stay nominal there
+    factors = {
+        name: np.asarray(values, dtype=float) / float(subject.value_of(name))
+        for name, values in sampler.inputs_at(shares).items()
+        if float(subject.value_of(name))
+    }
+    return Sampled(factors, float(share))

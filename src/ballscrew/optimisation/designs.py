@@ -1,0 +1,108 @@
+"""Many designs at once: their balls, ratings, and every check of :func:`ballscrew.sizing.checks.checks`, on arrays."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.components.screw import BallScrew
+from ballscrew.equations import geometry, life, rating, shaft
+from ballscrew.friction.validity import LARGEST_PRESSURE
+from ballscrew.sizing.installation import Installation, Limits
+from ballscrew.sizing.ratings import RATING_CONFORMITY
+
+Numbers = NDArray[np.float64]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Designs:
+    """Designs as arrays of one length: sizes in SI, balls as whole numbers, and the preload as a force."""
+
+    pitch_circle_diameter: Numbers
+    lead: Numbers
+    ball_diameter: Numbers
+    loaded_balls: Numbers
+    #: Turns that these whole balls fill: what the ratings count.
+    loaded_turns: Numbers
+    dynamic_rating: Numbers
+    static_rating: Numbers
+    root_diameter: Numbers
+    preload: Numbers
+
+    @classmethod
+    def of(cls, columns: Mapping[str, Numbers], screw: BallScrew) -> Designs:
+        """The designs of free variables; contact angle and conformity are those of a screw.
+
+        Balls are counted and rated as :class:`~ballscrew.sizing.catalogue.CatalogueRow` does. Where none finds room,
+        the ratings are NaN.
+        """
+        d_m, P_h, d_w = (columns[name] for name in ("pitch_circle_diameter", "lead", "ball_diameter"))
+        alpha, phi = screw.contact_angle, geometry.lead_angle(P_h, d_m)
+        per_turn = np.floor(np.pi * (d_m / d_w) / np.cos(phi))
+        balls = np.maximum(1.0, np.round(per_turn * columns["loaded_turns"]))
+        turns = balls / per_turn
+        carrying = per_turn / 2 if screw.nut.spacer_balls else per_turn
+        gamma = geometry.curvature_ratio(d_w, d_m, alpha, lead_angle=0.0)
+        f = RATING_CONFORMITY
+        with np.errstate(all="ignore"):
+            f_c = rating.geometry_factor(rating.contact_angle_factor(alpha), rating.curvature_factor(gamma), f)
+            C_s = rating.screw_turn_rating(f_c, alpha, carrying, d_w, phi)
+            C_i = rating.turn_rating(C_s, rating.turn_rating_ratio(gamma, f, f))
+            C_a = rating.dynamic_load_rating(C_i, turns)
+            C_0a = rating.static_load_rating(rating.static_load_factor(gamma, f), carrying, turns, d_w, alpha, phi)
+        d_r = geometry.groove_root_diameter(d_m, d_w, screw.screw_conformity, alpha)
+        preload = columns["preload"] * C_a if "preload" in columns else np.zeros_like(d_m)
+        return cls(d_m, P_h, d_w, balls, turns, C_a, C_0a, d_r, preload)
+
+    @property
+    def room(self) -> Numbers:
+        """Ball diameter over the room between neighbouring turns: above one, balls overlap."""
+        phi = geometry.lead_angle(self.lead, self.pitch_circle_diameter)
+        return self.ball_diameter / (self.lead * np.cos(phi))
+
+    def utilisations(
+        self,
+        *,
+        axial_load: float,
+        screw_speed: Numbers,
+        left: Numbers,
+        pressure: Numbers,
+        young_modulus: float,
+        installation: Installation | None,
+        limits: Limits,
+    ) -> dict[str, Numbers]:
+        """Demand over capacity of each check that can be judged, by its name; at most one where it holds.
+
+        ``left`` is the preload that is left under the load, ``pressure`` that of the most loaded contact.
+        """
+        load, speed = abs(axial_load), np.abs(screw_speed)
+        pressed = load + left
+        found: dict[str, Any] = {}
+        with np.errstate(all="ignore"):
+            found["static_safety"] = limits.static_safety / life.static_safety(self.static_rating, pressed)
+            if limits.running_time is not None:
+                alone = life.basic_life(self.dynamic_rating, pressed)
+                both = life.combined_life(alone, life.basic_life(self.dynamic_rating, left))
+                lived = life.running_time(np.where(left > 0, both, alone), speed)
+                found["running_time"] = limits.running_time / lived
+            found["contact_pressure"] = pressure / LARGEST_PRESSURE
+            found["shaft_stress"] = shaft.shaft_stress(load, self.root_diameter) / limits.shaft_stress
+            if installation is not None:
+                l, ends = installation.unsupported_length, installation.ends  # noqa: E741  (l is the formula's letter)
+                d_r = self.root_diameter
+                euler = shaft.buckling_load(ends.buckling_root, young_modulus, d_r, l)
+                critical = shaft.critical_speed(ends.whirling_root, young_modulus, installation.shaft_density, d_r, l)
+                found["buckling"] = load * limits.buckling_safety / euler
+                found["critical_speed"] = speed / (critical * limits.critical_speed_share)
+            product = shaft.diameter_speed_product(self.pitch_circle_diameter, speed)
+            found["diameter_speed_product"] = product / limits.diameter_speed_product
+        return {name: np.broadcast_to(value, load_shape(self)) for name, value in found.items()}
+
+
+def load_shape(designs: Designs) -> tuple[int, ...]:
+    """The shape of the arrays of designs."""
+    return np.shape(designs.lead)

@@ -1,0 +1,230 @@
+"""Optimisation of free geometries for a need, and each member of the front by the full model and all checks."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ballscrew.cases import case_file
+from ballscrew.cases.case import Case
+from ballscrew.errors import Fault, InputError
+from ballscrew.evaluation.engines import Engine
+from ballscrew.optimisation.design_model import DesignModel
+from ballscrew.optimisation.design_space import DesignSpace, design_space
+from ballscrew.optimisation.search import Found, search, spread
+from ballscrew.selection import requirement_checks
+from ballscrew.selection.candidates import objectives as objectives_of
+from ballscrew.selection.need import Need, need_of
+from ballscrew.selection.objectives import OBJECTIVES, USUAL_LENGTH
+from ballscrew.selection.pareto import front
+from ballscrew.sizing.catalogue import CatalogueRow
+from ballscrew.sizing.checks import Check
+from ballscrew.sizing.listed_nut import PRELOADED
+from ballscrew.studies.check import Checked, checked
+from ballscrew.studies.every_row import copied
+
+#: Told how many members of how many are evaluated in full.
+Done = Callable[[int, int], None]
+#: Contact angle and conformity where the need gives none: those of a row that lists none.
+_ROW = CatalogueRow.__dataclass_fields__
+_ANGLE, _CONFORMITY = _ROW["contact_angle"].default, _ROW["conformity"].default
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Member:
+    """A design of the front: its free variables, what the search knew of it, and what the full model says."""
+
+    #: The free variables by name, in SI; a preload as a share of the dynamic load rating.
+    variables: Mapping[str, float]
+    #: The objectives of the search: with rigid bodies, and with the quantile where one was asked for.
+    searched: Mapping[str, float]
+    #: The case of the design with all that ``ballscrew check`` says of it.
+    checked: Checked
+    checks: Sequence[Check]
+    #: The objectives by the full model, at the central inputs.
+    objectives: Mapping[str, float]
+    #: Whether no other member that holds is better in all objectives by the full model.
+    pareto: bool = False
+
+    @property
+    def holds(self) -> bool:
+        """Whether all checks were judged and hold by the full model."""
+        return all(check.holds for check in self.checks)
+
+    @property
+    def fits(self) -> bool:
+        """Whether no check fails by the full model; one that could not be judged does not."""
+        return all(check.holds is not False for check in self.checks)
+
+    @property
+    def valid(self) -> bool:
+        """Whether it lies within the validity of the model."""
+        return bool(self.checked.run.friction.valid)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Optimisation:
+    """The front of a need."""
+
+    need: Need
+    space: DesignSpace
+    members: Sequence[Member]
+    #: Designs that the search evaluated, and members of its own front, of which :attr:`members` are a choice.
+    evaluations: int
+    front: Found
+    #: The engine of the search, and why it is that one.
+    engine: tuple[str, str]
+    notes: Sequence[str] = ()
+
+    @property
+    def largest_change(self) -> Mapping[str, float]:
+        """The largest change of each objective from search to full model, over the former; not of a quantile."""
+        if self.space.options.quantile is not None or not self.members:
+            return {}
+        return {
+            name: max(abs(each.objectives[name] / each.searched[name] - 1) for each in self.members)
+            for name in self.space.objectives
+        }
+
+
+def optimise(
+    need: str | Path | Mapping[str, Any] | Need,
+    *,
+    objectives: Sequence[str] | None = None,
+    population: int | None = None,
+    generations: int | None = None,
+    members: int | None = None,
+    seed: int | None = None,
+    quantile: float | None = None,
+    settings: Sequence[str] = (),
+    model: str | None = None,
+    calibration: str | None = None,
+    allow_code: bool = False,
+    engine: Engine | None = None,
+    done: Done | None = None,
+) -> Optimisation:
+    """The Pareto front of free geometries for a need, each member evaluated by the full model.
+
+    Free are pitch circle, lead, ball diameter, turns and preload within ``[optimise.bounds]``, by default the span of
+    the catalogue, and ratios of sizes that the catalogue keeps
+    (:func:`~ballscrew.optimisation.design_space.design_space`). NSGA-II of pymoo searches on the recorded model, first
+    with rigid bodies and then, some generations more, with the elastic ones of a run; constraints are all checks of
+    ``ballscrew check`` and the requirements of the need, less a ``margin``. With a ``quantile`` the objectives are that
+    quantile over the uncertain inputs, in place of their values at the central ones; constraints stay at these.
+    Members of the front are then evaluated one by one as ``ballscrew check`` does; one that fails there is kept, and
+    says so. ``engine`` is that of :func:`~ballscrew.evaluation.evaluator.evaluator`.
+
+    Raises :class:`~ballscrew.errors.InputError` for faults of the need, for one with a motion, and where pymoo (the
+    extra ``optimise``) is not installed.
+    """
+    asked = need_of(need, settings)
+    if asked.moves:
+        remedy = "give [operation] with the mean load and speed that ballscrew duty says"
+        raise InputError(Fault("motion", "is too much for a search", asked.name, remedy))
+    chosen = {
+        "population": population, "generations": generations, "members": members, "seed": seed, "quantile": quantile,
+    }  # fmt: skip
+    space = design_space(asked, objectives, **chosen)
+    options = {"model": model, "calibration": calibration, "allow_code": allow_code}
+    centre = {name: (low * high) ** 0.5 for name, (low, high) in space.bounds.items()}
+    case = _case(asked, space, centre, options)
+    length = _length(asked, case)
+    ready = DesignModel.of(case, asked, space, length, engine)
+    own = space.options
+    found = search(
+        ready.costs, space.lower, space.upper, population=int(own.population), generations=int(own.generations),
+        seed=int(own.seed),
+    )  # fmt: skip
+    elastic = ready.elastic
+    evaluations = found.evaluations
+    if elastic is not None and own.elastic_generations:
+        found = search(
+            elastic.costs, space.lower, space.upper, population=int(own.population),
+            generations=int(own.elastic_generations), seed=int(own.seed), start=found.population,
+        )  # fmt: skip
+        evaluations += found.evaluations
+    places = spread(found.costs, int(own.members))
+    made: list[Member] = []
+    for number, place in enumerate(places, start=1):
+        made.append(_member(asked, space, ready, found, place, options))
+        if done is not None:
+            done(number, len(places))
+    notes = [*asked.notes, *space.notes]
+    if len(asked.oils) > 1:
+        notes.append(f"oil {case.oil.get('grade', 'of the first table')}: the first of {len(asked.oils)}")
+    return Optimisation(
+        asked, space, _marked(made, space.objectives), evaluations, found,
+        (ready.friction.engine, ready.friction.engine_reason), notes,
+    )  # fmt: skip
+
+
+def tables_of(need: Need, space: DesignSpace, variables: Mapping[str, float], **numbers: float) -> dict[str, Any]:
+    """The tables of the case of a design, as a case file has them; ``numbers`` are its balls and its preload."""
+    tables = copied({"bodies": {}, **need.tables})
+    screw = tables.get("screw", {})
+    sizes = {name: f"{variables[name]!r} m" for name in ("pitch_circle_diameter", "lead", "ball_diameter")}
+    usual = {
+        "contact_angle": f"{_ANGLE!r} rad", "screw_conformity": _CONFORMITY, "nut_conformity": _CONFORMITY,
+    }  # fmt: skip
+    left_out = ("catalogue", "catalogue_file", "dynamic_load_rating", "static_load_rating", "root_diameter")
+    kept = {name: value for name, value in screw.items() if name not in left_out}
+    tables["screw"] = {**usual, **kept, **sizes, "loaded_balls": int(numbers["balls"])}
+    preload = {"preload": f"{numbers['preload']!r} N"} if space.nut in PRELOADED else {}
+    tables["nut"] = {**tables.get("nut", {}), "type": space.nut, **preload}
+    tables["lubricant"] = dict(need.oils[0])
+    feed = need.requirements.feed
+    if feed is not None:
+        speed = 2 * np.pi * feed / variables["lead"]
+        tables["operation"] = {**tables.get("operation", {}), "screw_speed": f"{speed!r} rad/s"}
+    return tables
+
+
+def _case(need: Need, space: DesignSpace, variables: Mapping[str, float], options: Mapping[str, Any]) -> Case:
+    """The case of a design that stands for all: sizes are inputs of the evaluator."""
+    # any screw and preload do here, if they fit
+    sizes = {**variables, "ball_diameter": min(variables["ball_diameter"], 0.4 * variables["lead"])}
+    return _built(need, tables_of(need, space, sizes, balls=40, preload=1000.0), options)
+
+
+def _built(need: Need, tables: Mapping[str, Any], options: Mapping[str, Any]) -> Case:
+    return case_file.build(
+        tables, options["model"], need.folder, calibration=options["calibration"], allow_code=options["allow_code"]
+    )
+
+
+def _length(need: Need, case: Case) -> float:
+    installation = case.installation
+    return need.requirements.stroke or USUAL_LENGTH if installation is None else installation.unsupported_length
+
+
+def _member(
+    need: Need, space: DesignSpace, ready: DesignModel, found: Found, place: int, options: Mapping[str, Any]
+) -> Member:
+    """A design of the front by the full model."""
+    x = found.designs[place : place + 1]
+    variables = {name: float(values[0]) for name, values in space.columns(x).items()}
+    designs = ready.designs(x)
+    preload, balls = float(designs.preload[0]), float(designs.loaded_balls[0])
+    case = _built(need, tables_of(need, space, variables, balls=balls, preload=preload), options)
+    whole = checked(f"design {place + 1}", case, need.notes)
+    numbers = objectives_of(need, whole, None, variables["pitch_circle_diameter"])
+    searched = {
+        name: OBJECTIVES[name].sign * float(cost)
+        for name, cost in zip(space.objectives, found.costs[place], strict=True)
+    }
+    checks = (*whole.checks, *requirement_checks.of(need.requirements, whole, None, numbers))
+    return Member(variables, searched, whole, checks, {name: numbers[name] for name in OBJECTIVES}, pareto=False)
+
+
+def _marked(members: Sequence[Member], objectives: Sequence[str]) -> list[Member]:
+    """Members by their first objective, with the front of those of which no check fails marked."""
+    fitting = [each for each in members if each.fits and each.valid]
+    costs = np.array([[OBJECTIVES[n].sign * each.objectives[n] for n in objectives] for each in fitting])
+    leads = front(costs.reshape(len(fitting), -1))
+    best = {id(member) for member, is_best in zip(fitting, leads, strict=True) if is_best}
+    ordered = sorted(members, key=lambda each: OBJECTIVES[objectives[0]].sign * each.objectives[objectives[0]])
+    return [dataclasses.replace(each, pareto=id(each) in best) for each in ordered]

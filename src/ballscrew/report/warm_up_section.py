@@ -1,0 +1,77 @@
+"""Heat in the report of a case that has surroundings: where four hours of work lead, numbers, pictures, assumptions."""
+
+from __future__ import annotations
+
+from ballscrew import units
+from ballscrew.axis_studies import warm_up_records
+from ballscrew.axis_studies.warm_up import EQUILIBRIUM, PLACE, SERIES, WarmUpReport, warmed_up
+from ballscrew.cases.case import Case
+from ballscrew.errors import InputError
+from ballscrew.figures import warm_up as figures
+from ballscrew.report.blocks import Block, Bullets, Columns, Paragraph, Picture, Table, sentence
+from ballscrew.report.curve_figures import named, svg_of
+from ballscrew.text import warm_up as text
+from ballscrew.text.tables import shown_or_dash
+
+#: Hours of work that a report shows.
+HOURS = 4.0
+_GROWTH = SERIES["shaft_growth"]
+
+
+def blocks_of(case: Case) -> list[Block]:
+    """Heat of a case; where it cannot be computed, the reason."""
+    try:
+        report = warmed_up(case, HOURS)
+    except InputError as error:
+        said = "; ".join(str(fault) for fault in error.faults)
+        return [Paragraph(f"Heat is not computed: {said}.")]
+    return blocks(report)
+
+
+def blocks(report: WarmUpReport) -> list[Block]:
+    """All that a report says of warming up."""
+    said = [f"{sentence(record.text)}." for record in warm_up_records.verdicts(report)]
+    warned = [f"Beware: {record.text}." for record in warm_up_records.warnings(report)]
+    words = (
+        "Temperatures, growth at ends and middle of the stroke, preload or friction power, and friction torque over "
+        f"{HOURS:g} hours: {text.title(report)}."
+    )
+    drawn = named(svg_of(lambda: figures.panels(report), "warm_up"), words)
+    caption = "Temperatures, growth, preload and torque while the screw warms up; dashed: the steady state."
+    assumed = [f"Assumed: {line}." for line in report.assumed]
+    return [
+        Paragraph(" ".join([f"{sentence(text.title(report))}.", *said]), strong=True),
+        Columns([_steady(report)], [_drift(report), _heat(report)]),
+        Picture(drawn, words, caption),
+        Bullets([*warned, *assumed]),
+    ]
+
+
+def _steady(report: WarmUpReport) -> Table:
+    end = report.warm_up.equilibrium
+    if not end.exists:
+        return Table("The steady state", ("", "value"), [("margin, below zero: there is none", f"{end.margin:.3g}")])
+    rows = [
+        (quantity.info.meaning, shown_or_dash(report.equilibrium[name], quantity))
+        for name, quantity in EQUILIBRIUM.items()
+        if name != "preload" or report.warm_up.network.preload_set
+    ]
+    return Table("The steady state", ("", "value"), [*rows, ("margin to running away, of 1", f"{end.margin:.3g}")])
+
+
+def _drift(report: WarmUpReport) -> Table:
+    places, growth = report.drift
+    rows = [
+        (f"at {units.shown(float(place), PLACE)}", units.shown(float(value), _GROWTH))
+        for place, value in zip(places, growth[report.last_at_work], strict=True)
+    ]
+    return Table("Growth of the shaft at ends and middle of the stroke", ("", f"after {HOURS:g} h"), rows)
+
+
+def _heat(report: WarmUpReport) -> Table:
+    rows = [
+        (quantity.info.meaning, units.shown(float(report.series[name][report.last_at_work]), quantity))
+        for name, quantity in SERIES.items()
+        if name.startswith("heat_")
+    ]
+    return Table("Heat", ("", f"in {HOURS:g} h"), rows)

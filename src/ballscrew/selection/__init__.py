@@ -1,0 +1,1 @@
+"""Selection: screws of catalogues against a need, each judged by the full model and all checks, and ranked."""

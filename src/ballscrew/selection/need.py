@@ -1,0 +1,289 @@
+"""Needs: what a screw has to do, read from a file that is written like a case file without its screw."""
+
+from __future__ import annotations
+
+import copy
+import dataclasses
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from ballscrew.case_schema.fields import section_of
+from ballscrew.case_schema.schema import read_table, sections
+from ballscrew.cases import case_file
+from ballscrew.components.materials import grades
+from ballscrew.errors import MISSING, Fault, InputError, nearest, raise_if_any
+from ballscrew.quantities import fields_of
+from ballscrew.selection.objectives import USUAL_OBJECTIVES, objectives_named
+from ballscrew.selection.requirements import ALLOWED, FORBIDDEN, NEEDED, Requirements
+
+#: The oil where a need names none: that of ``ballscrew check``.
+GRADE, TEMPERATURE = "ISO VG 100", "40 degC"
+#: Short names, at the top of a file or in ``[need]``, and the places they stand for.
+SHORT_NAMES: Mapping[str, str] = {
+    **dict.fromkeys(("force", "load", "axial_load", "axial_force"), "operation.axial_load"),
+    **dict.fromkeys(("speed", "screw_speed", "rotational_speed"), "operation.screw_speed"),
+    **dict.fromkeys(("feed", "feed_rate", "travel_speed"), "need.feed"),
+    **dict.fromkeys(("stroke", "travel"), "need.stroke"),
+    **dict.fromkeys(("length", "unsupported_length"), "installation.unsupported_length"),
+    "ends": "installation.ends",
+    **dict.fromkeys(("life", "running_time", "lifetime"), "limits.running_time"),
+    **dict.fromkeys(("nut", "nuts", "nut_type", "nut_types"), "nut.type"),
+    **dict.fromkeys(("preload", "preloads", "preload_class"), "nut.preload"),
+    **dict.fromkeys(("oil", "oils", "grade", "grades", "lubricant"), "lubricant.oils"),
+    "temperature": "lubricant.temperature",
+    **dict.fromkeys(("back_driving", "back_drive", "backdriving", "back_drives"), "need.back_driving"),
+    **dict.fromkeys(("accuracy", "accuracy_class", "accuracy_grade"), "need.accuracy"),
+    "rows": "need.rows",
+    "objectives": "need.objectives",
+    "price_index": "need.price_index",
+}
+#: Other names of sections.
+_SECTIONS = {"duty": "motion", "optimize": "optimise", "optimisation": "optimise"}
+_BACK_DRIVING = {
+    **dict.fromkeys(("true", "yes", "needed", "required", "must"), NEEDED),
+    **dict.fromkeys(("false", "no", "forbidden", "not", "never", "self-locking"), FORBIDDEN),
+    **dict.fromkeys(("allowed", "any", "may", "either"), ALLOWED),
+}
+#: What tells an oil, besides its temperature.
+_OIL = ("grade", "oil", "viscosity", "kinematic_viscosity_40", "oil_file")
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Need:
+    """A need: the tables of a case without its screw, the choices that are open, and what is required of each."""
+
+    #: Tables of a case, without what is chosen: kind of nut, preload, oil.
+    tables: Mapping[str, Any]
+    requirements: Requirements
+    #: Kinds of nuts, by name; empty for those that the rows list.
+    nuts: Sequence[str]
+    #: Preloads as they are written; empty for those of the rows, or usual ones.
+    preloads: Sequence[str]
+    #: Tables of the oils.
+    oils: Sequence[Mapping[str, Any]]
+    objectives: Sequence[str] = USUAL_OBJECTIVES
+    #: Words that rows must have.
+    rows: str = ""
+    #: Prices against each other, by the names of rows.
+    price_index: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
+    #: The table ``[optimise]``.
+    optimise: Mapping[str, Any] = dataclasses.field(default_factory=dict[str, Any])
+    #: Where files that it names lie.
+    folder: Path = Path()
+    #: What was assumed.
+    notes: Sequence[str] = ()
+    name: str = "need"
+
+    @property
+    def moves(self) -> bool:
+        """Whether it has a motion, and not one operating point."""
+        return "motion" in self.tables
+
+
+def need_of(need: str | Path | Mapping[str, Any] | Need, settings: Sequence[str] = ()) -> Need:
+    """The need of a file, of tables as such a file has them, or the need itself.
+
+    It is written like a case file without ``[screw]``; a case file with one is a need, too, whose sizes are left
+    aside. Lists stand for choices: ``nut.type``, ``nut.preload``, ``lubricant.grade`` and ``lubricant.oil``. The table
+    ``[need]`` has the fields of :class:`~ballscrew.selection.requirements.Requirements`, ``rows`` (words that rows
+    must have), ``objectives`` and ``price_index``; the names of :data:`SHORT_NAMES` may stand there or at the top.
+
+    Raises :class:`~ballscrew.errors.InputError` with all faults of the file.
+    """
+    if isinstance(need, Need):
+        return need
+    if isinstance(need, Mapping):
+        tables, folder, name = copy.deepcopy(dict(need)), Path(), "need"
+    else:
+        tables, folder, name = case_file.read(need), Path(need).parent, Path(need).name
+    if isinstance(tables.get("duty"), list):
+        remedy = "write [axis] and [motion], with [[motion.segment]] for its parts"
+        raise InputError(Fault("duty", "must be a table", "a list", remedy))
+    tables = {_SECTIONS.get(key, key): value for key, value in case_file.override(tables, settings).items()}
+    faults: list[Fault] = []
+    tables = _in_places(tables, faults)
+    raise_if_any(faults)
+    return _need(tables, folder, name)
+
+
+def _in_places(tables: dict[str, Any], faults: list[Fault]) -> dict[str, Any]:
+    """Tables with the short names moved to where they belong; places given twice are faults."""
+    own = tables.pop("need", {})
+    if not isinstance(own, dict):
+        faults.append(Fault("need", "must be a table", str(own), "write [need]"))
+        return tables
+    made = {key: dict(value) if isinstance(value, dict) else value for key, value in tables.items()}
+    made["need"] = {}
+    top = {key: value for key, value in tables.items() if not isinstance(value, dict) or key == "price_index"}
+    known = fields_of(Requirements)
+    for where, short in (("need.", own), ("", top)):
+        for key, value in short.items():
+            place = SHORT_NAMES.get(key) or (f"need.{key}" if key in known or where else None)
+            if place is None:
+                names = [*SHORT_NAMES, *known, "operation", "lubricant", "installation", "limits", "nut", "motion"]
+                faults.append(Fault(key, "unknown name", str(value), nearest(key, names)))
+                continue
+            if not where:
+                del made[key]
+            _put(made, place, value, f"{where}{key}", faults)
+    for section in ("operation", "installation", "limits", "lubricant", "nut"):
+        _short_in(made, section, faults)
+    return made
+
+
+def _short_in(made: dict[str, Any], section: str, faults: list[Fault]) -> None:
+    """Short names in the section of a case, such as ``operation.feed`` and ``limits.life``."""
+    table = made.get(section)
+    if not isinstance(table, dict):
+        return
+    known = sections()[section].model_fields
+    for key in [key for key in table if key in SHORT_NAMES and key not in known]:
+        place = SHORT_NAMES[key]
+        if place.partition(".")[0] in (section, "need") and place != f"{section}.{key}":
+            _put(made, place, table.pop(key), f"{section}.{key}", faults)
+    if not table:
+        del made[section]
+
+
+def _put(made: dict[str, Any], place: str, value: Any, where: str, faults: list[Fault]) -> None:
+    section, _, field = place.partition(".")
+    table = made.setdefault(section, {})
+    if not isinstance(table, dict):
+        faults.append(Fault(section, "must be a table", str(table), f"write [{section}]"))
+    elif field in table:
+        faults.append(Fault(where, "is given twice", str(value), f"{place} stands for the same: leave one out"))
+    else:
+        table[field] = value
+
+
+def _need(tables: dict[str, Any], folder: Path, name: str) -> Need:
+    faults: list[Fault] = []
+    notes: list[str] = []
+    own = tables.pop("need")
+    objectives, rows = own.pop("objectives", None), own.pop("rows", "")
+    prices = own.pop("price_index", {})
+    if "back_driving" in own:
+        own["back_driving"] = _BACK_DRIVING.get(str(own["back_driving"]).lower(), str(own["back_driving"]))
+    if "accuracy" in own:
+        own["accuracy"] = str(own["accuracy"])
+    values = read_table("need", need_section(), own, faults)
+    if not isinstance(rows, str):
+        faults.append(Fault("need.rows", "must be text", str(rows), 'write rows = "rexroth 40x"'))
+    prices = _prices(prices, faults)
+    nut = _section(tables, "nut", faults)
+    nuts, preloads = (_texts(f"nut.{key}", nut.pop(key, []), faults) for key in ("type", "preload"))
+    oils = _oils(tables, notes, faults)
+    if nut:
+        tables["nut"] = nut
+    else:
+        tables.pop("nut", None)
+    optimise = _section(tables, "optimise", faults)
+    tables.pop("optimise", None)
+    tables.pop("sweep", None)
+    raise_if_any(faults)
+    required = Requirements(**values)
+    _operation(tables, required, faults)
+    _installation(tables, required, notes)
+    try:
+        names = objectives_named(
+            USUAL_OBJECTIVES if objectives is None else _texts("need.objectives", objectives, faults), "need.objectives"
+        )
+    except InputError as error:
+        names = ()
+        faults += error.faults
+    raise_if_any(faults)
+    if required.accuracy:
+        notes.append(f"grade {required.accuracy} of ISO 3408-3 is not judged: no row lists its grades; ask the maker")
+    if objectives is None and prices:
+        names = (*names, "price_index")
+    return Need(
+        tables, required, nuts, preloads, oils, names, rows, prices, optimise, folder, tuple(notes), name
+    )  # fmt: skip
+
+
+def need_section() -> Any:
+    """The table ``[need]`` as pydantic has it."""
+    words = Annotated[str, Field(description="whether the load may, must (needed) or must not (forbidden) turn it")]
+    grade = Annotated[str, Field(description="grade of ISO 3408-3: echoed, as no row lists its grades")]
+    return section_of(
+        "Need", fields_of(Requirements), Requirements, required=False,
+        back_driving=(words, ALLOWED), accuracy=(grade, ""),
+    )  # fmt: skip
+
+
+def _section(tables: Mapping[str, Any], name: str, faults: list[Fault]) -> dict[str, Any]:
+    found = tables.get(name, {})
+    if not isinstance(found, dict):
+        faults.append(Fault(name, "must be a table", str(found), f"write [{name}]"))
+        return {}
+    return dict(found)
+
+
+def _texts(where: str, given: Any, faults: list[Fault]) -> list[str]:
+    """One text, or a list of texts."""
+    found = given if isinstance(given, list | tuple) else [given]
+    if not all(isinstance(each, str) for each in found):
+        faults.append(Fault(where, "must be text, or a list of texts", str(given), 'write ["2 %", "5 %"]'))
+        return []
+    return list(dict.fromkeys(found))
+
+
+def _prices(given: Any, faults: list[Fault]) -> dict[str, float]:
+    if not isinstance(given, dict):
+        faults.append(Fault("need.price_index", "must be a table", str(given), "write [need.price_index]"))
+        return {}
+    remedy = 'write "rexroth-40x10x6-6-double" = 1.3'
+    for name, value in given.items():
+        if isinstance(value, bool) or not isinstance(value, int | float) or not value > 0:
+            faults.append(Fault(f"need.price_index.{name}", "must be a positive number", str(value), remedy))
+    return {str(name): value for name, value in given.items()}
+
+
+def _oils(tables: dict[str, Any], notes: list[str], faults: list[Fault]) -> list[dict[str, Any]]:
+    """The tables of the oils: one for each grade and each oil that is named."""
+    table = _section(tables, "lubricant", faults)
+    short = _texts("lubricant.oils", table.pop("oils", []), faults)
+    named = [{"grade" if name in grades() else "oil": name} for name in short]
+    for key in ("grade", "oil"):
+        if isinstance(table.get(key), list):
+            named += [{key: name} for name in _texts(f"lubricant.{key}", table.pop(key), faults)]
+    if not named and not any(key in table for key in _OIL):
+        named = [{"grade": GRADE}]
+        notes.append(f"oil {GRADE}: none was given")
+    if "temperature" not in table and "viscosity" not in table:
+        table["temperature"] = TEMPERATURE
+        notes.append(f"oil at {TEMPERATURE}: no temperature was given")
+    tables.pop("lubricant", None)
+    return [{**table, **oil} for oil in named] or [table]
+
+
+def _operation(tables: dict[str, Any], required: Requirements, faults: list[Fault]) -> None:
+    """Faults of a need that says neither a force and a speed nor a motion."""
+    table = _section(tables, "operation", faults)
+    if "motion" in tables:
+        if required.feed is not None:
+            faults.append(Fault("need.feed", "is given beside a motion", "", "leave it out: the motion has its speeds"))
+        return
+    if "axial_load" not in table:
+        remedy = 'add [operation] axial_load = "5 kN", or [axis] and [motion]'
+        faults.append(Fault("operation.axial_load", MISSING, "", remedy))
+    if required.feed is None and "screw_speed" not in table:
+        remedy = 'add [operation] feed = "20 m/min", or screw_speed = "1500 rpm"'
+        faults.append(Fault("operation.screw_speed", MISSING, "", remedy))
+    elif required.feed is not None and "screw_speed" in table:
+        faults.append(Fault("need.feed", "is given beside a screw speed", "", "leave one of them out"))
+
+
+def _installation(tables: dict[str, Any], required: Requirements, notes: list[str]) -> None:
+    """A stroke stands for the unsupported length where none is given, if the ends are known."""
+    table = tables.get("installation")
+    if required.stroke is None or (isinstance(table, dict) and "unsupported_length" in table):
+        return
+    if isinstance(table, dict) and "ends" in table:
+        tables["installation"] = {**table, "unsupported_length": f"{required.stroke!r} m"}
+        notes.append("unsupported length: the stroke alone; add the nut and what lies between it and the bearings")
+    elif table is None:
+        notes.append("buckling and critical speed are not judged: give the ends of the shaft")

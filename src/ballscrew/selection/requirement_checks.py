@@ -1,0 +1,94 @@
+"""Requirements of a need as checks, beside those of ``ballscrew check`` and ``ballscrew duty``."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from ballscrew.axis_studies.duty import DutyReport
+from ballscrew.selection.requirements import ALLOWED, FORBIDDEN, Requirements
+from ballscrew.sizing.checks import Check
+from ballscrew.studies.check import Checked
+
+
+def of(
+    required: Requirements, found: Checked, report: DutyReport | None, numbers: Mapping[str, float]
+) -> tuple[Check, ...]:
+    """A check for each requirement that is set."""
+    bounds = (
+        at_most("drive_torque", numbers["drive_torque"], required.largest_drive_torque, "N m", "torque on the shaft"),
+        at_most(
+            "preload_torque", numbers["preload_torque"], required.largest_preload_torque, "N m",
+            "torque of the nut without load",
+        ),
+        at_least("rigidity", numbers["rigidity"], required.least_rigidity, "N/m", "rigidity of the nut under the load"),
+        at_least(
+            "remaining_preload", float(found.nut.loads.remaining_preload), required.least_remaining_preload, "N",
+            "preload that the load leaves on the relieved half or flank",
+        ),
+        at_most("inertia", numbers["inertia"], required.largest_inertia, "kg m^2", "inertia of a solid shaft"),
+        step(required, float(found.case.screw.lead)),
+    )  # fmt: skip
+    drives = back_driving(required, found) if report is None else _of_axis(required, report)
+    return tuple(check for check in (*bounds, drives) if check is not None)
+
+
+def at_most(name: str, value: float, limit: float | None, unit: str, text: str) -> Check | None:
+    """A check that holds up to a limit, none without one; a value that is no number is not judged."""
+    if limit is None:
+        return None
+    if math.isnan(value):
+        return Check(name, None, limit, unit, None, None, f"{text}: not known here")
+    return Check(name, value, limit, unit, value / limit, value <= limit, text)
+
+
+def at_least(name: str, value: float, limit: float | None, unit: str, text: str) -> Check | None:
+    """A check that holds from a limit on."""
+    if limit is None:
+        return None
+    if math.isnan(value):
+        return Check(name, None, limit, unit, None, None, f"{text}: not known here")
+    return Check(name, value, limit, unit, limit / value if value else math.inf, value >= limit, text)
+
+
+def step(required: Requirements, lead: float) -> Check | None:
+    """Travel of one count of the encoder."""
+    if required.largest_step is None or required.counts_per_turn is None:
+        return None
+    return at_most("step", lead / required.counts_per_turn, required.largest_step, "m", "travel of one count")
+
+
+def back_driving(required: Requirements, found: Checked) -> Check | None:
+    """Whether the load turns the screw, at rest and at the speed.
+
+    The value is the torque that the load has left over friction, negative where friction holds it; of both states the
+    one that is worse for the need. At the ends of the band of friction the answer may be another.
+    """
+    if required.back_driving == ALLOWED:
+        return None
+    load = found.run.at_rest.axial_load
+    if not load:
+        return Check("back_driving", None, None, "N m", None, None, "not judged: no load")
+    left = math.copysign(1.0, load) * found.run.at_rest.holding_torque
+    moving = math.copysign(1.0, load) * float(found.run.friction.holding_torque)
+    known = [value for value in (left, moving) if not math.isnan(value)]
+    if not known:
+        return Check("back_driving", None, 0.0, "N m", None, None, "not judged: outside of what the model knows")
+    if required.back_driving == FORBIDDEN:
+        value = max(known)
+        return Check("back_driving", value, 0.0, "N m", None, value <= 0, "torque that the load has left: at most none")
+    value = min(known)
+    return Check("back_driving", value, 0.0, "N m", None, value > 0, "torque that the load has left: more than none")
+
+
+def _of_axis(required: Requirements, report: DutyReport) -> Check | None:
+    """Whether the axis moves with the motor off, in all conditions of ``ballscrew duty``: as it is, cold, hot, dry."""
+    if required.back_driving == ALLOWED:
+        return None
+    brake = report.brake
+    if required.back_driving == FORBIDDEN:
+        text = "torque that holds the axis with the motor off, in any condition"
+        return Check("back_driving", brake.holding_torque, 0.0, "N m", None, not brake.falls, text)
+    every = all(found.falls for found in brake.conditions)
+    least = min(found.holding_torque for found in brake.conditions)
+    return Check("back_driving", least, 0.0, "N m", None, every, "torque that the load has left in every condition")

@@ -1,0 +1,108 @@
+"""Text of a selection: one line for each candidate, the best first."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from ballscrew import units
+from ballscrew.documents.selection import verdict
+from ballscrew.output.wrapping import beside, wrapped
+from ballscrew.quantities import fields_of
+from ballscrew.selection.candidates import Candidate
+from ballscrew.selection.need import Need
+from ballscrew.selection.objectives import OBJECTIVES
+from ballscrew.selection.requirements import ALLOWED, Requirements
+from ballscrew.selection.selection import Ranked, Selection
+
+#: Lines shown where nothing else is said.
+USUAL_LINES = 20
+#: Objectives in the headings of tables.
+LABELS = {
+    "loss": "loss", "inertia": "inertia", "reflected_mass": "adds mass", "life": "life", "rigidity": "rigidity",
+    "drive_torque": "torque", "preload_torque": "no-load torque", "price_index": "price",
+}  # fmt: skip
+
+
+def title(found: Selection) -> str:
+    """``need.toml: 16 of 104 candidates hold``."""
+    return f"{found.need.name}: {len(found.holding)} of {len(found.ranked)} candidates hold"
+
+
+def asked(need: Need) -> list[str]:
+    """What a need says of load, speed, mounting and life, as it is written."""
+    known, required = fields_of(Requirements), need.requirements
+    numbers = {name: getattr(required, name) for name in known}
+    return [
+        *(
+            f"{key} {value}".replace("_", " ")
+            for section in ("operation", "installation", "limits")
+            if isinstance(table := need.tables.get(section), dict)
+            for key, value in table.items()
+        ),
+        *(
+            f"{name.replace('_', ' ')} {units.shown(value, known[name])}"
+            for name, value in numbers.items()
+            if value is not None
+        ),
+        *([] if required.back_driving == ALLOWED else [f"back-driving {required.back_driving}"]),
+    ]
+
+
+def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) -> str:
+    """The first lines of those ranked, and how the list is to be read; zero stands for all."""
+    shown = ranked[:most] if most else ranked
+    lines = [title(found), "", *table(shown, found.objectives)]
+    if len(shown) < len(ranked):
+        lines.append(f"… {len(ranked) - len(shown)} more: --first 0 shows all")
+    if not ranked:
+        lines.append("no candidate")
+    named = " and ".join(LABELS[name] for name in found.objectives)
+    lines += ["", wrapped(f"*  of those of which no check fails, no other is better in {named}, taken together")]
+    lines += ["", "assumed", *(wrapped(f"  {note}") for note in found.need.notes)] if found.need.notes else []
+    missing = sorted({check.missing for each in ranked for check in each.candidate.checks if check.missing})
+    if missing:
+        lines += ["", wrapped(f"nothing holds that was not judged: give {', '.join(missing)}")]
+    elif found.best is None:
+        lines += ["", "no candidate holds within the validity of the model: look at what fails first, and by how much"]
+    return "\n".join(lines)
+
+
+def table(ranked: Sequence[Ranked], objectives: Sequence[str]) -> list[str]:
+    """A line for each: rank, mark, label, objectives, verdict. An oil is named where there are several."""
+    heading = ["", "", "candidate", *(LABELS[name] for name in objectives), "verdict"]
+    several = len({each.candidate.variant.oil_name for each in ranked}) > 1
+    cells = [
+        heading,
+        *(
+            [str(each.rank), "*" if each.pareto else "", *_cells(each.candidate, objectives, several)]
+            for each in ranked
+        ),
+    ]
+    widths = [max(len(line[place]) for line in cells) for place in range(len(heading))]
+    lines: list[str] = []
+    for *numbers, words in cells:
+        prefix = "".join(
+            (cell.ljust(width) if place == 2 else cell.rjust(width)) + "  "
+            for place, (cell, width) in enumerate(zip(numbers, widths, strict=False))
+        )
+        lines.append(beside(prefix, words))
+    return lines
+
+
+def _cells(found: Candidate, names: Sequence[str], with_oil: bool) -> list[str]:
+    one = found.variant
+    nut = "" if one.nut == (one.row.nut or "single") else one.nut
+    label = ", ".join(filter(None, [one.row.name, nut, one.preload, one.oil_name if with_oil else ""]))
+    return [label, *(shown(name, found.objectives[name]) for name in names), verdict(found)]
+
+
+def shown(name: str, value: float) -> str:
+    """A number of an objective in its display unit."""
+    if math.isnan(value):
+        return "–"
+    if math.isinf(value):
+        return "no end"
+    quantity = OBJECTIVES[name].quantity
+    number = float(f"{float(units.from_si(value, quantity)):.3g}")
+    return f"{number:.7g} {units.label(quantity)}".rstrip()

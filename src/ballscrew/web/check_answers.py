@@ -1,0 +1,39 @@
+"""Response models of the API for the checks of a screw."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from ballscrew.web.answer_parts import Closed, Number, Provenance, Record, Tables, Template, VendorRows, field
+from ballscrew.web.answers import Results
+
+
+class OneCheck(Record):
+    """One check; null stands for what is not known."""
+
+    name: str
+    utilisation: Number = Field(description="share of the limit that is used: above 1 it fails")
+    missing: str = Field(description="the input without which it is not judged; empty where it is")
+    passes: bool | None = Field(description="as ``holds``")
+    words: str = Field(description="as ``text``")
+    display: Template
+
+
+class Checks(Closed):
+    """The checks of a case, with its results."""
+
+    checks: list[OneCheck]
+    holds: bool = Field(description="true where all checks were judged and hold")
+    verdict: str
+    verdicts: list[Record]
+    nut: str = Field(description="kind of the nut; a case without one is checked with a single nut")
+    inputs: Tables
+    geometry: dict[str, Number]
+    results: Results  # pyright: ignore[reportInvalidTypeForm]  (a model made from the annotations)
+    loads: Tables
+    vendor_rows: VendorRows = field(optional=True)
+    ratings: Tables
+    assumed: list[str]
+    units: Tables
+    warnings: list[Record]
+    provenance: Provenance

@@ -1,0 +1,104 @@
+"""Parts that the addresses of the API share: how work is queued, cancelled, and answered."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import Callable, Coroutine, Mapping
+from typing import Any
+
+from fastapi import Request
+from fastapi.routing import APIRoute
+from starlette.responses import Response
+
+from ballscrew.cases import case_file
+from ballscrew.errors import Fault, nearest, raise_if_any
+from ballscrew.output.json_text import plain
+from ballscrew.studies import run as runs
+from ballscrew.web import documents, limits, memory
+from ballscrew.web.bodies import CaseBody, case_of, read
+from ballscrew.web.problems import Refused
+from ballscrew.web.request_queue import Deadline, RequestQueue
+
+
+def known_query(request: Request) -> None:
+    """Refuse query parameters that are unknown to the address or repeated."""
+    route = request.scope["route"]
+    assert isinstance(route, APIRoute)
+    known = [field.alias for field in route.dependant.query_params]
+    given = list(request.query_params.multi_items())
+    twice = sorted({name for name, _ in given if len(request.query_params.getlist(name)) > 1})
+    raise_if_any(
+        [
+            Fault(f"?{n}", "unknown", "", nearest(n, known) if known else "")
+            for n in request.query_params
+            if n not in known
+        ]
+        + [Fault(f"?{name}", "is given twice", "", "give it once") for name in twice if name in known]
+    )
+
+
+def as_bytes(document: Any) -> bytes:
+    """A document as JSON, with null for numbers that are not finite."""
+    return json.dumps(plain(document), ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()
+
+
+def as_json(document: Any) -> Response:
+    """An answer with a document."""
+    return sent(as_bytes(document))
+
+
+def sent(document: bytes) -> Response:
+    """An answer with a document that is JSON already."""
+    return Response(document, media_type="application/json")
+
+
+def queue_of(request: Request) -> RequestQueue:
+    """The queue of requests of the application."""
+    found: RequestQueue = request.app.state.requests
+    return found
+
+
+async def heavy(request: Request, work: Callable[[Deadline], Any]) -> Any:
+    """Heavy work, cancelled when the client disconnects; its memory is given back."""
+    return await cancellable(request, queue_of(request).heavy(memory.releasing(work)))
+
+
+async def cancellable(request: Request, work: Coroutine[Any, Any, Any]) -> Any:
+    """Work, cancelled when the client disconnects: the page cancels its requests at the next key."""
+    task = asyncio.ensure_future(work)
+    disconnected = asyncio.ensure_future(_disconnected(request))
+    try:
+        await asyncio.wait((task, disconnected), return_when=asyncio.FIRST_COMPLETED)
+        if not task.done():
+            raise Refused(400, Fault("request", "was interrupted"))  # no client is left to read it
+        return task.result()
+    finally:
+        task.cancel()
+        disconnected.cancel()
+
+
+async def _disconnected(request: Request) -> None:
+    """Wait until the client disconnects; the body has been read."""
+    while (await request.receive())["type"] != "http.disconnect":
+        pass
+
+
+async def of_body(request: Request, work: Callable[[runs.Run], Response]) -> Response:
+    """Work on the run of the case in the body."""
+    body: CaseBody = await read(request, CaseBody)
+    return await of_run(request, body.case, work)
+
+
+async def of_run(request: Request, tables: Mapping[str, Any], work: Callable[[runs.Run], Response]) -> Response:
+    """Quick work on the run of a case; heavy work where many balls are computed one by one."""
+
+    def quick() -> case_file.Case | Response:
+        case = case_of(tables)
+        many = limits.balls_of(case) > limits.MANY_BALLS
+        return case if many else work(documents.run_of(case, tables))
+
+    found = await queue_of(request).quick(quick)
+    if isinstance(found, Response):
+        return found
+    return await heavy(request, lambda _: work(documents.run_of(found, tables)))

@@ -1,0 +1,158 @@
+// The checks: how much of each limit is used, what fails, and what was not judged for want of an input.
+
+import { byId, element, table } from "./dom.js";
+import * as units from "./units.js";
+
+/** @type {Record<string, string>} */
+const NAMES = {
+  static_safety: "static safety S₀",
+  life: "life in revolutions",
+  running_time: "life in hours",
+  contact_pressure: "contact pressure",
+  shaft_stress: "stress in the shaft",
+  buckling: "buckling",
+  critical_speed: "critical speed",
+  diameter_speed_product: "speed of the balls d·n",
+};
+/** Display units, by SI unit. @type {Record<string, string>} */
+const SHOWN_IN = { N: "kN", Pa: "MPa", s: "h", "rad/s": "rpm", "m rad/s": "mm rpm" };
+/** The field to fill in, by the input that a check lacks. @type {Record<string, [string, string]>} */
+const FIELDS = {
+  installation: ["installation.unsupported_length", "unsupported length and ends"],
+  "limits.running_time": ["limits.running_time", "required running time"],
+  dynamic_load_rating: ["screw.dynamic_load_rating", "dynamic load rating"],
+  static_load_rating: ["screw.static_load_rating", "static load rating"],
+};
+/** Shares of a limit from which a bar is coloured as close to it. */
+const CLOSE = 0.8;
+/** The share from which it is written as a multiple. */
+const MULTIPLE = 10;
+const DIGITS = 3;
+
+/** @typedef {Checks["checks"][number]} OneCheck */
+
+/**
+ * A check in words.
+ *
+ * @param {OneCheck} check
+ */
+function nameOf({ name }) {
+  return NAMES[name] ?? name.replaceAll("_", " ");
+}
+
+/**
+ * All checks in one sentence; nothing passes that was not judged.
+ *
+ * @param {Checks} found
+ */
+export function verdict({ checks, holds }) {
+  const failed = checks.filter((one) => one.holds === false).map(nameOf);
+  const open = checks.filter((one) => one.holds === null).length;
+  const rest = open ? ` ${open} of ${checks.length} checks not judged.` : "";
+  if (failed.length) return `Fails: ${failed.join(", ")}.${rest}`;
+  return holds ? `All ${checks.length} checks hold.` : `${checks.length - open} checks hold.${rest}`;
+}
+
+/**
+ * The name of the tone of a verdict or a bar.
+ *
+ * @param {OneCheck} check
+ */
+function toneOf({ holds, utilisation }) {
+  if (holds === null) return "open";
+  if (!holds) return "fails";
+  return (utilisation ?? 0) > CLOSE ? "close" : "holds";
+}
+
+/** @param {OneCheck} check @param {number | null} value */
+function shown({ unit }, value) {
+  return units.formattedIn(value, SHOWN_IN[unit] ?? unit, unit, DIGITS);
+}
+
+/** @param {OneCheck} check */
+function numberOf(check) {
+  return element("data", { value: String(check.value ?? ""), "data-name": check.name }, shown(check, check.value));
+}
+
+/** @param {OneCheck} check */
+function limitOf(check) {
+  return element("span", { class: "limit" }, check.limit === null ? "" : `limit ${shown(check, check.limit)}`);
+}
+
+/**
+ * A share of a limit in percent; far beyond it as a multiple.
+ *
+ * @param {number} share
+ */
+function percentage(share) {
+  if (!Number.isFinite(share)) return "over";
+  if (share >= MULTIPLE) return `${units.digits(share, 2)}\u00a0times`;
+  return `${units.digits(100 * share, share < 0.1 ? 2 : DIGITS)}\u00a0%`;
+}
+
+/**
+ * The share of the limit as a bar, a number and a word; or the field to fill in.
+ *
+ * @param {OneCheck} check
+ * @param {(path: string) => void} jump
+ */
+function used(check, jump) {
+  const { utilisation, holds } = check;
+  if (holds === null) {
+    const [path, wanted] = FIELDS[check.missing] ?? [];
+    if (!path) return "not judged";
+    const button = element("button", { type: "button", onclick: () => jump(path) }, `give ${wanted}`);
+    button.setAttribute("aria-label", `${nameOf(check)}: give ${wanted}`);
+    return element("span", {}, "not judged ", button);
+  }
+  const tone = toneOf(check);
+  const fill = element("span");
+  const share = utilisation ?? Number.POSITIVE_INFINITY;
+  fill.style.width = `${100 * Math.min(1, share)}%`;
+  return element(
+    "span",
+    { class: "used" },
+    element("span", { class: `bar ${tone}`, "aria-hidden": "true" }, fill),
+    element("data", { value: String(utilisation ?? "") }, percentage(share)),
+    element("strong", { class: tone }, holds ? "holds" : "fails"),
+  );
+}
+
+/**
+ * The panel of checks.
+ *
+ * @param {Checks | undefined} found
+ * @param {(path: string) => void} jump goes to a field
+ */
+export function show(found, jump) {
+  if (!found) {
+    byId("checks").textContent = "The checks could not be computed.";
+    return;
+  }
+  const tone = found.checks.some((one) => one.holds === false) ? "careful" : found.holds ? "good" : "";
+  const headings = ["", "value and limit", "used"];
+  const rows = found.checks.map((check) => [
+    element("span", { title: units.filled(check.display) }, nameOf(check)),
+    element("span", {}, numberOf(check), limitOf(check)),
+    used(check, jump),
+  ]);
+  const content = table("life, strength and speed against their limits", headings, rows);
+  content.className = "checks";
+  for (const [place, row] of [...content.tBodies[0].rows].entries()) row.dataset.check = found.checks[place].name;
+  byId("checks").replaceChildren(
+    element("p", { class: `verdict ${tone}` }, verdict(found)),
+    content,
+    element(
+      "p",
+      { class: "small" },
+      "Above 100 % a check fails. The life is that which nine of ten screws reach; the load is taken as constant. ",
+      ...notes(found),
+    ),
+  );
+}
+
+/** What a limit rests on, where a check says it. @param {Checks} found */
+function notes({ checks }) {
+  const source = checks.find((one) => one.name === "diameter_speed_product");
+  return source ? [`d·n: ${units.filled(source.display)}.`] : [];
+}

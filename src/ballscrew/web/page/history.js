@@ -1,0 +1,120 @@
+// The state in the address, and in the history of the browser: Back undoes an edit, Forward makes it again.
+
+import { byId } from "./dom.js";
+
+/** Browsers stop a page that writes its address at each key. */
+const ADDRESS_DELAY = 300;
+
+/** The place of this entry among those of the page, and that of the last one. */
+let place = 0;
+let last = 0;
+/** The field that this entry is an edit of. @type {string | undefined} */
+let edited;
+/** The address to be written. @type {string | undefined} */
+let pending;
+/** @type {ReturnType<typeof setTimeout>} */
+let timer;
+/** Addresses that were left before they were written, by place. @type {Map<number, string>} */
+const late = new Map();
+
+function showButtons() {
+  button("undo").disabled = place === 0;
+  button("redo").disabled = place >= last;
+}
+
+/** @param {string} id */
+function button(id) {
+  return /** @type {HTMLButtonElement} */ (byId(id));
+}
+
+/** Write the pending address. */
+export function write() {
+  clearTimeout(timer);
+  if (pending !== undefined && pending !== location.hash) history.replaceState({ place }, "", pending);
+  pending = undefined;
+}
+
+/**
+ * A new entry, to which Back leads from the next one.
+ *
+ * @param {string} fragment
+ */
+function push(fragment) {
+  write();
+  if (fragment === location.hash) return;
+  place += 1;
+  last = place;
+  late.clear();
+  history.pushState({ place }, "", fragment);
+  showButtons();
+}
+
+/**
+ * An entry for a choice, such as another start.
+ *
+ * @param {string} fragment
+ */
+export function choose(fragment) {
+  edited = undefined;
+  push(fragment);
+}
+
+/**
+ * An entry for all edits of one field in a row.
+ *
+ * @param {string} fragment
+ * @param {string} path
+ */
+export function edit(fragment, path) {
+  if (path !== edited) {
+    push(fragment);
+    edited = path;
+    return;
+  }
+  replace(fragment);
+}
+
+/**
+ * The same entry with another address.
+ *
+ * @param {string} fragment
+ */
+export function replace(fragment) {
+  pending = fragment;
+  clearTimeout(timer);
+  timer = setTimeout(write, ADDRESS_DELAY);
+}
+
+/**
+ * Follow the buttons of the page and of the browser.
+ *
+ * @param {() => void} arrive reads the address
+ */
+export function begin(arrive) {
+  place = history.state?.place ?? 0;
+  last = place;
+  history.replaceState({ place }, "", location.href);
+  button("undo").addEventListener("click", () => {
+    write();
+    history.back();
+  });
+  button("redo").addEventListener("click", () => {
+    write();
+    history.forward();
+  });
+  addEventListener("pagehide", write);
+  addEventListener("popstate", (event) => {
+    clearTimeout(timer);
+    if (pending !== undefined) late.set(place, pending);
+    pending = undefined;
+    edited = undefined;
+    // a link within the page has no place yet: it is the next one
+    if (event.state?.place === undefined) last = place + 1;
+    place = event.state?.place ?? last;
+    history.replaceState({ place }, "", late.get(place) ?? location.href);
+    late.delete(place);
+    showButtons();
+    arrive();
+  });
+  showButtons();
+}

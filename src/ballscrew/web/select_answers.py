@@ -1,0 +1,58 @@
+"""Response models of the API for screws that are ranked for a need."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from ballscrew.web.answer_parts import Closed, Number, Numbers, Open, Provenance, Record, Tables, field
+
+
+class Failing(Closed):
+    """A check that fails."""
+
+    name: str
+    utilisation: Number = Field(description="demand over capacity; null where the check is a question of yes or no")
+
+
+class Candidate(Open):
+    """A row with a nut, a preload and an oil: the document of its check, with its rank."""
+
+    rank: int
+    name: str = Field(description="of the row")
+    label: str = Field(description="row, nut, preload and oil")
+    nut: str
+    preload: Number = field("axial preload, SI", "N")
+    oil: str
+    holds: bool = Field(description="true where all checks were judged and hold")
+    valid: bool
+    pareto: bool = Field(description="true where no other candidate that fits is better in all objectives")
+    worst: Number = Field(description="largest utilisation")
+    fails: list[Failing]
+    verdict: str
+    objectives: Numbers
+    results: Tables
+    checks: list[Tables]
+    verdicts: list[Record]
+    warnings: list[Record]
+
+
+class OneObjective(Closed):
+    """A number that is compared."""
+
+    name: str
+    meaning: str
+    unit: str = Field(description="SI")
+    better: str = Field(description="less or more")
+
+
+class Select(Closed):
+    """Candidates for a need, the best first."""
+
+    need: Tables
+    objectives: list[OneObjective]
+    best: str | None = Field(description="label of the first that holds within the validity of the model")
+    holding: int
+    candidates: list[Candidate]
+    notes: list[str]
+    units: Tables
+    provenance: Provenance | None

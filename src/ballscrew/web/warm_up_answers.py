@@ -1,0 +1,85 @@
+"""Response models of the API for warming up."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from ballscrew.axis_studies.warm_up import EQUILIBRIUM, SERIES
+from ballscrew.quantities import Quantity
+from ballscrew.web.answer_parts import (
+    Closed,
+    Number,
+    Numbers,
+    Open,
+    Provenance,
+    Record,
+    Tables,
+    field,
+    model,
+    quantities,
+)
+
+
+def _lists(quantity: Quantity) -> Any:
+    return list[Number], field(f"{quantity.info.meaning} at each instant, SI", quantity.unit)
+
+
+Equilibrium = model(
+    "Equilibrium",
+    "The steady state; null where there is none.",
+    Open,
+    exists=(bool, ...),
+    margin=(Number, field("1 less the gain of the loop, which runs away at 0")),
+    **quantities(EQUILIBRIUM),
+)
+
+
+class Heat(Closed):
+    """Heat until the end; generated is stored and lost."""
+
+    generated: Number = field("heat of friction, SI", "J")
+    stored: Number = field("heat stored, SI", "J")
+    lost: Number = field("heat lost to the surroundings, SI", "J")
+
+
+WarmUpResults = model(
+    "WarmUpResults",
+    "Numbers over time, where they end, and what heat does at places.",
+    Open,
+    **{name: _lists(quantity) for name, quantity in SERIES.items() if not name.startswith("heat_")},
+    works=(list[bool], ...),
+    stopped=(Number, field("time after which oil or preload are outside what is known, SI", "s")),
+    source=(Literal["spread", "moving"], field("whether the heat is spread over the stroke, or goes with the nut")),
+    equilibrium=(Equilibrium, ...),
+    heat=(Heat, ...),
+    drift=(Tables, ...),
+    compensation=(Tables, ...),
+    shaft=(Tables, ...),
+    stretch_left=(list[Number] | None, field("stretch left of a shaft between fixed ends, SI", "m")),
+    network=(Numbers, ...),
+)
+
+
+class WarmUpBands(Open):
+    """Bands over time and in the steady state."""
+
+    level: float
+    samples: int
+    time: list[float] = field("instants, SI", "s")
+    known_share: list[float] = field("share of the samples whose friction is known at each instant")
+    equilibrium: Tables
+    inputs: Tables
+
+
+class WarmUp(Closed):
+    """How a case warms up."""
+
+    inputs: Tables
+    results: WarmUpResults  # pyright: ignore[reportInvalidTypeForm]  (a model made from the annotations)
+    units: Tables
+    assumed: list[str]
+    verdicts: list[Record]
+    checks: list[Record]
+    warnings: list[Record]
+    provenance: Provenance
+    band: WarmUpBands = field(optional=True)

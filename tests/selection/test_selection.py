@@ -1,0 +1,205 @@
+"""``bs.select`` and ``ballscrew select``: equal to brute force by the public check, ranked, and refused in words."""
+
+import csv
+import json
+import math
+import tomllib
+
+import jsonschema_rs
+import numpy as np
+import pytest
+
+import ballscrew as bs
+from ballscrew.documents.selection import document
+from ballscrew.errors import InputError
+from ballscrew.selection.need import need_of
+from ballscrew.selection.pareto import front, hypervolume
+from support.commands import ROOT
+
+EXAMPLE = ROOT / "examples" / "needs" / "feed_axis.toml"
+FEW = {
+    "operation": {"axial_load": "6 kN", "feed": "15 m/min"},
+    "installation": {"unsupported_length": "1 m", "ends": "fixed-supported"},
+    "limits": {"running_time": "20000 h"},
+    "nut": {"preload": ["2 %", "5 %"]},
+    "need": {"rows": "rexroth 63x"},
+}
+
+
+def test_a_selection_is_brute_force_by_the_public_check(ballscrew):
+    """Each row by itself, by the command ``check``: the same numbers, checks and verdicts, and no candidate more."""
+    found = document(bs.select({**FEW, "need": {"rows": "40-20k"}, "nut": {"type": ["single", "double"]}}))
+    by_label = {each["label"]: each for each in found["candidates"]}
+    rows = [name for name in bs.catalogue() if "40-20k" in name]
+    assert rows
+    expected = {}
+    for name in rows:
+        for nut, preload in (("single", None), ("double", "2 %"), ("double", "5 %"), ("double", "10 %")):
+            speed = 2 * math.pi * 0.25 / bs.catalogue()[name].lead
+            options = ["--axial-load", "6 kN", "--speed", f"{speed!r} rad/s", "--nut", nut, "--length", "1 m"]
+            options += ["--ends", "fixed-supported", "--set", 'limits.running_time="20000 h"']
+            options += [] if preload is None else ["--preload", preload]
+            label = ", ".join(filter(None, [name, nut, preload, "ISO VG 100"]))
+            expected[label] = json.loads(ballscrew("check", name, *options, "--json").stdout)
+    assert set(by_label) == set(expected)
+    for label, alone in expected.items():
+        mine = by_label[label]
+        assert mine["results"]["screw_torque"] == pytest.approx(alone["results"]["screw_torque"], rel=1e-9)
+        assert [check["id"] for check in mine["checks"]] == [check["id"] for check in alone["checks"]]
+        for one, other in zip(mine["checks"], alone["checks"], strict=True):
+            assert one["holds"] == other["holds"]
+            assert one["utilisation"] == pytest.approx(other["utilisation"], rel=1e-9)
+        assert mine["holds"] == all(check["holds"] for check in alone["checks"])
+
+
+def test_order_and_front():
+    found = bs.select(FEW)
+    candidates = [each.candidate for each in found.ranked]
+    assert [each.rank for each in found.ranked] == list(range(1, len(candidates) + 1))
+    holds = [each.holds for each in candidates]
+    assert holds == sorted(holds, reverse=True)
+    assert True in holds
+    assert False in holds
+    failing = [each.worst for each in candidates if not each.holds]
+    assert failing == sorted(failing)
+    assert all(each > 1 for each in failing)
+    best = [each.candidate for each in found.ranked if each.pareto]
+    for one in best:  # nothing that holds beats a member
+        for other in candidates:
+            if other.fits and other.valid:
+                better = [
+                    other.objectives[name] > one.objectives[name]
+                    if name in ("life", "rigidity")
+                    else other.objectives[name] < one.objectives[name]
+                    for name in found.objectives
+                ]
+                assert not all(better)
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        'force = "6 kN"\nfeed = "15 m/min"\nends = "fixed-supported"\nlife = "20000 h"\nlength = "1 m"\n'
+        'oil = "ISO VG 68"\nnut = "double"\npreload = "2 %"',
+        '[need]\nforce = "6 kN"\nfeed = "15 m/min"\nends = "fixed-supported"\nlife = "20000 h"\nlength = "1 m"\n'
+        'oil = "ISO VG 68"\nnut = "double"\npreload = "2 %"',
+        '[operation]\nforce = "6 kN"\nfeed = "15 m/min"\n[installation]\nends = "fixed-supported"\nlength = "1 m"\n'
+        '[limits]\nlife = "20000 h"\n[lubricant]\noils = "ISO VG 68"\n[nut]\nnut_type = "double"\npreload = "2 %"',
+        'lubricant = "ISO VG 68"\n'
+        '[operation]\naxial_load = "6 kN"\nfeed = "15 m/min"\n[installation]\nends = "fixed-supported"\n'
+        'unsupported_length = "1 m"\n[limits]\nrunning_time = "20000 h"\n[nut]\ntype = "double"\npreload = "2 %"',
+    ],
+)
+def test_all_ways_to_write_a_need(written, tmp_path):
+    path = tmp_path / "need.toml"
+    path.write_text(written, encoding="utf-8")
+    need = need_of(path)
+    assert need.requirements.feed == pytest.approx(0.25)
+    assert need.nuts == ["double"]
+    assert need.preloads == ["2 %"]
+    assert need.oils == [{"grade": "ISO VG 68", "temperature": "40 degC"}]
+    assert need.tables["operation"] == {"axial_load": "6 kN"}
+    assert need.tables["installation"] == {"ends": "fixed-supported", "unsupported_length": "1 m"}
+    assert need.tables["limits"] == {"running_time": "20000 h"}
+
+
+def test_a_case_file_is_a_need():
+    found = bs.select(ROOT / "examples" / "catalogue_screw.toml", words="rexroth 40x10")
+    assert [each.candidate.name for each in found.ranked] == ["rexroth-40x10x6-6-double"]
+    assert found.ranked[0].candidate.checked.nut.preload == pytest.approx(0.07 * 72100)
+
+
+def test_a_duty_is_judged_by_its_cycle(ballscrew, tmp_path):
+    example = ROOT / "examples" / "vertical_axis.toml"
+    found = bs.select(example, words="hiwin-40-20k4").ranked[0].candidate
+    elastic = tmp_path / "case.toml"  # the bodies of a row are elastic, as check takes them
+    elastic.write_text(example.read_text(encoding="utf-8") + "\n[bodies]\n", encoding="utf-8")
+    alone = json.loads(ballscrew("duty", elastic, "--json").stdout)
+    assert [check.name for check in found.checks] == [check["id"].rpartition(".")[2] for check in alone["checks"]]
+    assert found.duty is not None
+    assert found.duty.numbers["energy_lost"] == pytest.approx(alone["results"]["energy_lost"], rel=1e-9)
+
+
+def test_requirements_are_checks():
+    tables = {
+        **FEW,
+        "need": {
+            "rows": "hiwin-50-20k4", "back_driving": "forbidden", "least_rigidity": "2000 N/um",
+            "largest_drive_torque": "15 N m", "largest_inertia": "100 kg cm^2", "largest_preload_torque": "1 N m",
+            "counts_per_turn": 1000, "largest_step": "10 um", "accuracy": "5",
+        },
+    }  # fmt: skip
+    found = bs.select(tables).ranked[0].candidate
+    checks = {check.name: check for check in found.checks}
+    assert checks["step"].value == pytest.approx(20e-6)
+    assert checks["step"].utilisation == pytest.approx(2)
+    assert checks["rigidity"].utilisation == pytest.approx(2e9 / found.objectives["rigidity"])
+    assert checks["inertia"].value == pytest.approx(math.pi * 7850 * 0.05**4 / 32)
+    assert checks["preload_torque"].holds
+    assert checks["drive_torque"].holds is False
+    assert checks["back_driving"].holds is False  # a ball screw of this lead drives back
+    assert checks["back_driving"].value == pytest.approx(float(found.checked.run.at_rest.holding_torque), rel=0.2)
+    assert any("grade 5" in note for note in bs.select(tables).need.notes)
+    assert not found.holds
+
+
+def test_tables_pictures_and_own_rows(ballscrew, tmp_path):
+    rows = ROOT / "examples" / "own_screws.csv"
+    table, picture = tmp_path / "list.csv", tmp_path / "front.svg"
+    need = tmp_path / "need.toml"
+    need.write_text('force = "2 kN"\nspeed = "600 rpm"\nprice_index = {}\n', encoding="utf-8")
+    done = ballscrew("select", need, "--rows", rows, "--json", "--to", table, "--to", picture)
+    document = json.loads(done.stdout)
+    with table.open(encoding="utf-8") as stream:
+        written = list(csv.DictReader(stream))
+    assert [row["name"] for row in written] == [each["name"] for each in document["candidates"]]
+    torque = [each["objectives"]["drive_torque"] for each in document["candidates"]]
+    assert [float(row["drive torque [N m]"]) for row in written] == pytest.approx(torque, rel=1e-9)
+    assert "kg" in picture.read_text(encoding="utf-8") or picture.stat().st_size > 10_000
+    words = ballscrew("select", need, "--rows", rows, "--first", "1").stdout
+    assert "oil ISO VG 100: none was given" in words
+
+
+@pytest.mark.parametrize(
+    ("tables", "words"),
+    [
+        ({"operation": {"screw_speed": "600 rpm"}}, "operation.axial_load"),
+        ({"operation": {"axial_load": "2 kN"}}, "operation.screw_speed"),
+        ({"forse": "2 kN"}, 'did you mean "force"'),
+        ({"duty": [{"force": "2 kN"}]}, "write [axis] and [motion]"),
+        ({**FEW, "limits": {"life": 20000}}, "limits.running_time: needs a unit"),
+        ({**FEW, "force": "2 kN"}, "is given twice"),
+        ({**FEW, "need": {"back_driving": "perhaps"}}, "need.back_driving"),
+        ({**FEW, "need": {"largest_step": "1 um"}}, "counts_per_turn"),
+        ({**FEW, "need": {"objectives": ["beauty"]}}, "unknown objective"),
+        ({**FEW, "need": {"price_index": {"no-such-row": 2.0}}}, "no such row"),
+        ({**FEW, "need": {"least_rigidity": "5 kg"}}, "need.least_rigidity"),
+        ({**FEW, "nut": {"type": "tripple"}}, "unknown kind of nut"),
+        ({**FEW, "operation": {"axial_load": "6 kN", "feed": "15 m/min", "screw_speed": "5 rpm"}}, "leave one of them"),
+    ],
+)
+def test_faults_of_a_need(tables, words):
+    with pytest.raises(InputError) as raised:
+        bs.select(tables)
+    assert words in str(raised.value)
+
+
+def test_front_and_hypervolume_of_known_points():
+    costs = np.array([[1.0, 4.0], [2.0, 2.0], [4.0, 1.0], [3.0, 3.0], [5.0, 5.0], [math.nan, 0.0], [2.0, 2.0]])
+    assert front(costs).tolist() == [True, True, True, False, False, False, True]
+    # boxes below (5, 5): 4*1 + 3*3 + 1*4, less their overlaps 3*1, 1*3 and once more 1*1
+    assert hypervolume(costs[:3], np.array([5.0, 5.0])) == pytest.approx(4 + 9 + 4 - 3 - 3 - 1 + 1)
+    cube = np.array([[0.0, 0.0, 0.0], [0.5, 0.5, 0.5]])
+    assert hypervolume(cube, np.ones(3)) == pytest.approx(1.0)
+    assert hypervolume(cube[1:], np.ones(3)) == pytest.approx(0.125)
+
+
+def test_the_schema_knows_what_is_read(ballscrew):
+    schema = json.loads(ballscrew("schema", "--need").stdout)
+    validator = jsonschema_rs.validator_for(schema)
+    validator.validate(tomllib.loads(EXAMPLE.read_text(encoding="utf-8")))
+    validator.validate(FEW)
+    validator.validate({"force": "6 kN", "feed": "15 m/min", "nut": ["single", "double"], "preload": "2 %"})
+    validator.validate({"need": {"force": "6 kN", "speed": "15 rpm", "least_rigidity": "500 N/um"}})
+    for wrong in ({"forse": "6 kN"}, {"need": {"leest_rigidity": "5 N/um"}}, {"optimise": {"population": 1}}):
+        assert not validator.is_valid(wrong), wrong
