@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cli.common_options import AllowCode, CaseFile, ModelName, Settings
+from ballscrew.command_options.common_options import AllowCode, CaseFile, ModelName, Settings
 
 
 def compensation(
