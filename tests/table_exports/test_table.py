@@ -91,6 +91,13 @@ def test_a_range_of_another_input_makes_it_an_axis(handed_over):
     assert table.valid_range["temperature"] == (300.0, 330.0)
 
 
+def test_a_table_of_too_many_nodes_is_refused(handed_over, monkeypatch):
+    monkeypatch.setattr("ballscrew.table_exports.friction_table.MOST_NODES", 50)
+    subject = handed_over(bs.FrictionModel.olaru2005(), bs.SingleNut(), to="table", ranges=RANGES)
+    with pytest.raises(bs.InputError, match=r"hand_over\.tolerance: needs a table of .* more than 50"):
+        friction_table(subject)
+
+
 @pytest.mark.parametrize(
     ("asked", "expected"),
     [

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import logging
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -41,12 +42,14 @@ _MADE_OF_OTHERS = ("holding_torque", "friction_power")
 _LEAST_LOAD, _LEAST_SPEED = 1e-5, 1e-8
 _LADDER, _EVEN_STEPS, _OTHER_STEPS = 60, 61, 17
 #: Values of the other axes at which the nodes of an axis are chosen, by the number of axes.
-_PROBES: Mapping[int, int] = {2: 9, 3: 5}
+_PROBES: Mapping[int, int] = {2: 9, 3: 5, 4: 5}
 _FEWEST_PROBES = 3
 _CHECKED_POINTS = 4000
 #: Points at which the error of a nut is measured whose balls are solved one by one.
 _SLOW_POINTS = 200
 _TRIES = 4
+#: Nodes of a table at most: more would be no table that people read.
+MOST_NODES = 200_000
 #: A finer table is worth its size where it brings the error down to this share.
 _WORTH = 0.7
 
@@ -139,6 +142,11 @@ def friction_table(handed: HandOver) -> FrictionTable:
     allowed, best = tolerance / len(ranges), None
     for _ in range(_TRIES):  # errors of axes add up to less than their sum, at points that were looked at
         axes = {name: values[_nodes(name, values, chords[name], allowed)] for name, values in candidates.items()}
+        size = math.prod(len(values) for values in axes.values())
+        if size > MOST_NODES:
+            if best is None:
+                raise InputError(_too_many(size))
+            break
         found = evaluate(*np.meshgrid(*axes.values(), indexing="ij"))
         valid = found.pop("valid")
         for name, values in found.items():
@@ -153,6 +161,11 @@ def friction_table(handed: HandOver) -> FrictionTable:
         allowed *= _WORTH * tolerance / error
     assert best is not None
     return best
+
+
+def _too_many(size: int) -> Fault:
+    remedy = "give a larger tolerance (--option tolerance=0.05), fewer axes or smaller ranges"
+    return Fault("hand_over.tolerance", f"needs a table of {size:,} nodes, more than {MOST_NODES:,}", "", remedy)
 
 
 def as_export(

@@ -23,6 +23,10 @@ OPTIONS: Mapping[str, Option] = OF_TABLES
 #: The name of the files and of the function.
 NAME = "ballscrew_friction"
 
+_README = """\
+ballscrew_friction.m interpolates the table of ballscrew_friction.mat, in MATLAB and in Octave; ballscrew_friction.ssc
+is a component of Simscape, written by the manual of the language and never run.
+"""
 _FUNCTION = """\
 function [screw_torque, drive_torque, valid] = {name}(axial_load, screw_speed)
 %{upper}  Friction torque of a ball screw, N m, over its load in N and its speed in rad/s.
@@ -98,6 +102,7 @@ def export(handed: HandOver) -> Export:
         f"{NAME}.mat": _mat(handed, table, errors),
         f"{NAME}.m": _function(about).encode(),
         f"{NAME}.ssc": _simscape(handed, table, about).encode(),
+        "README.txt": notes.text(handed, table.valid_range, errors, _README),
     }
     return as_export(handed, table, "matlab", files, errors)
 

@@ -36,6 +36,10 @@ OPTIONS: Mapping[str, Option] = {
 #: Inertia of the motor of the example, kg m².
 _ROTOR = 1e-3
 
+_README = """\
+BallScrewFriction.mo has the component BallScrew with an example; it needs the Modelica Standard Library, version 4.
+LossyGear.txt has the parameters of the library's own gear, fitted, and says how far off it is.
+"""
 _FILE = """\
 within;
 package BallScrewFriction "A ball screw with its friction, as ballscrew computed it"
@@ -136,7 +140,11 @@ def export(handed: HandOver) -> Export:
     errors = table.worst_errors(handed)
     gear = loss_table(table)
     text = component(handed, table, at_rest, notes.lines(handed, table.valid_range, errors))
-    files = {"BallScrewFriction.mo": text.encode(), "LossyGear.txt": _lossy_gear(handed, gear).encode()}
+    files = {
+        "BallScrewFriction.mo": text.encode(),
+        "LossyGear.txt": _lossy_gear(handed, gear).encode(),
+        "README.txt": notes.text(handed, table.valid_range, errors, _README),
+    }
     return as_export(handed, table, "modelica", files, errors, [_creeps(at_rest), *_gear_is_off(gear)])
 
 
@@ -145,7 +153,7 @@ def component(handed: HandOver, table: FrictionTable, at_rest: float, about: Seq
     loads, speeds = (table.axes[name] for name in OPERATION[:2])
     travel = float(handed.subject.screw.lead) / (2 * math.pi)
     per_load = _torque_of_load(table)
-    mass = float(f"{max(0.1 * min(abs(loads[0]), abs(loads[-1])) / 9.81, 1.0):.1g}")
+    mass = float(f"{_example_load(float(loads[0]), float(loads[-1])) / 9.81:.1g}")
     held = mass * 9.81 * per_load
     # the swing of the motor turns the rotor up to a third of the range, against the friction at the load
     inertia = _ROTOR + mass * travel * travel
@@ -167,6 +175,13 @@ def component(handed: HandOver, table: FrictionTable, at_rest: float, about: Seq
         amplitude=f"{swing:.3g}",
         offset=f"{held:.3g}",
     )
+
+
+def _example_load(least: float, greatest: float) -> float:
+    """A load within the range for the example, upwards where the range has such loads."""
+    if greatest <= 0:
+        return 9.81
+    return math.sqrt(least * greatest) if least > 0 else 0.1 * greatest
 
 
 def _torque_of_load(table: FrictionTable) -> float:

@@ -33,7 +33,7 @@ def ranges(handed: HandOver, ends: Mapping[str, tuple[float, float]]) -> list[st
     lines: list[str] = []
     for name, (least, greatest) in ends.items():
         quantity = quantities[name]
-        both = [units.shown(end, quantity) for end in (least, greatest)]
+        both = [units.shown(end, quantity, 6) for end in (least, greatest)]
         shown = both[0] if least == greatest else f"{both[0]} to {both[1]}"
         si = f"{least:.6g}" if least == greatest else f"{least:.6g} to {greatest:.6g}"
         lines.append(f"{name} [{quantity.unit}]: {si} ({shown})" + (", fixed" if least == greatest else ""))
@@ -68,5 +68,8 @@ def text(
 ) -> bytes:
     """A README: what the files are, what is to be known of them, and all numbers that they are made of."""
     fixed = handed.provenance["inputs"].items()
-    values = [f"  {name} = {value:.9g} {handed.subject.inputs[name][1].unit}" for name, value in fixed]
+    unit = {
+        name: "" if quantity.unit == "1" else quantity.unit for name, (_, quantity) in handed.subject.inputs.items()
+    }
+    values = [f"  {name} = {value:.9g} {unit[name]}".rstrip() for name, value in fixed]
     return "\n".join([of_files, *lines(handed, ends, found), "Made of:", *values, ""]).encode()

@@ -1,0 +1,77 @@
+"""``ballscrew compensation``: the growth of a warm shaft for a control. The work is in ``axis_studies``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ballscrew.command_options.common_options import AllowCode, CaseFile, ModelName, Settings
+
+
+def compensation(
+    case: CaseFile,
+    to: Annotated[str, typer.Option("--to", metavar="CONTROL", help="sinumerik or isg (TwinCAT CNC).")],
+    out: Annotated[Path, typer.Option("--out", "-o", metavar="FILE", help="File to write.")],
+    hours: Annotated[float, typer.Option("--hours", metavar="H", help="Hours of work.")] = 4.0,
+    axis: Annotated[str, typer.Option("--axis", metavar="NAME", help="Name of the axis at the control.")] = "X1",
+    zero: Annotated[
+        str, typer.Option("--zero", metavar="LENGTH", help="Place from the fixed bearing where the axis is at zero.")
+    ] = "0 mm",
+    step: Annotated[str, typer.Option("--step", metavar="LENGTH", help="Distance of the points.")] = "20 mm",
+    reference: Annotated[
+        str | None,
+        typer.Option("--reference", metavar="LENGTH", help="Position of the axis where nothing is compensated."),
+    ] = None,
+    model: ModelName = None,
+    settings: Settings = None,
+    allow_code: AllowCode = False,
+) -> None:
+    """Write the growth of a shaft after hours of work as a compensation of positions, for an encoder at the motor.
+
+    It holds in that thermal state only. The format was checked against the example of the manual, not on a control.
+    """
+    from ballscrew.axis_studies import position_compensation as studies
+    from ballscrew.axis_studies import warm_up
+    from ballscrew.errors import Fault, InputError, nearest
+    from ballscrew.files import atomic_write, check_writable
+    from ballscrew.table_files import compensation_lists
+
+    if to not in compensation_lists.LISTS:
+        raise InputError(Fault("--to", "unknown control", to, nearest(to, compensation_lists.LISTS)))
+    if not axis.isidentifier():
+        raise InputError(Fault("--axis", "is no name of an axis", axis, "write letters and digits, such as X1"))
+    if not 0 < hours <= _LONGEST:
+        raise InputError(Fault("--hours", f"must be above 0 and at most {_LONGEST:g}", f"{hours:g}", "write --hours 4"))
+    lengths = {"--zero": zero, "--step": step, **({} if reference is None else {"--reference": reference})}
+    found = {name: _length(name, text) for name, text in lengths.items()}
+    check_writable("--out", out)
+    report = warm_up.warmed_up(warm_up.load(case, settings or [], model, allow_code=allow_code), hours)
+    made = studies.position_compensation(
+        report, hours, zero=found["--zero"], step=found["--step"], reference=found.get("--reference")
+    )
+    with atomic_write("--out", out) as path:
+        path.write_text(compensation_lists.LISTS[to](made, axis), encoding="utf-8")
+    typer.echo(f"{out}")
+    typer.echo(
+        f"{len(made.positions)} points from {1e3 * made.positions[0]:.6g} mm to {1e3 * made.positions[-1]:.6g} mm: "
+        f"{1e6 * made.errors.min():.3g} µm to {1e6 * made.errors.max():.3g} µm; "
+        f"straight lines between them miss up to {1e6 * made.worst_error:.2g} µm of the growth computed"
+    )
+    typer.echo(f"it holds after {hours:g} h of this work only; format checked against the manual, not on a control")
+
+
+#: The longest time, h: a year.
+_LONGEST = 8766.0
+
+
+def _length(where: str, text: str) -> float:
+    from ballscrew import units
+    from ballscrew.errors import Fault, InputError
+    from ballscrew.quantities import Info, Quantity
+
+    found = units.parse(where, text, Quantity(where, "m", Info("x", "length", "mm")))
+    if isinstance(found, Fault):
+        raise InputError(found)
+    return found

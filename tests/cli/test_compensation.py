@@ -1,0 +1,113 @@
+"""Compensations of positions: their numbers, and the forms of the manuals' examples."""
+
+import re
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import ballscrew as bs
+from ballscrew.axis_studies.position_compensation import position_compensation
+from ballscrew.table_files.compensation_lists import isg, sinumerik
+
+LENGTH, CURVATURE = 1.0, 1e-4
+#: SINUMERIK Function Manual Extended Functions, 03/2013, 6FC5397-1BP40-3BA1, 4.4.2.3; without its comments.
+SINUMERIK = """\
+%_N_AX_EEC_INI
+CHANDATA(1)
+$AA_ENC_COMP[0,0,X1]=0.003
+$AA_ENC_COMP[0,1,X1]=0.01
+$AA_ENC_COMP[0,2,X1]=0.012
+$AA_ENC_COMP[0,800,X1]=-0.0
+$AA_ENC_COMP_STEP[0,X1]=1.0
+$AA_ENC_COMP_MIN[0,X1]=-200.0
+$AA_ENC_COMP_MAX[0,X1]=600.0
+$AA_ENC_COMP_IS_MODULO[0,X1]=0
+M17
+"""
+#: infosys.beckhoff.com, tf5200_axis_compensation_parameters, Example of a compensation value list; parts of it.
+ISG = """\
+kopf.log_achs_name                   Y-ACHSE
+kw.ssfk.interval                     0
+kw.ssfk.kw_startpos                 -200000
+kw.ssfk.kw_nr_max                    140
+kw.ssfk.unit                         1
+kw.ssfk.bilateral                    1
+kw.ssfk.table[0].setpoint           -200000
+kw.ssfk.table[0].pos                 0
+kw.ssfk.table[0].neg                 0
+"""
+
+
+@pytest.fixture
+def report():
+    """A shaft that grows by c x² at the place x."""
+
+    def table(step):
+        places = np.linspace(0.0, LENGTH, round(LENGTH / step) + 1)
+        return places, CURVATURE * places**2
+
+    return SimpleNamespace(
+        warm_up=SimpleNamespace(compensation_table=table, network=SimpleNamespace(shaft=SimpleNamespace(length=LENGTH)))
+    )
+
+
+def test_chords_of_a_parabola_miss_what_they_must(report):
+    found = position_compensation(report, 4.0, zero=0.2, step=0.05)
+    assert found.positions == pytest.approx(np.arange(-0.2, 0.81, 0.05))
+    assert found.errors == pytest.approx(CURVATURE * (found.positions + 0.2) ** 2)
+    assert found.worst_error == pytest.approx(CURVATURE * 0.025**2, rel=1e-6)
+
+
+def test_nothing_is_compensated_at_the_reference(report):
+    found = position_compensation(report, 4.0, zero=0.2, step=0.05, reference=0.3)
+    assert np.interp(0.3, found.positions, found.errors) == pytest.approx(0.0, abs=1e-15)
+    assert found.errors[-1] == pytest.approx(CURVATURE * (1.0 - 0.25))
+
+
+def form(text):
+    """Lines with each number replaced by #."""
+    return [re.sub(r"(?<![\w.])-?\d+(\.\d+)?(?![\w.])", "#", line) for line in text.splitlines()]
+
+
+def test_sinumerik_has_the_form_of_its_manual(report):
+    found = position_compensation(report, 4.0, zero=0.2, step=0.05)
+    text = sinumerik(found, "X1")
+    assert list(dict.fromkeys(form(text))) == list(dict.fromkeys(form(SINUMERIK)))
+    values = [float(v) for v in re.findall(r"COMP\[0,\d+,X1\]=(\S+)", text)]
+    assert values == pytest.approx(1e3 * found.errors, abs=5e-6)
+    assert "$AA_ENC_COMP_STEP[0,X1]=50.000000" in text
+    assert values[-1] > 0  # a shaft that grew is moved back: positive moves the axis in the negative direction
+
+
+def test_isg_has_the_form_of_its_manual(report):
+    found = position_compensation(report, 4.0, zero=0.2, step=0.05)
+    rows = [line.split() for line in isg(found, "Y").splitlines()]
+    example = [line.split()[0] for line in ISG.splitlines()]
+    assert list(dict.fromkeys(re.sub(r"\[\d+\]", "[0]", name) for name, _ in rows)) == example
+    values = dict(rows)
+    assert values["kw.ssfk.kw_startpos"] == values["kw.ssfk.table[0].setpoint"] == "-2000000"
+    assert int(values["kw.ssfk.table[20].pos"]) == round(1e7 * found.errors[20]) == int(values["kw.ssfk.table[20].neg"])
+
+
+@pytest.mark.parametrize(
+    ("asked", "expected"),
+    [
+        ({"step": 0.001}, "--step: makes more than 200 points"),
+        ({"step": -1.0}, "--step: makes more than 200 points, or less than two"),
+        ({"reference": 2.0}, "--reference: is beyond the shaft"),
+    ],
+)
+def test_faults_name_option_and_remedy(report, asked, expected):
+    with pytest.raises(bs.InputError) as fault:
+        position_compensation(report, 4.0, **asked)
+    assert str(fault.value).startswith(expected)
+
+
+def test_the_command_refuses_before_it_computes(ballscrew, example, tmp_path):
+    done = ballscrew("compensation", example.with_name("warm_up.toml"), "--to", "siemens", "-o", tmp_path / "a.ini")
+    assert done.returncode == 2
+    assert done.stderr.startswith("--to: unknown control (siemens)")
+    done = ballscrew("compensation", example, "--to", "isg", "-o", tmp_path / "a.lis", "--zero", "2 N")
+    assert done.stderr.startswith("--zero: wrong unit (2 N)")
+    assert list(tmp_path.glob("a.*")) == []
