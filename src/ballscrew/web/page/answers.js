@@ -107,7 +107,7 @@ export async function update(cases, { designs, show, band: wanted, own }, report
     measurePaint("numbers", start, signal);
     await Promise.all([drawCharts(body, answer, signal, start), showAll(bodies, own, wanted, signal)]);
     await measurePaint("all", start, signal);
-    showBand(wanted);
+    if (!signal.aborted) showBand(wanted);
   } catch (error) {
     if (signal.aborted) return;
     const refusal =
