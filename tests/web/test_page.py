@@ -358,5 +358,5 @@ def test_one_design_at_fault_does_not_spoil_the_others(visit):
     table = compared(here)
     assert table["Design B"] == {}
     assert table["Design A"]["screw_torque"] == here.numbers()["results"]["screw_torque"]
-    assert "screw.lead" in here.text("#compare")
+    assert "lead (Screw)" in here.text("#compare")
     assert not here.page.locator("#faults p").count()

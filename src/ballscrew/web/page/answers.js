@@ -6,6 +6,7 @@ import { showDesigns, showModels } from "./compare.js";
 import * as curves from "./curves.js";
 import { byId, csv, save } from "./dom.js";
 import * as drawings from "./drawing.js";
+import { inWords, labelOf } from "./faults.js";
 import { showFailure } from "./plot.js";
 import * as results from "./results.js";
 import { ask, linesOf, Problem, sendJson } from "./server.js";
@@ -106,7 +107,7 @@ export async function update(cases, { designs, show, band: wanted, own }, report
     measurePaint("numbers", start, signal);
     await Promise.all([drawCharts(body, answer, signal, start), showAll(bodies, own, wanted, signal)]);
     await measurePaint("all", start, signal);
-    showBand(wanted);
+    if (!signal.aborted) showBand(wanted);
   } catch (error) {
     if (signal.aborted) return;
     const refusal =
@@ -324,7 +325,8 @@ async function showAll(bodies, own, withBands, signal) {
       if (bodies.length > 1) found[LETTERS[place]].checks = await checksOf(at, signal);
     } catch (error) {
       if (signal.aborted) return;
-      found[LETTERS[place]] = { reason: linesOf(error)[0] };
+      const [fault] = error instanceof Problem ? error.faults : [];
+      found[LETTERS[place]] = { reason: fault ? `${labelOf(fault.where)}: ${inWords(fault)}` : linesOf(error)[0] };
     }
   }
   if (signal.aborted) return;

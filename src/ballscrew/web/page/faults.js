@@ -24,6 +24,8 @@ const OWN = [
   [/^nut\./, /^a nut of type/, "This kind of nut has none: empty the field, or choose another kind."],
   [/^installation\.ends$/, /^missing/, "Choose how the ends of the shaft are held."],
   [/^installation\.unsupported_length$/, /^missing/, "Give the unsupported length."],
+  [/./, /^missing/, "Give a value: nothing stands for it."],
+  [/./, /^unknown (key|section)/, "There is no such field."],
 ];
 
 /**
@@ -45,6 +47,9 @@ export function labelOf(path) {
 function plain(remedy) {
   return remedy
     .replace(/,? in Python .*$/, "")
+    .replace("in a file write", "write")
+    .replace(/\bdegC\b/g, "°C")
+    .replace(/\bum\b/g, "µm")
     .replace(/\s*see "ballscrew[^"]*"/, "")
     .replace(/^start from .*$/, "")
     .replace(/give a number without quotes/, "give a number")

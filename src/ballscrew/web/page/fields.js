@@ -1,6 +1,7 @@
 // Fields of the form: a choice, or a number beside its unit.
 
 import { element } from "./dom.js";
+import { symbol } from "./symbols.js";
 import * as units from "./units.js";
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
@@ -48,14 +49,14 @@ function idOf(path) {
  * @param {HTMLElement} control
  * @param {HTMLElement[]} others
  */
-function frame(path, { description }, isGiven, control, ...others) {
+function frame(path, { description, "x-symbol": tex }, isGiven, control, ...others) {
   const id = `f-${idOf(path)}`;
   control.id = id;
   control.setAttribute("aria-describedby", `${id}-about ${id}-fault`);
   return element(
     "div",
     { class: isGiven ? "field given" : "field", "data-path": path, title: description },
-    element("label", { for: id }, label(path), element("span", { class: "differs" })),
+    element("label", { for: id }, label(path), symbol(tex), element("span", { class: "differs" })),
     element("div", { class: "entry" }, control, ...others),
     element("p", { id: `${id}-about`, class: "hidden" }, description ?? ""),
     element("p", { id: `${id}-fault`, class: "fault" }),

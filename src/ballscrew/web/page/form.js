@@ -18,7 +18,13 @@ const HINTS = {
   installation: "For the checks of the report.",
   limits: "For the checks of the report.",
 };
-const OPEN = ["operation", "screw", "lubricant"];
+/** Fields that nearly everybody gives; the others of their sections are behind "more". @type {Record<string, string[]>} */
+const ESSENTIAL = {
+  screw: ["pitch_circle_diameter", "lead", "ball_diameter", "loaded_balls"],
+  nut: ["type", "preload"],
+  lubricant: ["grade", "temperature", "viscosity"],
+};
+const OPEN = ["operation", "screw", "nut", "lubricant"];
 const OPEN_ON_PHONE = ["operation"];
 const NARROW = "(max-width: 46rem)";
 
@@ -51,7 +57,7 @@ export function build(state, vocabulary, given, lawOf) {
       title,
       { open: isFirst ? openFirst.includes(name) : open.has(name) },
       HINTS[name] ? element("p", { class: "small" }, HINTS[name]) : null,
-      ...Object.entries(fieldsOf(name)).flatMap(([field, node]) => fields(`${name}.${field}`, node, source)),
+      ...fieldsOfSection(name, title, open, source),
     ),
   );
   // the list of starts stays: typing the first letters of one is not interrupted
@@ -62,6 +68,32 @@ export function build(state, vocabulary, given, lawOf) {
   /** @type {HTMLSelectElement} */ (byId("start")).value = start;
   byId("reset").hidden = !Object.keys(changes).length;
   for (const path of Object.keys(changes)) mark(path, true);
+}
+
+/**
+ * The fields of a section; those that few give are in a part of their own.
+ *
+ * @param {string} name
+ * @param {string} title
+ * @param {Set<string | undefined>} open the parts that stay open
+ * @param {Source} source
+ */
+function fieldsOfSection(name, title, open, source) {
+  const all = Object.entries(fieldsOf(name));
+  const first = ESSENTIAL[name] ?? all.map(([field]) => field);
+  /** @param {[string, SchemaNode][]} entries */
+  const made = (entries) => entries.flatMap(([field, node]) => fields(`${name}.${field}`, node, source));
+  const essential = first.flatMap((wanted) => all.filter(([field]) => field === wanted));
+  const others = all.filter(([field]) => !first.includes(field));
+  if (!others.length) return made(essential);
+  const id = `${name}-more`;
+  const more = section(
+    id,
+    `more of the ${title.toLowerCase()}`,
+    { class: "inner", open: open.has(id) },
+    ...made(others),
+  );
+  return [...made(essential), more];
 }
 
 /**

@@ -13,14 +13,15 @@
  * @property {Record<string, SchemaNode>} [properties]
  * @property {string} [x-si-unit]
  * @property {string} [x-unit]
+ * @property {string} [x-symbol]
  */
 
 /** Headings of the sections of the form, in their order. @type {Record<string, string>} */
 export const SECTIONS = {
   operation: "Operating point",
   screw: "Screw",
-  lubricant: "Oil",
   nut: "Nut",
+  lubricant: "Oil",
   model: "Model",
   losses: "Seals and other losses",
   installation: "Installation",
