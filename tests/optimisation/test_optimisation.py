@@ -8,16 +8,22 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
+from ballscrew.documents.optimisation import document
 from ballscrew.equations import geometry
 from ballscrew.errors import InputError
 from ballscrew.evaluation.plan import Configuration
+from ballscrew.figures import files
+from ballscrew.figures.optimisation import picture
 from ballscrew.optimisation import optimisation as studies
 from ballscrew.optimisation import search as searches
 from ballscrew.optimisation.design_model import DesignModel
 from ballscrew.optimisation.design_space import design_space, makeable_ratios
+from ballscrew.output.json_text import plain
 from ballscrew.selection.need import need_of
 from ballscrew.selection.pareto import front, hypervolume
 from ballscrew.studies.check import checked
+from ballscrew.table_files import row_tables, selection_tables
+from ballscrew.text.optimisation import text
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "needs" / "feed_axis.toml"
@@ -202,7 +208,9 @@ def test_a_quantile_is_on_the_bad_side_and_that_of_samples():
         ({"bounds": {"leed": "5 mm"}}, 'did you mean "lead"'),
         ({"bounds": {"lead": ["5 kg", "6 kg"]}}, "optimise.bounds.lead"),
         ({"objectives": ["price_index"]}, "unknown objective"),
+        ({"objectives": 5}, "unknown objective"),
         ({"nut": "tripple"}, "unknown kind of nut"),
+        ({"nut": ["single"]}, "unknown kind of nut"),
         ({"population": 2}, "optimise.population"),
         ({"quantile": 2.0}, "optimise.quantile"),
         ({"speed": 2.0}, "unknown key"),
@@ -218,6 +226,18 @@ def test_without_pymoo_a_fault_says_how_to_get_it(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "pymoo.core.problem", None)
     with pytest.raises(InputError, match=r'pip install "ballscrew\[optimise\]"'):
         searches._pymoo()
+
+
+def test_a_need_that_nothing_fulfils_ends_in_words(tmp_path):
+    pytest.importorskip("pymoo")
+    tables = {"force": "900 kN", "feed": "60 m/min", "nut": "single", "life": "20000 h"}
+    options = {"population": 8, "generations": 2, "engine": "numpy", "settings": ["optimise.elastic_generations=1"]}
+    found = bs.optimise(tables, **options)
+    assert found.members == []
+    assert "no design within the bounds holds" in text(found)
+    assert json.loads(json.dumps(plain(document(found))))["candidates"] == []
+    row_tables.write(tmp_path / "empty.csv", selection_tables.of_optimisation(found.members))
+    files.draw(lambda: picture(found), tmp_path / "empty.svg")
 
 
 def test_a_motion_is_refused():

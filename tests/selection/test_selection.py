@@ -144,7 +144,11 @@ def test_requirements_are_checks():
 
 
 def test_tables_pictures_and_own_rows(ballscrew, tmp_path):
-    rows = ROOT / "examples" / "own_screws.csv"
+    rows = tmp_path / "rows.csv"
+    own = (ROOT / "examples" / "own_screws.csv").read_text(encoding="utf-8").splitlines()
+    heading = next(place for place, line in enumerate(own) if line.startswith("Part number"))
+    priced = [f"{line};{'price index' if place == heading else '1,5'}" for place, line in enumerate(own)]
+    rows.write_text("\n".join([*own[:heading], *priced[heading:]]), encoding="utf-8")
     table, picture = tmp_path / "list.csv", tmp_path / "front.svg"
     need = tmp_path / "need.toml"
     need.write_text('force = "2 kN"\nspeed = "600 rpm"\nprice_index = {}\n', encoding="utf-8")
@@ -153,6 +157,8 @@ def test_tables_pictures_and_own_rows(ballscrew, tmp_path):
     with table.open(encoding="utf-8") as stream:
         written = list(csv.DictReader(stream))
     assert [row["name"] for row in written] == [each["name"] for each in document["candidates"]]
+    assert [each["name"] for each in document["objectives"]] == ["loss", "inertia", "life", "rigidity", "price_index"]
+    assert all(each["objectives"]["price_index"] == 1.5 for each in document["candidates"])
     torque = [each["objectives"]["drive_torque"] for each in document["candidates"]]
     assert [float(row["drive torque [N m]"]) for row in written] == pytest.approx(torque, rel=1e-9)
     assert "kg" in picture.read_text(encoding="utf-8") or picture.stat().st_size > 10_000

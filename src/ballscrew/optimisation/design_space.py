@@ -155,17 +155,20 @@ def design_space(need: Need, objectives: Sequence[str] | None = None, **options:
     if nut is None:
         nut = "double"
         notes.append("double nut: no kind was given")
-    if nut not in NUTS:
+    elif len(need.nuts) > 1 and "nut" not in need.optimise:
+        notes.append(f"{nut} nut: the first of {len(need.nuts)}")
+    if not isinstance(nut, str) or nut not in NUTS:
         faults.append(Fault("optimise.nut", "unknown kind of nut", str(nut), nearest(str(nut), NUTS)))
     section = section_of("Optimise", fields_of(SearchOptions), SearchOptions, required=False)
     values = read_table("optimise", section, {**table, **{n: v for n, v in options.items() if v is not None}}, faults)
     try:
-        wanted = [named] if isinstance(named, str) else list(named)
+        wanted = named if isinstance(named, list | tuple) else [named]
         names = objectives_named(wanted if objectives is None else objectives, "optimise.objectives", SEARCHED)
     except InputError as error:
         faults += error.faults
         names = ()
-    usual = {**makeable_bounds(), **({"preload": PRELOAD_SHARES} if nut in PRELOADED else {})}
+    preloaded = isinstance(nut, str) and nut in PRELOADED
+    usual = {**makeable_bounds(), **({"preload": PRELOAD_SHARES} if preloaded else {})}
     bounds = {**usual, **_bounds(given, usual, nut, faults)}
     raise_if_any(faults)
     return DesignSpace(str(nut), bounds, makeable_ratios(), names, SearchOptions(**values), tuple(notes))

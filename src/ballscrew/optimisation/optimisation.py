@@ -11,11 +11,13 @@ import numpy as np
 
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
+from ballscrew.components.nut import Bodies
 from ballscrew.errors import Fault, InputError
 from ballscrew.evaluation.engines import Engine
 from ballscrew.optimisation.design_model import DesignModel
 from ballscrew.optimisation.design_space import DesignSpace, design_space
 from ballscrew.optimisation.search import Found, search, spread
+from ballscrew.quantities import fields_of
 from ballscrew.selection import requirement_checks
 from ballscrew.selection.candidates import objectives as objectives_of
 from ballscrew.selection.need import Need, need_of
@@ -170,7 +172,9 @@ def tables_of(need: Need, space: DesignSpace, variables: Mapping[str, float], **
     usual = {
         "contact_angle": f"{_ANGLE!r} rad", "screw_conformity": _CONFORMITY, "nut_conformity": _CONFORMITY,
     }  # fmt: skip
-    left_out = ("catalogue", "catalogue_file", "dynamic_load_rating", "static_load_rating", "root_diameter")
+    left_out = ("catalogue", "catalogue_file", "starts", "dynamic_load_rating", "static_load_rating", "root_diameter")
+    # sizes of bodies belong to one screw
+    tables["bodies"] = {name: value for name, value in tables["bodies"].items() if name not in fields_of(Bodies)}
     kept = {name: value for name, value in screw.items() if name not in left_out}
     tables["screw"] = {**usual, **kept, **sizes, "loaded_balls": int(numbers["balls"])}
     preload = {"preload": f"{numbers['preload']!r} N"} if space.nut in PRELOADED else {}
@@ -224,7 +228,7 @@ def _marked(members: Sequence[Member], objectives: Sequence[str]) -> list[Member
     """Members by their first objective, with the front of those of which no check fails marked."""
     fitting = [each for each in members if each.fits and each.valid]
     costs = np.array([[OBJECTIVES[n].sign * each.objectives[n] for n in objectives] for each in fitting])
-    leads = front(costs.reshape(len(fitting), -1))
+    leads = front(costs.reshape(len(fitting), len(objectives)))
     best = {id(member) for member, is_best in zip(fitting, leads, strict=True) if is_best}
     ordered = sorted(members, key=lambda each: OBJECTIVES[objectives[0]].sign * each.objectives[objectives[0]])
     return [dataclasses.replace(each, pareto=id(each) in best) for each in ordered]

@@ -160,7 +160,8 @@ def judged(need: Need, variant: Variant, case: Case) -> Candidate:
     found = checked(row.name, case, [*need.notes, *notes])
     report = duty(case) if need.moves else None
     prices = need.price_index
-    numbers = objectives(need, found, report, row.nominal_diameter, prices.get(row.name, math.nan))
+    listed = math.nan if row.price_index is None else row.price_index
+    numbers = objectives(need, found, report, row.nominal_diameter, prices.get(row.name, listed))
     own = found.checks if report is None else report.checks
     return Candidate(
         variant, found, report, (*own, *requirement_checks.of(need.requirements, found, report, numbers)), numbers

@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 from ballscrew.errors import Fault, nearest, raise_if_any
-from ballscrew.quantities import Density, Info, Length, MomentOfInertia, Quantity, Ratio
+from ballscrew.quantities import Density, Info, Length, Mass, MomentOfInertia, Quantity
 
 #: The length of shaft whose inertia counts where a need gives neither a length nor a stroke, m.
 USUAL_LENGTH = 1.0
@@ -61,12 +61,12 @@ def objectives_named(names: Sequence[str], where: str, known: Sequence[str] = tu
 def shaft_inertia(diameter: Length, length: Length, density: Density) -> MomentOfInertia:
     r"""Moment of inertia of a solid shaft about its axis, :math:`J = \pi \rho d^4 l / 32`.
 
-    Of a uniform cylinder (Timoshenko1974). With the nominal diameter of a screw it is too large by what the groove
-    leaves out, some per cent to a tenth.
+    Half the mass of a uniform cylinder times its radius squared. With the nominal diameter of a screw it is too large
+    by what the groove leaves out.
     """
     return math.pi * density * diameter**4 * length / 32
 
 
-def reflected_mass(inertia: MomentOfInertia, lead: Length) -> Ratio:
+def reflected_mass(inertia: MomentOfInertia, lead: Length) -> Mass:
     r"""Mass whose kinetic energy at the nut is that of the shaft, :math:`m_J = J (2\pi/P_h)^2`, kg."""
     return inertia * (2 * math.pi / lead) ** 2

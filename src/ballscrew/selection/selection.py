@@ -15,7 +15,7 @@ from ballscrew.errors import Fault, InputError
 from ballscrew.screw_tables import catalogue
 from ballscrew.selection.candidates import Candidate, Variant, case_of, judged, variants
 from ballscrew.selection.need import Need, need_of
-from ballscrew.selection.objectives import OBJECTIVES, objectives_named
+from ballscrew.selection.objectives import OBJECTIVES, USUAL_OBJECTIVES, objectives_named
 from ballscrew.selection.pareto import front
 from ballscrew.studies.every_row import Done, each
 
@@ -85,6 +85,8 @@ def select(
     table = None if rows is None else Path(rows)
     listed, notes = catalogue.load(table, keep_going)
     chosen = catalogue.chosen(listed, asked.rows if words is None else words, table)
+    if objectives is None and names == USUAL_OBJECTIVES and any(row.price_index is not None for row in chosen):
+        names = (*names, "price_index")
     unknown = [name for name in asked.price_index if name not in listed]
     if unknown:
         raise InputError(Fault("need.price_index", "no such row", ", ".join(unknown), "names are those of the rows"))

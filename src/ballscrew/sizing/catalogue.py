@@ -22,6 +22,7 @@ TURNS_WITHOUT_LOAD = 0.24
 
 #: What few catalogues list of the nut, and tables of one's own may.
 _OF_NUT = ("preload", "preload_share", "seal_torque")
+_OF_TRADE = ("price_index",)
 
 #: A ball this much smaller than its pitch circle is a slip of the unit; real ones have a ratio of 5 to 50.
 SMALLEST_BALL = 1e-3
@@ -130,12 +131,21 @@ class CatalogueRow(ByValue):
         Torque | None,
         Info("M_W", "torque of all seals of the nut", at_least=0, hint="rubber: 0.08 N m at 16 mm, 0.4 N m at 40 mm"),
     ] = None
+    price_index: Annotated[
+        Ratio | None,
+        Info(
+            "p_i",
+            "price against another of the same list",
+            above=0,
+            hint="of two screws, 1.2 costs a fifth more than 1",
+        ),
+    ] = None
     #: Whether every second ball is a spacer; None where the row does not say.
     spacer_balls: bool | None = None
 
     def __post_init__(self) -> None:
         where = self.name or "row"
-        raise_if_any(faults_of(where, self, optional=(*_OPTIONAL, *_OF_NUT)))
+        raise_if_any(faults_of(where, self, optional=(*_OPTIONAL, *_OF_NUT, *_OF_TRADE)))
         if self.ball_diameter < SMALLEST_BALL * self.ball_circle:
             problem, given = "too small for the pitch circle", shown(self.ball_diameter, "m")
             bound = SMALLEST_BALL * self.ball_circle

@@ -67,6 +67,7 @@ NAMES: Mapping[str, tuple[str, ...]] = {
         "seals", "seal", "torque of seals", "seal friction torque", "seal drag", "wipers", "wiper torque",
         "Dichtung", "Dichtungen", "Dichtungsmoment", "Dichtungsreibmoment", "Reibmoment der Dichtungen", "Abstreifer",
     ),
+    "price_index": ("relative price", "Preisindex"),
     "spacer_balls": ("spacers", "spacer ball", "Distanzkugeln", "Abstandskugeln", "Zwischenkugeln", "Trennkugeln"),
     "log": ("test log", "log file", "measurement", "Messung", "Messdatei", "Messprotokoll"),
     "source": ("Quelle",),

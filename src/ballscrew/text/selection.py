@@ -52,15 +52,15 @@ def asked(need: Need) -> list[str]:
 def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) -> str:
     """The first lines of those ranked, and how the list is to be read; zero stands for all."""
     shown = ranked[:most] if most else ranked
-    lines = [title(found), "", *table(shown, found.objectives)]
+    lines = [title(found), "", *table(shown, found.objectives, len(found.need.oils) > 1)]
     if len(shown) < len(ranked):
         lines.append(f"… {len(ranked) - len(shown)} more: --first 0 shows all")
     if not ranked:
-        lines.append("no candidate")
+        lines.append("none is left of these")
     named = " and ".join(LABELS[name] for name in found.objectives)
     lines += ["", wrapped(f"*  of those of which no check fails, no other is better in {named}, taken together")]
     lines += ["", "assumed", *(wrapped(f"  {note}") for note in found.need.notes)] if found.need.notes else []
-    missing = sorted({check.missing for each in ranked for check in each.candidate.checks if check.missing})
+    missing = sorted({check.missing for each in found.ranked for check in each.candidate.checks if check.missing})
     if missing:
         lines += ["", wrapped(f"nothing holds that was not judged: give {', '.join(missing)}")]
     elif found.best is None:
@@ -68,14 +68,13 @@ def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) ->
     return "\n".join(lines)
 
 
-def table(ranked: Sequence[Ranked], objectives: Sequence[str]) -> list[str]:
-    """A line for each: rank, mark, label, objectives, verdict. An oil is named where there are several."""
+def table(ranked: Sequence[Ranked], objectives: Sequence[str], with_oil: bool) -> list[str]:
+    """A line for each: rank, mark, label, objectives, verdict. The oil is named where there are several."""
     heading = ["", "", "candidate", *(LABELS[name] for name in objectives), "verdict"]
-    several = len({each.candidate.variant.oil_name for each in ranked}) > 1
     cells = [
         heading,
         *(
-            [str(each.rank), "*" if each.pareto else "", *_cells(each.candidate, objectives, several)]
+            [str(each.rank), "*" if each.pareto else "", *_cells(each.candidate, objectives, with_oil)]
             for each in ranked
         ),
     ]
