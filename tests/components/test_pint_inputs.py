@@ -16,7 +16,9 @@ from ballscrew.components import nut_losses
 from ballscrew.components.nut import Scatter
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.friction.law_names import LAWS
+from ballscrew.optimisation.design_space import SearchOptions
 from ballscrew.quantities import fields_of
+from ballscrew.selection.requirements import Requirements
 from ballscrew.sizing.catalogue import catalogue
 from ballscrew.sizing.checks import checks
 from ballscrew.sizing.installation import Ends, Installation, Limits
@@ -100,6 +102,8 @@ PARTS = [
     CarriedMass(mass=100.0, along=0.1),
     GuidedTable(masses=(CarriedMass(mass=100.0),), carriage_spacing=0.4, rail_spacing=0.3),
     bs.Surroundings(shaft_length=1.0, ball_conductance=2.0, shaft_convection=10.0, bore=0.01, coolant=290.0),
+    SearchOptions(quantile=0.9),
+    Requirements(feed=0.5, stroke=0.5, largest_drive_torque=10.0, least_rigidity=1e8),
 ]
 PARTS += [
     nut_losses.EfficiencyDrag(0.9),

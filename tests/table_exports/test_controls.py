@@ -6,6 +6,8 @@ import os
 import re
 import shutil
 import subprocess
+import tempfile
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -91,7 +93,7 @@ def test_the_curve_of_a_drive_counts_with_the_ratio_of_the_motor(handed):
     assert plain[:, 1] == pytest.approx(plain[:, 0] * 30 / np.pi, rel=1e-8)
 
 
-def test_linuxcnc_gives_the_curve(handed, tmp_path):
+def test_linuxcnc_gives_the_curve(handed):
     halrun = shutil.which("halrun")
     if halrun is None:
         pytest.skip("halrun of LinuxCNC is not installed")
@@ -101,17 +103,16 @@ def test_linuxcnc_gives_the_curve(handed, tmp_path):
     lines.insert(place, "loadrt threads name1=servo-thread period1=1000000 fp1=1")
     speeds = [-40.0, -3.0, 0.0, 0.5, 25.0, 1000.0]  # mm/s
     ask = [f"setp ballscrew-friction.in {v}\nloadusr -w sleep 0.1\ngetp ballscrew-friction.out" for v in speeds]
-    file = tmp_path / "try.hal"
-    file.write_text("\n".join([*lines, "start", *ask, ""]))
-    as_root = os.geteuid() == 0  # HAL refuses root
-    if as_root:
-        for folder in (tmp_path, *list(tmp_path.parents)[:2]):
-            folder.chmod(0o777)
-    done = subprocess.run(
-        [halrun, "-f", str(file)], capture_output=True, text=True, timeout=60, cwd=tmp_path,
-        env={**os.environ, "HOME": str(tmp_path)},
-        **({"user": 65534, "group": 65534, "extra_groups": []} if as_root else {}),
-    )  # fmt: skip
+    as_root = os.geteuid() == 0  # HAL refuses root, and nobody else may enter a folder of root's
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder).chmod(0o777)
+        file = Path(folder) / "try.hal"
+        file.write_text("\n".join([*lines, "start", *ask, ""]))
+        done = subprocess.run(
+            [halrun, "-f", str(file)], capture_output=True, text=True, timeout=60, cwd=folder,
+            env={**os.environ, "HOME": folder},
+            **({"user": 65534, "group": 65534, "extra_groups": []} if as_root else {}),
+        )  # fmt: skip
     found = np.array([float(line) for line in done.stdout.splitlines() if re.fullmatch(r"-?[\d.e+-]+", line)])
     curve = friction_curve(subject, 8)
     turning = np.array(speeds) * 1e-3 * 2 * np.pi / subject.subject.screw.lead

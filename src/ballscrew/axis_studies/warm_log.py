@@ -68,7 +68,7 @@ def warm_log(case: Case, log: TorqueLog, kind: Kind = "unknown") -> tuple[Torque
     ends = " to ".join(units.shown(float(end), TEMPERATURE) for end in (np.min(oil), np.max(oil)))
     assumed = [
         f"oil at {ends}, in the steady state of the measured torque of each row; the preload stays as it was set",
-        *assumed_of(case, surroundings, networks[-1], stroke, None),
+        *assumed_of(case, surroundings, networks[-1], stroke),
     ]
     return dataclasses.replace(log, temperature=oil), assumed
 
