@@ -42,7 +42,7 @@ EXCEPTIONS = {
 #: What such a command must have in it that would fail or hurt here; without it there is no reason to leave it out.
 CANNOT_RUN_HERE = re.compile(r"pip install|benchmarks/|tcp://head:|xjtu\.csv|DATA_EMPS")
 
-#: Options that write a file. A command without them does the same on every page, and is typed once.
+#: Options that write a file. A command without them does the same on every page, and is run for the first of them.
 WRITES = re.compile(r"\s(?:--to|--out|--output-file|--picture|-o)\b|\bout/|>")
 
 #: Exit codes that a page announces.
@@ -124,17 +124,11 @@ def _page_of(server, log):
     raise AssertionError(f"no page within five minutes\n{log.read_text()}")
 
 
-#: What commands did that stood on a page before.
-DONE = {}
-
-
-def done_once(command, place, commands):
-    """What a command does, which is not done again if it leaves nothing behind and stood on another page."""
-    if WRITES.search(command):
-        return run(command, place, commands)
-    if command not in DONE:
-        DONE[command] = run(command, place, commands)
-    return DONE[command]
+#: The first page that has a command.
+FIRST = {}
+for page, typed_there in EVERY.items():
+    for _, one in typed_there:
+        FIRST.setdefault(one, page)
 
 
 def _typed_in(block):
@@ -150,8 +144,8 @@ def _plain(command):
     return command.removeprefix(".venv/bin/")
 
 
-#: Commands that the build of the docs runs on some page. On a page with others besides, they are needed only for the
-#: files that they write.
+#: Commands that the build of the docs runs on some page. On another page, they are needed only for the files that
+#: they write.
 BUILT = {
     _plain(block.info.removeprefix("{command}").strip())
     for page in PAGES
@@ -174,12 +168,13 @@ def test_the_commands_of_a_page_do_what_it_says(page, place, commands):
     for line, command in EVERY[page]:
         if left_out(command):
             continue
-        if _plain(command) in BUILT and not WRITES.search(command) and not _run_by_the_docs(page):
+        elsewhere = FIRST[command] != page or (_plain(command) in BUILT and not _run_by_the_docs(page))
+        if elsewhere and not WRITES.search(command):
             continue
         if SERVES.match(command):
             served(command, place)
             continue
-        done = done_once(command, place, commands)
+        done = run(command, place, commands)
         expected = EXIT_CODES.get(command, 0)
         assert done.returncode == expected, (
             f"{name(page)}:{line}: {command}\nends with {done.returncode}\n{done.stderr}"
