@@ -171,7 +171,8 @@ class Visit:
     def _failed(self, error: Error) -> None:
         self.complaints.append(str(error))
 
-    def open(self, fragment: str = "") -> Visit:
+    def open(self, fragment: str = "#band=0") -> Visit:
+        """Open the page, without the band that comes by itself where no test is about it."""
         self.page.goto(f"{self.address}/{fragment}")
         self.page.wait_for_selector("html[data-ready]")
         return self.settle()

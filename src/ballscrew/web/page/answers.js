@@ -4,7 +4,7 @@ import * as charts from "./charts.js";
 import * as checks from "./checks.js";
 import { showDesigns, showModels } from "./compare.js";
 import * as curves from "./curves.js";
-import { byId, csv, save } from "./dom.js";
+import { byId } from "./dom.js";
 import * as drawings from "./drawing.js";
 import { inWords, labelOf } from "./faults.js";
 import { showFailure } from "./plot.js";
@@ -48,6 +48,8 @@ let requests = new AbortController();
 let bandRequest = new AbortController();
 /** @type {ReturnType<typeof setTimeout>} */
 let bandTimer;
+/** Adds the bands of the designs that stand side by side. */
+let addBandsOfDesigns = () => {};
 /** Goes to a field of the form. @type {(path: string) => void} */
 let jump = () => {};
 /** @type {Displayed} */
@@ -331,8 +333,22 @@ async function showAll(bodies, own, withBands, signal) {
   }
   if (signal.aborted) return;
   displayed.designs = found;
+  addBandsOfDesigns = () => addBands(bodies, own, signal);
   await showDesigns(found, displayed.starts, mechanisms);
-  if (withBands && bodies.length > 1) addBands(bodies, own, signal);
+  if (withBands && bodies.length > 1) addBandsOfDesigns();
+}
+
+/**
+ * The bands of the designs side by side, or none of them.
+ *
+ * @param {boolean} wanted
+ */
+export function showBandsOfDesigns(wanted) {
+  const { designs, starts } = displayed;
+  if (!designs || Object.keys(designs).length < 2) return;
+  for (const one of Object.values(designs)) delete one.band;
+  if (wanted) addBandsOfDesigns();
+  else showDesigns(designs, starts, mechanisms);
 }
 
 /**
@@ -346,7 +362,7 @@ async function addBands(bodies, own, signal) {
   await new Promise((resolve) => setTimeout(resolve, BAND_DELAY));
   for (const [place, body] of bodies.entries()) {
     const one = displayed.designs?.[LETTERS[place]];
-    if (signal.aborted || !one?.run) continue;
+    if (signal.aborted || !one?.run || !displayed.band) continue;
     const { operation } = bodies[0].case;
     try {
       one.band = await ask("band", own ? body : { case: { ...body.case, operation } }, signal);
@@ -379,18 +395,4 @@ export async function compareModels() {
 export function clearModels() {
   delete displayed.models;
   byId("models").textContent = "";
-}
-
-/** Save torque and its parts over speed, in SI. */
-export function saveTorqueCsv() {
-  if (!displayed.alongSpeed) return;
-  const { axes, outputs } = displayed.alongSpeed;
-  const columns = Object.entries(outputs);
-  const headings = ["screw_speed [rad/s]", ...columns.map(([name, { unit }]) => `${name} [${unit}]`)];
-  const rows = axes.screw_speed.values.map((speed, place) => [
-    speed,
-    ...columns.map(([, { values }]) => values[place]),
-  ]);
-  const content = csv(headings, /** @type {import("./dom.js").Cell[][]} */ (rows));
-  save("-torque_over_speed.csv", new Blob([content], { type: "text/csv" }));
 }

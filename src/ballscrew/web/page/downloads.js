@@ -1,6 +1,6 @@
 // Files to save: the case, the answer, the curve, the drawing, the report.
 
-import { byId, element, save } from "./dom.js";
+import { byId, csv, element, save } from "./dom.js";
 import { linesOf, send } from "./server.js";
 
 /** Kinds of files: what they are, and the address that makes them, if any. @type {Record<string, [string, string?]>} */
@@ -13,7 +13,7 @@ const KINDS = {
   HTML: ["report to read", "report?kind=html"],
 };
 
-/** @typedef {{ body?: object, answer?: Run, saveCsv: () => void }} Current */
+/** @typedef {{ body?: object, answer?: Run, alongSpeed?: Sweep }} Current */
 
 /**
  * Buttons for all kinds; ``current`` gives the case and the answer.
@@ -40,7 +40,7 @@ function say(text) {
  * @param {string} kind
  * @param {Current} current
  */
-async function saveAs(kind, { body, answer, saveCsv }) {
+async function saveAs(kind, { body, answer, alongSpeed }) {
   if (!body || !answer || byId("results").classList.contains("stale")) {
     say("The input is at fault: correct it first.");
     return;
@@ -53,9 +53,25 @@ async function saveAs(kind, { body, answer, saveCsv }) {
     } else if (kind === "JSON") {
       const { words, display, ...document } = answer;
       save(".json", new Blob([JSON.stringify(document, null, 2)], { type: "application/json" }));
-    } else saveCsv();
+    } else if (alongSpeed) saveTorqueCsv(alongSpeed);
     say(`${kind} saved`);
   } catch (error) {
     say(linesOf(error).join("; "));
   }
+}
+
+/**
+ * Save torque and its parts over speed, in SI.
+ *
+ * @param {Sweep} alongSpeed
+ */
+function saveTorqueCsv({ axes, outputs }) {
+  const columns = Object.entries(outputs);
+  const headings = ["screw_speed [rad/s]", ...columns.map(([name, { unit }]) => `${name} [${unit}]`)];
+  const rows = axes.screw_speed.values.map((speed, place) => [
+    speed,
+    ...columns.map(([, { values }]) => values[place]),
+  ]);
+  const content = csv(headings, /** @type {import("./dom.js").Cell[][]} */ (rows));
+  save("-torque_over_speed.csv", new Blob([content], { type: "text/csv" }));
 }

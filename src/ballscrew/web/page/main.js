@@ -332,6 +332,7 @@ function addListeners() {
     state.band = checkbox("band").checked;
     follow({ formOnly: true });
     answers.showBand(state.band);
+    answers.showBandsOfDesigns(state.band);
   });
   byId("own").addEventListener("change", () => {
     state.own = checkbox("own").checked;
@@ -354,10 +355,7 @@ function addListeners() {
     state = readAddress();
     follow({ rebuild: true });
   });
-  downloads.build(() => ({
-    ...answers.current(),
-    saveCsv: answers.saveTorqueCsv,
-  }));
+  downloads.build(answers.current);
 }
 
 async function begin() {
