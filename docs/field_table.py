@@ -23,6 +23,9 @@ from ballscrew.motion.profiles import Segment, Trapezoid
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUTS
 from ballscrew.sizing.installation import Installation, Limits
+from ballscrew.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, STATICS
+from ballscrew.supports.guide import LinearGuide
+from ballscrew.supports.mounted_bearing import MountedBearing
 from ballscrew.thermal.surroundings import Surroundings
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "feed_drive.toml"
@@ -45,6 +48,9 @@ PARTS = {
     "[[motion.segment]]": Segment,
     "[motor]": Motor,
     "[surroundings]": Surroundings,
+    **{f'[bearings.fixed] law = "{law}"': cls for law, cls in BEARING_LAWS.items()},
+    "[bearings.fixed], [bearings.floating], [bearings.second_fixed]": MountedBearing,
+    **{f'[guides] law = "{law}"': cls for law, cls in GUIDE_LAWS.items()},
 }
 #: Example values of fields that the example file does not have.
 OTHERS: dict[str, Any] = {"viscosity": "0.1 Pa s", "ball_to_ball_force": "0.02 N"}
@@ -89,6 +95,17 @@ def _lines(title: str, cls: type) -> Iterator[str]:
         yield "\nAlso `return = false`, here and for an S-curve."
     if cls is Motor:
         yield '\nAlso `curve = [["0 rpm", "7 N m"], ["3000 rpm", "5 N m"]]`, the peak torque over the speed.'
+    if cls is MountedBearing:
+        yield (
+            "\nAlso `law`, `catalogue` (a support unit), and its own oil, if it has one: `grade`, or `oil`"
+            " with `oil_file`."
+        )
+    if cls is LinearGuide:
+        yield (
+            "\nAlso `law`, `catalogue` (a carriage), and for the load of each of four carriages: "
+            + ", ".join(f"`{name}`" for name in STATICS)
+            + "."
+        )
     if cls is Lubricant:
         yield (
             "\nInstead of `viscosity` the fields of a data sheet: "

@@ -51,6 +51,7 @@ from ballscrew.sizing.catalogue import catalogue as catalogue
 from ballscrew.sizing.rigidity import AxialRigidity as AxialRigidity
 from ballscrew.sizing.rigidity import rigidity_iso3408 as rigidity_iso3408
 from ballscrew.supports.bearing import SupportBearing as SupportBearing
+from ballscrew.supports.contact_guide import ContactGuide as ContactGuide
 from ballscrew.supports.guide import LinearGuide as LinearGuide
 from ballscrew.sweeps.store_check import verify as verify
 from ballscrew.sweeps.sweep import sweep as sweep

@@ -23,7 +23,8 @@ from ballscrew.sizing.installation import Ends, Installation, Limits
 from ballscrew.solvers.load_distribution import ball_loads
 from ballscrew.supports.bearing import SupportBearing
 from ballscrew.supports.guide import LinearGuide
-from ballscrew.supports.makers_bearing import PalmgrenBearing, SKFBearing, SKFConstants
+from ballscrew.supports.makers_bearing import KnownBearing, PalmgrenBearing, SKFBearing, SKFConstants
+from ballscrew.supports.mounted_bearing import MountedBearing
 from ballscrew.supports.table import CarriedMass, GuidedTable
 from ballscrew.uncertainty.bands import band_along
 from support.synthetic_logs import OIL
@@ -91,8 +92,11 @@ PARTS = [
     SupportBearing(bore=0.02, outside_diameter=0.047, contact_angle=1.0, lubricant=GRADE, preload=500.0),
     SKFBearing(bore=0.02, outside_diameter=0.047, lubricant=GRADE, preload=500.0),
     PalmgrenBearing(bore=0.02, outside_diameter=0.047, lubricant=GRADE, viscous_factor=2.0, load_factor=1e-3),
+    KnownBearing(torque=0.1),
+    MountedBearing(place="fixed", element=KnownBearing(torque=0.1), load_share=0.5, rigidity=1e8),
     SKFConstants(rolling=4e-7, axial_rolling=2.0, sliding=0.02, axial_sliding=0.7),
     LinearGuide(friction_coefficient=0.003, seal_force=3.0),
+    bs.ContactGuide(ball_diameter=0.004, balls=14, lubricant=GRADE, preload=400.0),
     CarriedMass(mass=100.0, along=0.1),
     GuidedTable(masses=(CarriedMass(mass=100.0),), carriage_spacing=0.4, rail_spacing=0.3),
     bs.Surroundings(shaft_length=1.0, ball_conductance=2.0, shaft_convection=10.0, bore=0.01, coolant=290.0),

@@ -31,7 +31,7 @@ def test_the_root_mean_square_of_a_trapezoid_in_closed_form():
     """Constant torques in each phase, so that the quadrature has nothing to lose."""
     example = duty_examples.EXAMPLES[0]
     axis, motion, arm = example.axis, example.motion, example.lead / (2 * math.pi)
-    rubs = axis.guide_force + axis.guide_seal_force
+    rubs = axis.resting_guide_friction
 
     def torque(acceleration):
         load = axis.mass * acceleration + rubs

@@ -241,7 +241,7 @@ def test_elements_beside_the_screw_count_everywhere():
         """A constant drag."""
 
         def __call__(self, state):
-            return SimpleNamespace(friction_effort=0.3)
+            return SimpleNamespace(friction_effort=0.3, contributions={"wiper": 0.3})
 
     bare, more = (
         duty(0.9, ROW.screw(), axis=UPRIGHT, motion=SHORT, also=also) for also in (None, {"wiper of the shaft": Rubs()})

@@ -11,6 +11,8 @@ from ballscrew.axis.axis import Axis
 from ballscrew.axis.duty import duty
 from ballscrew.errors import InputError
 from ballscrew.motion.profiles import Segment, Segments
+from ballscrew.supports.makers_bearing import KnownBearing
+from ballscrew.supports.mounted_bearing import MountedBearing
 from ballscrew.thermal.network import steady
 from ballscrew.thermal.surroundings import STILL, Surroundings
 from ballscrew.thermal.warm_up import warm_up
@@ -209,3 +211,21 @@ def test_the_way_of_bracing_decides():
     assert network.approach_of_unknown_sign == pytest.approx(along, rel=1e-12)
     alone = warm_up(to_and_fro(500, nut=bs.OversizeBallNut(preload=2000.0)), PLAIN, time=60.0, outputs=2)
     assert not alone.network.by_bracing
+
+
+def test_bearings_heat_their_own_ends():
+    """By their mean friction power over the cycle; what has no place heats both ends alike."""
+    bare = to_and_fro(500)
+    fixed, floating = (
+        MountedBearing(place=place, element=KnownBearing(torque=torque), load_share=0.0)
+        for place, torque in (("fixed", 0.4), ("floating", 0.05))
+    )
+    held = dataclasses.replace(bare, also={one.name: one for one in (fixed, floating)})
+    network = warm_up(held, PLAIN, time=3600.0, outputs=3).network
+    turning = 500 * 2 * math.pi / 60
+    assert network.bearing_power == pytest.approx(((0.4 + 0.05) * turning, (0.05 + 0.05) * turning), rel=1e-9)
+    assert sum(network.bearing_power) == pytest.approx(sum(held.heat[name] for name in held.support_friction))
+    ends = warm_up(held, PLAIN, time=3600.0, outputs=3)
+    first, last = ends.bearing_temperatures
+    assert first[-1] > last[-1]
+    assert ends.heat["generated"] == pytest.approx(ends.heat["stored"] + ends.heat["lost"], abs=1e-8 * ends.generated)

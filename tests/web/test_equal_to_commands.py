@@ -197,6 +197,11 @@ def test_warm_up(server, tmp_path):
         assert found.json()["lines"] == [line]
 
 
+def test_axis(server, tmp_path):
+    tables = tables_of(next(path for path in EXAMPLES if path.stem == "feed_axis"))
+    assert server.post("axis", {"case": tables}).json() == document("axis", written(tables, tmp_path), "--json")
+
+
 def test_catalogue(server):
     assert server.get("catalogue").json() == json.loads(printed("catalogue", "list", "--json"))
     found = server.get("catalogue", params={"words": "Double 40x"}).json()

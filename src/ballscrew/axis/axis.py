@@ -4,17 +4,42 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import Annotated, NamedTuple
+from collections.abc import Mapping
+from typing import Annotated, Any, NamedTuple, Protocol
 
 import numpy as np
 
 from ballscrew._arrays import ByValue
-from ballscrew.errors import faults_of, raise_if_any
+from ballscrew.errors import Fault, faults_of, raise_if_any
+from ballscrew.friction.element import ElementFriction
 from ballscrew.motion.states import MotionStates, Numbers
-from ballscrew.quantities import Angle, Force, Info, Mass, MomentOfInertia, Ratio, Torque
+from ballscrew.quantities import (
+    Acceleration,
+    Angle,
+    Force,
+    Info,
+    Mass,
+    MomentOfInertia,
+    Ratio,
+    Speed,
+    Temperature,
+    Torque,
+)
+from ballscrew.supports.guide import GUIDES, SEALS
+from ballscrew.supports.table import GuidedTable
 
 #: Standard acceleration of free fall, m/s².
 GRAVITY = 9.80665
+
+
+class Guides(Protocol):
+    """The carriages of a table, as the elements of :mod:`ballscrew.supports` are."""
+
+    carriages: int
+
+    def under(self, loads: Force, speed: Speed, temperature: Temperature | None = None) -> ElementFriction:
+        """Friction along the rails, N, under the load of each carriage, the carriages along the last axis."""
+        ...
 
 
 class Loads(NamedTuple):
@@ -122,9 +147,28 @@ class Axis(ByValue):
     ] = 1.0
     #: Whether a brake holds the axis in rests, and the motor gives no torque there.
     brake_holds: bool = False
+    #: The guides as an element, in place of a coefficient and a force of seals.
+    guides: Guides | None = None
+    #: Where the carriages are and the mass is on them; without it they share the weight evenly.
+    table: GuidedTable | None = None
 
     def __post_init__(self) -> None:
-        raise_if_any(faults_of("axis", self))
+        faults = faults_of("axis", self)
+        if not faults and self.guides is not None:
+            faults += [
+                Fault(f"axis.{name}", "is given beside the guides", f"{getattr(self, name):g}", "give one of the two")
+                for name in ("guide_friction_coefficient", "guide_seal_force")
+                if np.any(getattr(self, name))
+            ]
+        if self.table is not None and self.guides is None:
+            faults.append(Fault("axis.table", "has no guides", "", "give guides, too"))
+        if not faults and self.table is not None:
+            for name in ("mass", "inclination"):
+                of_table, own = float(getattr(self.table, name)), float(getattr(self, name))
+                if not math.isclose(of_table, own, rel_tol=1e-9, abs_tol=1e-12):
+                    given = f"{of_table:g} and {own:g}"
+                    faults.append(Fault(f"axis.{name}", "is another one than that of the table", given, "give one"))
+        raise_if_any(faults)
 
     @property
     def gravity_force(self) -> Force:
@@ -138,10 +182,36 @@ class Axis(ByValue):
         lifts = self.counterweight * GRAVITY + self.counterforce
         return weight - (lifts if self.inclination >= 0 else -lifts)
 
+    def guide_friction(
+        self, speed: Speed, acceleration: Acceleration = 0.0, temperature: Temperature | None = None
+    ) -> Mapping[str, Numbers]:
+        r"""Friction of the guides by mechanism at speeds and accelerations, magnitudes, N; at rest what they hold.
+
+        Without an element :math:`\mu_g m g \cos\theta` and the force of the seals.
+        """
+        every = np.ones(np.broadcast_shapes(np.shape(speed), np.shape(acceleration)))
+        if self.guides is None:
+            weight = self.mass * GRAVITY * math.cos(self.inclination)
+            return {
+                GUIDES: self.guide_friction_coefficient * weight * every,
+                SEALS: self.guide_seal_force * every,
+            }
+        found = self.guides.under(self.carriage_loads(acceleration), speed, temperature).contributions
+        return {name: part * every for name, part in found.items()}
+
+    def carriage_loads(self, acceleration: Acceleration = 0.0) -> Force:
+        """Load of each carriage of the guides at accelerations, N, the carriages along the last axis."""
+        assert self.guides is not None
+        if self.table is not None:
+            return self.table.loads(acceleration).equivalent
+        weight = self.mass * GRAVITY * math.cos(self.inclination)
+        number = int(self.guides.carriages)
+        return np.full((*np.shape(acceleration), number), weight / number)
+
     @property
-    def guide_force(self) -> Force:
-        r"""Friction of the guides by their load, :math:`\mu_g m g \cos\theta`, N."""
-        return self.guide_friction_coefficient * self.mass * GRAVITY * math.cos(self.inclination)
+    def resting_guide_friction(self) -> Force:
+        """Force that the guides hold at rest, N."""
+        return float(sum(self.guide_friction(0.0).values()))
 
     @property
     def moving_mass(self) -> Mass:
@@ -151,10 +221,12 @@ class Axis(ByValue):
     def loads(self, states: MotionStates) -> Loads:
         """Forces at states of motion; guides do not rub at rest, where they hold."""
         every = np.ones_like(states.time)
+        rubs: dict[str, Any] = {**self.guide_friction(states.speed, states.acceleration)}
+        seals = rubs.pop(SEALS, 0.0)
         return Loads(
             acceleration=self.moving_mass * states.acceleration,
             gravity=self.gravity_force * every,
             process=states.force,
-            guides=states.direction * self.guide_force,
-            guide_seals=states.direction * self.guide_seal_force,
+            guides=states.direction * sum(rubs.values(), 0.0 * every),
+            guide_seals=states.direction * seals,
         )

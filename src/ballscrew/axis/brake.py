@@ -133,8 +133,10 @@ class _Off:
         axis = self.duty.axis
         warm = None if temperature is None else np.full_like(speed, temperature)
         beside = self.duty.supports_at(np.full_like(speed, self.load), speed, warm)
-        along = (axis.guide_force + axis.guide_seal_force) * self.arm
-        return (screw_torque + sum(beside.values(), np.zeros_like(speed))) / axis.transmission_ratio + along
+        rubs = axis.guide_friction(speed * float(self.duty.driven.lead) / (2 * math.pi), 0.0, temperature)
+        along = sum(rubs.values(), np.zeros_like(speed)) * self.arm
+        held = sum((part for parts in beside.values() for part in parts.values()), np.zeros_like(speed))
+        return (screw_torque + held) / axis.transmission_ratio + along
 
     def friction(self, speeds: Numbers, temperature: Temperature | None) -> Numbers:
         """Friction about the motor at sizes of the speed of the screw, in the direction of the fall."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from ballscrew._arrays import ByValue, lazy
 from ballscrew.axis.axis import Axis, Loads
-from ballscrew.axis.screw_friction import ConstantEfficiency, ModelledScrew, Screw, ScrewFriction
+from ballscrew.axis.screw_friction import ConstantEfficiency, ModelledScrew, Screw, ScrewFriction, distinct_states
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import BallScrew
@@ -21,23 +21,30 @@ from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import MECHANISMS
 from ballscrew.motion.profiles import Motion
 from ballscrew.motion.states import MotionStates, Numbers
-from ballscrew.quantities import Energy, Ratio
+from ballscrew.quantities import Energy, Power, Ratio
+from ballscrew.supports.guide import GUIDES, SEALS
 
 #: Parts of the torque that store energy and give it back.
 STORED = ("acceleration of the mass", "acceleration of what turns", "gravity")
-PROCESS, BEARINGS = "process", "support bearings"
+PROCESS, BEARINGS, IMBALANCE = "process", "support bearings", "imbalance of the model"
+#: The nut, the shaft and the balls between them, as an element of the axis.
+NUT = "nut"
+#: Mechanisms of the guides by the names of their contributions.
+_OF_GUIDES: Mapping[str, str] = {**MECHANISMS, GUIDES: "by load"}
+#: A share of the energy drawn that is rounding.
+_ROUNDING = 1e-12
 #: Names of the parts of the torque that are not friction of the screw, with their meanings.
 PARTS: Mapping[str, str] = {
     "acceleration of the mass": "inertia of what moves along",
     "acceleration of what turns": "inertia of motor, coupling and screw",
     "gravity": "weight, less what balances it",
     PROCESS: "force of the process",
-    "guides": "friction of the guides by their load",
-    "guide seals": "seals of the guides",
+    GUIDES: "friction of the guides by their load",
+    SEALS: "seals of the guides",
     BEARINGS: "friction of the support bearings",
     "transmission": "loss of belt or gears",
     "brake": "torque that the brake holds in rests",
-    "imbalance of the model": "torque without friction of a model that breaks virtual work",
+    IMBALANCE: "torque without friction of a model that breaks virtual work",
 }
 
 
@@ -58,7 +65,7 @@ def duty(
     Raises :class:`~ballscrew.errors.InputError` as the model does, for a model without a lubricant, and for elements
     with the name of another part of the torque.
     """
-    taken = {*PARTS, *MECHANISMS.values(), *screw.nut.losses} if also else set[str]()
+    taken = {NUT, *PARTS, *MECHANISMS.values(), *screw.nut.losses} if also else set[str]()
     faults = [
         Fault("duty.also", "has the name of another part of the torque", name, "call it otherwise")
         for name in also or {}
@@ -123,21 +130,54 @@ class Duty(ByValue):
     @lazy
     def support_friction(self) -> Mapping[str, Numbers]:
         """Friction torques about the shaft beside the screw, by element, their magnitudes, N m."""
+        still = np.zeros_like(self.screw_speed)
+        return {name: np.sum([still, *parts.values()], axis=0) for name, parts in self._supports.items()}
+
+    @lazy
+    def _supports(self) -> Mapping[str, Mapping[str, Numbers]]:
+        """Friction torques about the shaft beside the screw, by element and mechanism, N m."""
+        return self.supports_at(self.axial_load, self.screw_speed, self._temperature)
+
+    @property
+    def _temperature(self) -> Numbers | None:
+        """Temperature of the oil at the states, K; None where it is that of each oil."""
         warm = self.states.temperature
         own = getattr(getattr(self.driven, "lubricant", None), "temperature", None)
         warm = warm if own is None else np.where(np.isnan(warm), own, warm)
-        return self.supports_at(self.axial_load, self.screw_speed, None if np.isnan(warm).all() else warm)
+        return None if np.isnan(warm).all() else warm
+
+    @lazy
+    def support_validity(self) -> Mapping[str, Mapping[str, Numbers]]:
+        """Masks of the conditions of the elements beside the screw and of the guides, by element and condition."""
+        found: dict[str, Mapping[str, Numbers]] = {}
+        state, back = _distinct(self.axial_load, self.screw_speed, self._temperature)
+        every = np.ones(np.shape(state.screw_speed), dtype=bool)
+        for name, element in self.also.items():
+            found[name] = {reason: (mask & every)[back] for reason, mask in element(state).validity.items()}
+        if self.axis.guides is not None:
+            loads = self.axis.carriage_loads(self.states.acceleration)
+            found[GUIDES] = self.axis.guides.under(loads, self.states.speed).validity
+        return found
 
     def supports_at(
         self, axial_load: Numbers, screw_speed: Numbers, temperature: Numbers | None
-    ) -> Mapping[str, Numbers]:
-        """Friction torques beside the screw at loads and speeds of it, by element, their magnitudes, N m."""
-        found: dict[str, Numbers] = {}
+    ) -> Mapping[str, Mapping[str, Numbers]]:
+        """Friction torques beside the screw at loads and speeds of it, by element and mechanism, magnitudes, N m.
+
+        Each distinct state is computed once.
+        """
+        found: dict[str, Mapping[str, Numbers]] = {}
         if self.axis.bearing_torque:
-            found[BEARINGS] = np.full_like(screw_speed, self.axis.bearing_torque)
+            found[BEARINGS] = {"known": np.full_like(screw_speed, self.axis.bearing_torque)}
+        if not self.also:
+            return found
+        state, back = _distinct(axial_load, screw_speed, temperature)
+        speed = state.screw_speed
         for name, element in self.also.items():
-            state = OperatingState(axial_load, screw_speed, temperature)
-            found[name] = np.broadcast_to(element(state).friction_effort, screw_speed.shape)
+            parts = element(state).contributions
+            found[name] = {
+                MECHANISMS.get(part, part): np.broadcast_to(torque, speed.shape)[back] for part, torque in parts.items()
+            }
         return found
 
     @lazy
@@ -149,10 +189,10 @@ class Duty(ByValue):
             "acceleration of the mass": self.loads.acceleration * to_motor,
             "gravity": self.loads.gravity * to_motor,
             PROCESS: self.loads.process * to_motor,
-            "guides": self.loads.guides * to_motor,
-            "guide seals": self.loads.guide_seals * to_motor,
+            GUIDES: self.loads.guides * to_motor,
+            SEALS: self.loads.guide_seals * to_motor,
             **{name: direction * torque / ratio for name, torque in self.shaft_friction.items()},
-            "imbalance of the model": (self.screw.ideal_torque - self.axial_load * arm) / ratio,
+            IMBALANCE: (self.screw.ideal_torque - self.axial_load * arm) / ratio,
         }
         turned = np.sum(list(own.values()), axis=0)
         lost = self.transmission_loss(turned)
@@ -180,8 +220,7 @@ class Duty(ByValue):
     @lazy
     def rest_friction(self) -> Numbers:
         """Torque at the motor that friction holds either way where the axis rests, N m; NaN in motion."""
-        arm = float(self.driven.lead) / (2 * math.pi)
-        along = (self.axis.guide_force + self.axis.guide_seal_force) * arm
+        along = self.axis.resting_guide_friction * float(self.driven.lead) / (2 * math.pi)
         held = (sum(self.shaft_friction.values()) + along) / self.axis.transmission_ratio
         return np.where(self.states.direction == 0, held, np.nan)
 
@@ -227,6 +266,35 @@ class Duty(ByValue):
         """Energy lost in a cycle by mechanism, J."""
         return {name: energy for name, energy in self.energy_by.items() if name not in (*STORED, PROCESS)}
 
+    @lazy
+    def energy_lost_in(self) -> Mapping[str, Mapping[str, Energy]]:
+        """Energy lost in a cycle by element and mechanism, J; the parts sum to :attr:`energy_lost`.
+
+        The nut with all that it loses, each bearing, the guides, and belt or gears. What a model gains or loses that
+        breaks virtual work counts to the nut.
+        """
+        states, lost = self.states, self.energy_lost_by
+        own = [MECHANISMS.get(name, name) for name in self.screw.contributions]
+        broken = [IMBALANCE] if abs(lost[IMBALANCE]) > _ROUNDING * self.energy_drawn else []
+        travelled = np.abs(states.speed)
+        rubs = self.axis.guide_friction(states.speed, states.acceleration)
+        turned = np.abs(self.screw_speed)
+        found = {
+            NUT: {name: lost[name] for name in (*own, *broken)},
+            **{
+                name: {part: states.integral(torque * turned) for part, torque in parts.items()}
+                for name, parts in self._supports.items()
+            },
+            GUIDES: {_OF_GUIDES.get(part, part): states.integral(force * travelled) for part, force in rubs.items()},
+            "transmission": {"transmission": lost["transmission"]},
+        }
+        return {name: parts for name, parts in found.items() if name == NUT or any(parts.values())}
+
+    @lazy
+    def heat(self) -> Mapping[str, Power]:
+        """Mean heat of each element over the cycle, W."""
+        return {name: sum(parts.values()) / self.states.cycle_time for name, parts in self.energy_lost_in.items()}
+
     @property
     def energy_lost(self) -> Energy:
         """Energy lost in a cycle, J."""
@@ -263,3 +331,10 @@ class Duty(ByValue):
             "energy_stored", "mean_speed", "revolutions",
         )  # fmt: skip
         return {"cycle_time": self.states.cycle_time, **{name: getattr(self, name) for name in names}}
+
+
+def _distinct(axial_load: Numbers, screw_speed: Numbers, temperature: Numbers | None) -> tuple[OperatingState, Any]:
+    """The distinct states among these, and the place of each among them."""
+    warm = np.full_like(screw_speed, np.nan) if temperature is None else temperature
+    (load, speed, degrees), back = distinct_states(axial_load, screw_speed, warm)
+    return OperatingState(load, speed, None if temperature is None else degrees), back

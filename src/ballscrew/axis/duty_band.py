@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +15,8 @@ from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.evaluation.evaluator import evaluator
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.motion.states import Numbers
+from ballscrew.supports.element_laws import UNCERTAIN
+from ballscrew.supports.mounted_bearing import PLACES
 from ballscrew.uncertainty.band_evaluation import faults_of_inputs, faults_of_options
 from ballscrew.uncertainty.bands import Interval
 from ballscrew.uncertainty.distributions import Distribution
@@ -49,6 +53,7 @@ def duty_band(
     duty: Duty,
     *,
     uncertain: Mapping[str, Distribution],
+    beside: Mapping[str, Distribution] | None = None,
     samples: int = SAMPLES,
     seed: int = 0,
     level: float = 0.95,
@@ -58,6 +63,8 @@ def duty_band(
 
     ``uncertain`` names inputs as :func:`~ballscrew.sweeps.sweep.sweep` does; they are independent, the same over a
     cycle, and drawn from a Sobol' sequence. The laws are those of the model. The motion and the axis are exact.
+    ``beside`` has distributions of torques and seals of the bearings, and of coefficients and seals of the guides
+    (``bearings.fixed.torque``, ``guides.friction_coefficient``), with which friction goes in proportion.
     Raises :class:`~ballscrew.errors.InputError` for unknown names, and for a screw without a model of friction.
     """
     driven = duty.driven
@@ -70,7 +77,7 @@ def duty_band(
     states = np.stack([duty.axial_load, duty.screw_speed], axis=1)
     distinct, back = np.unique(states, axis=0, return_inverse=True)
     load, speed = distinct.T
-    names = tuple(uncertain)
+    names, others = tuple(uncertain), dict(beside or {})
     ready = evaluator(
         driven.model,
         driven.screw,
@@ -79,14 +86,22 @@ def duty_band(
         outputs=["screw_torque"],
         engine="numpy" if samples * load.size < WORTH_RECORDING else None,
     )
-    shares = sobol_sequence(len(names), samples, seed) if names else np.empty((0, samples))
-    values = Sampler(subject, uncertain, {}, ()).inputs_at(shares)
+    number = len(names) + len(others)
+    shares = sobol_sequence(number, samples, seed) if number else np.empty((0, samples))
+    values = Sampler(subject, uncertain, {}, ()).inputs_at(shares[: len(names)])
+    drawn_beside = {
+        name: one.quantile(share) for (name, one), share in zip(others.items(), shares[len(names) :], strict=True)
+    }
+    more = {name: friction_beside(duty, name) for name in others}
     found: dict[str, list[Numbers]] = {}
     step = max(1, _AT_ONCE // load.size)
     for start in range(0, samples, step):
         chosen = {name: drawn[start : start + step, None] for name, drawn in values.items()}
         torque = ready(axial_load=load, screw_speed=speed, **chosen)["screw_torque"]
-        for name, numbers in numbers_of_cycle(duty, np.atleast_2d(torque)[:, back.reshape(-1)]).items():
+        every = np.atleast_2d(torque)[:, back.reshape(-1)]
+        for name, (central, of_unit) in more.items():
+            every = every + (drawn_beside[name][start : start + step, None] - central) * of_unit
+        for name, numbers in numbers_of_cycle(duty, every).items():
             found.setdefault(name, []).append(numbers)
         if done is not None:
             done(min(start + step, samples), samples)
@@ -97,6 +112,26 @@ def duty_band(
         low, median, high = (float(q) for q in np.nanquantile(np.concatenate(parts), ends, method="inverted_cdf"))
         bands[name] = NumberBand(float(own[name][0]), median, Interval(low, high))
     return DutyBand(level, samples, bands)
+
+
+def friction_beside(duty: Duty, name: str) -> tuple[float, Numbers]:
+    """A number of a bearing or of the guides, and the friction torque about the shaft that one unit of it makes, N m.
+
+    Raises :class:`~ballscrew.errors.InputError` for a name that the duty has not.
+    """
+    section, _, field = name.rpartition(".")
+    element: Any = duty.axis.guides
+    if section.startswith("bearings."):
+        mounted: Any = duty.also.get(PLACES.get(section.removeprefix("bearings."), ""))
+        element = getattr(mounted, "element", None)
+    if field not in UNCERTAIN or not hasattr(element, field):
+        raise InputError(Fault("band.uncertain", "unknown number of a bearing or guide", name, "see the case"))
+    every = np.ones_like(duty.screw_speed)
+    if section == "guides":
+        arm = float(duty.driven.lead) / (2 * math.pi)
+        loads = duty.axis.carriage_loads(duty.states.acceleration)
+        every = arm * (every * loads.shape[-1] if field == "seal_force" else np.sum(loads, axis=-1))
+    return float(getattr(element, field)), every
 
 
 def numbers_of_cycle(duty: Duty, screw_torque: Numbers) -> Mapping[str, Numbers]:

@@ -78,7 +78,7 @@ class ModelledScrew(ByValue):
         """Friction at loads and speeds with their signs; each distinct point is computed once."""
         own = np.nan if self.lubricant.temperature is None else float(self.lubricant.temperature)
         warm = np.where(np.isnan(temperature), own, temperature)
-        distinct, back = _distinct(axial_load, screw_speed, warm)
+        distinct, back = distinct_states(axial_load, screw_speed, warm)
         found = self._outputs([*_OUTPUTS, *self._names("contribution_")], distinct)
         valid = found["valid"]
         reasons = self._names("validity_")
@@ -122,7 +122,7 @@ class ModelledScrew(ByValue):
         return {name: np.broadcast_to(known[name].read(result), axial_load.shape) for name in names}
 
 
-def _distinct(axial_load: Numbers, screw_speed: Numbers, temperature: Numbers) -> tuple[Numbers, Any]:
+def distinct_states(axial_load: Numbers, screw_speed: Numbers, temperature: Numbers) -> tuple[Numbers, Any]:
     """Distinct operating points, one column each, and the place of every state among them; all where few repeat."""
     every = np.stack([axial_load, screw_speed, temperature])
     if _is_one(temperature):

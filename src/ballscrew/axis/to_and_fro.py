@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 from ballscrew.axis.axis import Axis
 from ballscrew.axis.duty import Duty, duty
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, accepts_units, raise_if_any
+from ballscrew.friction.element import FrictionElement
 from ballscrew.friction.model import FrictionModel
 from ballscrew.motion.profiles import Segment, Segments
 from ballscrew.quantities import AngularSpeed, Force, Length
@@ -23,9 +25,11 @@ def to_and_fro(
     axial_load: Force,
     screw_speed: AngularSpeed,
     stroke: Length,
+    also: Mapping[str, FrictionElement] | None = None,
 ) -> Duty:
     """The duty of a screw that turns at one speed over a stroke and back, with no mass and no rest.
 
+    ``also`` has further elements on the shaft, as in :func:`~ballscrew.axis.duty.duty`.
     The load keeps its direction, as a weight does: one way the screw lifts it, the other way it drives the screw.
     Raises :class:`~ballscrew.errors.InputError` for a speed of zero, and for a stroke that is not positive.
     """
@@ -41,4 +45,4 @@ def to_and_fro(
         Segment(name=name, duration=stroke / speed, speed=sign * speed, force=float(axial_load))
         for name, sign in (("forth", first), ("back", -first))
     )
-    return duty(model, screw, lubricant, axis=Axis(mass=0.0), motion=Segments(segments=ways))
+    return duty(model, screw, lubricant, axis=Axis(mass=0.0), motion=Segments(segments=ways), also=also)

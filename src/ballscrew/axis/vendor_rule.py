@@ -33,7 +33,7 @@ class VendorRule(ByValue):
         """Force along the axis without inertia, N."""
         loads = self.duty.loads
         steady = loads.gravity + loads.process
-        held = self.duty.axis.guide_force + self.duty.axis.guide_seal_force
+        held = self.duty.axis.resting_guide_friction
         rests = self.duty.states.direction == 0
         left = np.sign(steady) * np.maximum(np.abs(steady) - held, 0.0)
         return np.where(rests, left, steady + loads.guides + loads.guide_seals)

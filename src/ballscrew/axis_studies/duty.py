@@ -21,6 +21,7 @@ from ballscrew.cases.case import Case
 from ballscrew.cases.nut_tables import dynamic_rating
 from ballscrew.components.nut import OversizeBallNut
 from ballscrew.errors import Fault, InputError
+from ballscrew.friction.element import FrictionElement
 from ballscrew.friction.result import MECHANISMS
 from ballscrew.motion.profiles import Motion
 from ballscrew.motion.trajectory import HALF_WIDTHS, Trajectory
@@ -36,6 +37,8 @@ RULE_EFFICIENCY = 0.9
 _OF_EXTREMES = (
     "static_safety", "contact_pressure", "shaft_stress", "buckling", "critical_speed", "diameter_speed_product",
 )  # fmt: skip
+#: Parts of the energy that are rounding, as a share of what is drawn.
+_LEAST = 1e-12
 _SLUGS = {text: name for name, text in MECHANISMS.items()}
 
 
@@ -187,6 +190,16 @@ class DutyReport:
         }
 
     @lazy
+    def energy_lost_in(self) -> Mapping[str, Mapping[str, Energy]]:
+        """Energy lost in a cycle by element and mechanism, J; parts that are rounding are left out."""
+        least = _LEAST * self.duty.energy_drawn
+        found = {
+            name: {part: energy for part, energy in parts.items() if abs(energy) > least}
+            for name, parts in self.duty.energy_lost_in.items()
+        }
+        return {name: parts for name, parts in found.items() if parts}
+
+    @lazy
     def smoothing(self) -> Smoothing | None:
         """The smoothing of a recorded motion; None for a motion in closed form."""
         motion = self.motion
@@ -288,7 +301,7 @@ def duty(case: Case) -> DutyReport:
     assert case.axis is not None
     assert case.motion is not None
     driver = case.model if case.efficiency is None else case.efficiency
-    found = axis_duty.duty(driver, case.screw, case.lubricant, axis=case.axis, motion=case.motion)
+    found = axis_duty.duty(driver, case.screw, case.lubricant, axis=case.axis, motion=case.motion, also=beside(case))
     rating, source = _rating(case)
     preload = float(preload_of(case.screw, case.screw.nut))
     if not math.isfinite(found.torque_rms):
@@ -299,9 +312,22 @@ def duty(case: Case) -> DutyReport:
     rule = VendorRule(found, RULE_EFFICIENCY if case.efficiency is None else case.efficiency)
     report = DutyReport(case, case.axis, case.motion, found, life, source, rule)
     # here, where numbers beyond any float become a fault of the input
-    _ = (report.numbers, report.brake, report.checks, report.phases, report.torque_peak_by, report.torque_rms_by)
+    _ = (
+        report.numbers,
+        report.brake,
+        report.checks,
+        report.phases,
+        report.torque_peak_by,
+        report.torque_rms_by,
+        report.energy_lost_in,
+    )
     _ = (life.revolutions, report.smoothing, rule.torque_rms, rule.torque_peak)
     return report
+
+
+def beside(case: Case) -> Mapping[str, FrictionElement]:
+    """The elements of a case on the shaft beside the screw, by name."""
+    return {bearing.name: bearing for bearing in case.bearings.values()}
 
 
 def _rating(case: Case) -> tuple[float | None, str]:

@@ -7,8 +7,10 @@ from collections.abc import Callable, Mapping
 
 from ballscrew.axis.duty_band import DutyBand, duty_band
 from ballscrew.axis_studies.duty import DutyReport
-from ballscrew.cases.uncertain_inputs import Uncertain, all_of
+from ballscrew.cases.uncertain_inputs import GIVEN, Uncertain, all_of
 from ballscrew.errors import InputError
+from ballscrew.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, fields_of_laws
+from ballscrew.uncertainty.uncertain_value import describe_distribution
 
 #: Samples where none are asked for.
 SAMPLES = 1024
@@ -31,10 +33,20 @@ def band(
     done: Callable[[int, int], None] | None = None,
 ) -> DutyBandReport:
     """The bands of a duty. Raises ``InputError`` that names options of the command line."""
-    inputs = all_of(report.case, only_given)
+    inputs = dict(all_of(report.case, only_given))
     uncertain = {name: one.distribution for name, one in inputs.items()}
+    known = {**fields_of_laws(GUIDE_LAWS), **fields_of_laws(BEARING_LAWS)}
+    for name, distribution in report.case.uncertain_supports.items():
+        words = describe_distribution(distribution, known[name.rpartition(".")[2]])
+        inputs[name] = Uncertain(distribution, GIVEN, True, words)
     try:
-        found = duty_band(report.duty, uncertain=uncertain, samples=SAMPLES if samples is None else samples, done=done)
+        found = duty_band(
+            report.duty,
+            uncertain=uncertain,
+            beside=report.case.uncertain_supports,
+            samples=SAMPLES if samples is None else samples,
+            done=done,
+        )
     except InputError as error:
         faults = (
             dataclasses.replace(f, where=f.where.replace("band.", "--", 1) if f.where.startswith("band.") else f.where)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import numpy as np
@@ -17,6 +18,7 @@ from ballscrew.motion.trajectory import Trajectory
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.records import Record, Severity
 from ballscrew.sizing.checks import Check
+from ballscrew.supports.bearing import DIRECTION
 
 _LENGTH, _SPEED = fields_of(Trapezoid)["stroke"], fields_of(Trapezoid)["speed"]
 _TORQUE, _TURNING = NUMBERS["torque_rms"], NUMBERS["mean_speed"]
@@ -103,6 +105,7 @@ def warnings(report: DutyReport) -> list[Record]:
         *_too_fast(report),
         *_beyond_motor(report),
         *_validity(report),
+        *_validity_of_elements(report),
     ]
 
 
@@ -246,4 +249,21 @@ def _validity(report: DutyReport) -> list[Record]:
                 value=share, limit=0.0,
             )
         )  # fmt: skip
+    return found
+
+
+def _validity_of_elements(report: DutyReport) -> list[Record]:
+    """Conditions of bearings and guides that fail while the axis moves, with the share of that time."""
+    states = report.duty.states
+    weight = np.where(states.direction != 0, states.weight, 0.0)
+    known = {name: condition.text for name, condition in {**CONDITIONS, **NUT_CONDITIONS}.items()}
+    known[DIRECTION] = "one row carries no load in the other direction: it was computed for the size of the load"
+    found: list[Record] = []
+    for element, masks in report.duty.support_validity.items():
+        for name, mask in masks.items():
+            share = float(np.sum(weight * ~np.asarray(mask))) / max(float(np.sum(weight)), 1e-300)
+            if share and name in known:
+                text = f"{element}: {known[name]} (in {share:.2g} of the time in motion)"
+                record = Record(id=f"validity.{name}", subject=element.replace(" ", "_"), text=text, severity="warning")
+                found.append(dataclasses.replace(record, holds=False, value=share, limit=0.0))
     return found

@@ -7,7 +7,15 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ballscrew import units
-from ballscrew.axis_studies.warm_up import EQUILIBRIUM, assumed_of, check_oil, duty_of, length_of, stroke_of
+from ballscrew.axis_studies.warm_up import (
+    EQUILIBRIUM,
+    assumed_of,
+    bearings_of,
+    check_oil,
+    duty_of,
+    length_of,
+    stroke_of,
+)
 from ballscrew.cases.case import Case
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import Fault, InputError
@@ -42,7 +50,7 @@ class SelfHeating:
     def assumed(self) -> Sequence[str]:
         """Numbers that the case does not give, and what stands in for them."""
         network = self.equilibrium.network
-        return assumed_of(self.given, network.surroundings, network, self.stroke, None)
+        return assumed_of(self.given, network.surroundings, network, self.stroke)
 
     @property
     def numbers(self) -> Mapping[str, float]:
@@ -128,10 +136,10 @@ def swept(
     stroke = stroke_of(point, surroundings)
     found, steady = warm_sweep.swept(
         Configuration(case.model, case.screw, case.lubricant), surroundings, varied, stroke=stroke,
-        shaft_length=length_of(case, surroundings), outputs=outputs, done=done,
+        shaft_length=length_of(case, surroundings), outputs=outputs, done=done, also=bearings_of(point),
     )  # fmt: skip
     network = steady.network
-    assumed = [] if network is None else assumed_of(case, surroundings, network, stroke, None)
+    assumed = [] if network is None else assumed_of(case, surroundings, network, stroke)
     return found.assign_attrs(assumed="\n".join(assumed))
 
 

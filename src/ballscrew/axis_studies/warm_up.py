@@ -12,7 +12,6 @@ import numpy as np
 from ballscrew import units
 from ballscrew._arrays import lazy
 from ballscrew.axis import duty as axis_duty
-from ballscrew.axis.axis import Axis
 from ballscrew.axis.duty import Duty
 from ballscrew.axis.to_and_fro import to_and_fro
 from ballscrew.cases import case_file
@@ -23,6 +22,7 @@ from ballscrew.motion.profiles import Trapezoid
 from ballscrew.motion.states import Numbers
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Info, Length, Quantity, fields_of
+from ballscrew.supports.mounted_bearing import MountedBearing
 from ballscrew.thermal.network import GAP_SHARE, GREASE_CONDUCTIVITY, NUT_WALL, Network
 from ballscrew.thermal.surroundings import Surroundings
 from ballscrew.thermal.warm_up import WarmUp, warm_up
@@ -137,12 +137,10 @@ class WarmUpReport:
     @property
     def assumed(self) -> Sequence[str]:
         """Numbers that the case does not give, and what stands in for them."""
-        return assumed_of(self.case, self.surroundings, self.warm_up.network, self.stroke, self.duty.axis)
+        return assumed_of(self.case, self.surroundings, self.warm_up.network, self.stroke)
 
 
-def assumed_of(
-    case: Case, given: Surroundings, network: Network, stroke: Length | None, axis: Axis | None
-) -> Sequence[str]:
+def assumed_of(case: Case, given: Surroundings, network: Network, stroke: Length | None) -> Sequence[str]:
     """Numbers of the heat that a case does not give, and what stands in for them."""
     found: list[str] = []
 
@@ -167,8 +165,11 @@ def assumed_of(
         found.append(f"shaft of {shown('shaft_length', network.shaft.length)}: {source}")
     if stroke is not None and given.stroke is None:
         found.append(f"to and fro over {units.shown(stroke, PLACE)}, half the shaft, under the load of the case")
-    if axis is None or not axis.bearing_torque:
-        found.append("no heat of the support bearings: their friction is not given (axis.bearing_torque)")
+    first, last = (units.shown(power, SERIES["friction_power"], 3) for power in network.bearing_power)
+    if any(network.bearing_power):
+        found.append(f"bearings make {first} at the fixed end and {last} at the other, whatever they warm up to")
+    else:
+        found.append("no heat of the support bearings: their friction is not given ([bearings.fixed])")
     defaults = {field.name: field.default for field in dataclasses.fields(Surroundings)}
     found += [
         f"{_OF[name].info.meaning} {shown(name, defaults[name])}: the default"
@@ -248,15 +249,23 @@ def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None
         problem = "knows no oil, so that nothing changes as it warms up"
         raise InputError(Fault("model.name", problem, "constant-efficiency", "take a model"))
     check_oil(case)
+    also = bearings_of(case)
     if case.motion is not None and case.axis is not None:
-        return axis_duty.duty(case.model, case.screw, case.lubricant, axis=case.axis, motion=case.motion), None
+        return axis_duty.duty(
+            case.model, case.screw, case.lubricant, axis=case.axis, motion=case.motion, also=also
+        ), None
     stroke = stroke_of(case, surroundings)
     point = case.operation
     duty = to_and_fro(
         case.model, case.screw, case.lubricant, axial_load=float(point.axial_load),
-        screw_speed=float(point.screw_speed), stroke=stroke,
+        screw_speed=float(point.screw_speed), stroke=stroke, also=also,
     )  # fmt: skip
     return duty, stroke
+
+
+def bearings_of(case: Case) -> Mapping[str, MountedBearing]:
+    """The bearings of a case by the names that their friction has."""
+    return {bearing.name: bearing for bearing in case.bearings.values()}
 
 
 def stroke_of(case: Case, surroundings: Surroundings) -> Length:

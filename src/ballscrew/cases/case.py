@@ -21,6 +21,7 @@ from ballscrew.records import Record
 from ballscrew.screw_tables.nut_kinds import LISTED
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.installation import Installation, Limits
+from ballscrew.supports.mounted_bearing import MountedBearing
 from ballscrew.thermal.surroundings import Surroundings
 from ballscrew.uncertainty.distributions import Distribution
 
@@ -82,12 +83,24 @@ class Case:
     efficiency: float | None = None
     #: Whether the operating point is that of steady travel in the motion, as the file gives none.
     travels: bool = False
+    #: The bearings of the shaft by their place on it.
+    bearings: Mapping[str, MountedBearing] = dataclasses.field(default_factory=dict[str, MountedBearing])
+    #: Distributions of numbers of bearings and guides that the file gives, by section and field.
+    uncertain_supports: Mapping[str, Distribution] = dataclasses.field(default_factory=dict[str, Distribution])
 
     @property
     def nut(self) -> Nut | None:
         """The nut with its preload, bodies and losses; None for a row of equal balls and nothing else."""
         nut = self.screw.nut
         return None if nut.is_row and not nut.losses and not nut.spacer_balls else nut
+
+    def sizes_of_nut(self, screw: BallScrew) -> dict[str, float | None]:
+        """Sizes of the nut that the row of a catalogue lists, for the rigidity by ISO 3408-4 of a screw of the case."""
+        row, bodies = self.row, screw.nut.bodies
+        if row is None or row.ball_circle != screw.pitch_circle_diameter:
+            return {"nut_outer_diameter": None, "nominal_diameter": None}
+        listed = row.nut_outer_diameter if bodies is None or bodies.nut_outer_diameter is None else None
+        return {"nut_outer_diameter": listed, "nominal_diameter": row.nominal_diameter}
 
     def implausible(self) -> list[Record]:
         """A warning for each input that no ball screw has."""

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ballscrew import units
-from ballscrew.cases import duty_tables, nut_tables, uncertain_inputs
+from ballscrew.cases import duty_tables, nut_tables, support_tables, uncertain_inputs
 from ballscrew.cases.case import USUAL_LIMITS
 from ballscrew.cases.case import Case as Case
 from ballscrew.cases.duty_schema import DUTY_TABLES
@@ -32,6 +32,7 @@ from ballscrew.cases.schema import (
     name_of_law,
 )
 from ballscrew.cases.sections import Sections, validated_sections
+from ballscrew.cases.support_schema import SUPPORT_TABLES
 from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import MATERIALS, BallScrew
@@ -44,12 +45,13 @@ from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import fields_of
 from ballscrew.screw_tables.nut_kinds import LISTED
 from ballscrew.sizing.catalogue import CatalogueRow
+from ballscrew.thermal.written_bands import written_bands
 from ballscrew.units import in_display_units
 
 #: Bytes of a case file at most, and bits of a whole number in it: no float is larger.
 LARGEST_FILE, LARGEST_INTEGER = 4_000_000, 1024
 _NEEDED = ("screw", "lubricant", "operation")
-_SECTIONS = (*_NEEDED, *NUT_TABLES, *DUTY_TABLES, "model", "sweep", "calibration")
+_SECTIONS = (*_NEEDED, *NUT_TABLES, *DUTY_TABLES, *SUPPORT_TABLES, "model", "sweep", "calibration")
 _START = 'start from "ballscrew catalogue show hiwin-40-20k4 --case"'
 
 
@@ -185,10 +187,11 @@ def build(
     made = _screw(sections, folder, rows, faults) if "screw" in sections else _NO_SCREW
     lubricant, oil = lubricant_of(sections, folder, faults) if "lubricant" in sections else (None, {})
     axis, motion, motor, surroundings = duty_tables.moved(sections, folder, faults)
+    axis = support_tables.guided(sections, axis, folder, lubricant, faults)
     if efficiency is None:
         friction_model = _model(sections, model, faults, folder if allow_code else None)
-    else:  # no model counts, and no oil: any stands in
-        friction_model, lubricant = MODELS[DEFAULT_MODEL], lubricant or Lubricant.from_grade("ISO VG 100")
+    else:  # no model counts, and no oil of the screw: any stands in
+        friction_model = MODELS[DEFAULT_MODEL]
     sweep = _sweep(tables.get("sweep", {}), faults)
     fit = tables.get("calibration", {})
     if not isinstance(fit, dict):
@@ -199,22 +202,27 @@ def build(
         faults.append(Fault("calibration.constant_torque", problem, str(fit["constant_torque"]), remedy))
     nut, notes = nut_tables.nut_of(sections, *made, faults)
     mounted = nut_tables.installation(sections, faults) if "installation" in sections else None
+    bearings = support_tables.bearings(sections, folder, lubricant, mounted, faults)
+    mounted = support_tables.mounted_on(mounted, bearings)
     limits = nut_tables.limits(sections, faults) if "limits" in sections else USUAL_LIMITS
     screw = made.screw if made.screw is None or nut is None else dataclasses.replace(made.screw, nut=nut)
     operation = _operation(sections, faults) if "operation" in sections else None
     travels = moves and "operation" not in sections
     if travels and axis is not None and motion is not None and screw is not None:
         operation = duty_tables.travel(axis, motion, screw.lead)
+    if efficiency is not None and lubricant is None:
+        lubricant = Lubricant.from_grade("ISO VG 100")
     if faults or screw is None or lubricant is None or operation is None or friction_model is None:
         raise InputError(*in_options(faults, chosen))
     inputs, exact = uncertain_inputs.parse_distributions(tables, friction_model, screw, lubricant)
-    of_air, exact_air = uncertain_inputs.parse_surroundings(tables)
+    of_air, exact_air = written_bands(tables.get("surroundings", {}))
     calibrated_by = tables.get("model", {}).get("calibration")
     return Case(
         friction_model, screw, lubricant, operation, sweep, oil, made.row, made.listed, mounted, limits, notes,
         inputs, exact | exact_air,
         None if calibrated_by is None else named_calibration(calibrated_by),
-        fit, axis, motion, motor, surroundings, of_air, efficiency, travels,
+        fit, axis, motion, motor, surroundings, of_air, efficiency, travels, bearings,
+        support_tables.distributions(sections),
     )  # fmt: skip
 
 

@@ -71,7 +71,7 @@ def travel(axis: Axis, motion: Motion, lead: float) -> OperatingState:
     """The operating point of steady travel forwards, at the largest speed and without any process."""
     states = motion.states()
     fastest = float(np.max(np.abs(states.speed)))
-    load = axis.gravity_force + axis.guide_force + axis.guide_seal_force
+    load = axis.gravity_force + axis.resting_guide_friction
     return OperatingState(axial_load=load, screw_speed=2 * math.pi * fastest / lead)
 
 

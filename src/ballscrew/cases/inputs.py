@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
-from ballscrew.cases import duty_tables
+from ballscrew.cases import duty_tables, support_tables
 from ballscrew.cases.case import USUAL_LIMITS, Case
 from ballscrew.cases.duty_schema import CONSTANT_EFFICIENCY
 from ballscrew.cases.schema import LAWS, name_of_law
@@ -36,6 +36,7 @@ def inputs(case: Case) -> dict[str, Any]:
         **({} if case.installation is None else {"installation": _mounting(case.installation)}),
         **({} if case.limits is USUAL_LIMITS else {"limits": _numbers(case.limits)}),
         **duty_tables.inputs(case.axis, case.motion, case.motor, case.surroundings),
+        **support_tables.inputs(case.bearings, case.axis),
     }
 
 

@@ -22,6 +22,7 @@ from ballscrew.cases.duty_schema import CONSTANT_EFFICIENCY, DUTY_TABLES, duty_s
 from ballscrew.cases.fields import EXAMPLES as EXAMPLES
 from ballscrew.cases.fields import defaults_of, json_of, read_preload, section_of
 from ballscrew.cases.law_import import OUTSIDE, law_from_outside, with_plain_numbers
+from ballscrew.cases.support_schema import SUPPORT_TABLES, support_sections
 from ballscrew.components.data_sheet import SHEET_TEMPERATURE, DataSheet
 from ballscrew.components.materials import INPUTS_OF_SHEET, Lubricant, Material, grades
 from ballscrew.components.nut import Bodies, DoubleNut, Scatter
@@ -163,6 +164,7 @@ def sections() -> Mapping[str, type[BaseModel]]:
         ),
         "limits": section_of("Limits", fields_of(Limits), Limits, required=False),
         **duty_sections(),
+        **support_sections(),
     }  # fmt: skip
 
 
@@ -194,7 +196,8 @@ def case_file() -> type[BaseModel]:
     parts = sections()
     screw: Any = parts["screw"] | parts["screw_of_row"]
     others: dict[str, Any] = {
-        name: (parts[name], Field(default=None)) for name in ("lubricant", "operation", *NUT_TABLES, *DUTY_TABLES)
+        name: (parts[name], Field(default=None))
+        for name in ("lubricant", "operation", *NUT_TABLES, *DUTY_TABLES, *SUPPORT_TABLES)
     }
     axes = Annotated[
         dict[str, str],

@@ -8,10 +8,11 @@ from typing import Any
 
 from ballscrew.cases.duty_schema import DUTY_TABLES
 from ballscrew.cases.schema import NUT_TABLES, validated
+from ballscrew.cases.support_schema import SUPPORT_TABLES
 from ballscrew.errors import Fault
 
 #: The sections with a schema, in the order of messages.
-_VALIDATED = ("screw", "lubricant", "operation", "model", *NUT_TABLES, *DUTY_TABLES)
+_VALIDATED = ("screw", "lubricant", "operation", "model", *NUT_TABLES, *DUTY_TABLES, *SUPPORT_TABLES)
 
 
 @dataclasses.dataclass(frozen=True)

@@ -17,6 +17,7 @@ from typer.core import TyperCommand
 
 from ballscrew import _pint_plugins
 from ballscrew.cli import (
+    axis,
     card,
     catalogue,
     check,
@@ -77,6 +78,7 @@ for command in (
     fit.fit,
     report.report,
     duty.duty,
+    axis.axis,
     warm_up.warm_up,
     sensitivity.sensitivity,
     serve.serve,

@@ -24,10 +24,12 @@ def list_oils(
 ) -> None:
     """All oils, one line each."""
     from ballscrew.cases import oils
+    from ballscrew.documents import oils as documents
     from ballscrew.output import json_text
+    from ballscrew.text import oils as text
 
     found = oils.chosen(oils.oils(file), " ".join(words or []))
-    typer.echo(json_text.as_json(oils.list_document(found)) if as_json else oils.list_text(found))
+    typer.echo(json_text.as_json(documents.document(found)) if as_json else text.list_text(found))
 
 
 @app.command()
@@ -38,7 +40,9 @@ def show(
 ) -> None:
     """One oil: what its data sheet states, and its viscosity from -40 to 120 degC."""
     from ballscrew.cases import oils
+    from ballscrew.documents import oils as documents
     from ballscrew.output import json_text
+    from ballscrew.text import oils as text
 
     sheet = oils.oils(file).named(name)
-    typer.echo(json_text.as_json(oils.list_document([sheet])) if as_json else oils.show_text(sheet))
+    typer.echo(json_text.as_json(documents.document([sheet])) if as_json else text.show_text(sheet))

@@ -68,6 +68,8 @@ def results(report: DutyReport) -> dict[str, Any]:
         "torque_rms_by": _by_slug(report.torque_rms_by),
         "energy_by": _by_slug(duty.energy_by),
         "energy_lost_by": _by_slug(duty.energy_lost_by),
+        "energy_lost_in": {slug_of(name): _by_slug(parts) for name, parts in report.energy_lost_in.items()},
+        "heat_by_element": _by_slug(duty.heat),
         "largest_load": report.largest_load,
         "maximum_pressure": _extreme(np.fmax.reduce, duty.screw.maximum_pressure[moving]),
         "minimum_film_parameter": _extreme(np.fmin.reduce, duty.screw.film_parameter[moving]),
@@ -149,6 +151,8 @@ def _units(report: DutyReport) -> dict[str, Any]:
     return {
         **{name: quantity.unit for name, quantity in NUMBERS.items()},
         **{name: dict.fromkeys((slug_of(part) for part in report.duty.parts), unit) for name, unit in by.items()},
+        "energy_lost_in": "J",
+        "heat_by_element": dict.fromkeys(map(slug_of, report.duty.heat), "W"),
         "largest_load": "N",
         "maximum_pressure": "Pa",
         "minimum_film_parameter": "1",

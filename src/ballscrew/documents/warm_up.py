@@ -20,7 +20,7 @@ _HEAT = "heat_"
 #: What the network of heat was made with, and its units.
 _NETWORK: Mapping[str, str] = {
     "ball_conductance": "W/K", "shaft_convection": "W/(m^2 K)", "nut_mass": "kg", "shaft_length": "m",
-    "mean_speed": "rad/s", "stroke": "m",
+    "mean_speed": "rad/s", "stroke": "m", "bearing_power": "W",
 }  # fmt: skip
 
 
@@ -92,6 +92,7 @@ def results(report: WarmUpReport) -> dict[str, Any]:
             "shaft_length": network.shaft.length,
             "mean_speed": report.duty.mean_speed,
             "stroke": report.duty.states.stroke,
+            "bearing_power": list(network.bearing_power),
         },
     }  # fmt: skip
 

@@ -196,10 +196,12 @@ def _limits(case: Case) -> Rows:
 
 
 def _moved(case: Case) -> dict[str, Rows]:
-    """Axis, motion with its segments, motor, and surroundings."""
+    """Axis with its bearings and guides, motion with its segments, motor, and surroundings."""
     segments: tuple[Any, ...] = getattr(case.motion, "segments", ())
     parts = {"Axis": case.axis, "Motion": case.motion, "Motor": case.motor, "Surroundings": case.surroundings}
     parts |= {f"Segment {number}: {part.name}".rstrip(": "): part for number, part in enumerate(segments, start=1)}
+    parts |= {bearing.name.capitalize(): bearing.element for bearing in case.bearings.values()}
+    parts |= {"Guides": None if case.axis is None else case.axis.guides}
     found: dict[str, Rows] = {}
     for title, part in parts.items():
         if part is not None:
@@ -208,8 +210,8 @@ def _moved(case: Case) -> dict[str, Rows]:
             def source(name: str, part: Any = part, usual: Mapping[str, Any] = usual) -> str:
                 return DEFAULT if getattr(part, name) == usual.get(name) else CASE
 
-            known = {name: q for name, q in fields_of(part).items() if getattr(part, name) is not None}
-            found[title] = _part(case, part, known, source)
+            given = {name: quantity for name, quantity in fields_of(part).items() if getattr(part, name) is not None}
+            found[title] = _part(case, part, given, source)
     return found
 
 

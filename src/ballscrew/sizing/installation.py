@@ -70,6 +70,17 @@ class Installation(ByValue):
             usual=(1e7, 1e11),
         ),
     ] = None
+    mount_rigidity: Annotated[
+        Stiffness | None,
+        Info(
+            "R_m",
+            "axial rigidity of housings and brackets, of bearings and nut in series",
+            "N/um",
+            above=0,
+            hint="300 N/um to 3000 N/um: by finite elements, or measured",
+            usual=(1e6, 1e11),
+        ),
+    ] = None
     accuracy_factor: Annotated[
         Ratio | None,
         Info(
@@ -82,7 +93,7 @@ class Installation(ByValue):
     ] = None
 
     def __post_init__(self) -> None:
-        faults = faults_of("installation", self, optional=("bearing_rigidity", "accuracy_factor"))
+        faults = faults_of("installation", self, optional=("bearing_rigidity", "mount_rigidity", "accuracy_factor"))
         if not isinstance(cast("Any", self.ends), Ends):
             known = ", ".join(f"Ends.{ends.name}" for ends in Ends)
             faults.append(Fault("installation.ends", "must be one of Ends", repr(self.ends), f"known: {known}"))

@@ -308,16 +308,7 @@ def with_nut(case: Case, nut: Nut) -> Run:
 
 def _rigidity(case: Case, screw: BallScrew, load: float) -> AxialRigidity:
     """The rigidity by ISO 3408-4 of the nut of a case, and of its shaft where it is known."""
-    row, bodies = case.row, screw.nut.bodies
-    same = row is not None and row.ball_circle == screw.pitch_circle_diameter
-    listed = row.nut_outer_diameter if row is not None and same else None
-    return rigidity_iso3408(
-        screw,
-        axial_load=load,
-        nut_outer_diameter=listed if bodies is None or bodies.nut_outer_diameter is None else None,
-        nominal_diameter=row.nominal_diameter if row is not None and same else None,
-        installation=case.installation,
-    )
+    return rigidity_iso3408(screw, axial_load=load, installation=case.installation, **case.sizes_of_nut(screw))
 
 
 def _at(quadrant: Quadrant, place: int) -> Quadrant:

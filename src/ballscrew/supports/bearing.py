@@ -50,6 +50,11 @@ class _Rows(BallScrew):
         return 0.0
 
 
+def rows_of_balls(**sizes: Any) -> BallScrew:
+    """Rows of balls in a plane, for the model: a screw without a lead, of the sizes of one that has it."""
+    return _Rows(**sizes)
+
+
 def bearing_model(model: FrictionModel | None = None) -> FrictionModel:
     """The model of a screw, by default the reference, for a bearing: no helix, and a cage that parts the balls."""
     screw_model = FrictionModel.reference() if model is None else model
@@ -117,7 +122,7 @@ class SupportBearing(ByValue):
         Length | None, Info("d_w", "ball diameter", "mm", above=0, hint="0.3 (D - d) where it is not known")
     ] = None
     balls: Annotated[
-        Count | None, Info("z", "balls in one row", at_least=3, whole=True, hint="left out, 0.9 of a full circle")
+        Count | None, Info("z_r", "balls in one row", at_least=3, whole=True, hint="left out, 0.9 of a full circle")
     ] = None
     conformity: Annotated[
         Ratio | None,
@@ -188,7 +193,7 @@ class SupportBearing(ByValue):
         seals = {"seals": Seals(self.seal_torque)}
         conformity = CONFORMITY if self.conformity is None else self.conformity
         nut = SingleNut(losses=seals) if self.rows == 1 else DoubleNut(preload=self.preload, losses=seals)
-        return _Rows(
+        return rows_of_balls(
             pitch_circle_diameter=self.mean_diameter,
             lead=1.5 * self.balls_size,
             ball_diameter=self.balls_size,

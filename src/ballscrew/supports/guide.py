@@ -10,10 +10,11 @@ import numpy as np
 from ballscrew._arrays import ByValue
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.errors import accepts_units, faults_of, raise_if_any
-from ballscrew.quantities import Count, Force, Info, Ratio, Speed
+from ballscrew.quantities import Count, Force, Info, Ratio, Speed, Temperature
 from ballscrew.supports import formulas
 from ballscrew.supports.makers_bearing import MakersFriction
 
+Carriages = Annotated[Count, Info("n", "carriages of the table", at_least=1, at_most=100, whole=True, hint="2 or 4")]
 #: Names of the parts, as those of the torque of an axis.
 GUIDES, SEALS = "guides", "guide seals"
 
@@ -48,7 +49,7 @@ class LinearGuide(ByValue):
         Force,
         Info("f", "force of the seals of one carriage", "N", at_least=0, hint="2 N to 5 N", usual=(0.0, 200.0)),
     ]
-    carriages: Annotated[Count, Info("n", "carriages of the table", at_least=1, whole=True, hint="4")] = 4
+    carriages: Carriages = 4
 
     def __post_init__(self) -> None:
         raise_if_any(faults_of("guide", self))
@@ -59,8 +60,16 @@ class LinearGuide(ByValue):
         return self.under(share * np.ones(int(self.carriages)), state.screw_speed)
 
     @accepts_units("guide")
-    def under(self, loads: Force, speed: Speed = 0.0) -> MakersFriction:
-        """Friction where the load of each carriage is known, N, the carriages along the last axis."""
+    def under(
+        self,
+        loads: Force,
+        speed: Speed = 0.0,
+        temperature: Temperature | None = None,  # noqa: ARG002 - as the guides of an axis are called
+    ) -> MakersFriction:
+        """Friction where the load of each carriage is known, N, the carriages along the last axis.
+
+        The law knows neither a speed nor a temperature.
+        """
         carriages = np.shape(loads)[-1]
         rolling = np.sum(formulas.guide_friction(np.abs(loads), self.friction_coefficient, 0.0), axis=-1)
         return MakersFriction({GUIDES: rolling, SEALS: carriages * self.seal_force}, speed)

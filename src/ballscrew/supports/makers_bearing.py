@@ -174,6 +174,28 @@ class PalmgrenBearing(ByValue):
         return MakersFriction(parts, state.screw_speed)
 
 
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class KnownBearing(ByValue):
+    """A bearing of one friction torque at all loads and speeds, as it was measured or as a catalogue prints it.
+
+    A :class:`~ballscrew.friction.element.FrictionElement`. Torques of catalogues are those of the preloaded bearing,
+    often at the start and without a load; speed, load and temperature change them.
+    Raises :class:`~ballscrew.errors.InputError` for a negative torque.
+    """
+
+    torque: Annotated[
+        Torque,
+        Info("M_R", "friction torque of the bearing", "N m", at_least=0, hint="0.02 N m to 1 N m", usual=(0.0, 100.0)),
+    ]
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("known_bearing", self))
+
+    def __call__(self, state: OperatingState, /) -> MakersFriction:
+        """Friction at a state, of which nothing counts."""
+        return MakersFriction({"known": self.torque}, state.screw_speed)
+
+
 def _faults(section: str, bearing: SKFBearing | PalmgrenBearing) -> list[Fault]:
     found = faults_of(section, bearing)
     found = found or faults_of_arrays(section, bearing, "bore", "outside_diameter", "rows", "preload")

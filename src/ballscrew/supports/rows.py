@@ -12,7 +12,7 @@ from typing import Annotated, Any
 
 from ballscrew._arrays import ByValue
 from ballscrew.errors import Fault, InputError, nearest
-from ballscrew.quantities import Angle, Force, Info, Ratio, Stiffness
+from ballscrew.quantities import Angle, Force, Info, Length, Ratio, Stiffness
 from ballscrew.supports.guide import LinearGuide
 
 
@@ -31,6 +31,9 @@ class SupportUnit(ByValue):
     permissible_load: Annotated[Force, Info("P_0", "static permissible load", "kN")]
     rigidity: Annotated[Stiffness, Info("R_b", "axial rigidity", "N/um")]
     source: str
+    #: Of the bearing by ISO 15, where its name tells its series; the maker of the unit prints none.
+    bore: Length | None = None
+    outside_diameter: Length | None = None
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -70,7 +73,7 @@ def support_units() -> Mapping[str, SupportUnit]:
                 model=model,
                 contact_angle=math.radians(unit["contact_angle_degrees"]),
                 source=document["source"],
-                **{name: unit[name] for name in ("bearing", "dynamic_load_rating", "permissible_load", "rigidity")},
+                **{name: value for name, value in unit.items() if name not in ("models", "contact_angle_degrees")},
             )
             for unit in document["units"]
             for model in unit["models"]

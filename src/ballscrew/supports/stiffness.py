@@ -100,6 +100,7 @@ def stiffness_over_stroke(
     mount_rigidity: Stiffness | None = None,
     root_diameter: Length | None = None,
     nut_outer_diameter: Length | None = None,
+    nominal_diameter: Length | None = None,
     accuracy_factor: Ratio | None = None,
     nut_holds_slope: bool = False,
 ) -> AxisStiffness:
@@ -108,16 +109,19 @@ def stiffness_over_stroke(
     The first bearing, at the motor, is the fixed one; ``positions`` are distances from it, and the length of the
     ``installation`` is that between the bearings. Nut, shaft and bearings are those of
     :func:`~ballscrew.sizing.rigidity.rigidity_iso3408` (R_nu,ar with an accuracy factor); a nut without preload needs
-    an ``axial_load``. ``mount_rigidity`` is that of housings and brackets in series. Sideways the nut is a support that
-    lets the shaft turn, the safe side; ``nut_holds_slope`` clamps it. Between two fixed bearings the twist is that from
-    the motor's side, too. Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
+    an ``axial_load``. ``mount_rigidity`` is that of housings and brackets in series, by default the installation's.
+    Sideways the nut is a support that lets the shaft turn, the safe side; ``nut_holds_slope`` clamps it. Between two
+    fixed bearings the twist is that from the motor's side, too.
+    Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
     """
     length = float(installation.unsupported_length)
+    mount_rigidity = installation.mount_rigidity if mount_rigidity is None else mount_rigidity
     places = np.atleast_1d(np.asarray(length * SHARES if positions is None else positions, dtype=float))
     raise_if_any(_faults(places, length, mount_rigidity, root_diameter))
     given: dict[str, Any] = {
         "axial_load": axial_load,
         "nut_outer_diameter": nut_outer_diameter,
+        "nominal_diameter": nominal_diameter,
         "accuracy_factor": accuracy_factor,
         "installation": installation,
     }

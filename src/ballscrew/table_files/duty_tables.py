@@ -74,6 +74,19 @@ def parts(report: DutyReport) -> RowTable:
     return RowTable(list(rows[0]), [list(cells.values()) for cells in rows])
 
 
+def heat(report: DutyReport) -> RowTable:
+    """Energy lost in a cycle and mean heat, by element and mechanism."""
+    rows: list[dict[str, Any]] = []
+    for element, parts in report.energy_lost_in.items():
+        for name, energy in parts.items():
+            cells: dict[str, Any] = {"element": element, "mechanism": name}
+            put(cells, _ENERGY, energy, "energy in a cycle")
+            put(cells, _POWER, energy / report.duty.states.cycle_time, "mean heat")
+            rows.append(cells)
+    headings = list(rows[0]) if rows else ["element", "mechanism"]
+    return RowTable(headings, [list(cells.values()) for cells in rows])
+
+
 def checks(report: DutyReport) -> RowTable:
     """The checks with their limits."""
     rows: list[list[Any]] = []
@@ -104,6 +117,7 @@ def write(to: Path, report: DutyReport) -> None:
             tables = {
                 "cycle": numbers(report),
                 "torque": parts(report),
+                "heat": heat(report),
                 "checks": checks(report),
                 "states": states(report),
             }

@@ -129,11 +129,11 @@ def check_path(to: Path) -> None:
     check_writable("--to", to)
 
 
-def write(to: Path, table: RowTable) -> None:
-    """Write .csv or .xlsx, whole or not at all."""
+def write(to: Path, table: RowTable, sheet: str = "screws") -> None:
+    """Write .csv or .xlsx, with a sheet of that name, whole or not at all."""
     with atomic_write("--to", to) as path:
         if to.suffix.lower() == ".xlsx":
-            path.write_bytes(xlsx_bytes({"screws": table}))
+            path.write_bytes(xlsx_bytes({sheet: table}))
             return
         write_csv(path, table)
 

@@ -16,10 +16,11 @@ from ballscrew.cases.case import Case
 from ballscrew.cases.duty_schema import MOTIONS
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.motion.profiles import Trapezoid
-from ballscrew.output.wrapping import aligned, wrapped
+from ballscrew.output.wrapping import aligned, beside, wrapped
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.screw_tables.nut_kinds import LISTED
 from ballscrew.text.check import check_lines
+from ballscrew.text.elements import element_lines
 from ballscrew.text.tables import shown_or_dash
 
 if TYPE_CHECKING:  # loads xarray
@@ -30,7 +31,9 @@ _IF_ANY = ("energy_of_process", "energy_stored")
 _WIDTH, _BAR = 66, 24
 _AXIS, _MOTION = fields_of(Axis), fields_of(Trapezoid)
 _FORCE, _SPEED = LISTED["dynamic_load_rating"], _MOTION["speed"]
-_TORQUE, _ENERGY = NUMBERS["torque_rms"], NUMBERS["energy_lost"]
+_TORQUE, _ENERGY, _POWER = (NUMBERS[name] for name in ("torque_rms", "energy_lost", "power_peak"))
+#: Mechanisms of an element that are named.
+_MECHANISMS = 3
 #: Columns of the axis with its motor off.
 CONDITIONS = ("", "oil", "load", "friction from rest", "least in motion", "ratio", "after the stroke", "")
 #: The options for an input of a check that is missing.
@@ -49,6 +52,7 @@ def text(report: DutyReport, encoding: str = "utf-8") -> str:
         "",
         descriptions.design(report.case, plain_text=True),
         *_assumptions(report.case),
+        *element_lines(report.case),
         "",
         "Cycle",
         *_numbers(report),
@@ -57,6 +61,8 @@ def text(report: DutyReport, encoding: str = "utf-8") -> str:
         *(f"beware  {record.name}: {record.text}" for record in duty_records.warnings(report)),
         "",
         *_parts(report, "█" if "utf" in encoding.lower() else "#"),
+        "",
+        *_heat(report),
         "",
         *_power_off(report),
         "",
@@ -78,9 +84,10 @@ def band_text(found: DutyBandReport) -> str:
         cells = (number(quantity, value) for value in (one.value, one.median, *one.band))
         rows.append([f"  {quantity.info.meaning}", *cells])
     given = sum(one.given for one in found.inputs.values())
+    beside = ", bearings and guides" if found.report.case.uncertain_supports else ""
     said = (
-        f"  of {len(found.inputs)} uncertain inputs of screw, oil and model, {given} of them given by the case; "
-        "motion, axis and laws are taken as exact"
+        f"  of {len(found.inputs)} uncertain inputs of screw, oil and model{beside}, {given} of them given by the "
+        "case; motion, axis and laws are taken as exact"
     )
     return "\n".join(["", *aligned(rows), wrapped(said)])
 
@@ -171,6 +178,21 @@ def shown_parts(report: DutyReport) -> Mapping[str, tuple[float, float, float]]:
         if peak or rms or energy:
             found[name] = (peak, rms, energy)
     return found
+
+
+def _heat(report: DutyReport) -> list[str]:
+    """Mean heat of each element over the cycle, and the mechanisms that make most of it."""
+    heat, time = report.duty.heat, report.duty.states.cycle_time
+    total = sum(heat.values())
+    if not total > 0:
+        return ["Heat by element: none"]
+    rows, by = [["Heat by element", "mean", "share"]], ["  most of it by"]
+    for name, parts in report.energy_lost_in.items():
+        largest = sorted(parts.items(), key=lambda part: -part[1])[:_MECHANISMS]
+        by.append("  " + ", ".join(f"{part} {units.shown(energy / time, _POWER, 3)}" for part, energy in largest))
+        rows.append([f"  {name}", units.shown(heat[name], _POWER, 3), f"{heat[name] / total:.1%}"])
+    rows.append(["  sum", units.shown(total, _POWER, 3), "100.0%"])
+    return [beside(line, most) for line, most in zip(aligned(rows), [*by, ""], strict=True)]
 
 
 def _power_off(report: DutyReport) -> list[str]:

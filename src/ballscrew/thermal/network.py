@@ -20,6 +20,7 @@ from ballscrew.friction.result import FrictionResult
 from ballscrew.motion.states import Numbers
 from ballscrew.quantities import AngularSpeed, Conductance, Force, HeatTransfer, Length, Power
 from ballscrew.solvers.load_distribution import preload_of
+from ballscrew.supports.mounted_bearing import MountedBearing
 from ballscrew.thermal import surroundings as air
 from ballscrew.thermal.friction_map import COLDEST, HOTTEST, FrictionMap, friction_map
 from ballscrew.thermal.shaft import CAPACITY, CONDUCTIVITY, DENSITY, EXPANSION, Shaft
@@ -65,8 +66,8 @@ class Network(ByValue):
     spread: Numbers
     ball_conductance: Conductance
     nut_mass: float
-    #: Mean friction power of each support bearing, W.
-    bearing_power: Power
+    #: Mean friction power of the first and the last bearing, W.
+    bearing_power: tuple[Power, Power]
     friction: FrictionMap
     #: Preload as it was set, at one temperature everywhere, N.
     preload_set: Force
@@ -269,7 +270,7 @@ def network_of(
         shaft.spread(places, heated, nut_length),
         float(conductance_of_balls(at_load, screw.nut, nut_length)) if balls is None else float(balls),
         float(mass),
-        _power_of_supports(duty) / 2,
+        power_of_supports(duty),
         friction,
         set_to,
         float(approach_of(at_load)),
@@ -301,10 +302,18 @@ def _distance_of_halves(screw: BallScrew) -> Length:
     return float(nut.spacing + screw.loaded_turns * screw.lead)
 
 
-def _power_of_supports(duty: Duty) -> Power:
-    """Mean friction power of what the shaft is held by, W."""
-    torque = sum(duty.support_friction.values(), np.zeros_like(duty.screw_speed))
-    return duty.states.integral(torque * np.abs(duty.screw_speed)) / duty.states.cycle_time
+def power_of_supports(duty: Duty) -> tuple[Power, Power]:
+    """Mean friction power of what holds the shaft at its first and its last end, W, with the oil of the duty.
+
+    What has no end of the shaft as its place heats both alike.
+    """
+    first = last = 0.0
+    for name, torque in duty.support_friction.items():
+        power = duty.states.integral(torque * np.abs(duty.screw_speed)) / duty.states.cycle_time
+        element = duty.also.get(name)
+        far = float(element.at_far_end) if isinstance(element, MountedBearing) else 0.5
+        first, last = first + (1 - far) * power, last + far * power
+    return first, last
 
 
 def conductance_of_balls(result: FrictionResult, nut: Nut, nut_length: Length) -> Any:

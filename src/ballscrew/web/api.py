@@ -16,12 +16,14 @@ from starlette.responses import Response
 
 from ballscrew import units
 from ballscrew.axis_studies import duty as duties
+from ballscrew.axis_studies import stiffness as chains
 from ballscrew.axis_studies import warm_up as warm_ups
 from ballscrew.axis_studies import warm_up_band as warm_up_bands
 from ballscrew.cases import case_file
 from ballscrew.cases.schema import json_schema
 from ballscrew.documents import comparison as comparison_documents
 from ballscrew.documents import duty as duty_documents
+from ballscrew.documents import stiffness as chain_documents
 from ballscrew.documents import sweep as sweep_documents
 from ballscrew.documents import validation as validation_documents
 from ballscrew.documents import warm_up as warm_up_documents
@@ -221,6 +223,20 @@ async def warm_up(request: Request) -> Response:
             done=done,
         )  # fmt: skip
         return _json(warm_up_documents.with_band(found))
+
+    return await _heavy(request, work)
+
+
+@router.post(
+    "/axis", openapi_extra=openapi.body(DutyBody), response_model=duty_answers.Chain, responses=openapi.problems_of()
+)
+async def axis(request: Request) -> Response:
+    """What gives way between motor and table: the document of ``ballscrew axis --json``."""
+    body: DutyBody = await read(request, DutyBody)
+
+    def work(_: Deadline) -> Response:
+        moves = "motion" in body.case and "axis" in body.case
+        return _json(chain_documents.document(chains.chain_of(case_of(body.case, moves=moves))))
 
     return await _heavy(request, work)
 

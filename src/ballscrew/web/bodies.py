@@ -181,10 +181,12 @@ def case_of(tables: Mapping[str, Any], *, moves: bool = False) -> Case:
     if isinstance(screw, Mapping) and "catalogue_file" in screw:
         remedy = "send the numbers of the screw, or name a row that is shipped"
         raise InputError(Fault("screw.catalogue_file", "is not taken from a request", "", remedy))
-    oil = tables.get("lubricant")
-    if isinstance(oil, Mapping) and "oil_file" in oil:
-        remedy = "send the numbers of the oil, or name one of the library"
-        raise InputError(Fault("lubricant.oil_file", "is not taken from a request", "", remedy))
+    bearings = tables.get("bearings")
+    beside = {f"bearings.{place}": table for place, table in bearings.items()} if isinstance(bearings, Mapping) else {}
+    for section, oil in {"lubricant": tables.get("lubricant"), "guides": tables.get("guides"), **beside}.items():
+        if isinstance(oil, Mapping) and "oil_file" in oil:
+            remedy = "send the numbers of the oil, or name one of the library"
+            raise InputError(Fault(f"{section}.oil_file", "is not taken from a request", "", remedy))
     motion = tables.get("motion")
     if isinstance(motion, Mapping) and "file" in motion:
         raise InputError(Fault("motion.file", "is not taken from a request", "", "send the motion as segments"))

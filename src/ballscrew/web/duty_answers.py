@@ -1,8 +1,9 @@
-"""Response models of the API for a cycle of an axis."""
+"""Response models of the API for an axis: a cycle of it, and what gives way between its motor and its table."""
 
 from __future__ import annotations
 
 from ballscrew.axis_studies.duty import NUMBERS
+from ballscrew.axis_studies.stiffness import FRICTION, LOAD, SERIES, SPEED
 from ballscrew.web.answer_parts import (
     Closed,
     Number,
@@ -32,6 +33,8 @@ DutyResults = model(
     Open,
     **quantities(NUMBERS),
     energy_lost_by=(Numbers, field("energy lost in a cycle by mechanism, SI", "J")),
+    energy_lost_in=(dict[str, Numbers], field("energy lost in a cycle by element and mechanism, SI", "J")),
+    heat_by_element=(Numbers, field("mean heat of each element over the cycle, SI", "W")),
     torque_rms_by=(Numbers, field("parts of the RMS torque, SI", "N m")),
     torque_peak_by=(Numbers, field("parts of the peak torque, SI", "N m")),
     brake=(PowerOff, ...),
@@ -46,6 +49,30 @@ class Duty(Closed):
     inputs: Tables
     results: DutyResults  # pyright: ignore[reportInvalidTypeForm]  (a model made from the annotations)
     units: Tables
+    verdicts: list[Record]
+    checks: list[Record]
+    warnings: list[Record]
+    provenance: Provenance
+
+
+ChainResults = model(
+    "ChainResults",
+    "Rigidity, lost motion, critical speed and buckling load over the place of the nut.",
+    Open,
+    **{name: (list[Number], field(f"{q.info.meaning}, SI", q.unit)) for name, q in SERIES.items()},
+    shares=(dict[str, list[Number]], field("share of each spring in what gives way")),
+    travel=(list[float], field("places of the nut at the ends of its travel, SI", "m")),
+    **quantities({q.name: q for q in (LOAD, SPEED, FRICTION)}),
+)
+
+
+class Chain(Closed):
+    """What gives way between the motor and the table of an axis, over its stroke."""
+
+    inputs: Tables
+    results: ChainResults  # pyright: ignore[reportInvalidTypeForm]  (a model made from the annotations)
+    units: Tables
+    assumed: list[str]
     verdicts: list[Record]
     checks: list[Record]
     warnings: list[Record]

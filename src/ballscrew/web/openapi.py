@@ -46,6 +46,7 @@ def _bodies(kind: type[BaseModel]) -> dict[str, Any]:
         moving: dict[str, Any] = {
             "axis": {"mass": "400 kg", "inclination": "90 deg"},
             "motion": {"kind": "trapezoid", "stroke": "0.5 m", "speed": "10 m/min", "acceleration": "0.5 g"},
+            "installation": {"unsupported_length": "1 m", "ends": "fixed-supported"},
         }
         return {name: {"case": {**case, **moving}} for name, case in (("paper", paper), ("nut", nut))}
     more: dict[str, Any] = {}

@@ -1,0 +1,233 @@
+"""The chain between motor and table of a case: rigidity, lost motion, critical speed and buckling over its stroke."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew import units
+from ballscrew._arrays import lazy
+from ballscrew.axis_studies.warm_up import length_of
+from ballscrew.cases import case_file
+from ballscrew.cases.case import Case
+from ballscrew.errors import Fault, InputError
+from ballscrew.motion.states import Numbers
+from ballscrew.overflow import overflow_as_input_error
+from ballscrew.quantities import AngularSpeed, Force, Info, Length, Quantity, quantities_of
+from ballscrew.records import Record
+from ballscrew.supports.stiffness import SHARES, AxisStiffness, stiffness_over_stroke
+
+#: Places within the travel that the terminal shows.
+SHOWN = 5
+_KNOWN = quantities_of(AxisStiffness)
+LOST_MOTION = Quantity("lost_motion", "m", Info("u", "way lost at a reversal by the friction of the guides", "um"))
+FRICTION = Quantity("guide_friction", "N", Info("F_g", "friction of the guides"))
+LOAD = Quantity("largest_load", "N", Info("F_max", "largest size of the axial load", "kN"))
+SPEED = Quantity("largest_speed", "rad/s", Info("n_max", "largest speed of the screw", "rpm"))
+#: What is known at each place.
+SERIES: Mapping[str, Quantity] = {
+    name: _KNOWN[name] for name in (
+        "position", "total", "nut", "shaft", "bearings", "mount", "torsion",
+    )
+} | {LOST_MOTION.name: LOST_MOTION} | {name: _KNOWN[name] for name in ("critical_speed", "buckling_load")}  # fmt: skip
+#: The springs of the chain.
+SPRINGS = ("nut", "shaft", "bearings", "mount", "torsion")
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ChainReport:
+    """What gives way between the motor and the table of a case, and what its shaft stands."""
+
+    case: Case
+    chain: AxisStiffness
+    #: Places of the nut between which it travels, m; those of the whole shaft where nothing tells.
+    travel: tuple[Length, Length]
+    travel_is_known: bool
+    #: Places that the person asked for; empty for those that the travel has.
+    asked: Sequence[Length]
+    largest_load: Force
+    largest_speed: AngularSpeed
+    #: Friction of the guides in motion, N; NaN where no guides are known.
+    guide_friction: Force
+    assumed: Sequence[str]
+
+    @lazy
+    def series(self) -> Mapping[str, Numbers]:
+        """Numbers over the place of the nut in SI, as :data:`SERIES` has them; infinite where a spring is not known."""
+        found: dict[str, Any] = {name: getattr(self.chain, name) for name in SERIES if name != LOST_MOTION.name}
+        found[LOST_MOTION.name] = self.chain.lost_motion(self.guide_friction)
+        return {name: found[name] for name in SERIES}
+
+    @lazy
+    def shown(self) -> Sequence[int]:
+        """Indices of the places that the terminal shows."""
+        places = self.asked or np.linspace(*self.travel, SHOWN)
+        return [int(np.argmin(np.abs(self.chain.position - place))) for place in places]
+
+    @lazy
+    def _within(self) -> NDArray[np.intp]:
+        """Indices of the places within the travel, or of those that the person asked for."""
+        if self.asked:
+            return np.arange(self.chain.position.size)
+        low, high = self.travel
+        slack = 1e-9 * (high - low)
+        return np.flatnonzero((self.chain.position >= low - slack) & (self.chain.position <= high + slack))
+
+    @lazy
+    def softest(self) -> int:
+        """Index of the place in the travel where the chain gives way most."""
+        return int(self._within[np.argmin(self.chain.total[self._within])])
+
+    @lazy
+    def whirls_first(self) -> int:
+        """Index of the place in the travel where the shaft whirls at the lowest speed."""
+        return int(self._within[np.argmin(self.chain.critical_speed[self._within])])
+
+    @lazy
+    def buckles_first(self) -> int:
+        """Index of the place in the travel where the shaft buckles under the least load."""
+        return int(self._within[np.argmin(self.chain.buckling_load[self._within])])
+
+    @lazy
+    def verdicts(self) -> Sequence[Record]:
+        """Where the chain is softest, and whether speed and load are within what the shaft stands."""
+        return [self._softest_record(), self._speed_record(), self._load_record()]
+
+    def _softest_record(self) -> Record:
+        at = self.softest
+        if not math.isfinite(float(self.chain.total[at])):
+            text = "rigidity not known: a nut without preload has none without a load"
+            return Record(id="verdict.rigidity", subject="total", text=text, severity="warning")
+        shares = {name: float(share[at]) for name, share in self.chain.shares.items()}
+        most = max(shares, key=lambda name: shares[name])
+        total = float(self.chain.total[at])
+        text = (
+            f"softest with the nut at {self._place(at)}: {units.shown(total, SERIES['total'])}, "
+            f"{shares[most]:.0%} of what gives way is the {most}"
+        )
+        return Record(id="verdict.rigidity", subject="total", text=text, value=total, unit="N/m")
+
+    def _speed_record(self) -> Record:
+        at, share = self.whirls_first, float(self.case.limits.critical_speed_share)
+        critical = float(self.chain.critical_speed[at])
+        holds = self.largest_speed <= share * critical
+        text = (
+            f"turns at up to {units.shown(self.largest_speed, SPEED)}, "
+            f"{self.largest_speed / critical:.2f} of the {units.shown(critical, SPEED)} at which the shaft whirls with "
+            f"the nut at {self._place(at)}; {share:g} is permitted"
+        )
+        return Record(
+            id="verdict.critical_speed", subject="critical_speed", text=text, value=self.largest_speed,
+            limit=share * critical, unit="rad/s", holds=holds, severity="info" if holds else "warning",
+        )  # fmt: skip
+
+    def _load_record(self) -> Record:
+        at, safety = self.buckles_first, float(self.case.limits.buckling_safety)
+        buckling = float(self.chain.buckling_load[at])
+        holds = self.largest_load * safety <= buckling
+        text = (
+            f"buckles under {units.shown(buckling, SERIES['buckling_load'])} with the nut at {self._place(at)}; "
+            f"the largest load is {units.shown(self.largest_load, LOAD)}, and a safety of {safety:g} is asked for"
+        )
+        return Record(
+            id="verdict.buckling", subject="buckling_load", text=text, value=self.largest_load,
+            limit=buckling / safety, unit="N", holds=holds, severity="info" if holds else "warning",
+        )  # fmt: skip
+
+    def _place(self, at: int) -> str:
+        return units.shown(float(self.chain.position[at]), SERIES["position"])
+
+
+def load(path: str | Path, settings: Sequence[str], model: str | None = None, *, allow_code: bool = False) -> Case:
+    """The case of a file; its motion counts where it has one, or else its operating point."""
+    tables = case_file.override(case_file.read(path), settings)
+    moves = "motion" in tables and "axis" in tables
+    return case_file.build(tables, model, Path(path).parent, allow_code=allow_code, moves=moves)
+
+
+@overflow_as_input_error()
+def chain_of(case: Case, positions: Sequence[Length] = ()) -> ChainReport:
+    """The chain of a case at places of its nut, or over its travel and the whole shaft.
+
+    Raises :class:`~ballscrew.errors.InputError` for a case without ``[installation]``, for a motion that does not fit
+    on the shaft, and as :func:`~ballscrew.supports.stiffness.stiffness_over_stroke` does.
+    """
+    if case.installation is None:
+        remedy = 'add a table [installation] with unsupported_length = "1 m" and ends = "fixed-supported"'
+        raise InputError(Fault("installation", "missing section", "", remedy))
+    length = length_of(case, case.surroundings) if case.surroundings else float(case.installation.unsupported_length)
+    loads, speeds = _loads_and_speeds(case)
+    largest = float(np.max(np.abs(loads)))
+    installation, words = case.installation, list[str]()
+    if installation.bearing_rigidity is None and "fixed" in case.bearings:
+        rigidity, of_what = case.bearings["fixed"].axial_rigidity(largest)
+        if rigidity is not None:
+            words.append(f"rigidity of the fixed bearing {of_what}")
+        installation = dataclasses.replace(installation, bearing_rigidity=rigidity)
+    installation = dataclasses.replace(installation, unsupported_length=length)
+    travel = _travel(case, length)
+    ends = travel or (SHARES[0] * length, SHARES[-1] * length)
+    places = positions or np.unique(np.concatenate([length * SHARES, np.linspace(*ends, SHOWN)]))
+    sizes: dict[str, Any] = case.sizes_of_nut(case.screw)
+    found = stiffness_over_stroke(
+        case.screw,
+        installation=installation,
+        positions=np.asarray(places, dtype=float),
+        axial_load=largest or None,
+        root_diameter=case.listed.get("root_diameter"),
+        **sizes,
+    )
+    if travel is None:
+        words.append("travels over nearly the whole shaft: no motion tells how far")
+    elif case.surroundings is None or case.surroundings.first_position is None:
+        words.append("travels in the middle of the shaft: surroundings.first_position is not given")
+    axis = case.axis
+    guided = axis is not None and (axis.guides is not None or axis.resting_guide_friction > 0)
+    speed = float(np.max(np.abs(speeds))) * float(case.screw.lead) / (2 * math.pi)
+    rubs = sum(part[()] for part in axis.guide_friction(speed).values()) if axis is not None and guided else math.nan
+    if not guided:
+        words.append("no lost motion: the friction of the guides is not given ([guides])")
+    return ChainReport(
+        case,
+        found,
+        (float(ends[0]), float(ends[1])),
+        travel is not None,
+        tuple(positions),
+        largest,
+        float(np.max(np.abs(speeds))),
+        float(rubs),
+        (*found.assumed, *words),
+    )
+
+
+def _loads_and_speeds(case: Case) -> tuple[Any, Any]:
+    """Axial loads and speeds of the screw in the motion of a case, or at its operating point."""
+    if case.axis is None or case.motion is None:
+        return case.operation.axial_load, case.operation.screw_speed
+    states = case.motion.states()
+    return case.axis.loads(states).total, 2 * math.pi * states.speed / float(case.screw.lead)
+
+
+def _travel(case: Case, length: Length) -> tuple[Length, Length] | None:
+    """Places of the nut at the ends of its motion; None without a motion that moves."""
+    if case.motion is None or case.axis is None:
+        return None
+    position = case.motion.states().position
+    stroke = float(np.ptp(position))
+    if not stroke:
+        return None
+    given = None if case.surroundings is None else case.surroundings.first_position
+    start = (length - stroke) / 2 - float(np.min(position)) if given is None else float(given)
+    ends = start + float(np.min(position)), start + float(np.max(position))
+    if not 0 < ends[0] < ends[1] < length:
+        shown = " and ".join(units.shown(end, SERIES["position"]) for end in ends)
+        remedy = "shorten the stroke, move surroundings.first_position, or lengthen the shaft"
+        given_text = f"from {shown} on {units.shown(length, SERIES['position'])}"
+        raise InputError(Fault("motion", "does not fit between the bearings", given_text, remedy))
+    return ends

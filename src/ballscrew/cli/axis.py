@@ -1,0 +1,81 @@
+"""``ballscrew axis``: what gives way between motor and table, over the stroke. The work is done in ``axis_studies``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ballscrew.cli.common_options import AllowCode, CaseFile, ModelName
+
+if TYPE_CHECKING:
+    from ballscrew.axis_studies.stiffness import ChainReport
+
+_TO, _AT = "--to", "--at"
+
+
+def axis(
+    case: CaseFile,
+    at: Annotated[
+        list[str] | None,
+        typer.Option(_AT, metavar="PLACE", help='Place of the nut from the fixed bearing, "300 mm"; repeat.'),
+    ] = None,
+    model: ModelName = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set installation.ends="fixed-fixed".'
+        ),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    to: Annotated[
+        list[Path] | None,
+        typer.Option(_TO, "-o", metavar="FILE", help="Also write a table (.csv, .xlsx) or a picture; repeat."),
+    ] = None,
+    allow_code: AllowCode = False,
+) -> None:
+    """Rigidity between motor and table over the stroke, lost motion, critical speed and buckling load.
+
+    Nut, shaft, bearings, mount and the twist of the shaft, one behind the other. The case has an [installation]; with
+    [axis] and [motion] the travel, the largest load and the largest speed are theirs, or else of [operation].
+    """
+    from ballscrew import units
+    from ballscrew.axis_studies import stiffness as studies
+    from ballscrew.documents import stiffness as documents
+    from ballscrew.errors import Fault, raise_if_any
+    from ballscrew.output.json_text import as_json as json_text
+    from ballscrew.text import stiffness as text
+
+    read = [units.parse(_AT, place, studies.SERIES["position"]) for place in at or []]
+    raise_if_any([place for place in read if isinstance(place, Fault)])
+    loaded = studies.load(case, settings or [], model, allow_code=allow_code)
+    for path in to or []:
+        _check(path)
+    report = studies.chain_of(loaded, [float(place) for place in read if not isinstance(place, Fault)])
+    typer.echo(json_text(documents.document(report)) if as_json else text.text(report))
+    for path in to or []:
+        _write(path, report)
+        typer.echo(f"{path}: {len(report.chain.position)} places", err=as_json)
+
+
+def _check(path: Path) -> None:
+    from ballscrew.figures import files
+    from ballscrew.table_files import row_tables
+
+    if path.suffix.lower() in row_tables.KINDS:
+        row_tables.check_path(path)
+    else:
+        files.check_picture(path, _TO)
+
+
+def _write(path: Path, report: ChainReport) -> None:
+    from ballscrew.table_files import row_tables, stiffness_table
+
+    if path.suffix.lower() in row_tables.KINDS:
+        row_tables.write(path, stiffness_table.places(report), "axis")
+    else:
+        from ballscrew.figures import files
+        from ballscrew.figures import stiffness as figures  # matplotlib is slow to import
+
+        files.draw(lambda: figures.picture(report), path, _TO)

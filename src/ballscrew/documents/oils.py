@@ -1,0 +1,30 @@
+"""The JSON document of oils and greases: what their data sheets state."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from ballscrew._version import __version__
+from ballscrew.cases.oils import TEXTS
+from ballscrew.components.data_sheet import DataSheet
+from ballscrew.quantities import fields_of
+
+_FIELDS = fields_of(DataSheet)
+
+
+def document(sheets: Sequence[DataSheet]) -> dict[str, Any]:
+    """All oils, SI."""
+    return {
+        "oils": [
+            {
+                "name": sheet.name,
+                **{name: getattr(sheet, name) for name in _FIELDS},
+                "viscosity_index": sheet.viscosity_index,
+                **{name: getattr(sheet, name) or None for name in TEXTS},
+            }
+            for sheet in sheets
+        ],
+        "units": {name: quantity.unit for name, quantity in _FIELDS.items()},
+        "provenance": {"version": __version__},
+    }

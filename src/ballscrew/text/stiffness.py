@@ -1,0 +1,67 @@
+"""Text of the chain of an axis on the terminal: a few places of the nut, what gives way there, and the verdicts."""
+
+from __future__ import annotations
+
+from ballscrew import units
+from ballscrew.axis_studies.stiffness import FRICTION, SERIES, SPRINGS, ChainReport
+from ballscrew.cases import descriptions
+from ballscrew.output.wrapping import aligned, wrapped
+from ballscrew.text.elements import element_lines
+from ballscrew.text.tables import shown_or_dash
+
+_SHORT = {"position": "nut at", "total": "rigidity", "lost_motion": "lost at a reversal", "critical_speed": "whirls at",
+          "buckling_load": "buckles under"}  # fmt: skip
+
+
+def text(report: ChainReport) -> str:
+    """A chain in full."""
+    lines = [
+        title(report),
+        "",
+        descriptions.design(report.case, plain_text=True),
+        *element_lines(report.case),
+        "",
+        *_places(report),
+        "",
+        *_springs(report),
+        "",
+        *(record.text for record in report.verdicts),
+        "",
+        "assumed",
+        *(f"  {line}" for line in report.assumed),
+    ]
+    return "\n".join(line if "\n" in line else wrapped(line) for line in lines)
+
+
+def title(report: ChainReport) -> str:
+    """``fixed–supported shaft of 1100 mm, nut from 250 mm to 850 mm: double nut, preload 3500 N``."""
+    installation, case = report.chain.installation, report.case
+    length = units.shown(installation.unsupported_length, SERIES["position"])
+    ends = " to ".join(units.shown(end, SERIES["position"]) for end in report.travel)
+    nut = "" if case.nut is None else f": {descriptions.nut_text(case.nut)}"
+    return f"{installation.ends.words} shaft of {length}, nut from {ends}{nut}"
+
+
+def _places(report: ChainReport) -> list[str]:
+    """One row for each place that is shown."""
+    names = [name for name in _SHORT if name != "lost_motion" or report.guide_friction == report.guide_friction]
+    rows = [[_SHORT[name] for name in names]]
+    rows += [[shown_or_dash(float(report.series[name][at]), SERIES[name]) for name in names] for at in report.shown]
+    lines = aligned(rows)
+    if len(names) < len(_SHORT):
+        return lines
+    return [*lines, f"lost by the {units.shown(report.guide_friction, FRICTION)} of the guides; play comes on top"]
+
+
+def _springs(report: ChainReport) -> list[str]:
+    """What each spring has, and its share, at the places that are shown."""
+    shares = report.chain.shares
+    known = [name for name in SPRINGS if shares[name].any()]
+    places = (units.shown(float(report.chain.position[at]), SERIES["position"]) for at in report.shown)
+    rows = [["what gives way", *places]]
+    for name in known:
+        springs = ((float(report.series[name][at]), float(shares[name][at])) for at in report.shown)
+        rows.append(
+            [f"  {name}", *(f"{shown_or_dash(spring, SERIES[name])} {share:4.0%}" for spring, share in springs)]
+        )
+    return aligned(rows)

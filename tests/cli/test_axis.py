@@ -1,0 +1,153 @@
+"""``ballscrew axis``: what gives way between motor and table over the stroke, and what the shaft stands."""
+
+import json
+import tomllib
+
+import numpy as np
+import pytest
+
+from ballscrew.axis_studies.duty import duty
+from ballscrew.axis_studies.duty_records import warnings
+from ballscrew.axis_studies.stiffness import chain_of, load
+from ballscrew.cases import case_file
+from ballscrew.errors import InputError
+from ballscrew.sizing.installation import Ends
+from ballscrew.supports.stiffness import stiffness_over_stroke
+from ballscrew.table_files import duty_tables
+from support.commands import ROOT
+
+EXAMPLE = ROOT / "examples" / "feed_axis.toml"
+
+
+@pytest.fixture(scope="module")
+def case():
+    return load(EXAMPLE, [])
+
+
+def test_all_forms(ballscrew, tmp_path):
+    table, picture = tmp_path / "axis.csv", tmp_path / "axis.png"
+    process = ballscrew("axis", EXAMPLE, "--to", table, "--to", picture)
+    assert process.returncode == 0, process.stderr
+    assert process.stderr == ""
+    for words in ("fixed–supported shaft of 1100 mm", "lost at a reversal", "softest with the nut at 850 mm",
+                  "bearings            800 N/µm", "mount rigid"):  # fmt: skip
+        assert words in process.stdout
+    assert picture.stat().st_size > 10_000
+    places = np.genfromtxt(table, delimiter=",", skip_header=1)
+    found = json.loads(ballscrew("axis", EXAMPLE, "--json").stdout)
+    assert places.shape[0] == len(found["results"]["position"])
+    assert places[:, 1] * 1e6 == pytest.approx(found["results"]["total"], rel=1e-9)
+    assert set(found["units"]) >= set(found["results"]) - {"travel_is_known"}
+    assert found["results"]["mount"][0] is None
+
+
+def test_it_is_the_chain_of_the_parts(case):
+    report = chain_of(case)
+    fixed = case.bearings["fixed"]
+    expected = stiffness_over_stroke(
+        case.screw,
+        installation=case.installation,
+        positions=report.chain.position,
+        root_diameter=case.listed.get("root_diameter"),
+        **case.sizes_of_nut(case.screw),
+    )
+    np.testing.assert_allclose(report.chain.total, expected.total, rtol=1e-12)
+    assert np.all(report.chain.bearings == fixed.rigidity)
+    assert report.travel == pytest.approx((0.25, 0.85))
+    assert report.softest == int(np.argmin(np.abs(report.chain.position - 0.85)))
+    assert report.guide_friction == pytest.approx(0.003 * 500 * 9.80665 + 4 * 3.0)
+    np.testing.assert_allclose(report.series["lost_motion"], 2 * report.guide_friction / expected.total)
+    assert report.largest_speed == pytest.approx(2 * np.pi * 0.5 / 0.01)
+    loads = case.axis.loads(case.motion.states()).total
+    assert report.largest_load == pytest.approx(np.max(np.abs(loads)))
+
+
+def test_a_mount_in_series():
+    report = chain_of(load(EXAMPLE, ['installation.mount_rigidity="400 N/um"']))
+    bare = chain_of(load(EXAMPLE, []))
+    np.testing.assert_allclose(1 / report.chain.total, 1 / bare.chain.total + 1 / 400e6, rtol=1e-12)
+    assert "mount rigid" not in " ".join(report.assumed)
+
+
+def test_places_that_are_asked_for(ballscrew):
+    process = ballscrew("axis", EXAMPLE, "--at", "20 cm", "--at", "1 m", "--json")
+    found = json.loads(process.stdout)["results"]
+    assert found["position"] == pytest.approx([0.2, 1.0])
+    assert ballscrew("axis", EXAMPLE, "--at", "1.2 m").returncode == 2
+    assert "must lie on the shaft" in ballscrew("axis", EXAMPLE, "--at", "1.2 m").stderr
+    assert "--at: " in ballscrew("axis", EXAMPLE, "--at", "1 kg").stderr
+
+
+def test_without_a_motion_it_is_the_operating_point():
+    plain = load(ROOT / "examples" / "catalogue_screw.toml", [
+        'installation.unsupported_length="1.1 m"', 'installation.ends="fixed-fixed"',
+    ])  # fmt: skip
+    found = chain_of(plain)
+    assert not found.travel_is_known
+    assert found.travel == pytest.approx((0.055, 1.045))
+    assert found.largest_load == abs(plain.operation.axial_load)
+    assert found.chain.installation.ends is Ends.FIXED_FIXED
+    assert np.isnan(found.series["lost_motion"]).all()
+    assert "no lost motion" in " ".join(found.assumed)
+
+
+def test_a_bearing_of_known_balls_has_their_rigidity():
+    text = EXAMPLE.read_text(encoding="utf-8").replace('rigidity = "800 N/um"', "#")
+    case = case_file.build(tomllib.loads(text), moves=True)
+    report = chain_of(case)
+    balls = case.bearings["fixed"].element.rigidity(report.largest_load)
+    np.testing.assert_allclose(report.chain.bearings, balls, rtol=1e-12)
+    assert "rigidity of the fixed bearing of balls and races, its rings rigid" in report.assumed
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        (['installation.bearing_rigidity="1 N/um"'], "installation.bearing_rigidity: is given beside that of the bear"),
+        (['surroundings.first_position="900 mm"'], "motion: does not fit between the bearings"),
+    ],
+)
+def test_what_is_refused(settings, said):
+    with pytest.raises(InputError) as refused:
+        chain_of(load(EXAMPLE, settings))
+    assert said in str(refused.value)
+
+
+def test_a_case_without_an_installation_says_what_to_add(ballscrew):
+    process = ballscrew("axis", ROOT / "examples" / "olaru2005.toml")
+    assert process.returncode == 2
+    assert "installation: missing section" in process.stderr
+
+
+def test_a_shaft_that_is_too_long_is_told():
+    report = chain_of(load(EXAMPLE, ['installation.unsupported_length="4 m"']))
+    verdicts = {record.name: record for record in report.verdicts}
+    assert verdicts["critical_speed"].holds is False
+    assert verdicts["critical_speed"].severity == "warning"
+    assert verdicts["buckling"].holds is True
+
+
+def test_a_nut_without_preload_and_load_has_no_rigidity():
+    mounted = '[installation]\nunsupported_length = "1 m"\nends = "fixed-free"\n'
+    tables = tomllib.loads(EXAMPLE.read_text(encoding="utf-8").partition("[axis]")[0] + mounted)
+    tables["nut"], tables["operation"]["axial_load"] = {"type": "single"}, "0 N"
+    report = chain_of(case_file.build(tables))
+    assert np.isnan(report.chain.total).all()
+    assert report.verdicts[0].text.startswith("rigidity not known")
+
+
+def test_a_row_that_is_pulled_off_is_said_in_the_duty():
+    settings = ["bearings.fixed.rows=1", 'bearings.fixed.preload="0 N"']
+    records = {(r.id, r.subject): r for r in warnings(duty(load(EXAMPLE, settings)))}
+    found = records["validity.direction", "fixed_bearing"]
+    assert 0 < found.value < 1
+    assert found.text.startswith("fixed bearing: one row carries no load")
+    assert ("validity.direction", "fixed_bearing") not in {(r.id, r.subject) for r in warnings(duty(load(EXAMPLE, [])))}
+
+
+def test_the_table_of_the_heat_is_all_that_is_lost(case):
+    report = duty(case)
+    table = duty_tables.heat(report)
+    assert table.headings == ["element", "mechanism", "energy in a cycle [J]", "mean heat [W]"]
+    assert sum(row[2] for row in table.rows) == pytest.approx(report.numbers["energy_lost"], rel=1e-9)
+    assert sum(row[3] for row in table.rows) == pytest.approx(sum(report.duty.heat.values()), rel=1e-9)
