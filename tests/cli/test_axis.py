@@ -151,3 +151,8 @@ def test_the_table_of_the_heat_is_all_that_is_lost(case):
     assert table.headings == ["element", "mechanism", "energy in a cycle [J]", "mean heat [W]"]
     assert sum(row[2] for row in table.rows) == pytest.approx(report.numbers["energy_lost"], rel=1e-9)
     assert sum(row[3] for row in table.rows) == pytest.approx(sum(report.duty.heat.values()), rel=1e-9)
+
+
+def test_what_no_bearing_has_is_said():
+    found = warnings(duty(load(EXAMPLE, ['bearings.floating.torque="300 N m"', 'guides.seal_force="5 kN"'])))
+    assert {"bearings.floating.torque", "guides.seal_force"} <= {record.subject for record in found}

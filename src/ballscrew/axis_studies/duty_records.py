@@ -94,6 +94,10 @@ def warnings(report: DutyReport) -> list[Record]:
     parts: dict[str, object] = {"axis": report.axis, "motion": report.motion}
     if isinstance(report.motion, Segments):
         parts |= {f"motion.segment {i}": part for i, part in enumerate(report.motion.segments, start=1)}
+    for place, bearing in report.case.bearings.items():
+        parts |= {f"bearings.{place}": bearing.element}
+    if report.axis.guides is not None:
+        parts |= {"guides": report.axis.guides}
     strange = units.in_display_units_of(implausible(parts))
     return [
         *report.case.implausible(),

@@ -27,7 +27,7 @@ from ballscrew.supports.stiffness import SHARES, AxisStiffness, stiffness_over_s
 SHOWN = 5
 _KNOWN = quantities_of(AxisStiffness)
 LOST_MOTION = Quantity("lost_motion", "m", Info("u", "way lost at a reversal by the friction of the guides", "um"))
-FRICTION = Quantity("guide_friction", "N", Info("F_g", "friction of the guides"))
+FRICTION = Quantity("guide_friction", "N", Info("F_g", "friction of the guides at a reversal"))
 LOAD = Quantity("largest_load", "N", Info("F_max", "largest size of the axial load", "kN"))
 SPEED = Quantity("largest_speed", "rad/s", Info("n_max", "largest speed of the screw", "rpm"))
 #: What is known at each place.
@@ -53,7 +53,7 @@ class ChainReport:
     asked: Sequence[Length]
     largest_load: Force
     largest_speed: AngularSpeed
-    #: Friction of the guides in motion, N; NaN where no guides are known.
+    #: Friction of the guides at a reversal, N; NaN where no guides are known.
     guide_friction: Force
     assumed: Sequence[str]
 
@@ -188,9 +188,10 @@ def chain_of(case: Case, positions: Sequence[Length] = ()) -> ChainReport:
     elif case.surroundings is None or case.surroundings.first_position is None:
         words.append("travels in the middle of the shaft: surroundings.first_position is not given")
     axis = case.axis
-    guided = axis is not None and (axis.guides is not None or axis.resting_guide_friction > 0)
-    speed = float(np.max(np.abs(speeds))) * float(case.screw.lead) / (2 * math.pi)
-    rubs = sum(part[()] for part in axis.guide_friction(speed).values()) if axis is not None and guided else math.nan
+    # where motion reverses, the table stands still for a moment
+    rubs = math.nan if axis is None else axis.resting_guide_friction
+    guided = axis is not None and (axis.guides is not None or rubs > 0)
+    rubs = rubs if guided else math.nan
     if not guided:
         words.append("no lost motion: the friction of the guides is not given ([guides])")
     return ChainReport(

@@ -119,7 +119,8 @@ class SupportBearing(ByValue):
         Info("F_v", "axial preload of the pair without load", "N", at_least=0, hint="0 N for none", usual=(0.0, 1e5)),
     ] = 0.0
     ball_diameter: Annotated[
-        Length | None, Info("d_w", "ball diameter", "mm", above=0, hint="0.3 (D - d) where it is not known")
+        Length | None,
+        Info("d_w", "ball diameter", "mm", above=0, hint="0.3 (D - d) where it is not known", usual=(5e-4, 0.1)),
     ] = None
     balls: Annotated[
         Count | None, Info("z_r", "balls in one row", at_least=3, whole=True, hint="left out, 0.9 of a full circle")

@@ -23,7 +23,10 @@ Rows = Annotated[
     Count,
     Info("i", "rows of balls, half of them against each direction", at_least=1, whole=True, hint="1, 2 or 4"),
 ]
-PairPreload = Annotated[Force, Info("F_v", "axial preload of the pair without load", "N", at_least=0, hint="0 N: none")]
+PairPreload = Annotated[
+    Force,
+    Info("F_v", "axial preload of the pair without load", "N", at_least=0, hint="0 N: none", usual=(0.0, 1e5)),
+]
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
