@@ -8,6 +8,8 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.errors import InputError
+from ballscrew.supports.makers_bearing import KnownBearing
+from ballscrew.supports.mounted_bearing import MountedBearing
 from ballscrew.thermal.warm_sweep import HEAT
 
 SCREW = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=bs.DoubleNut(preload=3500.0))
@@ -57,6 +59,21 @@ def test_a_point_that_runs_away_has_no_numbers():
     assert float(found["heat_margin"][1]) < 0
     with pytest.raises(InputError, match="no point has a steady state"):
         swept(sunk, axial_load=0.0, screw_speed=[314.0])
+
+
+def test_bearings_heat_each_point():
+    """By the speed of the point itself, as for the point alone."""
+    bearing = MountedBearing(place="fixed", element=KnownBearing(torque=0.5), load_share=0.0)
+    also, speeds = {bearing.name: bearing}, [40.0, 200.0]
+    found = swept(axial_load=0.0, screw_speed=speeds, also=also)
+    ends = [
+        bs.steady_heat(
+            bs.to_and_fro(MODEL, SCREW, OIL, axial_load=0.0, screw_speed=speed, stroke=0.5, also=also), AIR
+        ).growth
+        for speed in speeds
+    ]
+    assert found["shaft_growth"].to_numpy() == pytest.approx(ends, rel=1e-9)
+    assert np.all(found["shaft_growth"] > swept(axial_load=0.0, screw_speed=speeds)["shaft_growth"])
 
 
 def test_a_nut_without_preload():

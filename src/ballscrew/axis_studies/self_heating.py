@@ -7,7 +7,15 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ballscrew import units
-from ballscrew.axis_studies.warm_up import EQUILIBRIUM, assumed_of, check_oil, duty_of, length_of, stroke_of
+from ballscrew.axis_studies.warm_up import (
+    EQUILIBRIUM,
+    assumed_of,
+    bearings_of,
+    check_oil,
+    duty_of,
+    length_of,
+    stroke_of,
+)
 from ballscrew.cases.case import Case
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import Fault, InputError
@@ -128,7 +136,7 @@ def swept(
     stroke = stroke_of(point, surroundings)
     found, steady = warm_sweep.swept(
         Configuration(case.model, case.screw, case.lubricant), surroundings, varied, stroke=stroke,
-        shaft_length=length_of(case, surroundings), outputs=outputs, done=done,
+        shaft_length=length_of(case, surroundings), outputs=outputs, done=done, also=bearings_of(point),
     )  # fmt: skip
     network = steady.network
     assumed = [] if network is None else assumed_of(case, surroundings, network, stroke)

@@ -9,7 +9,7 @@ import numpy as np
 
 from ballscrew import units
 from ballscrew.axis.to_and_fro import to_and_fro
-from ballscrew.axis_studies.warm_up import assumed_of, check_oil, length_of, stroke_of
+from ballscrew.axis_studies.warm_up import assumed_of, bearings_of, check_oil, length_of, stroke_of
 from ballscrew.cases.case import Case
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import Fault, InputError
@@ -51,7 +51,15 @@ def warm_log(case: Case, log: TorqueLog, kind: Kind = "unknown") -> tuple[Torque
     nothing = FrictionMap(np.array([COLDEST, HOTTEST]), np.zeros(1), np.zeros((2, 1)))
     networks = [
         network_of(
-            to_and_fro(case.model, case.screw, case.lubricant, axial_load=load, screw_speed=float(one), stroke=stroke),
+            to_and_fro(
+                case.model,
+                case.screw,
+                case.lubricant,
+                axial_load=load,
+                screw_speed=float(one),
+                stroke=stroke,
+                also=bearings_of(case),
+            ),
             surroundings,
             shaft_length=length,
             friction=nothing,

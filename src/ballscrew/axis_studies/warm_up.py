@@ -22,6 +22,7 @@ from ballscrew.motion.profiles import Trapezoid
 from ballscrew.motion.states import Numbers
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Info, Length, Quantity, fields_of
+from ballscrew.supports.mounted_bearing import MountedBearing
 from ballscrew.thermal.network import GAP_SHARE, GREASE_CONDUCTIVITY, NUT_WALL, Network
 from ballscrew.thermal.surroundings import Surroundings
 from ballscrew.thermal.warm_up import WarmUp, warm_up
@@ -167,8 +168,6 @@ def assumed_of(case: Case, given: Surroundings, network: Network, stroke: Length
     first, last = (units.shown(power, SERIES["friction_power"], 3) for power in network.bearing_power)
     if any(network.bearing_power):
         found.append(f"bearings make {first} at the fixed end and {last} at the other, whatever they warm up to")
-    elif case.bearings:
-        found.append("the heat of the support bearings is left out here")
     else:
         found.append("no heat of the support bearings: their friction is not given ([bearings.fixed])")
     defaults = {field.name: field.default for field in dataclasses.fields(Surroundings)}
@@ -250,7 +249,7 @@ def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None
         problem = "knows no oil, so that nothing changes as it warms up"
         raise InputError(Fault("model.name", problem, "constant-efficiency", "take a model"))
     check_oil(case)
-    also = {bearing.name: bearing for bearing in case.bearings.values()}
+    also = bearings_of(case)
     if case.motion is not None and case.axis is not None:
         return axis_duty.duty(
             case.model, case.screw, case.lubricant, axis=case.axis, motion=case.motion, also=also
@@ -262,6 +261,11 @@ def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None
         screw_speed=float(point.screw_speed), stroke=stroke, also=also,
     )  # fmt: skip
     return duty, stroke
+
+
+def bearings_of(case: Case) -> Mapping[str, MountedBearing]:
+    """The bearings of a case by the names that their friction has."""
+    return {bearing.name: bearing for bearing in case.bearings.values()}
 
 
 def stroke_of(case: Case, surroundings: Surroundings) -> Length:

@@ -45,6 +45,7 @@ from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import fields_of
 from ballscrew.screw_tables.nut_kinds import LISTED
 from ballscrew.sizing.catalogue import CatalogueRow
+from ballscrew.thermal.written_bands import written_bands
 from ballscrew.units import in_display_units
 
 #: Bytes of a case file at most, and bits of a whole number in it: no float is larger.
@@ -214,7 +215,7 @@ def build(
     if faults or screw is None or lubricant is None or operation is None or friction_model is None:
         raise InputError(*in_options(faults, chosen))
     inputs, exact = uncertain_inputs.parse_distributions(tables, friction_model, screw, lubricant)
-    of_air, exact_air = uncertain_inputs.parse_surroundings(tables)
+    of_air, exact_air = written_bands(tables.get("surroundings", {}))
     calibrated_by = tables.get("model", {}).get("calibration")
     return Case(
         model=friction_model,

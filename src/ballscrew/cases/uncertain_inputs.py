@@ -17,9 +17,8 @@ from ballscrew.errors import Fault, raise_if_any
 from ballscrew.evaluation.outputs import inputs_of
 from ballscrew.friction.calibrations import Calibration
 from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import Quantity, fields_of
+from ballscrew.quantities import Quantity
 from ballscrew.screw_tables.nut_kinds import PERCENT
-from ballscrew.thermal.surroundings import PREFIX, VARIED, Surroundings
 from ballscrew.uncertainty.default_uncertainties import default_distributions
 from ballscrew.uncertainty.distributions import Distribution, Normal, scaled
 from ballscrew.uncertainty.uncertain_value import UncertainValue, describe_distribution, parse_uncertain
@@ -167,23 +166,6 @@ def parse_distributions(
                 exact.add(name)
             else:
                 found[name] = written.distribution
-    return found, frozenset(exact)
-
-
-def parse_surroundings(tables: Mapping[str, Any]) -> tuple[dict[str, Distribution], frozenset[str]]:
-    """The distributions in ``[surroundings]`` by name, and what is exact there; as :func:`parse_distributions`."""
-    found: dict[str, Distribution] = {}
-    exact: set[str] = set()
-    quantities = fields_of(Surroundings)
-    for name in VARIED:
-        written = parse_uncertain(_at(tables, PREFIX + name), quantities[name])
-        assert not isinstance(written, Fault), written
-        if written is None:
-            continue
-        if written.distribution is None:
-            exact.add(PREFIX + name)
-        else:
-            found[PREFIX + name] = written.distribution
     return found, frozenset(exact)
 
 

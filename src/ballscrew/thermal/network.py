@@ -270,7 +270,7 @@ def network_of(
         shaft.spread(places, heated, nut_length),
         float(conductance_of_balls(at_load, screw.nut, nut_length)) if balls is None else float(balls),
         float(mass),
-        _power_of_supports(duty),
+        power_of_supports(duty),
         friction,
         set_to,
         float(approach_of(at_load)),
@@ -302,7 +302,7 @@ def _distance_of_halves(screw: BallScrew) -> Length:
     return float(nut.spacing + screw.loaded_turns * screw.lead)
 
 
-def _power_of_supports(duty: Duty) -> tuple[Power, Power]:
+def power_of_supports(duty: Duty) -> tuple[Power, Power]:
     """Mean friction power of what holds the shaft at its first and its last end, W, with the oil of the duty.
 
     What has no end of the shaft as its place heats both alike.

@@ -15,6 +15,7 @@ from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.evaluation.evaluator import evaluator
 from ballscrew.evaluation.outputs import OPERATION
 from ballscrew.evaluation.plan import Configuration
+from ballscrew.friction.element import FrictionElement
 from ballscrew.motion.states import Numbers
 from ballscrew.quantities import Length
 from ballscrew.solvers.load_distribution import preload_of
@@ -27,6 +28,7 @@ from ballscrew.thermal.network import (
     convection_of,
     network_of,
     nut_length_of,
+    power_of_supports,
 )
 from ballscrew.thermal.surroundings import Surroundings
 
@@ -61,12 +63,14 @@ def steady_points(
     *,
     stroke: Length,
     shaft_length: Length | None = None,
+    also: Mapping[str, FrictionElement] | None = None,
     done: Callable[[int, int], None] | None = None,
 ) -> SteadyPoints:
     """The steady state of each point, whose load and speed it has; one that stands is as warm as its surroundings.
 
-    ``points`` has one value for each point of each input. Raises :class:`~ballscrew.errors.InputError` for inputs that
-    follow from the heat, and as :func:`~ballscrew.thermal.network.network_of` does.
+    ``points`` has one value for each point of each input; ``also`` is what rubs on the shaft besides. Raises
+    :class:`~ballscrew.errors.InputError` for inputs that follow from the heat, and as
+    :func:`~ballscrew.thermal.network.network_of` does.
     """
     remedy = "leave it out: it follows from the heat"
     raise_if_any([Fault(f"sweep.{name}", "is not free", "", remedy) for name in OF_HEAT if name in points])
@@ -88,7 +92,9 @@ def steady_points(
         exists[still] = True
         moving = at[points["screw_speed"][at] != 0]
         for some in np.array_split(moving, max(1, -(-moving.size // _AT_ONCE))):
-            networks = _networks(design, points, some, surroundings, stroke, shaft_length) if some.size else ()
+            networks = (
+                _networks(design, points, some, surroundings, stroke, shaft_length, also or {}) if some.size else ()
+            )
             for place, network in zip(some, networks, strict=False):
                 end, last = equilibrium(network), network
                 exists[place] = end.exists
@@ -121,13 +127,17 @@ def _networks(
     surroundings: Surroundings,
     stroke: Length,
     shaft_length: Length | None,
+    also: Mapping[str, FrictionElement],
 ) -> list[Network]:
     """The networks of some points of one design: that of the first, with speed, friction and contacts of each."""
     load, speed = points["axial_load"][at], np.abs(points["screw_speed"][at])
     model, screw, oil = design.model, design.screw, design.lubricant
-    first = to_and_fro(model, screw, oil, axial_load=float(load[0]), screw_speed=float(speed[0]), stroke=stroke)
+    duties = [
+        to_and_fro(model, screw, oil, axial_load=float(F), screw_speed=float(n), stroke=stroke, also=also)
+        for F, n in zip(load, speed, strict=True)
+    ]
     maps = _maps(design, load, speed)
-    network = network_of(first, surroundings, shaft_length=shaft_length, friction=maps[0])
+    network = network_of(duties[0], surroundings, shaft_length=shaft_length, friction=maps[0])
     loaded = np.where(network.preload_set > 0, network.preload_set, np.maximum(np.abs(load), 1.0))
     row = dataclasses.replace(screw, nut=SingleNut())
     at_load = model(row, oil, axial_load=loaded, screw_speed=np.maximum(speed, 1e-3))
@@ -143,6 +153,7 @@ def _networks(
             ball_conductance=float(balls[i]) if given is None else given,
             friction=maps[i],
             approach_set=float(approach[i]),
+            bearing_power=power_of_supports(duties[i]),
         )
         for i in range(at.size)
     ]

@@ -13,6 +13,7 @@ from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, InputError, accepts_units
 from ballscrew.evaluation.outputs import attributes_of
 from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.friction.element import FrictionElement
 from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import Info, Length, Quantity
 from ballscrew.sweeps.sweep import sweep
@@ -41,6 +42,7 @@ def warm_sweep(
     surroundings: Surroundings | None = None,
     stroke: Length,
     shaft_length: Length | None = None,
+    also: Mapping[str, FrictionElement] | None = None,
     outputs: Sequence[str] | None = None,
     done: Callable[[int, int], None] | None = None,
     **varied: Any,
@@ -48,13 +50,16 @@ def warm_sweep(
     """:func:`~ballscrew.sweeps.sweep.sweep` with each point in its own steady state.
 
     Each point goes to and fro over the ``stroke`` under its load until it is warm
-    (:func:`~ballscrew.thermal.steady_heat.steady_heat`). Its results are those of the oil and the preload then; one
-    without a steady state has none, and is not valid. The dataset has :data:`HEAT` beside the outputs. Raises
-    :class:`~ballscrew.errors.InputError` as ``sweep`` and ``steady_heat`` do, and for inputs that follow from the heat.
+    (:func:`~ballscrew.thermal.steady_heat.steady_heat`), with what rubs on the shaft besides (``also``). Its results
+    are those of the oil and the preload then; one without a steady state has none, and is not valid. The dataset has
+    :data:`HEAT` beside the outputs. Raises :class:`~ballscrew.errors.InputError` as ``sweep`` and ``steady_heat`` do,
+    and for inputs that follow from the heat.
     """
     subject = Configuration(model, screw, lubricant)
     air = surroundings or Surroundings()
-    return swept(subject, air, varied, stroke=stroke, shaft_length=shaft_length, outputs=outputs, done=done)[0]
+    return swept(subject, air, varied, stroke=stroke, shaft_length=shaft_length, also=also, outputs=outputs, done=done)[
+        0
+    ]
 
 
 def swept(
@@ -64,6 +69,7 @@ def swept(
     *,
     stroke: Length,
     shaft_length: Length | None,
+    also: Mapping[str, FrictionElement] | None,
     outputs: Sequence[str] | None,
     done: Callable[[int, int], None] | None,
 ) -> tuple[xr.Dataset, SteadyPoints]:
@@ -71,7 +77,7 @@ def swept(
     plan = Plan.of(subject, outputs, varied)
     flat: dict[str, Any] = {**plan.fixed, **plan.points_at(np.arange(plan.total))}
     every = {name: np.broadcast_to(np.asarray(values, dtype=float), plan.total) for name, values in flat.items()}
-    found = steady_points(subject, every, surroundings, stroke=stroke, shaft_length=shaft_length, done=done)
+    found = steady_points(subject, every, surroundings, stroke=stroke, shaft_length=shaft_length, also=also, done=done)
     dims, results = tuple(plan.sizes), _results(plan, every, found)
     numbers = {name: getattr(found, _OF.get(name, name)).reshape(plan.shape) for name in HEAT}
     dataset = plan.dataset(results).assign(

@@ -9,7 +9,6 @@ from ballscrew.quantities import Quantity
 from ballscrew.web.answer_parts import (
     Closed,
     Number,
-    Numbers,
     Open,
     Provenance,
     Record,
@@ -56,7 +55,7 @@ WarmUpResults = model(
     compensation=(Tables, ...),
     shaft=(Tables, ...),
     stretch_left=(list[Number] | None, field("stretch left of a shaft between fixed ends, SI", "m")),
-    network=(Numbers, ...),
+    network=(dict[str, Number | list[Number]], ...),
 )
 
 
