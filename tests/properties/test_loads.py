@@ -10,7 +10,7 @@ import pytest
 from ballscrew.components.nut import Deviations, DoubleNut, OversizeBallNut, SingleNut
 from ballscrew.quantities import quantities_of
 from ballscrew.solvers.ball_springs import BallSprings, Flanks
-from ballscrew.solvers.load_distribution import TOLERANCE, BallLoads, _radial_stiffness, ball_loads
+from ballscrew.solvers.load_distribution import TOLERANCE, BallLoads, ball_loads, radial_stiffness
 from support.nut_cases import KINDS, nut_case
 
 #: 4 kinds × elastic or not × scatter or not × side, and this many points of each: ten thousand and more.
@@ -327,7 +327,7 @@ def test_the_work_of_the_load_is_stored_in_balls_and_rings(kind):
     case = nut_case(kind, 1, 31, elastic=True, balls=12).one(0)
     preload = float(case.preload)
     bodies = dataclasses.replace(case.bodies, screw_diameter=1e3, nut_inner_diameter=1e-6)
-    k_r, K = float(_radial_stiffness(case.screw, bodies)), pair_constant(case.screw)
+    k_r, K = float(radial_stiffness(case.screw, bodies)), pair_constant(case.screw)
 
     def stored(r):
         loads, angles = (
