@@ -13,6 +13,9 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
+from ballscrew.cases import case_file
+from ballscrew.exports import requests
+from ballscrew.exports.targets import options_of_case
 from ballscrew.table_exports import beckhoff, drive, linuxcnc
 from ballscrew.table_exports.friction_curve import friction_curve
 
@@ -147,3 +150,10 @@ def test_a_load_beyond_the_range_is_refused(handed_over):
     subject = handed_over(bs.FrictionModel.olaru2005(), bs.SingleNut(), to="drive", ranges=RANGES, load=4000.0)
     with pytest.raises(bs.InputError, match=r"hand_over\.load: is beyond the range"):
         drive.export(subject)
+
+
+def test_the_load_is_that_of_the_case(example):
+    case = case_file.load(example, ["operation.axial_load=800 N"])
+    assert [options_of_case(to, case) for to in ("drive", "beckhoff", "linuxcnc")] == [{"load": 800.0}] * 3
+    export = requests.of_case(case, "drive", requests.Request(ranges=["axial_load=-1:1 kN"]))
+    assert export.valid_range["axial_load"] == (800.0, 800.0)

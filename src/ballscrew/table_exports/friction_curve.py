@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from ballscrew.cases.case import Case
 from ballscrew.errors import Fault, InputError
 from ballscrew.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
@@ -21,7 +22,7 @@ from ballscrew.table_exports.nodes import best_nodes, chord_errors
 _LOAD = Quantity("load", unit_of(Force) or "", Info("F", "axial load of the curve", "N"))
 #: Choices of every target that is a curve.
 OPTIONS: Mapping[str, Option] = {
-    "load": Option(0.0, 'axial load at which the friction is taken, such as the weight of an axis: "1 kN"', _LOAD),
+    "load": Option(0.0, 'axial load at which the friction is taken, if not that of the case: "1 kN"', _LOAD),
 }
 #: Lowest speed of a curve as a share of its range: controls know no lower one.
 _SLOWEST = 1e-4
@@ -53,6 +54,11 @@ class FrictionCurve:
             handed, target, files, valid_range=ends, worst_error=[self.worst_error], warnings=[_one_load(self)]
         )
         return dataclasses.replace(found, measured_range=ends)
+
+
+def options_of_case(case: Case) -> dict[str, float]:
+    """The choice that follows from a case: the load of its operating point."""
+    return {"load": float(case.operation.axial_load)}
 
 
 def friction_curve(handed: HandOver, count: int, slowest: float | None = None) -> FrictionCurve:
