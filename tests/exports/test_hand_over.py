@@ -95,6 +95,22 @@ def test_faults_name_field_and_remedy(handed, change, expected):
     assert str(fault.value).startswith(expected)
 
 
+@pytest.mark.parametrize(
+    ("to", "option", "value"),
+    [
+        ("beckhoff", "units_per_newton_metre", np.inf),
+        ("drive", "ratio", np.inf),
+        ("linuxcnc", "torque_unit", np.nan),
+        ("urdf", "inertia", np.nan),
+        ("urdf", "load", -np.inf),
+    ],
+)
+def test_options_are_finite(handed, to, option, value):
+    subject = handed.subject
+    with pytest.raises(bs.InputError, match=rf"hand_over\.{option}: must be a finite number"):
+        bs.hand_over(subject.model, subject.screw, subject.lubricant, to=to, **{option: value})
+
+
 def test_a_law_that_cannot_be_recorded_is_refused_with_a_remedy(handed):
     def of_a_table(conditions):
         return np.interp(conditions.film_parameter, [0.0, 1.0, 3.0], [0.12, 0.06, 0.01])
