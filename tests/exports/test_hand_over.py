@@ -130,10 +130,13 @@ def test_nothing_is_written_where_a_place_is_taken(tmp_path):
 
 def test_ranges_and_options_are_read_as_people_write_them(example):
     case = case_file.load(example)
-    asked = requests.Request(ranges=['axial_load="-5:4 kN"'], options=["version=3"], outputs=["efficiency"])
+    asked = requests.Request(
+        ranges=['axial_load="-5:4 kN"', 'temperature="10:50 degC"'], options=["version=3"], outputs=["efficiency"]
+    )
     export = requests.of_case(case, "fmu", asked)
     assert export.valid_range["axial_load"] == (-5000.0, 4000.0)
     assert export.provenance["references"][0] == "Olaru2005"
+    assert export.valid_range["temperature"] == pytest.approx((283.15, 323.15))
     assert "hand_over.temperature" in [record.id for record in export.warnings]  # the oil of this case is its numbers
 
 
