@@ -177,6 +177,12 @@ def test_the_warning_of_rest_and_the_error_are_stated(handed):
     errors = {one.output: one for one in export.worst_error}
     assert errors["screw_torque"].relative <= 1e-12
     assert errors["valid"].value == 0.0
+    assert errors["drive_torque_in_motion"].of_largest <= 1e-12
+    near_rest = errors["drive_torque"]
+    lacks = 1.0 - np.tanh(abs(near_rest.at["screw_speed"]) / fmu.REGULARISATION_SPEED)
+    friction = handed.evaluate(near_rest.at)["screw_torque"]
+    assert near_rest.value == pytest.approx(lacks * friction, rel=1e-9)
+    assert near_rest.value > 0.1 * errors["screw_torque"].largest
 
 
 @pytest.mark.parametrize(

@@ -95,6 +95,22 @@ def test_faults_name_field_and_remedy(handed, change, expected):
     assert str(fault.value).startswith(expected)
 
 
+@pytest.mark.parametrize(
+    ("to", "option", "value"),
+    [
+        ("beckhoff", "units_per_newton_metre", np.inf),
+        ("drive", "ratio", np.inf),
+        ("linuxcnc", "torque_unit", np.nan),
+        ("urdf", "inertia", np.nan),
+        ("urdf", "load", -np.inf),
+    ],
+)
+def test_options_are_finite(handed, to, option, value):
+    subject = handed.subject
+    with pytest.raises(bs.InputError, match=rf"hand_over\.{option}: must be a finite number"):
+        bs.hand_over(subject.model, subject.screw, subject.lubricant, to=to, **{option: value})
+
+
 def test_a_law_that_cannot_be_recorded_is_refused_with_a_remedy(handed):
     def of_a_table(conditions):
         return np.interp(conditions.film_parameter, [0.0, 1.0, 3.0], [0.12, 0.06, 0.01])
@@ -114,10 +130,13 @@ def test_nothing_is_written_where_a_place_is_taken(tmp_path):
 
 def test_ranges_and_options_are_read_as_people_write_them(example):
     case = case_file.load(example)
-    asked = requests.Request(ranges=['axial_load="-5:4 kN"'], options=["version=3"], outputs=["efficiency"])
+    asked = requests.Request(
+        ranges=['axial_load="-5:4 kN"', 'temperature="10:50 degC"'], options=["version=3"], outputs=["efficiency"]
+    )
     export = requests.of_case(case, "fmu", asked)
     assert export.valid_range["axial_load"] == (-5000.0, 4000.0)
     assert export.provenance["references"][0] == "Olaru2005"
+    assert export.valid_range["temperature"] == pytest.approx((283.15, 323.15))
     assert "hand_over.temperature" in [record.id for record in export.warnings]  # the oil of this case is its numbers
 
 

@@ -60,6 +60,19 @@ def test_the_joint_is_as_far_off_as_it_says(handed):
     assert f"{errors.over_loads.value:.2g} N m off at" in warning.text
 
 
+def test_the_error_over_the_range_counts_rest_and_slow_speeds(handed):
+    joint = joint_friction.joint_friction(handed, 3)
+    errors = joint_friction.joint_errors(handed, joint)
+    assert joint_friction.joint_range(handed)["screw_speed"] == (-300.0, 300.0)
+    assert abs(errors.over_loads.at["screw_speed"]) < joint.speeds[0]
+    assert errors.at_rest.value == pytest.approx(abs(joint.at_rest - joint.coefficients[0]), rel=1e-9)
+    assert errors.at_rest.relative > 5 * errors.at_load.relative
+    assert [one.output for one in errors.of_export][1:] == [
+        "screw_torque_at_load_and_speeds_of_fit",
+        "screw_torque_at_rest",
+    ]
+
+
 def test_without_a_load_no_range_around_it_is_named(handed):
     idle = dataclasses.replace(handed, options={**handed.options, "load": 0.0})
     errors = joint_friction.joint_errors(idle, joint_friction.joint_friction(idle, 1))

@@ -13,8 +13,12 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
+from ballscrew.cases import case_file
+from ballscrew.exports import requests
+from ballscrew.exports.targets import options_of_case
 from ballscrew.table_exports import beckhoff, drive, linuxcnc
 from ballscrew.table_exports.friction_curve import friction_curve
+from ballscrew.text import hand_over as text_of_export
 
 RANGES = {"axial_load": (-3000.0, 3000.0), "screw_speed": (-100.0, 100.0)}
 #: The example of the manual: infosys.beckhoff.com, tf5200_friction_comp, Parameterisation.
@@ -147,3 +151,24 @@ def test_a_load_beyond_the_range_is_refused(handed_over):
     subject = handed_over(bs.FrictionModel.olaru2005(), bs.SingleNut(), to="drive", ranges=RANGES, load=4000.0)
     with pytest.raises(bs.InputError, match=r"hand_over\.load: is beyond the range"):
         drive.export(subject)
+
+
+def test_the_load_is_that_of_the_case(example):
+    case = case_file.load(example, ["operation.axial_load=800 N"])
+    assert [options_of_case(to, case) for to in ("drive", "beckhoff", "linuxcnc")] == [{"load": 800.0}] * 3
+    export = requests.of_case(case, "drive", requests.Request(ranges=["axial_load=-1:1 kN"]))
+    assert export.valid_range["axial_load"] == (800.0, 800.0)
+
+
+def test_a_curve_of_one_direction_is_that_of_both_and_says_so(handed_over):
+    model, nut = bs.FrictionModel.olaru2005(), bs.DoubleNut(preload=900.0)
+    found = []
+    for least in (-100.0, 0.0):
+        ranges = {**RANGES, "screw_speed": (least, 100.0)}
+        found.append(drive.export(handed_over(model, nut, to="drive", ranges=ranges, load=500.0)))
+    both, one = found
+    assert one.files == both.files
+    assert one.valid_range["screw_speed"] == (-100.0, 100.0)
+    assert [record.id for record in both.warnings] == ["hand_over.one_load"]
+    assert one.warnings[-1].text.endswith("-954.9 rpm to 954.9 rpm, not 0 rpm to 954.9 rpm only")
+    assert "axial_load: 500 N\n" in text_of_export.text(one, [])

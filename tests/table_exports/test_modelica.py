@@ -88,6 +88,28 @@ def test_friction_that_falls_with_the_load_is_met_by_a_constant_half_way():
 
 
 @pytest.mark.parametrize(
+    ("speeds", "rows", "fitted"),
+    [
+        ([-100.0, 0.0, 1.0], [0.0, 100.0], (-100.0, 0.0)),
+        ([-1.0, 0.0, 100.0], [0.0, 100.0], (0.0, 100.0)),
+        ([-100.0, 0.0, 100.0], [0.0, 100.0], (0.0, 100.0)),
+        ([-100.0, -50.0, -1.0], [1.0, 50.0, 100.0], (-100.0, -1.0)),
+    ],
+)
+def test_the_gear_has_the_direction_that_reaches_the_higher_speed(speeds, rows, fitted):
+    axes = {"axial_load": np.array([0.0, 500.0, 1000.0]), "screw_speed": np.array(speeds)}
+    load = np.repeat(axes["axial_load"][:, None], len(speeds), axis=1)
+    values = {"screw_torque": 0.2 + 1e-4 * load - 1e-3 * axes["screw_speed"], "ideal_torque": 1e-3 * load}
+    gear = loss_table(FrictionTable(axes, values, np.ones_like(load, dtype=bool), {}, 0.0))
+    assert gear.rows[:, 0].tolist() == rows
+    assert gear.speeds == fitted
+
+
+def test_the_file_of_the_gear_has_its_speeds(exported):
+    assert "Fitted and compared from 0 to 300 rad/s" in exported.files["LossyGear.txt"].decode()
+
+
+@pytest.mark.parametrize(
     ("asked", "expected"),
     [
         ({"ranges": {"temperature": (300.0, 330.0)}}, "hand_over.ranges.temperature: cannot be an axis"),

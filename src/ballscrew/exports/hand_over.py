@@ -121,10 +121,13 @@ def _option(name: str, option: Option, value: Any) -> Any:
     """The value of a choice, of the type of its usual one."""
     value = si_value(f"hand_over.{name}", value, None if option.quantity is None else option.quantity.unit)
     kind = type(option.default)
-    if kind is float and isinstance(value, int) and not isinstance(value, bool):
-        return float(value)
+    if kind is float and isinstance(value, int | np.floating) and not isinstance(value, bool):
+        value = float(value)
     if type(value) is not kind:
         raise InputError(Fault(f"hand_over.{name}", f"must be a {kind.__name__}", repr(value), option.meaning))
+    missing = kind is float and np.isnan(value) and np.isnan(option.default)
+    if kind is float and not np.isfinite(value) and not missing:
+        raise InputError(Fault(f"hand_over.{name}", "must be a finite number", f"{value:g}", option.meaning))
     return value
 
 

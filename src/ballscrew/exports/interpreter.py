@@ -44,9 +44,14 @@ def errors_of_program(handed: HandOver) -> tuple[WorstError, ...]:
     """The worst error of the program as it is run in C; empty where no prebuilt library runs on this machine."""
     if not runs_here():
         return ()
-    program = Interpreted(program_file(handed))
-    count = POINTS_OF_ELASTIC_BODIES if handed.has_elastic_bodies else POINTS
-    return worst_errors(handed, program.at, points=handed.sample(count))
+    points, found = program_at_points(handed)
+    return worst_errors(handed, lambda _: found, points=points)
+
+
+def program_at_points(handed: HandOver) -> tuple[Values, dict[str, NDArray[np.float64]]]:
+    """Points of the working range, and the outputs of the program at them, as it is run in C."""
+    points = handed.sample(POINTS_OF_ELASTIC_BODIES if handed.has_elastic_bodies else POINTS)
+    return points, Interpreted(program_file(handed)).at(points)
 
 
 def runs_here() -> bool:

@@ -199,20 +199,26 @@ class JointErrors(NamedTuple):
 
     #: At the load of the fit, over its speeds.
     at_load: WorstError
-    #: Over the loads of the working range.
+    #: Over the loads and speeds of the working range, rest among them.
     over_loads: WorstError
     #: At each of :data:`SHARES` of the load of the fit, over its speeds.
     by_load: tuple[WorstError, ...]
+    #: At the load of the fit and at rest; None where the range has no rest.
+    at_rest: WorstError | None
 
     def document(self) -> dict[str, Any]:
         """The errors as they stand in JSON."""
         by_load = [one.document() for one in self.by_load]
-        return {"joint_errors": by_load, "joint_error_over_loads": self.over_loads.document()}
+        rest = None if self.at_rest is None else self.at_rest.document()
+        over_loads = self.over_loads.document()
+        return {"joint_errors": by_load, "joint_error_over_loads": over_loads, "joint_error_at_rest": rest}
 
     @property
     def of_export(self) -> tuple[WorstError, ...]:
         """The errors as an export has them, with names of their own."""
-        return self.over_loads, dataclasses.replace(self.at_load, output="screw_torque_at_load")
+        of_fit = dataclasses.replace(self.at_load, output="screw_torque_at_load_and_speeds_of_fit")
+        rest = () if self.at_rest is None else (dataclasses.replace(self.at_rest, output="screw_torque_at_rest"),)
+        return self.over_loads, of_fit, *rest
 
     @property
     def text(self) -> str:
@@ -221,9 +227,12 @@ class JointErrors(NamedTuple):
         near = max(one.relative for one in self.by_load[1:])
         around = f"{_percent(near)} from {half} to {twice}, " if half != twice else ""
         worst = units.shown(self.over_loads.at[OPERATION[0]], LOAD)
+        speed = units.shown(self.over_loads.at[OPERATION[1]], LOWEST_SPEED)
+        rest = "" if self.at_rest is None else f"; at rest it is {_percent(self.at_rest.relative)} off at {load}"
         return (
-            f"The friction of the joint knows no load: it is at most {_percent(self.at_load.relative)} off the model "
-            f"at {load}, {around}and {self.over_loads.value:.2g} N m off at {worst}"
+            f"The friction of the joint knows no load: over the speeds of the fit it is at most "
+            f"{_percent(self.at_load.relative)} off the model at {load}, {around}and over its whole range "
+            f"{self.over_loads.value:.2g} N m off at {worst} and {speed}{rest}"
         )
 
     def warnings(self, joint: JointFriction) -> list[Record]:
@@ -264,11 +273,12 @@ def joint_errors(handed: HandOver, joint: JointFriction) -> JointErrors:
     """The errors of a joint that knows no load, all else as in the case."""
     quick = handed.is_recordable
     points = handed.sample() if quick else handed.sample(FEWER_LOADS)
-    speed = points[OPERATION[1]]
-    moving = np.copysign(np.clip(np.abs(speed), *joint.speeds), speed)
+    least, greatest = handed.working_range[OPERATION[1]]
+    still = _error(handed, joint, np.array([joint.load]), np.zeros(1)) if least <= 0 <= greatest else None
     both = _both_ways(handed, np.geomspace(*joint.speeds, MEASURED if quick else FEWER))
     by_load = tuple(_error(handed, joint, np.full(both.size, share * joint.load), both) for share in SHARES)
-    return JointErrors(by_load[SHARES.index(1.0)], _error(handed, joint, points[OPERATION[0]], moving), by_load)
+    over_loads = _error(handed, joint, *(points[name] for name in OPERATION[:2]))
+    return JointErrors(by_load[SHARES.index(1.0)], over_loads, by_load, still)
 
 
 def _error(handed: HandOver, joint: JointFriction, load: NDArray[np.float64], speed: NDArray[np.float64]) -> WorstError:

@@ -13,6 +13,7 @@ from ballscrew.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.exports.export import Export
 from ballscrew.exports.hand_over import hand_over
+from ballscrew.exports.subject import ANY_TEMPERATURE, TEMPERATURE
 from ballscrew.exports.targets import Option, options_of, options_of_case, target_module
 
 
@@ -63,7 +64,10 @@ def _split(where: str, texts: Sequence[str], example: str) -> dict[str, str]:
 
 
 def _ranges(subject: Configuration, texts: Sequence[str]) -> dict[str, tuple[float, float]]:
-    known, found, faults = subject.inputs, dict[str, tuple[float, float]](), list[Fault]()
+    # the temperature is an input of every export, also where the oil is given by its numbers
+    known = {name: quantity for name, (_, quantity) in subject.inputs.items()}
+    known.setdefault(TEMPERATURE, ANY_TEMPERATURE)
+    found, faults = dict[str, tuple[float, float]](), list[Fault]()
     for name, text in _split("--range", texts, 'axial_load="-5:5 kN"').items():
         where = f"--range {name}"
         least, colon, greatest = (part.strip().strip("\"'") for part in text.partition(":"))
@@ -71,7 +75,7 @@ def _ranges(subject: Configuration, texts: Sequence[str]) -> dict[str, tuple[flo
             remedy = 'write axial_load="-5:5 kN"' if name in known else nearest(name, known)
             faults.append(Fault(where, "is no range" if name in known else "unknown input", text, remedy))
             continue
-        quantity = known[name][1]
+        quantity = known[name]
         if not units.unit_in(least):  # the unit of the end is that of the beginning
             least = f"{least} {units.unit_in(greatest)}".strip()
         ends = [units.parse(where, end, quantity) for end in (least, greatest)]

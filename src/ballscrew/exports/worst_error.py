@@ -52,17 +52,18 @@ def worst_errors(
     approximate: Callable[[Values], Values],
     *,
     points: Values | None = None,
+    exact: Values | None = None,
     outputs: Sequence[str] | None = None,
 ) -> tuple[WorstError, ...]:
     """The worst error of each output of ``approximate``, a function of points by input, against the model.
 
-    Points are those of :meth:`~ballscrew.exports.subject.HandOver.sample` unless given. Those where the model has no
-    number are left out.
+    Points are those of :meth:`~ballscrew.exports.subject.HandOver.sample` unless given; ``exact`` is the model at them,
+    where it is known already. Points where the model has no number are left out.
     """
     at = subject.sample() if points is None else points
-    exact, found = subject.evaluate(at), approximate(at)
+    true, found = subject.evaluate(at) if exact is None else exact, approximate(at)
     names = [name for name in subject.output_names if name in found] if outputs is None else outputs
-    return tuple(_worst(name, subject.units[name], exact[name], found[name], at) for name in names)
+    return tuple(_worst(name, subject.units[name], true[name], found[name], at) for name in names)
 
 
 def _worst(name: str, unit: str, exact: NDArray[Any], found: Any, at: Values) -> WorstError:

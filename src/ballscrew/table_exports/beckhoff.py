@@ -19,7 +19,9 @@ from ballscrew.exports.subject import HandOver
 from ballscrew.exports.targets import Option
 from ballscrew.records import Record
 from ballscrew.table_exports.friction_curve import OPTIONS as OF_CURVES
-from ballscrew.table_exports.friction_curve import FrictionCurve, about, friction_curve
+from ballscrew.table_exports.friction_curve import FrictionCurve, about, friction_curve, options_of_case
+
+__all__ = ["OPTIONS", "export", "options_of_case"]
 
 #: Entries of the list at most, if the control is not told otherwise (P-COMP-00042, P-COMP-00062).
 ENTRIES = 20

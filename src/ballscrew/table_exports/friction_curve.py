@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from ballscrew import units
+from ballscrew.cases.case import Case
 from ballscrew.errors import Fault, InputError
 from ballscrew.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
@@ -21,7 +23,7 @@ from ballscrew.table_exports.nodes import best_nodes, chord_errors
 _LOAD = Quantity("load", unit_of(Force) or "", Info("F", "axial load of the curve", "N"))
 #: Choices of every target that is a curve.
 OPTIONS: Mapping[str, Option] = {
-    "load": Option(0.0, 'axial load at which the friction is taken, such as the weight of an axis: "1 kN"', _LOAD),
+    "load": Option(0.0, 'axial load at which the friction is taken, if not that of the case: "1 kN"', _LOAD),
 }
 #: Lowest speed of a curve as a share of its range: controls know no lower one.
 _SLOWEST = 1e-4
@@ -50,9 +52,19 @@ class FrictionCurve:
         """The export of a target that is a curve."""
         ends = self.valid_range
         found = Export.of(
-            handed, target, files, valid_range=ends, worst_error=[self.worst_error], warnings=[_one_load(self)]
+            handed,
+            target,
+            files,
+            valid_range=ends,
+            worst_error=[self.worst_error],
+            warnings=[_one_load(self), *_widened(handed, ends[OPERATION[1]])],
         )
         return dataclasses.replace(found, measured_range=ends)
+
+
+def options_of_case(case: Case) -> dict[str, float]:
+    """The choice that follows from a case: the load of its operating point."""
+    return {"load": float(case.operation.axial_load)}
 
 
 def friction_curve(handed: HandOver, count: int, slowest: float | None = None) -> FrictionCurve:
@@ -69,6 +81,7 @@ def friction_curve(handed: HandOver, count: int, slowest: float | None = None) -
         raise InputError(Fault("hand_over.load", "is beyond the range", f"{load:g} N", remedy))
     fixed = {one.name: one.value for one in handed.inputs if one.name != OPERATION[1]} | {OPERATION[0]: load}
     fastest = max(map(abs, limits[OPERATION[1]]))
+    handed = _both_ways(handed, fastest)
     first = _SLOWEST * fastest if slowest is None else slowest
     if not 0 < first < fastest:
         problem = "must be positive and below the range of speeds"
@@ -92,6 +105,28 @@ def friction_curve(handed: HandOver, count: int, slowest: float | None = None) -
     others = {**points, OPERATION[0]: np.resize(loads, len(points[OPERATION[1]]))}
     (elsewhere,) = worst_errors(handed, approximate, points=others, outputs=INTERPOLATED[:1])
     return FrictionCurve(*curve, fixed, error, elsewhere.value)
+
+
+def _both_ways(handed: HandOver, fastest: float) -> HandOver:
+    """The same model with all speeds that the curve is of: beyond its range the nearest speed would count."""
+    if handed.working_range[OPERATION[1]] == (-fastest, fastest):
+        return handed
+    inputs = [
+        dataclasses.replace(one, range=(-fastest, fastest)) if one.name == OPERATION[1] else one
+        for one in handed.inputs
+    ]
+    return dataclasses.replace(handed, inputs=tuple(inputs))
+
+
+def _widened(handed: HandOver, ends: tuple[float, float]) -> list[Record]:
+    """A warning where the range that was asked for has not all speeds of the curve."""
+    asked = handed.working_range[OPERATION[1]]
+    if asked == ends:
+        return []
+    quantity = next(one.quantity for one in handed.inputs if one.name == OPERATION[1])
+    least, greatest, slow, fast = (units.shown(end, quantity) for end in (*asked, *ends))
+    text = f"the curve is of both directions from rest: {slow} to {fast}, not {least} to {greatest} only"
+    return [Record(id="hand_over.both_directions", subject=OPERATION[1], text=text, severity="warning", holds=False)]
 
 
 def _points(handed: HandOver, fixed: Mapping[str, float], first: float, fastest: float) -> dict[str, Floats]:

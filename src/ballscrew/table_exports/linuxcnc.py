@@ -12,7 +12,9 @@ from ballscrew.exports.export import Export
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.targets import Option
 from ballscrew.table_exports.friction_curve import OPTIONS as OF_CURVES
-from ballscrew.table_exports.friction_curve import FrictionCurve, about, friction_curve
+from ballscrew.table_exports.friction_curve import FrictionCurve, about, friction_curve, options_of_case
+
+__all__ = ["OPTIONS", "export", "options_of_case"]
 
 #: Points of a lincurve (its manual page), half of them for each direction.
 POINTS = 16

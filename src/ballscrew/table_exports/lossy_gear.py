@@ -33,13 +33,20 @@ class LossTable:
     error: float
     #: The same as a share of the largest friction.
     of_largest: float
+    #: The least and the greatest speed of the nodes that it was fitted to, rad/s, with their sign.
+    speeds: tuple[float, float]
 
 
 def loss_table(table: FrictionTable) -> LossTable:
-    """The table of least worst error at each speed of a friction table over load and speed."""
+    """The table of least worst error at each speed of a friction table over load and speed.
+
+    The gear knows the size of the speed only: its rows are those of the direction that reaches the higher speed, of two
+    alike the positive one.
+    """
     speeds = table.axes[OPERATION[1]]
     friction, load = (table.values[name] for name in INTERPOLATED)
-    columns = np.nonzero(speeds >= 0)[0] if speeds[-1] > 0 else np.arange(len(speeds))[::-1]
+    forward = speeds[-1] >= -speeds[0]
+    columns = np.nonzero(speeds >= 0)[0] if forward else np.nonzero(speeds <= 0)[0][::-1]
     rows: list[list[float]] = []
     off: list[Floats] = []
     for column in columns:
@@ -49,7 +56,8 @@ def loss_table(table: FrictionTable) -> LossTable:
         off.append(np.abs(constant + share * np.abs(load[:, column]) - friction[:, column]))
     errors = np.column_stack(off)
     worst = float(errors.max())
-    return LossTable(np.array(rows), worst, worst / float(friction[:, columns].max()))
+    ends = float(speeds[columns].min()), float(speeds[columns].max())
+    return LossTable(np.array(rows), worst, worst / float(friction[:, columns].max()), ends)
 
 
 def _line(load: Floats, friction: Floats) -> tuple[float, float]:

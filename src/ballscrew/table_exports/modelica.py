@@ -122,6 +122,8 @@ _LOSSY_GEAR = """\
 // Parameters of Modelica.Mechanics.Rotational.Components.LossyGear, with IdealGearR2T behind it for the travel.
 // The gear knows a friction that no load changes, and efficiencies. Against the table of the component BallScrew its
 // friction is off by up to {error:.3g} N m, {of_largest:.2g} % of the largest friction.{advice}
+// Fitted and compared from {slowest:.6g} to {fastest:.6g} rad/s; the gear takes the size of the speed, and so the other
+// direction as the same. Beyond these speeds nothing was compared.
 // Columns: speed in rad/s, efficiency if the screw drives, if the load does, friction torque in N m in both.
 Modelica.Mechanics.Rotational.Components.LossyGear friction(
   ratio = 1,
@@ -196,6 +198,8 @@ def _lossy_gear(handed: HandOver, gear: LossTable) -> str:
         error=gear.error,
         of_largest=100 * gear.of_largest,
         advice=advice,
+        slowest=gear.speeds[0],
+        fastest=gear.speeds[1],
         rows=_rows(gear.rows),
         ratio=repr(2 * math.pi / float(handed.subject.screw.lead)),
     )

@@ -26,7 +26,7 @@ def text(export: Export, written: Sequence[Path]) -> str:
 
 def _ends(ends: tuple[float, float], quantity: Quantity) -> str:
     least, greatest = (units.shown(end, quantity) for end in ends)
-    return f"{least} to {greatest}"
+    return least if ends[0] == ends[1] else f"{least} to {greatest}"
 
 
 def _error(one: WorstError) -> str:
