@@ -8,8 +8,14 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.axis_studies.position_compensation import position_compensation
+from ballscrew.axis_studies.warm_up import load, warmed_up
+from ballscrew.documents.position_compensation import document
+from ballscrew.output.json_text import plain
 from ballscrew.table_files.compensation_lists import isg, sinumerik
+from ballscrew.text.position_compensation import text
+from support.commands import ROOT
 
+EXAMPLE = ROOT / "examples" / "warm_up.toml"
 LENGTH, CURVATURE = 1.0, 1e-4
 #: SINUMERIK Function Manual Extended Functions, 03/2013, 6FC5397-1BP40-3BA1, 4.4.2.3; without its comments.
 SINUMERIK = """\
@@ -48,7 +54,9 @@ def report():
         return places, CURVATURE * places**2
 
     return SimpleNamespace(
-        warm_up=SimpleNamespace(compensation_table=table, network=SimpleNamespace(shaft=SimpleNamespace(length=LENGTH)))
+        warm_up=SimpleNamespace(
+            compensation_table=table, network=SimpleNamespace(shaft=SimpleNamespace(length=LENGTH)), stopped=None
+        )
     )
 
 
@@ -102,6 +110,25 @@ def test_faults_name_option_and_remedy(report, asked, expected):
     with pytest.raises(bs.InputError) as fault:
         position_compensation(report, 4.0, **asked)
     assert str(fault.value).startswith(expected)
+
+
+def test_a_state_that_was_never_reached_has_no_table(report):
+    report.warm_up.stopped = 0.7049 * 3600
+    with pytest.raises(bs.InputError) as fault:
+        position_compensation(report, 4.0)
+    assert str(fault.value).startswith("--hours: the warm-up stops after 0.70 h: beyond it")
+    assert "(4) · write --hours 0.7 at most, or look at ballscrew warm-up" in str(fault.value)
+
+
+def test_text_and_document_tell_of_the_warm_up():
+    report = warmed_up(load(EXAMPLE, ["model.name=olaru2005"], None), 0.01)
+    found = position_compensation(report, 0.01)
+    told, said = plain(document(found, report)), " ".join(text(found, report).split())
+    assert told["assumed"] == list(report.assumed)
+    assert told["verdicts"][0]["id"] == "verdict.equilibrium"
+    assert told["results"]["error"] == found.errors.tolist()
+    for words in (*report.assumed, told["verdicts"][0]["text"]):
+        assert words in said
 
 
 def test_the_command_refuses_before_it_computes(ballscrew, example, tmp_path):

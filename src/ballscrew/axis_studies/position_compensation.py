@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 
 import numpy as np
 
 from ballscrew._arrays import ByValue
-from ballscrew.axis_studies.warm_up import WarmUpReport
+from ballscrew.axis_studies.warm_up import HOUR, WarmUpReport
 from ballscrew.errors import Fault, InputError
 from ballscrew.motion.states import Numbers
+from ballscrew.quantities import Duration
 
 #: Distance of the points of a list, m, and the number of points at most (SINUMERIK 808D).
 STEP, MOST = 0.02, 200
@@ -44,8 +46,10 @@ def position_compensation(
     ``zero`` is the place on the shaft, from its fixed bearing, at which the position of the axis is zero; positions
     grow away from the bearing. At the ``reference``, a position of the axis, nothing is compensated: by default at the
     fixed bearing, which does not move. Raises :class:`~ballscrew.errors.InputError` for a step that is not positive
-    or too small, and for a reference beyond the shaft.
+    or too small, for a reference beyond the shaft, and where the warm-up stopped before the hours.
     """
+    if report.warm_up.stopped is not None:
+        raise InputError(_stopped(report.warm_up.stopped, hours))
     length = float(report.warm_up.network.shaft.length)
     if not length / (MOST - 1) <= step <= length:
         given = f"{1000 * step:g} mm"
@@ -60,3 +64,11 @@ def position_compensation(
     errors = np.interp(even, places, growth)
     missed = float(np.max(np.abs(np.interp(places, even, errors) - growth)))
     return PositionCompensation(even - zero, errors - float(np.interp(at, places, growth)), missed, hours)
+
+
+def _stopped(stopped: Duration, hours: float) -> Fault:
+    """The fault of a warm-up that never came as far as the hours."""
+    reached = math.floor(100 * stopped / HOUR) / 100
+    problem = f"the warm-up stops after {reached:.2f} h: beyond it oil or preload are outside what the model knows"
+    less = f"write --hours {reached:g} at most, or " if reached else ""
+    return Fault("--hours", problem, f"{hours:g}", f"{less}look at ballscrew warm-up: less work, or more cooling")

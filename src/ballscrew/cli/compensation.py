@@ -26,17 +26,22 @@ def compensation(
     ] = None,
     model: ModelName = None,
     settings: Settings = None,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
     allow_code: AllowCode = False,
 ) -> None:
     """Write the growth of a shaft after hours of work as a compensation of positions, for an encoder at the motor.
 
-    It holds in that thermal state only. The format was checked against the example of the manual, not on a control.
+    It holds in that thermal state only; a warm-up that stops before the hours is refused.
+    The format was checked against the example of the manual, not on a control.
     """
     from ballscrew.axis_studies import position_compensation as studies
     from ballscrew.axis_studies import warm_up
+    from ballscrew.documents import position_compensation as documents
     from ballscrew.errors import Fault, InputError, nearest
     from ballscrew.files import atomic_write, check_writable
+    from ballscrew.output.json_text import as_json as json_text
     from ballscrew.table_files import compensation_lists
+    from ballscrew.text import position_compensation as text
 
     if to not in compensation_lists.LISTS:
         raise InputError(Fault("--to", "unknown control", to, nearest(to, compensation_lists.LISTS)))
@@ -53,13 +58,8 @@ def compensation(
     )
     with atomic_write("--out", out) as path:
         path.write_text(compensation_lists.LISTS[to](made, axis), encoding="utf-8")
-    typer.echo(f"{out}")
-    typer.echo(
-        f"{len(made.positions)} points from {1e3 * made.positions[0]:.6g} mm to {1e3 * made.positions[-1]:.6g} mm: "
-        f"{1e6 * made.errors.min():.3g} µm to {1e6 * made.errors.max():.3g} µm; "
-        f"straight lines between them miss up to {1e6 * made.worst_error:.2g} µm of the growth computed"
-    )
-    typer.echo(f"it holds after {hours:g} h of this work only; format checked against the manual, not on a control")
+    typer.echo(f"{out}", err=as_json)
+    typer.echo(json_text(documents.document(made, report)) if as_json else text.text(made, report))
 
 
 #: The longest time, h: a year.
