@@ -73,9 +73,22 @@ def test_nothing_is_compensated_at_the_reference(report):
     assert found.errors[-1] == pytest.approx(CURVATURE * (1.0 - 0.25))
 
 
+def test_an_axis_that_is_turned_round_sees_the_same_places_the_other_way(report):
+    """A nut that is farther along where positions grow away from the bearing is short where they grow towards it."""
+    away = position_compensation(report, 4.0, zero=0.2, step=0.05, reference=0.3)
+    towards = position_compensation(report, 4.0, zero=0.2, direction="towards", step=0.05, reference=-0.3)
+    assert towards.positions == pytest.approx(-away.positions[::-1])
+    assert towards.errors == pytest.approx(-away.errors[::-1])
+    assert np.all(np.diff(towards.positions) > 0)
+    for found, words in ((away, "away from"), (towards, "towards")):
+        for written in (sinumerik(found, "X1"), isg(found, "X1")):
+            assert f"positions grow {words} the fixed bearing, zero is 200 mm from it" in written
+
+
 def form(text):
-    """Lines with each number replaced by #."""
-    return [re.sub(r"(?<![\w.])-?\d+(\.\d+)?(?![\w.])", "#", line) for line in text.splitlines()]
+    """Lines without comments, with each number replaced by #."""
+    lines = [line.partition(" ;")[0] for line in text.splitlines() if not line.startswith("# ")]
+    return [re.sub(r"(?<![\w.])-?\d+(\.\d+)?(?![\w.])", "#", line) for line in lines]
 
 
 def test_sinumerik_has_the_form_of_its_manual(report):
@@ -90,7 +103,7 @@ def test_sinumerik_has_the_form_of_its_manual(report):
 
 def test_isg_has_the_form_of_its_manual(report):
     found = position_compensation(report, 4.0, zero=0.2, step=0.05)
-    rows = [line.split() for line in isg(found, "Y").splitlines()]
+    rows = [line.split() for line in isg(found, "Y").splitlines() if not line.startswith("# ")]
     example = [line.split()[0] for line in ISG.splitlines()]
     assert list(dict.fromkeys(re.sub(r"\[\d+\]", "[0]", name) for name, _ in rows)) == example
     values = dict(rows)
@@ -103,7 +116,13 @@ def test_isg_has_the_form_of_its_manual(report):
     [
         ({"step": 0.001}, "--step: makes more than 200 points"),
         ({"step": -1.0}, "--step: makes more than 200 points, or less than two"),
-        ({"reference": 2.0}, "--reference: is beyond the shaft"),
+        ({"reference": 2.0}, "--reference: is beyond the shaft (2000 mm) · it is 0 mm to 1000 mm"),
+        (
+            {"reference": 0.5, "zero": 0.2, "direction": "towards"},
+            "--reference: is beyond the shaft (500 mm) · it is -800 mm to 200 mm",
+        ),
+        ({"zero": -0.5}, "--zero: is beyond the shaft (-500 mm) · its place is 0 mm to 1000 mm from"),
+        ({"direction": "left"}, "--direction: unknown direction (left) · known: away, towards"),
     ],
 )
 def test_faults_name_option_and_remedy(report, asked, expected):

@@ -19,6 +19,14 @@ def compensation(
     zero: Annotated[
         str, typer.Option("--zero", metavar="LENGTH", help="Place from the fixed bearing where the axis is at zero.")
     ] = "0 mm",
+    direction: Annotated[
+        str,
+        typer.Option(
+            "--direction",
+            metavar="away|towards",
+            help="Positions of the axis grow away from the fixed bearing, or towards it.",
+        ),
+    ] = "away",
     step: Annotated[str, typer.Option("--step", metavar="LENGTH", help="Distance of the points.")] = "20 mm",
     reference: Annotated[
         str | None,
@@ -31,7 +39,8 @@ def compensation(
 ) -> None:
     """Write the growth of a shaft after hours of work as a compensation of positions, for an encoder at the motor.
 
-    It holds in that thermal state only; a warm-up that stops before the hours is refused.
+    Positions grow away from the fixed bearing; of an axis mounted the other way round, --direction towards turns the
+    signs. It holds in that thermal state only; a warm-up that stops before the hours is refused.
     The format was checked against the example of the manual, not on a control.
     """
     from ballscrew.axis_studies import position_compensation as studies
@@ -47,6 +56,9 @@ def compensation(
         raise InputError(Fault("--to", "unknown control", to, nearest(to, compensation_lists.LISTS)))
     if not axis.isidentifier():
         raise InputError(Fault("--axis", "is no name of an axis", axis, "write letters and digits, such as X1"))
+    if direction not in studies.DIRECTIONS:
+        remedy = nearest(direction, studies.DIRECTIONS)
+        raise InputError(Fault("--direction", "unknown direction", direction, remedy))
     if not 0 < hours <= _LONGEST:
         raise InputError(Fault("--hours", f"must be above 0 and at most {_LONGEST:g}", f"{hours:g}", "write --hours 4"))
     lengths = {"--zero": zero, "--step": step, **({} if reference is None else {"--reference": reference})}
@@ -54,8 +66,9 @@ def compensation(
     check_writable("--out", out)
     report = warm_up.warmed_up(warm_up.load(case, settings or [], model, allow_code=allow_code), hours)
     made = studies.position_compensation(
-        report, hours, zero=found["--zero"], step=found["--step"], reference=found.get("--reference")
-    )
+        report, hours, zero=found["--zero"], direction=direction, step=found["--step"],
+        reference=found.get("--reference"),
+    )  # fmt: skip
     with atomic_write("--out", out) as path:
         path.write_text(compensation_lists.LISTS[to](made, axis), encoding="utf-8")
     typer.echo(f"{out}", err=as_json)

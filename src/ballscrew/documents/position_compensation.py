@@ -20,6 +20,7 @@ def document(found: PositionCompensation, report: WarmUpReport) -> dict[str, Any
             "error": list(found.errors),
             "worst_error": found.worst_error,
             "hours": found.hours,
+            "direction": found.direction,
         },
         "units": {"position": "m", "error": "m", "worst_error": "m", "hours": "h"},
         "assumed": list(report.assumed),
