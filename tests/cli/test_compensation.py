@@ -16,7 +16,7 @@ from ballscrew.text.position_compensation import text
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "warm_up.toml"
-LENGTH, CURVATURE = 1.0, 1e-4
+LENGTH, CELL, CURVATURE = 1.0, 0.02, 1e-4
 #: SINUMERIK Function Manual Extended Functions, 03/2013, 6FC5397-1BP40-3BA1, 4.4.2.3; without its comments.
 SINUMERIK = """\
 %_N_AX_EEC_INI
@@ -55,7 +55,9 @@ def report():
 
     return SimpleNamespace(
         warm_up=SimpleNamespace(
-            compensation_table=table, network=SimpleNamespace(shaft=SimpleNamespace(length=LENGTH)), stopped=None
+            compensation_table=table,
+            network=SimpleNamespace(shaft=SimpleNamespace(length=LENGTH, cell=CELL)),
+            stopped=None,
         )
     )
 
@@ -65,6 +67,13 @@ def test_chords_of_a_parabola_miss_what_they_must(report):
     assert found.positions == pytest.approx(np.arange(-0.2, 0.81, 0.05))
     assert found.errors == pytest.approx(CURVATURE * (found.positions + 0.2) ** 2)
     assert found.worst_error == pytest.approx(CURVATURE * 0.025**2, rel=1e-6)
+
+
+def test_what_lines_miss_is_told_only_between_cells(report):
+    """Within a cell the computed growth is straight, so that nothing is known of what lines miss there."""
+    wide, fine = (position_compensation(report, 4.0, step=step) for step in (0.1, 0.02))
+    assert wide.missed == "straight lines between them miss up to 0.25 µm of the computed growth, whose cells are 20 mm"
+    assert fine.missed.startswith("the growth is computed in cells of 20 mm; what straight lines miss within them is")
 
 
 def test_nothing_is_compensated_at_the_reference(report):

@@ -31,11 +31,22 @@ class PositionCompensation(ByValue):
 
     positions: Numbers
     errors: Numbers
-    #: What straight lines between the positions miss of the growth, m.
+    #: What straight lines between the positions miss of the computed growth, m.
     worst_error: float
+    #: Length of the cells of the shaft, m: within one the computed growth is a straight line.
+    cell: float
     hours: float
     #: Positions grow away from the fixed bearing, or towards it.
     direction: str
+
+    @property
+    def missed(self) -> str:
+        """What straight lines between the positions miss of the growth, in words, as far as it is known."""
+        cell = f"{1e3 * self.cell:.4g} mm"
+        if self.step <= self.cell * (1 + 1e-9):
+            return f"the growth is computed in cells of {cell}; what straight lines miss within them is not known"
+        missed = f"{1e6 * self.worst_error:.2g} µm"
+        return f"straight lines between them miss up to {missed} of the computed growth, whose cells are {cell}"
 
     @property
     def mounting(self) -> str:
@@ -69,7 +80,8 @@ def position_compensation(
     """
     if report.warm_up.stopped is not None:
         raise InputError(_stopped(report.warm_up.stopped, hours))
-    length = float(report.warm_up.network.shaft.length)
+    shaft = report.warm_up.network.shaft
+    length = float(shaft.length)
     if not length / (MOST - 1) <= step <= length:
         given = f"{1000 * step:g} mm"
         remedy = f"give {1000 * length / (MOST - 1):.3g} mm to {1000 * length:.4g} mm"
@@ -91,7 +103,9 @@ def position_compensation(
     missed = float(np.max(np.abs(np.interp(places, even, errors) - growth)))
     positions, moved = sign * (even - zero), sign * (errors - float(np.interp(at, places, growth)))
     onward = slice(None, None, int(sign))  # positions of a list grow
-    return PositionCompensation(positions[onward] + 0.0, moved[onward] + 0.0, missed, hours, direction)  # no -0
+    return PositionCompensation(
+        positions[onward] + 0.0, moved[onward] + 0.0, missed, shaft.cell, hours, direction
+    )  # no -0
 
 
 def _stopped(stopped: Duration, hours: float) -> Fault:

@@ -13,7 +13,7 @@ def text(found: PositionCompensation, report: WarmUpReport) -> str:
     lines = [
         f"{len(found.positions)} points from {1e3 * found.positions[0]:.6g} mm to {1e3 * found.positions[-1]:.6g} mm: "
         f"{1e6 * found.errors.min():.3g} µm to {1e6 * found.errors.max():.3g} µm; "
-        f"straight lines between them miss up to {1e6 * found.worst_error:.2g} µm of the growth computed",
+        f"{found.missed}",
         f"taken: {found.mounting} (--direction, --zero); if that is not so, signs and places are wrong",
         f"it holds after {found.hours:g} h of this work only; format checked against the manual, not on a control",
         "",
