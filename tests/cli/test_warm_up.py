@@ -145,6 +145,16 @@ def test_a_band_of_nothing_is_refused(study):
         banded(of, only_given=True)
 
 
+def test_what_the_case_gives_is_no_default(case):
+    """Also where it gives the very number that would stand in for it."""
+    written = POINT + 'ambient = "20 degC"\nbearing_conductance = "8 ± 2 W/K"\n'
+    defaults = [line for line in warmed_up(case(written), hours=0.01).assumed if line.endswith(": the default")]
+    assert [line for line in defaults if "bearing" in line] == [
+        "mass of each bearing with its housing 3 kg: the default"
+    ]
+    assert len(defaults) == 3  # and of the nut and the share
+
+
 def test_an_operating_point_goes_to_and_fro(case):
     report = warmed_up(case(POINT), hours=0.5)
     written = plain(document_of(report))
