@@ -8,9 +8,15 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.axis_studies.position_compensation import position_compensation
+from ballscrew.axis_studies.warm_up import load, warmed_up
+from ballscrew.documents.position_compensation import document
+from ballscrew.output.json_text import plain
 from ballscrew.table_files.compensation_lists import isg, sinumerik
+from ballscrew.text.position_compensation import text
+from support.commands import ROOT
 
-LENGTH, CURVATURE = 1.0, 1e-4
+EXAMPLE = ROOT / "examples" / "warm_up.toml"
+LENGTH, CELL, CURVATURE = 1.0, 0.02, 1e-4
 #: SINUMERIK Function Manual Extended Functions, 03/2013, 6FC5397-1BP40-3BA1, 4.4.2.3; without its comments.
 SINUMERIK = """\
 %_N_AX_EEC_INI
@@ -48,7 +54,11 @@ def report():
         return places, CURVATURE * places**2
 
     return SimpleNamespace(
-        warm_up=SimpleNamespace(compensation_table=table, network=SimpleNamespace(shaft=SimpleNamespace(length=LENGTH)))
+        warm_up=SimpleNamespace(
+            compensation_table=table,
+            network=SimpleNamespace(shaft=SimpleNamespace(length=LENGTH, cell=CELL)),
+            stopped=None,
+        )
     )
 
 
@@ -59,15 +69,35 @@ def test_chords_of_a_parabola_miss_what_they_must(report):
     assert found.worst_error == pytest.approx(CURVATURE * 0.025**2, rel=1e-6)
 
 
+def test_what_lines_miss_is_told_only_between_cells(report):
+    """Within a cell the computed growth is straight, so that nothing is known of what lines miss there."""
+    wide, fine = (position_compensation(report, 4.0, step=step) for step in (0.1, 0.02))
+    assert wide.missed == "straight lines between them miss up to 0.25 µm of the computed growth, whose cells are 20 mm"
+    assert fine.missed.startswith("the growth is computed in cells of 20 mm; what straight lines miss within them is")
+
+
 def test_nothing_is_compensated_at_the_reference(report):
     found = position_compensation(report, 4.0, zero=0.2, step=0.05, reference=0.3)
     assert np.interp(0.3, found.positions, found.errors) == pytest.approx(0.0, abs=1e-15)
     assert found.errors[-1] == pytest.approx(CURVATURE * (1.0 - 0.25))
 
 
+def test_an_axis_that_is_turned_round_sees_the_same_places_the_other_way(report):
+    """A nut that is farther along where positions grow away from the bearing is short where they grow towards it."""
+    away = position_compensation(report, 4.0, zero=0.2, step=0.05, reference=0.3)
+    towards = position_compensation(report, 4.0, zero=0.2, direction="towards", step=0.05, reference=-0.3)
+    assert towards.positions == pytest.approx(-away.positions[::-1])
+    assert towards.errors == pytest.approx(-away.errors[::-1])
+    assert np.all(np.diff(towards.positions) > 0)
+    for found, words in ((away, "away from"), (towards, "towards")):
+        for written in (sinumerik(found, "X1"), isg(found, "X1")):
+            assert f"positions grow {words} the fixed bearing, zero is 200 mm from it" in written
+
+
 def form(text):
-    """Lines with each number replaced by #."""
-    return [re.sub(r"(?<![\w.])-?\d+(\.\d+)?(?![\w.])", "#", line) for line in text.splitlines()]
+    """Lines without comments, with each number replaced by #."""
+    lines = [line.partition(" ;")[0] for line in text.splitlines() if not line.startswith("# ")]
+    return [re.sub(r"(?<![\w.])-?\d+(\.\d+)?(?![\w.])", "#", line) for line in lines]
 
 
 def test_sinumerik_has_the_form_of_its_manual(report):
@@ -82,7 +112,7 @@ def test_sinumerik_has_the_form_of_its_manual(report):
 
 def test_isg_has_the_form_of_its_manual(report):
     found = position_compensation(report, 4.0, zero=0.2, step=0.05)
-    rows = [line.split() for line in isg(found, "Y").splitlines()]
+    rows = [line.split() for line in isg(found, "Y").splitlines() if not line.startswith("# ")]
     example = [line.split()[0] for line in ISG.splitlines()]
     assert list(dict.fromkeys(re.sub(r"\[\d+\]", "[0]", name) for name, _ in rows)) == example
     values = dict(rows)
@@ -95,13 +125,38 @@ def test_isg_has_the_form_of_its_manual(report):
     [
         ({"step": 0.001}, "--step: makes more than 200 points"),
         ({"step": -1.0}, "--step: makes more than 200 points, or less than two"),
-        ({"reference": 2.0}, "--reference: is beyond the shaft"),
+        ({"reference": 2.0}, "--reference: is beyond the shaft (2000 mm) · it is 0 mm to 1000 mm"),
+        (
+            {"reference": 0.5, "zero": 0.2, "direction": "towards"},
+            "--reference: is beyond the shaft (500 mm) · it is -800 mm to 200 mm",
+        ),
+        ({"zero": -0.5}, "--zero: is beyond the shaft (-500 mm) · its place is 0 mm to 1000 mm from"),
+        ({"direction": "left"}, "--direction: unknown direction (left) · known: away, towards"),
     ],
 )
 def test_faults_name_option_and_remedy(report, asked, expected):
     with pytest.raises(bs.InputError) as fault:
         position_compensation(report, 4.0, **asked)
     assert str(fault.value).startswith(expected)
+
+
+def test_a_state_that_was_never_reached_has_no_table(report):
+    report.warm_up.stopped = 0.7049 * 3600
+    with pytest.raises(bs.InputError) as fault:
+        position_compensation(report, 4.0)
+    assert str(fault.value).startswith("--hours: the warm-up stops after 0.70 h: beyond it")
+    assert "(4) · write --hours 0.7 at most, or look at ballscrew warm-up" in str(fault.value)
+
+
+def test_text_and_document_tell_of_the_warm_up():
+    report = warmed_up(load(EXAMPLE, ["model.name=olaru2005"], None), 0.01)
+    found = position_compensation(report, 0.01)
+    told, said = plain(document(found, report)), " ".join(text(found, report).split())
+    assert told["assumed"] == list(report.assumed)
+    assert told["verdicts"][0]["id"] == "verdict.equilibrium"
+    assert told["results"]["error"] == found.errors.tolist()
+    for words in (*report.assumed, told["verdicts"][0]["text"]):
+        assert words in said
 
 
 def test_the_command_refuses_before_it_computes(ballscrew, example, tmp_path):

@@ -4,11 +4,13 @@ import csv
 import dataclasses
 import json
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import ballscrew as bs
+from ballscrew.axis_studies import duty_band, warm_up_band
 from ballscrew.axis_studies.heat_samples import heat_samples
 from ballscrew.axis_studies.self_heating import self_heating
 from ballscrew.axis_studies.warm_up import SERIES, load, warmed_up
@@ -132,6 +134,25 @@ def test_band_in_all_forms(ballscrew, tmp_path):
     said = " ".join(ballscrew(*common, "--only-given").stdout.split())
     assert "Band: 95 % of 16 samples" in said
     assert "of 1 uncertain inputs of surroundings, screw, oil and model, 1 of them given" in said
+
+
+@pytest.mark.parametrize("study", ["warm-up", "duty"])
+def test_a_band_of_nothing_is_refused(study):
+    case = load(EXAMPLE, ["model.name=olaru2005"], None)
+    # the duty itself is not asked for
+    banded, of = (duty_band.band, SimpleNamespace(case=case)) if study == "duty" else (warm_up_band.band, case)
+    with pytest.raises(InputError, match=r"^--only-given: the case gives no input a distribution"):
+        banded(of, only_given=True)
+
+
+def test_what_the_case_gives_is_no_default(case):
+    """Also where it gives the very number that would stand in for it."""
+    written = POINT + 'ambient = "20 degC"\nbearing_conductance = "8 ± 2 W/K"\n'
+    defaults = [line for line in warmed_up(case(written), hours=0.01).assumed if line.endswith(": the default")]
+    assert [line for line in defaults if "bearing" in line] == [
+        "mass of each bearing with its housing 3 kg: the default"
+    ]
+    assert len(defaults) == 3  # and of the nut and the share
 
 
 def test_an_operating_point_goes_to_and_fro(case):

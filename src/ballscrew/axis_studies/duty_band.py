@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 
 from ballscrew.axis.duty_band import DutyBand, duty_band
 from ballscrew.axis_studies.duty import DutyReport
-from ballscrew.cases.uncertain_inputs import GIVEN, Uncertain, all_of
+from ballscrew.cases.uncertain_inputs import GIVEN, NOTHING_GIVEN, Uncertain, all_of
 from ballscrew.errors import InputError
 from ballscrew.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, fields_of_laws
 from ballscrew.uncertainty.uncertain_value import describe_distribution
@@ -39,6 +39,8 @@ def band(
     for name, distribution in report.case.uncertain_supports.items():
         words = describe_distribution(distribution, known[name.rpartition(".")[2]])
         inputs[name] = Uncertain(distribution, GIVEN, True, words)
+    if only_given and not inputs:
+        raise InputError(NOTHING_GIVEN)
     try:
         found = duty_band(
             report.duty,

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 
 import numpy as np
 
 from ballscrew._arrays import ByValue
-from ballscrew.axis_studies.warm_up import WarmUpReport
-from ballscrew.errors import Fault, InputError
+from ballscrew.axis_studies.warm_up import HOUR, WarmUpReport
+from ballscrew.errors import Fault, InputError, nearest
 from ballscrew.motion.states import Numbers
+from ballscrew.quantities import Duration
 
 #: Distance of the points of a list, m, and the number of points at most (SINUMERIK 808D).
 STEP, MOST = 0.02, 200
+#: Which way the positions of the axis may grow, seen from the fixed bearing, and the sign of that.
+DIRECTIONS = {"away": 1.0, "towards": -1.0}
+_WORDS = {"away": "away from", "towards": "towards"}
 #: How much finer the growth is looked at where the error is measured.
 _FINER = 20
 
@@ -26,9 +31,29 @@ class PositionCompensation(ByValue):
 
     positions: Numbers
     errors: Numbers
-    #: What straight lines between the positions miss of the growth, m.
+    #: What straight lines between the positions miss of the computed growth, m.
     worst_error: float
+    #: Length of the cells of the shaft, m: within one the computed growth is a straight line.
+    cell: float
     hours: float
+    #: Positions grow away from the fixed bearing, or towards it.
+    direction: str
+
+    @property
+    def missed(self) -> str:
+        """What straight lines between the positions miss of the growth, in words, as far as it is known."""
+        cell = f"{1e3 * self.cell:.4g} mm"
+        if self.step <= self.cell * (1 + 1e-9):
+            return f"the growth is computed in cells of {cell}; what straight lines miss within them is not known"
+        missed = f"{1e6 * self.worst_error:.2g} µm"
+        return f"straight lines between them miss up to {missed} of the computed growth, whose cells are {cell}"
+
+    @property
+    def mounting(self) -> str:
+        """The direction and the zero of the axis, in words: a wrong one gives the table the wrong sign."""
+        place = self.positions[0] if self.direction == "away" else self.positions[-1]
+        zero = abs(1e3 * float(place))
+        return f"positions grow {_WORDS[self.direction]} the fixed bearing, zero is {zero:.6g} mm from it"
 
     @property
     def step(self) -> float:
@@ -37,26 +62,55 @@ class PositionCompensation(ByValue):
 
 
 def position_compensation(
-    report: WarmUpReport, hours: float, *, zero: float = 0.0, step: float = STEP, reference: float | None = None
+    report: WarmUpReport,
+    hours: float,
+    *,
+    zero: float = 0.0,
+    direction: str = "away",
+    step: float = STEP,
+    reference: float | None = None,
 ) -> PositionCompensation:
     """The compensation of the growth of a shaft after some hours of work.
 
     ``zero`` is the place on the shaft, from its fixed bearing, at which the position of the axis is zero; positions
-    grow away from the bearing. At the ``reference``, a position of the axis, nothing is compensated: by default at the
-    fixed bearing, which does not move. Raises :class:`~ballscrew.errors.InputError` for a step that is not positive
-    or too small, and for a reference beyond the shaft.
+    grow ``"away"`` from that bearing or ``"towards"`` it, on which the sign of the errors depends. At the
+    ``reference``, a position of the axis, nothing is compensated: by default at the fixed bearing, which does not move.
+    Raises :class:`~ballscrew.errors.InputError` for a step that is not positive or too small, for an unknown direction,
+    for a zero or a reference beyond the shaft, and where the warm-up stopped before the hours.
     """
-    length = float(report.warm_up.network.shaft.length)
+    if report.warm_up.stopped is not None:
+        raise InputError(_stopped(report.warm_up.stopped, hours))
+    shaft = report.warm_up.network.shaft
+    length = float(shaft.length)
     if not length / (MOST - 1) <= step <= length:
         given = f"{1000 * step:g} mm"
         remedy = f"give {1000 * length / (MOST - 1):.3g} mm to {1000 * length:.4g} mm"
         raise InputError(Fault("--step", f"makes more than {MOST} points, or less than two", given, remedy))
-    at = 0.0 if reference is None else reference + zero
+    if direction not in DIRECTIONS:
+        raise InputError(Fault("--direction", "unknown direction", direction, nearest(direction, DIRECTIONS)))
+    if not 0 <= zero <= length:
+        remedy = f"its place is 0 mm to {1000 * length:g} mm from the fixed bearing"
+        raise InputError(Fault("--zero", "is beyond the shaft", f"{1000 * zero:g} mm", remedy))
+    sign = DIRECTIONS[direction]
+    at = 0.0 if reference is None else zero + sign * reference
     if not 0 <= at <= length:
-        ends = f"{-1000 * zero:g} mm to {1000 * (length - zero):g} mm"
-        raise InputError(Fault("--reference", "is beyond the shaft", f"{1000 * (at - zero):g} mm", f"it is {ends}"))
+        low, high = sorted((-1000 * sign * zero, 1000 * sign * (length - zero)))
+        remedy = f"it is {low:zg} mm to {high:zg} mm"
+        raise InputError(Fault("--reference", "is beyond the shaft", f"{1000 * sign * (at - zero):g} mm", remedy))
     places, growth = report.warm_up.compensation_table(step / _FINER)
     even = np.linspace(0.0, length, int(np.ceil(length / step - 1e-9)) + 1)
     errors = np.interp(even, places, growth)
     missed = float(np.max(np.abs(np.interp(places, even, errors) - growth)))
-    return PositionCompensation(even - zero, errors - float(np.interp(at, places, growth)), missed, hours)
+    positions, moved = sign * (even - zero), sign * (errors - float(np.interp(at, places, growth)))
+    onward = slice(None, None, int(sign))  # positions of a list grow
+    return PositionCompensation(
+        positions[onward] + 0.0, moved[onward] + 0.0, missed, shaft.cell, hours, direction
+    )  # no -0
+
+
+def _stopped(stopped: Duration, hours: float) -> Fault:
+    """The fault of a warm-up that never came as far as the hours."""
+    reached = math.floor(100 * stopped / HOUR) / 100
+    problem = f"the warm-up stops after {reached:.2f} h: beyond it oil or preload are outside what the model knows"
+    less = f"write --hours {reached:g} at most, or " if reached else ""
+    return Fault("--hours", problem, f"{hours:g}", f"{less}look at ballscrew warm-up: less work, or more cooling")

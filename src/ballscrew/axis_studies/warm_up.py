@@ -174,7 +174,7 @@ def assumed_of(case: Case, given: Surroundings, network: Network, stroke: Length
     found += [
         f"{_OF[name].info.meaning} {shown(name, defaults[name])}: the default"
         for name in ("ambient", "nut_conductance", "shaft_share", "bearing_conductance", "bearing_mass")
-        if getattr(given, name) == defaults[name]
+        if getattr(given, name) == defaults[name] and name not in case.given_surroundings
     ]
     return found
 

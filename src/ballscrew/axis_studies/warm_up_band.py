@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from ballscrew.axis_studies.warm_up import HOUR, SERIES, WarmUpReport, duty_of, length_of
 from ballscrew.cases import uncertain_inputs
 from ballscrew.cases.case import Case
-from ballscrew.cases.uncertain_inputs import GIVEN, Uncertain
+from ballscrew.cases.uncertain_inputs import GIVEN, NOTHING_GIVEN, Uncertain
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import InputError
 from ballscrew.overflow import overflow_as_input_error
@@ -60,6 +60,8 @@ def band(
     duty, stroke = duty_of(case, surroundings)
     length = length_of(case, surroundings)
     inputs = inputs_of(case, network_of(duty, surroundings, shaft_length=length), only_given)
+    if only_given and not inputs:
+        raise InputError(NOTHING_GIVEN)
     joint = uncertain_inputs.joint_of(case, inputs)
     together = () if joint is None else joint.names
     try:

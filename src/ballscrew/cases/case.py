@@ -80,6 +80,8 @@ class Case(Displayed):
     surroundings: Surroundings | None = None
     #: Distributions of numbers of the surroundings that the file gives, named as ``surroundings.ball_conductance``.
     uncertain_surroundings: Mapping[str, Distribution] = dataclasses.field(default_factory=dict[str, Distribution])
+    #: Numbers of the surroundings that the file gives, also those that it gives as they are by default.
+    given_surroundings: frozenset[str] = frozenset()
     #: The efficiency of the rule that stands in for the model; None where the model counts.
     efficiency: float | None = None
     #: Whether the operating point is that of steady travel in the motion, as the file gives none.

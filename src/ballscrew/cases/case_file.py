@@ -238,6 +238,7 @@ def build(
         motor=motor,
         surroundings=surroundings,
         uncertain_surroundings=of_air,
+        given_surroundings=frozenset(tables.get("surroundings", {})),
         efficiency=efficiency,
         travels=travels,
         bearings=bearings,

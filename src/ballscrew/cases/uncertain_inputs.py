@@ -28,6 +28,12 @@ if TYPE_CHECKING:
 
 #: The source of what stands in the case file.
 GIVEN = "given"
+#: The fault of ``--only-given`` where nothing is: a band of width zero would look like certainty.
+NOTHING_GIVEN = Fault(
+    "--only-given",
+    "the case gives no input a distribution",
+    remedy='write one, such as screw_conformity = "0.54 ± 0.01", or leave --only-given out',
+)
 #: Numbers that a file writes to twelve digits are the same within this.
 _SAME = 1e-9
 

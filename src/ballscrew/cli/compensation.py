@@ -19,6 +19,14 @@ def compensation(
     zero: Annotated[
         str, typer.Option("--zero", metavar="LENGTH", help="Place from the fixed bearing where the axis is at zero.")
     ] = "0 mm",
+    direction: Annotated[
+        str,
+        typer.Option(
+            "--direction",
+            metavar="away|towards",
+            help="Positions of the axis grow away from the fixed bearing, or towards it.",
+        ),
+    ] = "away",
     step: Annotated[str, typer.Option("--step", metavar="LENGTH", help="Distance of the points.")] = "20 mm",
     reference: Annotated[
         str | None,
@@ -26,22 +34,31 @@ def compensation(
     ] = None,
     model: ModelName = None,
     settings: Settings = None,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
     allow_code: AllowCode = False,
 ) -> None:
     """Write the growth of a shaft after hours of work as a compensation of positions, for an encoder at the motor.
 
-    It holds in that thermal state only. The format was checked against the example of the manual, not on a control.
+    Positions grow away from the fixed bearing; of an axis mounted the other way round, --direction towards turns the
+    signs. It holds in that thermal state only; a warm-up that stops before the hours is refused.
+    The format was checked against the example of the manual, not on a control.
     """
     from ballscrew.axis_studies import position_compensation as studies
     from ballscrew.axis_studies import warm_up
+    from ballscrew.documents import position_compensation as documents
     from ballscrew.errors import Fault, InputError, nearest
     from ballscrew.files import atomic_write, check_writable
+    from ballscrew.output.json_text import as_json as json_text
     from ballscrew.table_files import compensation_lists
+    from ballscrew.text import position_compensation as text
 
     if to not in compensation_lists.LISTS:
         raise InputError(Fault("--to", "unknown control", to, nearest(to, compensation_lists.LISTS)))
     if not axis.isidentifier():
         raise InputError(Fault("--axis", "is no name of an axis", axis, "write letters and digits, such as X1"))
+    if direction not in studies.DIRECTIONS:
+        remedy = nearest(direction, studies.DIRECTIONS)
+        raise InputError(Fault("--direction", "unknown direction", direction, remedy))
     if not 0 < hours <= _LONGEST:
         raise InputError(Fault("--hours", f"must be above 0 and at most {_LONGEST:g}", f"{hours:g}", "write --hours 4"))
     lengths = {"--zero": zero, "--step": step, **({} if reference is None else {"--reference": reference})}
@@ -49,17 +66,13 @@ def compensation(
     check_writable("--out", out)
     report = warm_up.warmed_up(warm_up.load(case, settings or [], model, allow_code=allow_code), hours)
     made = studies.position_compensation(
-        report, hours, zero=found["--zero"], step=found["--step"], reference=found.get("--reference")
-    )
+        report, hours, zero=found["--zero"], direction=direction, step=found["--step"],
+        reference=found.get("--reference"),
+    )  # fmt: skip
     with atomic_write("--out", out) as path:
         path.write_text(compensation_lists.LISTS[to](made, axis), encoding="utf-8")
-    typer.echo(f"{out}")
-    typer.echo(
-        f"{len(made.positions)} points from {1e3 * made.positions[0]:.6g} mm to {1e3 * made.positions[-1]:.6g} mm: "
-        f"{1e6 * made.errors.min():.3g} µm to {1e6 * made.errors.max():.3g} µm; "
-        f"straight lines between them miss up to {1e6 * made.worst_error:.2g} µm of the growth computed"
-    )
-    typer.echo(f"it holds after {hours:g} h of this work only; format checked against the manual, not on a control")
+    typer.echo(f"{out}", err=as_json)
+    typer.echo(json_text(documents.document(made, report)) if as_json else text.text(made, report))
 
 
 #: The longest time, h: a year.

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import NamedTuple, cast
 
 from ballscrew.cases import case_file
-from ballscrew.cases.uncertain_inputs import Uncertain, all_of
+from ballscrew.cases.uncertain_inputs import NOTHING_GIVEN, Uncertain, all_of
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import Fault, InputError
 from ballscrew.evaluation.plan import Configuration
@@ -48,8 +48,7 @@ def sensitivity(
     """Sensitivity of a case. Raises ``InputError`` that names options of the command line."""
     uncertain = all_of(case, options.only_given)
     if not uncertain:
-        remedy = 'write one, such as screw_conformity = "0.54 ± 0.01", or leave --only-given out'
-        raise InputError(Fault("--only-given", "the case gives no input a distribution", "", remedy))
+        raise InputError(NOTHING_GIVEN)
     point = {name: getattr(case.operation, name) for name in fields_of(case.operation)}
     try:
         result = analysis.sensitivity(

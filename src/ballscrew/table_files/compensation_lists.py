@@ -4,9 +4,10 @@ Each has the form of the example in its manual, and was never read by a control:
 
 - SINUMERIK, Function Manual Extended Functions (6FC5397), K3, measuring system error compensation: positions and
   values in mm; the value is added to the actual position, so that a positive one moves the axis in the negative
-  direction.
+  direction. Comments stand behind ``;``, as there.
 - TwinCAT CNC TF5200, leadscrew error compensation ``kw.ssfk.*`` (infosys.beckhoff.com, "Example of a compensation
-  value list"): positions and values in 0.1 µm; the value is the measured position less the programmed one.
+  value list"): positions and values in 0.1 µm; the value is the measured position less the programmed one. Lines of
+  comment start with ``#`` and a blank ("Comments in the ASCII list file").
 
 HEIDENHAIN's ``.COM`` tables are not written: no manual with their whole form was found.
 """
@@ -31,8 +32,8 @@ def sinumerik(found: PositionCompensation, axis: str) -> str:
         "CHANDATA(1)",
         *(f"$AA_ENC_COMP[0,{k},{axis}]={value:.5f}" for k, value in points),
         f"$AA_ENC_COMP_STEP[0,{axis}]={1e3 * found.step:.6f}",
-        f"$AA_ENC_COMP_MIN[0,{axis}]={first:.4f}",
-        f"$AA_ENC_COMP_MAX[0,{axis}]={last:.4f}",
+        f"$AA_ENC_COMP_MIN[0,{axis}]={first:.4f} ; {found.mounting}",
+        f"$AA_ENC_COMP_MAX[0,{axis}]={last:.4f} ; {_state(found)}",
         f"$AA_ENC_COMP_IS_MODULO[0,{axis}]=0",
         "M17",
         "",
@@ -53,7 +54,12 @@ def isg(found: PositionCompensation, axis: str) -> str:
     }
     for name, column in (("setpoint", positions), ("pos", values), ("neg", values)):
         entries |= {f"kw.ssfk.table[{k}].{name}": value for k, value in enumerate(column)}
-    return "\n".join([*(f"{name:<{_WIDTH}} {value}" for name, value in entries.items()), ""])
+    said = (f"# {line}" for line in (found.mounting, _state(found)))
+    return "\n".join([*said, *(f"{name:<{_WIDTH}} {value}" for name, value in entries.items()), ""])
+
+
+def _state(found: PositionCompensation) -> str:
+    return f"holds after {found.hours:g} h of the work of its case only"
 
 
 #: The lists by the name of the control.

@@ -1,0 +1,32 @@
+"""The JSON document of a compensation of positions, with verdicts and assumptions of the warm-up behind it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ballscrew.axis_studies import warm_up_records
+from ballscrew.axis_studies.position_compensation import PositionCompensation
+from ballscrew.axis_studies.warm_up import WarmUpReport
+from ballscrew.cases import case_file, provenance
+from ballscrew.records import documents
+
+
+def document(found: PositionCompensation, report: WarmUpReport) -> dict[str, Any]:
+    """The document of a compensation of positions, in SI."""
+    return {
+        "inputs": case_file.inputs(report.case),
+        "results": {
+            "position": list(found.positions),
+            "error": list(found.errors),
+            "worst_error": found.worst_error,
+            "cell": found.cell,
+            "hours": found.hours,
+            "direction": found.direction,
+        },
+        "units": {"position": "m", "error": "m", "worst_error": "m", "cell": "m", "hours": "h"},
+        "assumed": list(report.assumed),
+        "warnings": documents(warm_up_records.warnings(report)),
+        "verdicts": documents(warm_up_records.verdicts(report)),
+        "checks": [],
+        "provenance": provenance.of_case(report.case),
+    }
