@@ -11,11 +11,13 @@ it: ``generated/commands/PAGE/map.png``.
 
 from __future__ import annotations
 
+import atexit
 import functools
 import hashlib
 import itertools
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -32,6 +34,8 @@ from sphinx.util.docutils import SphinxDirective
 DOCS = Path(__file__).parents[1]
 ROOT = DOCS.parent
 KEPT = DOCS / "generated" / "commands"
+#: A command of the program itself, which a fork of a process that has loaded it runs; what a shell is needed for.
+PROGRAM, _SHELL = ".venv/bin/ballscrew", re.compile(r"[|&;<>$`*?~\n]")
 #: Columns of the terminal, and of a command.
 WIDTH, WIDEST = "100", 98
 
@@ -95,6 +99,17 @@ class Page:
         return self.place
 
     def _done(self, typed: str) -> str:
+        words = shlex.split(typed)
+        if words[0] == PROGRAM and not _SHELL.search(typed):
+            code, said = _commands().together(words[1:], self._place(), {"COLUMNS": WIDTH, "NO_COLOR": "1"})
+            said = said.replace("python -m ballscrew.cli", "ballscrew")
+        else:
+            code, said = self._by_shell(typed)
+        if code:
+            raise RuntimeError(f"{typed}\nended with {code}\n{said}")
+        return "\n".join(line.rstrip() for line in said.strip("\n").splitlines()) + "\n"
+
+    def _by_shell(self, typed: str) -> tuple[int, str]:
         here = str(Path(sys.executable).parent)
         done = subprocess.run(
             ["bash", "-c", typed],
@@ -112,9 +127,18 @@ class Page:
             encoding="utf-8",
             check=False,
         )
-        if done.returncode:
-            raise RuntimeError(f"{typed}\nended with {done.returncode}\n{done.stdout}")
-        return "\n".join(line.rstrip() for line in done.stdout.strip("\n").splitlines()) + "\n"
+        return done.returncode, done.stdout
+
+
+@functools.cache
+def _commands() -> Any:
+    """The process whose forks run commands: most of the time of a command is that of loading the program."""
+    sys.path.append(str(ROOT / "tests"))
+    from support.commands import Commands
+
+    found = Commands()
+    atexit.register(found.close)
+    return found
 
 
 def _next_cause(before: str, typed: str) -> str:

@@ -94,14 +94,19 @@ class Commands:
         environment: Mapping[str, str] | None = None,
         module: str = "ballscrew.cli",
         errors: Sequence[str] = (),
+        lines: bool = False,
     ) -> Process:
-        """A command that runs with these three streams; with ``errors``, categories of warnings that end it."""
+        """A command that runs with these three streams; with ``errors``, categories of warnings that end it.
+
+        ``lines``: it prints line by line, as on a terminal.
+        """
         asked = {
             "module": module,
             "arguments": [str(argument) for argument in arguments],
             "folder": str(folder),
             "environment": {**os.environ, **(environment or {})},
             "errors": list(errors),
+            "lines": lines,
         }
         text = json.dumps(asked).encode()
         connection = socket.socket(socket.AF_UNIX)
@@ -149,6 +154,14 @@ class Commands:
                 stream.seek(0)
                 texts.append(stream.read().decode("utf-8", "replace").replace("\r\n", "\n"))
         return subprocess.CompletedProcess(list(arguments), code, *texts)
+
+    def together(self, arguments: Sequence[object], folder: Path, environment: Mapping[str, str]) -> tuple[int, str]:
+        """Exit code of a command, and all that it printed, as on a terminal."""
+        with Path(os.devnull).open("rb") as nothing, tempfile.TemporaryFile() as output:
+            streams = [nothing.fileno(), output.fileno(), output.fileno()]
+            code = self.start(arguments, folder=folder, streams=streams, environment=environment, lines=True).wait()
+            output.seek(0)
+            return code, output.read().decode()
 
     def close(self) -> None:
         """End the process that the commands are forks of."""

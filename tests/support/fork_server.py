@@ -117,7 +117,7 @@ def _command(asked: dict, streams: list[int]) -> None:
     os.environ.clear()
     os.environ.update(asked["environment"])
     sys.stdin = os.fdopen(0, encoding="utf-8", closefd=False)
-    sys.stdout = os.fdopen(1, "w", encoding="utf-8", closefd=False)
+    sys.stdout = os.fdopen(1, "w", encoding="utf-8", buffering=1 if asked["lines"] else -1, closefd=False)
     sys.stderr = os.fdopen(2, "w", encoding="utf-8", errors="backslashreplace", buffering=1, closefd=False)
     sys.argv = [asked["module"], *asked["arguments"]]
     for category in asked["errors"]:
