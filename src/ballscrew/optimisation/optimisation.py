@@ -84,12 +84,19 @@ class Optimisation:
 
     @property
     def largest_change(self) -> Mapping[str, float]:
-        """The largest change of each objective from search to full model, over the former; not of a quantile."""
-        if self.space.options.quantile is not None or not self.members:
+        """The largest change of each objective from search to full model, over the former; not of a quantile.
+
+        A member whose number was zero in the search (the torque without load of a nut without preload) has no such
+        ratio and does not count; an objective that is zero in all members is left out.
+        """
+        if self.space.options.quantile is not None:
             return {}
-        return {
-            name: max(abs(each.objectives[name] / each.searched[name] - 1) for each in self.members)
+        pairs = {
+            name: [(each.objectives[name], each.searched[name]) for each in self.members if each.searched[name]]
             for name in self.space.objectives
+        }
+        return {
+            name: max(abs(full / searched - 1) for full, searched in found) for name, found in pairs.items() if found
         }
 
 
