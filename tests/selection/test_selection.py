@@ -109,6 +109,24 @@ def test_a_case_file_is_a_need():
     assert found.ranked[0].candidate.checked.nut.preload == pytest.approx(0.07 * 72100)
 
 
+def test_what_is_assumed_is_said():
+    """No length: the inertia compares diameters by a shaft of 1 m, and is not judged by it."""
+    tables = {"force": "2 kN", "feed": "10 m/min", "largest_inertia": "20 kg cm^2", "nut": "double"}
+    found = bs.select(tables, words="hiwin-40-20k4")
+    notes = " · ".join(document(found)["need"]["assumed"])
+    for words in ("shaft of 1 m", "elastic bodies", "preloads of 2 %, 5 %, 10 %", "oil ISO VG 100"):
+        assert words in notes
+    check = next(check for check in found.ranked[0].candidate.checks if check.name == "inertia")
+    assert (check.value, check.holds, check.missing) == (None, None, "installation.unsupported_length")
+    stated = bs.select({**tables, "stroke": "0.5 m", "preload": "5 %", "bodies": {}}, words="hiwin-40-20k4")
+    notes = " · ".join(stated.need.notes)
+    assert "shaft of 1 m" not in notes
+    assert "elastic bodies" not in notes
+    assert "preloads of" not in notes
+    check = next(check for check in stated.ranked[0].candidate.checks if check.name == "inertia")
+    assert check.value == pytest.approx(math.pi * 7850 * 0.04**4 * 0.5 / 32)
+
+
 def test_a_duty_is_judged_by_its_cycle(ballscrew, tmp_path):
     example = ROOT / "examples" / "vertical_axis.toml"
     found = bs.select(example, words="hiwin-40-20k4").ranked[0].candidate

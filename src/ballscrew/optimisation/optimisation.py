@@ -21,7 +21,7 @@ from ballscrew.quantities import fields_of
 from ballscrew.selection import requirement_checks
 from ballscrew.selection.candidates import objectives as objectives_of
 from ballscrew.selection.need import Need, need_of
-from ballscrew.selection.objectives import OBJECTIVES, USUAL_LENGTH
+from ballscrew.selection.objectives import OBJECTIVES, USUAL_LENGTH, shaft_length
 from ballscrew.selection.pareto import front
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.checks import Check
@@ -208,8 +208,7 @@ def _built(need: Need, tables: Mapping[str, Any], options: Mapping[str, Any]) ->
 
 
 def _length(need: Need, case: Case) -> float:
-    installation = case.installation
-    return need.requirements.stroke or USUAL_LENGTH if installation is None else installation.unsupported_length
+    return shaft_length(need.requirements, case.installation) or USUAL_LENGTH
 
 
 def _member(

@@ -16,7 +16,7 @@ from ballscrew.quantities import fields_of
 from ballscrew.screw_tables.catalogue import assumed
 from ballscrew.selection import requirement_checks
 from ballscrew.selection.need import Need
-from ballscrew.selection.objectives import USUAL_LENGTH, reflected_mass, shaft_inertia
+from ballscrew.selection.objectives import USUAL_LENGTH, reflected_mass, shaft_inertia, shaft_length
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.checks import Check
 from ballscrew.sizing.installation import Installation
@@ -121,6 +121,11 @@ def _preloads(need: Need, row: CatalogueRow, nut: str) -> Sequence[str]:
     return ("",) if lists_preload(row) and nut == row.nut else USUAL_PRELOADS
 
 
+def assumes_preload(need: Need, variant: Variant) -> bool:
+    """Whether the preload of a variant is one of :data:`USUAL_PRELOADS`, as neither need nor row has one."""
+    return bool(variant.preload) and not need.preloads
+
+
 def tables_of(need: Need, variant: Variant) -> dict[str, Any]:
     """The tables of the case of a variant, as a case file has them.
 
@@ -171,10 +176,10 @@ def judged(need: Need, variant: Variant, case: Case) -> Candidate:
 def objectives(
     need: Need, found: Checked, report: DutyReport | None, diameter: float, price_index: float = math.nan
 ) -> dict[str, float]:
-    """The numbers compared, in SI. The shaft is a cylinder of this diameter."""
+    """The numbers compared, in SI. The shaft is a cylinder of this diameter, 1 m long where no length is known."""
     case, friction = found.case, found.run.friction
-    installation, required = case.installation, need.requirements
-    length = required.stroke or USUAL_LENGTH if installation is None else installation.unsupported_length
+    installation = case.installation
+    length = shaft_length(need.requirements, installation) or USUAL_LENGTH
     density = _DENSITY if installation is None else installation.shaft_density
     inertia = shaft_inertia(diameter, length, density)
     if report is None:

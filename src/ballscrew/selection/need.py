@@ -16,7 +16,7 @@ from ballscrew.cases import case_file
 from ballscrew.components.materials import grades
 from ballscrew.errors import MISSING, Fault, InputError, nearest, raise_if_any
 from ballscrew.quantities import fields_of
-from ballscrew.selection.objectives import USUAL_OBJECTIVES, objectives_named
+from ballscrew.selection.objectives import USUAL_LENGTH, USUAL_OBJECTIVES, objectives_named
 from ballscrew.selection.requirements import ALLOWED, FORBIDDEN, NEEDED, Requirements
 
 #: The oil where a need names none: that of ``ballscrew check``.
@@ -187,6 +187,8 @@ def _need(tables: dict[str, Any], folder: Path, name: str) -> Need:
     required = Requirements(**values)
     _operation(tables, required, faults)
     _installation(tables, required, notes)
+    if "bodies" not in tables:
+        notes.append("elastic bodies of screw and nut of a usual size: no [bodies] was given")
     try:
         names = objectives_named(
             USUAL_OBJECTIVES if objectives is None else _texts("need.objectives", objectives, faults), "need.objectives"
@@ -280,10 +282,13 @@ def _operation(tables: dict[str, Any], required: Requirements, faults: list[Faul
 def _installation(tables: dict[str, Any], required: Requirements, notes: list[str]) -> None:
     """A stroke stands for the unsupported length where none is given, if the ends are known."""
     table = tables.get("installation")
+    if required.stroke is None and table is None:
+        notes.append(f"inertia: that of a shaft of {USUAL_LENGTH:g} m, to compare diameters; no length was given")
     if required.stroke is None or (isinstance(table, dict) and "unsupported_length" in table):
         return
     if isinstance(table, dict) and "ends" in table:
         tables["installation"] = {**table, "unsupported_length": f"{required.stroke!r} m"}
         notes.append("unsupported length: the stroke alone; add the nut and what lies between it and the bearings")
     elif table is None:
+        notes.append("inertia: that of the stroke alone; give the length of the shaft")
         notes.append("buckling and critical speed are not judged: give the ends of the shaft")

@@ -13,7 +13,15 @@ import numpy as np
 from ballscrew.cases.case import Case
 from ballscrew.errors import Fault, InputError
 from ballscrew.screw_tables import catalogue
-from ballscrew.selection.candidates import Candidate, Variant, case_of, judged, variants
+from ballscrew.selection.candidates import (
+    USUAL_PRELOADS,
+    Candidate,
+    Variant,
+    assumes_preload,
+    case_of,
+    judged,
+    variants,
+)
 from ballscrew.selection.need import Need, need_of
 from ballscrew.selection.objectives import OBJECTIVES, USUAL_OBJECTIVES, objectives_named
 from ballscrew.selection.pareto import front
@@ -91,6 +99,11 @@ def select(
     if unknown:
         raise InputError(Fault("need.price_index", "no such row", ", ".join(unknown), "names are those of the rows"))
     every = list(variants(asked, chosen, table))
+    if any(assumes_preload(asked, one) for one in every):
+        note = (
+            f"preloads of {', '.join(USUAL_PRELOADS)} of the dynamic load rating where a row lists none: none was given"
+        )
+        asked = dataclasses.replace(asked, notes=(*asked.notes, note))
     if len(every) > MOST_VARIANTS:
         remedy = f"name fewer; {MOST_VARIANTS} at most"
         raise InputError(Fault("need", "has too many combinations", str(len(every)), remedy))
