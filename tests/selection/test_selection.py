@@ -103,6 +103,53 @@ def test_all_ways_to_write_a_need(written, tmp_path):
     assert need.tables["limits"] == {"running_time": "20000 h"}
 
 
+@pytest.mark.parametrize(
+    ("written", "place", "value"),
+    [
+        ({"operation": {"thrust": "2 kN", "feed": "10 m/min", "life": "1 h"}}, "limits", {"running_time": "1 h"}),
+        ({"requirements": {"force": "2 kN", "feed": "10 m/min"}}, "operation", {"axial_load": "2 kN"}),
+        ({"force": "2 kN", "speed": "10 m/min"}, "operation", {"axial_load": "2 kN"}),
+        ({"operation": {"load": "2 kN", "screw_speed": "10 m/min"}}, "operation", {"axial_load": "2 kN"}),
+        ({"force": "2 kN", "feed": "9 rpm"}, "operation", {"axial_load": "2 kN", "screw_speed": "9 rpm"}),
+        (
+            {"force": "2 kN", "feed": "9 m/min", "mounting": "fixed-free", "length": "1 m"},
+            "installation",
+            {"ends": "fixed-free", "unsupported_length": "1 m"},
+        ),
+    ],
+)
+def test_names_that_people_write(written, place, value):
+    need = need_of(written)
+    assert need.tables[place] == value
+    assert (need.requirements.feed is None) == ("screw_speed" in need.tables["operation"])
+
+
+@pytest.mark.parametrize("oil", ["ISO VG 68", "vg68", ["ISO VG 68"]])
+def test_a_grade_may_be_written_as_an_oil(oil):
+    found = bs.select(
+        {"force": "2 kN", "feed": "10 m/min", "nut": "single", "lubricant": {"oil": oil}}, words="40-20k4"
+    )
+    assert [each.candidate.checked.case.oil["grade"] for each in found.ranked] == ["ISO VG 68"] * len(found.ranked)
+
+
+def test_all_faults_of_a_need_at_once():
+    with pytest.raises(InputError) as raised:
+        need_of(
+            {
+                "demands": {"force": "2 kN"},
+                "rapid": "40 m/min",
+                "need": {"colour": "red", "feed": 0.25, "least_rigidity": "5 kg"},
+                "limits": {"life": 5},
+            }
+        )
+    found = {fault.where: fault for fault in raised.value.faults}
+    assert list(found) == ["demands", "need.colour", "rapid", "need.feed", "need.least_rigidity"]  # no load is missing
+    assert "known: force, speed, feed, stroke, length" in found["need.colour"].remedy
+    assert "largest_step" in found["need.colour"].remedy
+    assert found["need.feed"].remedy == 'write "0.25 m/s", or "0.25 m/min"'
+    assert "two speeds" in found["rapid"].problem
+
+
 def test_a_case_file_is_a_need():
     found = bs.select(ROOT / "examples" / "catalogue_screw.toml", words="rexroth 40x10")
     assert [each.candidate.name for each in found.ranked] == ["rexroth-40x10x6-6-double"]
