@@ -14,6 +14,7 @@ from ballscrew.documents.selection import document
 from ballscrew.errors import InputError
 from ballscrew.selection.need import need_of
 from ballscrew.selection.pareto import front, hypervolume
+from ballscrew.text.selection import text
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "needs" / "feed_axis.toml"
@@ -172,6 +173,16 @@ def test_what_is_assumed_is_said():
     assert "preloads of" not in notes
     check = next(check for check in stated.ranked[0].candidate.checks if check.name == "inertia")
     assert check.value == pytest.approx(math.pi * 7850 * 0.04**4 * 0.5 / 32)
+
+
+def test_why_none_holds_stands_at_the_top():
+    tables = {"force": "2 kN", "feed": "10 m/min", "nut": "single"}
+    lines = text(found := bs.select(tables, words="hiwin-40-20k4"), found.ranked).splitlines()
+    assert lines[0] == "need: 0 of 1 candidates hold"
+    assert lines[1].startswith("1 of them fail nothing, but nothing holds that was not judged: give installation, ")
+    assert sum("not judged: give" in line for line in lines) == 1
+    failing = text(found := bs.select({**tables, "force": "900 kN"}, words="hiwin-40-20k4"), found.ranked)
+    assert failing.splitlines()[1] == ""
 
 
 def test_a_duty_is_judged_by_its_cycle(ballscrew, tmp_path):
