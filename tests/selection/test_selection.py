@@ -175,6 +175,17 @@ def test_what_is_assumed_is_said():
     assert check.value == pytest.approx(math.pi * 7850 * 0.04**4 * 0.5 / 32)
 
 
+def test_a_stroke_and_the_nut_are_the_unsupported_length():
+    tables = {"force": "2 kN", "feed": "10 m/min", "nut": "double", "preload": "5 %", "stroke": "1 m", "life": "1 h"}
+    found = bs.select({**tables, "ends": "fixed-free"}, words="hiwin-40-20k4")
+    row, candidate = bs.catalogue()["hiwin-40-20k4"], found.ranked[0].candidate
+    length = 1 + (2 * row.loaded_turns + 2) * row.lead
+    assert candidate.checked.case.installation.unsupported_length == pytest.approx(length)
+    mine = document(found)["candidates"][0]
+    assert any(note.startswith("unsupported length 1") for note in mine["assumed"])
+    assert any("unsupported length" in note for note in found.need.notes)
+
+
 def test_why_none_holds_stands_at_the_top():
     tables = {"force": "2 kN", "feed": "10 m/min", "nut": "single"}
     lines = text(found := bs.select(tables, words="hiwin-40-20k4"), found.ranked).splitlines()

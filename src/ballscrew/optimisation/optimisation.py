@@ -131,6 +131,9 @@ def optimise(
     extra ``optimise``) is not installed.
     """
     asked = need_of(need, settings)
+    if asked.length_is_stroke:
+        note = "unsupported length: the stroke alone, too short; add the nut and what lies between it and the bearings"
+        asked = asked.with_note(note)
     if asked.moves:
         remedy = "give [operation] with the mean load and speed that ballscrew duty says"
         raise InputError(Fault("motion", "is too much for a search", asked.name, remedy))

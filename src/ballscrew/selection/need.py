@@ -92,11 +92,17 @@ class Need:
     #: What was assumed.
     notes: Sequence[str] = ()
     name: str = "need"
+    #: Whether the stroke stands for the unsupported length in the tables.
+    length_is_stroke: bool = False
 
     @property
     def moves(self) -> bool:
         """Whether it has a motion, and not one operating point."""
         return "motion" in self.tables
+
+    def with_note(self, note: str) -> Need:
+        """The need with one more assumption, once."""
+        return dataclasses.replace(self, notes=tuple(dict.fromkeys((*self.notes, note))))
 
 
 def need_of(need: str | Path | Mapping[str, Any] | Need, settings: Sequence[str] = ()) -> Need:
@@ -254,13 +260,13 @@ def _need(tables: dict[str, Any], folder: Path, name: str, faults: list[Fault]) 
         _operation(tables, has_feed, faults)
     raise_if_any(faults)
     required = Requirements(**values)
-    _installation(tables, required, notes)
+    by_stroke = _installation(tables, required, notes)
     if required.accuracy:
         notes.append(f"grade {required.accuracy} of ISO 3408-3 is not judged: no row lists its grades; ask the maker")
     if objectives is None and prices:
         names = (*names, "price_index")
     return Need(
-        tables, required, nuts, preloads, oils, names, rows, prices, optimise, folder, tuple(notes), name
+        tables, required, nuts, preloads, oils, names, rows, prices, optimise, folder, tuple(notes), name, by_stroke
     )  # fmt: skip
 
 
@@ -350,16 +356,17 @@ def _operation(tables: dict[str, Any], has_feed: bool, faults: list[Fault]) -> N
         faults.append(Fault("need.feed", "is given beside a screw speed", "", "leave one of them out"))
 
 
-def _installation(tables: dict[str, Any], required: Requirements, notes: list[str]) -> None:
-    """A stroke stands for the unsupported length where none is given, if the ends are known."""
+def _installation(tables: dict[str, Any], required: Requirements, notes: list[str]) -> bool:
+    """Whether a stroke stands for the unsupported length: where none is given, if the ends are known."""
     table = tables.get("installation")
     if required.stroke is None and table is None:
         notes.append(f"inertia: that of a shaft of {USUAL_LENGTH:g} m, to compare diameters; no length was given")
     if required.stroke is None or (isinstance(table, dict) and "unsupported_length" in table):
-        return
+        return False
     if isinstance(table, dict) and "ends" in table:
         tables["installation"] = {**table, "unsupported_length": f"{required.stroke!r} m"}
-        notes.append("unsupported length: the stroke alone; add the nut and what lies between it and the bearings")
-    elif table is None:
+        return True
+    if table is None:
         notes.append("inertia: that of the stroke alone; give the length of the shaft")
         notes.append("buckling and critical speed are not judged: give the ends of the shaft")
+    return False
