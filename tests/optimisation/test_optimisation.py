@@ -240,6 +240,19 @@ def test_a_need_that_nothing_fulfils_ends_in_words(tmp_path):
     files.draw(lambda: picture(found), tmp_path / "empty.svg")
 
 
+def test_an_objective_that_is_zero_has_no_change():
+    """A single nut has no torque without load: the ratio of the full model to the search is left out, not divided."""
+    need = need_of({**NEED, "nut": {"type": "single"}})
+    space = design_space(need, objectives=["loss", "preload_torque"])
+    numbers = ([2.0, 2.2, 0.0, 0.0], [4.0, 4.0, -0.0, 0.1])
+    members = [
+        studies.Member({}, {"loss": s, "preload_torque": m}, None, [], {"loss": full, "preload_torque": n})
+        for s, full, m, n in numbers
+    ]
+    found = studies.Optimisation(need, space, members, 0, None, ("", ""))
+    assert found.largest_change == {"loss": pytest.approx(0.1)}
+
+
 def test_a_motion_is_refused():
     with pytest.raises(InputError, match="is too much for a search"):
         bs.optimise(ROOT / "examples" / "vertical_axis.toml")

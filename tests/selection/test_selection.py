@@ -14,6 +14,7 @@ from ballscrew.documents.selection import document
 from ballscrew.errors import InputError
 from ballscrew.selection.need import need_of
 from ballscrew.selection.pareto import front, hypervolume
+from ballscrew.text.selection import text
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "needs" / "feed_axis.toml"
@@ -103,10 +104,96 @@ def test_all_ways_to_write_a_need(written, tmp_path):
     assert need.tables["limits"] == {"running_time": "20000 h"}
 
 
+@pytest.mark.parametrize(
+    ("written", "place", "value"),
+    [
+        ({"operation": {"thrust": "2 kN", "feed": "10 m/min", "life": "1 h"}}, "limits", {"running_time": "1 h"}),
+        ({"requirements": {"force": "2 kN", "feed": "10 m/min"}}, "operation", {"axial_load": "2 kN"}),
+        ({"force": "2 kN", "speed": "10 m/min"}, "operation", {"axial_load": "2 kN"}),
+        ({"operation": {"load": "2 kN", "screw_speed": "10 m/min"}}, "operation", {"axial_load": "2 kN"}),
+        ({"force": "2 kN", "feed": "9 rpm"}, "operation", {"axial_load": "2 kN", "screw_speed": "9 rpm"}),
+        (
+            {"force": "2 kN", "feed": "9 m/min", "mounting": "fixed-free", "length": "1 m"},
+            "installation",
+            {"ends": "fixed-free", "unsupported_length": "1 m"},
+        ),
+    ],
+)
+def test_names_that_people_write(written, place, value):
+    need = need_of(written)
+    assert need.tables[place] == value
+    assert (need.requirements.feed is None) == ("screw_speed" in need.tables["operation"])
+
+
+@pytest.mark.parametrize("oil", ["ISO VG 68", "vg68", ["ISO VG 68"]])
+def test_a_grade_may_be_written_as_an_oil(oil):
+    found = bs.select(
+        {"force": "2 kN", "feed": "10 m/min", "nut": "single", "lubricant": {"oil": oil}}, words="40-20k4"
+    )
+    assert [each.candidate.checked.case.oil["grade"] for each in found.ranked] == ["ISO VG 68"] * len(found.ranked)
+
+
+def test_all_faults_of_a_need_at_once():
+    with pytest.raises(InputError) as raised:
+        need_of(
+            {
+                "demands": {"force": "2 kN"},
+                "rapid": "40 m/min",
+                "need": {"colour": "red", "feed": 0.25, "least_rigidity": "5 kg"},
+                "limits": {"life": 5},
+            }
+        )
+    found = {fault.where: fault for fault in raised.value.faults}
+    assert list(found) == ["demands", "need.colour", "rapid", "need.feed", "need.least_rigidity"]  # no load is missing
+    assert "known: force, speed, feed, stroke, length" in found["need.colour"].remedy
+    assert "largest_step" in found["need.colour"].remedy
+    assert found["need.feed"].remedy == 'write "0.25 m/s", or "0.25 m/min"'
+    assert "two speeds" in found["rapid"].problem
+
+
 def test_a_case_file_is_a_need():
     found = bs.select(ROOT / "examples" / "catalogue_screw.toml", words="rexroth 40x10")
     assert [each.candidate.name for each in found.ranked] == ["rexroth-40x10x6-6-double"]
     assert found.ranked[0].candidate.checked.nut.preload == pytest.approx(0.07 * 72100)
+
+
+def test_what_is_assumed_is_said():
+    """No length: the inertia compares diameters by a shaft of 1 m, and is not judged by it."""
+    tables = {"force": "2 kN", "feed": "10 m/min", "largest_inertia": "20 kg cm^2", "nut": "double"}
+    found = bs.select(tables, words="hiwin-40-20k4")
+    notes = " · ".join(document(found)["need"]["assumed"])
+    for words in ("shaft of 1 m", "elastic bodies", "preloads of 2 %, 5 %, 10 %", "oil ISO VG 100"):
+        assert words in notes
+    check = next(check for check in found.ranked[0].candidate.checks if check.name == "inertia")
+    assert (check.value, check.holds, check.missing) == (None, None, "installation.unsupported_length")
+    stated = bs.select({**tables, "stroke": "0.5 m", "preload": "5 %", "bodies": {}}, words="hiwin-40-20k4")
+    notes = " · ".join(stated.need.notes)
+    assert "shaft of 1 m" not in notes
+    assert "elastic bodies" not in notes
+    assert "preloads of" not in notes
+    check = next(check for check in stated.ranked[0].candidate.checks if check.name == "inertia")
+    assert check.value == pytest.approx(math.pi * 7850 * 0.04**4 * 0.5 / 32)
+
+
+def test_a_stroke_and_the_nut_are_the_unsupported_length():
+    tables = {"force": "2 kN", "feed": "10 m/min", "nut": "double", "preload": "5 %", "stroke": "1 m", "life": "1 h"}
+    found = bs.select({**tables, "ends": "fixed-free"}, words="hiwin-40-20k4")
+    row, candidate = bs.catalogue()["hiwin-40-20k4"], found.ranked[0].candidate
+    length = 1 + (2 * row.loaded_turns + 2) * row.lead
+    assert candidate.checked.case.installation.unsupported_length == pytest.approx(length)
+    mine = document(found)["candidates"][0]
+    assert any(note.startswith("unsupported length 1") for note in mine["assumed"])
+    assert any("unsupported length" in note for note in found.need.notes)
+
+
+def test_why_none_holds_stands_at_the_top():
+    tables = {"force": "2 kN", "feed": "10 m/min", "nut": "single"}
+    lines = text(found := bs.select(tables, words="hiwin-40-20k4"), found.ranked).splitlines()
+    assert lines[0] == "need: 0 of 1 candidates hold"
+    assert lines[1].startswith("1 of them fail nothing, but nothing holds that was not judged: give installation, ")
+    assert sum("not judged: give" in line for line in lines) == 1
+    failing = text(found := bs.select({**tables, "force": "900 kN"}, words="hiwin-40-20k4"), found.ranked)
+    assert failing.splitlines()[1] == ""
 
 
 def test_a_duty_is_judged_by_its_cycle(ballscrew, tmp_path):

@@ -17,7 +17,7 @@ from ballscrew.evaluation.plan import Configuration
 from ballscrew.optimisation.design_space import RATIOS, DesignSpace
 from ballscrew.optimisation.designs import Designs, Numbers
 from ballscrew.selection.need import Need
-from ballscrew.selection.objectives import OBJECTIVES, reflected_mass, shaft_inertia
+from ballscrew.selection.objectives import OBJECTIVES, reflected_mass, shaft_inertia, shaft_length
 from ballscrew.selection.requirements import ALLOWED, FORBIDDEN, Requirements
 from ballscrew.sizing.installation import Installation
 from ballscrew.uncertainty.sampling import Sampler, sobol_sequence
@@ -148,7 +148,7 @@ class DesignModel:
         if required.least_remaining_preload is not None:
             with np.errstate(divide="ignore"):
                 found["remaining_preload"] = required.least_remaining_preload / at["remaining_preload"]
-        if required.largest_inertia is not None:
+        if required.largest_inertia is not None and shaft_length(required, case.installation) is not None:
             found["inertia"] = numbers["inertia"] / required.largest_inertia
         if required.largest_step is not None and required.counts_per_turn is not None:
             found["step"] = designs.lead / required.counts_per_turn / required.largest_step

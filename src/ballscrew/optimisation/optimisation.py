@@ -21,7 +21,7 @@ from ballscrew.quantities import fields_of
 from ballscrew.selection import requirement_checks
 from ballscrew.selection.candidates import objectives as objectives_of
 from ballscrew.selection.need import Need, need_of
-from ballscrew.selection.objectives import OBJECTIVES, USUAL_LENGTH
+from ballscrew.selection.objectives import OBJECTIVES, USUAL_LENGTH, shaft_length
 from ballscrew.selection.pareto import front
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.checks import Check
@@ -84,12 +84,19 @@ class Optimisation:
 
     @property
     def largest_change(self) -> Mapping[str, float]:
-        """The largest change of each objective from search to full model, over the former; not of a quantile."""
-        if self.space.options.quantile is not None or not self.members:
+        """The largest change of each objective from search to full model, over the former; not of a quantile.
+
+        A member whose number was zero in the search (the torque without load of a nut without preload) has no such
+        ratio and does not count; an objective that is zero in all members is left out.
+        """
+        if self.space.options.quantile is not None:
             return {}
-        return {
-            name: max(abs(each.objectives[name] / each.searched[name] - 1) for each in self.members)
+        pairs = {
+            name: [(each.objectives[name], each.searched[name]) for each in self.members if each.searched[name]]
             for name in self.space.objectives
+        }
+        return {
+            name: max(abs(full / searched - 1) for full, searched in found) for name, found in pairs.items() if found
         }
 
 
@@ -124,6 +131,9 @@ def optimise(
     extra ``optimise``) is not installed.
     """
     asked = need_of(need, settings)
+    if asked.length_is_stroke:
+        note = "unsupported length: the stroke alone, too short; add the nut and what lies between it and the bearings"
+        asked = asked.with_note(note)
     if asked.moves:
         remedy = "give [operation] with the mean load and speed that ballscrew duty says"
         raise InputError(Fault("motion", "is too much for a search", asked.name, remedy))
@@ -201,8 +211,7 @@ def _built(need: Need, tables: Mapping[str, Any], options: Mapping[str, Any]) ->
 
 
 def _length(need: Need, case: Case) -> float:
-    installation = case.installation
-    return need.requirements.stroke or USUAL_LENGTH if installation is None else installation.unsupported_length
+    return shaft_length(need.requirements, case.installation) or USUAL_LENGTH
 
 
 def _member(

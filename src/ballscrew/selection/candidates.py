@@ -9,14 +9,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from ballscrew import units
 from ballscrew.axis_studies.duty import DutyReport, duty
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
-from ballscrew.quantities import fields_of
+from ballscrew.quantities import Length, fields_of
 from ballscrew.screw_tables.catalogue import assumed
 from ballscrew.selection import requirement_checks
 from ballscrew.selection.need import Need
-from ballscrew.selection.objectives import USUAL_LENGTH, reflected_mass, shaft_inertia
+from ballscrew.selection.objectives import USUAL_LENGTH, reflected_mass, shaft_inertia, shaft_length
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.checks import Check
 from ballscrew.sizing.installation import Installation
@@ -24,9 +25,12 @@ from ballscrew.sizing.listed_nut import NUTS, PRELOADED, lists_preload
 from ballscrew.studies.check import Checked, checked
 from ballscrew.studies.every_row import copied
 from ballscrew.studies.own_screws import tables_of_row
+from ballscrew.thermal.network import nut_length
 
 #: Preloads where neither need nor row says one: the ends of what vendors give (Rexroth2006: 2 to 10 %), and between.
 USUAL_PRELOADS = ("2 %", "5 %", "10 %")
+#: How a length is made of a stroke.
+LENGTH_OF_STROKE = "the stroke and a nut of its loaded turns and two leads; add what lies between it and the bearings"
 _DENSITY = Installation.__dataclass_fields__["shaft_density"].default
 
 
@@ -121,6 +125,11 @@ def _preloads(need: Need, row: CatalogueRow, nut: str) -> Sequence[str]:
     return ("",) if lists_preload(row) and nut == row.nut else USUAL_PRELOADS
 
 
+def assumes_preload(need: Need, variant: Variant) -> bool:
+    """Whether the preload of a variant is one of :data:`USUAL_PRELOADS`, as neither need nor row has one."""
+    return bool(variant.preload) and not need.preloads
+
+
 def tables_of(need: Need, variant: Variant) -> dict[str, Any]:
     """The tables of the case of a variant, as a case file has them.
 
@@ -133,7 +142,15 @@ def tables_of(need: Need, variant: Variant) -> dict[str, Any]:
     feed = need.requirements.feed
     if feed is not None and isinstance(operation := made.setdefault("operation", {}), dict):
         operation["screw_speed"] = f"{2 * math.pi * feed / variant.row.lead!r} rad/s"
+    if need.length_is_stroke and need.requirements.stroke is not None:
+        length = need.requirements.stroke + _nut_length(variant)
+        made["installation"] = {**made["installation"], "unsupported_length": f"{length!r} m"}
     return made
+
+
+def _nut_length(variant: Variant) -> Length:
+    row = variant.row
+    return nut_length(row.loaded_turns, row.lead, NUTS[variant.nut].halves if variant.nut in NUTS else 1)
 
 
 def _nut(table: Mapping[str, Any], variant: Variant) -> dict[str, Any]:
@@ -157,6 +174,9 @@ def judged(need: Need, variant: Variant, case: Case) -> Candidate:
     """A variant with all that is computed of it."""
     row = variant.row
     notes = [text for name, text in assumed(row).items() if name != "loaded_turns"]
+    if need.length_is_stroke and case.installation is not None:
+        length = units.shown(case.installation.unsupported_length, fields_of(Installation)["unsupported_length"])
+        notes.append(f"unsupported length {length}: {LENGTH_OF_STROKE}")
     found = checked(row.name, case, [*need.notes, *notes])
     report = duty(case) if need.moves else None
     prices = need.price_index
@@ -171,10 +191,10 @@ def judged(need: Need, variant: Variant, case: Case) -> Candidate:
 def objectives(
     need: Need, found: Checked, report: DutyReport | None, diameter: float, price_index: float = math.nan
 ) -> dict[str, float]:
-    """The numbers compared, in SI. The shaft is a cylinder of this diameter."""
+    """The numbers compared, in SI. The shaft is a cylinder of this diameter, 1 m long where no length is known."""
     case, friction = found.case, found.run.friction
-    installation, required = case.installation, need.requirements
-    length = required.stroke or USUAL_LENGTH if installation is None else installation.unsupported_length
+    installation = case.installation
+    length = shaft_length(need.requirements, installation) or USUAL_LENGTH
     density = _DENSITY if installation is None else installation.shaft_density
     inertia = shaft_inertia(diameter, length, density)
     if report is None:

@@ -4,32 +4,37 @@ from __future__ import annotations
 
 import copy
 import dataclasses
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
 from pydantic import Field
 
+from ballscrew import units
 from ballscrew.case_schema.fields import section_of
 from ballscrew.case_schema.schema import read_table, sections
 from ballscrew.cases import case_file
 from ballscrew.components.materials import grades
-from ballscrew.errors import MISSING, Fault, InputError, nearest, raise_if_any
-from ballscrew.quantities import fields_of
-from ballscrew.selection.objectives import USUAL_OBJECTIVES, objectives_named
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.errors import MISSING, Fault, InputError, closest, nearest, raise_if_any
+from ballscrew.quantities import Quantity, fields_of
+from ballscrew.selection.objectives import USUAL_LENGTH, USUAL_OBJECTIVES, objectives_named
 from ballscrew.selection.requirements import ALLOWED, FORBIDDEN, NEEDED, Requirements
 
 #: The oil where a need names none: that of ``ballscrew check``.
 GRADE, TEMPERATURE = "ISO VG 100", "40 degC"
 #: Short names, at the top of a file or in ``[need]``, and the places they stand for.
 SHORT_NAMES: Mapping[str, str] = {
-    **dict.fromkeys(("force", "load", "axial_load", "axial_force"), "operation.axial_load"),
+    **dict.fromkeys(("force", "load", "axial_load", "axial_force", "thrust"), "operation.axial_load"),
     **dict.fromkeys(("speed", "screw_speed", "rotational_speed"), "operation.screw_speed"),
     **dict.fromkeys(("feed", "feed_rate", "travel_speed"), "need.feed"),
     **dict.fromkeys(("stroke", "travel"), "need.stroke"),
     **dict.fromkeys(("length", "unsupported_length"), "installation.unsupported_length"),
-    "ends": "installation.ends",
-    **dict.fromkeys(("life", "running_time", "lifetime"), "limits.running_time"),
+    **dict.fromkeys(("ends", "mounting"), "installation.ends"),
+    **dict.fromkeys(
+        ("life", "running_time", "lifetime", "service_life", "required_life", "life_hours"), "limits.running_time"
+    ),
     **dict.fromkeys(("nut", "nuts", "nut_type", "nut_types"), "nut.type"),
     **dict.fromkeys(("preload", "preloads", "preload_class"), "nut.preload"),
     **dict.fromkeys(("oil", "oils", "grade", "grades", "lubricant"), "lubricant.oils"),
@@ -41,12 +46,23 @@ SHORT_NAMES: Mapping[str, str] = {
     "price_index": "need.price_index",
 }
 #: Other names of sections.
-_SECTIONS = {"duty": "motion", "optimize": "optimise", "optimisation": "optimise"}
+_SECTIONS = {"duty": "motion", "optimize": "optimise", "optimisation": "optimise", "requirements": "need"}
+#: Names that could mean the speed under the load, or one that no load goes with.
+_ANY_SPEED = ("max_speed", "maximum_speed", "largest_speed", "max_feed", "rapid", "rapid_feed", "rapid_traverse")
+#: Sections of a file of a need that a case file has not, or has beside its sections.
+_OTHERS = ("need", "optimise", "sweep", "calibration", "price_index")
+#: Kind of the faults of names that are not known: what they meant may then be missing.
+_UNKNOWN = "unknown"
 _BACK_DRIVING = {
     **dict.fromkeys(("true", "yes", "needed", "required", "must"), NEEDED),
     **dict.fromkeys(("false", "no", "forbidden", "not", "never", "self-locking"), FORBIDDEN),
     **dict.fromkeys(("allowed", "any", "may", "either"), ALLOWED),
 }
+#: Sections in which any short name is what it is at the top.
+_ANYWHERE = ("operation", "installation")
+_FEED, _SPEED = fields_of(Requirements)["feed"], fields_of(OperatingState)["screw_speed"]
+_PLAIN = fields_of(Requirements)["counts_per_turn"]
+_TURNS = ("need.feed", "operation.screw_speed")
 #: What tells an oil, besides its temperature.
 _OIL = ("grade", "oil", "viscosity", "kinematic_viscosity_40", "oil_file")
 
@@ -76,11 +92,17 @@ class Need:
     #: What was assumed.
     notes: Sequence[str] = ()
     name: str = "need"
+    #: Whether the stroke stands for the unsupported length in the tables.
+    length_is_stroke: bool = False
 
     @property
     def moves(self) -> bool:
         """Whether it has a motion, and not one operating point."""
         return "motion" in self.tables
+
+    def with_note(self, note: str) -> Need:
+        """The need with one more assumption, once."""
+        return dataclasses.replace(self, notes=tuple(dict.fromkeys((*self.notes, note))))
 
 
 def need_of(need: str | Path | Mapping[str, Any] | Need, settings: Sequence[str] = ()) -> Need:
@@ -102,11 +124,25 @@ def need_of(need: str | Path | Mapping[str, Any] | Need, settings: Sequence[str]
     if isinstance(tables.get("duty"), list):
         remedy = "write [axis] and [motion], with [[motion.segment]] for its parts"
         raise InputError(Fault("duty", "must be a table", "a list", remedy))
-    tables = {_SECTIONS.get(key, key): value for key, value in case_file.override(tables, settings).items()}
     faults: list[Fault] = []
-    tables = _in_places(tables, faults)
-    raise_if_any(faults)
-    return _need(tables, folder, name)
+    tables = _in_places(_named(case_file.override(tables, settings), faults), faults)
+    return _need(tables, folder, name, faults)
+
+
+def _named(tables: Mapping[str, Any], faults: list[Fault]) -> dict[str, Any]:
+    """Tables by the names that their sections have; unknown sections are faults."""
+    made: dict[str, Any] = {}
+    known = [*sections(), *_OTHERS, *_SECTIONS]
+    for key, value in tables.items():
+        name = _SECTIONS.get(key, key)
+        if name in made:
+            same = " and ".join(f"[{other}]" for other in tables if _SECTIONS.get(other, other) == name)
+            faults.append(Fault(name, "is given twice", "", f"{same} are the same: leave one out"))
+        elif isinstance(value, dict) and name not in known:
+            faults.append(Fault(key, "unknown section", "", nearest(key, known[: -len(_SECTIONS)]), id=_UNKNOWN))
+        else:
+            made[name] = value
+    return made
 
 
 def _in_places(tables: dict[str, Any], faults: list[Fault]) -> dict[str, Any]:
@@ -114,24 +150,47 @@ def _in_places(tables: dict[str, Any], faults: list[Fault]) -> dict[str, Any]:
     own = tables.pop("need", {})
     if not isinstance(own, dict):
         faults.append(Fault("need", "must be a table", str(own), "write [need]"))
-        return tables
+        own = {}
     made = {key: dict(value) if isinstance(value, dict) else value for key, value in tables.items()}
     made["need"] = {}
     top = {key: value for key, value in tables.items() if not isinstance(value, dict) or key == "price_index"}
     known = fields_of(Requirements)
     for where, short in (("need.", own), ("", top)):
         for key, value in short.items():
-            place = SHORT_NAMES.get(key) or (f"need.{key}" if key in known or where else None)
+            place = SHORT_NAMES.get(key) or (f"need.{key}" if key in known else None)
             if place is None:
-                names = [*SHORT_NAMES, *known, "operation", "lubricant", "installation", "limits", "nut", "motion"]
-                faults.append(Fault(key, "unknown name", str(value), nearest(key, names)))
+                faults.append(_unknown(f"{where}{key}", key, value, known))
                 continue
             if not where:
                 del made[key]
             _put(made, place, value, f"{where}{key}", faults)
     for section in ("operation", "installation", "limits", "lubricant", "nut"):
         _short_in(made, section, faults)
+    for place, other, quantity in (("operation.screw_speed", "need.feed", _FEED), (*_TURNS, _SPEED)):
+        _by_unit(made, place, other, quantity, faults)
     return made
+
+
+def _unknown(where: str, key: str, value: Any, known: Iterable[str]) -> Fault:
+    """The fault of a name that is not known; it lists one name for each place."""
+    if key in _ANY_SPEED:
+        remedy = 'write feed = "15 m/min", the speed at which the load acts, and judge the fastest by a need of its own'
+        return Fault(where, "could be two speeds", str(value), remedy, id=_UNKNOWN)
+    found = closest(key, [*SHORT_NAMES, *known, *sections()])
+    names = {place: name for name, place in reversed([*SHORT_NAMES.items()])}
+    listed = dict.fromkeys([*reversed([*names.values()]), *known])
+    remedy = f'did you mean "{found}"?' if found else f"known: {', '.join(listed)}"
+    return Fault(where, "unknown name", str(value), remedy, id=_UNKNOWN)
+
+
+def _by_unit(made: dict[str, Any], place: str, other: str, quantity: Quantity, faults: list[Fault]) -> None:
+    """A speed moved to where its unit belongs: ``speed = "15 m/min"`` is a feed."""
+    section, _, field = place.partition(".")
+    table = made.get(section)
+    value = table.get(field) if isinstance(table, dict) else None
+    if isinstance(table, dict) and isinstance(value, str) and not isinstance(units.parse("", value, quantity), Fault):
+        del table[field]
+        _put(made, other, value, place, faults)
 
 
 def _short_in(made: dict[str, Any], section: str, faults: list[Fault]) -> None:
@@ -142,7 +201,9 @@ def _short_in(made: dict[str, Any], section: str, faults: list[Fault]) -> None:
     known = sections()[section].model_fields
     for key in [key for key in table if key in SHORT_NAMES and key not in known]:
         place = SHORT_NAMES[key]
-        if place.partition(".")[0] in (section, "need") and place != f"{section}.{key}":
+        # the length of a nut and the load of a limit are something else
+        here = section in _ANYWHERE or place.partition(".")[0] in (section, "need")
+        if here and place != f"{section}.{key}":
             _put(made, place, table.pop(key), f"{section}.{key}", faults)
     if not table:
         del made[section]
@@ -159,8 +220,7 @@ def _put(made: dict[str, Any], place: str, value: Any, where: str, faults: list[
         table[field] = value
 
 
-def _need(tables: dict[str, Any], folder: Path, name: str) -> Need:
-    faults: list[Fault] = []
+def _need(tables: dict[str, Any], folder: Path, name: str, faults: list[Fault]) -> Need:
     notes: list[str] = []
     own = tables.pop("need")
     objectives, rows = own.pop("objectives", None), own.pop("rows", "")
@@ -169,6 +229,10 @@ def _need(tables: dict[str, Any], folder: Path, name: str) -> Need:
         own["back_driving"] = _BACK_DRIVING.get(str(own["back_driving"]).lower(), str(own["back_driving"]))
     if "accuracy" in own:
         own["accuracy"] = str(own["accuracy"])
+    has_feed = "feed" in own
+    if has_feed and isinstance(units.parse("", own["feed"], _PLAIN), float):
+        given = str(own.pop("feed"))
+        faults.append(Fault("need.feed", "needs a unit", given, f'write "{given} m/s", or "{given} m/min"'))
     values = read_table("need", need_section(), own, faults)
     if not isinstance(rows, str):
         faults.append(Fault("need.rows", "must be text", str(rows), 'write rows = "rexroth 40x"'))
@@ -183,10 +247,8 @@ def _need(tables: dict[str, Any], folder: Path, name: str) -> Need:
     optimise = _section(tables, "optimise", faults)
     tables.pop("optimise", None)
     tables.pop("sweep", None)
-    raise_if_any(faults)
-    required = Requirements(**values)
-    _operation(tables, required, faults)
-    _installation(tables, required, notes)
+    if "bodies" not in tables:
+        notes.append("elastic bodies of screw and nut of a usual size: no [bodies] was given")
     try:
         names = objectives_named(
             USUAL_OBJECTIVES if objectives is None else _texts("need.objectives", objectives, faults), "need.objectives"
@@ -194,13 +256,17 @@ def _need(tables: dict[str, Any], folder: Path, name: str) -> Need:
     except InputError as error:
         names = ()
         faults += error.faults
+    if not any(fault.id == _UNKNOWN for fault in faults):
+        _operation(tables, has_feed, faults)
     raise_if_any(faults)
+    required = Requirements(**values)
+    by_stroke = _installation(tables, required, notes)
     if required.accuracy:
         notes.append(f"grade {required.accuracy} of ISO 3408-3 is not judged: no row lists its grades; ask the maker")
     if objectives is None and prices:
         names = (*names, "price_index")
     return Need(
-        tables, required, nuts, preloads, oils, names, rows, prices, optimise, folder, tuple(notes), name
+        tables, required, nuts, preloads, oils, names, rows, prices, optimise, folder, tuple(notes), name, by_stroke
     )  # fmt: skip
 
 
@@ -242,14 +308,27 @@ def _prices(given: Any, faults: list[Fault]) -> dict[str, float]:
     return {str(name): value for name, value in given.items()}
 
 
+def _one_oil(name: str) -> dict[str, str]:
+    """A grade, however it is spelt, or an oil of the library."""
+    known = {_spelt(grade): grade for grade in grades()}
+    return {"grade": known[_spelt(name)]} if _spelt(name) in known else {"oil": name}
+
+
+def _spelt(grade: str) -> str:
+    return re.sub(r"[^a-z0-9]", "", grade.lower()).removeprefix("iso")
+
+
 def _oils(tables: dict[str, Any], notes: list[str], faults: list[Fault]) -> list[dict[str, Any]]:
     """The tables of the oils: one for each grade and each oil that is named."""
     table = _section(tables, "lubricant", faults)
     short = _texts("lubricant.oils", table.pop("oils", []), faults)
-    named = [{"grade" if name in grades() else "oil": name} for name in short]
+    named = [_one_oil(name) for name in short]
+    if isinstance(table.get("oil"), str) and "grade" not in table and "oil_file" not in table:
+        table |= _one_oil(table.pop("oil"))
     for key in ("grade", "oil"):
         if isinstance(table.get(key), list):
-            named += [{key: name} for name in _texts(f"lubricant.{key}", table.pop(key), faults)]
+            found = _texts(f"lubricant.{key}", table.pop(key), faults)
+            named += [{key: name} if key == "grade" or "oil_file" in table else _one_oil(name) for name in found]
     if not named and not any(key in table for key in _OIL):
         named = [{"grade": GRADE}]
         notes.append(f"oil {GRADE}: none was given")
@@ -260,30 +339,34 @@ def _oils(tables: dict[str, Any], notes: list[str], faults: list[Fault]) -> list
     return [{**table, **oil} for oil in named] or [table]
 
 
-def _operation(tables: dict[str, Any], required: Requirements, faults: list[Fault]) -> None:
+def _operation(tables: dict[str, Any], has_feed: bool, faults: list[Fault]) -> None:
     """Faults of a need that says neither a force and a speed nor a motion."""
     table = _section(tables, "operation", faults)
     if "motion" in tables:
-        if required.feed is not None:
+        if has_feed:
             faults.append(Fault("need.feed", "is given beside a motion", "", "leave it out: the motion has its speeds"))
         return
     if "axial_load" not in table:
         remedy = 'add [operation] axial_load = "5 kN", or [axis] and [motion]'
         faults.append(Fault("operation.axial_load", MISSING, "", remedy))
-    if required.feed is None and "screw_speed" not in table:
+    if not has_feed and "screw_speed" not in table:
         remedy = 'add [operation] feed = "20 m/min", or screw_speed = "1500 rpm"'
         faults.append(Fault("operation.screw_speed", MISSING, "", remedy))
-    elif required.feed is not None and "screw_speed" in table:
+    elif has_feed and "screw_speed" in table:
         faults.append(Fault("need.feed", "is given beside a screw speed", "", "leave one of them out"))
 
 
-def _installation(tables: dict[str, Any], required: Requirements, notes: list[str]) -> None:
-    """A stroke stands for the unsupported length where none is given, if the ends are known."""
+def _installation(tables: dict[str, Any], required: Requirements, notes: list[str]) -> bool:
+    """Whether a stroke stands for the unsupported length: where none is given, if the ends are known."""
     table = tables.get("installation")
+    if required.stroke is None and table is None:
+        notes.append(f"inertia: that of a shaft of {USUAL_LENGTH:g} m, to compare diameters; no length was given")
     if required.stroke is None or (isinstance(table, dict) and "unsupported_length" in table):
-        return
+        return False
     if isinstance(table, dict) and "ends" in table:
         tables["installation"] = {**table, "unsupported_length": f"{required.stroke!r} m"}
-        notes.append("unsupported length: the stroke alone; add the nut and what lies between it and the bearings")
-    elif table is None:
+        return True
+    if table is None:
+        notes.append("inertia: that of the stroke alone; give the length of the shaft")
         notes.append("buckling and critical speed are not judged: give the ends of the shaft")
+    return False

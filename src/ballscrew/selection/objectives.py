@@ -8,6 +8,8 @@ from collections.abc import Mapping, Sequence
 
 from ballscrew.errors import Fault, nearest, raise_if_any
 from ballscrew.quantities import Density, Info, Length, Mass, MomentOfInertia, Quantity
+from ballscrew.selection.requirements import Requirements
+from ballscrew.sizing.installation import Installation
 
 #: The length of shaft whose inertia counts where a need gives neither a length nor a stroke, m.
 USUAL_LENGTH = 1.0
@@ -56,6 +58,11 @@ def objectives_named(names: Sequence[str], where: str, known: Sequence[str] = tu
     faults += [] if names else [Fault(where, "is empty", "", f"name some of {', '.join(known)}")]
     raise_if_any(faults)
     return tuple(dict.fromkeys(names))
+
+
+def shaft_length(required: Requirements, installation: Installation | None) -> Length | None:
+    """The length of shaft whose inertia counts: the unsupported one, else the stroke; None where neither is given."""
+    return required.stroke if installation is None else installation.unsupported_length
 
 
 def shaft_inertia(diameter: Length, length: Length, density: Density) -> MomentOfInertia:

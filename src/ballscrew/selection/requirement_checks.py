@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 
 from ballscrew.axis_studies.duty import DutyReport
+from ballscrew.selection.objectives import shaft_length
 from ballscrew.selection.requirements import ALLOWED, FORBIDDEN, Requirements
 from ballscrew.sizing.checks import Check
 from ballscrew.studies.check import Checked
@@ -26,7 +27,7 @@ def of(
             "remaining_preload", float(found.nut.loads.remaining_preload), required.least_remaining_preload, "N",
             "preload that the load leaves on the relieved half or flank",
         ),
-        at_most("inertia", numbers["inertia"], required.largest_inertia, "kg m^2", "inertia of a solid shaft"),
+        _inertia(required, found, numbers["inertia"]),
         step(required, float(found.case.screw.lead)),
     )  # fmt: skip
     drives = back_driving(required, found) if report is None else _of_axis(required, report)
@@ -49,6 +50,15 @@ def at_least(name: str, value: float, limit: float | None, unit: str, text: str)
     if math.isnan(value):
         return Check(name, None, limit, unit, None, None, f"{text}: not known here")
     return Check(name, value, limit, unit, limit / value if value else math.inf, value >= limit, text)
+
+
+def _inertia(required: Requirements, found: Checked, value: float) -> Check | None:
+    """Inertia of the shaft; not judged where its length is not known."""
+    limit = required.largest_inertia
+    if limit is not None and shaft_length(required, found.case.installation) is None:
+        text = "not judged: give the length of the shaft, or the stroke"
+        return Check("inertia", None, limit, "kg m^2", None, None, text, "installation.unsupported_length")
+    return at_most("inertia", value, limit, "kg m^2", "inertia of a solid shaft")
 
 
 def step(required: Requirements, lead: float) -> Check | None:

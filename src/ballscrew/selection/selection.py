@@ -13,7 +13,16 @@ import numpy as np
 from ballscrew.cases.case import Case
 from ballscrew.errors import Fault, InputError
 from ballscrew.screw_tables import catalogue
-from ballscrew.selection.candidates import Candidate, Variant, case_of, judged, variants
+from ballscrew.selection.candidates import (
+    LENGTH_OF_STROKE,
+    USUAL_PRELOADS,
+    Candidate,
+    Variant,
+    assumes_preload,
+    case_of,
+    judged,
+    variants,
+)
 from ballscrew.selection.need import Need, need_of
 from ballscrew.selection.objectives import OBJECTIVES, USUAL_OBJECTIVES, objectives_named
 from ballscrew.selection.pareto import front
@@ -91,6 +100,11 @@ def select(
     if unknown:
         raise InputError(Fault("need.price_index", "no such row", ", ".join(unknown), "names are those of the rows"))
     every = list(variants(asked, chosen, table))
+    if any(assumes_preload(asked, one) for one in every):
+        note = (
+            f"preloads of {', '.join(USUAL_PRELOADS)} of the dynamic load rating where a row lists none: none was given"
+        )
+        asked = asked.with_note(note)
     if len(every) > MOST_VARIANTS:
         remedy = f"name fewer; {MOST_VARIANTS} at most"
         raise InputError(Fault("need", "has too many combinations", str(len(every)), remedy))
@@ -101,6 +115,8 @@ def select(
 
     # a variant that no maker could build, such as a preload beyond its rating, is left out of the shipped rows, too
     found = each({one.label: one for one in every}, work, keep_going=keep_going or table is None, done=done)
+    if asked.length_is_stroke:  # each candidate says its own length
+        asked = asked.with_note(f"unsupported length: {LENGTH_OF_STROKE}")
     return Selection(asked, names, ranked(list(found.found.values()), names), [*notes, *found.notes], found.interrupted)
 
 

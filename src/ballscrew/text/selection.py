@@ -29,6 +29,20 @@ def title(found: Selection) -> str:
     return f"{found.need.name}: {len(found.holding)} of {len(found.ranked)} candidates hold"
 
 
+def not_judged(found: Selection) -> str:
+    """Why none holds though some fail nothing: ``12 of them fail nothing, but …``; empty where that is not so."""
+    fitting = [each.candidate for each in found.ranked if each.candidate.fits]
+    missing = _missing([each.candidate for each in found.ranked])
+    if found.holding or not fitting or not missing:
+        return ""
+    return f"{len(fitting)} of them fail nothing, but nothing holds that was not judged: give {', '.join(missing)}"
+
+
+def _missing(candidates: Sequence[Candidate]) -> list[str]:
+    """What is missing for checks, each once."""
+    return sorted({check.missing for each in candidates for check in each.checks if check.missing})
+
+
 def asked(need: Need) -> list[str]:
     """What a need says of load, speed, mounting and life, as it is written."""
     known, required = fields_of(Requirements), need.requirements
@@ -52,7 +66,13 @@ def asked(need: Need) -> list[str]:
 def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) -> str:
     """The first lines of those ranked, and how the list is to be read; zero stands for all."""
     shown = ranked[:most] if most else ranked
-    lines = [title(found), "", *table(shown, found.objectives, len(found.need.oils) > 1)]
+    reason = not_judged(found)
+    lines = [
+        title(found),
+        *([wrapped(reason)] if reason else []),
+        "",
+        *table(shown, found.objectives, len(found.need.oils) > 1),
+    ]
     if len(shown) < len(ranked):
         lines.append(f"… {len(ranked) - len(shown)} more: --first 0 shows all")
     if not ranked:
@@ -60,10 +80,10 @@ def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) ->
     named = " and ".join(LABELS[name] for name in found.objectives)
     lines += ["", wrapped(f"*  of those of which no check fails, no other is better in {named}, taken together")]
     lines += ["", "assumed", *(wrapped(f"  {note}") for note in found.need.notes)] if found.need.notes else []
-    missing = sorted({check.missing for each in found.ranked for check in each.candidate.checks if check.missing})
-    if missing:
+    missing = _missing([each.candidate for each in found.ranked])
+    if missing and not reason:
         lines += ["", wrapped(f"nothing holds that was not judged: give {', '.join(missing)}")]
-    elif found.best is None:
+    elif found.best is None and not reason:
         lines += ["", "no candidate holds within the validity of the model: look at what fails first, and by how much"]
     return "\n".join(lines)
 

@@ -18,7 +18,7 @@ from ballscrew.equations import geometry, heat, hertz
 from ballscrew.errors import Fault, InputError
 from ballscrew.friction.result import FrictionResult
 from ballscrew.motion.states import Numbers
-from ballscrew.quantities import AngularSpeed, Conductance, Force, HeatTransfer, Length, Power
+from ballscrew.quantities import AngularSpeed, Conductance, Force, HeatTransfer, Length, Power, Ratio
 from ballscrew.solvers.load_distribution import preload_of
 from ballscrew.supports.mounted_bearing import MountedBearing
 from ballscrew.thermal import surroundings as air
@@ -291,7 +291,12 @@ def convection_of(surroundings: Surroundings, diameter: Length, speed: AngularSp
 
 def nut_length_of(screw: BallScrew) -> Length:
     """Length of a nut: its loaded turns, and what is beyond them."""
-    return float(screw.loaded_turns * screw.lead * screw.nut.halves + NUT_ENDS * screw.lead)
+    return nut_length(screw.loaded_turns, screw.lead, screw.nut.halves)
+
+
+def nut_length(loaded_turns: Ratio, lead: Length, halves: int) -> Length:
+    """Length of a nut of so many halves with these turns each: an estimate, to be replaced by that of a drawing."""
+    return float(loaded_turns * lead * halves + NUT_ENDS * lead)
 
 
 def _distance_of_halves(screw: BallScrew) -> Length:
