@@ -158,7 +158,7 @@ def test_the_long_pages_are_run_by_the_build_of_the_docs():
     """Each of their commands stands in a block that runs while the page is built, one after the other."""
     assert sum(not _run_by_the_docs(page) for page in PAGES) >= 10
     steps = (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
-    assert any(step.startswith("make docs") for step in steps)
+    assert any("make docs" in step for step in steps)
 
 
 @pytest.mark.parametrize(
