@@ -71,8 +71,15 @@ class Cluster:
             ":0",
             "--no-show",
         )
-        until(self.file.exists, "no scheduler")
-        self.address = json.loads(self.file.read_text(encoding="utf-8"))["address"]
+        until(lambda: self._written_address() is not None, "no scheduler")
+        self.address = self._written_address()
+
+    def _written_address(self):
+        """The address that the scheduler wrote; None until it has written all of its file."""
+        try:
+            return json.loads(self.file.read_text(encoding="utf-8"))["address"]
+        except (OSError, ValueError, KeyError):
+            return None
 
     def _start(self, what, *options):
         log = (self.folder / f"{what}-{len(self.processes)}.log").open("wb")
