@@ -60,6 +60,12 @@ def comments_in(text: str) -> int:
     return sum(found["comment"] is not None for found in _STRING_OR_COMMENT.finditer(text))
 
 
+def comments_at(path: Path) -> int:
+    """The number of comments in a file of TOML; JSON has none."""
+    text = read_bytes(path, LARGEST_FILE).decode("utf-8-sig", "replace")
+    return 0 if text.lstrip().startswith("{") else comments_in(text)
+
+
 def _json(text: str) -> dict[str, Any]:
     tables = json.loads(text, parse_constant=_no_number, object_pairs_hook=_table)
     if any(leaf is None for leaf in _leaves(tables)):
