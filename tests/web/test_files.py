@@ -62,7 +62,7 @@ def test_what_is_refused(server, paper):
         assert (found.status_code, words in found.text) == (422, True), found.text[:300]
 
 
-def test_progress_of_a_selection(server):
+def test_a_selection_tells_its_progress_and_the_cases_of_its_candidates(server):
     need = {"force": "2 kN", "feed": "15 m/min", "length": "1 m", "ends": "fixed-supported", "preload": "2 %"}
     table = {"name": "own.csv", "text": (ROOT / "examples" / "own_screws.csv").read_text(encoding="utf-8")}
     assert server.get("progress/4f0c").json() == {"finished": 0, "total": 0}
@@ -70,3 +70,9 @@ def test_progress_of_a_selection(server):
     assert found.status_code == 200, found.text[:300]
     candidates = found.json()["candidates"]
     assert server.get("progress/4f0c").json() == {"finished": len(candidates), "total": len(candidates)}
+    # the case of a candidate needs no table: it is computed alone, with the same answer
+    fields = ("screw_torque", "preload_drag", "rigidity")
+    for one in (candidates[0], candidates[-1]):
+        run = server.post("check", {"case": one["case"]}).json()
+        assert [run["results"].get(name) for name in fields] == [one["results"].get(name) for name in fields]
+        assert run["ratings"]["listed"] == one["ratings"]["listed"]
