@@ -19,6 +19,8 @@ declare global {
   type ProblemDocument = Schemas["Problem"];
   type FaultLine = Schemas["FaultLine"];
   type CatalogueRow = Schemas["Row"];
+  type Opened = Schemas["Opened"];
+  type Select = Schemas["Select"];
 
   var Plotly: {
     react(place: Element, traces: object[], layout: object, config: object): Promise<void>;

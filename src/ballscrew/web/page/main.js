@@ -5,8 +5,10 @@ import { consequences } from "./consequences.js";
 import * as designs from "./designs.js";
 import { byId, element, nameFiles, within } from "./dom.js";
 import * as downloads from "./downloads.js";
+import * as files from "./files.js";
 import * as form from "./form.js";
 import * as entries from "./history.js";
+import * as keeping from "./keeping.js";
 import * as results from "./results.js";
 import * as schema from "./schema.js";
 import { get, linesOf } from "./server.js";
@@ -17,6 +19,11 @@ import * as units from "./units.js";
 const LONGEST_QUOTE = 40;
 /** The calibration of the button: that of both of its numbers, to the vendor whose rows are shown beside it. */
 const CALIBRATION = "rexroth-2006";
+
+/** Cards, which are loaded when they are first opened. @type {Record<string, () => Promise<{ setUp: (holder: HTMLElement) => { follow: () => void } }>>} */
+const CARDS = { files: () => import("./cards/files.js") };
+/** Cards that have been opened. @type {Map<string, { follow: () => void }>} */
+const opened = new Map();
 
 /** @type {Vocabulary} */
 let vocabulary;
@@ -82,10 +89,10 @@ function quoted(text) {
   return text.length > LONGEST_QUOTE ? `${text.slice(0, LONGEST_QUOTE)}…` : text;
 }
 
-/** @param {string} text */
-function showNotice(text) {
-  byId("notice").textContent = text;
-  byId("notice").hidden = !text;
+/** @param {(string | Node)[]} words */
+function showNotice(...words) {
+  byId("notice").replaceChildren(...words);
+  byId("notice").hidden = !words.some(Boolean);
 }
 
 /**
@@ -97,6 +104,7 @@ function showNotice(text) {
 async function follow({ rebuild = false, keep = false, formOnly = false, path } = {}) {
   if (!formOnly) byId("results").setAttribute("aria-busy", "true");
   const fragment = states.toFragment(state);
+  keeping.keep(fragment, state.designs.map(designs.titleOf).join(" · "));
   if (keep) {
     entries.choose(fragment);
     showNotice("");
@@ -108,7 +116,17 @@ async function follow({ rebuild = false, keep = false, formOnly = false, path } 
     results.fail(results.refusal(linesOf(error)));
     return;
   }
+  for (const card of opened.values()) card.follow();
   if (!formOnly) await update();
+}
+
+/** @param {string} name */
+async function turnCard(name) {
+  const isOpen = byId(name).hidden;
+  if (isOpen && !opened.has(name)) opened.set(name, (await CARDS[name]()).setUp(byId(name)));
+  byId(name).hidden = !isOpen;
+  byId(`${name}-open`).textContent = text(isOpen ? "card.close" : "card.open");
+  byId(`${name}-open`).setAttribute("aria-expanded", String(isOpen));
 }
 
 async function update() {
@@ -191,7 +209,7 @@ function showTabs() {
     action();
     follow({ rebuild: true, keep: true });
   };
-  const buttons = state.designs.map((_, place) =>
+  const buttons = state.designs.map((one, place) =>
     element(
       "button",
       {
@@ -205,10 +223,11 @@ function showTabs() {
       },
       element("span", { class: "long" }, text("designs.long")),
       states.LETTERS[place],
+      one.name ? element("span", { class: "own-name" }, ` ${one.name}`) : null,
     ),
   );
   const add = turn(() => {
-    const { start, changes, ...own } = designs.current();
+    const { start, changes, name, ...own } = designs.current();
     state.designs.push(states.design(start, changes, own));
     state.show = state.designs.length - 1;
   });
@@ -292,10 +311,12 @@ function addListeners() {
     follow({ rebuild: true });
   });
   downloads.build(answers.current);
+  files.setUp(showNotice);
+  for (const name of Object.keys(CARDS)) byId(`${name}-open`).addEventListener("click", () => turnCard(name));
 }
 
 async function begin() {
-  const [words, document_] = await Promise.all([get("vocabulary"), get("schema")]);
+  const [words, document_, latest] = await Promise.all([get("vocabulary"), get("schema"), keeping.begin()]);
   vocabulary = words;
   units.setVocabulary(words);
   answers.setVocabulary(words, form.jump);
@@ -303,7 +324,9 @@ async function begin() {
   form.setListener(onChange);
   byId("version").textContent = text("page.version", { version: vocabulary.version });
   designs.setUp(vocabulary, follow);
+  if (latest) history.replaceState(null, "", latest.fragment);
   use(readAddress());
+  if (latest) files.sayRestored(latest, showNotice);
   units.setSystem(state.system);
   addListeners();
   await follow({ rebuild: true });
