@@ -60,12 +60,11 @@ function readAddress() {
   found.designs = found.designs.map((one) => (designs.isKnown(one.start) ? one : states.design()));
   const lines = [];
   if (unknownStarts.length) {
-    const names = unknownStarts.join(" and ");
-    lines.push(`The link starts from ${names}, not known here: the paper's screw is shown in its place.`);
+    lines.push(text("link.start", { names: unknownStarts.join(", ") }));
   }
   if (unknown.length) {
     const names = unknown.slice(0, 3).map(quoted).join(", ") + (unknown.length > 3 ? ", …" : "");
-    lines.push(`The link has keys that are not known here and are left out: ${names}.`);
+    lines.push(text("link.keys", { names }));
   }
   showNotice(lines.join(" "));
   return found;
@@ -77,15 +76,15 @@ function use(found) {
   designs.use(found);
 }
 
-/** @param {string} text */
-function quoted(text) {
-  return text.length > LONGEST_QUOTE ? `${text.slice(0, LONGEST_QUOTE)}…` : text;
+/** @param {string} name */
+function quoted(name) {
+  return name.length > LONGEST_QUOTE ? `${name.slice(0, LONGEST_QUOTE)}…` : name;
 }
 
-/** @param {string} text */
-function showNotice(text) {
-  byId("notice").textContent = text;
-  byId("notice").hidden = !text;
+/** @param {string} words */
+function showNotice(words) {
+  byId("notice").textContent = words;
+  byId("notice").hidden = !words;
 }
 
 /**

@@ -1,6 +1,6 @@
 // Units. Inputs are kept as text with a unit, as they were typed; only what is displayed is converted.
 
-import { localised } from "./texts.js";
+import { hasComma, localised } from "./texts.js";
 
 const NUMBER = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i;
 const COMMA = /^(\s*[-+]?\d*),(\d+)/;
@@ -32,6 +32,8 @@ export const DIGITS = 3;
 const MOST_DECIMALS = 6;
 /** A leading digit below this is written with a second one (as the Particle Data Group rounds). */
 const TWO_DIGITS_BELOW = 3.55;
+/** The number at the start of an input, with what is told of its spread. */
+const LEADING = /^[\s\d.,'eE+±-]+/;
 const PLACEHOLDER = /\{(\d{1,4})\}/g;
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
@@ -129,6 +131,24 @@ export function withPoint(text) {
   return text.replace(COMMA, (whole, before, after) =>
     after.length === 3 && /[1-9]/.test(before) ? whole : `${before}.${after}`,
   );
+}
+
+/**
+ * An input as it is kept, with points, where the language writes commas.
+ *
+ * @param {string} text
+ */
+export function ofLanguage(text) {
+  return hasComma ? text.replace(LEADING, (number) => number.replaceAll(",", ".")) : text;
+}
+
+/**
+ * An input as the language writes it.
+ *
+ * @param {string} text
+ */
+export function inLanguage(text) {
+  return hasComma ? text.replace(LEADING, (number) => number.replaceAll(".", ",")) : text;
 }
 
 /**
