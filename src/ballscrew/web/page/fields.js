@@ -24,7 +24,7 @@ import * as units from "./units.js";
  */
 
 /** Units that are displayed only where inches are chosen. */
-const INCH_ONLY = ["in", "uin", "lbf", "lbf in", "psi", "degF"];
+const INCH_ONLY = ["in", "uin", "lbf", "lbf in", "psi", "degF", "in/min"];
 
 /** @param {string} name */
 export function words(name) {
@@ -151,7 +151,8 @@ function quantityField(path, node, input, value, state, onChange) {
   const shown = value === undefined ? "" : units.digitsIn(value, unit, si);
   const isOther = shown === null;
   input.value = units.inLanguage(shown ?? String(value));
-  const known = [...new Set([unit, ...units.choices(si).map((one) => one.unit)])];
+  const taken = [...units.choices(si), ...units.choices(node["x-through-lead"])];
+  const known = [...new Set([unit, ...taken.map((one) => one.unit)])];
   const select = element(
     "select",
     { class: "unit", id: `u-${idOf(path)}`, "aria-label": text("form.unit_of", { field: labelIn(path) }) },

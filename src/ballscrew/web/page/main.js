@@ -50,7 +50,8 @@ function onChange({ path = "", text = "", unit, start, reset, rebuild }) {
   for (const [one, value] of [...others, [path, text]]) designs.change(one, value);
   form.mark(path, path in changes);
   byId("reset").hidden = !Object.keys(changes).length;
-  follow({ rebuild: rebuild || others.length > 0, path });
+  // a speed of the nut is shown through the lead
+  follow({ rebuild: rebuild || others.length > 0 || path === "screw.lead", path });
 }
 
 /** The state of the address; a notice names what is unknown here and ignored. */
@@ -148,6 +149,7 @@ async function showForm() {
   await designs.startOf(design.start);
   if (design !== designs.current()) return; // another one was chosen in the meantime
   const tables = designs.tablesOf(design);
+  units.setLead(states.valueAt(tables, "screw.lead"));
   // a text stays as it was typed while typing goes on: 0.10 may become 0.107
   /** @param {string} path */
   const given = (path) => {

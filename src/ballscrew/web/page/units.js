@@ -38,9 +38,15 @@ const PLACEHOLDER = /\{(\d{1,4})\}/g;
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
 
+/** SI units of the speed of the screw, and of the nut along it. */
+const OF_SCREW = "rad/s";
+const OF_NUT = "m/s";
+
 /** @type {Vocabulary} */
 let vocabulary;
 let system = "metric";
+/** The lead in SI: one turn of the screw moves the nut by it. */
+let lead = 0.01;
 
 /** @param {Vocabulary} document */
 export function setVocabulary(document) {
@@ -54,6 +60,16 @@ export function setSystem(name) {
 
 export function currentSystem() {
   return system;
+}
+
+/**
+ * The lead that turns speeds of the nut into speeds of the screw; it stays where the text is no lead.
+ *
+ * @param {unknown} text as the design gives it
+ */
+export function setLead(text) {
+  const found = parse(text, "m");
+  if (found?.number) lead = toSI(found.number, found.unit, "m");
 }
 
 /**
@@ -99,7 +115,10 @@ export function isUnit(unit, field) {
  * @param {string | undefined} si
  */
 function conversion(unit, si) {
-  return choices(si).find((one) => one.unit === unit);
+  const found = choices(si).find((one) => one.unit === unit);
+  if (found || si !== OF_SCREW) return found;
+  const along = choices(OF_NUT).find((one) => one.unit === unit);
+  return along && { ...along, factor: (along.factor * 2 * Math.PI) / lead };
 }
 
 /**
