@@ -95,20 +95,19 @@ export async function update(cases, { designs, show, band: wanted, own }, report
     const key = JSON.stringify(body);
     /** @type {Run} */
     const answer = await ask("run", body, signal);
-    const checked = await checksOf(body, signal);
     if (signal.aborted) return;
     const { designs: before, starts } = displayed;
     /** @type {Displayed} */
     const known = displayed.key === key ? displayed : { band: null, starts };
-    displayed = { body, key, answer, checks: checked, band: known.band, designs: before, starts };
+    displayed = { body, key, answer, checks: known.checks, band: known.band, designs: before, starts };
     report([]);
     results.succeed();
     if (wanted && !displayed.band) displayed.band = { state: "pending" };
     results.show(answer, displayed);
-    checks.show(checked, jump);
     stiffness.show(answer);
     measurePaint("numbers", start, signal);
-    await Promise.all([drawCharts(body, answer, signal, start), showAll(bodies, own, wanted, signal)]);
+    const checked = showChecks(body, answer, signal);
+    await Promise.all([checked, drawCharts(body, answer, signal, start), showAll(bodies, own, wanted, signal)]);
     await measurePaint("all", start, signal);
     if (!signal.aborted) showBand(wanted);
   } catch (error) {
@@ -120,6 +119,21 @@ export async function update(cases, { designs, show, band: wanted, own }, report
   } finally {
     if (!signal.aborted) byId("results").setAttribute("aria-busy", "false");
   }
+}
+
+/**
+ * Show the checks of an answer, and the verdict that they lead to.
+ *
+ * @param {Body} body
+ * @param {Run} answer
+ * @param {AbortSignal} signal
+ */
+async function showChecks(body, answer, signal) {
+  const checked = await checksOf(body, signal);
+  if (signal.aborted) return;
+  displayed.checks = checked;
+  results.show(answer, displayed);
+  checks.show(checked, jump);
 }
 
 /**
