@@ -32,7 +32,7 @@ from ballscrew.solvers.load_distribution import BallLoads
 #: Units of inches and pounds, by the metric units that they replace; other units are the same in both.
 _INCHES: Mapping[str, str] = {
     "mm": "in", "um": "uin", "N": "lbf", "kN": "lbf", "N m": "lbf in", "N mm": "lbf in", "MPa": "psi", "GPa": "psi",
-    "degC": "degF", "m": "in",
+    "degC": "degF", "m": "in", "m/min": "in/min",
 }  # fmt: skip
 
 
