@@ -32,6 +32,7 @@ class Candidate(Open):
     objectives: Numbers
     results: Tables
     checks: list[Tables]
+    judged: int = Field(description="number of the checks that were judged; the others lack an input")
     verdicts: list[Record]
     warnings: list[Record]
 
