@@ -5,19 +5,20 @@ from __future__ import annotations
 import functools
 import hashlib
 import importlib.util
-from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
+from typing import Any
 
 from fastapi import FastAPI, Request
 from starlette.responses import Response
 from starlette.staticfiles import NotModifiedResponse, StaticFiles
 
+from ballscrew.web import languages
 from ballscrew.web.plotly_js import eager
 
 #: Browsers keep files, and ask each time whether they have changed.
 _CACHE = "no-cache"
-_PAGES: Mapping[str, str] = {"/": "index.html", "/api": "api.html"}
+_VIEWER = "api.html"
 
 
 class _Folder(StaticFiles):
@@ -37,18 +38,28 @@ def add_to(app: FastAPI) -> None:
     app.mount("/page", page)
     app.mount("/viewer", viewer)
 
+    async def send_viewer(request: Request) -> Response:
+        return await page.get_response(_VIEWER, request.scope)
+
+    app.add_api_route("/api", send_viewer, methods=["GET", "HEAD"], include_in_schema=False)
+
+    def sent(request: Request, content: bytes, tag: str, **options: Any) -> Response:
+        found = Response(content, **options)
+        found.headers.update({"ETag": tag, "Cache-Control": _CACHE})
+        unchanged = viewer.is_not_modified(found.headers, request.headers)
+        return NotModifiedResponse(found.headers) if unchanged else found
+
     async def send_page(request: Request) -> Response:
-        return await page.get_response(_PAGES[request.url.path], request.scope)
+        chosen = request.cookies.get(languages.COOKIE)
+        language = languages.language_of(chosen, request.headers.get("accept-language", ""))
+        headers = {"Content-Language": language, "Vary": "Accept-Language, Cookie"}
+        return sent(request, *_page(language), headers=headers, media_type="text/html")
 
-    for address in _PAGES:
-        app.add_api_route(address, send_page, methods=["GET", "HEAD"], include_in_schema=False)
-
+    app.add_api_route("/", send_page, methods=["GET", "HEAD"], include_in_schema=False)
     script, tag = _plotly()
 
     async def send_plotly(request: Request) -> Response:
-        found = Response(script, headers={"ETag": tag, "Cache-Control": _CACHE}, media_type="text/javascript")
-        unchanged = viewer.is_not_modified(found.headers, request.headers)
-        return NotModifiedResponse(found.headers) if unchanged else found
+        return sent(request, script, tag, media_type="text/javascript")
 
     app.add_api_route("/plotly.js", send_plotly, methods=["GET", "HEAD"], include_in_schema=False)
 
@@ -59,9 +70,21 @@ def plotly_path() -> Path:
 
 
 @functools.cache
+def _page(language: str) -> tuple[bytes, str]:
+    """The page in a language as it is sent, and its tag."""
+    text = resources.files("ballscrew.web").joinpath("page", "index.html").read_text(encoding="utf-8")
+    return _tagged(languages.filled(text, language))
+
+
+@functools.cache
 def _plotly() -> tuple[bytes, str]:
     """The script as it is sent, and its tag."""
-    content = eager(plotly_path().read_text(encoding="utf-8")).encode()
+    return _tagged(eager(plotly_path().read_text(encoding="utf-8")))
+
+
+def _tagged(text: str) -> tuple[bytes, str]:
+    """A text as it is sent, and its tag for the caches of browsers."""
+    content = text.encode()
     return content, f'"{hashlib.sha256(content).hexdigest()[:32]}"'
 
 

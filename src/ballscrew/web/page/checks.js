@@ -1,27 +1,17 @@
 // The checks: how much of each limit is used, what fails, and what was not judged for want of an input.
 
 import { byId, element, table } from "./dom.js";
+import { text, textOr } from "./texts.js";
 import * as units from "./units.js";
 
-/** @type {Record<string, string>} */
-const NAMES = {
-  static_safety: "static safety S₀",
-  life: "life in revolutions",
-  running_time: "life in hours",
-  contact_pressure: "contact pressure",
-  shaft_stress: "stress in the shaft",
-  buckling: "buckling",
-  critical_speed: "critical speed",
-  diameter_speed_product: "speed of the balls d·n",
-};
 /** Display units, by SI unit. @type {Record<string, string>} */
 const SHOWN_IN = { N: "kN", Pa: "MPa", s: "h", "rad/s": "rpm", "m rad/s": "mm rpm" };
-/** The field to fill in, by the input that a check lacks. @type {Record<string, [string, string]>} */
+/** The field to fill in, by the input that a check lacks. @type {Record<string, [string, import("./texts.js").Key]>} */
 const FIELDS = {
-  installation: ["installation.unsupported_length", "unsupported length and ends"],
-  "limits.running_time": ["limits.running_time", "required running time"],
-  dynamic_load_rating: ["screw.dynamic_load_rating", "dynamic load rating"],
-  static_load_rating: ["screw.static_load_rating", "static load rating"],
+  installation: ["installation.unsupported_length", "checks.give.installation"],
+  "limits.running_time": ["limits.running_time", "checks.give.running_time"],
+  dynamic_load_rating: ["screw.dynamic_load_rating", "checks.give.dynamic_load_rating"],
+  static_load_rating: ["screw.static_load_rating", "checks.give.static_load_rating"],
 };
 /** Shares of a limit from which a bar is coloured as close to it. */
 const CLOSE = 0.8;
@@ -37,7 +27,7 @@ const DIGITS = 3;
  * @param {OneCheck} check
  */
 function nameOf({ name }) {
-  return NAMES[name] ?? name.replaceAll("_", " ");
+  return textOr(`checks.name.${name}`, name.replaceAll("_", " "));
 }
 
 /**
@@ -48,9 +38,10 @@ function nameOf({ name }) {
 export function verdict({ checks, holds }) {
   const failed = checks.filter((one) => one.holds === false).map(nameOf);
   const open = checks.filter((one) => one.holds === null).length;
-  const rest = open ? ` ${open} of ${checks.length} checks not judged.` : "";
-  if (failed.length) return `Fails: ${failed.join(", ")}.${rest}`;
-  return holds ? `All ${checks.length} checks hold.` : `${checks.length - open} checks hold.${rest}`;
+  const rest = open ? ` ${text("checks.open", { open, all: checks.length })}` : "";
+  if (failed.length) return `${text("checks.fail", { names: failed.join(", ") })}${rest}`;
+  if (holds) return text("checks.all_hold", { all: checks.length });
+  return `${text("checks.some_hold", { some: checks.length - open })}${rest}`;
 }
 
 /**
@@ -76,7 +67,11 @@ function numberOf(check) {
 
 /** @param {OneCheck} check */
 function limitOf(check) {
-  return element("span", { class: "limit" }, check.limit === null ? "" : `limit ${shown(check, check.limit)}`);
+  return element(
+    "span",
+    { class: "limit" },
+    check.limit === null ? "" : text("checks.limit", { limit: shown(check, check.limit) }),
+  );
 }
 
 /**
@@ -85,8 +80,8 @@ function limitOf(check) {
  * @param {number} share
  */
 function percentage(share) {
-  if (!Number.isFinite(share)) return "over";
-  if (share >= MULTIPLE) return `${units.digits(share, 2)}\u00a0times`;
+  if (!Number.isFinite(share)) return text("checks.over");
+  if (share >= MULTIPLE) return text("checks.times", { times: units.digits(share, 2) });
   return `${units.digits(100 * share, share < 0.1 ? 2 : DIGITS)}\u00a0%`;
 }
 
@@ -100,10 +95,10 @@ function used(check, jump) {
   const { utilisation, holds } = check;
   if (holds === null) {
     const [path, wanted] = FIELDS[check.missing] ?? [];
-    if (!path) return "not judged";
-    const button = element("button", { type: "button", onclick: () => jump(path) }, `give ${wanted}`);
-    button.setAttribute("aria-label", `${nameOf(check)}: give ${wanted}`);
-    return element("span", {}, "not judged ", button);
+    if (!path) return text("checks.not_judged");
+    const button = element("button", { type: "button", onclick: () => jump(path) }, text(wanted));
+    button.setAttribute("aria-label", `${nameOf(check)}: ${text(wanted)}`);
+    return element("span", {}, `${text("checks.not_judged")} `, button);
   }
   const tone = toneOf(check);
   const fill = element("span");
@@ -114,7 +109,7 @@ function used(check, jump) {
     { class: "used" },
     element("span", { class: `bar ${tone}`, "aria-hidden": "true" }, fill),
     element("data", { value: String(utilisation ?? "") }, percentage(share)),
-    element("strong", { class: tone }, holds ? "holds" : "fails"),
+    element("strong", { class: tone }, text(holds ? "checks.holds" : "checks.fails")),
   );
 }
 
@@ -126,33 +121,28 @@ function used(check, jump) {
  */
 export function show(found, jump) {
   if (!found) {
-    byId("checks").textContent = "The checks could not be computed.";
+    byId("checks").textContent = text("checks.none");
     return;
   }
   const tone = found.checks.some((one) => one.holds === false) ? "careful" : found.holds ? "good" : "";
-  const headings = ["", "value and limit", "used"];
+  const headings = ["", text("checks.value"), text("checks.used")];
   const rows = found.checks.map((check) => [
     element("span", { title: units.filled(check.display) }, nameOf(check)),
     element("span", {}, numberOf(check), limitOf(check)),
     used(check, jump),
   ]);
-  const content = table("life, strength and speed against their limits", headings, rows);
+  const content = table(text("checks.caption"), headings, rows);
   content.className = "checks";
   for (const [place, row] of [...content.tBodies[0].rows].entries()) row.dataset.check = found.checks[place].name;
   byId("checks").replaceChildren(
     element("p", { class: `verdict ${tone}` }, verdict(found)),
     content,
-    element(
-      "p",
-      { class: "small" },
-      "Above 100 % a check fails. The life is that which nine of ten screws reach; the load is taken as constant. ",
-      ...notes(found),
-    ),
+    element("p", { class: "small" }, `${text("checks.note")} `, ...notes(found)),
   );
 }
 
 /** What a limit rests on, where a check says it. @param {Checks} found */
 function notes({ checks }) {
   const source = checks.find((one) => one.name === "diameter_speed_product");
-  return source ? [`d·n: ${units.filled(source.display)}.`] : [];
+  return source ? [text("checks.limit_source", { source: units.filled(source.display) })] : [];
 }

@@ -2,15 +2,18 @@
 
 import { byId, csv, element, save } from "./dom.js";
 import { linesOf, send } from "./server.js";
+import { text } from "./texts.js";
 
-/** Kinds of files: what they are, and the address that makes them, if any. @type {Record<string, [string, string?]>} */
+/** @typedef {import("./texts.js").Key} Key */
+
+/** Kinds of files: what they are, and the address that makes them, if any. @type {Record<string, [Key, string?]>} */
 const KINDS = {
-  TOML: ["case file for the command line", "toml"],
-  JSON: ["all results in SI"],
-  CSV: ["torque and its parts over speed"],
-  SVG: ["drawing of the ball", "drawing"],
-  PDF: ["report to file", "report?kind=pdf"],
-  HTML: ["report to read", "report?kind=html"],
+  TOML: ["download.toml", "toml"],
+  JSON: ["download.json"],
+  CSV: ["download.csv"],
+  SVG: ["download.svg", "drawing"],
+  PDF: ["download.pdf", "report?kind=pdf"],
+  HTML: ["download.html", "report?kind=html"],
 };
 
 /** @typedef {{ body?: object, answer?: Run, alongSpeed?: Sweep }} Current */
@@ -21,19 +24,20 @@ const KINDS = {
  * @param {() => Current} current
  */
 export function build(current) {
-  const buttons = Object.entries(KINDS).map(([kind, [words]]) =>
-    element(
+  const buttons = Object.entries(KINDS).map(([kind, [key]]) => {
+    const words = text(key);
+    return element(
       "button",
       { type: "button", title: words, "aria-label": `${kind}: ${words}`, onclick: () => saveAs(kind, current()) },
       kind,
-    ),
-  );
+    );
+  });
   byId("downloads").replaceChildren(...buttons);
 }
 
-/** @param {string} text */
-function say(text) {
-  byId("download-words").textContent = text;
+/** @param {string} words */
+function say(words) {
+  byId("download-words").textContent = words;
 }
 
 /**
@@ -42,19 +46,19 @@ function say(text) {
  */
 async function saveAs(kind, { body, answer, alongSpeed }) {
   if (!body || !answer || byId("results").classList.contains("stale")) {
-    say("The input is at fault: correct it first.");
+    say(text("download.fault"));
     return;
   }
   const [, address] = KINDS[kind];
   try {
     if (address) {
-      say(`making the ${kind} …`);
+      say(text("download.making", { kind }));
       save(`.${kind.toLowerCase()}`, await (await send(address, body)).blob());
     } else if (kind === "JSON") {
       const { words, display, ...document } = answer;
       save(".json", new Blob([JSON.stringify(document, null, 2)], { type: "application/json" }));
     } else if (alongSpeed) saveTorqueCsv(alongSpeed);
-    say(`${kind} saved`);
+    say(text("download.saved", { kind }));
   } catch (error) {
     say(linesOf(error).join("; "));
   }

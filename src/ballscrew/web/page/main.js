@@ -10,6 +10,7 @@ import * as results from "./results.js";
 import * as schema from "./schema.js";
 import { get, linesOf } from "./server.js";
 import * as states from "./state.js";
+import { followMenu, text } from "./texts.js";
 import * as units from "./units.js";
 
 const LONGEST_QUOTE = 40;
@@ -269,7 +270,7 @@ function showTabs() {
           state.show = place;
         }),
       },
-      element("span", { class: "long" }, "Design "),
+      element("span", { class: "long" }, text("designs.long")),
       states.LETTERS[place],
     ),
   );
@@ -284,11 +285,11 @@ function showTabs() {
   const full = state.designs.length === states.LETTERS.length;
   byId("designs").replaceChildren(
     ...buttons,
-    element("button", { type: "button", id: "add", disabled: full, onclick: add }, "Add design"),
+    element("button", { type: "button", id: "add", disabled: full, onclick: add }, text("designs.add")),
     element(
       "button",
       { type: "button", id: "remove", disabled: state.designs.length === 1, onclick: remove },
-      "Remove",
+      text("designs.remove"),
     ),
   );
 }
@@ -310,12 +311,12 @@ async function copyLink() {
   entries.write();
   try {
     await navigator.clipboard.writeText(location.href);
-    button.textContent = "Link copied";
+    button.textContent = text("share.copied");
   } catch {
-    button.textContent = "Copy it from the address bar";
+    button.textContent = text("share.by_hand");
   }
   setTimeout(() => {
-    button.textContent = "Copy link";
+    button.textContent = text("share.copy");
   }, 2500);
 }
 
@@ -327,6 +328,7 @@ async function changeSystem() {
 }
 
 function addListeners() {
+  followMenu(select("language"));
   byId("system").addEventListener("change", changeSystem);
   byId("band").addEventListener("change", () => {
     state.band = checkbox("band").checked;
@@ -365,7 +367,7 @@ async function begin() {
   answers.setVocabulary(words, form.jump);
   schema.setSchema(document_);
   form.setListener(onChange);
-  byId("version").textContent = `Version ${vocabulary.version}.`;
+  byId("version").textContent = text("page.version", { version: vocabulary.version });
   state = readAddress();
   units.setSystem(state.system);
   addListeners();

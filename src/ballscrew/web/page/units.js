@@ -1,5 +1,7 @@
 // Units. Inputs are kept as text with a unit, as they were typed; only what is displayed is converted.
 
+import { localised } from "./texts.js";
+
 const NUMBER = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i;
 const COMMA = /^(\s*[-+]?\d*),(\d+)/;
 /** @type {Record<string, string>} */
@@ -172,8 +174,8 @@ export function digits(value, count = 4) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   const rounded = Number(value.toPrecision(count));
   return Math.abs(rounded) >= 1e6 || (rounded !== 0 && Math.abs(rounded) < 1e-4)
-    ? rounded.toExponential().replace("e+", "e")
-    : String(rounded);
+    ? localised(rounded.toExponential().replace("e+", "e"))
+    : localised(String(rounded));
 }
 
 /** @param {string} name */
@@ -258,7 +260,7 @@ export function lastPlace(low, high) {
  */
 export function toPlace(value, place) {
   if (place < -MOST_DECIMALS || Math.abs(value) >= 1e6) return digits(value, DIGITS);
-  return place < 0 ? value.toFixed(-place) : String(Math.round(value / 10 ** place) * 10 ** place);
+  return place < 0 ? localised(value.toFixed(-place)) : String(Math.round(value / 10 ** place) * 10 ** place);
 }
 
 /**
