@@ -7,9 +7,9 @@ import * as units from "./units.js";
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
 /** @typedef {import("./state.js").State} State */
 /**
- * A change by the user: of the text or the unit of a field, or of the start of the design.
+ * A change by the user: of the text or the unit of a field, or of the start of the design; or all of them taken back.
  *
- * @typedef {{ path?: string, text?: string, unit?: string, start?: string, rebuild?: boolean }} Change
+ * @typedef {{ path?: string, text?: string, unit?: string, start?: string, reset?: true, rebuild?: boolean }} Change
  */
 /**
  * Where the texts of the fields come from and where changes go: the state, the value given at a path, the law in a slot

@@ -64,8 +64,8 @@ export function build(state, vocabulary, given, lawOf) {
   if (isFirst) form.append(startField(vocabulary));
   while (form.children.length > 1) form.lastChild?.remove();
   form.append(...parts);
-  const { start, changes } = state.designs[state.show];
-  /** @type {HTMLSelectElement} */ (byId("start")).value = start;
+  const { start, changes, file } = state.designs[state.show];
+  showStart(start, Object.hasOwn(vocabulary.starts, start) ? file : undefined);
   byId("reset").hidden = !Object.keys(changes).length;
   for (const path of Object.keys(changes)) mark(path, true);
 }
@@ -159,7 +159,7 @@ function startField({ starts, rows }) {
     {
       type: "button",
       id: "reset",
-      onclick: () => onChange({ start: select.value }),
+      onclick: () => onChange({ reset: true }),
       title: "Undo all changes of this design",
     },
     "Reset",
@@ -171,6 +171,19 @@ function startField({ starts, rows }) {
     select,
     reset,
   );
+}
+
+/**
+ * Show what a design starts from: a case to start from, a row, or its file where that has a screw of its own.
+ *
+ * @param {string} start
+ * @param {string | undefined} file
+ */
+function showStart(start, file) {
+  const select = /** @type {HTMLSelectElement} */ (byId("start"));
+  select.querySelector("[data-file]")?.remove();
+  if (file) select.prepend(element("option", { value: "", hidden: true, "data-file": file }, file));
+  select.value = file ? "" : start;
 }
 
 /**

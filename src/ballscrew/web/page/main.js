@@ -2,6 +2,7 @@
 
 import * as answers from "./answers.js";
 import { consequences } from "./consequences.js";
+import * as designs from "./designs.js";
 import { byId, element, nameFiles, within } from "./dom.js";
 import * as downloads from "./downloads.js";
 import * as form from "./form.js";
@@ -16,58 +17,13 @@ import * as units from "./units.js";
 const LONGEST_QUOTE = 40;
 /** The calibration of the button: that of both of its numbers, to the vendor whose rows are shown beside it. */
 const CALIBRATION = "rexroth-2006";
-/** Sections that belong to the use of a screw, not to the screw. */
-const OF_USE = ["operation", "lubricant", "model", "losses", "installation", "limits"];
-/** Fields of an oil that the others follow from. */
-const OF_OIL = [
-  "viscosity",
-  "grade",
-  "oil",
-  "temperature",
-  "kinematic_viscosity_40",
-  "kinematic_viscosity_100",
-  "density_15",
-  "pour_point",
-  "lowest_temperature",
-  "highest_temperature",
-];
 
 /** @type {Vocabulary} */
 let vocabulary;
 /** @type {states.State} */
 let state;
-/** Tables of the cases to start from, by name. @type {Map<string, states.Tables>} */
-const starts = new Map();
 /** Laws of the answer that the form was built with. @type {string | undefined} */
 let laws;
-
-// -- the case of a design ---------------------------------------------------------------------------
-
-/**
- * @param {string} name
- * @returns {Promise<states.Tables>}
- */
-async function startOf(name) {
-  const known = starts.get(name);
-  if (known) return known;
-  /** @type {CatalogueRow | Vocabulary["starts"][string]} */
-  const found = Object.hasOwn(vocabulary.starts, name)
-    ? vocabulary.starts[name]
-    : await get(`catalogue/${encodeURIComponent(name)}`);
-  starts.set(name, found.case);
-  return found.case;
-}
-
-/** @param {states.Design} design */
-async function caseOf(design) {
-  const start = await startOf(design.start);
-  const found = states.tables(start, design.changes, schema.fieldOf);
-  return Object.hasOwn(vocabulary.starts, design.start) ? found : states.named(design.start, start, found);
-}
-
-function current() {
-  return state.designs[state.show];
-}
 
 // -- inputs -----------------------------------------------------------------------------------------
 
@@ -76,9 +32,10 @@ function current() {
  *
  * @param {import("./fields.js").Change} change
  */
-function onChange({ path = "", text = "", unit, start, rebuild }) {
-  if (start !== undefined) {
-    state.designs[state.show] = states.design(start, changesOfUse(current()));
+function onChange({ path = "", text = "", unit, start, reset, rebuild }) {
+  if (start !== undefined || reset) {
+    if (start !== undefined) designs.startFrom(start);
+    else designs.reset();
     follow({ rebuild: true, keep: true });
     return;
   }
@@ -87,50 +44,20 @@ function onChange({ path = "", text = "", unit, start, rebuild }) {
     follow({ rebuild: true, formOnly: true });
     return;
   }
-  const { changes } = current();
-  const tables = states.tables(starts.get(current().start) ?? {}, changes, schema.fieldOf);
+  const { changes } = designs.current();
+  const tables = designs.tablesOf(designs.current());
   const others = Object.entries(consequences(path, text, (one) => states.valueAt(tables, one), vocabulary.nuts));
-  for (const [one, value] of [...others, [path, text]]) change(one, value);
+  for (const [one, value] of [...others, [path, text]]) designs.change(one, value);
   form.mark(path, path in changes);
   byId("reset").hidden = !Object.keys(changes).length;
   follow({ rebuild: rebuild || others.length > 0, path });
 }
 
-/**
- * Keep a text where it differs from the start.
- *
- * @param {string} path
- * @param {string} text
- */
-function change(path, text) {
-  const { changes, start } = current();
-  if (text === "" && states.valueAt(starts.get(start), path) === undefined) delete changes[path];
-  else changes[path] = text;
-  if (text === "") {
-    for (const inner of Object.keys(changes)) if (inner.startsWith(`${path}.`)) delete changes[inner];
-  }
-}
-
-/**
- * The changes that stay when another screw takes the place of the current one: an oil that was changed stays whole.
- *
- * @param {states.Design} design
- */
-function changesOfUse({ start, changes }) {
-  const kept = Object.fromEntries(Object.entries(changes).filter(([path]) => OF_USE.includes(path.split(".")[0])));
-  if (Object.keys(kept).some((path) => path.startsWith("lubricant."))) {
-    const { lubricant } = states.tables(starts.get(start) ?? {}, changes, schema.fieldOf);
-    for (const name of OF_OIL) kept[`lubricant.${name}`] = String(lubricant[name] ?? "");
-  }
-  return kept;
-}
-
 /** The state of the address; a notice names what is unknown here and ignored. */
 function readAddress() {
   const { state: found, unknown } = states.fromFragment(location.hash, schema.fieldOf, units.isUnit);
-  const known = new Set([...Object.keys(vocabulary.starts), ...vocabulary.rows.map((row) => row.name)]);
-  const unknownStarts = found.designs.filter((one) => !known.has(one.start)).map((one) => quoted(one.start));
-  found.designs = found.designs.map((one) => (known.has(one.start) ? one : states.design()));
+  const unknownStarts = found.designs.filter((one) => !designs.isKnown(one.start)).map((one) => quoted(one.start));
+  found.designs = found.designs.map((one) => (designs.isKnown(one.start) ? one : states.design()));
   const lines = [];
   if (unknownStarts.length) {
     const names = unknownStarts.join(" and ");
@@ -142,6 +69,12 @@ function readAddress() {
   }
   showNotice(lines.join(" "));
   return found;
+}
+
+/** @param {states.State} found */
+function use(found) {
+  state = found;
+  designs.use(found);
 }
 
 /** @param {string} text */
@@ -181,7 +114,7 @@ async function follow({ rebuild = false, keep = false, formOnly = false, path } 
 async function update() {
   answers.clearModels();
   await answers.update(
-    () => Promise.all(state.designs.map(caseOf)),
+    () => Promise.all(state.designs.map(designs.caseOf)),
     state,
     (faults) => {
       // the laws of the model are known with its answer
@@ -212,10 +145,10 @@ async function showForm() {
   select("system").value = units.currentSystem();
   checkbox("band").checked = state.band;
   checkbox("own").checked = state.own;
-  const design = current();
-  const start = await startOf(design.start);
-  if (design !== current()) return; // another one was chosen in the meantime
-  const tables = states.tables(start, design.changes, schema.fieldOf);
+  const design = designs.current();
+  await designs.startOf(design.start);
+  if (design !== designs.current()) return; // another one was chosen in the meantime
+  const tables = designs.tablesOf(design);
   // a text stays as it was typed while typing goes on: 0.10 may become 0.107
   /** @param {string} path */
   const given = (path) => {
@@ -227,7 +160,7 @@ async function showForm() {
     const known = states.valueAt(answers.current().answer?.inputs, path);
     return typeof known === "string" ? { law: known } : known;
   };
-  nameFiles(design.start);
+  nameFiles(designs.fileName(design));
   keepFocus(() => {
     form.build(state, vocabulary, given, lawOf);
     form.showValues(effective);
@@ -275,7 +208,8 @@ function showTabs() {
     ),
   );
   const add = turn(() => {
-    state.designs.push(states.design(current().start, current().changes));
+    const { start, changes, ...own } = designs.current();
+    state.designs.push(states.design(start, changes, own));
     state.show = state.designs.length - 1;
   });
   const remove = turn(() => {
@@ -342,7 +276,7 @@ function addListeners() {
   });
   byId("calibrate").addEventListener("click", () => {
     const path = "model.calibration";
-    const tables = states.tables(starts.get(current().start) ?? {}, current().changes, schema.fieldOf);
+    const tables = designs.tablesOf(designs.current());
     onChange({ path, text: states.valueAt(tables, path) ? "" : CALIBRATION, rebuild: true });
   });
   byId("share").addEventListener("click", copyLink);
@@ -354,7 +288,7 @@ function addListeners() {
     byId("results").focus();
   });
   entries.begin(() => {
-    state = readAddress();
+    use(readAddress());
     follow({ rebuild: true });
   });
   downloads.build(answers.current);
@@ -368,7 +302,8 @@ async function begin() {
   schema.setSchema(document_);
   form.setListener(onChange);
   byId("version").textContent = text("page.version", { version: vocabulary.version });
-  state = readAddress();
+  designs.setUp(vocabulary, follow);
+  use(readAddress());
   units.setSystem(state.system);
   addListeners();
   await follow({ rebuild: true });

@@ -1,15 +1,26 @@
-// State of the page: up to four designs, each with its start and its changes. All of it is in the address.
+// State of the page: its designs, each with its start, its own tables and its changes. All of it is in the address.
 
 export const LETTERS = ["A", "B", "C", "D"];
 const OTHER_KEYS = ["show", "units", "band", "at"];
+/** What a design has beside its start and its changes: texts, and tables as JSON. */
+const OWN_TEXTS = /** @type {const} */ (["name", "file"]);
+const OWN_TABLES = /** @type {const} */ (["tables", "aside"]);
+/** Sections that are the screw itself: another start brings its own. */
+const OF_SCREW = ["screw", "nut", "bodies", "deviations"];
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
 /** @typedef {(path: string) => SchemaNode | undefined} Schema */
 /** @typedef {Record<string, any>} Tables */
 /**
+ * What a design may have beside its start and its changes: whole sections in place of those of its start, null for one
+ * that it has not; its name; the file that it came from; and tables of that file that no case has, kept for download.
+ *
+ * @typedef {{ tables?: Tables, aside?: Tables, name?: string, file?: string }} Own
+ */
+/**
  * A design: its start (``paper`` or a catalogue row), and the changed texts by ``section.field``.
  *
- * @typedef {{ start: string, changes: Record<string, string> }} Design
+ * @typedef {{ start: string, changes: Record<string, string> } & Own} Design
  */
 /**
  * ``show`` is the place of the current design, ``own`` compares each design at its own load and speed, ``fields`` has
@@ -27,10 +38,44 @@ const OTHER_KEYS = ["show", "units", "band", "at"];
 /**
  * @param {string} start
  * @param {Record<string, string>} changes
+ * @param {Own} own
  * @returns {Design}
  */
-export function design(start = "paper", changes = {}) {
-  return { start, changes: { ...changes } };
+export function design(start = "paper", changes = {}, own = {}) {
+  return { start, changes: { ...changes }, ...structuredClone(own) };
+}
+
+/**
+ * What a design has of its own.
+ *
+ * @param {Design} one
+ * @returns {Own}
+ */
+export function ownOf({ start, changes, ...own }) {
+  return own;
+}
+
+/**
+ * What stays of a design when another screw takes the place of its own: its name and the tables of its use.
+ *
+ * @param {Own} own
+ * @returns {Own}
+ */
+export function ownOfUse({ name, tables: sections = {} }) {
+  const kept = Object.entries(sections).filter(([section]) => !OF_SCREW.includes(section));
+  return { ...(name && { name }), ...(kept.length && { tables: Object.fromEntries(kept) }) };
+}
+
+/**
+ * The tables of a start with whole sections of a design in place of its own.
+ *
+ * @param {Tables} start
+ * @param {Own} own
+ * @returns {Tables}
+ */
+export function base(start, { tables: sections = {} }) {
+  const found = { ...start, ...sections };
+  return Object.fromEntries(Object.entries(found).filter(([, section]) => section !== null));
 }
 
 /** @returns {State} */
@@ -47,6 +92,10 @@ export function toFragment(state) {
   const parameters = new URLSearchParams();
   state.designs.forEach((one, place) => {
     parameters.set(LETTERS[place], one.start);
+    for (const key of OWN_TEXTS) if (one[key]) parameters.set(`${LETTERS[place]}.${key}`, one[key]);
+    for (const key of OWN_TABLES) {
+      if (Object.keys(one[key] ?? {}).length) parameters.set(`${LETTERS[place]}.${key}`, JSON.stringify(one[key]));
+    }
     for (const [path, text] of Object.entries(one.changes)) parameters.set(`${LETTERS[place]}.${path}`, text);
   });
   if (state.show) parameters.set("show", LETTERS[state.show]);
@@ -75,6 +124,7 @@ export function fromFragment(fragment, schema, isUnit) {
     const [first, ...others] = key.split(".");
     const path = others.join(".");
     const place = letters.indexOf(first);
+    if (place >= 0 && takeOwn(state.designs[place], path, text)) continue;
     if (place >= 0 && schema(path)) state.designs[place].changes[path] = text;
     else if (first === "unit" && isUnit(text, schema(path))) state.fields[path] = text;
     else if (!OTHER_KEYS.includes(key) && !letters.includes(key)) unknown.push(key);
@@ -84,6 +134,39 @@ export function fromFragment(fragment, schema, isUnit) {
   state.band = parameters.get("band") !== "0";
   state.own = parameters.get("at") === "own";
   return { state, unknown };
+}
+
+/**
+ * Take what a design has of its own from an address; false where it is something else.
+ *
+ * @param {Design} one
+ * @param {string} key
+ * @param {string} text
+ */
+function takeOwn(one, key, text) {
+  for (const known of OWN_TEXTS) if (key === known) one[known] = text;
+  for (const known of OWN_TABLES) {
+    if (key !== known) continue;
+    const found = tablesIn(text);
+    if (!found) return false;
+    one[known] = found;
+  }
+  return /** @type {readonly string[]} */ ([...OWN_TEXTS, ...OWN_TABLES]).includes(key);
+}
+
+/**
+ * Tables written as JSON; none where it is none.
+ *
+ * @param {string} text
+ * @returns {Tables | undefined}
+ */
+function tablesIn(text) {
+  try {
+    const found = JSON.parse(text);
+    return found && typeof found === "object" && !Array.isArray(found) ? found : undefined;
+  } catch {
+    return undefined;
+  }
 }
 
 /**
@@ -134,7 +217,7 @@ function put(table, [name, ...others], value) {
     return;
   }
   if (typeof table[name] === "string") table[name] = { law: table[name] };
-  if (table[name] === undefined) {
+  if (typeof table[name] !== "object" || Array.isArray(table[name])) {
     if (value === undefined) return;
     table[name] = {};
   }
