@@ -7,12 +7,14 @@ Every fault of a file is found before anything is computed, and each is one line
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from ballscrew import units
 from ballscrew.case_schema.duty_schema import DUTY_TABLES
+from ballscrew.case_schema.fields import NutSpeed
 from ballscrew.case_schema.option_faults import in_options
 from ballscrew.case_schema.schema import (
     DEFAULT_MODEL,
@@ -162,7 +164,7 @@ def build(
     mounted = support_tables.mounted_on(mounted, bearings)
     limits = nut_tables.limits(sections, faults) if "limits" in sections else USUAL_LIMITS
     screw = made.screw if made.screw is None or nut is None else dataclasses.replace(made.screw, nut=nut)
-    operation = _operation(sections, faults) if "operation" in sections else None
+    operation = _operation(sections, screw, faults) if "operation" in sections else None
     travels = moves and "operation" not in sections
     if travels and axis is not None and motion is not None and screw is not None:
         operation = duty_tables.travel(axis, motion, screw.lead)
@@ -248,9 +250,15 @@ def _screw(
     return _MadeScrew(screw, row, {name: value for name, value in listed.items() if value is not None})
 
 
-def _operation(sections: Sections, faults: list[Fault]) -> OperatingState | None:
+def _operation(sections: Sections, screw: BallScrew | None, faults: list[Fault]) -> OperatingState | None:
+    """The load and the speed; a speed of the nut turns the screw by its lead."""
     before = len(faults)
     values = sections.values_of("operation", faults)
+    speed = values.get("screw_speed")
+    if isinstance(speed, NutSpeed):
+        if screw is None:
+            return None  # its own faults are there already
+        values["screw_speed"] = 2 * math.pi * speed / screw.lead
     return OperatingState(**values) if len(faults) == before else None
 
 

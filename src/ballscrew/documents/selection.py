@@ -13,9 +13,10 @@ from ballscrew.selection.need import Need
 from ballscrew.selection.objectives import OBJECTIVES
 from ballscrew.selection.requirements import Requirements
 from ballscrew.selection.selection import Ranked, Selection
+from ballscrew.sizing.checks import judged, verdict_of
 
 #: What is the same for all candidates, or too long for a list.
-_LEFT_OUT = ("units", "provenance", "loads", "name", "checks", "verdict")
+_LEFT_OUT = ("units", "provenance", "loads", "name", "checks", "judged", "verdict")
 
 
 def document(found: Selection) -> dict[str, Any]:
@@ -90,22 +91,14 @@ def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
         "results": whole.pop("results"),
         **duty,
         "checks": [check_documents.check_document(check) for check in found.checks],
+        "judged": judged(found.checks),
         **{name: part for name, part in whole.items() if name not in (*_LEFT_OUT, "nut")},
     }
 
 
 def verdict(found: Candidate) -> str:
     """All checks in a few words, with the utilisation of those that fail."""
-    failed = [
-        check.name.replace("_", " ") + (f" {check.utilisation:.3g} times" if check.utilisation is not None else "")
-        for check in found.failed
-    ]
-    open_ = sum(check.holds is None for check in found.checks)
-    if not failed and open_:
-        text = f"{open_} of {len(found.checks)} not judged; the others hold"
-    else:
-        text = f"fails: {', '.join(failed)}" if failed else "holds"
-        text += f"; {open_} of {len(found.checks)} not judged" if open_ else ""
+    text = verdict_of(found.checks, passes="holds", by_how_much=True)
     if found.checked.nut.preload_is_lost:
         text += "; the load takes the preload away"
     return text if found.valid else f"{text}; outside the model's validity"

@@ -33,6 +33,7 @@ class Candidate(Open):
     case: Tables = Field(description="its case file as tables")
     results: Tables
     checks: list[Tables]
+    judged: int = Field(description="number of the checks that were judged; the others lack an input")
     verdicts: list[Record]
     warnings: list[Record]
 

@@ -14,6 +14,7 @@ import { ask, linesOf, Problem, sendJson } from "./server.js";
 import { LETTERS } from "./state.js";
 import * as stiffness from "./stiffness.js";
 import * as temperatures from "./temperatures.js";
+import { text } from "./texts.js";
 
 /** Points of a curve and of one side of the map; fewer for a whole nut, which takes longer. */
 const POINTS = { curve: 41, curveOfNut: 15, map: 21, mapOfNut: 11 };
@@ -392,7 +393,7 @@ async function addBands(bodies, own, signal) {
 export async function compareModels() {
   const { body } = displayed;
   if (!body) return;
-  byId("models").textContent = "computing …";
+  byId("models").textContent = text("models.pending");
   try {
     const found = await sendJson("compare", body);
     if (body !== displayed.body) {

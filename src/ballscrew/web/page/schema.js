@@ -1,5 +1,7 @@
 // The JSON Schema of the case file, and the fields of the form that it describes.
 
+import { text } from "./texts.js";
+
 /**
  * @typedef {object} SchemaNode
  * @property {string} [type]
@@ -14,20 +16,21 @@
  * @property {string} [x-si-unit]
  * @property {string} [x-unit]
  * @property {string} [x-symbol]
+ * @property {string} [x-through-lead] the SI unit of a speed of the nut, which may stand in its place
  */
 
 /** Headings of the sections of the form, in their order. @type {Record<string, string>} */
 export const SECTIONS = {
-  operation: "Operating point",
-  screw: "Screw",
-  nut: "Nut",
-  lubricant: "Oil",
-  model: "Model",
-  losses: "Seals and other losses",
-  installation: "Installation",
-  limits: "Limits",
-  bodies: "Elastic bodies",
-  deviations: "Balls that differ",
+  operation: text("section.operation"),
+  screw: text("section.screw"),
+  nut: text("section.nut"),
+  lubricant: text("section.lubricant"),
+  model: text("section.model"),
+  losses: text("section.losses"),
+  installation: text("section.installation"),
+  limits: text("section.limits"),
+  bodies: text("section.bodies"),
+  deviations: text("section.deviations"),
 };
 /** Fields that the form does not have. */
 export const LEFT_OUT = ["screw.catalogue", "screw.catalogue_file", "lubricant.oil_file"];
