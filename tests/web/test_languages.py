@@ -3,6 +3,7 @@
 import json
 import re
 from importlib import resources
+from pathlib import Path
 
 import pytest
 
@@ -11,7 +12,7 @@ from ballscrew.web import languages
 PAGE = resources.files("ballscrew.web").joinpath("page")
 ENGLISH = languages.texts()["en"]
 OTHERS = [name for name in languages.texts() if name != "en"]
-SCRIPTS = {file.name: file.read_text(encoding="utf-8") for file in PAGE.iterdir() if file.name.endswith(".js")}
+SCRIPTS = {file.name: file.read_text(encoding="utf-8") for file in Path(str(PAGE)).rglob("*.js")}
 #: Texts whose English stands at their source in Python: annotations of fields, and names of the vocabulary.
 OF_PYTHON = ("field.",)
 #: Scripts whose texts have not moved yet.
@@ -26,7 +27,8 @@ _COMPUTED = re.compile(r"\$\{[^{}]*(?:\{[^{}]*\}[^{}]*)*\}")
 _WORDS = re.compile(r"[A-Za-z]{2,}[,:;]? [a-z]{2,}")
 #: Two words that nobody reads: classes of elements, units, selectors, and a defect of the page.
 CODES = {
-    "(prefers-color-scheme: dark)", "field given", "field start given", "input, select", "lbf in", "mm rpm",
+    "(prefers-color-scheme: dark)", "card-start whole-width", "chart low", "field given", "field start given",
+    "input, select", "lbf in", "mm rpm",
     "no element #…", "no element …", "scroll whole", "verdict careful",
 }  # fmt: skip
 

@@ -1,6 +1,7 @@
 // The page: its state in the address, the form, and the answer that follows what is typed.
 
 import * as answers from "./answers.js";
+import * as cards from "./cards.js";
 import { consequences } from "./consequences.js";
 import * as designs from "./designs.js";
 import { byId, element, nameFiles, within } from "./dom.js";
@@ -91,11 +92,12 @@ function showNotice(text) {
 /**
  * Write the state into the address, and show it.
  *
- * @param {{ rebuild?: boolean, keep?: boolean, formOnly?: boolean, path?: string }} options ``rebuild`` makes the form
- *   anew, ``keep`` leaves the state before to the button Back, ``formOnly`` sends no request, ``path`` was edited
+ * @param {designs.Follow} options ``rebuild`` makes the form
+ *   anew, ``keep`` leaves the state before to the button Back, ``formOnly`` sends no request, ``path`` was edited,
+ *   ``ofCards`` changes what only cards ask about
  */
-async function follow({ rebuild = false, keep = false, formOnly = false, path } = {}) {
-  if (!formOnly) byId("results").setAttribute("aria-busy", "true");
+async function follow({ rebuild = false, keep = false, formOnly = false, path, ofCards = false } = {}) {
+  if (!formOnly && !ofCards) byId("results").setAttribute("aria-busy", "true");
   const fragment = states.toFragment(state);
   if (keep) {
     entries.choose(fragment);
@@ -108,7 +110,9 @@ async function follow({ rebuild = false, keep = false, formOnly = false, path } 
     results.fail(results.refusal(linesOf(error)));
     return;
   }
-  if (!formOnly) await update();
+  cards.follow();
+  if (ofCards) answers.keepWhole(await designs.currentCase());
+  else if (!formOnly) await update();
 }
 
 async function update() {
@@ -290,6 +294,7 @@ function addListeners() {
   entries.begin(() => {
     use(readAddress());
     follow({ rebuild: true });
+    cards.openAll();
   });
   downloads.build(answers.current);
 }
@@ -306,8 +311,15 @@ async function begin() {
   use(readAddress());
   units.setSystem(state.system);
   addListeners();
+  cards.setUp({
+    vocabulary,
+    setUnit: (path, unit) => onChange({ path, unit }),
+    jump: form.jump,
+    keep: () => follow({ ofCards: true }),
+  });
   await follow({ rebuild: true });
   document.documentElement.dataset.ready = "true";
+  await cards.openAll();
 }
 
 begin().catch((error) => results.fail(results.refusal(linesOf(error))));

@@ -29,6 +29,8 @@ export const SECTIONS = {
   bodies: "Elastic bodies",
   deviations: "Balls that differ",
 };
+/** Sections that cards have, not the form. */
+const OF_CARDS = ["axis", "motion", "motor", "surroundings", "bearings", "guides"];
 /** Fields that the form does not have. */
 export const LEFT_OUT = ["screw.catalogue", "screw.catalogue_file", "lubricant.oil_file"];
 
@@ -79,11 +81,30 @@ export function fieldsOf(name) {
  */
 export function fieldOf(path) {
   const [name, field, inner, ...others] = path.split(".");
-  if (!own(SECTIONS, name) || LEFT_OUT.includes(`${name}.${field}`) || others.length) return undefined;
+  if (!(own(SECTIONS, name) || OF_CARDS.includes(name)) || LEFT_OUT.includes(`${name}.${field}`) || others.length)
+    return undefined;
   const node = definition(own(fieldsOf(name), field));
   if (inner === undefined || !node) return node;
   if (node.properties) return definition(own(node.properties, inner));
   return node.anyOf?.map((one) => own(one.properties, inner)).find((one) => one);
+}
+
+/**
+ * Test whether sections are those of cards, which the answer above does not follow.
+ *
+ * @param {string[]} sections
+ */
+export function areOfCards(sections) {
+  return sections.every((one) => OF_CARDS.includes(one));
+}
+
+/**
+ * A case without the sections that only cards ask about.
+ *
+ * @param {Record<string, any>} tables
+ */
+export function withoutCards(tables) {
+  return Object.fromEntries(Object.entries(tables).filter(([name]) => !OF_CARDS.includes(name)));
 }
 
 /** @param {SchemaNode} node */
