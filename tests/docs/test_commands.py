@@ -200,6 +200,21 @@ def test_ci_runs_what_is_left_to_it():
             assert f"make {target}" in ci, f".ci/run does not run make {target}"
 
 
+@pytest.mark.parametrize("failing", ["", "lint", "docs", "test"])
+def test_ci_ends_well_only_if_all_targets_do(tmp_path, failing):
+    """The real script with a ``make`` that does nothing: its exit status is all that a machine reads of it."""
+    (tmp_path / ".ci").mkdir()
+    shutil.copy(ROOT / ".ci" / "run", tmp_path / ".ci" / "run")
+    programs = tmp_path / "programs"
+    programs.mkdir()
+    for program in ("make", "npm", "chromium"):
+        (programs / program).write_text(f'#!/bin/sh\n[ "$1" != "{failing}" ]\n' if failing else "#!/bin/sh\n")
+        (programs / program).chmod(0o755)
+    environment = os.environ | {"PATH": f"{programs}{os.pathsep}{os.environ['PATH']}"}
+    ended = subprocess.run([tmp_path / ".ci" / "run"], env=environment, capture_output=True, timeout=60)
+    assert (ended.returncode == 0) == (not failing), ended.stderr
+
+
 def test_no_exception_outlives_its_page():
     on_pages = {command for typed in EVERY.values() for _, command in typed}
     for command in (*RUN_BY_CI, *EXCEPTIONS, *EXIT_CODES):

@@ -202,7 +202,7 @@ def test_resources_are_found_by_path_and_by_uri(handed, tmp_path, form):
     folder = tmp_path / "a b%20c" / "resources"
     folder.mkdir(parents=True)
     (folder / "program.bin").write_bytes(program_file(handed))
-    prebuilt = interpreter.library()
+    prebuilt = interpreter.prebuilt_library()
     prebuilt.fmi2Instantiate.restype = ctypes.c_void_p
     prebuilt.fmi2Instantiate.argtypes = [
         ctypes.c_char_p,

@@ -3,6 +3,7 @@
 import json
 import math
 import time
+from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -34,6 +35,7 @@ NEED = {
     "nut": {"type": "double"},
     "need": {"largest_drive_torque": "40 N m", "least_rigidity": "500 N/um", "largest_preload_torque": "2 N m"},
 }
+needs_pymoo = pytest.mark.skipif(not find_spec("pymoo"), reason='needs pymoo, of the extra "optimise"')
 NO_OPTIONS = {"model": None, "calibration": None, "allow_code": False}
 
 
@@ -59,6 +61,7 @@ def some_designs(space, count, seed=0):
 
 
 @pytest.mark.parametrize("nut", ["double", "single", pytest.param("oversize-balls", marks=pytest.mark.long)])
+@needs_pymoo
 def test_constraints_and_objectives_are_those_of_the_check(nut):
     """Arrays of designs against the full model and its checks one by one, with elastic bodies."""
     need, space, rigid = model_of(
@@ -90,7 +93,6 @@ def test_constraints_and_objectives_are_those_of_the_check(nut):
 
 def test_the_search_finds_a_known_front():
     """x² + y² and (x - 2)² + y² for x + y >= 1: beyond x = 1 on y = 0, before it on the line, by Lagrange."""
-    pytest.importorskip("pymoo")
 
     def evaluate(x):
         costs = np.column_stack([x[:, 0] ** 2 + x[:, 1] ** 2, (x[:, 0] - 2) ** 2 + x[:, 1] ** 2])
@@ -111,9 +113,8 @@ def test_the_search_finds_a_known_front():
     assert found.evaluations == 2400
 
 
+@needs_pymoo
 def test_a_bad_number_never_wins():
-    pytest.importorskip("pymoo")
-
     def evaluate(x):
         return np.where(x < 0.5, np.nan, x), np.zeros((len(x), 0))
 
@@ -121,9 +122,9 @@ def test_a_bad_number_never_wins():
     assert found.costs.min() == pytest.approx(0.5, abs=0.01)
 
 
+@needs_pymoo
 def test_a_shaft_that_may_not_buckle_has_the_diameter_of_euler():
     """The least inertia of a long pushed shaft: d_r⁴ = 64 S F l² / (β² π E), all sizes but the circle given."""
-    pytest.importorskip("pymoo")
     tables = {
         "operation": {"axial_load": "15 kN", "screw_speed": "10 rpm"},
         "installation": {"unsupported_length": "3 m", "ends": "supported-supported"},
@@ -148,8 +149,8 @@ def test_a_shaft_that_may_not_buckle_has_the_diameter_of_euler():
     assert best.objectives["inertia"] == pytest.approx(math.pi * 7850 * (d_r + offset) ** 4 * 3 / 32, rel=5e-3)
 
 
+@needs_pymoo
 def test_the_front_beats_random_search_and_its_members_are_public(ballscrew, tmp_path):
-    pytest.importorskip("pymoo")
     tables = {**NEED, "nut": {"type": "single"}, "need": {}}
     found = bs.optimise(
         tables, population=40, generations=15, members=3, engine="numpy", settings=["optimise.elastic_generations=2"]
@@ -228,8 +229,8 @@ def test_without_pymoo_a_fault_says_how_to_get_it(monkeypatch):
         searches._pymoo()
 
 
+@needs_pymoo
 def test_a_need_that_nothing_fulfils_ends_in_words(tmp_path):
-    pytest.importorskip("pymoo")
     tables = {"force": "900 kN", "feed": "60 m/min", "nut": "single", "life": "20000 h"}
     options = {"population": 8, "generations": 2, "engine": "numpy", "settings": ["optimise.elastic_generations=1"]}
     found = bs.optimise(tables, **options)
@@ -240,6 +241,7 @@ def test_a_need_that_nothing_fulfils_ends_in_words(tmp_path):
     files.draw(lambda: picture(found), tmp_path / "empty.svg")
 
 
+@needs_pymoo
 def test_an_objective_that_is_zero_has_no_change():
     """A single nut has no torque without load: the ratio of the full model to the search is left out, not divided."""
     need = need_of({**NEED, "nut": {"type": "single"}})
@@ -262,7 +264,6 @@ def test_a_motion_is_refused():
 @pytest.mark.compiles
 def test_twelve_thousand_designs_take_five_seconds():
     """Once the model is recorded and compiled, on a machine that does nothing else; the double nut is the slower."""
-    pytest.importorskip("pymoo")
     _, space, model = model_of(NEED, engine="compiled")
     start = time.perf_counter()
     found = searches.search(model.costs, space.lower, space.upper, population=200, generations=60, seed=0)

@@ -12,7 +12,7 @@ from ballscrew.components.frame import helix_frame
 from ballscrew.components.nut import Bodies, Deviations, DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
 from ballscrew.equations import geometry, hertz, preload
 from ballscrew.errors import InputError
-from ballscrew.solvers import load_distribution
+from ballscrew.solvers import ball_springs, load_distribution
 from ballscrew.solvers.load_distribution import ball_loads, preload_of
 
 STEEL = bs.Material(young_modulus=2.26e11 * (1 - 0.3**2), poisson_ratio=0.3)
@@ -428,3 +428,32 @@ def test_the_preload_of_an_oversize_in_bodies_that_swell_is_what_is_left_without
     loads = ball_loads(screw, swelling, 0.0, bodies=swelling.bodies.sized(screw))
     assert preload_of(screw, swelling) == pytest.approx(float(loads.remaining_preload), rel=1e-12)
     assert preload_of(screw, swelling) < 0.9 * preload_of(screw, bars)
+
+
+# -- the elimination ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("loose", [0.0, 0.4], ids=["all balls carry", "some do not"])
+def test_a_chain_is_eliminated_alone_as_side_by_side(loose):
+    """Few points are solved one by one: to the last bit as among many, and the solution balances the forces."""
+    random = np.random.default_rng(1)
+    balls, points = 121, ball_springs.FEW_POINTS + 3
+    bars = 10 ** random.uniform(6, 9, (balls - 1, points))
+    grounds = 10 ** random.uniform(5, 8, (balls, points)) * (random.random((balls, points)) >= loose)
+    right = random.normal(size=(balls, points))
+    together = ball_springs.tridiagonal(bars, grounds, right)
+    alone = np.hstack([ball_springs.tridiagonal(bars[:, [i]], grounds[:, [i]], right[:, [i]]) for i in range(points)])
+    np.testing.assert_array_equal(alone, together)
+    passed_on = bars * np.diff(together, axis=0)
+    left = right - grounds * together
+    left[:-1] += passed_on
+    left[1:] -= passed_on
+    assert np.max(np.abs(left)) < 1e-9
+
+
+def test_a_chain_tied_to_nothing_has_no_solution():
+    """Alone as side by side: no bar and no ground is NaN, not an error."""
+    for points in (1, ball_springs.FEW_POINTS + 1):
+        with np.errstate(invalid="ignore", divide="ignore"):
+            moved = ball_springs.tridiagonal(np.zeros((2, 1)), np.zeros((3, points)), np.ones((3, points)))
+        assert np.isnan(moved[0]).all()

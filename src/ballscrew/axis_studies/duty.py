@@ -29,6 +29,7 @@ from ballscrew.motion.trajectory import HALF_WIDTHS, Trajectory
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Acceleration, Duration, Energy, Force, Info, Quantity, Torque
 from ballscrew.sizing.checks import Check, checks
+from ballscrew.sizing.speed_limits import speed_limit_of
 from ballscrew.solvers.load_distribution import preload_of
 
 DAY = 86400.0
@@ -285,7 +286,7 @@ class DutyReport:
             root_diameter=case.listed.get("root_diameter"),
             installation=case.installation,
             limits=case.limits,
-            speed_limit_source="" if case.row is None else case.row.speed_limit_source,
+            speed_limit=speed_limit_of(case.row),
         )
         return [check for check in found if check.name in _OF_EXTREMES]
 

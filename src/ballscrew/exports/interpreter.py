@@ -59,7 +59,7 @@ def runs_here() -> bool:
     if not (sys.platform == "linux" and platform.machine() == "x86_64"):
         return False
     try:
-        library()
+        prebuilt_library()
     except OSError:  # another C library, or an older one
         return False
     return True
@@ -69,7 +69,7 @@ class Interpreted:
     """A program in the interpreter. Not for several threads at once."""
 
     def __init__(self, content: bytes) -> None:
-        self._library = library()
+        self._library = prebuilt_library()
         self._program = self._library.ballscrew_program_of(content, len(content))
         if not self._program:
             raise ValueError("no program, or a damaged one")
@@ -98,7 +98,7 @@ def _names(texts: ctypes.Array[ctypes.c_char_p]) -> list[str]:
 
 
 @functools.cache
-def library() -> ctypes.CDLL:
+def prebuilt_library() -> ctypes.CDLL:
     """The prebuilt library. Raises ``OSError`` where it cannot be loaded."""
     with resources.as_file(resources.files("ballscrew").joinpath("data", "exports", *LINUX64.split("/"))) as path:
         found = ctypes.CDLL(str(path))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -70,7 +71,7 @@ def _along(panel: Axes, found: Optimisation, name: str) -> None:
 
 
 def _members(panel: Axes, found: Optimisation, x: str, value: Callable[[Member], float]) -> None:
-    groups = (
+    groups: tuple[tuple[str, list[Member], dict[str, Any]], ...] = (
         ("fails", [m for m in found.members if not m.fits], {"marker": "x", "color": style.GREY}),
         (
             "holds", [m for m in found.members if m.fits and not m.pareto],
@@ -81,7 +82,7 @@ def _members(panel: Axes, found: Optimisation, x: str, value: Callable[[Member],
     for label, members, look in groups:
         if members:
             places = [float(_in_units(x, each.objectives[x])) for each in members]
-            panel.scatter(places, [value(each) for each in members], s=22, label=label, **look)  # pyright: ignore[reportArgumentType]
+            panel.scatter(places, [value(each) for each in members], s=22, label=label, **look)
     panel.set_xlabel(label_of(OBJECTIVES[x].quantity))
 
 

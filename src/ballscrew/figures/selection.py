@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -48,7 +49,7 @@ def caption(found: Selection) -> str:
 
 
 def _panel(panel: Axes, ranked: Sequence[Ranked], x: str, y: str) -> None:
-    groups = (
+    groups: tuple[tuple[str, list[Ranked], dict[str, Any]], ...] = (
         ("fails", [each for each in ranked if not each.candidate.fits], {"marker": "x", "color": style.SHADE}),
         (
             "no check fails", [each for each in ranked if each.candidate.fits and not each.pareto],
@@ -58,7 +59,7 @@ def _panel(panel: Axes, ranked: Sequence[Ranked], x: str, y: str) -> None:
     )  # fmt: skip
     for label, members, look in groups:
         points = [(_shown(x, each), _shown(y, each)) for each in members]
-        panel.scatter([p[0] for p in points], [p[1] for p in points], s=22, label=label, **look)  # pyright: ignore[reportArgumentType]
+        panel.scatter([p[0] for p in points], [p[1] for p in points], s=22, label=label, **look)
     for each in [each for each in ranked if each.pareto][:_NAMED]:
         point = (_shown(x, each), _shown(y, each))
         if all(map(math.isfinite, point)):

@@ -39,7 +39,7 @@ from ballscrew.web.starts import starts
 #: Units of inches and pounds, by the metric units that they replace; other units are the same in both.
 _INCHES: Mapping[str, str] = {
     "mm": "in", "um": "uin", "N": "lbf", "kN": "lbf", "N m": "lbf in", "N mm": "lbf in", "MPa": "psi", "GPa": "psi",
-    "degC": "degF", "m": "in",
+    "degC": "degF", "m": "in", "m/min": "in/min",
 }  # fmt: skip
 
 

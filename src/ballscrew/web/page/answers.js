@@ -14,6 +14,7 @@ import { ask, linesOf, Problem, sendJson } from "./server.js";
 import { LETTERS } from "./state.js";
 import * as stiffness from "./stiffness.js";
 import * as temperatures from "./temperatures.js";
+import { text } from "./texts.js";
 
 /** Points of a curve and of one side of the map; fewer for a whole nut, which takes longer. */
 const POINTS = { curve: 41, curveOfNut: 15, map: 21, mapOfNut: 11 };
@@ -98,20 +99,19 @@ export async function update(cases, { designs, show, band: wanted, own }, report
     const key = JSON.stringify(body);
     /** @type {Run} */
     const answer = await ask("run", body, signal);
-    const checked = await checksOf(body, signal);
     if (signal.aborted) return;
     const { designs: before, starts } = displayed;
     /** @type {Displayed} */
     const known = displayed.key === key ? displayed : { band: null, starts };
-    displayed = { body, whole, key, answer, checks: checked, band: known.band, designs: before, starts };
+    displayed = { body, whole, key, answer, checks: known.checks, band: known.band, designs: before, starts };
     report([]);
     results.succeed();
     if (wanted && !displayed.band) displayed.band = { state: "pending" };
     results.show(answer, displayed);
-    checks.show(checked, jump);
     stiffness.show(answer);
     measurePaint("numbers", start, signal);
-    await Promise.all([drawCharts(body, answer, signal, start), showAll(bodies, own, wanted, signal)]);
+    const checked = showChecks(body, answer, signal);
+    await Promise.all([checked, drawCharts(body, answer, signal, start), showAll(bodies, own, wanted, signal)]);
     await measurePaint("all", start, signal);
     if (!signal.aborted) showBand(wanted);
   } catch (error) {
@@ -123,6 +123,21 @@ export async function update(cases, { designs, show, band: wanted, own }, report
   } finally {
     if (!signal.aborted) byId("results").setAttribute("aria-busy", "false");
   }
+}
+
+/**
+ * Show the checks of an answer, and the verdict that they lead to.
+ *
+ * @param {Body} body
+ * @param {Run} answer
+ * @param {AbortSignal} signal
+ */
+async function showChecks(body, answer, signal) {
+  const checked = await checksOf(body, signal);
+  if (signal.aborted) return;
+  displayed.checks = checked;
+  results.show(answer, displayed);
+  checks.show(checked, jump);
 }
 
 /**
@@ -390,7 +405,7 @@ async function addBands(bodies, own, signal) {
 export async function compareModels() {
   const { body } = displayed;
   if (!body) return;
-  byId("models").textContent = "computing …";
+  byId("models").textContent = text("models.pending");
   try {
     const found = await sendJson("compare", body);
     if (body !== displayed.body) {

@@ -32,17 +32,17 @@ function nameOf({ name }) {
 }
 
 /**
- * All checks in one sentence; nothing passes that was not judged.
+ * All checks in one sentence, with the number of those judged where not all were; nothing passes that was not judged.
  *
- * @param {{ checks: OneCheck[], holds: boolean }} found
+ * @param {{ checks: OneCheck[], judged: number, holds: boolean }} found
  */
-export function verdict({ checks, holds }) {
+export function verdict({ checks, judged, holds }) {
+  const all = checks.length;
   const failed = checks.filter((one) => one.holds === false).map(nameOf);
-  const open = checks.filter((one) => one.holds === null).length;
-  const rest = open ? ` ${text("checks.open", { open, all: checks.length })}` : "";
+  const rest = judged < all ? ` ${text("checks.judged", { judged, all })}` : "";
   if (failed.length) return `${text("checks.fail", { names: failed.join(", ") })}${rest}`;
-  if (holds) return text("checks.all_hold", { all: checks.length });
-  return `${text("checks.some_hold", { some: checks.length - open })}${rest}`;
+  if (holds) return text("checks.all_hold", { all });
+  return `${text("checks.some_hold", { some: judged })}${rest}`;
 }
 
 /**
@@ -134,7 +134,7 @@ export function show(found, jump) {
 /**
  * All checks in one sentence, and a table of them.
  *
- * @param {{ checks: OneCheck[], holds: boolean }} found
+ * @param {{ checks: OneCheck[], judged: number, holds: boolean }} found
  * @param {string} caption
  * @param {(path: string) => void} jump goes to a field
  */

@@ -51,7 +51,8 @@ function onChange({ path = "", text = "", unit, start, reset, rebuild }) {
   for (const [one, value] of [...others, [path, text]]) designs.change(one, value);
   form.mark(path, path in changes);
   byId("reset").hidden = !Object.keys(changes).length;
-  follow({ rebuild: rebuild || others.length > 0, path });
+  // a speed of the nut is shown through the lead
+  follow({ rebuild: rebuild || others.length > 0 || path === "screw.lead", path });
 }
 
 /** The state of the address; a notice names what is unknown here and ignored. */
@@ -61,12 +62,11 @@ function readAddress() {
   found.designs = found.designs.map((one) => (designs.isKnown(one.start) ? one : states.design()));
   const lines = [];
   if (unknownStarts.length) {
-    const names = unknownStarts.join(" and ");
-    lines.push(`The link starts from ${names}, not known here: the paper's screw is shown in its place.`);
+    lines.push(text("link.start", { names: unknownStarts.join(", ") }));
   }
   if (unknown.length) {
     const names = unknown.slice(0, 3).map(quoted).join(", ") + (unknown.length > 3 ? ", …" : "");
-    lines.push(`The link has keys that are not known here and are left out: ${names}.`);
+    lines.push(text("link.keys", { names }));
   }
   showNotice(lines.join(" "));
   return found;
@@ -78,15 +78,15 @@ function use(found) {
   designs.use(found);
 }
 
-/** @param {string} text */
-function quoted(text) {
-  return text.length > LONGEST_QUOTE ? `${text.slice(0, LONGEST_QUOTE)}…` : text;
+/** @param {string} name */
+function quoted(name) {
+  return name.length > LONGEST_QUOTE ? `${name.slice(0, LONGEST_QUOTE)}…` : name;
 }
 
-/** @param {string} text */
-function showNotice(text) {
-  byId("notice").textContent = text;
-  byId("notice").hidden = !text;
+/** @param {string} words */
+function showNotice(words) {
+  byId("notice").textContent = words;
+  byId("notice").hidden = !words;
 }
 
 /**
@@ -153,6 +153,7 @@ async function showForm() {
   await designs.startOf(design.start);
   if (design !== designs.current()) return; // another one was chosen in the meantime
   const tables = designs.tablesOf(design);
+  units.setLead(states.valueAt(tables, "screw.lead"));
   // a text stays as it was typed while typing goes on: 0.10 may become 0.107
   /** @param {string} path */
   const given = (path) => {

@@ -132,7 +132,7 @@ export function setUp(holder, page) {
     const select = element(
       "select",
       { id: "duty-example" },
-      ...moving.map(([name, { title }]) => element("option", { value: name }, textOr(`field.start.${name}`, title))),
+      ...moving.map(([name, { title }]) => element("option", { value: name }, textOr(`start.${name}`, title))),
     );
     const take = () => {
       const example = /** @type {Tables} */ (starts[select.value].case);
@@ -160,11 +160,7 @@ export function setUp(holder, page) {
         warnings,
       ),
       numbers(results),
-      ...checks.panel(
-        { checks: found.checks, holds: found.checks.every((one) => one.holds === true) },
-        text("duty.checks_caption"),
-        page.jump,
-      ),
+      ...checks.panel(judgedOf(found), text("duty.checks_caption"), page.jump),
     );
     charts.show(results, vocabulary.causes);
     parts.replaceChildren(partsOf(results), brake(results), phases(results));
@@ -174,7 +170,7 @@ export function setUp(holder, page) {
   function numbers(results) {
     const rows = NUMBERS.map(([name, { text: inUnits }]) => {
       const value = /** @type {Record<string, any>} */ (results)[name];
-      const meaning = textOr(`field.cycle.${name}`, vocabulary.of_cycle[name].meaning);
+      const meaning = textOr(`quantity.${name}`, vocabulary.of_cycle[name].meaning);
       return element("div", {}, element("dt", {}, meaning), element("dd", {}, data(name, value, inUnits(value))));
     });
     return element("div", { class: "numbers" }, element("dl", {}, ...rows));
@@ -188,7 +184,7 @@ export function setUp(holder, page) {
     );
     /** @param {string} name */
     const meaning = (name) =>
-      textOr(`field.mechanism.${name}`, vocabulary.mechanisms[name]?.words ?? name.replaceAll("_", " "));
+      textOr(`mechanism.${name}`, vocabulary.mechanisms[name]?.words ?? name.replaceAll("_", " "));
     /** @param {Record<string, number | null>} column */
     const sum = (column) => Object.values(column).reduce((/** @type {number} */ found, one) => found + (one ?? 0), 0);
     /** What is rounding is nothing. @param {Record<string, number | null>} column @param {string} name */
@@ -263,6 +259,12 @@ export function setUp(holder, page) {
   }
 
   return { follow, stop: asked.stop };
+}
+
+/** The checks of a cycle, and how many of them were judged. @param {DutyAnswer} found */
+function judgedOf({ checks: all }) {
+  const judged = all.filter((one) => one.holds !== null).length;
+  return { checks: all, judged, holds: all.every((one) => one.holds === true) };
 }
 
 /**

@@ -90,7 +90,7 @@ function motion({ cycle }) {
 function torque({ cycle, torque_rms: rms }, causes) {
   const time = TIME.all(cycle.time);
   const parts = Object.entries(cycle.torque_by).map(([name, values]) => ({
-    name: textOr(`field.cause.${name}`, causes[name]?.words ?? name),
+    name: textOr(`cause.${name}`, causes[name]?.words ?? name),
     values: TORQUE.all(values),
     colour: causes[name]?.colour,
   }));

@@ -56,7 +56,7 @@ export function inputs(tables, state, motions, usualMotor, { put, onChange }) {
   const source = { state, tables, onChange };
   return [
     motionFields(tables.motion, motions, source, put),
-    fieldset("axis", text("duty.axis"), OF_AXIS, source),
+    fieldset("axis", text("section.axis"), OF_AXIS, source),
     ...motorFields(tables.motor, usualMotor, source, put),
   ];
 }
@@ -80,7 +80,7 @@ function motionFields(motion, motions, source, put) {
     ),
   );
   const names = (motions[kind] ?? []).filter((name) => name !== "segment" && name !== "kind");
-  const fields = fieldset("motion", text("duty.motion"), names, source);
+  const fields = fieldset("motion", text("section.motion"), names, source);
   const chosen = element(
     "div",
     { class: "field", "data-path": "motion.kind" },
@@ -151,7 +151,7 @@ function motorFields(motor, usualMotor, source, put) {
     text(motor ? "duty.no_motor" : "duty.add_motor"),
   );
   if (!motor) return [element("p", {}, `${text("duty.without_motor")} `, button)];
-  const fields = fieldset("motor", text("duty.motor"), OF_MOTOR, source);
+  const fields = fieldset("motor", text("section.motor"), OF_MOTOR, source);
   const input = element("input", {
     type: "text",
     id: "f-motor-curve",

@@ -1,7 +1,7 @@
 // Verdicts and warnings of a card.
 
 import { element } from "../dom.js";
-import { text } from "../texts.js";
+import { ofServer, text } from "../texts.js";
 
 /**
  * Verdicts, and below them what to beware of.
@@ -12,14 +12,18 @@ import { text } from "../texts.js";
 export function lines(verdicts, warnings) {
   return [
     ...verdicts.map(({ id, severity, text: words }) =>
-      element("p", { class: severity === "info" ? "verdict" : "verdict careful", "data-record": id }, sentence(words)),
+      element(
+        "p",
+        { class: severity === "info" ? "verdict" : "verdict careful", "data-record": id, ...ofServer },
+        sentence(words),
+      ),
     ),
     ...warnings.map(({ id, text: words }) =>
       element(
         "p",
         { class: "warning", "data-record": id },
         element("strong", {}, `${text("card.beware")} `),
-        sentence(words),
+        element("span", ofServer, sentence(words)),
       ),
     ),
   ];

@@ -5,7 +5,7 @@ import { element, table } from "../dom.js";
 import { watch } from "../plot.js";
 import * as schema from "../schema.js";
 import * as states from "../state.js";
-import { text, textOr } from "../texts.js";
+import { ofServer, text, textOr } from "../texts.js";
 import * as units from "../units.js";
 import { fieldset, placeFaults, showValues } from "./case_fields.js";
 import { data, FORCE, GROWTH, HOURS, POWER, quantity, TEMPERATURE, TORQUE } from "./quantities.js";
@@ -128,7 +128,7 @@ export function setUp(holder, page) {
     const source = { state: designs.all(), tables, onChange };
     const names = Object.keys(schema.fieldsOf(SECTION));
     const others = names.filter((name) => !FIRST.includes(name));
-    const first = fieldset(SECTION, text("warm_up.surroundings"), FIRST, source);
+    const first = fieldset(SECTION, text("section.surroundings"), FIRST, source);
     const more = element(
       "details",
       { open: isOpen },
@@ -240,7 +240,7 @@ export function setUp(holder, page) {
 
   /** @param {WarmUpAnswer} found */
   function assumed({ assumed: found }) {
-    const list = element("ul", {}, ...found.map((one) => element("li", {}, one)));
+    const list = element("ul", ofServer, ...found.map((one) => element("li", {}, one)));
     return element("details", {}, element("summary", {}, text("warm_up.assumed")), list);
   }
 

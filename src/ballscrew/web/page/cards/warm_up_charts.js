@@ -32,7 +32,7 @@ const SHADE = 0.2;
 
 /** The meaning of a series. @param {string} name @param {Vocabulary} vocabulary */
 export function meaning(name, { of_warm_up: known }) {
-  return textOr(`field.heat.${name}`, known[name]?.meaning ?? name);
+  return textOr(`quantity.${name}`, known[name]?.meaning ?? name);
 }
 
 /**
