@@ -10,6 +10,8 @@ declare global {
   type Checks = Schemas["Checks"];
   type Compare = Schemas["Compare"];
   type BandAnswer = Schemas["Band"];
+  type DutyAnswer = Schemas["Duty"];
+  type WarmUpAnswer = Schemas["WarmUp"];
   type Vocabulary = Schemas["Vocabulary"];
   type UnitChoice = Schemas["UnitChoice"];
   type Mechanisms = Vocabulary["mechanisms"];

@@ -31,7 +31,7 @@ let follow;
 /** Tables of the cases to start from, by name. @type {Map<string, states.Tables>} */
 const starts = new Map();
 
-/** @typedef {{ rebuild?: boolean, keep?: boolean, formOnly?: boolean, path?: string }} Follow */
+/** @typedef {{ rebuild?: boolean, keep?: boolean, formOnly?: boolean, path?: string, ofCards?: boolean }} Follow */
 
 /**
  * @param {Vocabulary} words
@@ -186,17 +186,18 @@ export function currentCase() {
 
 /**
  * Put whole sections of a case into the current design, such as ``{ motion: {…}, axis: {…} }``; null takes one away.
- * The button Back undoes it.
+ * The button Back undoes it, and all edits of one field in a row as one.
  *
  * @param {states.Tables} sections
+ * @param {string} [path] the field that was edited, if it was one
  */
-export async function setTables(sections) {
+export async function setTables(sections, path) {
   const design = current();
   const given = Object.keys(sections);
   // a typed text of such a section is replaced with it
   for (const path of Object.keys(design.changes)) if (given.includes(path.split(".")[0])) delete design.changes[path];
   design.tables = { ...design.tables, ...structuredClone(sections) };
-  await follow({ rebuild: true, keep: true });
+  await follow(schema.areOfCards(given) ? { ofCards: true, keep: !path, path } : { rebuild: true, keep: true });
 }
 
 // -- files and several designs ----------------------------------------------------------------------

@@ -17,7 +17,7 @@ const KINDS = {
   HTML: ["download.html", "report?kind=html"],
 };
 
-/** @typedef {{ body?: object, answer?: Run, alongSpeed?: Sweep }} Current */
+/** @typedef {{ whole?: object, answer?: Run, alongSpeed?: Sweep }} Current */
 
 /**
  * Buttons for all kinds; ``current`` gives the case and the answer.
@@ -45,8 +45,8 @@ function say(words) {
  * @param {string} kind
  * @param {Current} current
  */
-async function saveAs(kind, { body, answer, alongSpeed }) {
-  if (!body || !answer || byId("results").classList.contains("stale")) {
+async function saveAs(kind, { whole, answer, alongSpeed }) {
+  if (!whole || !answer || byId("results").classList.contains("stale")) {
     say(text("download.fault"));
     return;
   }
@@ -54,7 +54,7 @@ async function saveAs(kind, { body, answer, alongSpeed }) {
   try {
     if (address) {
       say(text("download.making", { kind }));
-      save(`.${kind.toLowerCase()}`, await (await send(address, kind === "TOML" ? withAside(body) : body)).blob());
+      save(`.${kind.toLowerCase()}`, await (await send(address, kind === "TOML" ? withAside(whole) : whole)).blob());
     } else if (kind === "JSON") {
       const { words, display, ...document } = answer;
       save(".json", new Blob([JSON.stringify(document, null, 2)], { type: "application/json" }));

@@ -146,14 +146,14 @@ function startField({ starts, rows }) {
    * @param {string} words
    */
   const option = (name, words) => element("option", { value: name }, words);
+  const known = Object.entries(starts);
+  /** @param {[string, Vocabulary["starts"][string]]} start */
+  const startOption = ([name, { title }]) => option(name, textOr(`start.${name}`, title));
   const select = element(
     "select",
     { id: "start", onchange: () => onChange({ start: select.value }) },
-    element(
-      "optgroup",
-      { label: text("form.papers") },
-      ...Object.entries(starts).map(([name, { title }]) => option(name, textOr(`start.${name}`, title))),
-    ),
+    element("optgroup", { label: text("form.papers") }, ...known.filter(([, { moves }]) => !moves).map(startOption)),
+    element("optgroup", { label: text("form.examples") }, ...known.filter(([, { moves }]) => moves).map(startOption)),
     ...[...groups].map(([source, members]) =>
       element("optgroup", { label: source }, ...members.map((row) => option(row.name, rowLabel(row)))),
     ),

@@ -1,6 +1,7 @@
 // The page: its state in the address, the form, and the answer that follows what is typed.
 
 import * as answers from "./answers.js";
+import * as cards from "./cards.js";
 import { consequences } from "./consequences.js";
 import * as designs from "./designs.js";
 import { byId, element, nameFiles, within } from "./dom.js";
@@ -19,11 +20,6 @@ import * as units from "./units.js";
 const LONGEST_QUOTE = 40;
 /** The calibration of the button: that of both of its numbers, to the vendor whose rows are shown beside it. */
 const CALIBRATION = "rexroth-2006";
-
-/** Cards, which are loaded when they are first opened. @type {Record<string, () => Promise<{ setUp: (holder: HTMLElement) => { follow: () => void } }>>} */
-const CARDS = { files: () => import("./cards/files.js") };
-/** Cards that have been opened. @type {Map<string, { follow: () => void }>} */
-const opened = new Map();
 
 /** @type {Vocabulary} */
 let vocabulary;
@@ -98,11 +94,12 @@ function showNotice(...words) {
 /**
  * Write the state into the address, and show it.
  *
- * @param {{ rebuild?: boolean, keep?: boolean, formOnly?: boolean, path?: string }} options ``rebuild`` makes the form
- *   anew, ``keep`` leaves the state before to the button Back, ``formOnly`` sends no request, ``path`` was edited
+ * @param {designs.Follow} options ``rebuild`` makes the form
+ *   anew, ``keep`` leaves the state before to the button Back, ``formOnly`` sends no request, ``path`` was edited,
+ *   ``ofCards`` changes what only cards ask about
  */
-async function follow({ rebuild = false, keep = false, formOnly = false, path } = {}) {
-  if (!formOnly) byId("results").setAttribute("aria-busy", "true");
+async function follow({ rebuild = false, keep = false, formOnly = false, path, ofCards = false } = {}) {
+  if (!formOnly && !ofCards) byId("results").setAttribute("aria-busy", "true");
   const fragment = states.toFragment(state);
   keeping.keep(fragment, state.designs.map(designs.titleOf).join(" · "));
   if (keep) {
@@ -116,17 +113,9 @@ async function follow({ rebuild = false, keep = false, formOnly = false, path } 
     results.fail(results.refusal(linesOf(error)));
     return;
   }
-  for (const card of opened.values()) card.follow();
-  if (!formOnly) await update();
-}
-
-/** @param {string} name */
-async function turnCard(name) {
-  const isOpen = byId(name).hidden;
-  if (isOpen && !opened.has(name)) opened.set(name, (await CARDS[name]()).setUp(byId(name)));
-  byId(name).hidden = !isOpen;
-  byId(`${name}-open`).textContent = text(isOpen ? "card.close" : "card.open");
-  byId(`${name}-open`).setAttribute("aria-expanded", String(isOpen));
+  cards.follow();
+  if (ofCards) answers.keepWhole(await designs.currentCase());
+  else if (!formOnly) await update();
 }
 
 async function update() {
@@ -310,10 +299,10 @@ function addListeners() {
   entries.begin(() => {
     use(readAddress());
     follow({ rebuild: true });
+    cards.openAll();
   });
   downloads.build(answers.current);
   files.setUp(showNotice);
-  for (const name of Object.keys(CARDS)) byId(`${name}-open`).addEventListener("click", () => turnCard(name));
 }
 
 async function begin() {
@@ -330,8 +319,15 @@ async function begin() {
   if (latest) files.sayRestored(latest, showNotice);
   units.setSystem(state.system);
   addListeners();
+  cards.setUp({
+    vocabulary,
+    setUnit: (path, unit) => onChange({ path, unit }),
+    jump: form.jump,
+    keep: () => follow({ ofCards: true }),
+  });
   await follow({ rebuild: true });
   document.documentElement.dataset.ready = "true";
+  await cards.openAll();
 }
 
 begin().catch((error) => results.fail(results.refusal(linesOf(error))));
