@@ -17,7 +17,7 @@ from ballscrew.motion.profiles import Segments, Trapezoid
 from ballscrew.motion.trajectory import Trajectory
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.records import Record, Severity
-from ballscrew.sizing.checks import Check
+from ballscrew.sizing.checks import Check, all_hold, verdict_of
 from ballscrew.supports.bearing import DIRECTION
 
 _LENGTH, _SPEED = fields_of(Trapezoid)["stroke"], fields_of(Trapezoid)["speed"]
@@ -81,15 +81,10 @@ def _motor(report: DutyReport) -> list[Record]:
 
 
 def _checks(report: DutyReport) -> Record:
-    failed = [check.name.replace("_", " ") for check in report.checks if check.holds is False]
-    not_judged = sum(check.holds is None for check in report.checks)
-    if not_judged and not failed:
-        text = f"{not_judged} of {len(report.checks)} not judged; the others hold"
-    else:
-        text = f"fails: {', '.join(failed)}" if failed else "passes all checks"
-        text += f"; {not_judged} of {len(report.checks)} not judged" if not_judged else ""
-    holds = False if failed else None if not_judged else True
-    return Record(id="verdict.checks", subject="checks", text=text, severity="error" if failed else "info", holds=holds)
+    holds = all_hold(report.checks)
+    text = verdict_of(report.checks, passes="passes all checks")
+    severity: Severity = "error" if holds is False else "info"
+    return Record(id="verdict.checks", subject="checks", text=text, severity=severity, holds=holds)
 
 
 def warnings(report: DutyReport) -> list[Record]:

@@ -56,6 +56,7 @@ EXAMPLES: Mapping[str, str | float] = {
     "balls": 165,
     "unsupported_length": "1 m",
     "running_time": "20000 h",
+    "diameter_speed_product": "70000 mm rpm",
     "mass": "400 kg",
     "stroke": "500 mm",
     "speed": "30 m/min",

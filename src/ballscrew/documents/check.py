@@ -12,7 +12,7 @@ from ballscrew.documents.self_heating import with_self_heating
 from ballscrew.quantities import quantities_of
 from ballscrew.records import documents
 from ballscrew.screw_tables.nut_kinds import LISTED, kind_of
-from ballscrew.sizing.checks import Check
+from ballscrew.sizing.checks import Check, judged
 from ballscrew.studies.check import RATINGS, Checked
 
 
@@ -37,6 +37,7 @@ def _document(found: Checked) -> dict[str, Any]:
             "computed": None if found.computed is None else {n: getattr(found.computed, f) for n, f in RATINGS.items()},
         },
         "checks": [check_document(check) for check in found.checks],
+        "judged": judged(found.checks),
         "holds": found.holds,
         "verdict": found.verdict,
         "verdicts": documents(found.verdicts),

@@ -10,9 +10,10 @@ from ballscrew.optimisation.design_space import VARIABLES
 from ballscrew.optimisation.optimisation import Member, Optimisation
 from ballscrew.quantities import fields_of
 from ballscrew.selection.objectives import OBJECTIVES
+from ballscrew.sizing.checks import judged
 
 #: What is the same for all members, or too long for a list.
-_LEFT_OUT = ("units", "provenance", "loads", "name", "nut", "results", "checks", "verdict")
+_LEFT_OUT = ("units", "provenance", "loads", "name", "nut", "results", "checks", "judged", "verdict")
 
 
 def document(found: Optimisation) -> dict[str, Any]:
@@ -58,5 +59,6 @@ def _member(found: Member) -> dict[str, Any]:
         "objectives": dict(found.objectives),
         "results": whole["results"],
         "checks": [check_documents.check_document(check) for check in found.checks],
+        "judged": judged(found.checks),
         **{name: part for name, part in whole.items() if name not in _LEFT_OUT},
     }

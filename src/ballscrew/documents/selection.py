@@ -8,14 +8,15 @@ from typing import Any
 from ballscrew.cases import provenance
 from ballscrew.documents import check as check_documents
 from ballscrew.quantities import fields_of
-from ballscrew.selection.candidates import Candidate
+from ballscrew.selection.candidates import Candidate, case_tables
 from ballscrew.selection.need import Need
 from ballscrew.selection.objectives import OBJECTIVES
 from ballscrew.selection.requirements import Requirements
 from ballscrew.selection.selection import Ranked, Selection
+from ballscrew.sizing.checks import judged, verdict_of
 
 #: What is the same for all candidates, or too long for a list.
-_LEFT_OUT = ("units", "provenance", "loads", "name", "checks", "verdict")
+_LEFT_OUT = ("units", "provenance", "loads", "name", "checks", "judged", "verdict")
 
 
 def document(found: Selection) -> dict[str, Any]:
@@ -29,7 +30,7 @@ def document(found: Selection) -> dict[str, Any]:
         "objectives": objectives_document(found.objectives),
         "best": None if best is None else best.variant.label,
         "holding": len(found.holding),
-        "candidates": [candidate_document(each) for each in found.ranked],
+        "candidates": [candidate_document(each, found.need) for each in found.ranked],
         "notes": list(found.notes),
         "units": {**units, "objectives": {name: each.quantity.unit for name, each in OBJECTIVES.items()}},
         "provenance": None if first is None else provenance.of_case(first.checked.case),
@@ -67,8 +68,8 @@ def objectives_document(names: Any) -> list[dict[str, Any]]:
     ]
 
 
-def candidate_document(ranked: Ranked) -> dict[str, Any]:
-    """One candidate: the document of its check, with its rank, what fails, and the numbers that are compared."""
+def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
+    """One candidate: the document of its check, with its rank, what fails, the numbers compared, and its case file."""
     found = ranked.candidate
     whole = check_documents.list_document([found.checked])[0]
     duty = {} if found.duty is None else {"duty": dict(found.duty.numbers)}
@@ -86,25 +87,18 @@ def candidate_document(ranked: Ranked) -> dict[str, Any]:
         "fails": [{"name": c.name, "utilisation": c.utilisation} for c in found.failed],
         "verdict": verdict(found),
         "objectives": dict(found.objectives),
+        "case": case_tables(need, found.variant),
         "results": whole.pop("results"),
         **duty,
         "checks": [check_documents.check_document(check) for check in found.checks],
+        "judged": judged(found.checks),
         **{name: part for name, part in whole.items() if name not in (*_LEFT_OUT, "nut")},
     }
 
 
 def verdict(found: Candidate) -> str:
     """All checks in a few words, with the utilisation of those that fail."""
-    failed = [
-        check.name.replace("_", " ") + (f" {check.utilisation:.3g} times" if check.utilisation is not None else "")
-        for check in found.failed
-    ]
-    open_ = sum(check.holds is None for check in found.checks)
-    if not failed and open_:
-        text = f"{open_} of {len(found.checks)} not judged; the others hold"
-    else:
-        text = f"fails: {', '.join(failed)}" if failed else "holds"
-        text += f"; {open_} of {len(found.checks)} not judged" if open_ else ""
+    text = verdict_of(found.checks, passes="holds", by_how_much=True)
     if found.checked.nut.preload_is_lost:
         text += "; the load takes the preload away"
     return text if found.valid else f"{text}; outside the model's validity"

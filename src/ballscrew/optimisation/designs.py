@@ -14,6 +14,7 @@ from ballscrew.equations import geometry, life, rating, shaft
 from ballscrew.friction.validity import LARGEST_PRESSURE
 from ballscrew.sizing.installation import Installation, Limits
 from ballscrew.sizing.ratings import RATING_CONFORMITY
+from ballscrew.sizing.speed_limits import GENERAL
 
 Numbers = NDArray[np.float64]
 
@@ -99,7 +100,9 @@ class Designs:
                 found["buckling"] = load * limits.buckling_safety / euler
                 found["critical_speed"] = speed / (critical * limits.critical_speed_share)
             product = shaft.diameter_speed_product(self.pitch_circle_diameter, speed)
-            found["diameter_speed_product"] = product / limits.diameter_speed_product
+            # a geometry that is free has no make
+            given = limits.diameter_speed_product
+            found["diameter_speed_product"] = product / (GENERAL.value if given is None else given)
         return {name: np.broadcast_to(value, load_shape(self)) for name, value in found.items()}
 
 

@@ -52,6 +52,8 @@ COLUMNS = (
     _column("name"),
     *(_column(name, quantity) for name, quantity in _FIELDS.items()),
     _column("nut"),
+    _column("make"),
+    _column("recirculation"),
     _column("spacer_balls"),
     _column("log"),
     _column("source"),

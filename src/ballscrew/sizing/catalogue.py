@@ -14,7 +14,7 @@ from ballscrew._arrays import ByValue
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import geometry
 from ballscrew.errors import Fault, InputError, faults_of, nearest, raise_if_any, shown
-from ballscrew.quantities import Angle, Count, Force, Info, Length, Ratio, Stiffness, Torque, Unit
+from ballscrew.quantities import Angle, Count, DiameterSpeed, Force, Info, Length, Ratio, Stiffness, Torque, Unit
 from ballscrew.sizing.listed_nut import faults_of_nut, nut_of
 
 #: Turns that carry no load where the balls of a nut leave and enter (ISO3408-5, as it fits the ratings of catalogues).
@@ -22,7 +22,7 @@ TURNS_WITHOUT_LOAD = 0.24
 
 #: What few catalogues list of the nut, and tables of one's own may.
 _OF_NUT = ("preload", "preload_share", "seal_torque")
-_OF_TRADE = ("price_index",)
+_OF_TRADE = ("price_index", "speed_limit")
 
 #: A ball this much smaller than its pitch circle is a slip of the unit; real ones have a ratio of 5 to 50.
 SMALLEST_BALL = 1e-3
@@ -105,8 +105,9 @@ class CatalogueRow(ByValue):
     ] = None
     #: Where the outer diameter of the nut is from, if not from the source of the row.
     nut_outer_diameter_source: str = ""
-    #: Where the limit of the DN value that :class:`~ballscrew.sizing.installation.Limits` has stands for this make.
-    speed_limit_source: str = ""
+    #: Who makes the nut, and how its balls return: the limit of its DN value is looked up by both.
+    make: str = ""
+    recirculation: str = ""
     #: How the nut is braced, by the name that the interfaces know it by; nothing where the catalogue does not say.
     nut: str = ""
     source: str = ""
@@ -130,6 +131,16 @@ class CatalogueRow(ByValue):
     seal_torque: Annotated[
         Torque | None,
         Info("M_W", "torque of all seals of the nut", at_least=0, hint="rubber: 0.08 N m at 16 mm, 0.4 N m at 40 mm"),
+    ] = None
+    speed_limit: Annotated[
+        DiameterSpeed | None,
+        Info(
+            "V",
+            "largest DN value of the nut, pitch circle diameter times speed",
+            "mm rpm",
+            above=0,
+            hint="standard nuts have 70000 mm rpm",
+        ),
     ] = None
     price_index: Annotated[
         Ratio | None,
@@ -242,7 +253,8 @@ def catalogue() -> Mapping[str, CatalogueRow]:
             name=name,
             nut=table["nut"],
             source=table["source"],
-            speed_limit_source=table.get("speed_limit_source", ""),
+            make=table.get("make", ""),
+            recirculation=table.get("recirculation", ""),
             nut_outer_diameter_source=table.get("nut_outer_diameter_source", "")
             if "nut_outer_diameter" in fields
             else "",

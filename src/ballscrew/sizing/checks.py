@@ -21,6 +21,7 @@ from ballscrew.sizing.installation import Installation, Limits
 from ballscrew.sizing.ratings import RATING_CONFORMITY as RATING_CONFORMITY
 from ballscrew.sizing.ratings import Ratings as Ratings
 from ballscrew.sizing.ratings import ratings_of as ratings_of
+from ballscrew.sizing.speed_limits import GENERAL, SpeedLimit
 
 HOUR = 3600.0
 
@@ -77,6 +78,35 @@ class Check(NamedTuple):
         )
 
 
+def judged(checks: Sequence[Check]) -> int:
+    """Number of the checks that were judged."""
+    return sum(check.holds is not None for check in checks)
+
+
+def all_hold(checks: Sequence[Check]) -> bool | None:
+    """False where one fails, True where all were judged and hold; None where none fails and not all were judged."""
+    if any(check.holds is False for check in checks):
+        return False
+    return True if judged(checks) == len(checks) else None
+
+
+def verdict_of(checks: Sequence[Check], *, passes: str = "passes", by_how_much: bool = False) -> str:
+    """Checks in a few words. The word ``passes`` is said only where all of them were judged and hold.
+
+    Elsewhere the words say how many were judged; ``by_how_much`` adds the utilisation of those that fail.
+    """
+    failed = [check for check in checks if check.holds is False]
+    names = [
+        check.name.replace("_", " ")
+        + (f" {check.utilisation:.3g} times" if by_how_much and check.utilisation is not None else "")
+        for check in failed
+    ]
+    count = f"{judged(checks)} of {len(checks)} judged"
+    if judged(checks) == len(checks):
+        return f"fails: {', '.join(names)}" if failed else passes
+    return f"fails: {', '.join(names)}; {count}" if failed else f"{count}, and these hold"
+
+
 @accepts_units("checks")
 def checks(
     screw: BallScrew,
@@ -92,7 +122,7 @@ def checks(
     root_diameter: Length | None = None,
     installation: Installation | None = None,
     limits: Limits = _USUAL,
-    speed_limit_source: str = "",
+    speed_limit: SpeedLimit | None = None,
 ) -> tuple[Check, ...]:
     """The checks of a screw at one operating point, all of them every time; one without its inputs says so.
 
@@ -101,9 +131,10 @@ def checks(
     nut body or half, as are the loaded balls of the screw.
     ``half_loads`` are the axial forces at the mean load on the loaded flanks and, if they carry any, on the relieved
     ones; where they are not known, those of the closed formula of :func:`loads_of_halves` are taken.
-    ``maximum_pressure`` is that of the most loaded contact. ``speed_limit_source`` says where the usual limit of the DN
-    value stands for this make; it is that of standard nuts of THK and HIWIN where it is not known. Without a
-    ``root_diameter`` that of the groove is taken.
+    ``maximum_pressure`` is that of the most loaded contact. The DN value is held against that of ``limits``, if one is
+    set there, else against ``speed_limit``, that of the make of the nut, else against a general one
+    (:data:`~ballscrew.sizing.speed_limits.GENERAL`); the text says which. Without a ``root_diameter`` that of the
+    groove is taken.
     Raises :class:`~ballscrew.errors.InputError` for values that are not positive, and a largest load below the mean.
     """
     OperatingState(axial_load=axial_load, screw_speed=screw_speed)
@@ -122,7 +153,7 @@ def checks(
             _shaft_stress(largest, d_r, limits),
             _buckling(screw, largest, d_r, installation, limits),
             _critical_speed(screw, screw_speed, d_r, installation, limits),
-            _diameter_speed_product(screw, screw_speed, limits, speed_limit_source),
+            _diameter_speed_product(screw, screw_speed, limits, speed_limit),
         )
 
 
@@ -242,9 +273,10 @@ def _critical_speed(
     return _at_most(name, speed, critical * limits.critical_speed_share, "rad/s", text)
 
 
-def _diameter_speed_product(screw: BallScrew, speed: AngularSpeed, limits: Limits, source: str) -> Check:
-    value, limit = shaft.diameter_speed_product(screw.pitch_circle_diameter, speed), limits.diameter_speed_product
-    text = "DN value, pitch circle diameter times speed, which the return of the balls must stand"
-    if limit == _USUAL.diameter_speed_product:
-        text += f"; limit of standard nuts, {source or 'of THK and HIWIN: that of this make is not known'}"
-    return _at_most("diameter_speed_product", value, limit, "m rad/s", text)
+def _diameter_speed_product(screw: BallScrew, speed: AngularSpeed, limits: Limits, of_make: SpeedLimit | None) -> Check:
+    value, given = shaft.diameter_speed_product(screw.pitch_circle_diameter, speed), limits.diameter_speed_product
+    text = "DN value, pitch circle diameter times speed, which the return of the balls must stand; limit "
+    known = GENERAL if of_make is None else of_make
+    if given is not None:
+        return _at_most("diameter_speed_product", value, given, "m rad/s", f"{text}that was given")
+    return _at_most("diameter_speed_product", value, known.value, "m rad/s", f"{text}{known.words}")

@@ -105,8 +105,8 @@ class Limits(ByValue):
     """Permissible shares of the limits, and the required life.
 
     Defaults, all of THK514E: a static safety of 2, its least for loads without shocks (5 with them); a stress of
-    147 MPa; half of the buckling load; 0.8 of the critical speed; a DN value of 70000 mm · rpm, that of standard nuts
-    there and in HIWIN2016 (fast ones of both stand 130000 to 220000). No running time is asked for by default.
+    147 MPa; half of the buckling load; 0.8 of the critical speed. No running time is asked for by default, and the DN
+    value is held against that of the make of the nut, or a general one (:mod:`ballscrew.sizing.speed_limits`).
     Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
     """
 
@@ -126,15 +126,15 @@ class Limits(ByValue):
         Ratio, Info("s_k", "largest share of the critical speed", above=0, at_most=1, hint="catalogues have 0.8")
     ] = 0.8
     diameter_speed_product: Annotated[
-        DiameterSpeed,
+        DiameterSpeed | None,
         Info(
             "V",
             "largest DN value, pitch circle diameter times speed",
             "mm rpm",
             above=0,
-            hint='standard nuts have "70000 mm rpm", in Python 70000e-3 * math.tau / 60',
+            hint='standard nuts have "70000 mm rpm"; left out: that of the make of the row, or a general one',
         ),
-    ] = 70000e-3 * math.tau / 60
+    ] = None
 
     def __post_init__(self) -> None:
-        raise_if_any(faults_of("limits", self, optional=("running_time",)))
+        raise_if_any(faults_of("limits", self, optional=("running_time", "diameter_speed_product")))

@@ -14,13 +14,14 @@ from ballscrew.cases import case_file, descriptions, nut_tables
 from ballscrew.cases.case import Case
 from ballscrew.components.nut import Nut, OversizeBallNut
 from ballscrew.errors import Fault, InputError
-from ballscrew.records import Record
+from ballscrew.records import Record, Severity
 from ballscrew.screw_tables import catalogue
 from ballscrew.screw_tables.nut_kinds import LISTED
 from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.sizing.checks import Check, checks
+from ballscrew.sizing.checks import Check, all_hold, checks, verdict_of
 from ballscrew.sizing.listed_nut import PRELOADED, lists_preload
 from ballscrew.sizing.ratings import Ratings, ratings_of
+from ballscrew.sizing.speed_limits import speed_limit_of
 from ballscrew.studies.every_row import Done, OfRows, copied, each, place_of
 from ballscrew.studies.nut_state import NutState
 from ballscrew.studies.own_screws import tables_of_row
@@ -74,29 +75,14 @@ class Checked:
     @property
     def verdicts(self) -> list[Record]:
         """The verdict on all checks, then those on the operating point."""
-        failed = any(check.holds is False for check in self.checks)
-        whole = Record(
-            id="verdict.checks",
-            subject="checks",
-            text=self.verdict,
-            severity="error" if failed else "info",
-            holds=False if failed else None if any(check.holds is None for check in self.checks) else True,
-        )
+        holds = all_hold(self.checks)
+        severity: Severity = "error" if holds is False else "info"
+        whole = Record(id="verdict.checks", subject="checks", text=self.verdict, severity=severity, holds=holds)
         return [whole, *self.run.verdicts]
 
     def check(self, name: str) -> Check:
         """The check of that name."""
         return next(check for check in self.checks if check.name == name)
-
-
-def verdict_of(checks: Sequence[Check]) -> str:
-    """Checks in a few words; they pass only where all of them were judged."""
-    failed = [check.name.replace("_", " ") for check in checks if check.holds is False]
-    not_judged = sum(check.holds is None for check in checks)
-    if not failed and not_judged:
-        return f"{not_judged} of {len(checks)} not judged; the others hold"
-    text = f"fails: {', '.join(failed)}" if failed else "passes"
-    return text + (f"; {not_judged} of {len(checks)} not judged" if not_judged else "")
 
 
 def one(name: str, path: Path | None, options: Options, keep_going: bool) -> tuple[Checked, Sequence[str]]:
@@ -267,7 +253,7 @@ def checked(name: str, case: Case, notes: Sequence[str] = (), known: Run | None 
         root_diameter=case.listed.get("root_diameter"),
         installation=case.installation,
         limits=case.limits,
-        speed_limit_source="" if case.row is None else case.row.speed_limit_source,
+        speed_limit=speed_limit_of(case.row),
     )
     of_ratings = [f"{name.replace('_', ' ')} computed from the geometry: none is listed" for name in stand_ins]
     of_rigidity = [f"rigidity: {text}" for text in run.nut.rigidity.assumed]

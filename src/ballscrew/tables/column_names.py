@@ -68,6 +68,11 @@ NAMES: Mapping[str, tuple[str, ...]] = {
         "Dichtung", "Dichtungen", "Dichtungsmoment", "Dichtungsreibmoment", "Reibmoment der Dichtungen", "Abstreifer",
     ),
     "price_index": ("relative price", "Preisindex"),
+    "speed_limit": (
+        "DN", "DN value", "limit of DN", "characteristic speed", "DN-Wert", "Drehzahlkennwert",
+    ),
+    "make": ("maker", "manufacturer", "brand", "Hersteller", "Fabrikat"),
+    "recirculation": ("return of balls", "ball return", "recirculation system", "Umlenkung", "Kugelrückführung"),
     "spacer_balls": ("spacers", "spacer ball", "Distanzkugeln", "Abstandskugeln", "Zwischenkugeln", "Trennkugeln"),
     "log": ("test log", "log file", "measurement", "Messung", "Messdatei", "Messprotokoll"),
     "source": ("Quelle",),

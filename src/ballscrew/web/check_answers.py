@@ -23,6 +23,7 @@ class Checks(Closed):
     """The checks of a case, with its results."""
 
     checks: list[OneCheck]
+    judged: int = Field(description="number of the checks that were judged; the others lack an input")
     holds: bool = Field(description="true where all checks were judged and hold")
     verdict: str
     verdicts: list[Record]

@@ -31,17 +31,17 @@ function nameOf({ name }) {
 }
 
 /**
- * All checks in one sentence; nothing passes that was not judged.
+ * All checks in one sentence, with the number of those judged where not all were; nothing passes that was not judged.
  *
  * @param {Checks} found
  */
-export function verdict({ checks, holds }) {
+export function verdict({ checks, judged, holds }) {
+  const all = checks.length;
   const failed = checks.filter((one) => one.holds === false).map(nameOf);
-  const open = checks.filter((one) => one.holds === null).length;
-  const rest = open ? ` ${text("checks.open", { open, all: checks.length })}` : "";
+  const rest = judged < all ? ` ${text("checks.judged", { judged, all })}` : "";
   if (failed.length) return `${text("checks.fail", { names: failed.join(", ") })}${rest}`;
-  if (holds) return text("checks.all_hold", { all: checks.length });
-  return `${text("checks.some_hold", { some: checks.length - open })}${rest}`;
+  if (holds) return text("checks.all_hold", { all });
+  return `${text("checks.some_hold", { some: judged })}${rest}`;
 }
 
 /**
