@@ -25,8 +25,8 @@ _COMPUTED = re.compile(r"\$\{[^{}]*(?:\{[^{}]*\}[^{}]*)*\}")
 _WORDS = re.compile(r"[A-Za-z]{2,}[,:;]? [a-z]{2,}")
 #: Two words that nobody reads: classes of elements, units, selectors, and a defect of the page.
 CODES = {
-    "(prefers-color-scheme: dark)", "field given", "field start given", "input, select", "lbf in", "mm rpm",
-    "no element #…", "no element …", "scroll whole", "verdict careful",
+    "(prefers-color-scheme: dark)", "field given", "field start given", "input, select", "lbf in", "line thin",
+    "mm rpm", "no element #…", "no element …", "scroll whole", "verdict careful",
     # English remedies of the server for files, said for a page
     "fill in the section …", "fill in {", "in a file write", "the section …",
 }  # fmt: skip

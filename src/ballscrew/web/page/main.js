@@ -18,6 +18,14 @@ const LONGEST_QUOTE = 40;
 /** The calibration of the button: that of both of its numbers, to the vendor whose rows are shown beside it. */
 const CALIBRATION = "rexroth-2006";
 
+/** Cards, which are loaded when they are first opened. @type {Record<string, () => Promise<{ setUp: (holder: HTMLElement) => Card }>>} */
+const CARDS = { "over-input": () => import("./cards/over_input.js") };
+/** @typedef {{ follow: () => void, stop: () => void }} Card */
+/** Cards that have been opened once. @type {Map<string, Card>} */
+const made = new Map();
+/** Cards that are open. @type {Map<string, Card>} */
+const opened = new Map();
+
 /** @type {Vocabulary} */
 let vocabulary;
 /** @type {states.State} */
@@ -108,7 +116,30 @@ async function follow({ rebuild = false, keep = false, formOnly = false, path } 
     results.fail(results.refusal(linesOf(error)));
     return;
   }
+  for (const card of opened.values()) card.follow();
   if (!formOnly) await update();
+}
+
+/**
+ * Open or close a card.
+ *
+ * @param {string} name
+ */
+async function turnCard(name) {
+  const isOpen = byId(name).hidden;
+  byId(name).hidden = !isOpen;
+  byId(`${name}-open`).textContent = text(isOpen ? "card.close" : "card.open");
+  byId(`${name}-open`).setAttribute("aria-expanded", String(isOpen));
+  if (!isOpen) {
+    opened.get(name)?.stop();
+    opened.delete(name);
+    return;
+  }
+  const { setUp } = await CARDS[name]();
+  const card = made.get(name) ?? setUp(byId(name));
+  made.set(name, card);
+  opened.set(name, card);
+  card.follow();
 }
 
 async function update() {
@@ -281,6 +312,7 @@ function addListeners() {
     onChange({ path, text: states.valueAt(tables, path) ? "" : CALIBRATION, rebuild: true });
   });
   byId("share").addEventListener("click", copyLink);
+  for (const name of Object.keys(CARDS)) byId(`${name}-open`).addEventListener("click", () => turnCard(name));
   byId("models-button").addEventListener("click", answers.compareModels);
   byId("form").addEventListener("submit", (event) => event.preventDefault());
   // the fragment of the address is the state: the link to the results must not replace it
