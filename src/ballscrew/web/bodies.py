@@ -110,12 +110,6 @@ class ProjectBody(Body):
     designs: list[Tables]
 
 
-class TomlBody(CaseBody):
-    """A case, and tables that are no part of it and stand in its file."""
-
-    aside: Tables = Field(default_factory=dict)
-
-
 class SweepBody(CaseBody):
     """A case, the axes to vary (as ``--vary``), and the outputs to return."""
 
