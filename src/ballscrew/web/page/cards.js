@@ -21,6 +21,7 @@ import { text } from "./texts.js";
 
 /** Scripts of the cards, by the names of their places. @type {Record<string, () => Promise<{ setUp: (holder: HTMLElement, page: Page) => Card }>>} */
 const SCRIPTS = {
+  "over-input": () => import("./cards/over_input.js"),
   duty: () => import("./cards/duty.js"),
   "warm-up": () => import("./cards/warm_up.js"),
   files: () => import("./cards/files.js"),
