@@ -1,6 +1,6 @@
-"""How the server does under load: 50 users at once, mixed load for minutes, and its slowest requests.
+"""How the server does under load: 50 users at once, once with requests of all kinds, mixed load, the slowest requests.
 
-python benchmarks/serve.py                  # 50 users, then 60 s of mixed load
+python benchmarks/serve.py                  # 50 users, 50 users with all kinds of requests, 60 s of mixed load
 python benchmarks/serve.py --seconds 300    # the same, for 300 s
 python benchmarks/serve.py --limits         # the slowest request of each kind that is not refused
 """
@@ -15,7 +15,8 @@ import statistics
 import subprocess
 import sys
 import time
-from collections import Counter
+import tomllib
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from pathlib import Path
 from typing import IO, Any
@@ -30,6 +31,12 @@ CASE = {
     "operation": {"axial_load": "7 kN", "screw_speed": "600 rpm"},
 }
 NUT = {**CASE, "nut": {"preload": "7 %"}, "bodies": {}}
+MOVED = tomllib.loads((Path(__file__).parents[1] / "examples" / "warm_up.toml").read_text(encoding="utf-8"))
+NEED = {"force": "2 kN", "feed": "15 m/min", "length": "1 m", "ends": "fixed-supported", "life": "20000 h"}
+#: Requests after which the kinds come again.
+KINDS = 15
+#: Seconds after which a user asks again whom the server has told that it has too much to do.
+AGAIN = 0.5
 AXES = {"axial_load": "100:9000:20 N", "screw_speed": "1:900:20 rpm"}
 
 
@@ -55,6 +62,12 @@ def case_number(i: int) -> dict[str, Any]:
     return {**CASE, "operation": {"axial_load": f"{1 + i % 9000} N", "screw_speed": f"{1 + i % 900}.{i} rpm"}}
 
 
+def moved(i: int) -> dict[str, Any]:
+    """A moving axis that nobody has asked for before."""
+    mounted = {"unsupported_length": "1 m", "ends": "fixed-supported"}
+    return {**MOVED, "installation": mounted, "axis": {**MOVED["axis"], "mass": f"{100 + i % 900} kg"}}
+
+
 def crowd(address: str, users: int = USERS, each: int = 10) -> tuple[list[float], Counter[int]]:
     """So many users at once, each with some requests one after the other: seconds by request, and statuses."""
     seconds: list[float] = []
@@ -73,6 +86,31 @@ def crowd(address: str, users: int = USERS, each: int = 10) -> tuple[list[float]
     return seconds, statuses
 
 
+def crowd_of_all(
+    address: str, users: int = USERS, each: int = KINDS
+) -> tuple[dict[str, list[float]], Counter[tuple[str, int]]]:
+    """So many users at once who ask for everything: seconds by address, waiting and asking again among them."""
+    seconds: dict[str, list[float]] = defaultdict(list)
+    wrong: Counter[tuple[str, int]] = Counter()
+
+    def user(number: int) -> None:
+        with httpx.Client(base_url=address, timeout=300, trust_env=False) as client:
+            asked = requests(number)
+            for path, body, status in itertools.islice(asked, number % KINDS, number % KINDS + each):
+                before = time.perf_counter()
+                while (
+                    answer := client.post(f"/api/v1/{path}", json=body)
+                ).status_code == httpx.codes.TOO_MANY_REQUESTS:
+                    time.sleep(AGAIN)
+                seconds[path].append(time.perf_counter() - before)
+                if answer.status_code != status:
+                    wrong[path, answer.status_code] += 1
+
+    with concurrent.futures.ThreadPoolExecutor(users) as pool:
+        list(pool.map(user, range(users)))
+    return seconds, wrong
+
+
 def requests(number: int) -> Iterator[tuple[str, Any, int]]:
     """Endless requests of all kinds, each with numbers of its own: address, body, and the status it should have."""
     for i in itertools.count(number, 1000):
@@ -85,6 +123,11 @@ def requests(number: int) -> Iterator[tuple[str, Any, int]]:
         yield "compare", {"case": case}, 200
         yield "sweep", {"case": nut, "vary": {"axial_load": "1:9:9 kN"}, "outputs": ["rigidity"]}, 200
         yield "band", {"case": case, "samples": 512}, 200
+        yield "check", {"case": case}, 200
+        yield "duty", {"case": moved(i)}, 200
+        yield "axis", {"case": moved(i)}, 200
+        yield "warm-up", {"case": moved(i), "hours": 0.2}, 200
+        yield "select", {"need": {**NEED, "force": f"{1000 + i % 9000} N"}, "words": "rexroth 32x10"}, 200
         yield "run", {"case": {**case, "screw": {"catalogue": f"no-such-{i}"}}}, 422
         yield "run", {"case": {**case, "screw": {**CASE["screw"], "lead": f"{i} m^{2 + i % 7}/s s"}}}, 422
         yield "sweep", {"case": case, "vary": {f"load{i}": "1:2:3 N"}}, 422
@@ -175,6 +218,12 @@ def main() -> None:
         shares = statistics.quantiles(seconds, n=20)
         print(f"{USERS} users, {len(seconds)} requests: {dict(statuses)}")
         print(f"  median {1000 * statistics.median(seconds):.0f} ms, 95 % {1000 * shares[-1]:.0f} ms")
+        by_address, wrong_ones = crowd_of_all(address)
+        print(f"{USERS} users who ask for everything; not as it should be: {dict(wrong_ones) or 'none'}")
+        for path, times in sorted(by_address.items()):
+            print(
+                f"  {path:8} {len(times):4} times: median {statistics.median(times):6.2f} s, most {max(times):6.2f} s"
+            )
         memory, wrong, counts = mixed(process, address, options.seconds)
         print(f"mixed load for {options.seconds:g} s: {dict(counts)}; not as they should be: {dict(wrong) or 'none'}")
         print("\n".join(f"  {at:6.0f} s {mb:8.1f} MB" for at, mb in memory))

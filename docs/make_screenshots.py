@@ -58,13 +58,40 @@ def of_page(browser: Browser, address: str) -> None:
         page.close()
 
 
+def of_print(browser: Browser, address: str) -> None:
+    """Picture of the first page that a browser prints of the web page."""
+    page = browser.new_page(viewport=DESKTOP)
+    page.goto(f"{address}/#A={DOUBLE}")
+    page.wait_for_selector("html[data-ready]")
+    page.wait_for_selector('#results[aria-busy="false"]')
+    page.wait_for_selector("#band-words >> text=95 %")
+    page.wait_for_timeout(500)
+    save(
+        "app_print.png",
+        first_page(
+            page.pdf(
+                format="A4", print_background=True, margin=dict.fromkeys(("top", "right", "bottom", "left"), "12mm")
+            )
+        ),
+    )
+    page.close()
+
+
 def of_report() -> None:
     """Picture of the first page of a PDF report."""
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([*COMMAND, "report", CASE, "--to", Path(folder) / "report.pdf"], check=True, capture_output=True)
+        report = Path(folder) / "report.pdf"
+        subprocess.run([*COMMAND, "report", CASE, "--to", report], check=True, capture_output=True)
+        save("report_first_page.png", first_page(report.read_bytes()))
+
+
+def first_page(pdf: bytes) -> bytes:
+    """The first page of a PDF as a picture."""
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "document.pdf").write_bytes(pdf)
         page = Path(folder) / "page.typ"
-        page.write_text('#set page(paper: "a4", margin: 0pt)\n#image("report.pdf", page: 1)\n', encoding="utf-8")
-        save("report_first_page.png", typst.compile(page, root=folder, format="png", ppi=90))
+        page.write_text('#set page(paper: "a4", margin: 0pt)\n#image("document.pdf", page: 1)\n', encoding="utf-8")
+        return typst.compile(page, root=folder, format="png", ppi=90)
 
 
 def of_docs(browser: Browser) -> None:
@@ -90,6 +117,7 @@ def main() -> None:
         with sync_playwright() as playwright:
             browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
             of_page(browser, found[0])
+            of_print(browser, found[0])
             of_report()
             of_docs(browser)
             browser.close()

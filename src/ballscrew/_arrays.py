@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 import numbers
 import os
 import sys
 import threading
-from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
 from types import SimpleNamespace
 from typing import Any, TypeVar, cast
 
 import numpy as np
+from numpy.typing import NDArray
 
+Scalar = TypeVar("Scalar", bound=np.generic)
 T = TypeVar("T")
 
 #: Points per block: a dozen buffers of this size stay in a shared cache of a few MiB, and one
@@ -124,6 +127,20 @@ def as_array(value: Any) -> Any:
         array = np.asarray(value)
         return array.astype(np.float64, copy=False)[()] if array.dtype.kind in "fiu" else value
     return value
+
+
+def compact(values: NDArray[Scalar]) -> NDArray[Scalar]:
+    """The same values, read-only and in the memory of one where all are equal: a million zeros cost nothing."""
+    if values.size < 2 or values.strides == (0,) * values.ndim:
+        return values
+    first = values.flat[0]
+    equal = np.isnan(values) if first != first else values == first
+    return np.broadcast_to(first, values.shape) if equal.all() else values
+
+
+def total(parts: Iterable[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """The sum of arrays of one shape, one after the other: a stack of them would take the memory of all once more."""
+    return functools.reduce(np.add, parts)
 
 
 def processors() -> int:

@@ -105,6 +105,14 @@ def test_example_in_all_forms(ballscrew, tmp_path):
     assert results["brake"]["falls"] is True
     assert [one["condition"] for one in results["brake"]["conditions"]] == ["as in the case", "cold", "hot", "dry"]
     assert results["motor"]["suffices"] is True
+    cycle, curve = results["cycle"], results["motor"]["curve"]
+    assert (cycle["every"], cycle["time"][0]) == (1, 0.0)
+    assert cycle["time"][-1] == pytest.approx(results["cycle_time"], rel=1e-12)
+    by_cause = [sum(parts) for parts in zip(*cycle["torque_by"].values(), strict=True)]
+    assert by_cause == pytest.approx(cycle["torque"], rel=1e-6, abs=1e-6 * results["torque_peak"])
+    assert max(map(abs, cycle["torque"])) == pytest.approx(results["torque_peak"], rel=1e-12)
+    assert curve["speed"] == pytest.approx([rpm * math.pi / 30 for rpm in (0, 1500, 2500)], rel=1e-9)
+    assert curve["peak_torque"] == pytest.approx([50.0, 50.0, 30.0], rel=1e-9)
     identities = [
         (record["id"], record["subject"]) for record in (*found["warnings"], *found["verdicts"], *found["checks"])
     ]

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from ballscrew._arrays import compact
 from ballscrew.axis.axis import Axis
 from ballscrew.axis.duty import duty
 from ballscrew.errors import InputError
@@ -105,3 +106,13 @@ def test_faults(changes, line):
     with pytest.raises(InputError) as refused:
         Trajectory(**{"time": np.arange(4.0), "position": np.arange(4.0), **changes})
     assert str(refused.value).startswith(line)
+
+
+def test_equal_values_take_the_memory_of_one():
+    """A million zeros of a duty cost nothing; NaN is equal to NaN, and one other value makes it a full array."""
+    for value in (0.0, 3.5, np.nan):
+        many = compact(np.full(1000, value))
+        assert many.strides == (0,)
+        np.testing.assert_array_equal(many, np.full(1000, value))
+    mixed = np.array([0.0, np.nan, 0.0])
+    assert compact(mixed) is mixed

@@ -9,7 +9,7 @@ from typing import Annotated, Any, NamedTuple, Protocol
 
 import numpy as np
 
-from ballscrew._arrays import ByValue
+from ballscrew._arrays import ByValue, compact
 from ballscrew.errors import Fault, faults_of, raise_if_any
 from ballscrew.friction.element import ElementFriction
 from ballscrew.motion.states import MotionStates, Numbers
@@ -225,8 +225,8 @@ class Axis(ByValue):
         seals = rubs.pop(SEALS, 0.0)
         return Loads(
             acceleration=self.moving_mass * states.acceleration,
-            gravity=self.gravity_force * every,
-            process=states.force,
-            guides=states.direction * sum(rubs.values(), 0.0 * every),
-            guide_seals=states.direction * seals,
+            gravity=compact(self.gravity_force * every),
+            process=compact(states.force),
+            guides=compact(states.direction * sum(rubs.values(), 0.0 * every)),
+            guide_seals=compact(states.direction * seals),
         )

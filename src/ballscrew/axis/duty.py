@@ -9,7 +9,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from ballscrew._arrays import ByValue, lazy
+from ballscrew._arrays import ByValue, compact, lazy, total
 from ballscrew.axis.axis import Axis, Loads
 from ballscrew.axis.screw_friction import ConstantEfficiency, ModelledScrew, Screw, ScrewFriction, distinct_states
 from ballscrew.components.materials import Lubricant
@@ -187,15 +187,15 @@ class Duty(ByValue):
         to_motor, direction = arm / ratio, self.states.direction
         own = {
             "acceleration of the mass": self.loads.acceleration * to_motor,
-            "gravity": self.loads.gravity * to_motor,
-            PROCESS: self.loads.process * to_motor,
-            GUIDES: self.loads.guides * to_motor,
-            SEALS: self.loads.guide_seals * to_motor,
-            **{name: direction * torque / ratio for name, torque in self.shaft_friction.items()},
-            IMBALANCE: (self.screw.ideal_torque - self.axial_load * arm) / ratio,
+            "gravity": compact(self.loads.gravity * to_motor),
+            PROCESS: compact(self.loads.process * to_motor),
+            GUIDES: compact(self.loads.guides * to_motor),
+            SEALS: compact(self.loads.guide_seals * to_motor),
+            **{name: compact(direction * torque / ratio) for name, torque in self.shaft_friction.items()},
+            IMBALANCE: compact((self.screw.ideal_torque - self.axial_load * arm) / ratio),
         }
-        turned = np.sum(list(own.values()), axis=0)
-        lost = self.transmission_loss(turned)
+        turned = total(own.values())
+        lost = compact(self.transmission_loss(turned))
         alpha = self.states.acceleration / to_motor
         own |= {"transmission": lost, "acceleration of what turns": self.axis.inertia * alpha}
         if self.axis.brake_holds:
@@ -210,7 +210,7 @@ class Duty(ByValue):
     @lazy
     def torque(self) -> Numbers:
         """Torque of the motor, N m."""
-        return np.sum(list(self.parts.values()), axis=0)
+        return total(self.parts.values())
 
     @lazy
     def power(self) -> Numbers:

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew._arrays import ByValue
+from ballscrew._arrays import ByValue, compact
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import transmission
@@ -86,7 +86,7 @@ class ModelledScrew(ByValue):
         if not valid.all():  # which condition fails is asked only where one does
             for name, mask in self._outputs(reasons, distinct[:, ~valid]).items():
                 masks[name][~valid] = mask
-        every = {name: values[back] for name, values in {**found, **masks}.items()}
+        every = {name: compact(values[back]) for name, values in {**found, **masks}.items()}
         named = {
             kind: {name.removeprefix(kind): values for name, values in every.items() if name.startswith(kind)}
             for kind in ("contribution_", "validity_")

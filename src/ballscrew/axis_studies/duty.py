@@ -24,6 +24,7 @@ from ballscrew.errors import Fault, InputError
 from ballscrew.friction.element import FrictionElement
 from ballscrew.friction.result import MECHANISMS
 from ballscrew.motion.profiles import Motion
+from ballscrew.motion.states import Numbers
 from ballscrew.motion.trajectory import HALF_WIDTHS, Trajectory
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Acceleration, Duration, Energy, Force, Info, Quantity, Torque
@@ -41,6 +42,12 @@ _OF_EXTREMES = (
 #: Parts of the energy that are rounding, as a share of what is drawn.
 _LEAST = 1e-12
 _SLUGS = {text: name for name, text in MECHANISMS.items()}
+#: Causes of the torque of a motor, for pictures; what is in none of the others is friction outside the balls.
+CAUSES = ("acceleration", "gravity", "process", "friction of the balls", "other friction")
+_ACCELERATION, _GRAVITY, _PROCESS, _BALLS, _OTHERS = CAUSES
+_OF_STORED: Mapping[str, str] = dict(zip(axis_duty.STORED, (_ACCELERATION, _ACCELERATION, _GRAVITY), strict=True))
+#: A part of the torque that is rounding, as a share of the largest torque.
+_LEAST_TORQUE = 1e-9
 
 
 def _quantity(name: str, unit: str, symbol: str, meaning: str, shown_in: str = "") -> Quantity:
@@ -78,6 +85,13 @@ NUMBERS: Mapping[str, Quantity] = {
 def slug_of(name: str) -> str:
     """The key of a part of the torque in documents: ``acceleration_of_the_mass``, ``spin``."""
     return _SLUGS.get(name, name.replace(" ", "_"))
+
+
+def cause_of(name: str) -> str:
+    """The cause, of :data:`CAUSES`, that a part of the torque belongs to."""
+    if name in _OF_STORED or name == axis_duty.PROCESS:
+        return _OF_STORED.get(name, _PROCESS)
+    return _BALLS if name in MECHANISMS.values() or name == "efficiency" else _OTHERS
 
 
 class PhaseNumbers(NamedTuple):
@@ -189,6 +203,16 @@ class DutyReport:
         return {
             name: states.integral(part * torque) / scale if scale else 0.0 for name, part in self.duty.parts.items()
         }
+
+    @lazy
+    def torque_by_cause(self) -> Mapping[str, Numbers]:
+        """Torque of the motor by cause at each state, N m, by mechanics; causes that are rounding are left out."""
+        found: dict[str, Numbers] = {}
+        for name, part in self.duty.parts.items():
+            cause = cause_of(name)
+            found[cause] = found.get(cause, np.zeros_like(self.duty.torque)) + part
+        least = _LEAST_TORQUE * self.duty.torque_peak
+        return {cause: found[cause] for cause in CAUSES if cause in found and np.any(np.abs(found[cause]) > least)}
 
     @lazy
     def energy_lost_in(self) -> Mapping[str, Mapping[str, Energy]]:

@@ -12,8 +12,9 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSche
 from pydantic_core import PydanticCustomError
 
 from ballscrew import units
+from ballscrew.components.operating_state import OperatingState
 from ballscrew.errors import Fault, fault_of
-from ballscrew.quantities import Quantity
+from ballscrew.quantities import Info, Quantity, fields_of
 from ballscrew.screw_tables.nut_kinds import NUT_FIELDS, PERCENT, Share
 from ballscrew.uncertainty import uncertain_value
 
@@ -140,6 +141,29 @@ def read_preload(raw: object) -> float:
             "fault", "{problem}", {"problem": "needs a unit", "given": str(raw), "remedy": remedy}
         )
     return si_value(raw, NUT_FIELDS["preload"], may_vary=True)
+
+
+#: The speed of the screw, and that of the nut along it, which may stand in its place.
+_SCREW_SPEED = fields_of(OperatingState)["screw_speed"]
+NUT_SPEED = Quantity("screw_speed", "m/s", Info("v", "speed of the nut along the screw", "m/min"))
+#: A unit of a speed along a line: a length by a time. A unit of a turn is none, as the r of "r/min".
+_ALONG = re.compile(r"(?<![A-Za-z])(?:m|[a-zµμ]m|in|inch|inches|ft|foot|feet)\s*/\s*(?:min|s|h|sec|hour)$")
+
+
+class NutSpeed(float):
+    """A speed of the nut along the screw, m/s, in place of a speed of the screw: the lead turns one into the other."""
+
+
+def read_speed(raw: object) -> float:
+    """A speed of the screw in rad/s, or one of the nut, by its unit."""
+    if is_nut_speed(raw):
+        return NutSpeed(si_value(raw, NUT_SPEED, may_vary=True))
+    return si_value(raw, _SCREW_SPEED, may_vary=True)
+
+
+def is_nut_speed(raw: object) -> bool:
+    """Return whether a speed is written in a unit of length by time, such as ``"12 m/min"``."""
+    return isinstance(raw, str) and len(raw) <= units.LONGEST_VALUE and bool(_ALONG.search(raw.strip(" )")))
 
 
 def is_share(raw: str) -> bool:

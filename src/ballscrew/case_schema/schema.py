@@ -20,7 +20,7 @@ from ballscrew.axis.axis import Axis
 from ballscrew.axis.motor import Motor
 from ballscrew.case_schema.duty_schema import CONSTANT_EFFICIENCY, DUTY_TABLES, duty_sections, efficiency_field
 from ballscrew.case_schema.fields import EXAMPLES as EXAMPLES
-from ballscrew.case_schema.fields import defaults_of, json_of, read_preload, section_of
+from ballscrew.case_schema.fields import NUT_SPEED, defaults_of, json_of, read_preload, read_speed, section_of
 from ballscrew.case_schema.law_import import OUTSIDE, law_from_outside, with_plain_numbers
 from ballscrew.case_schema.support_schema import SUPPORT_TABLES, support_sections
 from ballscrew.components.data_sheet import SHEET_TEMPERATURE, DataSheet
@@ -116,6 +116,8 @@ def sections() -> Mapping[str, type[BaseModel]]:
     row = Annotated[str, Field(description="name of a catalogue row; the other fields then override it")]
     file = Annotated[str, Field(description="table with the row, beside the case file, in place of the rows shipped")]
     preload = json_of(NUT_FIELDS["preload"], None) | {"examples": ["3 kN", "7 %"]}
+    turning = fields_of(OperatingState)["screw_speed"]
+    speed = json_of(turning, None) | {"examples": ["600 rpm", "6 m/min"], "x-through-lead": NUT_SPEED.unit}
     same_side = Annotated[bool, Field(strict=True, description="whether screw and nut are held on the same side")]
     swelling = Annotated[bool, Field(strict=True, description="whether the balls widen the nut and shrink the screw")]
     spacers = Annotated[
@@ -136,7 +138,9 @@ def sections() -> Mapping[str, type[BaseModel]]:
             grade=(grade, None), oil=(stated, None), oil_file=(oil_file, None),
         ),
         "operation": section_of(
-            "Operation", fields_of(OperatingState), OperatingState, required=True, uncertain=fields_of(OperatingState)
+            "Operation", {name: q for name, q in fields_of(OperatingState).items() if q is not turning},
+            OperatingState, required=True, uncertain=fields_of(OperatingState),
+            screw_speed=(Annotated[Any, BeforeValidator(read_speed), WithJsonSchema(speed)], ...),
         ),
         "model": section_of(
             "Model", fields_of(FrictionModel), FrictionModel, required=False, uncertain=fields_of(FrictionModel),
@@ -204,6 +208,7 @@ def case_file() -> type[BaseModel]:
         Field(description='axes of a sweep by field, "100:4000:14 N" (start:stop:count) or "100, 200, 500 N"'),
     ]
     fit = Annotated[dict[str, Any], Field(description="what ballscrew fit left beside the numbers that it found")]
+    aside = Annotated[dict[str, Any], Field(description="what somebody keeps with a case; no command reads it")]
     return create_model(
         "BallscrewCase",
         __config__=ConfigDict(extra="forbid", title="ballscrew case file", json_schema_extra=_ALTERNATIVES),
@@ -212,6 +217,7 @@ def case_file() -> type[BaseModel]:
         model=(parts["model"], Field(default=None)),
         sweep=(axes, Field(default=None)),
         calibration=(fit, Field(default=None)),
+        aside=(aside, Field(default=None)),
     )
 
 

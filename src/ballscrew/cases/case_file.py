@@ -1,4 +1,4 @@
-"""Case files: TOML with units in, checked parts out.
+"""Case files: TOML or JSON with units in, checked parts out.
 
 Every fault of a file is found before anything is computed, and each is one line in the words of
 :mod:`ballscrew.errors`.
@@ -7,14 +7,14 @@ Every fault of a file is found before anything is computed, and each is one line
 from __future__ import annotations
 
 import dataclasses
-import re
-import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+import math
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from ballscrew import units
 from ballscrew.case_schema.duty_schema import DUTY_TABLES
+from ballscrew.case_schema.fields import NutSpeed
 from ballscrew.case_schema.option_faults import in_options
 from ballscrew.case_schema.schema import (
     DEFAULT_MODEL,
@@ -26,7 +26,7 @@ from ballscrew.case_schema.schema import (
 )
 from ballscrew.case_schema.sections import Sections, validated_sections
 from ballscrew.case_schema.support_schema import SUPPORT_TABLES
-from ballscrew.cases import duty_tables, nut_tables, support_tables, uncertain_inputs
+from ballscrew.cases import case_text, duty_tables, nut_tables, project, support_tables, uncertain_inputs
 from ballscrew.cases.case import USUAL_LIMITS
 from ballscrew.cases.case import Case as Case
 from ballscrew.cases.inputs import inputs as inputs
@@ -38,7 +38,6 @@ from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.components.traits import traits_of
 from ballscrew.errors import Fault, InputError, closest, nearest
-from ballscrew.files import read_bytes
 from ballscrew.friction.calibrations import calibration as named_calibration
 from ballscrew.friction.law_names import coefficients
 from ballscrew.friction.model import FrictionModel
@@ -48,11 +47,11 @@ from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.thermal.written_bands import written_bands
 from ballscrew.units import in_display_units
 
-#: Bytes of a case file at most, and bits of a whole number in it: no float is larger.
-LARGEST_FILE, LARGEST_INTEGER = 4_000_000, 1024
 _NEEDED = ("screw", "lubricant", "operation")
-_SECTIONS = (*_NEEDED, *NUT_TABLES, *DUTY_TABLES, *SUPPORT_TABLES, "model", "sweep", "calibration")
-_START = 'start from "ballscrew catalogue show hiwin-40-20k4 --case"'
+#: What somebody keeps with a case; no command reads it.
+ASIDE = "aside"
+#: The sections that a case may have.
+SECTIONS = (*_NEEDED, *NUT_TABLES, *DUTY_TABLES, *SUPPORT_TABLES, "model", "sweep", "calibration", ASIDE)
 
 
 def load(
@@ -73,52 +72,11 @@ def load(
 
 
 def read(path: str | Path) -> dict[str, Any]:
-    """The tables of a TOML file. Raises :class:`~ballscrew.errors.InputError` if it is none."""
-    where = str(path)
-    try:
-        text = read_bytes(Path(path), LARGEST_FILE).decode("utf-8-sig")
-    except UnicodeDecodeError:
-        raise InputError(Fault(where, "is not text in UTF-8", "", "save it as UTF-8")) from None
-    except (OSError, ValueError) as error:
-        problem = "does not exist" if isinstance(error, FileNotFoundError) else "cannot be read"
-        reason = "" if isinstance(error, FileNotFoundError) else getattr(error, "strerror", str(error))
-        raise InputError(Fault(where, problem, reason, "give the path of a case file")) from None
-    try:
-        tables = _toml(text)
-    except (ValueError, RecursionError) as error:
-        raise InputError(Fault(where, "is not TOML", str(error), _toml_remedy(str(error), text))) from None
-    if not tables:
-        raise InputError(Fault(where, "is empty", "", _START))
-    return tables
+    """The tables of a case file, TOML or JSON, or of a design in a project file: ``project.toml#name``.
 
-
-def _toml(text: str) -> dict[str, Any]:
-    """The tables of a text. Raises ``ValueError`` where it is no TOML, and for whole numbers beyond any float."""
-    tables = tomllib.loads(text)
-    if any(isinstance(leaf, int) and leaf.bit_length() > LARGEST_INTEGER for leaf in _leaves(tables)):
-        raise ValueError(f"a whole number has more than {LARGEST_INTEGER} bits")
-    return tables
-
-
-def _leaves(value: Any) -> Iterator[Any]:
-    """All values of nested tables and lists."""
-    if isinstance(value, dict | list):
-        for inner in value.values() if isinstance(value, dict) else value:
-            yield from _leaves(inner)
-    else:
-        yield value
-
-
-def _toml_remedy(error: str, text: str) -> str:
-    """Remedy: most often a law is given by name and with coefficients."""
-    line = re.search(r"Cannot overwrite a value \(at line (\d+)", error)
-    if line is None:
-        return _START
-    key = re.match(r"\s*(?:model\.)?(\w+)\.", text.splitlines()[int(line[1]) - 1])
-    slot = key[1] if key and key[1] in LAWS else "rolling"
-    given = re.search(rf"""^\s*{slot}\s*=\s*["']([\w-]+)["']""", text, re.MULTILINE)
-    law = given[1] if given else "houpert"
-    return f'a law with coefficients: write {slot}.law = "{law}" beside them'
+    Raises :class:`~ballscrew.errors.InputError` if it is none, and for a project of several designs without a name.
+    """
+    return project.design_at(path)
 
 
 def override(tables: dict[str, Any], settings: Sequence[str]) -> dict[str, Any]:
@@ -150,7 +108,7 @@ def override(tables: dict[str, Any], settings: Sequence[str]) -> dict[str, Any]:
 def _literal(text: str) -> Any:
     """A value from the command line, where quotes are often eaten by the shell."""
     try:
-        return _toml(f"value = {text}")["value"]
+        return case_text.toml(f"value = {text}")["value"]
     except (ValueError, RecursionError):
         return text
 
@@ -174,9 +132,9 @@ def build(
     ``moves`` needs an axis and a motion and no operating point: without one it has that of steady travel.
     """
     tables, chosen = with_calibration(tables, calibration), () if calibration is None else ("model.calibration",)
-    unknown = [name for name in tables if name not in _SECTIONS]
-    faults = [Fault(name, "unknown section", "", nearest(name, _SECTIONS)) for name in unknown]
-    misspelt = {closest(name, _SECTIONS) for name in unknown}
+    unknown = [name for name in tables if name not in SECTIONS]
+    faults = [Fault(name, "unknown section", "", nearest(name, SECTIONS)) for name in unknown]
+    misspelt = {closest(name, SECTIONS) for name in unknown}
     sections = validated_sections(tables)
     efficiency = duty_tables.efficiency(sections, model, moves, faults)
     faults += [
@@ -206,7 +164,7 @@ def build(
     mounted = support_tables.mounted_on(mounted, bearings)
     limits = nut_tables.limits(sections, faults) if "limits" in sections else USUAL_LIMITS
     screw = made.screw if made.screw is None or nut is None else dataclasses.replace(made.screw, nut=nut)
-    operation = _operation(sections, faults) if "operation" in sections else None
+    operation = _operation(sections, screw, faults) if "operation" in sections else None
     travels = moves and "operation" not in sections
     if travels and axis is not None and motion is not None and screw is not None:
         operation = duty_tables.travel(axis, motion, screw.lead)
@@ -292,9 +250,15 @@ def _screw(
     return _MadeScrew(screw, row, {name: value for name, value in listed.items() if value is not None})
 
 
-def _operation(sections: Sections, faults: list[Fault]) -> OperatingState | None:
+def _operation(sections: Sections, screw: BallScrew | None, faults: list[Fault]) -> OperatingState | None:
+    """The load and the speed; a speed of the nut turns the screw by its lead."""
     before = len(faults)
     values = sections.values_of("operation", faults)
+    speed = values.get("screw_speed")
+    if isinstance(speed, NutSpeed):
+        if screw is None:
+            return None  # its own faults are there already
+        values["screw_speed"] = 2 * math.pi * speed / screw.lead
     return OperatingState(**values) if len(faults) == before else None
 
 

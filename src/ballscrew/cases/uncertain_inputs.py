@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ballscrew.case_schema.fields import is_share, without_percent
+from ballscrew.case_schema.fields import NUT_SPEED, is_nut_speed, is_share, without_percent
 from ballscrew.cases.case import Case
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew
@@ -176,7 +176,16 @@ def parse_distributions(
 
 
 def _written(raw: Any, quantity: Quantity, screw: BallScrew) -> UncertainValue | Fault | None:
-    """The uncertain value in a text; a share of the dynamic load rating becomes a force by the preload of the screw."""
+    """The uncertain value in a text.
+
+    A share of the dynamic load rating becomes a force by the preload of the screw, a speed of the nut one of the screw
+    by its lead.
+    """
+    if quantity.name == "screw_speed" and is_nut_speed(raw):
+        written = parse_uncertain(raw, NUT_SPEED)
+        if not isinstance(written, UncertainValue) or written.distribution is None:
+            return written
+        return dataclasses.replace(written, distribution=scaled(written.distribution, 2 * math.pi / screw.lead))
     if quantity.name != "preload" or not isinstance(raw, str) or not is_share(raw):
         return parse_uncertain(raw, quantity)
     written = parse_uncertain(without_percent(raw), PERCENT)

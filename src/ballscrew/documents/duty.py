@@ -9,10 +9,12 @@ import numpy as np
 
 from ballscrew.axis.brake import Brake, LetGo
 from ballscrew.axis.drive import MotorCheck
+from ballscrew.axis.motor import Motor
 from ballscrew.axis_studies import duty_records
 from ballscrew.axis_studies.duty import NUMBERS, DutyReport, slug_of
 from ballscrew.cases import case_file, provenance
 from ballscrew.records import documents
+from ballscrew.sizing.checks import Check
 
 if TYPE_CHECKING:  # loads xarray
     from ballscrew.axis_studies.duty_band import DutyBandReport
@@ -24,6 +26,12 @@ _OF_LET_GO: Mapping[str, str] = {
 _OF_PHASE: Mapping[str, str] = {
     "start": "s", "duration": "s", "largest_load": "N", "torque_peak": "N m", "torque_rms": "N m", "energy": "J",
 }  # fmt: skip
+_OF_CYCLE: Mapping[str, str] = {
+    "time": "s", "position": "m", "speed": "m/s", "acceleration": "m/s^2", "axial_load": "N", "motor_speed": "rad/s",
+    "torque": "N m", "power": "W",
+}  # fmt: skip
+#: States of a cycle in a document; of more, each second, third … one: all of them are in a table in a file.
+MOST_STATES = 2000
 _BY = ("torque_peak_by", "torque_rms_by", "energy_by", "energy_lost_by")
 
 
@@ -35,7 +43,7 @@ def document(report: DutyReport) -> dict[str, Any]:
         "units": _units(report),
         "warnings": documents(duty_records.warnings(report)),
         "verdicts": documents(duty_records.verdicts(report)),
-        "checks": documents(check.record for check in report.checks),
+        "checks": [_check(check) for check in report.checks],
         "provenance": provenance.of_case(report.case),
     }
 
@@ -86,9 +94,33 @@ def results(report: DutyReport) -> dict[str, Any]:
             },
         },
         "phases": [phase._asdict() for phase in report.phases],
+        "cycle": _cycle(report),
         **({} if report.smoothing is None else {"smoothing": report.smoothing._asdict()}),
         "operating_points": duty.screw.points,
     }
+
+
+def _cycle(report: DutyReport) -> dict[str, Any]:
+    """The states of the cycle over time, and the torque by cause; each of them, or each one in ``every``."""
+    duty, states = report.duty, report.duty.states
+    every = -(-len(states.time) // MOST_STATES)
+    columns = {
+        "time": states.time, "position": states.position, "speed": states.speed, "acceleration": states.acceleration,
+        "axial_load": duty.axial_load, "motor_speed": duty.motor_speed, "torque": duty.torque, "power": duty.power,
+    }  # fmt: skip
+    return {
+        "every": every,
+        **{name: [float(value) for value in column[::every]] for name, column in columns.items()},
+        "torque_by": {
+            slug_of(cause): [float(value) for value in part[::every]] for cause, part in report.torque_by_cause.items()
+        },
+    }
+
+
+def _check(check: Check) -> dict[str, Any]:
+    """A check as a record, with the share of its limit that is used and what it lacks."""
+    beside = {"name": check.name, "utilisation": check.utilisation, "missing": check.missing}
+    return {**check.record.document(), **beside}
 
 
 def _by_slug(parts: Mapping[str, float]) -> dict[str, float]:
@@ -141,13 +173,27 @@ def _motor(against: MotorCheck) -> dict[str, Any]:
             "speed": float(duty.motor_speed[at]),
         },
         "copper_loss": against.copper_loss,
+        "curve": _curve(against.motor),
+    }
+
+
+def _curve(motor: Motor) -> dict[str, Any]:
+    """Torque that a motor gives for a short time and for ever, at the corners of its curve."""
+    largest = float(motor.largest_speed)
+    speeds = [0.0, *(speed for speed, _ in motor.curve if 0 < speed < largest), largest]
+    return {
+        "speed": speeds,
+        "peak_torque": [float(torque) for torque in motor.peak_at(np.array(speeds))],
+        "rated_torque": float(motor.rated_torque),
     }
 
 
 def _units(report: DutyReport) -> dict[str, Any]:
     by = {name: "J" if name.startswith("energy") else "N m" for name in _BY}
     torques = {"torque_rms": "N m", "torque_peak": "N m"}
-    motor = {"worst": {"torque": "N m", "speed": "rad/s"}, "copper_loss": "J"}
+    curve = {"speed": "rad/s", "peak_torque": "N m", "rated_torque": "N m"}
+    motor = {"worst": {"torque": "N m", "speed": "rad/s"}, "copper_loss": "J", "curve": curve}
+    causes = dict.fromkeys(map(slug_of, report.torque_by_cause), "N m")
     return {
         **{name: quantity.unit for name, quantity in NUMBERS.items()},
         **{name: dict.fromkeys((slug_of(part) for part in report.duty.parts), unit) for name, unit in by.items()},
@@ -164,6 +210,7 @@ def _units(report: DutyReport) -> dict[str, Any]:
         **({} if report.motor is None else {"motor": motor}),
         "rules": {"mechanics": torques, "catalogue": {"efficiency": "1", **torques}},
         "phases": dict(_OF_PHASE),
+        "cycle": {**_OF_CYCLE, "torque_by": causes},
         **({} if report.smoothing is None else {"smoothing": _of_smoothing(report)}),
     }  # fmt: skip
 

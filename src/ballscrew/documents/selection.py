@@ -8,7 +8,7 @@ from typing import Any
 from ballscrew.cases import provenance
 from ballscrew.documents import check as check_documents
 from ballscrew.quantities import fields_of
-from ballscrew.selection.candidates import Candidate
+from ballscrew.selection.candidates import Candidate, case_tables
 from ballscrew.selection.need import Need
 from ballscrew.selection.objectives import OBJECTIVES
 from ballscrew.selection.requirements import Requirements
@@ -30,7 +30,7 @@ def document(found: Selection) -> dict[str, Any]:
         "objectives": objectives_document(found.objectives),
         "best": None if best is None else best.variant.label,
         "holding": len(found.holding),
-        "candidates": [candidate_document(each) for each in found.ranked],
+        "candidates": [candidate_document(each, found.need) for each in found.ranked],
         "notes": list(found.notes),
         "units": {**units, "objectives": {name: each.quantity.unit for name, each in OBJECTIVES.items()}},
         "provenance": None if first is None else provenance.of_case(first.checked.case),
@@ -68,8 +68,8 @@ def objectives_document(names: Any) -> list[dict[str, Any]]:
     ]
 
 
-def candidate_document(ranked: Ranked) -> dict[str, Any]:
-    """One candidate: the document of its check, with its rank, what fails, and the numbers that are compared."""
+def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
+    """One candidate: the document of its check, with its rank, what fails, the numbers compared, and its case file."""
     found = ranked.candidate
     whole = check_documents.list_document([found.checked])[0]
     duty = {} if found.duty is None else {"duty": dict(found.duty.numbers)}
@@ -87,6 +87,7 @@ def candidate_document(ranked: Ranked) -> dict[str, Any]:
         "fails": [{"name": c.name, "utilisation": c.utilisation} for c in found.failed],
         "verdict": verdict(found),
         "objectives": dict(found.objectives),
+        "case": case_tables(need, found.variant),
         "results": whole.pop("results"),
         **duty,
         "checks": [check_documents.check_document(check) for check in found.checks],

@@ -11,30 +11,16 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ballscrew import units
-from ballscrew.axis.duty import STORED
 from ballscrew.axis_studies import duty_records
-from ballscrew.axis_studies.duty import NUMBERS, DutyReport
+from ballscrew.axis_studies.duty import NUMBERS, DutyReport, cause_of
 from ballscrew.figures import style
-from ballscrew.friction.result import MECHANISMS
+from ballscrew.figures.colours import CAUSE_COLOURS
 from ballscrew.motion.profiles import Trapezoid
-from ballscrew.motion.states import Numbers
 from ballscrew.quantities import fields_of
 from ballscrew.text import duty as text
 
 _MOTION = fields_of(Trapezoid)
 _TURNING = NUMBERS["mean_speed"]
-#: Groups of parts of the torque, with their colours; what is in none of them is friction outside the balls.
-_ACCELERATION, _GRAVITY, _PROCESS, _BALLS, _OTHERS = (
-    "acceleration", "gravity", "process", "friction of the balls", "other friction",
-)  # fmt: skip
-_COLOURS: Mapping[str, str] = {
-    _ACCELERATION: style.BLUE,
-    _GRAVITY: style.GREEN,
-    _PROCESS: style.ORANGE,
-    _BALLS: style.RED,
-    _OTHERS: style.PURPLE,
-}
-_OF_STORED = {STORED[0]: _ACCELERATION, STORED[1]: _ACCELERATION, "gravity": _GRAVITY}
 _TITLE_CHARACTERS, _LABEL_SIZE, _LEAST = 100, 8.0, 1e-9
 _CURVE_POINTS = 200
 #: More points than this are a blot, and a large file.
@@ -74,22 +60,6 @@ def caption(report: DutyReport) -> str:
     return f"{said}. Torques are those of the motor, by mechanics; bars to the left act against the sum of the others."
 
 
-def group_of(name: str) -> str:
-    """The group of a part of the torque."""
-    if name in _OF_STORED or name == _PROCESS:
-        return _OF_STORED.get(name, _PROCESS)
-    return _BALLS if name in MECHANISMS.values() or name == "efficiency" else _OTHERS
-
-
-def _grouped(report: DutyReport) -> Mapping[str, Numbers]:
-    found: dict[str, Numbers] = {}
-    for name, part in report.duty.parts.items():
-        group = group_of(name)
-        found[group] = found.get(group, np.zeros_like(report.duty.torque)) + part
-    least = _LEAST * report.duty.torque_peak
-    return {group: found[group] for group in _COLOURS if group in found and np.any(np.abs(found[group]) > least)}
-
-
 def _motion(panel: Axes, report: DutyReport) -> None:
     states = report.duty.states
     speed = _MOTION["speed"]
@@ -104,8 +74,8 @@ def _motion(panel: Axes, report: DutyReport) -> None:
 
 def _torque(panel: Axes, report: DutyReport) -> None:
     duty = report.duty
-    for group, part in _grouped(report).items():
-        panel.plot(duty.states.time, part, color=_COLOURS[group], linewidth=1.2, label=group)
+    for group, part in report.torque_by_cause.items():
+        panel.plot(duty.states.time, part, color=CAUSE_COLOURS[group], linewidth=1.2, label=group)
     panel.plot(duty.states.time, duty.torque, color=style.INK, label="motor")
     panel.axhline(duty.torque_rms, color=style.GREY, linestyle=":", linewidth=1.0, label="RMS")
     panel.set(xlabel="time [s]", ylabel="torque [N m]", title="torque of the motor by cause")
@@ -152,7 +122,7 @@ def _bars(panel: Axes, title: str, parts: Mapping[str, float], unit: str) -> Non
         key=lambda part: -abs(part[1]),
     )
     places = np.arange(len(shown))
-    panel.barh(places, [value for _, value in shown], color=[_COLOURS[group_of(name)] for name, _ in shown])
+    panel.barh(places, [value for _, value in shown], color=[CAUSE_COLOURS[cause_of(name)] for name, _ in shown])
     panel.axvline(0, color=style.GREY, linewidth=0.8)
     panel.set_yticks(places, [name for name, _ in shown])
     panel.tick_params(axis="y", length=0, labelsize=_LABEL_SIZE)

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from ballscrew._arrays import ByValue, lazy
+from ballscrew._arrays import ByValue, compact, lazy
 from ballscrew.errors import MISSING, Fault, raise_if_any, shown
 from ballscrew.motion.states import MotionStates, Numbers
 from ballscrew.quantities import Acceleration
@@ -84,7 +84,7 @@ class Trajectory(ByValue):
     @lazy
     def _filled_temperature(self) -> Numbers:
         """Temperatures, between the rows that have one; NaN where none has."""
-        none = np.full(np.shape(self.time), np.nan)
+        none = np.broadcast_to(np.nan, np.shape(self.time))
         return none if self.temperature is None else _filled(self.time, np.asarray(self.temperature, dtype=float))
 
     @lazy
@@ -153,9 +153,9 @@ class Trajectory(ByValue):
             speed=mean,
             acceleration=np.diff(speed) / step,
             direction=np.sign(mean),
-            force=_middle(nothing if self.force is None else self.force),
-            temperature=_middle(self._filled_temperature),
-            phase=np.zeros(step.shape, dtype=np.intp),
+            force=compact(_middle(nothing if self.force is None else self.force)),
+            temperature=compact(_middle(self._filled_temperature)),
+            phase=compact(np.zeros(step.shape, dtype=np.intp)),
             phases=(_NAME,),
             speeds_of_ends=((float(speed[0]), float(speed[-1])),),
         )

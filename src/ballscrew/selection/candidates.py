@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
+import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,7 @@ from ballscrew.axis_studies.duty import DutyReport, duty
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
 from ballscrew.quantities import Length, fields_of
-from ballscrew.screw_tables.catalogue import assumed
+from ballscrew.screw_tables.catalogue import assumed, case_text
 from ballscrew.selection import requirement_checks
 from ballscrew.selection.need import Need
 from ballscrew.selection.objectives import USUAL_LENGTH, reflected_mass, shaft_inertia, shaft_length
@@ -145,6 +146,27 @@ def tables_of(need: Need, variant: Variant) -> dict[str, Any]:
     if need.length_is_stroke and need.requirements.stroke is not None:
         length = need.requirements.stroke + _nut_length(variant)
         made["installation"] = {**made["installation"], "unsupported_length": f"{length!r} m"}
+    return made
+
+
+def case_tables(need: Need, variant: Variant) -> dict[str, Any]:
+    """The case file of a variant as tables, with the numbers of a row of one's own, so that it needs no table.
+
+    A load rating that such a row does not list is computed from these numbers, whole balls in place of parts of turns.
+    """
+    made = tables_of(need, variant)
+    if variant.file is None:
+        return made
+    own = tomllib.loads(case_text(variant.row))
+    preload = (
+        {"preload": own["nut"]["preload"]} if lists_preload(variant.row) and variant.nut == variant.row.nut else {}
+    )
+    kept = {name: value for name, value in made["screw"].items() if name not in ("catalogue", "catalogue_file")}
+    made["screw"] = {**own["screw"], **kept}
+    made["nut"] = {**preload, **made["nut"]}
+    made["bodies"] = {**own["bodies"], **made["bodies"]}
+    if "losses" in own:
+        made["losses"] = {**own["losses"], **made.get("losses", {})}
     return made
 
 

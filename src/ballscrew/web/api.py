@@ -42,6 +42,7 @@ from ballscrew.web import (
     check_answers,
     documents,
     duty_answers,
+    file_api,
     limits,
     openapi,
     select_answers,
@@ -72,7 +73,9 @@ from ballscrew.web.endpoint_parts import (
     sent,
 )
 from ballscrew.web.problems import Refused
+from ballscrew.web.progress import reported
 from ballscrew.web.request_queue import Deadline
+from ballscrew.web.sent_files import written
 from ballscrew.web.templates import template
 
 #: Media types of a report, by its ``kind``.
@@ -81,6 +84,7 @@ KINDS: Mapping[str, str] = {"pdf": "application/pdf", "html": "text/html; charse
 
 _VALIDATION_LOCK = threading.Lock()
 router = APIRouter(prefix="/api/v1", dependencies=[Depends(known_query)])
+router.include_router(file_api.router)
 
 
 @router.post("/run", openapi_extra=openapi.body(CaseBody), response_model=answers.Run, responses=openapi.problems_of())
@@ -211,7 +215,12 @@ async def select(request: Request) -> Response:
     def work(done: Deadline) -> Response:
         refuse_paths(body.need)
         need = limits.check_need(need_of(body.need))
-        return as_json(selection_documents.document(selected(need, words=body.words or None, done=done)))
+        with written({} if body.table is None else {"table": body.table}) as paths:
+            found = selected(
+                need, rows=paths.get("table"), words=body.words or None, keep_going=bool(paths),
+                done=reported(body.ticket, done),
+            )  # fmt: skip
+        return as_json(selection_documents.document(found))
 
     return await heavy(request, work)
 
@@ -291,14 +300,6 @@ async def get_vocabulary() -> Response:
 @functools.cache
 def _vocabulary() -> bytes:
     return as_bytes(vocabulary.vocabulary())
-
-
-@router.post("/toml", openapi_extra=openapi.body(CaseBody), responses=openapi.text("application/toml"))
-async def toml(request: Request) -> Response:
-    """The case as a file, ready for ``ballscrew run``."""
-    body: CaseBody = await read(request, CaseBody)
-    await queue_of(request).quick(lambda: case_of(body.case))
-    return Response(tomlkit.dumps(body.case), media_type="application/toml")
 
 
 @router.post("/drawing", openapi_extra=openapi.body(CaseBody), responses=openapi.text("image/svg+xml"))

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Mapping
-from typing import Any, NoReturn
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, ClassVar, NoReturn
 
 import anyio
 from pydantic import BaseModel, ConfigDict, Field
@@ -28,19 +28,35 @@ MOST_BYTES = 65_536
 #: Tables within tables, and values in all of them.
 DEEPEST, MOST_VALUES = 8, 1_000
 LONGEST_TEXT = 1_000
+#: Names of the contents of a file: as text, or any bytes in base64.
+CONTENTS = ("text", "base64")
 #: Loaded balls that are computed one by one, where the bodies of a nut are elastic or its balls differ.
 MOST_BALLS = 500
 #: Seconds for a body to arrive.
 READ_TIMEOUT = 10.0
 
+#: Bytes of a request with a project or a table of screws.
+MOST_FILE_BYTES = 1_048_576
+LONGEST_TICKET = 40
+
 Tables = dict[str, Any]
+#: A file: its ``name``, which says what kind it is, and its content as ``text``, or any bytes in ``base64``.
+SentFile = dict[str, str]
 
 
-class _Body(BaseModel):
+class Body(BaseModel):
+    """The body of a request: these names and no others."""
+
     model_config = ConfigDict(extra="forbid")
+    #: Bytes of a request at most.
+    most_bytes: ClassVar[int] = MOST_BYTES
+    #: Fields that are files, whose contents are neither counted nor cut as other texts are.
+    files: ClassVar[tuple[str, ...]] = ()
+    #: Values in all tables at most.
+    most_values: ClassVar[int] = MOST_VALUES
 
 
-class CaseBody(_Body):
+class CaseBody(Body):
     """A case: the tables of a case file as JSON, texts with their units."""
 
     case: Tables
@@ -61,11 +77,37 @@ class WarmUpBody(CaseBody):
     only_given: bool = Field(default=False, strict=True)
 
 
-class NeedBody(_Body):
-    """A need: the tables of a file of ``ballscrew select`` as JSON, and words that rows must have."""
+class NeedBody(Body):
+    """A need: the tables of a file of ``ballscrew select`` as JSON, and words that rows must have.
+
+    ``table`` is a table of one's own in place of the catalogue, ``ticket`` a word of the client to ask for progress by.
+    """
+
+    most_bytes: ClassVar[int] = MOST_FILE_BYTES
+    files: ClassVar[tuple[str, ...]] = ("table",)
 
     need: Tables
     words: str = Field(default="", strict=True)
+    table: SentFile | None = None
+    ticket: str = Field(default="", strict=True, max_length=LONGEST_TICKET)
+
+
+class OpenBody(Body):
+    """A file of cases or of screws: a case file, a project, or a table."""
+
+    most_bytes: ClassVar[int] = MOST_FILE_BYTES
+    files: ClassVar[tuple[str, ...]] = ("file",)
+
+    file: SentFile
+
+
+class ProjectBody(Body):
+    """Designs: each with its ``name``, its ``case`` and what is kept ``aside``."""
+
+    most_bytes: ClassVar[int] = MOST_FILE_BYTES
+    most_values: ClassVar[int] = 20 * MOST_VALUES
+
+    designs: list[Tables]
 
 
 class ReportBody(CaseBody):
@@ -90,13 +132,13 @@ class BandBody(CaseBody):
     only_given: bool = Field(default=False, strict=True)
 
 
-async def read(request: Request, kind: type[_Body]) -> Any:
+async def read(request: Request, kind: type[Body]) -> Any:
     """The body of a request as one of the kinds above. Raises :class:`~ballscrew.web.problems.Refused`."""
     media = request.headers.get("content-type", "").partition(";")[0].strip().lower()
     if media != "application/json":
         raise Refused(415, Fault("Content-Type", "is not application/json", media, "send JSON"))
-    value = _json(await _bytes(request))
-    _count(value)
+    value = _json(await _bytes(request, kind.most_bytes))
+    _count(_without_contents(value, kind.files), kind.most_values)
     faults: list[Fault] = []
     table = read_table("request", kind, value, faults)
     if faults:
@@ -104,17 +146,30 @@ async def read(request: Request, kind: type[_Body]) -> Any:
     return kind(**table)
 
 
-async def _bytes(request: Request) -> bytes:
-    too_large = Refused(413, Fault("request", f"has more than {MOST_BYTES} bytes", "", "send one case"))
+def _without_contents(value: Any, files: Sequence[str]) -> Any:
+    """A body without the contents of its files."""
+    if not isinstance(value, dict):
+        return value
+    return {
+        name: {key: "" if key in CONTENTS and isinstance(text, str) else text for key, text in inner.items()}
+        if name in files and isinstance(inner, dict)
+        else inner
+        for name, inner in value.items()
+    }
+
+
+async def _bytes(request: Request, most: int) -> bytes:
+    remedy = "send one case" if most == MOST_BYTES else "send a shorter log, or read it by the command line"
+    too_large = Refused(413, Fault("request", f"has more than {most} bytes", "", remedy))
     length = request.headers.get("content-length", "0")
-    if length.isdecimal() and int(length[:10]) > MOST_BYTES:
+    if length.isdecimal() and int(length[:10]) > most:
         raise too_large
     found = bytearray()
     try:
         with anyio.fail_after(READ_TIMEOUT):
             async for chunk in request.stream():
                 found += chunk
-                if len(found) > MOST_BYTES:
+                if len(found) > most:
                     raise too_large
     except TimeoutError:
         raise Refused(408, Fault("request", f"did not arrive within {READ_TIMEOUT:g} s")) from None
@@ -154,13 +209,13 @@ def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return found
 
 
-def _count(value: Any) -> None:
+def _count(value: Any, most: int) -> None:
     """Refuse deep nesting, too many values, long texts and invalid Unicode."""
     level, seen = [value], 0
     for _ in range(DEEPEST + 1):
         seen += len(level)
-        if seen > MOST_VALUES:
-            raise Refused(413, Fault("request", f"has more than {MOST_VALUES} values", "", "send one case"))
+        if seen > most:
+            raise Refused(413, Fault("request", f"has more than {most} values", "", "send one case"))
         for item in level:
             for text in _texts(item):
                 if len(text) > LONGEST_TEXT:
@@ -215,6 +270,11 @@ def refuse_paths(tables: Mapping[str, Any]) -> None:
     motion = tables.get("motion")
     if isinstance(motion, Mapping) and "file" in motion:
         raise InputError(Fault("motion.file", "is not taken from a request", "", "send the motion as segments"))
+    refuse_nulls(tables)
+
+
+def refuse_nulls(tables: Any) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` for null, which no case file can have."""
     raise_if_any([Fault(where, "must not be null", "", "leave it out") for where in _nulls("", tables)])
 
 

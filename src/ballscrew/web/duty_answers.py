@@ -6,6 +6,7 @@ from ballscrew.axis_studies.duty import NUMBERS
 from ballscrew.axis_studies.stiffness import FRICTION, LOAD, SERIES, SPEED
 from ballscrew.web.answer_parts import (
     Closed,
+    JudgedCheck,
     Number,
     Numbers,
     Open,
@@ -27,6 +28,37 @@ class PowerOff(Open):
     conditions: list[Tables]
 
 
+class Cycle(Closed):
+    """The states of a cycle over time, and the torque of the motor by cause."""
+
+    every: int = field("1 where each state of the motion is here, or each second, third … one")
+    time: list[float] = field("time since the start of the cycle, SI", "s")
+    position: list[float] = field("position, SI", "m")
+    speed: list[float] = field("speed, SI", "m/s")
+    acceleration: list[float] = field("acceleration, SI", "m/s^2")
+    axial_load: list[Number] = field("load of the nut, SI", "N")
+    motor_speed: list[Number] = field("speed of the motor, SI", "rad/s")
+    torque: list[Number] = field("torque of the motor by mechanics, SI", "N m")
+    power: list[Number] = field("power of the motor, SI", "W")
+    torque_by: dict[str, list[Number]] = field("torque of the motor by cause, SI", "N m")
+
+
+class MotorCurve(Closed):
+    """What a motor gives, at the corners of its curve."""
+
+    speed: list[float] = field("speed of the motor, SI", "rad/s")
+    peak_torque: list[float] = field("torque that it gives for a short time, SI", "N m")
+    rated_torque: float = field("torque that it gives for ever, SI", "N m")
+
+
+class MotorUse(Open):
+    """The cycle against the motor."""
+
+    suffices: bool
+    utilisation: Number = field("torque over the peak torque at its speed, where that is largest")
+    curve: MotorCurve
+
+
 DutyResults = model(
     "DutyResults",
     "Numbers of a cycle of an axis.",
@@ -37,8 +69,11 @@ DutyResults = model(
     heat_by_element=(Numbers, field("mean heat of each element over the cycle, SI", "W")),
     torque_rms_by=(Numbers, field("parts of the RMS torque, SI", "N m")),
     torque_peak_by=(Numbers, field("parts of the peak torque, SI", "N m")),
+    energy_by=(Numbers, field("energy of a cycle by cause, SI", "J")),
     brake=(PowerOff, ...),
+    motor=(MotorUse, field("the cycle against the motor, where there is one", optional=True)),
     phases=(list[Tables], ...),
+    cycle=(Cycle, ...),
     valid=(bool, ...),
 )
 
@@ -50,7 +85,7 @@ class Duty(Closed):
     results: DutyResults  # pyright: ignore[reportInvalidTypeForm]  (a model made from the annotations)
     units: Tables
     verdicts: list[Record]
-    checks: list[Record]
+    checks: list[JudgedCheck]
     warnings: list[Record]
     provenance: Provenance
 

@@ -12,7 +12,7 @@ from ballscrew.case_schema.schema import json_schema
 from ballscrew.sizing.catalogue import catalogue
 from ballscrew.web import problems
 from ballscrew.web.answer_parts import Problem
-from ballscrew.web.bodies import BandBody, DutyBody, NeedBody, SweepBody, WarmUpBody
+from ballscrew.web.bodies import BandBody, DutyBody, NeedBody, OpenBody, ProjectBody, SweepBody, WarmUpBody
 from ballscrew.web.vocabulary import vocabulary
 
 _CASE, _SUMMARY = "Case", "Friction losses of ball screws"
@@ -46,6 +46,11 @@ def _bodies(kind: type[BaseModel]) -> dict[str, Any]:
     if kind is NeedBody:
         need = {"force": "2 kN", "feed": "15 m/min", "length": "1 m", "ends": "fixed-supported", "life": "20000 h"}
         return {"few": {"need": {**need, "preload": "2 %"}, "words": "rexroth 32x"}}
+    if kind is OpenBody:
+        text = 'lubricant.grade = "ISO VG 68"\nscrew.catalogue = "hiwin-40-20k4"\n'
+        return {"case": {"file": {"name": "case.toml", "text": text}}}
+    if kind is ProjectBody:
+        return {"two": {"designs": [{"name": name, "case": case} for name, case in (("paper", paper), ("nut", nut))]}}
     if kind is DutyBody:
         moving: dict[str, Any] = {
             "axis": {"mass": "400 kg", "inclination": "90 deg"},

@@ -30,6 +30,7 @@ class Candidate(Open):
     fails: list[Failing]
     verdict: str
     objectives: Numbers
+    case: Tables = Field(description="its case file as tables")
     results: Tables
     checks: list[Tables]
     judged: int = Field(description="number of the checks that were judged; the others lack an input")

@@ -10,6 +10,11 @@ from pydantic import BaseModel, ConfigDict
 
 from ballscrew import units
 from ballscrew._version import __version__
+from ballscrew.axis.axis import Axis
+from ballscrew.axis.motor import Motor
+from ballscrew.axis_studies.duty import CAUSES, NUMBERS, slug_of
+from ballscrew.axis_studies.warm_up import SERIES
+from ballscrew.case_schema.duty_schema import MOTIONS, fields_of_motion
 from ballscrew.case_schema.schema import DEFAULT_MODEL, LAWS, MODELS
 from ballscrew.components.contact import RaceState
 from ballscrew.components.materials import Lubricant, Material
@@ -17,22 +22,24 @@ from ballscrew.components.nut import Bodies, Scatter
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import BallScrew
 from ballscrew.evaluation.outputs import known_outputs
-from ballscrew.figures.colours import MECHANISM_COLOURS
+from ballscrew.figures.colours import CAUSE_COLOURS, MECHANISM_COLOURS
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import MECHANISMS, FrictionResult
 from ballscrew.friction.validity import NUT_REASONS
-from ballscrew.papers.olaru2005 import case as paper
+from ballscrew.motion.profiles import SCurve, Segment, Sine
 from ballscrew.quantities import Info, Quantity, fields_of, quantities_of
 from ballscrew.screw_tables.catalogue import EXAMPLE_PRELOADS
 from ballscrew.screw_tables.nut_kinds import LISTED, LOSSES, NUT_FIELDS, NUTS
 from ballscrew.sizing.catalogue import catalogue
 from ballscrew.sizing.installation import Installation, Limits
 from ballscrew.solvers.load_distribution import BallLoads
+from ballscrew.thermal.surroundings import Surroundings
+from ballscrew.web.starts import starts
 
 #: Units of inches and pounds, by the metric units that they replace; other units are the same in both.
 _INCHES: Mapping[str, str] = {
     "mm": "in", "um": "uin", "N": "lbf", "kN": "lbf", "N m": "lbf in", "N mm": "lbf in", "MPa": "psi", "GPa": "psi",
-    "degC": "degF", "m": "in",
+    "degC": "degF", "m": "in", "m/min": "in/min",
 }  # fmt: skip
 
 
@@ -72,9 +79,10 @@ class NutKind(_Table):
 
 
 class Start(_Table):
-    """A case to start from."""
+    """A case to start from; one that moves has an axis and a motion."""
 
     title: str
+    moves: bool
     case: dict[str, Any]
 
 
@@ -93,12 +101,16 @@ class Vocabulary(_Table):
     units: dict[str, list[UnitChoice]]
     systems: dict[str, dict[str, str]]
     results: dict[str, ResultQuantity]
+    of_cycle: dict[str, ResultQuantity]
+    of_warm_up: dict[str, ResultQuantity]
+    causes: dict[str, Mechanism]
     mechanisms: dict[str, Mechanism]
     reasons: dict[str, str]
     models: list[str]
     default_model: str
     limits: dict[str, float | None]
     nuts: dict[str, NutKind]
+    motions: dict[str, list[str]]
     starts: dict[str, Start]
     rows: list[StartRow]
 
@@ -111,6 +123,9 @@ def vocabulary() -> dict[str, Any]:
         "units": _units(),
         "systems": {"metric": {}, "inch": dict(_INCHES)},
         "results": _results(),
+        "of_cycle": {name: _described(quantity) for name, quantity in NUMBERS.items()},
+        "of_warm_up": {name: _described(quantity) for name, quantity in SERIES.items()},
+        "causes": {slug_of(name): {"words": name, "colour": CAUSE_COLOURS[name]} for name in CAUSES},
         "mechanisms": _mechanisms(),
         "reasons": dict(NUT_REASONS),
         "models": list(MODELS),
@@ -120,9 +135,8 @@ def vocabulary() -> dict[str, Any]:
             name: {"fields": list(fields_of(kind)), "usual_preload": EXAMPLE_PRELOADS.get(name)}
             for name, kind in NUTS.items()
         },
-        "starts": {
-            "paper": {"title": "the screw of Olaru et al. (2005)", "case": _paper()},
-        },
+        "motions": {kind: list(fields_of_motion(kind)) for kind in MOTIONS},
+        "starts": starts(),
         "rows": [{"name": row.name, "source": row.source, "nut": row.nut or "single"} for row in catalogue().values()],
     }
 
@@ -130,7 +144,7 @@ def vocabulary() -> dict[str, Any]:
 def _units() -> dict[str, Any]:
     """The units people use, by SI unit: SI = number × factor + offset."""
     known = {si: dict.fromkeys((*usual, si)) for si, usual in units.USUAL.items()}
-    for quantity in (*_known_results().values(), *_known_fields()):
+    for quantity in (*_known_results().values(), *NUMBERS.values(), *SERIES.values(), *_known_fields()):
         if quantity.unit != "1":
             known.setdefault(quantity.unit, {})[quantity.shown_in] = None
     return {si: [_unit(unit, si) for unit in those] for si, those in known.items()}
@@ -144,7 +158,10 @@ def _unit(unit: str, si: str) -> dict[str, Any]:
 
 def _known_fields() -> list[Quantity]:
     """The quantities that a case file can have."""
-    parts = (BallScrew, Lubricant, OperatingState, Material, Bodies, Scatter, Installation, Limits, FrictionModel)
+    parts = (
+        BallScrew, Lubricant, OperatingState, Material, Bodies, Scatter, Installation, Limits, FrictionModel,
+        Axis, Motor, SCurve, Sine, Segment, Surroundings,
+    )  # fmt: skip
     laws = [law for slot in (*LAWS.values(), *LOSSES.values()) for law in slot.values() if isinstance(law, type)]
     return [*NUT_FIELDS.values(), *LISTED.values(), *(q for part in (*parts, *laws) for q in fields_of(part).values())]
 
@@ -175,27 +192,3 @@ def _mechanisms() -> dict[str, Any]:
     more = ("#999999", "#8A6FB0", "#5B1A3A", "#6B5B00")
     parts = {name: {"words": words, "colour": MECHANISM_COLOURS[name]} for name, words in MECHANISMS.items()}
     return parts | {slot: {"words": slot, "colour": colour} for slot, colour in zip(LOSSES, more, strict=True)}
-
-
-def _paper() -> dict[str, Any]:
-    """The paper's screw, oil and operating point as the tables of a case."""
-    return {
-        "screw": _written(paper.SCREW, BallScrew),
-        "lubricant": _written(paper.OIL, Lubricant),
-        "operation": {
-            name: units.written(value, fields_of(OperatingState)[name])
-            for name, value in (("axial_load", paper.AXIAL_LOAD), ("screw_speed", paper.SCREW_SPEED))
-        },
-        "model": {"name": DEFAULT_MODEL},
-    }
-
-
-def _written(part: Any, cls: type) -> dict[str, Any]:
-    """The numbers of a part that have no default, or another value than that, as they are written in a file."""
-    usual = {name: getattr(cls, name, None) for name in fields_of(cls)}
-    found = {name: getattr(part, name) for name in fields_of(cls)}
-    return {
-        name: value if fields_of(cls)[name].unit == "1" else units.written(value, fields_of(cls)[name])
-        for name, value in found.items()
-        if value is not None and value != usual[name]
-    }

@@ -4,15 +4,18 @@ import * as charts from "./charts.js";
 import * as checks from "./checks.js";
 import { showDesigns, showModels } from "./compare.js";
 import * as curves from "./curves.js";
+import { titleOf } from "./designs.js";
 import { byId } from "./dom.js";
 import * as drawings from "./drawing.js";
 import { inWords, labelOf } from "./faults.js";
 import { showFailure } from "./plot.js";
 import * as results from "./results.js";
+import { withoutCards } from "./schema.js";
 import { ask, linesOf, Problem, sendJson } from "./server.js";
 import { LETTERS } from "./state.js";
 import * as stiffness from "./stiffness.js";
 import * as temperatures from "./temperatures.js";
+import { text } from "./texts.js";
 
 /** Points of a curve and of one side of the map; fewer for a whole nut, which takes longer. */
 const POINTS = { curve: 41, curveOfNut: 15, map: 21, mapOfNut: 11 };
@@ -27,7 +30,8 @@ const PAINT_TIMEOUT = 500;
  * Everything on the page: the case, its answer and band, the sweeps of its charts, the other designs and models.
  *
  * @typedef {object} Displayed
- * @property {Body} [body]
+ * @property {Body} [body] without what only cards ask about
+ * @property {Body} [whole] the case as a file has it
  * @property {string} [key]
  * @property {Run} [answer]
  * @property {Checks} [checks]
@@ -85,29 +89,30 @@ export async function update(cases, { designs, show, band: wanted, own }, report
   bandRequest.abort();
   /** @type {Body[]} */
   let bodies = [];
-  displayed.starts = designs.map((one) => one.start);
+  displayed.starts = designs.map(titleOf);
   byId("results").setAttribute("aria-busy", "true");
   try {
-    bodies = (await cases()).map((one) => ({ case: one }));
+    const found = await cases();
+    bodies = found.map((one) => ({ case: withoutCards(one) }));
     if (signal.aborted) return;
     const body = bodies[show];
+    const whole = { case: found[show] };
     const key = JSON.stringify(body);
     /** @type {Run} */
     const answer = await ask("run", body, signal);
-    const checked = await checksOf(body, signal);
     if (signal.aborted) return;
     const { designs: before, starts } = displayed;
     /** @type {Displayed} */
     const known = displayed.key === key ? displayed : { band: null, starts };
-    displayed = { body, key, answer, checks: checked, band: known.band, designs: before, starts };
+    displayed = { body, whole, key, answer, checks: known.checks, band: known.band, designs: before, starts };
     report([]);
     results.succeed();
     if (wanted && !displayed.band) displayed.band = { state: "pending" };
     results.show(answer, displayed);
-    checks.show(checked, jump);
     stiffness.show(answer);
     measurePaint("numbers", start, signal);
-    await Promise.all([drawCharts(body, answer, signal, start), showAll(bodies, own, wanted, signal)]);
+    const checked = showChecks(body, answer, signal);
+    await Promise.all([checked, drawCharts(body, answer, signal, start), showAll(bodies, own, wanted, signal)]);
     await measurePaint("all", start, signal);
     if (!signal.aborted) showBand(wanted);
   } catch (error) {
@@ -119,6 +124,21 @@ export async function update(cases, { designs, show, band: wanted, own }, report
   } finally {
     if (!signal.aborted) byId("results").setAttribute("aria-busy", "false");
   }
+}
+
+/**
+ * Show the checks of an answer, and the verdict that they lead to.
+ *
+ * @param {Body} body
+ * @param {Run} answer
+ * @param {AbortSignal} signal
+ */
+async function showChecks(body, answer, signal) {
+  const checked = await checksOf(body, signal);
+  if (signal.aborted) return;
+  displayed.checks = checked;
+  results.show(answer, displayed);
+  checks.show(checked, jump);
 }
 
 /**
@@ -250,6 +270,15 @@ async function drawCharts(body, answer, signal, start) {
   await others;
 }
 
+/**
+ * Keep the case for files, of which only what cards ask about has changed.
+ *
+ * @param {Record<string, unknown>} found
+ */
+export function keepWhole(found) {
+  displayed.whole = { case: found };
+}
+
 /** Show all of it again in other units, without requests. */
 export function redisplay() {
   const { answer, checks: checked, alongSpeed, everywhere, alongLoad, drawing, designs, starts, models } = displayed;
@@ -377,7 +406,7 @@ async function addBands(bodies, own, signal) {
 export async function compareModels() {
   const { body } = displayed;
   if (!body) return;
-  byId("models").textContent = "computing …";
+  byId("models").textContent = text("models.pending");
   try {
     const found = await sendJson("compare", body);
     if (body !== displayed.body) {

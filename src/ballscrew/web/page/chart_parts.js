@@ -1,14 +1,14 @@
 // Parts that several charts have: the operating point, axes, and the ranges where the model is not valid.
 
+import { text } from "./texts.js";
 import * as units from "./units.js";
 
 /** @typedef {import("./plot.js").Colours} Colours */
 /** @typedef {import("./plot.js").LegendEntry} LegendEntry */
 
-const OPERATING_POINT = "operating point";
 /** Colour over the ranges where the model is not valid. */
 export const INVALID = "#80808055";
-export const OUTSIDE = "outside the model's validity";
+export const OUTSIDE = text("chart.outside");
 
 /**
  * Values of a swept axis or output along one axis.
@@ -70,7 +70,7 @@ export function pointAt({ ink, panel }, x, y) {
   return {
     x: [x],
     y: [y],
-    name: OPERATING_POINT,
+    name: text("chart.operating_point"),
     mode: "markers",
     marker: { symbol: "diamond", size: 11, color: panel, line: { color: ink, width: 2.5 } },
     hovertemplate: "%{y:.4g}",
@@ -82,7 +82,7 @@ export function pointAt({ ink, panel }, x, y) {
  * @returns {LegendEntry}
  */
 export function pointEntry({ ink }) {
-  return { kind: "point", name: OPERATING_POINT, colour: ink };
+  return { kind: "point", name: text("chart.operating_point"), colour: ink };
 }
 
 /**
@@ -124,5 +124,5 @@ export function invalidEntries(valid) {
 
 /** @param {boolean} valid */
 export function yesOrNo(valid) {
-  return valid ? "yes" : "no";
+  return text(valid ? "chart.yes" : "chart.no");
 }

@@ -4,6 +4,7 @@ import * as parts from "./chart_parts.js";
 import { element } from "./dom.js";
 import { draw, layout } from "./plot.js";
 import { data } from "./results.js";
+import { text, textOr } from "./texts.js";
 import * as units from "./units.js";
 
 // light enough everywhere for black numbers, also for people who do not see red or green
@@ -12,6 +13,16 @@ const SCALE = [
   [0.5, "#c3b98c"],
   [1, "#ffe945"],
 ];
+
+/**
+ * A mechanism in words.
+ *
+ * @param {string} name
+ * @param {Mechanisms} mechanisms
+ */
+function wordsOf(name, mechanisms) {
+  return textOr(`mechanism.${name}`, mechanisms[name]?.words ?? name);
+}
 
 /**
  * Torque against speed, its parts stacked, and the operating point.
@@ -35,9 +46,9 @@ export function torque(swept, answer, mechanisms) {
   const speed = units.inDisplayUnit("screw_speed", operation.screw_speed);
   const valid = parts.validAlong(swept);
   /** @param {string} name */
-  const words = (name) => mechanisms[name]?.words ?? name;
-  const x = parts.titled("screw_speed", "speed of the screw");
-  const y = parts.titled("screw_torque", "friction torque");
+  const words = (name) => wordsOf(name, mechanisms);
+  const x = parts.titled("screw_speed", text("chart.speed"));
+  const y = parts.titled("screw_torque", text("chart.torque"));
   /** @param {string} name */
   const share = (name) => {
     const part = contributions[name];
@@ -47,9 +58,8 @@ export function torque(swept, answer, mechanisms) {
   const totalText = units.formatted("screw_torque", sum);
   return draw("torque-chart", {
     name: "torque_over_speed",
-    caption: `friction torque and its parts at ${load}`,
-    description:
-      `Friction torque against speed at ${load}, stacked by mechanism. ` + `At the operating point ${totalText}.`,
+    caption: text("speed.caption", { load }),
+    description: text("speed.description", { load, total: totalText }),
     figure: (colours) => ({
       traces: [
         ...names.map((name) => ({
@@ -65,7 +75,7 @@ export function torque(swept, answer, mechanisms) {
         {
           x: speeds,
           y: total,
-          name: "sum",
+          name: text("chart.sum"),
           mode: "lines",
           line: { color: colours.ink, width: 2 },
           hovertemplate: "%{y:.4g}",
@@ -77,7 +87,7 @@ export function torque(swept, answer, mechanisms) {
     legend: (colours) => [
       {
         kind: "line",
-        name: "sum",
+        name: text("chart.sum"),
         colour: colours.ink,
         value: element("span", { class: "value" }, data("screw_torque", sum)),
       },
@@ -91,7 +101,7 @@ export function torque(swept, answer, mechanisms) {
       ...parts.invalidEntries(valid),
     ],
     numbers: () => [
-      [x, y, ...names.map((name) => parts.titled("screw_torque", words(name))), "valid"],
+      [x, y, ...names.map((name) => parts.titled("screw_torque", words(name))), text("chart.valid")],
       speeds.map((at, place) => [
         at,
         total[place],
@@ -121,8 +131,8 @@ export function map(swept, answer) {
   const byLoad = (values) => (loadIsFirst ? values : loads.map((_, i) => speeds.map((_, j) => values[j][i])));
   const grid = byLoad(/** @type {number[][]} */ (swept.outputs.efficiency.values));
   const valid = byLoad(/** @type {boolean[][]} */ (swept.outputs.valid.values));
-  const x = parts.titled("screw_speed", "speed of the screw");
-  const y = parts.titled("axial_load", "axial load");
+  const x = parts.titled("screw_speed", text("chart.speed"));
+  const y = parts.titled("axial_load", text("chart.load"));
   const operation = parts.operationOf(answer);
   const point = parts.pointAt(
     { ink: "#000", panel: "#fff" },
@@ -132,8 +142,8 @@ export function map(swept, answer) {
   const efficiency = units.digits(answer.results.efficiency);
   return draw("map-chart", {
     name: "efficiency_map",
-    caption: "efficiency over axial load (down) and speed (across)",
-    description: `Efficiency over axial load and speed; at the operating point ${efficiency}.`,
+    caption: text("map.caption"),
+    description: text("map.description", { efficiency }),
     figure: (colours) => ({
       traces: [
         {
@@ -143,11 +153,11 @@ export function map(swept, answer) {
           type: "contour",
           colorscale: SCALE,
           ncontours: 12,
-          name: "efficiency",
+          name: text("chart.efficiency"),
           contours: { coloring: "heatmap", showlabels: true, labelfont: { size: 11, color: "#000" } },
           line: { width: 0.6, color: "#333" },
           colorbar: { thickness: 12, outlinewidth: 0, tickformat: ".3~g", xpad: 6 },
-          hovertemplate: "%{x:.4g}, %{y:.4g}: efficiency %{z:.4f}<extra></extra>",
+          hovertemplate: `%{x:.4g}, %{y:.4g}: ${text("chart.efficiency")} %{z:.4f}<extra></extra>`,
           showlegend: false,
         },
         {
@@ -197,12 +207,12 @@ export function designs(answers, mechanisms) {
    */
   const shown = (letter, name) => units.inDisplayUnit("screw_torque", part(letter, name));
   /** @param {string} name */
-  const words = (name) => mechanisms[name]?.words ?? name;
-  const x = parts.titled("screw_torque", "friction torque");
+  const words = (name) => wordsOf(name, mechanisms);
+  const x = parts.titled("screw_torque", text("chart.torque"));
   return draw("compare-chart", {
     name: "designs",
-    caption: "friction torque of the designs by mechanism",
-    description: "Friction torque of each design, by mechanism.",
+    caption: text("compare.chart"),
+    description: text("compare.description"),
     figure: (colours) => ({
       traces: names.map((name) => ({
         type: "bar",
@@ -213,7 +223,7 @@ export function designs(answers, mechanisms) {
         marker: { color: mechanisms[name]?.colour },
         hovertemplate: "%{x:.4g}",
       })),
-      layout: layout(colours, x, "design", {
+      layout: layout(colours, x, text("chart.design"), {
         barmode: "stack",
         hovermode: "closest",
         margin: { l: 48, r: 26, t: 8, b: 42 },
@@ -223,7 +233,7 @@ export function designs(answers, mechanisms) {
     }),
     legend: () => names.map((name) => ({ kind: "area", name: words(name), colour: mechanisms[name]?.colour })),
     numbers: () => [
-      ["design", ...names.map((name) => parts.titled("screw_torque", words(name)))],
+      [text("chart.design"), ...names.map((name) => parts.titled("screw_torque", words(name)))],
       letters.map((letter) => [letter, ...names.map((name) => shown(letter, name))]),
     ],
   });

@@ -4,18 +4,18 @@ import * as charts from "./charts.js";
 import { verdict } from "./checks.js";
 import { byId, element, scrolling, table } from "./dom.js";
 import { data, greatestPressure, leastFilm, nameOf, numbersOf, rounded } from "./results.js";
+import { text } from "./texts.js";
 import * as units from "./units.js";
 
-/** @type {Record<string, string>} */
-const ROWS = {
-  screw_torque: "friction torque",
-  drive_torque: "drive torque",
-  efficiency: "efficiency, screw drives",
-  back_driving_efficiency: "efficiency, load drives",
-  holding_torque: "torque that holds the load",
-  friction_power: "heat",
-  preload_drag: "torque without load",
-};
+const ROWS = /** @type {const} */ ([
+  "screw_torque",
+  "drive_torque",
+  "efficiency",
+  "back_driving_efficiency",
+  "holding_torque",
+  "friction_power",
+  "preload_drag",
+]);
 
 /**
  * What is known of a design: its answer, its checks and its band, or the line that says why there is none.
@@ -52,7 +52,7 @@ export async function showDesigns(answers, starts, mechanisms) {
   const letters = Object.keys(answers);
   byId("compare-at").hidden = letters.length < 2;
   if (letters.length < 2) {
-    place.replaceChildren(element("p", {}, "Add a design above: up to four are shown here side by side."));
+    place.replaceChildren(element("p", {}, text("compare.one")));
     byId("compare-chart").hidden = true;
     return;
   }
@@ -78,26 +78,26 @@ export async function showDesigns(answers, starts, mechanisms) {
     return element("span", {}, data(name, value, rounded(name, value, known.band).text), change);
   };
   const rows = [
-    ["start", ...starts],
-    row("case", (run) => units.filled(run.display.title)),
-    ...Object.entries(ROWS)
-      .filter(([name]) => isKnown(name))
-      .map(([name, words]) => row(words, cell(name))),
-    row("band of the friction torque, 95 %", (run, { band }) => {
+    [text("compare.start"), ...starts],
+    row(text("compare.case"), (run) => units.filled(run.display.title)),
+    ...ROWS.filter(isKnown).map((name) => row(text(`results.${name}`), cell(name))),
+    row(text("compare.band"), (run, { band }) => {
       return rounded("screw_torque", run.results.screw_torque, band).interval ?? "–";
     }),
-    row("least λ", (run) => units.digits(leastFilm(run), units.DIGITS)),
-    row("greatest pressure", (run) => units.formatted("maximum_pressure", greatestPressure(run), units.DIGITS)),
-    row("checks", (_, { checks }) => (checks ? verdict(checks) : "–")),
-    row("verdict", (run) => joined(run.verdicts.map(nameOf))),
+    row(text("compare.film"), (run) => units.digits(leastFilm(run), units.DIGITS)),
+    row(text("results.of_contact.maximum_pressure"), (run) =>
+      units.formatted("maximum_pressure", greatestPressure(run), units.DIGITS),
+    ),
+    row(text("compare.checks"), (_, { checks }) => (checks ? verdict(checks) : "–")),
+    row(text("compare.verdict"), (run) => joined(run.verdicts.map(nameOf))),
     [
-      "beware",
+      text("compare.beware"),
       ...letters.map((letter) => answers[letter].reason ?? joined((answers[letter].run?.warnings ?? []).map(nameOf))),
     ],
   ];
-  const headings = ["", ...letters.map((letter) => `Design ${letter}`)];
-  const caption = `designs side by side ${conditions(first)}; changes are against Design ${letters[0]}`;
-  place.replaceChildren(scrolling("table of the designs", table(caption, headings, rows)));
+  const headings = ["", ...letters.map((letter) => text("compare.design", { letter }))];
+  const caption = text("compare.caption", { conditions: conditions(first), first: letters[0] });
+  place.replaceChildren(scrolling(text("compare.table"), table(caption, headings, rows)));
   const computed = Object.fromEntries(
     letters.flatMap((letter) => {
       const { run } = answers[letter];
@@ -117,17 +117,19 @@ function conditions(first) {
   const { axial_load: load, screw_speed: speed } = /** @type {Record<string, number>} */ (
     first?.inputs.operation ?? {}
   );
-  if (own || load === undefined) return "each at its own load and speed";
-  const shown = [units.formatted("axial_load", load), units.formatted("screw_speed", speed)].join(" and ");
-  return `all at ${shown}`;
+  if (own || load === undefined) return text("compare.own");
+  return text("compare.at", {
+    load: units.formatted("axial_load", load),
+    speed: units.formatted("screw_speed", speed),
+  });
 }
 
 /** @typedef {{ name: string, slot?: string, counts?: boolean } & Compare["case"]} ComparedRow */
 
 /** @param {ComparedRow} row */
 function validity({ counts, valid, not_valid_because: reasons }) {
-  if (counts === false) return "printed form, breaks a balance";
-  return valid ? "yes" : reasons.map((reason) => reason.replaceAll("_", " ")).join(", ");
+  if (counts === false) return text("models.printed");
+  return valid ? text("chart.yes") : reasons.map((reason) => reason.replaceAll("_", " ")).join(", ");
 }
 
 /** @param {number | null} change */
@@ -150,12 +152,13 @@ export function showModels(found) {
     validity(row),
   ];
   const rows = [
-    line(found.case, "this case"),
+    line(found.case, text("models.this")),
     ...found.models.map((row) => line(row)),
     ...found.laws.map((row) => line(row)),
   ];
-  const caption = "all models as they are, then this case with one law at a time in place of its own";
-  const headings = ["model or law", "friction torque", "change", "efficiency", "valid here"];
+  const caption = text("models.caption");
+  const [torque, change, efficiency] = [text("chart.torque"), text("models.change"), text("chart.efficiency")];
+  const headings = [text("models.name"), torque, change, efficiency, text("models.valid")];
   const rules = found.rules.map((rule) => [
     rule.title,
     units.formatted("screw_torque", rule.screw_torque),
@@ -164,10 +167,16 @@ export function showModels(found) {
     units.formatted("screw_torque", rule.drag_torque),
     rule.source,
   ]);
-  const inPlace = "rules of one line that people use in place of a model";
-  const columns = ["rule", "friction torque", "change", "efficiency", "torque without load", "source"];
+  const columns = [
+    text("models.rule"),
+    torque,
+    change,
+    efficiency,
+    text("results.preload_drag"),
+    text("models.source"),
+  ];
   byId("models").replaceChildren(
-    scrolling("models and laws", table(caption, headings, rows)),
-    scrolling("rules of one line", table(inPlace, columns, rules)),
+    scrolling(text("models.table"), table(caption, headings, rows)),
+    scrolling(text("models.rules"), table(text("models.in_place"), columns, rules)),
   );
 }

@@ -3,27 +3,28 @@
 import * as parts from "./chart_parts.js";
 import { draw, layout } from "./plot.js";
 import { greatestPressure, leastFilm } from "./results.js";
+import { text } from "./texts.js";
 import * as units from "./units.js";
 
 /** @typedef {import("./plot.js").Colours} Colours */
 
 /** @type {Record<string, string>} */
 const FILMS = {
-  screw_film_parameter: "ball and screw",
-  nut_film_parameter: "ball and nut",
-  minimum_film_parameter: "least of all contacts",
+  screw_film_parameter: text("contact.screw"),
+  nut_film_parameter: text("contact.nut"),
+  minimum_film_parameter: text("film.least"),
 };
 /** @type {Record<string, string>} */
 const PRESSURES = {
-  screw_maximum_pressure: "ball and screw",
-  nut_maximum_pressure: "ball and nut",
-  maximum_pressure: "greatest of all balls",
+  screw_maximum_pressure: text("contact.screw"),
+  nut_maximum_pressure: text("contact.nut"),
+  maximum_pressure: text("pressure.greatest"),
 };
 /** Regimes of lubrication, and where the next one begins. @type {[string, number, number, string][]} */
 const REGIMES = [
-  ["boundary", 0, 1, "#D55E00"],
-  ["mixed", 1, 3, "#E69F00"],
-  ["full film", 3, Number.POSITIVE_INFINITY, "#009E73"],
+  [text("film.boundary"), 0, 1, "#D55E00"],
+  [text("film.mixed"), 1, 3, "#E69F00"],
+  [text("contact.full"), 3, Number.POSITIVE_INFINITY, "#009E73"],
 ];
 
 /**
@@ -91,33 +92,33 @@ export function film(swept, answer) {
     line: { width: 0 },
     layer: "below",
   }));
-  const annotations = zones.map(([text, , to]) => ({
+  const annotations = zones.map(([name, , to]) => ({
     xref: "paper",
     x: 0.01,
     xanchor: "left",
     y: Math.min(to, highest),
     yanchor: "top",
-    text,
+    text: name,
     showarrow: false,
     font: { size: 11 },
   }));
-  const x = parts.titled("screw_speed", "speed of the screw");
+  const x = parts.titled("screw_speed", text("chart.speed"));
   const shown = lines(speeds, curves, FILMS, parts.validAlong(swept));
   const speed = units.inDisplayUnit("screw_speed", parts.operationOf(answer).screw_speed);
   return draw("film-chart", {
     name: "film_over_speed",
-    caption: "film parameter over speed",
-    description: `Film parameter against speed; ${units.digits(now, 3)} at the operating point.`,
+    caption: text("film.caption"),
+    description: text("film.description", { film: units.digits(now, 3) }),
     legend: shown.legend,
     figure: (colours) => ({
       traces: [...shown.traces(colours), parts.pointAt(colours, speed, now)],
-      layout: layout(colours, x, "film parameter λ", {
+      layout: layout(colours, x, text("results.of_contact.film_parameter"), {
         shapes: [...shapes, ...shown.invalid],
         annotations,
         yaxis: { range: [0, highest] },
       }),
     }),
-    numbers: () => [[x, ...names.map((name) => `λ, ${FILMS[name]}`), "valid"], shown.rows()],
+    numbers: () => [[x, ...names.map((name) => `λ, ${FILMS[name]}`), text("chart.valid")], shown.rows()],
   });
 }
 
@@ -133,23 +134,23 @@ export function pressure(swept, answer) {
   const curves = Object.fromEntries(
     names.map((name) => [name, parts.converted("maximum_pressure", swept.outputs[name])]),
   );
-  const x = parts.titled("axial_load", "axial load");
-  const y = parts.titled("maximum_pressure", "greatest pressure");
+  const x = parts.titled("axial_load", text("chart.load"));
+  const y = parts.titled("maximum_pressure", text("results.of_contact.maximum_pressure"));
   const now = greatestPressure(answer);
   const nowText = units.formatted("maximum_pressure", now);
   const shown = lines(loads, curves, PRESSURES, parts.validAlong(swept));
   const load = units.inDisplayUnit("axial_load", parts.operationOf(answer).axial_load);
   return draw("pressure-chart", {
     name: "pressure_over_load",
-    caption: "greatest contact pressure over axial load",
-    description: `Greatest contact pressure against axial load; ${nowText} at the operating point.`,
+    caption: text("pressure.caption"),
+    description: text("pressure.description", { pressure: nowText }),
     legend: shown.legend,
     figure: (colours) => ({
       traces: [...shown.traces(colours), parts.pointAt(colours, load, units.inDisplayUnit("maximum_pressure", now))],
       layout: layout(colours, x, y, { shapes: shown.invalid }),
     }),
     numbers: () => [
-      [x, ...names.map((name) => parts.titled("maximum_pressure", PRESSURES[name])), "valid"],
+      [x, ...names.map((name) => parts.titled("maximum_pressure", PRESSURES[name])), text("chart.valid")],
       shown.rows(),
     ],
   });

@@ -1,31 +1,24 @@
 // Faults of the input in the words of the page: labels of its fields in place of keys of a file.
 
-import { words } from "./fields.js";
-import { SECTIONS } from "./schema.js";
+import { labelIn, words } from "./fields.js";
+import { OF_CARDS, SECTIONS } from "./schema.js";
+import { text, textOr } from "./texts.js";
 
 /** What people read in place of a message for files: the field, what is wrong with it, and the text. */
-/** @type {[RegExp, RegExp, string][]} */
+/** @type {[RegExp, RegExp, import("./texts.js").Key][]} */
 const OWN = [
-  [/^lubricant\.viscosity$/, /^missing/, "Give a viscosity; or choose a grade, or give two kinematic viscosities."],
-  [/^lubricant\.kinematic/, /^missing/, "Give both kinematic viscosities, at 40 °C and at 100 °C."],
-  [/^lubricant\./, /^contradicts/, "This and another field tell the oil in two ways: empty one of the two."],
-  [/^lubricant\.temperature$/, /^needs/, "A temperature needs an oil that follows it: choose a grade."],
-  [
-    /^nut\.preload$/,
-    /^missing/,
-    "Give the preload of this kind of nut: a force, or a share of the load rating such as 7 %.",
-  ],
-  [
-    /^nut\.preload$/,
-    /not known/,
-    "A share needs the dynamic load rating of the screw: give that, or the preload as a force.",
-  ],
-  [/^nut\.type$/, /^missing/, "Choose the kind of nut."],
-  [/^nut\./, /^a nut of type/, "This kind of nut has none: empty the field, or choose another kind."],
-  [/^installation\.ends$/, /^missing/, "Choose how the ends of the shaft are held."],
-  [/^installation\.unsupported_length$/, /^missing/, "Give the unsupported length."],
-  [/./, /^missing/, "Give a value: nothing stands for it."],
-  [/./, /^unknown (key|section)/, "There is no such field."],
+  [/^lubricant\.viscosity$/, /^missing/, "fault.viscosity"],
+  [/^lubricant\.kinematic/, /^missing/, "fault.kinematic_viscosity"],
+  [/^lubricant\./, /^contradicts/, "fault.two_oils"],
+  [/^lubricant\.temperature$/, /^needs/, "fault.temperature"],
+  [/^nut\.preload$/, /^missing/, "fault.preload"],
+  [/^nut\.preload$/, /not known/, "fault.preload_share"],
+  [/^nut\.type$/, /^missing/, "fault.nut"],
+  [/^nut\./, /^a nut of type/, "fault.not_of_nut"],
+  [/^installation\.ends$/, /^missing/, "fault.ends"],
+  [/^installation\.unsupported_length$/, /^missing/, "fault.unsupported_length"],
+  [/./, /^missing/, "fault.missing"],
+  [/./, /^unknown (key|section)/, "fault.unknown"],
 ];
 
 /**
@@ -35,8 +28,8 @@ const OWN = [
  */
 export function labelOf(path) {
   const parts = path.split(".");
-  const name = words(parts[parts.length - 1]);
-  return parts.length > 1 ? `${name} (${SECTIONS[parts[0]] ?? words(parts[0])})` : name;
+  const name = labelIn(path);
+  return parts.length > 1 ? `${name} (${SECTIONS[parts[0]] ?? OF_CARDS[parts[0]] ?? words(parts[0])})` : name;
 }
 
 /**
@@ -70,8 +63,8 @@ function plain(remedy) {
  */
 export function inWords({ where, problem, given, remedy }) {
   const own = OWN.find(([field, wrong]) => field.test(where) && wrong.test(problem));
-  if (own) return own[2];
+  if (own) return text(own[2]);
   const advice = plain(remedy);
   const value = given ? ` (${given})` : "";
-  return `${plain(problem)}${value}${advice ? `: ${advice}` : ""}`;
+  return `${textOr(`problem.${problem}`, plain(problem))}${value}${advice ? `: ${advice}` : ""}`;
 }

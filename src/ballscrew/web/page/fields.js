@@ -2,6 +2,7 @@
 
 import { element } from "./dom.js";
 import { symbol } from "./symbols.js";
+import { text, textOr } from "./texts.js";
 import * as units from "./units.js";
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
@@ -23,16 +24,32 @@ import * as units from "./units.js";
  */
 
 /** Units that are displayed only where inches are chosen. */
-const INCH_ONLY = ["in", "uin", "lbf", "lbf in", "psi", "degF"];
+const INCH_ONLY = ["in", "uin", "lbf", "lbf in", "psi", "degF", "in/min"];
 
 /** @param {string} name */
 export function words(name) {
   return name.replaceAll("_", " ");
 }
 
-/** The last name of a path, in words. @param {string} path */
-function label(path) {
-  return words(path.slice(path.lastIndexOf(".") + 1));
+/**
+ * The label of a field: its name in words, in the language of the page where that has one for its path or its name.
+ *
+ * @param {string} path
+ */
+export function labelIn(path) {
+  const name = path.slice(path.lastIndexOf(".") + 1);
+  return textOr(`field.${path}.label`, textOr(`field.${name}.label`, words(name)));
+}
+
+/**
+ * What a field means, as its annotation says it or in the language of the page.
+ *
+ * @param {string} path
+ * @param {string} description
+ */
+function helpIn(path, description) {
+  const name = path.slice(path.lastIndexOf(".") + 1);
+  return textOr(`field.${path}.help`, textOr(`field.${name}.help`, description));
 }
 
 /** @param {string} path */
@@ -51,14 +68,15 @@ function idOf(path) {
  */
 function frame(path, { description, "x-symbol": tex }, isGiven, control, ...others) {
   const id = `f-${idOf(path)}`;
+  const help = helpIn(path, description ?? "");
   control.id = id;
   control.setAttribute("aria-describedby", `${id}-about ${id}-fault`);
   return element(
     "div",
-    { class: isGiven ? "field given" : "field", "data-path": path, title: description },
-    element("label", { for: id }, label(path), symbol(tex), element("span", { class: "differs" })),
+    { class: isGiven ? "field given" : "field", "data-path": path, title: help || null },
+    element("label", { for: id }, labelIn(path), symbol(tex), element("span", { class: "differs" })),
     element("div", { class: "entry" }, control, ...others),
-    element("p", { id: `${id}-about`, class: "hidden" }, description ?? ""),
+    element("p", { id: `${id}-about`, class: "hidden" }, help),
     element("p", { id: `${id}-fault`, class: "fault" }),
   );
 }
@@ -72,12 +90,14 @@ function frame(path, { description, "x-symbol": tex }, isGiven, control, ...othe
  */
 export function choiceField(path, node, value, onChange, present) {
   const options = node.type === "boolean" ? ["true", "false"] : (node.enum ?? []);
-  const none = node.default ? `usual: ${node.default}` : "not given";
+  /** @param {string} name */
+  const words = (name) => textOr(`option.${path}.${name}`, textOr(`option.${name}`, name));
+  const none = node.default ? text("form.usual", { value: words(String(node.default)) }) : text("form.not_given");
   const select = element(
     "select",
     { onchange: () => onChange({ path, text: select.value, rebuild: true }) },
-    element("option", { value: "" }, present ? `as in the model: ${present}` : none),
-    ...options.map((name) => element("option", { value: name, selected: String(value) === name }, name)),
+    element("option", { value: "" }, present ? text("form.as_in_model", { value: present }) : none),
+    ...options.map((name) => element("option", { value: name, selected: String(value) === name }, words(name))),
   );
   return frame(path, node, value !== undefined, select);
 }
@@ -109,9 +129,9 @@ export function numberField(path, node, { state, given, onChange }, present) {
   const input = element("input", { type: "text", inputmode: "decimal", spellcheck: "false" });
   input.addEventListener("keydown", (event) => step(event, input));
   if (node["x-si-unit"]) return quantityField(path, node, input, value, state, onChange);
-  input.value = value ?? "";
+  input.value = units.inLanguage(String(value ?? ""));
   input.placeholder = String(present ?? "");
-  input.addEventListener("input", () => reportText(onChange, path, input, input.value.trim()));
+  input.addEventListener("input", () => reportText(onChange, path, input, units.ofLanguage(input.value.trim())));
   return frame(path, node, value !== undefined, input);
 }
 
@@ -130,26 +150,27 @@ function quantityField(path, node, input, value, state, onChange) {
   const unit = unitOf(path, node, value, state);
   const shown = value === undefined ? "" : units.digitsIn(value, unit, si);
   const isOther = shown === null;
-  input.value = shown ?? String(value);
-  const known = [...new Set([unit, ...units.choices(si).map((one) => one.unit)])];
+  input.value = units.inLanguage(shown ?? String(value));
+  const taken = [...units.choices(si), ...units.choices(node["x-through-lead"])];
+  const known = [...new Set([unit, ...taken.map((one) => one.unit)])];
   const select = element(
     "select",
-    { class: "unit", id: `u-${idOf(path)}`, "aria-label": `unit of ${label(path)}` },
-    isOther ? element("option", { value: "", selected: true }, "as typed") : null,
+    { class: "unit", id: `u-${idOf(path)}`, "aria-label": text("form.unit_of", { field: labelIn(path) }) },
+    isOther ? element("option", { value: "", selected: true }, text("form.as_typed")) : null,
     ...known.map((name) => element("option", { value: name, selected: !isOther && name === unit }, units.symbol(name))),
   );
   select.addEventListener("change", () => onChange({ path, unit: select.value, rebuild: true }));
   input.addEventListener("input", () => {
-    const text = input.value.trim();
-    const isBare = text !== "" && /^[\s\d.,'eE+±-]*$/.test(text);
+    const typed = units.ofLanguage(input.value.trim());
+    const isBare = typed !== "" && /^[\s\d.,'eE+±-]*$/.test(typed);
     if (isBare && !select.value) select.value = unit;
-    reportText(onChange, path, input, isBare ? `${text} ${select.value}` : text);
+    reportText(onChange, path, input, isBare ? `${typed} ${select.value}` : typed);
   });
   // a unit that was typed moves to the list of units
   input.addEventListener("change", () => {
-    const found = units.parse(input.value, si);
+    const found = units.parse(units.ofLanguage(input.value), si);
     if (!found) return;
-    input.value = found.digits;
+    input.value = units.inLanguage(found.digits);
     select.value = found.unit;
   });
   return frame(path, node, value !== undefined, input, select);
@@ -159,11 +180,11 @@ function quantityField(path, node, input, value, state, onChange) {
  * @param {Source["onChange"]} onChange
  * @param {string} path
  * @param {HTMLInputElement} input
- * @param {string} text
+ * @param {string} typed
  */
-function reportText(onChange, path, input, text) {
-  input.closest(".field")?.classList.toggle("given", text !== "");
-  onChange({ path, text });
+function reportText(onChange, path, input, typed) {
+  input.closest(".field")?.classList.toggle("given", typed !== "");
+  onChange({ path, text: typed });
 }
 
 /**
@@ -192,12 +213,13 @@ export function showEffective(field, node, value) {
  */
 function step(event, input) {
   if (event.key !== "ArrowUp" && event.key !== "ArrowDown") return;
-  const text = input.value || input.placeholder;
-  const value = Number(units.withPoint(text));
-  if (!text.trim() || !Number.isFinite(value)) return;
+  const shown = input.value || input.placeholder;
+  const value = Number(units.withPoint(units.ofLanguage(shown)));
+  if (!shown.trim() || !Number.isFinite(value)) return;
   event.preventDefault();
   const power = Math.floor(Math.log10(Math.abs(value)) + 1e-9) - (event.shiftKey ? 0 : 1);
   const size = value === 0 ? 1 : 10 ** power;
-  input.value = String(Number((value + (event.key === "ArrowUp" ? size : -size)).toPrecision(12)));
+  const stepped = value + (event.key === "ArrowUp" ? size : -size);
+  input.value = units.inLanguage(String(Number(stepped.toPrecision(12))));
   input.dispatchEvent(new Event("input", { bubbles: true }));
 }

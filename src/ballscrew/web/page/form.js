@@ -1,9 +1,11 @@
 // The form, made from the JSON Schema of the case file. It shows the texts of the state and reports what is typed.
 
+import { isOfFile, setAside } from "./designs.js";
 import { byId, element, within } from "./dom.js";
 import { inWords, labelOf } from "./faults.js";
-import { choiceField, numberField, showEffective, words } from "./fields.js";
+import { choiceField, labelIn, numberField, showEffective } from "./fields.js";
 import { definition, fieldOf, fieldsOf, isLaw, LEFT_OUT, SECTIONS } from "./schema.js";
+import { text, textOr } from "./texts.js";
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
 /** @typedef {import("./state.js").State} State */
@@ -12,11 +14,9 @@ import { definition, fieldOf, fieldsOf, isLaw, LEFT_OUT, SECTIONS } from "./sche
 
 /** @type {Record<string, string>} */
 const HINTS = {
-  bodies:
-    "Screw and nut of a catalogue row are elastic; those of the paper are rigid, unless something is given here. " +
-    "Sizes left out are the usual ones.",
-  installation: "For the checks of the report.",
-  limits: "For the checks of the report.",
+  bodies: text("form.hint.bodies"),
+  installation: text("form.hint.checks"),
+  limits: text("form.hint.checks"),
 };
 /** Fields that nearly everybody gives; the others of their sections are behind "more". @type {Record<string, string[]>} */
 const ESSENTIAL = {
@@ -89,7 +89,7 @@ function fieldsOfSection(name, title, open, source) {
   const id = `${name}-more`;
   const more = section(
     id,
-    `more of the ${title.toLowerCase()}`,
+    text("form.more", { section: title }),
     { class: "inner", open: open.has(id) },
     ...made(others),
   );
@@ -123,7 +123,7 @@ export function mark(path, differs) {
   const field = fieldAt(path);
   if (!field) return;
   field.classList.toggle("changed", differs);
-  within(field, ".differs").textContent = differs ? " changed" : "";
+  within(field, ".differs").textContent = differs ? ` ${text("form.changed")}` : "";
 }
 
 /**
@@ -143,13 +143,17 @@ function startField({ starts, rows }) {
   for (const row of rows) groups.set(row.source, [...(groups.get(row.source) ?? []), row]);
   /**
    * @param {string} name
-   * @param {string} text
+   * @param {string} words
    */
-  const option = (name, text) => element("option", { value: name }, text);
+  const option = (name, words) => element("option", { value: name }, words);
+  const known = Object.entries(starts);
+  /** @param {[string, Vocabulary["starts"][string]]} start */
+  const startOption = ([name, { title }]) => option(name, textOr(`start.${name}`, title));
   const select = element(
     "select",
     { id: "start", onchange: () => onChange({ start: select.value }) },
-    element("optgroup", { label: "Papers" }, ...Object.entries(starts).map(([name, { title }]) => option(name, title))),
+    element("optgroup", { label: text("form.papers") }, ...known.filter(([, { moves }]) => !moves).map(startOption)),
+    element("optgroup", { label: text("form.examples") }, ...known.filter(([, { moves }]) => moves).map(startOption)),
     ...[...groups].map(([source, members]) =>
       element("optgroup", { label: source }, ...members.map((row) => option(row.name, rowLabel(row)))),
     ),
@@ -160,14 +164,14 @@ function startField({ starts, rows }) {
       type: "button",
       id: "reset",
       onclick: () => onChange({ reset: true }),
-      title: "Undo all changes of this design",
+      title: text("form.reset.title"),
     },
-    "Reset",
+    text("form.reset"),
   );
   return element(
     "div",
     { class: "field start given" },
-    element("label", { for: "start" }, "Start from"),
+    element("label", { for: "start" }, text("form.start")),
     select,
     reset,
   );
@@ -193,7 +197,8 @@ function showStart(start, file) {
  */
 function rowLabel({ name, nut }) {
   const end = `-${nut}`;
-  return `${name.endsWith(end) ? name.slice(0, -end.length) : name} (${nut} nut)`;
+  const kind = textOr(`option.nut.type.${nut}`, nut);
+  return text("form.row", { name: name.endsWith(end) ? name.slice(0, -end.length) : name, nut: kind });
 }
 
 /**
@@ -210,7 +215,7 @@ function fields(path, unresolved, source) {
   if (node.properties) {
     const inner = Object.entries(node.properties);
     const children = inner.flatMap(([name, one]) => fields(`${path}.${name}`, one, source));
-    return [section(path, words(path.split(".")[1]), { class: "inner" }, ...children)];
+    return [section(path, labelIn(path), { class: "inner" }, ...children)];
   }
   if (isLaw(node)) return lawFields(path, node, source);
   if (node.enum || node.type === "boolean") return [choiceField(path, node, source.given(path), source.onChange)];
@@ -272,7 +277,7 @@ export function showFaults(faults) {
   }
   /** @type {Map<string, HTMLElement>} */
   const wrong = new Map();
-  /** @type {string[]} */
+  /** @type {(string | Node)[]} */
   const others = [];
   for (const fault of faults) {
     const path = pathOf(fault.where);
@@ -280,17 +285,31 @@ export function showFaults(faults) {
     if (field && !wrong.has(path)) {
       wrong.set(path, field);
       markWrong(field, inWords(fault));
-    } else if (!field) others.push(`${labelOf(fault.where)}: ${inWords(fault)}`);
+    } else if (!field) others.push(ofNoField(fault));
   }
   const [first] = [...byId("form").querySelectorAll(".field.wrong")];
   if (first && !first.contains(document.activeElement)) first.scrollIntoView({ block: "nearest" });
   const links = [...wrong].map(([path, field]) =>
     element("button", { type: "button", onclick: () => jumpTo(field) }, labelOf(path)),
   );
-  const intro = links.length === 1 ? "Not computed. Correct this field: " : "Not computed. Correct these fields: ";
+  const intro = `${text(links.length === 1 ? "form.correct_one" : "form.correct_some")} `;
   const line = links.length ? [element("span", {}, intro, ...links)] : [];
   const said = faults.map((fault) => `${labelOf(fault.where)}: ${inWords(fault)}`).join(" ");
   return { lines: [...line, ...others], said };
+}
+
+/**
+ * A fault that has no field; what a file has beyond a case can be kept aside.
+ *
+ * @param {FaultLine} fault
+ */
+function ofNoField(fault) {
+  const line = `${labelOf(fault.where)}: ${inWords(fault)}`;
+  if (!/^unknown (key|section)/.test(fault.problem) || !isOfFile(fault.where)) return line;
+  const label = text("open.set_aside_of", { name: labelOf(fault.where) });
+  const action = () => setAside(fault.where);
+  const button = element("button", { type: "button", "aria-label": label, onclick: action }, text("open.set_aside"));
+  return element("span", {}, `${line} `, button);
 }
 
 /**
@@ -318,11 +337,11 @@ function open(field) {
 
 /**
  * @param {HTMLElement} field
- * @param {string} text
+ * @param {string} words
  */
-function markWrong(field, text) {
+function markWrong(field, words) {
   field.classList.add("wrong");
-  within(field, ".fault").textContent = text;
+  within(field, ".fault").textContent = words;
   within(field, "input, select").setAttribute("aria-invalid", "true");
   open(field);
 }

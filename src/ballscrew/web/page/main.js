@@ -1,12 +1,15 @@
 // The page: its state in the address, the form, and the answer that follows what is typed.
 
 import * as answers from "./answers.js";
+import * as cards from "./cards.js";
 import { consequences } from "./consequences.js";
 import * as designs from "./designs.js";
 import { byId, element, nameFiles, within } from "./dom.js";
 import * as downloads from "./downloads.js";
+import * as files from "./files.js";
 import * as form from "./form.js";
 import * as entries from "./history.js";
+import * as keeping from "./keeping.js";
 import * as results from "./results.js";
 import * as schema from "./schema.js";
 import { get, linesOf } from "./server.js";
@@ -50,7 +53,8 @@ function onChange({ path = "", text = "", unit, start, reset, rebuild }) {
   for (const [one, value] of [...others, [path, text]]) designs.change(one, value);
   form.mark(path, path in changes);
   byId("reset").hidden = !Object.keys(changes).length;
-  follow({ rebuild: rebuild || others.length > 0, path });
+  // a speed of the nut is shown through the lead
+  follow({ rebuild: rebuild || others.length > 0 || path === "screw.lead", path });
 }
 
 /** The state of the address; a notice names what is unknown here and ignored. */
@@ -60,12 +64,11 @@ function readAddress() {
   found.designs = found.designs.map((one) => (designs.isKnown(one.start) ? one : states.design()));
   const lines = [];
   if (unknownStarts.length) {
-    const names = unknownStarts.join(" and ");
-    lines.push(`The link starts from ${names}, not known here: the paper's screw is shown in its place.`);
+    lines.push(text("link.start", { names: unknownStarts.join(", ") }));
   }
   if (unknown.length) {
     const names = unknown.slice(0, 3).map(quoted).join(", ") + (unknown.length > 3 ? ", …" : "");
-    lines.push(`The link has keys that are not known here and are left out: ${names}.`);
+    lines.push(text("link.keys", { names }));
   }
   showNotice(lines.join(" "));
   return found;
@@ -77,26 +80,28 @@ function use(found) {
   designs.use(found);
 }
 
-/** @param {string} text */
-function quoted(text) {
-  return text.length > LONGEST_QUOTE ? `${text.slice(0, LONGEST_QUOTE)}…` : text;
+/** @param {string} name */
+function quoted(name) {
+  return name.length > LONGEST_QUOTE ? `${name.slice(0, LONGEST_QUOTE)}…` : name;
 }
 
-/** @param {string} text */
-function showNotice(text) {
-  byId("notice").textContent = text;
-  byId("notice").hidden = !text;
+/** @param {(string | Node)[]} words */
+function showNotice(...words) {
+  byId("notice").replaceChildren(...words);
+  byId("notice").hidden = !words.some(Boolean);
 }
 
 /**
  * Write the state into the address, and show it.
  *
- * @param {{ rebuild?: boolean, keep?: boolean, formOnly?: boolean, path?: string }} options ``rebuild`` makes the form
- *   anew, ``keep`` leaves the state before to the button Back, ``formOnly`` sends no request, ``path`` was edited
+ * @param {designs.Follow} options ``rebuild`` makes the form
+ *   anew, ``keep`` leaves the state before to the button Back, ``formOnly`` sends no request, ``path`` was edited,
+ *   ``ofCards`` changes what only cards ask about
  */
-async function follow({ rebuild = false, keep = false, formOnly = false, path } = {}) {
-  if (!formOnly) byId("results").setAttribute("aria-busy", "true");
+async function follow({ rebuild = false, keep = false, formOnly = false, path, ofCards = false } = {}) {
+  if (!formOnly && !ofCards) byId("results").setAttribute("aria-busy", "true");
   const fragment = states.toFragment(state);
+  keeping.keep(fragment, state.designs.map(designs.titleOf).join(" · "));
   if (keep) {
     entries.choose(fragment);
     showNotice("");
@@ -108,7 +113,9 @@ async function follow({ rebuild = false, keep = false, formOnly = false, path } 
     results.fail(results.refusal(linesOf(error)));
     return;
   }
-  if (!formOnly) await update();
+  cards.follow();
+  if (ofCards) answers.keepWhole(await designs.currentCase());
+  else if (!formOnly) await update();
 }
 
 async function update() {
@@ -149,6 +156,7 @@ async function showForm() {
   await designs.startOf(design.start);
   if (design !== designs.current()) return; // another one was chosen in the meantime
   const tables = designs.tablesOf(design);
+  units.setLead(states.valueAt(tables, "screw.lead"));
   // a text stays as it was typed while typing goes on: 0.10 may become 0.107
   /** @param {string} path */
   const given = (path) => {
@@ -191,7 +199,7 @@ function showTabs() {
     action();
     follow({ rebuild: true, keep: true });
   };
-  const buttons = state.designs.map((_, place) =>
+  const buttons = state.designs.map((one, place) =>
     element(
       "button",
       {
@@ -205,10 +213,11 @@ function showTabs() {
       },
       element("span", { class: "long" }, text("designs.long")),
       states.LETTERS[place],
+      one.name ? element("span", { class: "own-name" }, ` ${one.name}`) : null,
     ),
   );
   const add = turn(() => {
-    const { start, changes, ...own } = designs.current();
+    const { start, changes, name, ...own } = designs.current();
     state.designs.push(states.design(start, changes, own));
     state.show = state.designs.length - 1;
   });
@@ -290,12 +299,14 @@ function addListeners() {
   entries.begin(() => {
     use(readAddress());
     follow({ rebuild: true });
+    cards.openAll();
   });
   downloads.build(answers.current);
+  files.setUp(showNotice);
 }
 
 async function begin() {
-  const [words, document_] = await Promise.all([get("vocabulary"), get("schema")]);
+  const [words, document_, latest] = await Promise.all([get("vocabulary"), get("schema"), keeping.begin()]);
   vocabulary = words;
   units.setVocabulary(words);
   answers.setVocabulary(words, form.jump);
@@ -303,11 +314,20 @@ async function begin() {
   form.setListener(onChange);
   byId("version").textContent = text("page.version", { version: vocabulary.version });
   designs.setUp(vocabulary, follow);
+  if (latest) history.replaceState(null, "", latest.fragment);
   use(readAddress());
+  if (latest) files.sayRestored(latest, showNotice);
   units.setSystem(state.system);
   addListeners();
+  cards.setUp({
+    vocabulary,
+    setUnit: (path, unit) => onChange({ path, unit }),
+    jump: form.jump,
+    keep: () => follow({ ofCards: true }),
+  });
   await follow({ rebuild: true });
   document.documentElement.dataset.ready = "true";
+  await cards.openAll();
 }
 
 begin().catch((error) => results.fail(results.refusal(linesOf(error))));

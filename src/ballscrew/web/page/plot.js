@@ -1,6 +1,7 @@
 // A chart in its place: the plot, its legend, its numbers as a table, and both as files.
 
 import { byId, csv, element, save, table, within } from "./dom.js";
+import { hasComma, localised, text, textOr } from "./texts.js";
 
 /** @typedef {{ ink: string, line: string, panel: string, accent: string, second: string }} Colours */
 /** @typedef {Record<string, any>} Layout */
@@ -52,6 +53,15 @@ const observer = new IntersectionObserver(
 );
 for (const place of document.querySelectorAll(".chart")) observer.observe(place);
 
+/**
+ * Watch a place for a chart that was made after the page was loaded.
+ *
+ * @param {Element} place
+ */
+export function watch(place) {
+  observer.observe(place);
+}
+
 function colours() {
   if (!screenColours) {
     const style = getComputedStyle(document.documentElement);
@@ -99,6 +109,7 @@ export function layout({ ink, line, panel }, x, y, more = {}) {
     plot_bgcolor: "rgba(0,0,0,0)",
     font: { color: ink, family: FONT, size: 12.5 },
     margin: { l: 72, r: 26, t: 8, b: 42 },
+    separators: hasComma ? ",." : ".,",
     showlegend: false,
     hovermode: "x unified",
     hoverlabel: { bgcolor: panel, bordercolor: line, font: { color: ink } },
@@ -159,7 +170,7 @@ export function hide(id) {
 export function showFailure(id, reason) {
   charts.delete(id);
   pending.delete(id);
-  byId(id).replaceChildren(element("p", { class: "warning" }, `This chart could not be computed: ${reason}`));
+  byId(id).replaceChildren(element("p", { class: "warning" }, text("chart.none", { reason })));
 }
 
 /**
@@ -168,8 +179,8 @@ export function showFailure(id, reason) {
  * @param {HTMLElement} holder
  */
 function frame(id, { name }, holder) {
-  const words = name.replaceAll("_", " "); // five charts have the same buttons
-  const summary = element("summary", {}, "Numbers", element("span", { class: "hidden" }, `: ${words}`));
+  const words = textOr(`chart.name.${name}`, name.replaceAll("_", " ")); // five charts have the same buttons
+  const summary = element("summary", {}, text("chart.numbers"), element("span", { class: "hidden" }, `: ${words}`));
   const details = element("details", {}, summary);
   details.addEventListener("toggle", () => showNumbers(id, holder));
   /**
@@ -207,7 +218,9 @@ function showNumbers(id, holder) {
   if (!details?.open || !chart) return;
   const [headings, rows] = chart.numbers();
   const rounded = rows.map((cells) =>
-    cells.map((cell) => (typeof cell === "number" ? Number(cell.toPrecision(5)) : String(cell ?? ""))),
+    cells.map((cell) =>
+      typeof cell === "number" ? localised(String(Number(cell.toPrecision(5)))) : String(cell ?? ""),
+    ),
   );
   const scroll = details.querySelector(".scroll") ?? element("div", { class: "scroll", tabindex: "0", role: "region" });
   scroll.setAttribute("aria-label", chart.caption);

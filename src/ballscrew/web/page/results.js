@@ -2,31 +2,32 @@
 
 import { verdict } from "./checks.js";
 import { byId, element, table } from "./dom.js";
+import { ofServer, text, textOr } from "./texts.js";
 import * as units from "./units.js";
 
-/** Results of the first table. @type {Record<string, string>} */
-const FIRST = {
-  drive_torque: "drive torque",
-  screw_torque: "friction torque",
-  efficiency: "efficiency, screw drives",
-  back_driving_efficiency: "efficiency, load drives",
-  holding_torque: "holding torque",
-  friction_coefficient: "friction coefficient µ of the thread",
-  friction_angle: "friction angle ρ of the thread",
-  friction_power: "heat",
-  preload_drag: "torque without load",
-};
-/** Results of the table of contacts. @type {Record<string, string>} */
-const OF_CONTACT = {
-  maximum_pressure: "greatest pressure",
-  minimum_film_thickness: "film thickness",
-  film_parameter: "film parameter λ",
-  friction_coefficient: "friction coefficient",
-  semi_major_axis: "semi-axis across",
-  semi_minor_axis: "semi-axis along",
-  pure_rolling_offset: "pure-rolling offset Y",
-  spin_parameter: "spin parameter",
-};
+/** Results of the first table. */
+const FIRST = /** @type {const} */ ([
+  "drive_torque",
+  "screw_torque",
+  "efficiency",
+  "back_driving_efficiency",
+  "holding_torque",
+  "friction_coefficient",
+  "friction_angle",
+  "friction_power",
+  "preload_drag",
+]);
+/** Results of the table of contacts. */
+const OF_CONTACT = /** @type {const} */ ([
+  "maximum_pressure",
+  "minimum_film_thickness",
+  "film_parameter",
+  "friction_coefficient",
+  "semi_major_axis",
+  "semi_minor_axis",
+  "pure_rolling_offset",
+  "spin_parameter",
+]);
 const ANNOUNCE_AFTER = 700;
 
 /** @typedef {Record<string, any>} Numbers results by name */
@@ -48,8 +49,8 @@ export function numbersOf(answer) {
  * @param {string} name
  * @param {number | null | undefined} value
  */
-export function data(name, value, text = units.formatted(name, value, units.DIGITS)) {
-  return element("data", { value: String(value ?? ""), "data-name": name }, text);
+export function data(name, value, shown = units.formatted(name, value, units.DIGITS)) {
+  return element("data", { value: String(value ?? ""), "data-name": name }, shown);
 }
 
 /**
@@ -58,13 +59,13 @@ export function data(name, value, text = units.formatted(name, value, units.DIGI
  * @param {number} film
  */
 function regime(film) {
-  if (film < 1) return "boundary: the asperities carry much of the load";
-  return film < 3 ? "mixed: film and asperities share the load" : "full film";
+  if (film < 1) return text("contact.boundary");
+  return text(film < 3 ? "contact.mixed" : "contact.full");
 }
 
 /** True where a record stands beside the contacts. @param {VerdictRecord} record */
 function isOfContact(record) {
-  return record.subject in OF_CONTACT;
+  return OF_CONTACT.some((name) => name === record.subject);
 }
 
 /**
@@ -73,7 +74,7 @@ function isOfContact(record) {
  * @param {VerdictRecord} record
  */
 export function nameOf({ id }) {
-  return id.slice(id.indexOf(".") + 1).replaceAll(/[._]/g, " ");
+  return textOr(`record.${id}`, id.slice(id.indexOf(".") + 1).replaceAll(/[._]/g, " "));
 }
 
 /**
@@ -110,7 +111,7 @@ export function rounded(name, value, band) {
   const end = unit ? `\u00a0${units.symbol(unit)}` : "";
   return {
     text: `${units.toPlace(shown, place)}${end}`,
-    interval: `${units.toPlace(low, place)} to ${units.toPlace(high, place)}${end}`,
+    interval: `${text("answer.interval", { low: units.toPlace(low, place), high: units.toPlace(high, place) })}${end}`,
   };
 }
 
@@ -121,14 +122,14 @@ let announced = "";
 /**
  * Announce a text to screen readers, once typing has come to rest.
  *
- * @param {string} text
+ * @param {string} words
  */
-function announce(text) {
-  if (text === announced) return;
-  announced = text;
+function announce(words) {
+  if (words === announced) return;
+  announced = words;
   clearTimeout(announcement);
   announcement = setTimeout(() => {
-    byId("said").textContent = text;
+    byId("said").textContent = words;
   }, ANNOUNCE_AFTER);
 }
 
@@ -142,28 +143,31 @@ export function show(answer, { band, checks }) {
   const { results, display, warnings } = answer;
   const numbers = numbersOf(answer);
   const known = band?.state === "done" ? band.answer : undefined;
-  byId("case").textContent = units.filled(display.title);
+  byId("case").replaceChildren(element("span", ofServer, units.filled(display.title)));
   const torque = rounded("screw_torque", results.screw_torque, known);
-  const parts = [
-    `Friction torque ${torque.text}${torque.interval ? ` (${torque.interval})` : ""}`,
-    `drive torque ${rounded("drive_torque", results.drive_torque, known).text}`,
-    `efficiency ${rounded("efficiency", results.efficiency, known).text}`,
-  ];
-  const summary = `${parts.join(", ")}.${checks ? ` ${verdict(checks)}` : ""}`;
+  const numbersInWords = text("answer.summary", {
+    friction: `${torque.text}${torque.interval ? ` (${torque.interval})` : ""}`,
+    drive: rounded("drive_torque", results.drive_torque, known).text,
+    efficiency: rounded("efficiency", results.efficiency, known).text,
+  });
+  const summary = `${numbersInWords}${checks ? ` ${verdict(checks)}` : ""}`;
   byId("summary").textContent = summary;
   if (!byId("results").classList.contains("stale")) {
     announce(summary);
     document.title = `${torque.text} · ballscrew`;
   }
   showVerdicts(answer);
-  const rows = Object.entries(FIRST)
-    .filter(([name]) => numbers[name] !== undefined)
-    .map(([name, words]) => {
-      const { text, interval } = rounded(name, numbers[name], known);
-      // the place of an interval that is still computed is kept
-      const ends = interval || band ? element("span", { class: "interval" }, interval ?? "\u00a0") : null;
-      return element("div", {}, element("dt", {}, words), element("dd", {}, data(name, numbers[name], text), ends));
-    });
+  const rows = FIRST.filter((name) => numbers[name] !== undefined).map((name) => {
+    const { text: shown, interval } = rounded(name, numbers[name], known);
+    // the place of an interval that is still computed is kept
+    const ends = interval || band ? element("span", { class: "interval" }, interval ?? "\u00a0") : null;
+    return element(
+      "div",
+      {},
+      element("dt", {}, text(`results.${name}`)),
+      element("dd", {}, data(name, numbers[name], shown), ends),
+    );
+  });
   byId("numbers").replaceChildren(element("dl", {}, ...rows));
   showVendorRows(answer);
   showContacts(answer, warnings.filter(isOfContact));
@@ -182,17 +186,20 @@ function showVendorRows({ vendor_rows: near }) {
   if (!near) return;
   const ratio = units.digits(near.mean_ratio, 2);
   const spread = units.digits(near.std_ratio, 1);
-  const how = near.calibration ? `with the calibration ${near.calibration}` : "without calibration";
-  place.textContent =
-    `Torque without load, model over vendor: ${ratio} ± ${spread} ${how}, ` +
-    `for the rows of ${near.set} most like this nut: ${near.rows.join(", ")}.`;
-  byId("calibrate").textContent = near.calibration ? "Take the calibration away" : "Calibrate to the vendor";
+  const { calibration, set } = near;
+  const how = calibration ? text("vendor.calibrated", { calibration }) : text("vendor.plain");
+  place.textContent = text("vendor.rows", { ratio, spread, how, set, rows: near.rows.join(", ") });
+  byId("calibrate").textContent = text(calibration ? "vendor.undo" : "vendor.calibrate");
 }
 
 /** @param {Run} answer */
 function showVerdicts({ verdicts, warnings, display }) {
   const lines = verdicts.map(({ severity }, place) =>
-    element("p", { class: severity === "info" ? "verdict" : "verdict careful" }, units.filled(display.verdicts[place])),
+    element(
+      "p",
+      { class: severity === "info" ? "verdict" : "verdict careful", ...ofServer },
+      units.filled(display.verdicts[place]),
+    ),
   );
   const ofContacts = warnings.filter(isOfContact);
   if (ofContacts.length) {
@@ -202,28 +209,29 @@ function showVerdicts({ verdicts, warnings, display }) {
       element(
         "p",
         { class: "warning" },
-        element("strong", {}, "Outside the model's validity: "),
+        element("strong", {}, `${text("answer.outside")}: `),
         `${names}. `,
-        element("button", { type: "button", onclick }, "Why"),
+        element("button", { type: "button", onclick }, text("answer.why")),
       ),
     );
   }
-  const said = new Set(verdicts.map(({ text }) => text));
+  const said = new Set(verdicts.map((record) => record.text));
   const others = warnings.filter((record) => !isOfContact(record) && !said.has(record.text));
   byId("verdicts").replaceChildren(...lines, ...others.map(warning));
 }
 
 /** @param {VerdictRecord} record */
 function warning(record) {
-  return element("p", { class: "warning" }, element("strong", {}, `Beware, ${nameOf(record)}: `), record.text);
+  const subject = element("strong", {}, `${text("answer.beware", { subject: nameOf(record) })} `);
+  return element("p", { class: "warning" }, subject, element("span", ofServer, record.text));
 }
 
 /** @param {Run} answer */
 function showAssumptions({ display, provenance }) {
   const { model, version, references } = provenance;
   byId("assumed").replaceChildren(
-    element("ul", {}, ...display.assumed.map((one) => element("li", {}, units.filled(one)))),
-    element("p", { class: "small" }, `Model ${model}, ballscrew ${version}; sources: ${references.join(", ")}.`),
+    element("ul", ofServer, ...display.assumed.map((one) => element("li", {}, units.filled(one)))),
+    element("p", { class: "small" }, text("assumed.sources", { model, version, references: references.join(", ") })),
   );
 }
 
@@ -237,18 +245,22 @@ function showContacts(answer, warnings) {
   const ofScrew = screw;
   /** @type {Numbers} */
   const ofNut = nut;
-  const rows = Object.entries(OF_CONTACT)
-    .filter(([name]) => ofScrew[name] !== undefined && ofScrew[name] !== null)
-    .map(([name, words]) => [words, data(name, ofScrew[name]), data(name, ofNut[name])]);
+  const rows = OF_CONTACT.filter((name) => ofScrew[name] !== undefined && ofScrew[name] !== null).map((name) => [
+    text(`results.of_contact.${name}`),
+    data(name, ofScrew[name]),
+    data(name, ofNut[name]),
+  ]);
   const film = leastFilm(answer);
-  const caption = answer.loads ? "contacts of the most loaded ball" : "contacts of each ball";
+  const caption = text(answer.loads ? "contact.most_loaded" : "contact.each");
   byId("contacts").replaceChildren(
     element(
       "p",
       { class: "regime" },
-      Number.isFinite(film) ? `λ = ${units.digits(film, 3)} at the least: ${regime(film)}` : "no film",
+      Number.isFinite(film)
+        ? text("contact.film", { film: units.digits(film, 3), regime: regime(film) })
+        : text("contact.no_film"),
     ),
-    table(caption, ["", "ball and screw", "ball and nut"], rows),
+    table(caption, ["", text("contact.screw"), text("contact.nut")], rows),
     ...warnings.map(warning),
   );
 }
@@ -271,7 +283,7 @@ export function greatestPressure({ results }) {
 function showBand(answer, band) {
   const place = byId("band-words");
   if (!band) place.replaceChildren();
-  else if (band.state === "pending") place.replaceChildren(element("p", {}, "computing the band …"));
+  else if (band.state === "pending") place.replaceChildren(element("p", {}, text("band.pending")));
   else if (band.state === "failed") {
     place.replaceChildren(element("p", { class: "warning" }, band.lines.join("; ")));
   } else {
@@ -283,11 +295,11 @@ function showBand(answer, band) {
     place.replaceChildren(
       element(
         "details",
-        { open: isOpen },
+        { open: isOpen, ...ofServer },
         element("summary", {}, first),
         ...sentences.map((one) => element("p", {}, one)),
         element("p", { class: "small" }, words.inputs),
-        ...others.map(({ text }) => element("p", { class: "small" }, text)),
+        ...others.map((record) => element("p", { class: "small" }, record.text)),
       ),
     );
   }
@@ -314,8 +326,8 @@ export function fail({ lines, said }) {
   byId("results").classList.remove("waiting");
   byId("results").classList.add("stale");
   byId("results").classList.toggle("empty", !before);
-  document.title = "not computed · ballscrew";
-  const standing = "What stands below is of the input before.";
+  document.title = `${text("answer.none")} · ballscrew`;
+  const standing = text("answer.standing");
   const all = before ? [...lines, standing] : lines;
   byId("faults").replaceChildren(...all.map((line) => element("p", {}, line)));
   announce(before ? `${said} ${standing}` : said);

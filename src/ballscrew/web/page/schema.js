@@ -1,5 +1,7 @@
 // The JSON Schema of the case file, and the fields of the form that it describes.
 
+import { text } from "./texts.js";
+
 /**
  * @typedef {object} SchemaNode
  * @property {string} [type]
@@ -14,20 +16,30 @@
  * @property {string} [x-si-unit]
  * @property {string} [x-unit]
  * @property {string} [x-symbol]
+ * @property {string} [x-through-lead] the SI unit of a speed of the nut, which may stand in its place
  */
 
 /** Headings of the sections of the form, in their order. @type {Record<string, string>} */
 export const SECTIONS = {
-  operation: "Operating point",
-  screw: "Screw",
-  nut: "Nut",
-  lubricant: "Oil",
-  model: "Model",
-  losses: "Seals and other losses",
-  installation: "Installation",
-  limits: "Limits",
-  bodies: "Elastic bodies",
-  deviations: "Balls that differ",
+  operation: text("section.operation"),
+  screw: text("section.screw"),
+  nut: text("section.nut"),
+  lubricant: text("section.lubricant"),
+  model: text("section.model"),
+  losses: text("section.losses"),
+  installation: text("section.installation"),
+  limits: text("section.limits"),
+  bodies: text("section.bodies"),
+  deviations: text("section.deviations"),
+};
+/** Headings of the sections that cards have, not the form. @type {Record<string, string>} */
+export const OF_CARDS = {
+  axis: text("section.axis"),
+  motion: text("section.motion"),
+  motor: text("section.motor"),
+  surroundings: text("section.surroundings"),
+  bearings: text("section.bearings"),
+  guides: text("section.guides"),
 };
 /** Fields that the form does not have. */
 export const LEFT_OUT = ["screw.catalogue", "screw.catalogue_file", "lubricant.oil_file"];
@@ -79,11 +91,30 @@ export function fieldsOf(name) {
  */
 export function fieldOf(path) {
   const [name, field, inner, ...others] = path.split(".");
-  if (!own(SECTIONS, name) || LEFT_OUT.includes(`${name}.${field}`) || others.length) return undefined;
+  if (!(own(SECTIONS, name) || own(OF_CARDS, name)) || LEFT_OUT.includes(`${name}.${field}`) || others.length)
+    return undefined;
   const node = definition(own(fieldsOf(name), field));
   if (inner === undefined || !node) return node;
   if (node.properties) return definition(own(node.properties, inner));
   return node.anyOf?.map((one) => own(one.properties, inner)).find((one) => one);
+}
+
+/**
+ * Test whether sections are those of cards, which the answer above does not follow.
+ *
+ * @param {string[]} sections
+ */
+export function areOfCards(sections) {
+  return sections.every((one) => own(OF_CARDS, one));
+}
+
+/**
+ * A case without the sections that only cards ask about.
+ *
+ * @param {Record<string, any>} tables
+ */
+export function withoutCards(tables) {
+  return Object.fromEntries(Object.entries(tables).filter(([name]) => !own(OF_CARDS, name)));
 }
 
 /** @param {SchemaNode} node */

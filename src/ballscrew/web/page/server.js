@@ -1,5 +1,7 @@
 // Requests to the server. A refusal comes as a problem with its faults.
 
+import { text } from "./texts.js";
+
 const TOO_MANY = 429;
 
 export class Problem extends Error {
@@ -21,13 +23,13 @@ export class Problem extends Error {
 export function linesOf(error) {
   if (error instanceof Problem) return error.lines;
   const reason = error instanceof Error ? error.message : String(error);
-  return [`The server does not answer (${reason}). Is it still running? The next change sends a new request.`];
+  return [text("server.silent", { reason })];
 }
 
 /** @param {Response} response */
 async function checked(response) {
   if (response.ok) return response;
-  let document = { title: `The server answered ${response.status}` };
+  let document = { title: text("server.status", { status: response.status }) };
   try {
     document = await response.json();
   } catch {
@@ -80,7 +82,7 @@ const cache = new Map();
 /**
  * The answer of an address to a body; of the same body again it is not asked again.
  *
- * @param {"run" | "check" | "band"} address
+ * @param {"run" | "check" | "band" | "duty" | "warm-up"} address
  * @param {object} body
  * @param {AbortSignal} signal
  */

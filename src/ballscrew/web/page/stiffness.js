@@ -3,19 +3,20 @@
 import * as parts from "./chart_parts.js";
 import { byId, element, table } from "./dom.js";
 import { draw, hide, layout } from "./plot.js";
+import { ofServer, text } from "./texts.js";
 import * as units from "./units.js";
 
 const DIGITS = 3;
-/** Rows of the table: the place in the answer, words, SI unit, display unit. @type {[string, string, string, string][]} */
+/** Rows of the table: the place in the answer, words, SI unit, display unit. @type {[string, import("./texts.js").Key, string, string][]} */
 const ROWS = [
-  ["rigidity", "rigidity of the nut, by its contacts", "N/m", "N/um"],
-  ["deflection", "deflection of the nut under the load", "m", "um"],
-  ["remaining_preload", "preload left under this load", "N", "N"],
-  ["lift_off_load", "load at which the preload is lost", "N", "N"],
-  ["axial_rigidity.nut", "rigidity of the nut by ISO 3408-4", "N/m", "N/um"],
-  ["axial_rigidity.shaft", "rigidity of the shaft", "N/m", "N/um"],
-  ["axial_rigidity.drive", "rigidity of nut, shaft and bearings", "N/m", "N/um"],
-  ["axial_rigidity.deflection", "deflection of all of it", "m", "um"],
+  ["rigidity", "stiffness.rigidity", "N/m", "N/um"],
+  ["deflection", "stiffness.deflection", "m", "um"],
+  ["remaining_preload", "stiffness.remaining_preload", "N", "N"],
+  ["lift_off_load", "stiffness.lift_off_load", "N", "N"],
+  ["axial_rigidity.nut", "stiffness.nut", "N/m", "N/um"],
+  ["axial_rigidity.shaft", "stiffness.shaft", "N/m", "N/um"],
+  ["axial_rigidity.drive", "stiffness.drive", "N/m", "N/um"],
+  ["axial_rigidity.deflection", "stiffness.all", "m", "um"],
 ];
 
 /**
@@ -37,16 +38,15 @@ export function show(answer) {
   const place = byId("stiffness");
   if (!loads) {
     const load = units.formatted("contact_load", answer.results.contact_load, DIGITS);
-    const words = `Each ball carries ${load}: no nut is given, and all balls carry alike. Choose a kind of nut to see its rigidity, its preload and the load of each ball.`;
-    place.replaceChildren(element("p", {}, words));
+    place.replaceChildren(element("p", {}, text("stiffness.no_nut", { load })));
     hide("balls-chart");
     return;
   }
-  const rows = ROWS.flatMap(([path, words, si, unit]) => {
+  const rows = ROWS.flatMap(([path, key, si, unit]) => {
     const value = at(loads, path);
     if (typeof value !== "number") return [];
     const name = path.replace(".", "-");
-    return [[words, element("data", { value: String(value), "data-name": name }, shown(value, si, unit))]];
+    return [[text(key), element("data", { value: String(value), "data-name": name }, shown(value, si, unit))]];
   });
   for (const flank of /** @type {const} */ (["loaded", "relieved"])) {
     const found = loads[`${flank}_flank`]?.load;
@@ -54,12 +54,12 @@ export function show(answer) {
     const [least, mean, greatest] = ["least", "mean", "greatest"].map((one) =>
       units.formattedIn(found[one], "N", "N", DIGITS),
     );
-    rows.push([`load of a ball, ${flank} flank`, `${least} to ${greatest}, mean ${mean}`]);
+    rows.push([text(`stiffness.${flank}`), text("stiffness.loads", { least, greatest, mean })]);
   }
   const notes = /** @type {string[]} */ (loads.axial_rigidity?.assumed ?? []);
   place.replaceChildren(
-    table("stiffness and preload at this load", ["", ""], rows),
-    element("p", { class: "small" }, notes.length ? `Assumed: ${notes.join("; ")}.` : ""),
+    table(text("stiffness.caption"), ["", ""], rows),
+    element("p", { class: "small", ...ofServer }, notes.length ? `Assumed: ${notes.join("; ")}.` : ""),
   );
   drawBalls(loads.balls ?? {});
 }
@@ -87,16 +87,16 @@ function drawBalls({ forward_load: forward, backward_load: backward, count }) {
   /** @param {number[]} values */
   const converted = (values) => values.map((value) => units.inDisplayUnit("contact_load", value));
   const flanks = [
-    { name: "flank that carries the load", values: converted(forward) },
-    { name: "other flank", values: converted(backward) },
+    { name: text("stiffness.carrying"), values: converted(forward) },
+    { name: text("stiffness.other"), values: converted(backward) },
   ].filter(({ values }) => values.some((value) => value > 0));
-  const y = parts.titled("contact_load", "load of a ball");
+  const y = parts.titled("contact_load", text("stiffness.load"));
   const alike = places.length === 1 && Array.isArray(count);
-  const x = alike ? "all balls alike" : "ball, along the nut";
+  const x = text(alike ? "stiffness.alike" : "stiffness.along");
   draw("balls-chart", {
     name: "load_of_each_ball",
-    caption: "load of each ball, in the order of the nut",
-    description: `Load of each of ${places.length} balls on both flanks.`,
+    caption: text("stiffness.balls"),
+    description: text("stiffness.description", { count: places.length }),
     legend: (colours) =>
       flanks.map(({ name }, place) => ({ kind: "area", name, colour: place ? colours.second : colours.accent })),
     figure: (colours) => ({
@@ -113,7 +113,7 @@ function drawBalls({ forward_load: forward, backward_load: backward, count }) {
       layout: layout(colours, x, y, { xaxis: { tickformat: "d" } }),
     }),
     numbers: () => [
-      ["ball", ...flanks.map(({ name }) => parts.titled("contact_load", name))],
+      [text("chart.ball"), ...flanks.map(({ name }) => parts.titled("contact_load", name))],
       places.map((at, place) => [at, ...flanks.map(({ values }) => values[place])]),
     ],
   });

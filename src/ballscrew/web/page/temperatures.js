@@ -1,8 +1,9 @@
 // Cold and hot: the friction torque, and whether the load drives the screw, over the temperature of the oil.
 
-import { operationOf, valuesOf } from "./chart_parts.js";
+import { OUTSIDE, operationOf, valuesOf } from "./chart_parts.js";
 import { byId, element, scrolling, table } from "./dom.js";
 import { data } from "./results.js";
+import { text } from "./texts.js";
 import * as units from "./units.js";
 
 /** A cold start and a hot machine, K. */
@@ -31,10 +32,7 @@ export function question(answer) {
 /** Say why there is nothing to show. @param {Run} answer */
 export function leaveOut(answer) {
   const { axial_load: load, screw_speed: speed } = operationOf(answer);
-  const words =
-    load && speed
-      ? "The oil is given by one viscosity, at one temperature. Choose a grade to see it cold and hot."
-      : "Without load, or at rest, there is nothing to compare.";
+  const words = text(load && speed ? "temperatures.one" : "temperatures.nothing");
   byId("temperatures").replaceChildren(element("p", {}, words));
 }
 
@@ -45,7 +43,7 @@ export function leaveOut(answer) {
 function driven(held, load) {
   if (held === null) return "–";
   const torque = units.formatted("holding_torque", Math.abs(held), units.DIGITS);
-  return held * load > 0 ? `back-drives, ${torque} hold it` : `self-locking, ${torque} lower it`;
+  return text(held * load > 0 ? "temperatures.back_drives" : "temperatures.locks", { torque });
 }
 
 /**
@@ -63,9 +61,15 @@ export function show(swept, answer) {
     data("screw_torque", torques[place][1]),
     driven(held[place][1], load),
     driven(held[place][0], load),
-    valid[place].every(Boolean) ? "" : "outside the model's validity",
+    valid[place].every(Boolean) ? "" : OUTSIDE,
   ]);
-  const headings = ["oil", "friction torque", "at this speed", "at rest", ""];
-  const content = table("friction and back-driving, cold and hot", headings, rows);
-  byId("temperatures").replaceChildren(scrolling("friction and back-driving", content));
+  const headings = [
+    text("temperatures.oil"),
+    text("chart.torque"),
+    text("temperatures.moving"),
+    text("temperatures.at_rest"),
+    "",
+  ];
+  const content = table(text("temperatures.caption"), headings, rows);
+  byId("temperatures").replaceChildren(scrolling(text("temperatures.table"), content));
 }

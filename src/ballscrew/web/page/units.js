@@ -1,6 +1,6 @@
 // Units. Inputs are kept as text with a unit, as they were typed; only what is displayed is converted.
 
-import { localised } from "./texts.js";
+import { hasComma, localised } from "./texts.js";
 
 const NUMBER = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i;
 const COMMA = /^(\s*[-+]?\d*),(\d+)/;
@@ -32,13 +32,21 @@ export const DIGITS = 3;
 const MOST_DECIMALS = 6;
 /** A leading digit below this is written with a second one (as the Particle Data Group rounds). */
 const TWO_DIGITS_BELOW = 3.55;
+/** The number at the start of an input, with what is told of its spread. */
+const LEADING = /^[\s\d.,'eE+±-]+/;
 const PLACEHOLDER = /\{(\d{1,4})\}/g;
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
 
+/** SI units of the speed of the screw, and of the nut along it. */
+const OF_SCREW = "rad/s";
+const OF_NUT = "m/s";
+
 /** @type {Vocabulary} */
 let vocabulary;
 let system = "metric";
+/** The lead in SI: one turn of the screw moves the nut by it. */
+let lead = 0.01;
 
 /** @param {Vocabulary} document */
 export function setVocabulary(document) {
@@ -52,6 +60,16 @@ export function setSystem(name) {
 
 export function currentSystem() {
   return system;
+}
+
+/**
+ * The lead that turns speeds of the nut into speeds of the screw; it stays where the text is no lead.
+ *
+ * @param {unknown} text as the design gives it
+ */
+export function setLead(text) {
+  const found = parse(text, "m");
+  if (found?.number) lead = toSI(found.number, found.unit, "m");
 }
 
 /**
@@ -97,7 +115,10 @@ export function isUnit(unit, field) {
  * @param {string | undefined} si
  */
 function conversion(unit, si) {
-  return choices(si).find((one) => one.unit === unit);
+  const found = choices(si).find((one) => one.unit === unit);
+  if (found || si !== OF_SCREW) return found;
+  const along = choices(OF_NUT).find((one) => one.unit === unit);
+  return along && { ...along, factor: (along.factor * 2 * Math.PI) / lead };
 }
 
 /**
@@ -129,6 +150,24 @@ export function withPoint(text) {
   return text.replace(COMMA, (whole, before, after) =>
     after.length === 3 && /[1-9]/.test(before) ? whole : `${before}.${after}`,
   );
+}
+
+/**
+ * An input as it is kept, with points, where the language writes commas.
+ *
+ * @param {string} text
+ */
+export function ofLanguage(text) {
+  return hasComma ? text.replace(LEADING, (number) => number.replaceAll(",", ".")) : text;
+}
+
+/**
+ * An input as the language writes it.
+ *
+ * @param {string} text
+ */
+export function inLanguage(text) {
+  return hasComma ? text.replace(LEADING, (number) => number.replaceAll(".", ",")) : text;
 }
 
 /**

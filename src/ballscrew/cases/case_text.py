@@ -1,0 +1,114 @@
+"""Text of case files as tables: TOML, or the same tables as JSON."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, NoReturn
+
+from ballscrew.errors import Fault, InputError
+from ballscrew.files import read_bytes
+from ballscrew.friction.law_names import LAWS
+
+#: Bytes of a case file at most, and bits of a whole number in it: no float is larger.
+LARGEST_FILE, LARGEST_INTEGER = 4_000_000, 1024
+_START = 'start from "ballscrew catalogue show hiwin-40-20k4 --case"'
+#: Strings of TOML, and what begins with # outside them.
+_STRING_OR_COMMENT = re.compile(
+    r"\"{3}(?:\\.|[^\\])*?\"{3}|'{3}.*?'{3}|\"(?:\\.|[^\"\\\n])*\"|'[^'\n]*'|(?P<comment>#[^\n]*)", re.DOTALL
+)
+
+
+def tables_at(path: Path) -> dict[str, Any]:
+    """The tables of a file. Raises :class:`~ballscrew.errors.InputError` if it has none."""
+    try:
+        content = read_bytes(path, LARGEST_FILE)
+    except (OSError, ValueError) as error:
+        problem = "does not exist" if isinstance(error, FileNotFoundError) else "cannot be read"
+        reason = "" if isinstance(error, FileNotFoundError) else getattr(error, "strerror", str(error))
+        raise InputError(Fault(str(path), problem, reason, "give the path of a case file")) from None
+    return tables_in(content, str(path))
+
+
+def tables_in(content: bytes, where: str) -> dict[str, Any]:
+    """The tables that are written in the content of a file. Raises :class:`~ballscrew.errors.InputError`."""
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise InputError(Fault(where, "is not text in UTF-8", "", "save it as UTF-8")) from None
+    is_json = text.lstrip().startswith("{")  # no TOML begins with it
+    try:
+        tables = _json(text) if is_json else toml(text)
+    except (ValueError, RecursionError) as error:
+        remedy = "write one JSON object" if is_json else _remedy(str(error), text)
+        raise InputError(Fault(where, f"is not {'JSON' if is_json else 'TOML'}", str(error), remedy)) from None
+    if not tables:
+        raise InputError(Fault(where, "is empty", "", _START))
+    return tables
+
+
+def toml(text: str) -> dict[str, Any]:
+    """The tables of a text. Raises ``ValueError`` where it is no TOML, and for whole numbers beyond any float."""
+    return _checked(tomllib.loads(text))
+
+
+def comments_in(text: str) -> int:
+    """The number of comments in a text of TOML."""
+    return sum(found["comment"] is not None for found in _STRING_OR_COMMENT.finditer(text))
+
+
+def comments_at(path: Path) -> int:
+    """The number of comments in a file of TOML; JSON has none."""
+    text = read_bytes(path, LARGEST_FILE).decode("utf-8-sig", "replace")
+    return 0 if text.lstrip().startswith("{") else comments_in(text)
+
+
+def _json(text: str) -> dict[str, Any]:
+    tables = json.loads(text, parse_constant=_no_number, object_pairs_hook=_table)
+    if any(leaf is None for leaf in _leaves(tables)):
+        raise ValueError("null stands for nothing: leave such names out")
+    return _checked(tables)
+
+
+def _no_number(name: str) -> NoReturn:
+    raise ValueError(f"{name} is no JSON number")
+
+
+def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """A table without repeated names, as TOML has it; JSON would keep the last one."""
+    found: dict[str, Any] = {}
+    for name, value in pairs:
+        if name in found:
+            raise ValueError(f"{name[:40]} is given twice")
+        found[name] = value
+    return found
+
+
+def _checked(tables: dict[str, Any]) -> dict[str, Any]:
+    if any(isinstance(leaf, int) and leaf.bit_length() > LARGEST_INTEGER for leaf in _leaves(tables)):
+        raise ValueError(f"a whole number has more than {LARGEST_INTEGER} bits")
+    return tables
+
+
+def _leaves(value: Any) -> Iterator[Any]:
+    """All values of nested tables and lists."""
+    if isinstance(value, dict | list):
+        for inner in value.values() if isinstance(value, dict) else value:
+            yield from _leaves(inner)
+    else:
+        yield value
+
+
+def _remedy(error: str, text: str) -> str:
+    """Remedy: most often a law is given by name and with coefficients."""
+    line = re.search(r"Cannot overwrite a value \(at line (\d+)", error)
+    if line is None:
+        return _START
+    key = re.match(r"\s*(?:model\.)?(\w+)\.", text.splitlines()[int(line[1]) - 1])
+    slot = key[1] if key and key[1] in LAWS else "rolling"
+    given = re.search(rf"""^\s*{slot}\s*=\s*["']([\w-]+)["']""", text, re.MULTILINE)
+    law = given[1] if given else "houpert"
+    return f'a law with coefficients: write {slot}.law = "{law}" beside them'

@@ -1,0 +1,76 @@
+"""Files of cases, opened: a case file, a project, a table of screws, or a need, as named designs.
+
+Nothing is computed and no case is built: one at fault is opened, too, and its faults are found when it is run.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import tomllib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from ballscrew.cases import case_file, case_text, project
+from ballscrew.cases.project import Design
+from ballscrew.errors import Fault, InputError
+from ballscrew.files import read_bytes
+from ballscrew.screw_tables import catalogue
+from ballscrew.sizing.catalogue import CatalogueRow
+from ballscrew.tables.sheets import is_spreadsheet
+
+#: Endings of files that are tables as text.
+_TABLES = (".csv", ".tsv")
+#: What a document of results has, and no case.
+_OF_RESULTS = ("inputs", "results")
+
+
+@dataclasses.dataclass(frozen=True)
+class OpenedFile:
+    """The designs of a file, and what of it no design has."""
+
+    #: ``case``, ``project``, ``table`` or ``need``.
+    kind: str
+    designs: Sequence[Design]
+    #: The number of comments, which are in no design.
+    comments: int = 0
+    #: Columns that are not used, and rows that are left out.
+    notes: Sequence[str] = ()
+
+
+def opened(path: Path) -> OpenedFile:
+    """The designs of a file. Raises :class:`~ballscrew.errors.InputError` where it has none.
+
+    Tables that no case has are kept aside.
+    """
+    begin = read_bytes(path, case_text.LARGEST_FILE)[:8] if path.is_file() else b""
+    if path.suffix.lower() in _TABLES or is_spreadsheet(path, begin):
+        rows = catalogue.screws(path, keep_going=True)
+        return OpenedFile("table", [Design(row.name, tables_of_row(row)) for row in rows.values()], notes=rows.notes)
+    tables = case_text.tables_at(path)
+    comments = case_text.comments_at(path)
+    if project.is_project(tables):
+        return OpenedFile("project", [_kept(one) for one in project.designs_of(tables, path.name)], comments)
+    if "need" in tables and "screw" not in tables:
+        return OpenedFile("need", [Design(path.stem, tables)], comments)
+    if list(tables) == ["case"] and isinstance(tables["case"], dict):  # as the API takes it
+        tables = tables["case"]
+    if all(name in tables for name in _OF_RESULTS):
+        remedy = "open the case file that it came from, or save that as TOML"
+        raise InputError(Fault(path.name, "has results and no case", "", remedy))
+    return OpenedFile("case", [_kept(Design(path.stem, tables))], comments)
+
+
+def _kept(design: Design) -> Design:
+    """A design with all tables that no case has kept aside, beside what its file keeps so."""
+    known = {name: value for name, value in design.tables.items() if name in case_file.SECTIONS}
+    others: dict[str, Any] = {name: value for name, value in design.tables.items() if name not in known}
+    aside = known.get(case_file.ASIDE)
+    if isinstance(aside, dict):
+        others |= known.pop(case_file.ASIDE)
+    return Design(design.name, known, {**others, **design.aside})
+
+
+def tables_of_row(row: CatalogueRow) -> dict[str, Any]:
+    """The case of a row by its numbers, so that it needs no table: a usual oil, a tenth of its rating, 600 rpm."""
+    return tomllib.loads(catalogue.case_text(row))

@@ -1,0 +1,76 @@
+"""Addresses of the API for files: those that are opened, those that are saved, and the progress of long work."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import tomlkit
+from fastapi import APIRouter, Path, Query, Request
+from starlette.responses import Response
+
+from ballscrew.cases import project as projects
+from ballscrew.errors import Fault, InputError, nearest
+from ballscrew.output.json_text import as_json as json_text
+from ballscrew.studies.opened_file import opened
+from ballscrew.web import file_answers, openapi
+from ballscrew.web.bodies import LONGEST_TICKET, CaseBody, OpenBody, ProjectBody, case_of, read, refuse_nulls
+from ballscrew.web.endpoint_parts import as_json, heavy, queue_of
+from ballscrew.web.progress import progress_of
+from ballscrew.web.sent_files import written
+
+#: Media types of a project, by its ``kind``.
+KINDS = {"toml": "application/toml", "json": "application/json"}
+
+router = APIRouter()
+
+
+@router.post(
+    "/open", openapi_extra=openapi.body(OpenBody), response_model=file_answers.Opened, responses=openapi.problems_of()
+)
+async def open_file(request: Request) -> Response:
+    """The designs of a case file, a project or a table of screws, unchecked: ``run`` finds their faults."""
+    body: OpenBody = await read(request, OpenBody)
+
+    def work(_: Any) -> Response:
+        with written({"file": body.file}) as paths:
+            found = opened(paths["file"])
+        designs = [{"name": one.name, "case": dict(one.tables), "aside": dict(one.aside)} for one in found.designs]
+        return as_json({"kind": found.kind, "designs": designs, "comments": found.comments, "notes": list(found.notes)})
+
+    return await heavy(request, work)
+
+
+@router.post("/toml", openapi_extra=openapi.body(CaseBody), responses=openapi.text("application/toml"))
+async def toml(request: Request) -> Response:
+    """The case as a file, ready for ``ballscrew run``."""
+    body: CaseBody = await read(request, CaseBody)
+    await queue_of(request).quick(lambda: case_of(body.case))
+    return Response(tomlkit.dumps(body.case), media_type="application/toml")
+
+
+@router.post("/project", openapi_extra=openapi.body(ProjectBody), responses=openapi.text(*KINDS.values()))
+async def project(
+    request: Request,
+    kind: Annotated[str, Query(json_schema_extra={"enum": [*KINDS]}, description="the kind of file")] = "toml",
+) -> Response:
+    """Designs as one project file, ready for ``ballscrew compare``; they may be at fault."""
+    body: ProjectBody = await read(request, ProjectBody)
+    if kind not in KINDS:
+        raise InputError(Fault("?kind", "unknown kind of file", kind, nearest(kind, KINDS)))
+    refuse_nulls(body.designs)
+    found = projects.designs_of({projects.KEY: projects.VERSION, "designs": body.designs}, "request")
+
+    def text() -> str:
+        tables = projects.tables_of(found)
+        return tomlkit.dumps(tables) if kind == "toml" else json_text(tables)
+
+    return Response(await queue_of(request).quick(text), media_type=KINDS[kind])
+
+
+@router.get("/progress/{ticket}", response_model=file_answers.Progress, responses=openapi.problems_of())
+async def progress(
+    ticket: Annotated[str, Path(max_length=LONGEST_TICKET, description="of the request", examples=["4f0c"])],
+) -> Response:
+    """How far the work of a request is that was sent with this ticket."""
+    finished, total = progress_of(ticket)
+    return as_json({"finished": finished, "total": total})

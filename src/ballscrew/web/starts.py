@@ -1,0 +1,61 @@
+"""Cases that the page starts from: the paper's screw, and the examples of axes that move."""
+
+from __future__ import annotations
+
+import functools
+import tomllib
+from collections.abc import Mapping
+from importlib import resources
+from typing import Any
+
+from ballscrew import units
+from ballscrew.case_schema.schema import DEFAULT_MODEL
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.screw import BallScrew
+from ballscrew.papers.olaru2005 import case as paper
+from ballscrew.quantities import fields_of
+
+#: Examples with a motion by the names of their files, which are those of the folder ``examples`` of the repository.
+_MOVING: Mapping[str, str] = {
+    "vertical_axis": "a vertical axis of 400 kg with its motor",
+    "feed_axis": "a horizontal feed axis with its bearings and guides",
+    "warm_up": "a feed screw that warms up over hours",
+}
+
+
+@functools.cache
+def starts() -> dict[str, Any]:
+    """Cases to start from, by name; those that move have a motion."""
+    found: dict[str, Any] = {
+        "paper": {"title": "the screw of Olaru et al. (2005)", "moves": False, "case": _paper()},
+    }
+    folder = resources.files("ballscrew").joinpath("data/starts")
+    for name, title in _MOVING.items():
+        tables = tomllib.loads(folder.joinpath(f"{name}.toml").read_text(encoding="utf-8"))
+        found[name.replace("_", "-")] = {"title": title, "moves": True, "case": tables}
+    return found
+
+
+def _paper() -> dict[str, Any]:
+    """The paper's screw, oil and operating point as the tables of a case."""
+    return {
+        "screw": _written(paper.SCREW, BallScrew),
+        "lubricant": _written(paper.OIL, Lubricant),
+        "operation": {
+            name: units.written(value, fields_of(OperatingState)[name])
+            for name, value in (("axial_load", paper.AXIAL_LOAD), ("screw_speed", paper.SCREW_SPEED))
+        },
+        "model": {"name": DEFAULT_MODEL},
+    }
+
+
+def _written(part: Any, cls: type) -> dict[str, Any]:
+    """The numbers of a part that have no default, or another value than that, as they are written in a file."""
+    usual = {name: getattr(cls, name, None) for name in fields_of(cls)}
+    found = {name: getattr(part, name) for name in fields_of(cls)}
+    return {
+        name: value if fields_of(cls)[name].unit == "1" else units.written(value, fields_of(cls)[name])
+        for name, value in found.items()
+        if value is not None and value != usual[name]
+    }

@@ -1,0 +1,78 @@
+"""Files by the API: what is saved opens again; what cannot be read is refused in words."""
+
+import base64
+import json
+import tomllib
+from pathlib import Path
+
+from ballscrew.cases import project
+
+ROOT = Path(__file__).parents[2]
+
+
+def opened(server, name, content):
+    sent = {"text": content} if isinstance(content, str) else {"base64": base64.b64encode(content).decode()}
+    return server.post("open", {"file": {"name": name, **sent}})
+
+
+def test_what_is_saved_opens_again(server, paper, elastic):
+    designs = [{"name": "paper", "case": paper, "aside": {"shop": {"bin": 7}}}, {"name": "Ö", "case": elastic}]
+    for kind in ("toml", "json"):
+        saved = server.client.post(f"/api/v1/project?kind={kind}", json={"designs": designs})
+        assert saved.status_code == 200, saved.text
+        found = opened(server, f"two.{kind}", saved.text).json()
+        assert found == {
+            "kind": "project", "comments": 0, "notes": [], "designs": [{"aside": {}, **one} for one in designs],
+        }  # fmt: skip
+    saved = server.post("toml", {"case": {**paper, "aside": {"shop": {"bin": 7}}}})
+    assert tomllib.loads(saved.text)["aside"] == {"shop": {"bin": 7}}
+    (found,) = opened(server, "case.toml", saved.text).json()["designs"]
+    assert found == {"name": "case", "case": paper, "aside": {"shop": {"bin": 7}}}
+
+
+def test_a_table_of_screws(server):
+    found = opened(server, "own.csv", (ROOT / "examples" / "own_screws.csv").read_bytes()).json()
+    assert found["kind"] == "table"
+    assert found["designs"]
+    run = server.post("run", {"case": found["designs"][0]["case"]})
+    assert run.status_code == 200, run.text
+
+
+def test_what_is_refused(server, paper):
+    future = json.dumps({project.KEY: project.VERSION + 1, "designs": [{"name": "a", "case": paper}]})
+    for name, content, words in (
+        ("a.toml", "screw = {", "is not TOML"),
+        ("a.json", "{", "is not JSON"),
+        ("a.json", future, "project of an unknown version (2)"),
+        ("a.json", json.dumps({"inputs": {}, "results": {}}), "has results and no case"),
+        ("a.json", '{"screw": null}', "null stands for nothing"),
+        ("a.csv", "a,b\n1,2\n", "a.csv"),
+        ("a.xlsx", b"PK\x03\x04 no workbook", "a.xlsx"),
+        ("../../etc/passwd", "", "is empty"),
+    ):
+        found = opened(server, name, content)
+        assert found.status_code == 422, (name, found.text[:300])
+        assert words in found.json()["lines"][0], (name, found.json()["lines"])
+    for designs, words in (
+        ([{"name": "a", "case": {"screw": None}}], "must not be null"),
+        ([{"name": "a", "case": paper}] * 2, "is the name of two designs"),
+        ([], "has no designs"),
+    ):
+        found = server.post("project", {"designs": designs})
+        assert (found.status_code, words in found.text) == (422, True), found.text[:300]
+
+
+def test_a_selection_tells_its_progress_and_the_cases_of_its_candidates(server):
+    need = {"force": "2 kN", "feed": "15 m/min", "length": "1 m", "ends": "fixed-supported", "preload": "2 %"}
+    table = {"name": "own.csv", "text": (ROOT / "examples" / "own_screws.csv").read_text(encoding="utf-8")}
+    assert server.get("progress/4f0c").json() == {"finished": 0, "total": 0}
+    found = server.post("select", {"need": need, "table": table, "ticket": "4f0c"})
+    assert found.status_code == 200, found.text[:300]
+    candidates = found.json()["candidates"]
+    assert server.get("progress/4f0c").json() == {"finished": len(candidates), "total": len(candidates)}
+    # the case of a candidate needs no table: it is computed alone, with the same answer
+    fields = ("screw_torque", "preload_drag", "rigidity")
+    for one in (candidates[0], candidates[-1]):
+        run = server.post("check", {"case": one["case"]}).json()
+        assert [run["results"].get(name) for name in fields] == [one["results"].get(name) for name in fields]
+        assert run["ratings"]["listed"] == one["ratings"]["listed"]
