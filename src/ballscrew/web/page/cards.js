@@ -44,6 +44,25 @@ export function setUp(found) {
       openAll();
     });
   }
+  for (const button of document.querySelectorAll("[data-card]")) {
+    button.addEventListener("click", () => goTo(/** @type {HTMLElement} */ (button).dataset.card ?? ""));
+  }
+}
+
+/**
+ * Open a card, and go there.
+ *
+ * @param {string} name
+ */
+async function goTo(name) {
+  const { cards } = designs.all();
+  if (!cards.includes(name)) {
+    cards.push(name);
+    page.keep();
+  }
+  await openAll();
+  byId(`${name}-title`).scrollIntoView({ block: "start" });
+  byId(`${name}-open`).focus({ preventScroll: true });
 }
 
 /** Open the cards of the state, and close the others. */
