@@ -23,6 +23,7 @@ import { text } from "./texts.js";
 const SCRIPTS = {
   duty: () => import("./cards/duty.js"),
   "warm-up": () => import("./cards/warm_up.js"),
+  choose: () => import("./cards/choose.js"),
   files: () => import("./cards/files.js"),
 };
 
