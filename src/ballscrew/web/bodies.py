@@ -110,6 +110,13 @@ class ProjectBody(Body):
     designs: list[Tables]
 
 
+class ReportBody(CaseBody):
+    """A case, and what may stand below the title of its report: the name of a project, and a date."""
+
+    project: str = Field(default="", strict=True)
+    date: str = Field(default="", strict=True, description="such as 2026-11-23; none by itself")
+
+
 class SweepBody(CaseBody):
     """A case, the axes to vary (as ``--vary``), and the outputs to return."""
 
