@@ -26,6 +26,7 @@ from ballscrew.documents import sweep as sweep_documents
 from ballscrew.documents import validation as validation_documents
 from ballscrew.documents import warm_up as warm_up_documents
 from ballscrew.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.optimisation.need_schema import json_schema as schema_of_needs
 from ballscrew.report.heading import Heading
 from ballscrew.screw_tables import catalogue as rows
 from ballscrew.selection.need import need_of
@@ -289,6 +290,17 @@ async def schema() -> Response:
 @functools.cache
 def _schema() -> bytes:
     return as_bytes(json_schema())
+
+
+@router.get("/need-schema", response_model=answers.NeedSchema, responses=openapi.problems_of())
+async def need_schema() -> Response:
+    """JSON Schema of a need, as ``ballscrew schema --need`` prints it."""
+    return sent(_need_schema())
+
+
+@functools.cache
+def _need_schema() -> bytes:
+    return as_bytes(schema_of_needs())
 
 
 @router.get("/vocabulary", response_model=vocabulary.Vocabulary, responses=openapi.problems_of())

@@ -24,6 +24,7 @@ const SCRIPTS = {
   "over-input": () => import("./cards/over_input.js"),
   duty: () => import("./cards/duty.js"),
   "warm-up": () => import("./cards/warm_up.js"),
+  choose: () => import("./cards/choose.js"),
   files: () => import("./cards/files.js"),
 };
 
