@@ -26,7 +26,7 @@ _WORDS = re.compile(r"[A-Za-z]{2,}[,:;]? [a-z]{2,}")
 #: Two words that nobody reads: classes of elements, units, selectors, and a defect of the page.
 CODES = {
     "(prefers-color-scheme: dark)", "card-start whole-width", "chart low", "field given", "field start given",
-    "input, select", "lbf in", "mm rpm",
+    "input, select", "lbf in", "line thin", "mm rpm",
     "no element #…", "no element …", "scroll whole", "verdict careful",
     # English remedies of the server for files, said for a page
     "fill in the section …", "fill in {", "in a file write", "the section …",

@@ -4,6 +4,7 @@ import * as charts from "./charts.js";
 import * as checks from "./checks.js";
 import { showDesigns, showModels } from "./compare.js";
 import * as curves from "./curves.js";
+import { titleOf } from "./designs.js";
 import { byId } from "./dom.js";
 import * as drawings from "./drawing.js";
 import { inWords, labelOf } from "./faults.js";
@@ -88,7 +89,7 @@ export async function update(cases, { designs, show, band: wanted, own }, report
   bandRequest.abort();
   /** @type {Body[]} */
   let bodies = [];
-  displayed.starts = designs.map((one) => one.start);
+  displayed.starts = designs.map(titleOf);
   byId("results").setAttribute("aria-busy", "true");
   try {
     const found = await cases();

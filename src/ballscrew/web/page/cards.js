@@ -21,8 +21,10 @@ import { text } from "./texts.js";
 
 /** Scripts of the cards, by the names of their places. @type {Record<string, () => Promise<{ setUp: (holder: HTMLElement, page: Page) => Card }>>} */
 const SCRIPTS = {
+  "over-input": () => import("./cards/over_input.js"),
   duty: () => import("./cards/duty.js"),
   "warm-up": () => import("./cards/warm_up.js"),
+  files: () => import("./cards/files.js"),
 };
 
 /** @type {Page} */
@@ -48,6 +50,25 @@ export function setUp(found) {
       openAll();
     });
   }
+  for (const button of document.querySelectorAll("[data-card]")) {
+    button.addEventListener("click", () => goTo(/** @type {HTMLElement} */ (button).dataset.card ?? ""));
+  }
+}
+
+/**
+ * Open a card, and go there.
+ *
+ * @param {string} name
+ */
+async function goTo(name) {
+  const { cards } = designs.all();
+  if (!cards.includes(name)) {
+    cards.push(name);
+    page.keep();
+  }
+  await openAll();
+  byId(`${name}-title`).scrollIntoView({ block: "start" });
+  byId(`${name}-open`).focus({ preventScroll: true });
 }
 
 /** Open the cards of the state, and close the others. */

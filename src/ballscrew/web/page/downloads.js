@@ -1,5 +1,6 @@
 // Files to save: the case, the answer, the curve, the drawing, the report.
 
+import * as designs from "./designs.js";
 import { byId, csv, element, save } from "./dom.js";
 import { linesOf, send } from "./server.js";
 import { text } from "./texts.js";
@@ -53,7 +54,7 @@ async function saveAs(kind, { whole, answer, alongSpeed }) {
   try {
     if (address) {
       say(text("download.making", { kind }));
-      save(`.${kind.toLowerCase()}`, await (await send(address, whole)).blob());
+      save(`.${kind.toLowerCase()}`, await (await send(address, kind === "TOML" ? withAside(whole) : whole)).blob());
     } else if (kind === "JSON") {
       const { words, display, ...document } = answer;
       save(".json", new Blob([JSON.stringify(document, null, 2)], { type: "application/json" }));
@@ -62,6 +63,16 @@ async function saveAs(kind, { whole, answer, alongSpeed }) {
   } catch (error) {
     say(linesOf(error).join("; "));
   }
+}
+
+/**
+ * A case with what its design keeps aside, which no command reads.
+ *
+ * @param {{ case?: object }} body
+ */
+function withAside(body) {
+  const { aside } = designs.current();
+  return aside ? { case: { ...body.case, aside } } : body;
 }
 
 /**

@@ -6,8 +6,10 @@ import { consequences } from "./consequences.js";
 import * as designs from "./designs.js";
 import { byId, element, nameFiles, within } from "./dom.js";
 import * as downloads from "./downloads.js";
+import * as files from "./files.js";
 import * as form from "./form.js";
 import * as entries from "./history.js";
+import * as keeping from "./keeping.js";
 import * as results from "./results.js";
 import * as schema from "./schema.js";
 import { get, linesOf } from "./server.js";
@@ -83,10 +85,10 @@ function quoted(name) {
   return name.length > LONGEST_QUOTE ? `${name.slice(0, LONGEST_QUOTE)}…` : name;
 }
 
-/** @param {string} words */
-function showNotice(words) {
-  byId("notice").textContent = words;
-  byId("notice").hidden = !words;
+/** @param {(string | Node)[]} words */
+function showNotice(...words) {
+  byId("notice").replaceChildren(...words);
+  byId("notice").hidden = !words.some(Boolean);
 }
 
 /**
@@ -99,6 +101,7 @@ function showNotice(words) {
 async function follow({ rebuild = false, keep = false, formOnly = false, path, ofCards = false } = {}) {
   if (!formOnly && !ofCards) byId("results").setAttribute("aria-busy", "true");
   const fragment = states.toFragment(state);
+  keeping.keep(fragment, state.designs.map(designs.titleOf).join(" · "));
   if (keep) {
     entries.choose(fragment);
     showNotice("");
@@ -196,7 +199,7 @@ function showTabs() {
     action();
     follow({ rebuild: true, keep: true });
   };
-  const buttons = state.designs.map((_, place) =>
+  const buttons = state.designs.map((one, place) =>
     element(
       "button",
       {
@@ -210,10 +213,11 @@ function showTabs() {
       },
       element("span", { class: "long" }, text("designs.long")),
       states.LETTERS[place],
+      one.name ? element("span", { class: "own-name" }, ` ${one.name}`) : null,
     ),
   );
   const add = turn(() => {
-    const { start, changes, ...own } = designs.current();
+    const { start, changes, name, ...own } = designs.current();
     state.designs.push(states.design(start, changes, own));
     state.show = state.designs.length - 1;
   });
@@ -298,10 +302,11 @@ function addListeners() {
     cards.openAll();
   });
   downloads.build(answers.current);
+  files.setUp(showNotice);
 }
 
 async function begin() {
-  const [words, document_] = await Promise.all([get("vocabulary"), get("schema")]);
+  const [words, document_, latest] = await Promise.all([get("vocabulary"), get("schema"), keeping.begin()]);
   vocabulary = words;
   units.setVocabulary(words);
   answers.setVocabulary(words, form.jump);
@@ -309,7 +314,9 @@ async function begin() {
   form.setListener(onChange);
   byId("version").textContent = text("page.version", { version: vocabulary.version });
   designs.setUp(vocabulary, follow);
+  if (latest) history.replaceState(null, "", latest.fragment);
   use(readAddress());
+  if (latest) files.sayRestored(latest, showNotice);
   units.setSystem(state.system);
   addListeners();
   cards.setUp({

@@ -1,6 +1,6 @@
 // State of the page: its designs, each with its start, its own tables and its changes. All of it is in the address.
 
-export const LETTERS = ["A", "B", "C", "D"];
+export const LETTERS = ["A", "B", "C", "D", "E", "F", "G", "H"];
 const OTHER_KEYS = ["show", "units", "band", "at", "cards", "hours", "rest", "heat"];
 /** Hours of work and of rest of a warm-up. */
 const HOURS = "4";
@@ -9,7 +9,7 @@ const REST = "0";
 const OWN_TEXTS = /** @type {const} */ (["name", "file"]);
 const OWN_TABLES = /** @type {const} */ (["tables", "aside"]);
 /** Sections that are the screw itself: another start brings its own. */
-const OF_SCREW = ["screw", "nut", "bodies", "deviations"];
+export const OF_SCREW = ["screw", "nut", "bodies", "deviations"];
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
 /** @typedef {(path: string) => SchemaNode | undefined} Schema */
