@@ -16,7 +16,7 @@ import { text } from "./texts.js";
 /**
  * A card that is open: ``follow`` shows what the state of the page is now.
  *
- * @typedef {{ follow: () => Promise<void>, stop: () => void }} Card
+ * @typedef {{ follow: () => void | Promise<void>, stop: () => void }} Card
  */
 
 /** Scripts of the cards, by the names of their places. @type {Record<string, () => Promise<{ setUp: (holder: HTMLElement, page: Page) => Card }>>} */
