@@ -354,9 +354,11 @@ async def report(
     def work(done: Deadline) -> Response:
         from ballscrew.report.contents import Kind, report_bytes  # slow to import
 
-        case = case_of(body.case)
+        case, *beside = map(case_of, (body.case, *body.beside))
         written: Kind = "pdf" if kind == "pdf" else "html"
-        found = report_bytes(case, written, done, limits.samples_of(case), heading)
+        # none has more samples than the largest of them may have
+        fewest = [count for each in (case, *beside) if (count := limits.samples_of(each)) is not None]
+        found = report_bytes(case, written, done, min(fewest) if fewest else None, heading, beside)
         return Response(found, media_type=KINDS[kind])
 
     return await heavy(request, work)
