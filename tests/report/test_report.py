@@ -20,6 +20,7 @@ import ballscrew as bs
 from ballscrew.axis_studies.warm_up import warmed_up
 from ballscrew.axis_studies.warm_up_records import verdicts
 from ballscrew.cases import case_file
+from ballscrew.cases.named_calibration import vendor_rows_like
 from ballscrew.cli import report as command
 from ballscrew.components.nut_losses import ConstantTorque
 from ballscrew.errors import InputError
@@ -32,11 +33,14 @@ from ballscrew.report import curve_figures as figures
 from ballscrew.report.blocks import Bar, Columns, Links, Picture, Table, value
 from ballscrew.report.contents import report_bytes
 from ballscrew.report.curves import curves
+from ballscrew.report.heading import Heading
 from ballscrew.report.html import html_bytes
+from ballscrew.report.numbers import banded, banded_share
 from ballscrew.report.pdf import pdf_bytes
 from ballscrew.studies import band
 from ballscrew.studies.check import checked
 from ballscrew.studies.run import run
+from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted(path.name for path in (ROOT / "examples").glob("*.toml"))
@@ -47,6 +51,9 @@ _OVERSIZE = ('nut.type="oversize-balls"', 'nut.preload="2 kN"')
 
 #: What no reader should see.
 _NO_NUMBERS = re.compile(r"\b(nan|None|inf)\b")
+_EXPONENT = re.compile(r"(?<!\w)\d[\d.]*[eE][-+\u2212]?\d+(?!\w)")
+#: The share of the height between the margins that each page has content on, at least.
+LEAST_FILLED = 0.3
 
 CASES = {
     **{name.removesuffix(".toml"): (name, ()) for name in EXAMPLES},
@@ -138,6 +145,29 @@ class Page(HTMLParser):
         return re.sub(r"\s+", " ", self.read)
 
 
+def pictures_of(content):
+    """What the pictures of a report show, in words."""
+    return [block.words for section in content.sections for block in section.blocks if isinstance(block, Picture)]
+
+
+def least_filled(reader):
+    """The least share of the height between the margins down to which a page has text, its footer left out."""
+    shares = []
+    for sheet in reader.pages:
+        heights = []
+
+        def visit(text, page, line, *_, heights=heights):
+            if text.strip():
+                heights.append(line[4] * page[1] + line[5] * page[3] + page[5])
+
+        sheet.extract_text(visitor_text=visit)
+        top, height = 14 / 25.4 * 72, float(sheet.mediabox.height)
+        bottom = 15 / 25.4 * 72
+        lowest = min((y for y in heights if y > bottom), default=height)
+        shares.append((height - top - lowest) / (height - top - bottom))
+    return min(shares)
+
+
 def structure_of(reader):
     """All elements of the structure tree of a PDF: kind and alternative text."""
     found = []
@@ -163,11 +193,13 @@ def structure_of(reader):
 def test_the_numbers_are_those_of_the_program(pdf, page):
     found = run(case_of("catalogue_screw"))
     result = found.friction
+    bands = band.band(case_of("catalogue_screw"), band.Options(samples=SAMPLES)).band
+    torque = banded(float(result.screw_torque), *bands["screw_torque"].both, _TORQUE)
+    share = banded_share(float(result.efficiency), *bands["efficiency"].both)
     said = [
-        f"Friction torque on the screw {value(float(result.screw_torque), _TORQUE)}",
-        f"efficiency {float(result.efficiency):.1%}",
+        f"Friction torque on the screw {torque.value} ({torque.interval})",
+        f"efficiency {share.value} ({share.interval})",
         f"torque without load {value(found.nut.preload_drag, _TORQUE)}",
-        f"{float(result.back_driving_efficiency):.4g}",
         *(value(float(part), _TORQUE) for part in result.contributions.values() if part),
         *(record.text.capitalize()[:20] for record in found.verdicts),
     ]
@@ -178,9 +210,12 @@ def test_the_numbers_are_those_of_the_program(pdf, page):
 def test_it_says_how_far_off_it_may_be_and_why(pdf, page):
     case = case_of("catalogue_screw")
     found = band.band(case, band.Options(samples=SAMPLES))
-    low, high = (value(end, _TORQUE) for end in found.band["screw_torque"].both)
+    torque = found.band["screw_torque"]
+    low, high = (banded(end, *torque.both, _TORQUE).value for end in torque.both)
     for words in (text_of(pdf), page.words):
         assert f"between {low} and {high}" in words
+        assert "Which inputs make the band" in words
+        assert "ball force share of load: 0.0025 to 0.0225" in words
         assert "screw conformity 0.54 ± 0.01 (judgement: the root diameters of HIWIN2016 imply" in words
         assert "rolling: olaru" in words
 
@@ -322,6 +357,47 @@ def test_a_torque_without_a_number_is_a_gap():
     assert np.isfinite(total[30:]).all()
 
 
+def test_checks_come_first_and_numbers_with_a_band_have_it(content):
+    titles = [section.title for section in content.sections]
+    assert titles[:3] == ["Answer", "Checks", "Result"]
+    torque = next(s for s in content.sections if s.title == "Result").blocks[0].left[0]
+    assert torque.columns == ("", "value", "band")
+    with_band = [row for row in torque.rows if row[2]]
+    assert len(with_band) == len(BAND_OUTPUTS)
+    for words, number, interval in with_band:
+        low, high = interval.split()[0], interval.split()[2]
+        assert float(low) <= float(number.split()[0]) <= float(high), words
+        assert len({len(each.partition(".")[2]) for each in (low, high, number.split()[0])}) == 1, words
+
+
+def test_rows_of_a_vendor_stand_beside_it(content):
+    (said, table) = next(s for s in content.sections if s.title == "Beside a vendor's rows").blocks
+    near = vendor_rows_like(case_of("catalogue_screw"))
+    assert [row[0] for row in table.rows] == list(near.rows)
+    assert f"{near.mean:.2f} ± {near.scatter:.2f}" in said.text
+    # Rexroth2006, 40x10x6-6 at 7 %: 0.61 to 1.01 N m
+    assert table.rows[0][:2] == ("40x10x6-6 at 7 %", "0.61 to 1.01 N m")
+    for _, interval, model, ratio in table.rows:
+        low, high = (float(end) for end in interval.removesuffix(" N m").split(" to "))
+        assert float(model.split()[0]) / ((low + high) / 2) == pytest.approx(float(ratio), rel=0.02)
+    assert not [s for s in content_of("feed_drive").sections if s.title == "Beside a vendor's rows"]
+
+
+def test_a_project_and_a_date_stand_on_it_only_if_somebody_says_so(content):
+    told = dataclasses.replace(content, heading=Heading.of(" Axis <2> ", "2026-11-23").lines)
+    for words in (
+        Page(html_bytes(told).decode()).words,
+        text_of(pypdf.PdfReader(io.BytesIO(pdf_bytes(told)))),
+    ):
+        assert "Project: Axis <2> · Date: 2026-11-23" in words
+    assert "Project" not in Page(html_bytes(content).decode()).words
+    assert Heading.of(None, "").lines == []
+    assert Heading.of("", "2026-11-23").lines == ["Date: 2026-11-23"]
+    for project, date, where in (("a\nb", "", "--project"), ("x" * 121, "", "--project"), ("", "23.11.2026", "--date")):
+        with pytest.raises(InputError, match=where):
+            Heading.of(project, date)
+
+
 # -- all cases ------------------------------------------------------------------------------------
 
 
@@ -335,13 +411,17 @@ def test_every_case_has_a_report_of_few_pages(name):
     reader = pypdf.PdfReader(io.BytesIO(pdf_bytes(content)))
     assert 1 <= len(reader.pages) <= content.pages
     moves, warms = case_of(name).motion is not None, case_of(name).surroundings is not None
-    assert content.pages == 4 + 2 * moves + warms
+    assert content.pages == 5 + 2 * moves + warms
     words = text_of(reader)
     assert f"page {len(reader.pages)} of {len(reader.pages)}" in words
-    assert not _NO_NUMBERS.search(words)
     found = Page(html_bytes(content).decode())
-    assert not _NO_NUMBERS.search(found.words)
-    assert len([tag for tag, _ in found.tags if tag == "figure"]) == 4 + moves + warms
+    for each in (words, found.words):
+        assert not _NO_NUMBERS.search(each)
+        assert not _EXPONENT.findall(each)
+    assert least_filled(reader) >= LEAST_FILLED
+    tornado = any("one uncertain input at a time" in text for text in pictures_of(content))
+    assert tornado == (name not in ("without load", "nothing"))
+    assert len([tag for tag, _ in found.tags if tag == "figure"]) == 4 + moves + warms + tornado
 
 
 # -- as a PDF -------------------------------------------------------------------------------------
@@ -356,7 +436,7 @@ def test_the_pdf_is_tagged_for_everybody(pdf):
     assert re.search(rb"<pdfuaid:part>1</pdfuaid:part>", root["/Metadata"].get_data())
     kinds = structure_of(pdf)
     assert [kind for kind, _ in kinds].count("/H1") == 1
-    assert [kind for kind, _ in kinds].count("/H2") == 8
+    assert [kind for kind, _ in kinds].count("/H2") == 10
     assert len([kind for kind, _ in kinds if kind == "/TH"]) > 20
     alternatives = [alt for kind, alt in kinds if kind == "/Figure"]
     assert len([alt for alt in alternatives if alt]) >= 4
@@ -399,7 +479,7 @@ def test_the_page_asks_for_nothing_from_outside(page):
 def test_the_page_is_for_everybody(page):
     assert ("html", {"lang": "en-GB"}) in page.tags
     headings = [tag for tag, _ in page.tags if re.fullmatch("h[1-6]", tag)]
-    assert headings == ["h1", *["h2"] * 8]
+    assert headings == ["h1", *["h2"] * 10]
     assert all(attributes.get("scope") in ("col", "row") for tag, attributes in page.tags if tag == "th")
     tables = [tag for tag, _ in page.tags if tag == "table"]
     assert len(tables) == len([tag for tag, _ in page.tags if tag == "caption"]) > 8
@@ -559,7 +639,7 @@ def test_columns_are_alike_in_length_and_keep_the_order():
 
 
 @pytest.mark.parametrize(
-    ("number", "words"), [(14494.0, "14490 N m"), (1e9, "1e+09 N m"), (-0.0, "0 N m"), (float("nan"), "–")]
+    ("number", "words"), [(14494.0, "14490 N m"), (1e9, "1000 million N m"), (-0.0, "0 N m"), (float("nan"), "–")]
 )
 def test_values_are_written_without_exponents_where_people_would(number, words):
     assert value(number, _TORQUE) == words
@@ -567,7 +647,7 @@ def test_values_are_written_without_exponents_where_people_would(number, words):
 
 def test_pictures_say_what_they_show(content):
     pictures = [block for section in content.sections for block in section.blocks if isinstance(block, Picture)]
-    assert len(pictures) == 4
+    assert len(pictures) == 5
     result = run(case_of("catalogue_screw")).friction
     assert f"at 600 rpm {float(result.screw_torque):.3g} N m" in pictures[1].words
     assert f"at 7000 N an efficiency of {float(result.efficiency):.3g}" in pictures[2].words

@@ -328,12 +328,16 @@ REPORTS = [
 
 @pytest.mark.parametrize(("stem", "kind"), REPORTS)
 def test_report(server, stem, kind, tmp_path):
-    """Byte for byte the file that the command writes."""
+    """Byte for byte the file that the command writes, with a project and a date where they are said."""
     path, to = PAPER.with_stem(stem), tmp_path / f"report.{kind}"
-    found = server.post(f"report?kind={kind}", {"case": tables_of(path)})
+    said = {"project": "Axis 2", "date": "2026-11-23"} if kind == "html" else {}
+    found = server.post(f"report?kind={kind}", {"case": tables_of(path), **said})
     assert found.headers["content-type"].partition(";")[0] == {"pdf": "application/pdf", "html": "text/html"}[kind]
-    printed("report", path, "-o", to)
+    printed("report", path, "-o", to, *(text for name, value in said.items() for text in (f"--{name}", value)))
     assert found.content == to.read_bytes()
+    assert (b"Project: Axis 2" in found.content) == bool(said)
+    refused = server.post("report", {"case": tables_of(path), "date": "tomorrow"})
+    assert (refused.status_code, refused.json()["faults"][0]["where"]) == (422, "--date")
 
 
 # -- what is refused ------------------------------------------------------------------------------

@@ -24,8 +24,8 @@ def test_what_is_saved_opens_again(server, paper, elastic):
         assert found == {
             "kind": "project", "comments": 0, "notes": [], "designs": [{"aside": {}, **one} for one in designs],
         }  # fmt: skip
-    saved = server.post("toml", {"case": paper, "aside": {"shop": {"bin": 7}}})
-    assert tomllib.loads(saved.text)["shop"] == {"bin": 7}
+    saved = server.post("toml", {"case": {**paper, "aside": {"shop": {"bin": 7}}}})
+    assert tomllib.loads(saved.text)["aside"] == {"shop": {"bin": 7}}
     (found,) = opened(server, "case.toml", saved.text).json()["designs"]
     assert found == {"name": "case", "case": paper, "aside": {"shop": {"bin": 7}}}
 

@@ -14,7 +14,7 @@ ENGLISH = languages.texts()["en"]
 OTHERS = [name for name in languages.texts() if name != "en"]
 SCRIPTS = {file.name: file.read_text(encoding="utf-8") for file in PAGE.rglob("*.js")}
 #: Texts whose English stands at their source in Python: annotations of fields, and names of the vocabulary.
-OF_PYTHON = ("field.", "mechanism.", "option.", "problem.", "record.", "start.")
+OF_PYTHON = ("cause.", "field.", "mechanism.", "option.", "problem.", "quantity.", "record.", "start.")
 #: Comments and patterns, which are skipped; then strings, and templates, of which what is computed is left out.
 _TOKEN = re.compile(
     r"""/\*.*?\*/|(?:^|\s)//[^\n]*|(?<=\()/(?:\\.|[^/\n\\])+/|"((?:\\.|[^"\\\n])*)"|'[^'\n]*'|`((?:\\.|[^`\\])*)`""",
@@ -25,7 +25,8 @@ _COMPUTED = re.compile(r"\$\{[^{}]*(?:\{[^{}]*\}[^{}]*)*\}")
 _WORDS = re.compile(r"[A-Za-z]{2,}[,:;]? [a-z]{2,}")
 #: Two words that nobody reads: classes of elements, units, selectors, and a defect of the page.
 CODES = {
-    "(prefers-color-scheme: dark)", "field given", "field start given", "input, select", "lbf in", "mm rpm",
+    "(prefers-color-scheme: dark)", "card-start whole-width", "chart low", "field given", "field start given",
+    "input, select", "lbf in", "line thin", "mm rpm",
     "no element #…", "no element …", "scroll whole", "verdict careful",
     # English remedies of the server for files, said for a page
     "fill in the section …", "fill in {", "in a file write", "the section …",

@@ -55,8 +55,8 @@ def test_by_keyboard_alone(visit, computed):
     assert here.page.evaluate("document.activeElement.id") == "f-operation-axial_load"
     keyboard.press("Control+A")
     keyboard.type("7.5")
-    keyboard.press("Tab")
-    keyboard.press("Tab")
+    for _ in range(3):  # the unit and the slider
+        keyboard.press("Tab")
     assert here.page.evaluate("document.activeElement.id") == "f-operation-screw_speed"
     keyboard.press("Control+A")
     keyboard.type("500")
@@ -331,7 +331,6 @@ def test_three_and_four_designs(visit, computed):
     here.settle().type("operation.axial_load", "2.5 kN")
     table = compared(here)
     assert list(table) == ["Design A", "Design B", "Design C", "Design D"]
-    assert here.page.locator("#add").is_disabled()
     for letter in "ABCD":
         here.page.locator(f"#design-{letter}").click()
         results = agree(here.settle(), computed(here))

@@ -10,6 +10,8 @@ declare global {
   type Checks = Schemas["Checks"];
   type Compare = Schemas["Compare"];
   type BandAnswer = Schemas["Band"];
+  type DutyAnswer = Schemas["Duty"];
+  type WarmUpAnswer = Schemas["WarmUp"];
   type Vocabulary = Schemas["Vocabulary"];
   type UnitChoice = Schemas["UnitChoice"];
   type Mechanisms = Vocabulary["mechanisms"];
@@ -19,9 +21,12 @@ declare global {
   type ProblemDocument = Schemas["Problem"];
   type FaultLine = Schemas["FaultLine"];
   type CatalogueRow = Schemas["Row"];
+  type Opened = Schemas["Opened"];
+  type Select = Schemas["Select"];
 
   var Plotly: {
     react(place: Element, traces: object[], layout: object, config: object): Promise<void>;
+    restyle(place: Element, changes: object, traces: number[]): Promise<void>;
     toImage(figure: object, options: object): Promise<string>;
   };
   var SwaggerUIBundle: (options: object) => void;

@@ -208,6 +208,7 @@ def case_file() -> type[BaseModel]:
         Field(description='axes of a sweep by field, "100:4000:14 N" (start:stop:count) or "100, 200, 500 N"'),
     ]
     fit = Annotated[dict[str, Any], Field(description="what ballscrew fit left beside the numbers that it found")]
+    aside = Annotated[dict[str, Any], Field(description="what somebody keeps with a case; no command reads it")]
     return create_model(
         "BallscrewCase",
         __config__=ConfigDict(extra="forbid", title="ballscrew case file", json_schema_extra=_ALTERNATIVES),
@@ -216,6 +217,7 @@ def case_file() -> type[BaseModel]:
         model=(parts["model"], Field(default=None)),
         sweep=(axes, Field(default=None)),
         calibration=(fit, Field(default=None)),
+        aside=(aside, Field(default=None)),
     )
 
 

@@ -48,8 +48,10 @@ from ballscrew.thermal.written_bands import written_bands
 from ballscrew.units import in_display_units
 
 _NEEDED = ("screw", "lubricant", "operation")
+#: What somebody keeps with a case; no command reads it.
+ASIDE = "aside"
 #: The sections that a case may have.
-SECTIONS = (*_NEEDED, *NUT_TABLES, *DUTY_TABLES, *SUPPORT_TABLES, "model", "sweep", "calibration")
+SECTIONS = (*_NEEDED, *NUT_TABLES, *DUTY_TABLES, *SUPPORT_TABLES, "model", "sweep", "calibration", ASIDE)
 
 
 def load(

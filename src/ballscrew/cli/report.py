@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 import importlib.util
 from pathlib import Path
 from typing import Annotated, Literal
@@ -25,13 +26,17 @@ def report(
     samples: Annotated[
         int | None, typer.Option("--samples", metavar="N", help="Of the band: 16384; where balls differ 1024.")
     ] = None,
+    project: Annotated[str | None, typer.Option("--project", metavar="NAME", help="Stands below the title.")] = None,
+    date: Annotated[
+        str | None, typer.Option("--date", metavar="DATE", help="Such as 2026-11-23, or today; none by itself.")
+    ] = None,
     allow_code: AllowCode = False,
 ) -> None:
-    """A report to file: drawing, results, curves, band, checks, inputs and sources on up to four pages.
+    """A report to file: checks, results with their bands, drawing, curves, what makes the band, inputs, sources.
 
-    Of a case with a motion it has the cycle, too, on two pages more, and with [surroundings] four hours of warming up
-    on one. The .html is one file that asks for
-    nothing from outside; the .pdf can be read by machines, too (PDF/UA-1). The same case gives the same bytes.
+    It has up to five pages, two more of a case with a motion, and one more with [surroundings], for four hours of
+    warming up. The .html is one file that asks for nothing from outside; the .pdf can be read by machines, too
+    (PDF/UA-1). The same case gives the same bytes: a date stands on it only where --date says one.
     """
     from ballscrew.errors import Fault, InputError
 
@@ -43,14 +48,16 @@ def report(
         raise InputError(Fault(_TO, f"needs {' and '.join(missing)}", str(to), 'pip install "ballscrew[report]"'))
     from ballscrew.cases import case_file
     from ballscrew.files import atomic_write, check_writable
+    from ballscrew.report.heading import Heading
 
     loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
+    heading = Heading.of(project, datetime.date.today().isoformat() if date == "today" else date)
     check_writable(_TO, to)
     from ballscrew.command_options.progress import progress
     from ballscrew.report.contents import report_bytes
 
     with progress("report") as done:
-        written = report_bytes(loaded, _KINDS[kind], done, samples)
+        written = report_bytes(loaded, _KINDS[kind], done, samples, heading)
     with atomic_write(_TO, to) as path:
         path.write_bytes(written)
     typer.echo(f"{to}: report of {case.name}, {len(written) // 1000} kB")

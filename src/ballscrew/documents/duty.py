@@ -14,6 +14,7 @@ from ballscrew.axis_studies import duty_records
 from ballscrew.axis_studies.duty import NUMBERS, DutyReport, slug_of
 from ballscrew.cases import case_file, provenance
 from ballscrew.records import documents
+from ballscrew.sizing.checks import Check
 
 if TYPE_CHECKING:  # loads xarray
     from ballscrew.axis_studies.duty_band import DutyBandReport
@@ -42,7 +43,7 @@ def document(report: DutyReport) -> dict[str, Any]:
         "units": _units(report),
         "warnings": documents(duty_records.warnings(report)),
         "verdicts": documents(duty_records.verdicts(report)),
-        "checks": documents(check.record for check in report.checks),
+        "checks": [_check(check) for check in report.checks],
         "provenance": provenance.of_case(report.case),
     }
 
@@ -114,6 +115,12 @@ def _cycle(report: DutyReport) -> dict[str, Any]:
             slug_of(cause): [float(value) for value in part[::every]] for cause, part in report.torque_by_cause.items()
         },
     }
+
+
+def _check(check: Check) -> dict[str, Any]:
+    """A check as a record, with the share of its limit that is used and what it lacks."""
+    beside = {"name": check.name, "utilisation": check.utilisation, "missing": check.missing}
+    return {**check.record.document(), **beside}
 
 
 def _by_slug(parts: Mapping[str, float]) -> dict[str, float]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ballscrew.axis_studies import warm_up_records
 from ballscrew.axis_studies.warm_up import EQUILIBRIUM, SERIES, WarmUpReport
 from ballscrew.axis_studies.warm_up_records import band_records
-from ballscrew.cases import case_file, provenance
+from ballscrew.cases import case_file, duty_tables, provenance
 from ballscrew.quantities import Quantity
 from ballscrew.records import documents
 
@@ -27,7 +27,8 @@ _NETWORK: Mapping[str, str] = {
 def document(report: WarmUpReport) -> dict[str, Any]:
     """The document of warming up, in SI."""
     return {
-        "inputs": case_file.inputs(report.case),
+        # with the surroundings that count where the case gives none
+        "inputs": {**duty_tables.inputs(None, None, None, report.surroundings), **case_file.inputs(report.case)},
         "results": results(report),
         "units": _units(),
         "assumed": list(report.assumed),

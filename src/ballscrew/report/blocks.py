@@ -7,11 +7,13 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
 from ballscrew import units
 from ballscrew.quantities import Quantity
+from ballscrew.report.numbers import plain
 
 
 @dataclasses.dataclass(frozen=True)
@@ -84,10 +86,11 @@ class Columns:
         return cls(tables[:cut], tables[cut:])
 
 
+#: What people wrote stays as it is.
+_OF_PEOPLE = ("heading",)
+_BETWEEN_TAGS = re.compile(r">[^<]+<")
 #: Rows that the title and the headings of a table take.
 _HEAD = 2.5
-#: From here on numbers have an exponent.
-_LARGE = 1e7
 Block: TypeAlias = Paragraph | Bullets | Links | Table | Picture | Columns
 
 
@@ -109,7 +112,9 @@ class Report:
     #: What wrote it, on every page.
     made_by: str
     #: Pages at most, as far as a smaller type can do it.
-    pages: int = 4
+    pages: int = 5
+    #: Whose report it is, and of when, where somebody says so.
+    heading: Sequence[str] = ()
 
 
 def sentence(words: str) -> str:
@@ -118,23 +123,25 @@ def sentence(words: str) -> str:
 
 
 def value(number: float, quantity: Quantity) -> str:
-    """A number with its unit, without an exponent where a person would write none; a dash where there is none."""
+    """A number with its unit, written as people do; a dash where there is none."""
     if not math.isfinite(number):
         return "–"
-    digits, unit = units.rounded(number + 0.0, quantity), units.label(quantity)
-    if "e+" in digits and abs(float(digits)) < _LARGE:
-        digits = f"{float(digits):.10g}"
+    digits, unit = plain(units.rounded(number + 0.0, quantity)), units.label(quantity)
     return f"{digits} {unit}" if unit else digits
 
 
 def as_data(report: Report) -> dict[str, Any]:
-    """A report as JSON has it; each block and each bar with its kind."""
+    """A report as JSON has it; each block and each bar with its kind. No text has a number with an exponent."""
 
-    def data(part: Any) -> Any:
+    def data(part: Any, name: str = "") -> Any:
         if dataclasses.is_dataclass(part) and not isinstance(part, type):
-            fields: Mapping[str, Any] = {f.name: data(getattr(part, f.name)) for f in dataclasses.fields(part)}
+            fields: Mapping[str, Any] = {f.name: data(getattr(part, f.name), f.name) for f in dataclasses.fields(part)}
             return {"kind": type(part).__name__, **fields}
-        return [data(each) for each in part] if isinstance(part, list | tuple) else part
+        if isinstance(part, list | tuple):
+            return [data(each, name) for each in part]
+        if not isinstance(part, str) or name in _OF_PEOPLE:
+            return part
+        return _BETWEEN_TAGS.sub(lambda found: plain(found[0]), part) if name == "svg" else plain(part)
 
     found: dict[str, Any] = data(report)
     return found

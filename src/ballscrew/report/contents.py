@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Callable, Sequence
 from typing import Any, Literal
@@ -11,11 +12,12 @@ import numpy as np
 from ballscrew._version import __version__
 from ballscrew.cases import case_file, descriptions
 from ballscrew.output import bibliography
-from ballscrew.report import input_tables, result_tables
+from ballscrew.report import band_section, input_tables, result_tables
 from ballscrew.report.blocks import Block, Columns, Links, Paragraph, Picture, Report, Section, Table, sentence
 from ballscrew.report.contact_geometry import drawn_ball
 from ballscrew.report.curves import Curves, curves
 from ballscrew.report.drawing import drawing
+from ballscrew.report.heading import Heading
 from ballscrew.studies import band
 from ballscrew.studies.check import checked
 from ballscrew.studies.run import Run, run
@@ -25,17 +27,25 @@ Kind = Literal["pdf", "html"]
 #: How far along the work is after its steps, of a hundred: the answer, the band, the curves.
 _ANSWERED, _BANDED, _DRAWN, _ALL = 5, 60, 85, 100
 #: Pages at most, and how many more a cycle of motion and the heat may take.
-_PAGES, _PAGES_OF_CYCLE, _PAGES_OF_HEAT = 4, 2, 1
+_PAGES, _PAGES_OF_CYCLE, _PAGES_OF_HEAT = 5, 2, 1
+#: Nobody says whose report it is.
+NO_HEADING = Heading()
 #: Sources of what a report says besides the model: the ratings and checks.
 _OF_CHECKS = ("ISO3408-5", "ISO76")
 
 
-def report_bytes(case: case_file.Case, kind: Kind, done: Done | None = None, samples: int | None = None) -> bytes:
-    """The report of a case as a PDF or HTML file; equal cases give equal bytes.
+def report_bytes(
+    case: case_file.Case,
+    kind: Kind,
+    done: Done | None = None,
+    samples: int | None = None,
+    heading: Heading = NO_HEADING,
+) -> bytes:
+    """The report of a case as a PDF or HTML file; equal cases with equal headings give equal bytes.
 
     ``done(finished, total)`` is told how far it is. Needs the extra ``report``.
     """
-    found = content(case, done, samples)
+    found = dataclasses.replace(content(case, done, samples), heading=heading.lines)
     if kind == "html":
         from ballscrew.report.html import html_bytes
 
@@ -66,13 +76,16 @@ def content(case: case_file.Case, done: Done | None = None, samples: int | None 
     pictures = _pictures(curves(case))
     _tell(done, _DRAWN)
     inputs = input_tables.tables(case)
-    of_checks = checked("", case)
+    bands = uncertain.band.outputs if band_section.has_band(uncertain) else {}
+    beside = band_section.vendor_blocks(case)
     sections = [
-        Section("Result", [*_answer(found), *_drawing(found)]),
+        Section("Answer", [band_section.answer(found, uncertain)]),
+        Section("Checks", result_tables.checks(checked("", case, known=found))),
+        Section("Result", [Columns.of(result_tables.results(found, bands)), *_drawing(found)]),
         Section("Where the torque comes from", result_tables.parts(found)),
         Section("Around the operating point", pictures),
-        Section("How far off it may be", result_tables.band_blocks(case, uncertain)),
-        Section("Checks", result_tables.checks(of_checks)),
+        Section("How far off it may be", band_section.blocks(case, uncertain)),
+        *([Section("Beside a vendor's rows", beside)] if beside else []),
         *_cycle(case),
         *_heat(case),
         Section("What to beware of", result_tables.beware(found)),
@@ -109,13 +122,6 @@ def _subtitle(case: case_file.Case) -> list[str]:
     nut = [] if case.nut is None else [descriptions.nut_text(case.nut)]
     lines = [*of_row, descriptions.design(case, plain_text=True), *nut]
     return [*lines, f"{descriptions.operating_point(case)}; {descriptions.model_text(case)}"]
-
-
-def _answer(found: Run) -> list[Block]:
-    verdicts = [record.text for record in found.verdicts]
-    lines = [f"{sentence(line)}." for line in verdicts]
-    text = " ".join([result_tables.headline(found), *lines])
-    return [Paragraph(text, strong=True), Columns.of(result_tables.results(found))]
 
 
 def _drawing(found: Run) -> list[Block]:

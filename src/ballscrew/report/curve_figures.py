@@ -25,7 +25,7 @@ _WIDTH, _HEIGHT = 7.1, 2.5
 _SMALL: Any = {
     "font.size": 8.5, "axes.titlesize": 9, "axes.labelsize": 8.5, "legend.fontsize": 7.5, "xtick.labelsize": 8,
     "ytick.labelsize": 8, "lines.linewidth": 1.5, "svg.fonttype": "none", "figure.facecolor": "none",
-    "axes.facecolor": "none", "legend.framealpha": 0.0,
+    "axes.facecolor": "none", "legend.framealpha": 0.0, "axes.formatter.limits": (-9, 9),
 }  # fmt: skip
 _SPEED, _LOAD = "speed of the screw (rpm)", "axial load (N)"
 #: From pale to strong, so that black numbers are read on it.

@@ -18,6 +18,8 @@ Numbers = NDArray[np.float64]
 Masks = NDArray[np.bool_]
 #: How far curves go beyond the operating point, and how many points they have.
 BEYOND, POINTS, MAP_POINTS, FIRST = 2.0, 61, 25, 0.02
+#: The points of a map along each axis where the balls of a nut are solved one by one: half of the time of a report.
+MAP_POINTS_OF_NUT = 17
 #: Where the curves of a case at rest or without load end.
 SPEED, LOAD, SHARE_OF_RATING = 1200 * np.pi / 30, 2000.0, 0.2
 _KNOWN = fields_of(OperatingState)
@@ -74,7 +76,8 @@ def curves(case: Case) -> Curves:
     most_load = BEYOND * load or (LOAD if rating is None else SHARE_OF_RATING * rating)
     most_speed = BEYOND * speed or SPEED
     speeds, loads = (np.linspace(0.0, most, POINTS) for most in (most_speed, most_load))
-    map_loads, map_speeds = (np.linspace(FIRST, 1.0, MAP_POINTS) * most for most in (most_load, most_speed))
+    of_map = MAP_POINTS_OF_NUT if case.screw.nut.one_by_one else MAP_POINTS
+    map_loads, map_speeds = (np.linspace(FIRST, 1.0, of_map) * most for most in (most_load, most_speed))
     with np.errstate(all="ignore"):
         over_speed = friction(np.full_like(speeds, load), speeds)
         over_load = friction(loads[1:], np.full_like(loads[1:], speed))

@@ -1,29 +1,27 @@
-"""The results of a case for its report: tables of torque, parts, contacts, band and checks."""
+"""The results of a case for its report: tables of torque, parts, contacts and checks."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
-from ballscrew.cases import case_file, descriptions
+from ballscrew.cases import descriptions
 from ballscrew.components.contact import RaceState
-from ballscrew.evaluation.outputs import known_outputs
 from ballscrew.friction.result import MECHANISMS, FrictionResult
-from ballscrew.quantities import quantities_of
+from ballscrew.quantities import Quantity, quantities_of
 from ballscrew.records import Record
 from ballscrew.report.blocks import Bar, Block, Bullets, Paragraph, Table, sentence
 from ballscrew.report.blocks import value as value_of
+from ballscrew.report.numbers import banded
 from ballscrew.screw_tables.nut_kinds import LISTED
 from ballscrew.sizing.checks import Check
 from ballscrew.solvers.load_distribution import BallLoads
-from ballscrew.studies.band import BandReport
 from ballscrew.studies.check import Checked
 from ballscrew.studies.run import Run
-from ballscrew.text import band
 from ballscrew.text import check as check_text
 from ballscrew.text.run import SHORT, rigidity_rows, stiffness_fields
-from ballscrew.uncertainty.bands import Interval
+from ballscrew.uncertainty.bands import OutputBand
 
 _ONE, _LOADS = quantities_of(FrictionResult), quantities_of(BallLoads)
 _CONTACT = quantities_of(RaceState)
@@ -47,20 +45,31 @@ _SHORT: Mapping[str, str] = {
 }
 
 
-def results(run: Run) -> list[Table]:
-    """Torque, efficiency and power; of a nut how it gives way; and the contacts with screw and nut."""
-    rows = [_row(run.friction, name, run.quantities) for name in _RESULTS if name in run.quantities]
+def results(run: Run, bands: Mapping[str, OutputBand]) -> list[Table]:
+    """Torque, efficiency and power with their bands; of a nut how it gives way; and the contacts with screw and nut."""
+    rows = [_with_band(run.friction, name, run.quantities, bands) for name in _RESULTS if name in run.quantities]
     stiff, whose = [], "Contacts of each ball"
     if run.nut is not None:
-        rows.insert(1, ("torque without load", value_of(run.nut.preload_drag, _TORQUE)))
+        rows.insert(1, ("torque without load", value_of(run.nut.preload_drag, _TORQUE), ""))
         stiff = [_row(run.nut.loads, name, _LOADS) for name in stiffness_fields(run.nut)]
         stiff.append(_row(run.nut, "maximum_pressure", _ONE))
         stiff += rigidity_rows(run.nut.rigidity)
         whose = "Contacts of the most loaded ball"
-    tables = [Table("Torque, efficiency and power", ("", "value"), rows)]
+    tables = [Table("Torque, efficiency and power", ("", "value", "band"), rows)]
     if stiff:
         tables.append(Table("How the nut gives way", ("", "value"), stiff))
     return [*tables, _contacts(whose, run.contacts, run.curvature_alone)]
+
+
+def _with_band(
+    result: Any, name: str, known: Mapping[str, Quantity], bands: Mapping[str, OutputBand]
+) -> tuple[str, str, str]:
+    """A result, its value with the digits that its band leaves, and the band where it has one."""
+    words, value = _row(result, name, known)
+    if name not in bands:
+        return words, value, ""
+    said = banded(float(getattr(result, name)), *bands[name].both, known[name])
+    return words, said.value, said.interval
 
 
 def _row(result: Any, name: str, known: Mapping[str, Any]) -> tuple[str, str]:
@@ -100,69 +109,6 @@ def parts(run: Run) -> list[Block]:
     ]
     rows.append(("together", value_of(total, _TORQUE), "100.0%", Bar(0.0, 1.0)))
     return [Table("Parts of the friction torque on the screw", ("", "torque", "share", ""), rows, wide=3)]
-
-
-# -- the band -------------------------------------------------------------------------------------
-
-
-def band_blocks(case: case_file.Case, report: BandReport) -> list[Block]:
-    """Band of the results, its causes, and the uncertain inputs."""
-    summary = [
-        Paragraph(
-            f"{'. '.join(map(sentence, (verdict.text for verdict in band.verdicts(case, report))))}.", strong=True
-        )
-    ]
-    torque = report.band["screw_torque"]
-    if not math.isfinite(torque.median) or torque.both == (0.0, 0.0):
-        return [*summary]
-    warnings = band.warnings(report)
-    warned = [Bullets([f"Beware: {one.text}." for one in warnings])] if warnings else []
-    laws = band.exchanged_laws(case, report)
-    exchanged = [Paragraph(f"{': '.join(filter(None, [sentence(laws.heading), '; '.join(laws.entries)]))}.")]
-    inputs: list[Block] = [Paragraph(f"{band.input_counts(report)}.")]
-    for heading, entries in band.uncertain_inputs(report):
-        inputs += [Paragraph(f"{sentence(heading)}:"), Bullets(entries)]
-    return [*summary, _causes(report), _followers(case, report), *warned, *exchanged * bool(laws.heading), *inputs]
-
-
-def _causes(report: BandReport) -> Table:
-    torque = report.band["screw_torque"]
-    intervals = band.intervals(torque)
-    share = torque.share_of_parameters
-    shares = ["", *(f"{part:.0%}" if math.isfinite(part) else "–" for part in (share, 1 - share))]
-    ends = [end for interval in intervals for end in interval if math.isfinite(end)]
-    rows = [
-        (words, *(value_of(end, _TORQUE) for end in interval), part, _bar(interval, torque.value, ends))
-        for words, interval, part in zip(band.CAUSES, intervals, shares, strict=True)
-    ]
-    level = f"{100 * report.band.level:.4g} %"
-    return Table(
-        f"Friction torque on the screw: {level} of the samples, and the share of its variance",
-        ("because of", "from", "to", "share", ""),
-        rows,
-        wide=4,
-        note="Bars: from and to on one axis; the stroke is the value of the case.",
-    )
-
-
-def _bar(interval: Interval, value: float, ends: Sequence[float]) -> Bar | str:
-    if not ends or not all(map(math.isfinite, (*interval, value))):
-        return ""
-    low, high = min(*ends, value), max(*ends, value)
-    if high == low:
-        return ""
-    places = [(x - low) / (high - low) for x in (*interval, value)]
-    return Bar(*places)
-
-
-def _followers(case: case_file.Case, report: BandReport) -> Table:
-    known = known_outputs(case.screw.nut)
-    rows: list[tuple[str, ...]] = []
-    for name in band.SHOWN:
-        quantity, one = known[name].quantity, report.band[name]
-        numbers = (one.value, one.median, *one.both)
-        rows.append((_SHORT.get(name, quantity.info.meaning), *(value_of(x, quantity) for x in numbers)))
-    return Table("What follows from it", ("", "case", "median", "from", "to"), rows)
 
 
 # -- the checks -----------------------------------------------------------------------------------
@@ -225,20 +171,3 @@ def beware(run: Run) -> list[Block]:
 def _warning(record: Record) -> str:
     """The reason and its text; the loss of the preload is a sentence of its own."""
     return f"{record.name}: {record.text}" if record.id == f"validity.{record.name}" else record.text
-
-
-def headline(run: Run) -> str:
-    """The answer in a sentence or two."""
-    found = run.friction
-    torque, efficiency = float(found.screw_torque), float(found.efficiency)
-    power = value_of(float(found.friction_power), _ONE["friction_power"])
-    if not math.isfinite(torque):
-        return "No friction torque came out: it is no number here."
-    words = [f"Friction torque on the screw {value_of(torque, _TORQUE)}"]
-    if math.isfinite(efficiency):
-        words.append(f"efficiency {efficiency:.1%}")
-    elif float(found.axial_load) != 0:
-        words.append(f"efficiency, the load drives the screw, {float(found.back_driving_efficiency):.1%}")
-    words.append(f"power lost {power}")
-    outside = "" if found.valid else " (outside the model's validity)"
-    return f"{', '.join(words)}{outside}."

@@ -2,30 +2,40 @@
 
 from __future__ import annotations
 
-import re
+import json
+from typing import Any, NamedTuple
 
-#: Sizes of letters that are tried until a report has no more pages than it may have, in points.
-_SIZES = ("9.6", "9", "8.4", "7.8")
-_PAGE = re.compile(rb"/Type\s*/Page\b")
+#: Sizes of letters that are tried, in points: the first with which no page is nearly blank, and no page too many.
+_SIZES = ("9.6", "9.2", "8.8", "8.4", "8", "7.6")
+#: Share of the last page that a report fills at least, where a size of letters can do it.
+LEAST_OF_LAST_PAGE = 0.3
+
+
+class _Extent(NamedTuple):
+    """Pages of a report, and how much of the last one is filled."""
+
+    pages: int
+    last: float
 
 
 def pdf(template: str, data: str, fonts: str, pages: int) -> bytes:
     """The template as a PDF file, with the data as its input ``report``, and fonts of a folder beside Typst's own.
 
-    The type gets smaller where there would be more pages.
+    The type gets smaller where there would be more pages, or little on the last one.
     """
     import typst
 
     found = typst.Fonts(include_system_fonts=False, include_embedded_fonts=True, font_paths=[fonts])
-    written = b""
+    source = template.encode()
+
+    def compiler(size: str) -> Any:
+        return typst.Compiler(input=source, font_paths=found, sys_inputs={"report": data, "size": size})
+
+    extents: dict[str, _Extent] = {}
     for size in _SIZES:
-        written = typst.compile(
-            template.encode(),
-            format="pdf",
-            font_paths=found,
-            sys_inputs={"report": data, "size": size},
-            pdf_standards=["ua-1"],
-        )
-        if len(_PAGE.findall(written)) <= pages:
-            break
-    return written
+        end = json.loads(compiler(size).query("<end>", field="value", one=True))
+        extents[size] = _Extent(end["page"], end["share"])
+        if extents[size].pages <= pages and extents[size].last >= LEAST_OF_LAST_PAGE:
+            return bytes(compiler(size).compile(input=source, format="pdf", pdf_standards=["ua-1"]))
+    best = min(extents, key=lambda size: (max(extents[size].pages, pages), -extents[size].last))
+    return bytes(compiler(best).compile(input=source, format="pdf", pdf_standards=["ua-1"]))

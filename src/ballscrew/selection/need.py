@@ -50,7 +50,7 @@ _SECTIONS = {"duty": "motion", "optimize": "optimise", "optimisation": "optimise
 #: Names that could mean the speed under the load, or one that no load goes with.
 _ANY_SPEED = ("max_speed", "maximum_speed", "largest_speed", "max_feed", "rapid", "rapid_feed", "rapid_traverse")
 #: Sections of a file of a need that a case file has not, or has beside its sections.
-_OTHERS = ("need", "optimise", "sweep", "calibration", "price_index")
+_OTHERS = ("need", "optimise", "sweep", "calibration", "price_index", "aside")
 #: Kind of the faults of names that are not known: what they meant may then be missing.
 _UNKNOWN = "unknown"
 _BACK_DRIVING = {

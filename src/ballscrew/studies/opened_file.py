@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +41,7 @@ class OpenedFile:
 def opened(path: Path) -> OpenedFile:
     """The designs of a file. Raises :class:`~ballscrew.errors.InputError` where it has none.
 
-    Tables of a case that no section of a case file is called by are kept aside.
+    Tables that no case has are kept aside.
     """
     begin = read_bytes(path, case_text.LARGEST_FILE)[:8] if path.is_file() else b""
     if path.suffix.lower() in _TABLES or is_spreadsheet(path, begin):
@@ -62,9 +62,12 @@ def opened(path: Path) -> OpenedFile:
 
 
 def _kept(design: Design) -> Design:
-    """A design with all tables that no case has kept aside."""
+    """A design with all tables that no case has kept aside, beside what its file keeps so."""
     known = {name: value for name, value in design.tables.items() if name in case_file.SECTIONS}
-    others: Mapping[str, Any] = {name: value for name, value in design.tables.items() if name not in known}
+    others: dict[str, Any] = {name: value for name, value in design.tables.items() if name not in known}
+    aside = known.get(case_file.ASIDE)
+    if isinstance(aside, dict):
+        others |= known.pop(case_file.ASIDE)
     return Design(design.name, known, {**others, **design.aside})
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import functools
 import math
+import re
 from collections.abc import Mapping, Sequence
 from importlib import resources
 from typing import NamedTuple
@@ -22,6 +23,8 @@ _SETS: Mapping[type[Nut], str] = {
     OffsetLeadNut: "rexroth-double-nut",
     OversizeBallNut: "rexroth-single-nut",
 }
+#: A column of least torques at a share of the dynamic load rating.
+_LEAST = re.compile(r"no_load_torque_(\d+)pct_min_Nm")
 #: The column of the model as it is.
 UNCALIBRATED = "uncalibrated"
 
@@ -33,6 +36,9 @@ class NearRows(NamedTuple):
     rows: Sequence[str]
     mean: float
     scatter: float
+    #: Of each row model / middle, and the ends of the vendor's band of the no-load torque, N m.
+    ratios: Sequence[float]
+    bands: Sequence[tuple[float, float]]
 
 
 def near_rows(screw: BallScrew, calibration: str | None = None) -> NearRows | None:
@@ -56,10 +62,29 @@ def near_rows(screw: BallScrew, calibration: str | None = None) -> NearRows | No
         return None
     near = [rows[i] for i in np.argsort(distances, kind="stable")[:NEAREST]]
     ratios = [float(row[column]) for row in near]
-    return NearRows(str(name), [row["row"] for row in near], float(np.mean(ratios)), float(np.std(ratios, ddof=1)))
+    names = [row["row"] for row in near]
+    bands = [_bands(str(name))[row] for row in names]
+    return NearRows(str(name), names, float(np.mean(ratios)), float(np.std(ratios, ddof=1)), ratios, bands)
 
 
 @functools.cache
 def _ratios() -> Sequence[Mapping[str, str]]:
-    text = resources.files("ballscrew").joinpath("data/validation/ratios.csv").read_text(encoding="utf-8")
+    return _read("ratios")
+
+
+@functools.cache
+def _bands(data: str) -> Mapping[str, tuple[float, float]]:
+    """The no-load torques of a vendor's rows, least and greatest, by the names that the stored ratios have."""
+    found: dict[str, tuple[float, float]] = {}
+    for row in _read(data):
+        sizes = "x".join(row[f"{name}_mm"] for name in ("nominal_diameter", "lead", "ball_diameter"))
+        for column, least in row.items():
+            if (share := _LEAST.fullmatch(column)) is not None:
+                greatest = float(row[column.replace("_min_", "_max_")])
+                found[f"{sizes}-{row['circuits']} at {share[1]} %"] = float(least), greatest
+    return found
+
+
+def _read(data: str) -> Sequence[Mapping[str, str]]:
+    text = resources.files("ballscrew").joinpath(f"data/validation/{data}.csv").read_text(encoding="utf-8")
     return list(csv.DictReader(line for line in text.splitlines() if not line.startswith("#")))

@@ -98,6 +98,14 @@ class Record(Closed):
     text: str = Field(description="a sentence for people")
 
 
+class JudgedCheck(Record):
+    """One check; null stands for what is not known."""
+
+    name: str
+    utilisation: Number = Field(description="share of the limit that is used: above 1 it fails")
+    missing: str = Field(description="the input without which it is not judged; empty where it is")
+
+
 class VendorRows(Closed):
     """Model over vendor for the rows most like the nut, without load."""
 

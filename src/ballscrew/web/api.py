@@ -26,6 +26,7 @@ from ballscrew.documents import sweep as sweep_documents
 from ballscrew.documents import validation as validation_documents
 from ballscrew.documents import warm_up as warm_up_documents
 from ballscrew.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.report.heading import Heading
 from ballscrew.screw_tables import catalogue as rows
 from ballscrew.selection.need import need_of
 from ballscrew.selection.selection import select as selected
@@ -53,6 +54,7 @@ from ballscrew.web.bodies import (
     CaseBody,
     DutyBody,
     NeedBody,
+    ReportBody,
     SweepBody,
     WarmUpBody,
     case_of,
@@ -326,21 +328,23 @@ async def drawing_template(request: Request) -> Response:
     return await of_body(request, work)
 
 
-@router.post("/report", openapi_extra=openapi.body(CaseBody), responses=openapi.text(*KINDS.values()))
+@router.post("/report", openapi_extra=openapi.body(ReportBody), responses=openapi.text(*KINDS.values()))
 async def report(
     request: Request,
     kind: Annotated[str, Query(json_schema_extra={"enum": [*KINDS]}, description="the kind of file")] = "pdf",
 ) -> Response:
     """The report of a case, as ``ballscrew report`` writes it."""
-    body: CaseBody = await read(request, CaseBody)
+    body: ReportBody = await read(request, ReportBody)
     if kind not in KINDS:
         raise InputError(Fault("?kind", "unknown kind of file", kind, nearest(kind, KINDS)))
+    heading = Heading.of(body.project, body.date)
 
     def work(done: Deadline) -> Response:
-        from ballscrew.report.contents import report_bytes  # slow to import
+        from ballscrew.report.contents import Kind, report_bytes  # slow to import
 
         case = case_of(body.case)
-        found = report_bytes(case, "pdf" if kind == "pdf" else "html", done, samples=limits.samples_of(case))
+        written: Kind = "pdf" if kind == "pdf" else "html"
+        found = report_bytes(case, written, done, limits.samples_of(case), heading)
         return Response(found, media_type=KINDS[kind])
 
     return await heavy(request, work)

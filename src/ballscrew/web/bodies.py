@@ -110,10 +110,11 @@ class ProjectBody(Body):
     designs: list[Tables]
 
 
-class TomlBody(CaseBody):
-    """A case, and tables that are no part of it and stand in its file."""
+class ReportBody(CaseBody):
+    """A case, and what may stand below the title of its report: the name of a project, and a date."""
 
-    aside: Tables = Field(default_factory=dict)
+    project: str = Field(default="", strict=True)
+    date: str = Field(default="", strict=True, description="such as 2026-11-23; none by itself")
 
 
 class SweepBody(CaseBody):

@@ -4,16 +4,23 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from ballscrew.web.answer_parts import Closed, Number, Provenance, Record, Tables, Template, VendorRows, field
+from ballscrew.web.answer_parts import (
+    Closed,
+    JudgedCheck,
+    Number,
+    Provenance,
+    Record,
+    Tables,
+    Template,
+    VendorRows,
+    field,
+)
 from ballscrew.web.answers import Results
 
 
-class OneCheck(Record):
-    """One check; null stands for what is not known."""
+class OneCheck(JudgedCheck):
+    """A check with its text for people."""
 
-    name: str
-    utilisation: Number = Field(description="share of the limit that is used: above 1 it fails")
-    missing: str = Field(description="the input without which it is not judged; empty where it is")
     passes: bool | None = Field(description="as ``holds``")
     words: str = Field(description="as ``text``")
     display: Template

@@ -6,6 +6,7 @@ from ballscrew.axis_studies.duty import NUMBERS
 from ballscrew.axis_studies.stiffness import FRICTION, LOAD, SERIES, SPEED
 from ballscrew.web.answer_parts import (
     Closed,
+    JudgedCheck,
     Number,
     Numbers,
     Open,
@@ -84,7 +85,7 @@ class Duty(Closed):
     results: DutyResults  # pyright: ignore[reportInvalidTypeForm]  (a model made from the annotations)
     units: Tables
     verdicts: list[Record]
-    checks: list[Record]
+    checks: list[JudgedCheck]
     warnings: list[Record]
     provenance: Provenance
 

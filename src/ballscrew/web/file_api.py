@@ -13,7 +13,7 @@ from ballscrew.errors import Fault, InputError, nearest
 from ballscrew.output.json_text import as_json as json_text
 from ballscrew.studies.opened_file import opened
 from ballscrew.web import file_answers, openapi
-from ballscrew.web.bodies import LONGEST_TICKET, OpenBody, ProjectBody, TomlBody, case_of, read, refuse_nulls
+from ballscrew.web.bodies import LONGEST_TICKET, CaseBody, OpenBody, ProjectBody, case_of, read, refuse_nulls
 from ballscrew.web.endpoint_parts import as_json, heavy, queue_of
 from ballscrew.web.progress import progress_of
 from ballscrew.web.sent_files import written
@@ -40,14 +40,12 @@ async def open_file(request: Request) -> Response:
     return await heavy(request, work)
 
 
-@router.post("/toml", openapi_extra=openapi.body(TomlBody), responses=openapi.text("application/toml"))
+@router.post("/toml", openapi_extra=openapi.body(CaseBody), responses=openapi.text("application/toml"))
 async def toml(request: Request) -> Response:
-    """The case as a file, ready for ``ballscrew run``; tables kept ``aside`` come last, and no command reads them."""
-    body: TomlBody = await read(request, TomlBody)
-    refuse_nulls(body.aside)
+    """The case as a file, ready for ``ballscrew run``."""
+    body: CaseBody = await read(request, CaseBody)
     await queue_of(request).quick(lambda: case_of(body.case))
-    aside = {name: value for name, value in body.aside.items() if name not in body.case}
-    return Response(tomlkit.dumps({**body.case, **aside}), media_type="application/toml")
+    return Response(tomlkit.dumps(body.case), media_type="application/toml")
 
 
 @router.post("/project", openapi_extra=openapi.body(ProjectBody), responses=openapi.text(*KINDS.values()))

@@ -14,6 +14,7 @@ from ballscrew.axis.axis import Axis
 from ballscrew.axis.motor import Motor
 from ballscrew.axis_studies.duty import CAUSES, NUMBERS, slug_of
 from ballscrew.axis_studies.warm_up import SERIES
+from ballscrew.case_schema.duty_schema import MOTIONS, fields_of_motion
 from ballscrew.case_schema.schema import DEFAULT_MODEL, LAWS, MODELS
 from ballscrew.components.contact import RaceState
 from ballscrew.components.materials import Lubricant, Material
@@ -109,6 +110,7 @@ class Vocabulary(_Table):
     default_model: str
     limits: dict[str, float | None]
     nuts: dict[str, NutKind]
+    motions: dict[str, list[str]]
     starts: dict[str, Start]
     rows: list[StartRow]
 
@@ -133,6 +135,7 @@ def vocabulary() -> dict[str, Any]:
             name: {"fields": list(fields_of(kind)), "usual_preload": EXAMPLE_PRELOADS.get(name)}
             for name, kind in NUTS.items()
         },
+        "motions": {kind: list(fields_of_motion(kind)) for kind in MOTIONS},
         "starts": starts(),
         "rows": [{"name": row.name, "source": row.source, "nut": row.nut or "single"} for row in catalogue().values()],
     }

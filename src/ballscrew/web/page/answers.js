@@ -4,11 +4,13 @@ import * as charts from "./charts.js";
 import * as checks from "./checks.js";
 import { showDesigns, showModels } from "./compare.js";
 import * as curves from "./curves.js";
+import { titleOf } from "./designs.js";
 import { byId } from "./dom.js";
 import * as drawings from "./drawing.js";
 import { inWords, labelOf } from "./faults.js";
 import { showFailure } from "./plot.js";
 import * as results from "./results.js";
+import { withoutCards } from "./schema.js";
 import { ask, linesOf, Problem, sendJson } from "./server.js";
 import { LETTERS } from "./state.js";
 import * as stiffness from "./stiffness.js";
@@ -28,7 +30,8 @@ const PAINT_TIMEOUT = 500;
  * Everything on the page: the case, its answer and band, the sweeps of its charts, the other designs and models.
  *
  * @typedef {object} Displayed
- * @property {Body} [body]
+ * @property {Body} [body] without what only cards ask about
+ * @property {Body} [whole] the case as a file has it
  * @property {string} [key]
  * @property {Run} [answer]
  * @property {Checks} [checks]
@@ -86,12 +89,14 @@ export async function update(cases, { designs, show, band: wanted, own }, report
   bandRequest.abort();
   /** @type {Body[]} */
   let bodies = [];
-  displayed.starts = designs.map((one) => one.start);
+  displayed.starts = designs.map(titleOf);
   byId("results").setAttribute("aria-busy", "true");
   try {
-    bodies = (await cases()).map((one) => ({ case: one }));
+    const found = await cases();
+    bodies = found.map((one) => ({ case: withoutCards(one) }));
     if (signal.aborted) return;
     const body = bodies[show];
+    const whole = { case: found[show] };
     const key = JSON.stringify(body);
     /** @type {Run} */
     const answer = await ask("run", body, signal);
@@ -99,7 +104,7 @@ export async function update(cases, { designs, show, band: wanted, own }, report
     const { designs: before, starts } = displayed;
     /** @type {Displayed} */
     const known = displayed.key === key ? displayed : { band: null, starts };
-    displayed = { body, key, answer, checks: known.checks, band: known.band, designs: before, starts };
+    displayed = { body, whole, key, answer, checks: known.checks, band: known.band, designs: before, starts };
     report([]);
     results.succeed();
     if (wanted && !displayed.band) displayed.band = { state: "pending" };
@@ -263,6 +268,15 @@ async function drawCharts(body, answer, signal, start) {
     drawings.show(found);
   });
   await others;
+}
+
+/**
+ * Keep the case for files, of which only what cards ask about has changed.
+ *
+ * @param {Record<string, unknown>} found
+ */
+export function keepWhole(found) {
+  displayed.whole = { case: found };
 }
 
 /** Show all of it again in other units, without requests. */

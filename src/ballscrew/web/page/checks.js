@@ -19,7 +19,8 @@ const CLOSE = 0.8;
 const MULTIPLE = 10;
 const DIGITS = 3;
 
-/** @typedef {Checks["checks"][number]} OneCheck */
+/** @typedef {{ name: string, value: number | null, limit: number | null, unit: string, holds: boolean | null,
+ *   utilisation: number | null, missing: string, text: string, display?: Template }} OneCheck */
 
 /**
  * A check in words.
@@ -33,7 +34,7 @@ function nameOf({ name }) {
 /**
  * All checks in one sentence, with the number of those judged where not all were; nothing passes that was not judged.
  *
- * @param {Checks} found
+ * @param {{ checks: OneCheck[], judged: number, holds: boolean }} found
  */
 export function verdict({ checks, judged, holds }) {
   const all = checks.length;
@@ -124,21 +125,31 @@ export function show(found, jump) {
     byId("checks").textContent = text("checks.none");
     return;
   }
+  byId("checks").replaceChildren(
+    ...panel(found, text("checks.caption"), jump),
+    element("p", { class: "small" }, `${text("checks.note")} `, ...notes(found)),
+  );
+}
+
+/**
+ * All checks in one sentence, and a table of them.
+ *
+ * @param {{ checks: OneCheck[], judged: number, holds: boolean }} found
+ * @param {string} caption
+ * @param {(path: string) => void} jump goes to a field
+ */
+export function panel(found, caption, jump) {
   const tone = found.checks.some((one) => one.holds === false) ? "careful" : found.holds ? "good" : "";
   const headings = ["", text("checks.value"), text("checks.used")];
   const rows = found.checks.map((check) => [
-    element("span", { title: units.filled(check.display) }, nameOf(check)),
+    element("span", { title: check.display ? units.filled(check.display) : check.text }, nameOf(check)),
     element("span", {}, numberOf(check), limitOf(check)),
     used(check, jump),
   ]);
-  const content = table(text("checks.caption"), headings, rows);
+  const content = table(caption, headings, rows);
   content.className = "checks";
   for (const [place, row] of [...content.tBodies[0].rows].entries()) row.dataset.check = found.checks[place].name;
-  byId("checks").replaceChildren(
-    element("p", { class: `verdict ${tone}` }, verdict(found)),
-    content,
-    element("p", { class: "small" }, `${text("checks.note")} `, ...notes(found)),
-  );
+  return [element("p", { class: `verdict ${tone}` }, verdict(found)), content];
 }
 
 /** What a limit rests on, where a check says it. @param {Checks} found */

@@ -31,7 +31,7 @@ let follow;
 /** Tables of the cases to start from, by name. @type {Map<string, states.Tables>} */
 const starts = new Map();
 
-/** @typedef {{ rebuild?: boolean, keep?: boolean, formOnly?: boolean, path?: string }} Follow */
+/** @typedef {{ rebuild?: boolean, keep?: boolean, formOnly?: boolean, path?: string, ofCards?: boolean }} Follow */
 
 /**
  * @param {Vocabulary} words
@@ -186,15 +186,161 @@ export function currentCase() {
 
 /**
  * Put whole sections of a case into the current design, such as ``{ motion: {…}, axis: {…} }``; null takes one away.
- * The button Back undoes it.
+ * The button Back undoes it, and all edits of one field in a row as one.
  *
  * @param {states.Tables} sections
+ * @param {string} [path] the field that was edited, if it was one
  */
-export async function setTables(sections) {
+export async function setTables(sections, path) {
   const design = current();
   const given = Object.keys(sections);
   // a typed text of such a section is replaced with it
   for (const path of Object.keys(design.changes)) if (given.includes(path.split(".")[0])) delete design.changes[path];
   design.tables = { ...design.tables, ...structuredClone(sections) };
-  await follow({ rebuild: true, keep: true });
+  await follow(schema.areOfCards(given) ? { ofCards: true, keep: !path, path } : { rebuild: true, keep: true });
+}
+
+// -- files and several designs ----------------------------------------------------------------------
+
+/** What people call a design: its name, and what it starts from. @param {states.Design} design */
+export function titleOf({ name, file, start }) {
+  const from = isRow(start) ? start : (file ?? start);
+  return name && name !== from ? `${name}: ${from}` : from;
+}
+
+/**
+ * The design of a case; one of a catalogue row starts from that row, any other one has nothing of its start.
+ *
+ * @param {states.Tables} sections
+ * @param {states.Own} own
+ */
+export async function ofCase(sections, own) {
+  const { catalogue, ...changed } = { ...sections.screw };
+  const isShipped = typeof catalogue === "string" && changed.catalogue_file === undefined;
+  const row = isShipped
+    ? vocabulary.rows.find(({ name }) => name.toLowerCase() === catalogue.toLowerCase())
+    : undefined;
+  const start = row?.name ?? Object.keys(vocabulary.starts)[0];
+  const known = await startOf(start);
+  const absent = Object.keys(known).filter((name) => !Object.hasOwn(sections, name));
+  const found = { ...Object.fromEntries(absent.map((name) => [name, null])), ...sections };
+  if (row) found.screw = { ...known.screw, ...changed };
+  return states.design(start, {}, { ...own, tables: found });
+}
+
+/**
+ * Add designs to those of the page, where one that nobody has touched gives way; the button Back undoes it.
+ *
+ * @param {states.Design[]} more
+ * @returns {number} how many there was no place for
+ */
+export function add(more) {
+  const untouched = state.designs.length === 1 && isUntouched(current());
+  const before = untouched ? [] : state.designs;
+  const room = states.LETTERS.length - before.length;
+  const taken = more.slice(0, room);
+  if (taken.length) {
+    state.designs = [...before, ...taken];
+    state.show = before.length;
+    follow({ rebuild: true, keep: true });
+  }
+  return more.length - taken.length;
+}
+
+/** @param {states.Design} design */
+function isUntouched(design) {
+  return !isRow(design.start) && !Object.keys(design.changes).length && !Object.keys(states.ownOf(design)).length;
+}
+
+/** Test whether one more design has its place. */
+export function hasRoom() {
+  return state.designs.length < states.LETTERS.length;
+}
+
+/**
+ * Show another design.
+ *
+ * @param {number} place
+ */
+export function show(place) {
+  state.show = place;
+  follow({ rebuild: true, keep: true });
+}
+
+/**
+ * Add a copy of a design.
+ *
+ * @param {number} place
+ */
+export function duplicate(place) {
+  const { start, changes, name, ...own } = state.designs[place];
+  state.designs.push(states.design(start, changes, own));
+  state.show = state.designs.length - 1;
+  follow({ rebuild: true, keep: true });
+}
+
+/**
+ * Take a design away; the last one stays.
+ *
+ * @param {number} place
+ */
+export function remove(place) {
+  if (state.designs.length === 1) return;
+  state.designs.splice(place, 1);
+  if (state.show > place || state.show === state.designs.length) state.show -= 1;
+  follow({ rebuild: true, keep: true });
+}
+
+/**
+ * Give a design a name; all keys of one name are undone at once.
+ *
+ * @param {number} place
+ * @param {string} name
+ */
+export function rename(place, name) {
+  if (name) state.designs[place].name = name;
+  else delete state.designs[place].name;
+  follow({ rebuild: true, path: `${states.LETTERS[place]}.name` });
+}
+
+/**
+ * Move what stands at a path of the tables of a file, and no case has, to what is kept aside.
+ *
+ * @param {string} path
+ */
+export function setAside(path) {
+  const design = current();
+  const parts = path.split(".");
+  const name = parts.pop() ?? "";
+  const aside = { ...structuredClone(design.aside) };
+  const own = structuredClone(design.tables ?? {});
+  const from = parts.length ? states.valueAt(own, parts.join(".")) : own;
+  if (!from || typeof from !== "object" || !Object.hasOwn(from, name)) return;
+  let to = aside;
+  for (const part of parts) to = to[part] ??= {};
+  to[name] = from[name];
+  delete from[name];
+  design.aside = aside;
+  design.tables = own;
+  follow({ rebuild: true, keep: true });
+}
+
+/** Test whether what stands at a path came from a file. @param {string} path */
+export function isOfFile(path) {
+  return states.valueAt(current().tables, path) !== undefined;
+}
+
+/** All designs as a project file has them, each by a name of its own. */
+export async function forProject() {
+  /** @type {Set<string>} */
+  const names = new Set();
+  const found = [];
+  for (const [place, one] of state.designs.entries()) {
+    const wanted = one.name || `${states.LETTERS[place]} ${titleOf(one)}`;
+    let name = wanted;
+    for (let number = 2; names.has(name); number += 1) name = `${wanted} (${number})`;
+    names.add(name);
+    found.push({ name, case: await caseOf(one), ...(one.aside && { aside: one.aside }) });
+  }
+  return found;
 }

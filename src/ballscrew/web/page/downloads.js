@@ -1,5 +1,6 @@
 // Files to save: the case, the answer, the curve, the drawing, the report.
 
+import * as designs from "./designs.js";
 import { byId, csv, element, save } from "./dom.js";
 import { linesOf, send } from "./server.js";
 import { text } from "./texts.js";
@@ -16,7 +17,7 @@ const KINDS = {
   HTML: ["download.html", "report?kind=html"],
 };
 
-/** @typedef {{ body?: object, answer?: Run, alongSpeed?: Sweep }} Current */
+/** @typedef {{ whole?: object, answer?: Run, alongSpeed?: Sweep }} Current */
 
 /**
  * Buttons for all kinds; ``current`` gives the case and the answer.
@@ -44,8 +45,8 @@ function say(words) {
  * @param {string} kind
  * @param {Current} current
  */
-async function saveAs(kind, { body, answer, alongSpeed }) {
-  if (!body || !answer || byId("results").classList.contains("stale")) {
+async function saveAs(kind, { whole, answer, alongSpeed }) {
+  if (!whole || !answer || byId("results").classList.contains("stale")) {
     say(text("download.fault"));
     return;
   }
@@ -53,7 +54,7 @@ async function saveAs(kind, { body, answer, alongSpeed }) {
   try {
     if (address) {
       say(text("download.making", { kind }));
-      save(`.${kind.toLowerCase()}`, await (await send(address, body)).blob());
+      save(`.${kind.toLowerCase()}`, await (await send(address, kind === "TOML" ? withAside(whole) : whole)).blob());
     } else if (kind === "JSON") {
       const { words, display, ...document } = answer;
       save(".json", new Blob([JSON.stringify(document, null, 2)], { type: "application/json" }));
@@ -62,6 +63,16 @@ async function saveAs(kind, { body, answer, alongSpeed }) {
   } catch (error) {
     say(linesOf(error).join("; "));
   }
+}
+
+/**
+ * A case with what its design keeps aside, which no command reads.
+ *
+ * @param {{ case?: object }} body
+ */
+function withAside(body) {
+  const { aside } = designs.current();
+  return aside ? { case: { ...body.case, aside } } : body;
 }
 
 /**

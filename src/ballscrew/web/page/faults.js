@@ -1,7 +1,7 @@
 // Faults of the input in the words of the page: labels of its fields in place of keys of a file.
 
 import { labelIn, words } from "./fields.js";
-import { SECTIONS } from "./schema.js";
+import { OF_CARDS, SECTIONS } from "./schema.js";
 import { text, textOr } from "./texts.js";
 
 /** What people read in place of a message for files: the field, what is wrong with it, and the text. */
@@ -29,7 +29,7 @@ const OWN = [
 export function labelOf(path) {
   const parts = path.split(".");
   const name = labelIn(path);
-  return parts.length > 1 ? `${name} (${SECTIONS[parts[0]] ?? words(parts[0])})` : name;
+  return parts.length > 1 ? `${name} (${SECTIONS[parts[0]] ?? OF_CARDS[parts[0]] ?? words(parts[0])})` : name;
 }
 
 /**

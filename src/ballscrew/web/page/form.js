@@ -1,5 +1,6 @@
 // The form, made from the JSON Schema of the case file. It shows the texts of the state and reports what is typed.
 
+import { isOfFile, setAside } from "./designs.js";
 import { byId, element, within } from "./dom.js";
 import { inWords, labelOf } from "./faults.js";
 import { choiceField, labelIn, numberField, showEffective } from "./fields.js";
@@ -145,14 +146,14 @@ function startField({ starts, rows }) {
    * @param {string} words
    */
   const option = (name, words) => element("option", { value: name }, words);
+  const known = Object.entries(starts);
+  /** @param {[string, Vocabulary["starts"][string]]} start */
+  const startOption = ([name, { title }]) => option(name, textOr(`start.${name}`, title));
   const select = element(
     "select",
     { id: "start", onchange: () => onChange({ start: select.value }) },
-    element(
-      "optgroup",
-      { label: text("form.papers") },
-      ...Object.entries(starts).map(([name, { title }]) => option(name, textOr(`start.${name}`, title))),
-    ),
+    element("optgroup", { label: text("form.papers") }, ...known.filter(([, { moves }]) => !moves).map(startOption)),
+    element("optgroup", { label: text("form.examples") }, ...known.filter(([, { moves }]) => moves).map(startOption)),
     ...[...groups].map(([source, members]) =>
       element("optgroup", { label: source }, ...members.map((row) => option(row.name, rowLabel(row)))),
     ),
@@ -276,7 +277,7 @@ export function showFaults(faults) {
   }
   /** @type {Map<string, HTMLElement>} */
   const wrong = new Map();
-  /** @type {string[]} */
+  /** @type {(string | Node)[]} */
   const others = [];
   for (const fault of faults) {
     const path = pathOf(fault.where);
@@ -284,7 +285,7 @@ export function showFaults(faults) {
     if (field && !wrong.has(path)) {
       wrong.set(path, field);
       markWrong(field, inWords(fault));
-    } else if (!field) others.push(`${labelOf(fault.where)}: ${inWords(fault)}`);
+    } else if (!field) others.push(ofNoField(fault));
   }
   const [first] = [...byId("form").querySelectorAll(".field.wrong")];
   if (first && !first.contains(document.activeElement)) first.scrollIntoView({ block: "nearest" });
@@ -295,6 +296,20 @@ export function showFaults(faults) {
   const line = links.length ? [element("span", {}, intro, ...links)] : [];
   const said = faults.map((fault) => `${labelOf(fault.where)}: ${inWords(fault)}`).join(" ");
   return { lines: [...line, ...others], said };
+}
+
+/**
+ * A fault that has no field; what a file has beyond a case can be kept aside.
+ *
+ * @param {FaultLine} fault
+ */
+function ofNoField(fault) {
+  const line = `${labelOf(fault.where)}: ${inWords(fault)}`;
+  if (!/^unknown (key|section)/.test(fault.problem) || !isOfFile(fault.where)) return line;
+  const label = text("open.set_aside_of", { name: labelOf(fault.where) });
+  const action = () => setAside(fault.where);
+  const button = element("button", { type: "button", "aria-label": label, onclick: action }, text("open.set_aside"));
+  return element("span", {}, `${line} `, button);
 }
 
 /**

@@ -1,12 +1,15 @@
 // The page: its state in the address, the form, and the answer that follows what is typed.
 
 import * as answers from "./answers.js";
+import * as cards from "./cards.js";
 import { consequences } from "./consequences.js";
 import * as designs from "./designs.js";
 import { byId, element, nameFiles, within } from "./dom.js";
 import * as downloads from "./downloads.js";
+import * as files from "./files.js";
 import * as form from "./form.js";
 import * as entries from "./history.js";
+import * as keeping from "./keeping.js";
 import * as results from "./results.js";
 import * as schema from "./schema.js";
 import { get, linesOf } from "./server.js";
@@ -82,21 +85,23 @@ function quoted(name) {
   return name.length > LONGEST_QUOTE ? `${name.slice(0, LONGEST_QUOTE)}…` : name;
 }
 
-/** @param {string} words */
-function showNotice(words) {
-  byId("notice").textContent = words;
-  byId("notice").hidden = !words;
+/** @param {(string | Node)[]} words */
+function showNotice(...words) {
+  byId("notice").replaceChildren(...words);
+  byId("notice").hidden = !words.some(Boolean);
 }
 
 /**
  * Write the state into the address, and show it.
  *
- * @param {{ rebuild?: boolean, keep?: boolean, formOnly?: boolean, path?: string }} options ``rebuild`` makes the form
- *   anew, ``keep`` leaves the state before to the button Back, ``formOnly`` sends no request, ``path`` was edited
+ * @param {designs.Follow} options ``rebuild`` makes the form
+ *   anew, ``keep`` leaves the state before to the button Back, ``formOnly`` sends no request, ``path`` was edited,
+ *   ``ofCards`` changes what only cards ask about
  */
-async function follow({ rebuild = false, keep = false, formOnly = false, path } = {}) {
-  if (!formOnly) byId("results").setAttribute("aria-busy", "true");
+async function follow({ rebuild = false, keep = false, formOnly = false, path, ofCards = false } = {}) {
+  if (!formOnly && !ofCards) byId("results").setAttribute("aria-busy", "true");
   const fragment = states.toFragment(state);
+  keeping.keep(fragment, state.designs.map(designs.titleOf).join(" · "));
   if (keep) {
     entries.choose(fragment);
     showNotice("");
@@ -108,7 +113,9 @@ async function follow({ rebuild = false, keep = false, formOnly = false, path } 
     results.fail(results.refusal(linesOf(error)));
     return;
   }
-  if (!formOnly) await update();
+  cards.follow();
+  if (ofCards) answers.keepWhole(await designs.currentCase());
+  else if (!formOnly) await update();
 }
 
 async function update() {
@@ -192,7 +199,7 @@ function showTabs() {
     action();
     follow({ rebuild: true, keep: true });
   };
-  const buttons = state.designs.map((_, place) =>
+  const buttons = state.designs.map((one, place) =>
     element(
       "button",
       {
@@ -206,10 +213,11 @@ function showTabs() {
       },
       element("span", { class: "long" }, text("designs.long")),
       states.LETTERS[place],
+      one.name ? element("span", { class: "own-name" }, ` ${one.name}`) : null,
     ),
   );
   const add = turn(() => {
-    const { start, changes, ...own } = designs.current();
+    const { start, changes, name, ...own } = designs.current();
     state.designs.push(states.design(start, changes, own));
     state.show = state.designs.length - 1;
   });
@@ -291,12 +299,14 @@ function addListeners() {
   entries.begin(() => {
     use(readAddress());
     follow({ rebuild: true });
+    cards.openAll();
   });
   downloads.build(answers.current);
+  files.setUp(showNotice);
 }
 
 async function begin() {
-  const [words, document_] = await Promise.all([get("vocabulary"), get("schema")]);
+  const [words, document_, latest] = await Promise.all([get("vocabulary"), get("schema"), keeping.begin()]);
   vocabulary = words;
   units.setVocabulary(words);
   answers.setVocabulary(words, form.jump);
@@ -304,11 +314,20 @@ async function begin() {
   form.setListener(onChange);
   byId("version").textContent = text("page.version", { version: vocabulary.version });
   designs.setUp(vocabulary, follow);
+  if (latest) history.replaceState(null, "", latest.fragment);
   use(readAddress());
+  if (latest) files.sayRestored(latest, showNotice);
   units.setSystem(state.system);
   addListeners();
+  cards.setUp({
+    vocabulary,
+    setUnit: (path, unit) => onChange({ path, unit }),
+    jump: form.jump,
+    keep: () => follow({ ofCards: true }),
+  });
   await follow({ rebuild: true });
   document.documentElement.dataset.ready = "true";
+  await cards.openAll();
 }
 
 begin().catch((error) => results.fail(results.refusal(linesOf(error))));

@@ -53,6 +53,15 @@ const observer = new IntersectionObserver(
 );
 for (const place of document.querySelectorAll(".chart")) observer.observe(place);
 
+/**
+ * Watch a place for a chart that was made after the page was loaded.
+ *
+ * @param {Element} place
+ */
+export function watch(place) {
+  observer.observe(place);
+}
+
 function colours() {
   if (!screenColours) {
     const style = getComputedStyle(document.documentElement);

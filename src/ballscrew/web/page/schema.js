@@ -32,6 +32,15 @@ export const SECTIONS = {
   bodies: text("section.bodies"),
   deviations: text("section.deviations"),
 };
+/** Headings of the sections that cards have, not the form. @type {Record<string, string>} */
+export const OF_CARDS = {
+  axis: text("section.axis"),
+  motion: text("section.motion"),
+  motor: text("section.motor"),
+  surroundings: text("section.surroundings"),
+  bearings: text("section.bearings"),
+  guides: text("section.guides"),
+};
 /** Fields that the form does not have. */
 export const LEFT_OUT = ["screw.catalogue", "screw.catalogue_file", "lubricant.oil_file"];
 
@@ -82,11 +91,30 @@ export function fieldsOf(name) {
  */
 export function fieldOf(path) {
   const [name, field, inner, ...others] = path.split(".");
-  if (!own(SECTIONS, name) || LEFT_OUT.includes(`${name}.${field}`) || others.length) return undefined;
+  if (!(own(SECTIONS, name) || own(OF_CARDS, name)) || LEFT_OUT.includes(`${name}.${field}`) || others.length)
+    return undefined;
   const node = definition(own(fieldsOf(name), field));
   if (inner === undefined || !node) return node;
   if (node.properties) return definition(own(node.properties, inner));
   return node.anyOf?.map((one) => own(one.properties, inner)).find((one) => one);
+}
+
+/**
+ * Test whether sections are those of cards, which the answer above does not follow.
+ *
+ * @param {string[]} sections
+ */
+export function areOfCards(sections) {
+  return sections.every((one) => own(OF_CARDS, one));
+}
+
+/**
+ * A case without the sections that only cards ask about.
+ *
+ * @param {Record<string, any>} tables
+ */
+export function withoutCards(tables) {
+  return Object.fromEntries(Object.entries(tables).filter(([name]) => !own(OF_CARDS, name)));
 }
 
 /** @param {SchemaNode} node */

@@ -82,7 +82,7 @@ const cache = new Map();
 /**
  * The answer of an address to a body; of the same body again it is not asked again.
  *
- * @param {"run" | "check" | "band"} address
+ * @param {"run" | "check" | "band" | "duty" | "warm-up"} address
  * @param {object} body
  * @param {AbortSignal} signal
  */

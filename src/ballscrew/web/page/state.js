@@ -1,12 +1,15 @@
 // State of the page: its designs, each with its start, its own tables and its changes. All of it is in the address.
 
-export const LETTERS = ["A", "B", "C", "D"];
-const OTHER_KEYS = ["show", "units", "band", "at"];
+export const LETTERS = ["A", "B", "C", "D", "E", "F", "G", "H"];
+const OTHER_KEYS = ["show", "units", "band", "at", "cards", "hours", "rest", "heat"];
+/** Hours of work and of rest of a warm-up. */
+const HOURS = "4";
+const REST = "0";
 /** What a design has beside its start and its changes: texts, and tables as JSON. */
 const OWN_TEXTS = /** @type {const} */ (["name", "file"]);
 const OWN_TABLES = /** @type {const} */ (["tables", "aside"]);
 /** Sections that are the screw itself: another start brings its own. */
-const OF_SCREW = ["screw", "nut", "bodies", "deviations"];
+export const OF_SCREW = ["screw", "nut", "bodies", "deviations"];
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
 /** @typedef {(path: string) => SchemaNode | undefined} Schema */
@@ -24,7 +27,8 @@ const OF_SCREW = ["screw", "nut", "bodies", "deviations"];
  */
 /**
  * ``show`` is the place of the current design, ``own`` compares each design at its own load and speed, ``fields`` has
- * units chosen for single fields.
+ * units chosen for single fields, ``cards`` are those that are open, ``heat`` has the hours of work and of rest of a
+ * warm-up as they were typed, and whether it has bands.
  *
  * @typedef {object} State
  * @property {Design[]} designs
@@ -33,6 +37,8 @@ const OF_SCREW = ["screw", "nut", "bodies", "deviations"];
  * @property {boolean} band
  * @property {boolean} own
  * @property {Record<string, string>} fields
+ * @property {string[]} cards
+ * @property {{ hours: string, rest: string, band: boolean }} heat
  */
 
 /**
@@ -80,7 +86,8 @@ export function base(start, { tables: sections = {} }) {
 
 /** @returns {State} */
 function initial() {
-  return { designs: [design()], show: 0, system: "metric", band: true, own: false, fields: {} };
+  const heat = { hours: HOURS, rest: REST, band: false };
+  return { designs: [design()], show: 0, system: "metric", band: true, own: false, fields: {}, cards: [], heat };
 }
 
 /**
@@ -103,6 +110,10 @@ export function toFragment(state) {
   for (const [path, unit] of Object.entries(state.fields)) parameters.set(`unit.${path}`, unit);
   if (!state.band) parameters.set("band", "0");
   if (state.own) parameters.set("at", "own");
+  if (state.cards.length) parameters.set("cards", state.cards.join(" "));
+  if (state.heat.hours !== HOURS) parameters.set("hours", state.heat.hours);
+  if (state.heat.rest !== REST) parameters.set("rest", state.heat.rest);
+  if (state.heat.band) parameters.set("heat", "band");
   return `#${parameters}`;
 }
 
@@ -133,6 +144,12 @@ export function fromFragment(fragment, schema, isUnit) {
   state.system = parameters.get("units") ?? "metric";
   state.band = parameters.get("band") !== "0";
   state.own = parameters.get("at") === "own";
+  state.cards = (parameters.get("cards") ?? "").split(" ").filter(Boolean);
+  state.heat = {
+    hours: parameters.get("hours") ?? HOURS,
+    rest: parameters.get("rest") ?? REST,
+    band: parameters.get("heat") === "band",
+  };
   return { state, unknown };
 }
 

@@ -1,0 +1,146 @@
+"""The band of a case in its report: the answer with it, its causes, the inputs that make it, a vendor's rows beside."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from ballscrew.cases.case import Case
+from ballscrew.cases.named_calibration import vendor_rows_like
+from ballscrew.figures import tornado as figures
+from ballscrew.friction.result import FrictionResult
+from ballscrew.quantities import quantities_of
+from ballscrew.report.blocks import Bar, Block, Bullets, Paragraph, Picture, Table, sentence
+from ballscrew.report.blocks import value as value_of
+from ballscrew.report.curve_figures import named, svg_of
+from ballscrew.report.numbers import banded, banded_share, with_digits_of
+from ballscrew.studies.band import BandReport
+from ballscrew.studies.run import Run
+from ballscrew.studies.tornado import Tornado, tornado
+from ballscrew.text import band
+from ballscrew.uncertainty.bands import Interval
+
+_ONE = quantities_of(FrictionResult)
+_TORQUE = _ONE["screw_torque"]
+
+
+def has_band(report: BandReport) -> bool:
+    """Test whether there is a band: a friction torque that is a number and not zero for certain."""
+    torque = report.band["screw_torque"]
+    return math.isfinite(torque.median) and torque.both != (0.0, 0.0)
+
+
+def answer(run: Run, report: BandReport) -> Paragraph:
+    """The answer in some sentences, each number with its band and no more digits than that leaves."""
+    bands = report.band.outputs if has_band(report) else {}
+    verdicts = with_digits_of(bands, lambda: [record.text for record in run.verdicts])
+    said = [_headline(run, report), *(f"{sentence(line)}." for line in verdicts)]
+    if bands:
+        said.append(f"The ends in brackets hold {100 * report.band.level:.4g} % of the samples of the band.")
+    return Paragraph(" ".join(said), strong=True)
+
+
+def _headline(run: Run, report: BandReport) -> str:
+    found, bands = run.friction, report.band
+    if not math.isfinite(float(found.screw_torque)):
+        return "No friction torque came out: it is no number here."
+
+    def with_band(words: str, name: str) -> str:
+        share = name.endswith("efficiency")
+        one, value = bands[name], float(getattr(found, name))
+        said = banded_share(value, *one.both) if share else banded(value, *one.both, _ONE[name])
+        return f"{words} {said.value}" + (f" ({said.interval})" if said.interval else "")
+
+    words = [with_band("Friction torque on the screw", "screw_torque")]
+    if math.isfinite(float(found.efficiency)):
+        words.append(with_band("efficiency", "efficiency"))
+    elif float(found.axial_load) != 0:
+        words.append(with_band("efficiency, the load drives the screw,", "back_driving_efficiency"))
+    words.append(with_band("power lost", "friction_power"))
+    outside = "" if found.valid else " (outside the model's validity)"
+    return f"{', '.join(words)}{outside}."
+
+
+def blocks(case: Case, report: BandReport) -> list[Block]:
+    """Band of the results, its causes, the inputs that make it, and the uncertain inputs."""
+    verdicts = with_digits_of(report.band.outputs, lambda: [verdict.text for verdict in band.verdicts(case, report)])
+    summary = [Paragraph(f"{'. '.join(map(sentence, verdicts))}.", strong=True)]
+    if not has_band(report):
+        return [*summary]
+    warnings = band.warnings(report)
+    warned = [Bullets([f"Beware: {one.text}." for one in warnings])] if warnings else []
+    laws = band.exchanged_laws(case, report)
+    exchanged = [Paragraph(f"{': '.join(filter(None, [sentence(laws.heading), '; '.join(laws.entries)]))}.")]
+    inputs: list[Block] = [Paragraph(f"{band.input_counts(report)}.")]
+    for heading, entries in band.uncertain_inputs(report):
+        inputs += [Paragraph(f"{sentence(heading)}:"), Bullets(entries)]
+    swings = _swings(tornado(case, report))
+    return [*summary, _causes(report), *swings, *warned, *exchanged * bool(laws.heading), *inputs]
+
+
+def _causes(report: BandReport) -> Table:
+    torque = report.band["screw_torque"]
+    intervals = band.intervals(torque)
+    share = torque.share_of_parameters
+    shares = ["", *(f"{part:.0%}" if math.isfinite(part) else "–" for part in (share, 1 - share))]
+    ends = [end for interval in intervals for end in interval if math.isfinite(end)]
+    rows = [
+        (words, banded(torque.value, *interval, _TORQUE).interval or value_of(interval.low, _TORQUE), part,
+         _bar(interval, torque.value, ends))
+        for words, interval, part in zip(band.CAUSES, intervals, shares, strict=True)
+    ]  # fmt: skip
+    level = f"{100 * report.band.level:.4g} %"
+    return Table(
+        f"Friction torque on the screw: {level} of the samples, and the share of its variance",
+        ("because of", "between", "share", ""),
+        rows,
+        wide=3,
+        note="Bars: the ends on one axis; the stroke is the value of the case.",
+    )
+
+
+def _bar(interval: Interval, value: float, ends: Sequence[float]) -> Bar | str:
+    if not ends or not all(map(math.isfinite, (*interval, value))):
+        return ""
+    low, high = min(*ends, value), max(*ends, value)
+    if high == low:
+        return ""
+    places = [(x - low) / (high - low) for x in (*interval, value)]
+    return Bar(*places)
+
+
+def _swings(found: Tornado) -> list[Block]:
+    """The tornado, where an input moves the torque."""
+    swings = figures.shown(found)
+    if not swings:
+        return []
+    first = ", ".join(
+        f"{band.spoken(one.input)} {banded(found.torque.value, *one.ends, _TORQUE).interval}" for one in swings[:3]
+    )
+    level = f"{100 * found.level:.4g} %"
+    words = f"Friction torque with one uncertain input at a time at either end of its {level}; the widest: {first}."
+    caption = (
+        f"Which inputs make the band: friction torque with one of them at either end of its {level}, the others at "
+        "their middles; the line is the value of the case."
+    )
+    return [Picture(named(svg_of(lambda: figures.picture(found), "tornado"), words), words, caption)]
+
+
+def vendor_blocks(case: Case) -> list[Block]:
+    """The rows of a vendor most like the nut: their no-load torque, and what the model says of them."""
+    near = vendor_rows_like(case)
+    if near is None:
+        return []
+    rows: list[tuple[str, ...]] = []
+    for row, (low, high), ratio in zip(near.rows, near.bands, near.ratios, strict=True):
+        middle = (low + high) / 2
+        model = value_of(float(f"{ratio * middle:.3g}"), _TORQUE)
+        rows.append((row, banded(middle, low, high, _TORQUE).interval, model, f"{ratio:.2f}"))
+    how = "without calibration" if case.calibration is None else f"with the calibration {case.calibration.name}"
+    said = (
+        f"For the {len(rows)} rows of {near.data} most like this nut in diameter and lead the model gives "
+        f"{near.mean:.2f} ± {near.scatter:.2f} times the vendor's no-load torque, {how}."
+    )
+    note = "At 100 rpm without wipers, ISO VG 100 at 25 degC; after the sizes the preload, by the dynamic rating."
+    columns = ("diameter x lead x ball - turns", "vendor", "model", "model / vendor's middle")
+    return [Paragraph(said), Table("Torque without load", columns, rows, note=note)]

@@ -1,0 +1,92 @@
+// Cards: parts of the page that are loaded when they are first opened, and that answer questions of their own.
+
+import * as designs from "./designs.js";
+import { byId } from "./dom.js";
+import { text } from "./texts.js";
+
+/**
+ * What a card gets from the page: ``keep`` writes the state into the address and tells all cards.
+ *
+ * @typedef {object} Page
+ * @property {Vocabulary} vocabulary
+ * @property {(path: string, unit: string) => void} setUnit chooses the unit of a field
+ * @property {(path: string) => void} jump goes to a field of the form
+ * @property {() => void} keep
+ */
+/**
+ * A card that is open: ``follow`` shows what the state of the page is now.
+ *
+ * @typedef {{ follow: () => void, stop: () => void }} Card
+ */
+
+/** Scripts of the cards, by the names of their places. @type {Record<string, () => Promise<{ setUp: (holder: HTMLElement, page: Page) => Card }>>} */
+const SCRIPTS = {
+  "over-input": () => import("./cards/over_input.js"),
+  duty: () => import("./cards/duty.js"),
+  "warm-up": () => import("./cards/warm_up.js"),
+  files: () => import("./cards/files.js"),
+};
+
+/** @type {Page} */
+let page;
+/** Cards that have been opened once. @type {Map<string, Card>} */
+const opened = new Map();
+
+/** @param {Page} found */
+export function setUp(found) {
+  page = found;
+  for (const name of Object.keys(SCRIPTS)) {
+    byId(`${name}-open`).addEventListener("click", () => {
+      const { cards } = designs.all();
+      if (cards.includes(name)) cards.splice(cards.indexOf(name), 1);
+      else cards.push(name);
+      page.keep();
+      openAll();
+    });
+  }
+  for (const button of document.querySelectorAll("[data-card]")) {
+    button.addEventListener("click", () => goTo(/** @type {HTMLElement} */ (button).dataset.card ?? ""));
+  }
+}
+
+/**
+ * Open a card, and go there.
+ *
+ * @param {string} name
+ */
+async function goTo(name) {
+  const { cards } = designs.all();
+  if (!cards.includes(name)) {
+    cards.push(name);
+    page.keep();
+  }
+  await openAll();
+  byId(`${name}-title`).scrollIntoView({ block: "start" });
+  byId(`${name}-open`).focus({ preventScroll: true });
+}
+
+/** Open the cards of the state, and close the others. */
+export async function openAll() {
+  const { cards } = designs.all();
+  for (const name of Object.keys(SCRIPTS)) {
+    const isOpen = cards.includes(name);
+    const button = byId(`${name}-open`);
+    button.setAttribute("aria-expanded", String(isOpen));
+    button.textContent = text(isOpen ? "card.close" : "card.open");
+    byId(name).hidden = !isOpen;
+    const card = opened.get(name);
+    if (!isOpen) card?.stop();
+    else if (card) card.follow();
+    else {
+      const { setUp: make } = await SCRIPTS[name]();
+      opened.set(name, opened.get(name) ?? make(byId(name), page));
+      opened.get(name)?.follow();
+    }
+  }
+}
+
+/** Tell the open cards of a change. */
+export function follow() {
+  const { cards } = designs.all();
+  for (const [name, card] of opened) if (cards.includes(name)) card.follow();
+}

@@ -1,0 +1,81 @@
+// Fields of a card: sections of the case that the form does not show, with their faults beside them.
+
+import { element, within } from "../dom.js";
+import { inWords } from "../faults.js";
+import { choiceField, numberField, showEffective } from "../fields.js";
+import * as schema from "../schema.js";
+import { valueAt } from "../state.js";
+
+/** @typedef {import("../fields.js").Change} Change */
+/** @typedef {import("../state.js").State} State */
+/** @typedef {import("../state.js").Tables} Tables */
+
+/**
+ * The fields of a section by their names, in a fieldset.
+ *
+ * @param {string} section
+ * @param {string} title
+ * @param {string[]} names
+ * @param {{ state: Readonly<State>, tables: Tables, onChange: (change: Change) => void }} source
+ */
+export function fieldset(section, title, names, { state, tables, onChange }) {
+  /** @param {string} path */
+  const given = (path) => valueAt(tables, path);
+  const fields = names.map((name) => {
+    const path = `${section}.${name}`;
+    const node = schema.fieldOf(path) ?? {};
+    if (node.enum || node.type === "boolean") return choiceField(path, node, given(path), onChange);
+    return numberField(path, node, { state, given, lawOf: () => undefined, onChange });
+  });
+  return element(
+    "fieldset",
+    { class: "card-fields" },
+    element("legend", {}, title),
+    element("div", { class: "grid" }, ...fields),
+  );
+}
+
+/**
+ * Show in grey what counts where nothing is typed.
+ *
+ * @param {HTMLElement} holder
+ * @param {Tables} inputs of an answer, in SI
+ */
+export function showValues(holder, inputs) {
+  /** @type {NodeListOf<HTMLElement>} */
+  const fields = holder.querySelectorAll(".field[data-path]");
+  for (const field of fields) {
+    const path = field.dataset.path ?? "";
+    const select = field.querySelector("select.unit");
+    if (field.querySelector("input") && (select || !schema.fieldOf(path)?.["x-si-unit"])) {
+      showEffective(field, schema.fieldOf(path), valueAt(inputs, path));
+    }
+  }
+}
+
+/**
+ * Put faults beside their fields.
+ *
+ * @param {HTMLElement} holder
+ * @param {FaultLine[]} faults
+ * @returns {FaultLine[]} those of no field here
+ */
+export function placeFaults(holder, faults) {
+  for (const wrong of holder.querySelectorAll(".wrong")) {
+    wrong.classList.remove("wrong");
+    within(wrong, ".fault").textContent = "";
+    wrong.querySelector("[aria-invalid]")?.removeAttribute("aria-invalid");
+  }
+  /** @type {NodeListOf<HTMLElement>} */
+  const places = holder.querySelectorAll("[data-path]");
+  return faults.filter((fault) => {
+    // a point of a curve is a fault of the field that has them all
+    const [whole] = fault.where.split(" point ");
+    const place = [...places].find((one) => one.dataset.path === fault.where || one.dataset.path === whole);
+    if (!place) return true;
+    place.classList.add("wrong");
+    within(place, ".fault").textContent = inWords(fault);
+    place.querySelector("input, select")?.setAttribute("aria-invalid", "true");
+    return false;
+  });
+}

@@ -1,0 +1,280 @@
+// The card of a duty: a cycle of the axis, what it asks of the motor, what happens without, and what it costs.
+
+import * as checks from "../checks.js";
+import * as designs from "../designs.js";
+import { element, table } from "../dom.js";
+import { watch } from "../plot.js";
+import * as schema from "../schema.js";
+import * as states from "../state.js";
+import { text, textOr } from "../texts.js";
+import * as units from "../units.js";
+import { placeFaults, showValues } from "./case_fields.js";
+import * as charts from "./duty_charts.js";
+import { inputs } from "./motion.js";
+import { data, ENERGY, FORCE, POWER, quantity, SPEED, TEMPERATURE, TIME, TORQUE, TURNING } from "./quantities.js";
+import { question } from "./question.js";
+import { lines } from "./records.js";
+
+/** @typedef {import("../state.js").Tables} Tables */
+
+/** The example whose motion is shown where a design has none. */
+const EXAMPLE = "vertical-axis";
+/** Sections that an example gives; those beside the first two may be missing. */
+const OF_EXAMPLE = ["axis", "motion", "motor", "bearings", "guides"];
+const HOURS_OF_LIFE = quantity("s", "h");
+const ENERGY_OF_DAY = quantity("J", "kW h");
+/** A share of a column, or a number in SI, that is rounding. */
+const ROUNDING = 1e-9;
+/** The numbers above. @type {[string, ReturnType<typeof quantity>][]} */
+const NUMBERS = [
+  ["torque_rms", TORQUE],
+  ["torque_peak", TORQUE],
+  ["mean_speed", TURNING],
+  ["largest_speed", TURNING],
+  ["cycle_time", TIME],
+  ["mean_load", FORCE],
+  ["life_time", HOURS_OF_LIFE],
+  ["energy_drawn", ENERGY],
+  ["energy_returned", ENERGY],
+  ["energy_lost", ENERGY],
+  ["energy_per_day", ENERGY_OF_DAY],
+  ["energy_per_day_with_recovery", ENERGY_OF_DAY],
+];
+
+/**
+ * @param {HTMLElement} holder
+ * @param {import("../cards.js").Page} page
+ * @returns {import("../cards.js").Card}
+ */
+export function setUp(holder, page) {
+  const { vocabulary } = page;
+  const note = element("p", { class: "small" });
+  const editor = element("div", { class: "card-inputs" });
+  const words = element("div");
+  const parts = element("div");
+  const places = charts.PLACES.map((id) => element("div", { id, class: "chart low", hidden: true }));
+  const result = element("div", { class: "card-result" }, words, ...places, parts);
+  const asked = question({
+    address: "duty",
+    result,
+    show: (found) => show(found),
+    place: (faults) => placeFaults(editor, faults),
+    jump: page.jump,
+  });
+  holder.replaceChildren(examples(vocabulary.starts), note, editor, asked.line, result);
+  for (const place of places) watch(place);
+
+  /** Sections of the case, with those of the example where it has none. @type {Tables} */
+  let tables = {};
+  let isExample = false;
+  /** What the inputs show, as text. */
+  let shown = "";
+  /** @type {DutyAnswer | undefined} */
+  let answer;
+  let system = "";
+
+  /** @param {Tables} found */
+  function keyOf(found) {
+    const { fields, show: design } = designs.all();
+    return JSON.stringify([found.axis, found.motion, found.motor, fields, design, units.currentSystem()]);
+  }
+
+  /** @type {import("./motion.js").Put} */
+  function put(sections, { path, isAnew = false, id }) {
+    tables = { ...tables, ...sections };
+    // what was typed stands in its field; other changes are shown when the state is followed
+    shown = isAnew ? "" : keyOf(tables);
+    const given = isExample
+      ? Object.fromEntries(["axis", "motion", "motor"].map((name) => [name, tables[name] ?? null]))
+      : sections;
+    designs.setTables(given, path).then(() => {
+      if (isAnew && id) document.getElementById(id)?.focus();
+    });
+  }
+
+  /** @param {import("../fields.js").Change} change */
+  function onChange({ path = "", text: typed = "", unit }) {
+    if (unit !== undefined) {
+      page.setUnit(path, unit);
+      return;
+    }
+    const [section] = path.split(".");
+    const found = states.tables(tables, { [path]: typed }, schema.fieldOf);
+    put({ [section]: found[section] ?? {} }, { path });
+  }
+
+  async function follow() {
+    const found = await designs.currentCase();
+    isExample = !found.motion || !found.axis;
+    const example = vocabulary.starts[EXAMPLE].case;
+    tables = isExample ? { ...found, axis: example.axis, motion: example.motion, motor: example.motor } : found;
+    note.textContent = isExample ? text("duty.example") : otherParts();
+    if (keyOf(tables) !== shown) {
+      shown = keyOf(tables);
+      const focused = document.activeElement?.id;
+      const usual = /** @type {Tables} */ (example.motor);
+      editor.replaceChildren(...inputs(tables, designs.all(), vocabulary.motions, usual, { put, onChange }));
+      if (answer) showValues(editor, answer.inputs);
+      if (focused) document.getElementById(focused)?.focus({ preventScroll: true });
+    }
+    if (answer && system !== units.currentSystem()) show(answer);
+    asked.follow({ case: tables });
+  }
+
+  /** That bearings and guides of the case count, which are not shown here. */
+  function otherParts() {
+    return tables.bearings || tables.guides ? text("duty.elements") : "";
+  }
+
+  /** @param {Vocabulary["starts"]} starts */
+  function examples(starts) {
+    const moving = Object.entries(starts).filter(([, { moves }]) => moves);
+    const select = element(
+      "select",
+      { id: "duty-example" },
+      ...moving.map(([name, { title }]) => element("option", { value: name }, textOr(`start.${name}`, title))),
+    );
+    const take = () => {
+      const example = /** @type {Tables} */ (starts[select.value].case);
+      shown = "";
+      designs.setTables(Object.fromEntries(OF_EXAMPLE.map((name) => [name, example[name] ?? null])));
+    };
+    return element(
+      "p",
+      { class: "card-start" },
+      element("label", { for: "duty-example" }, text("duty.from_example")),
+      select,
+      element("button", { type: "button", id: "duty-take", onclick: take }, text("duty.take")),
+    );
+  }
+
+  /** @param {DutyAnswer} found */
+  function show(found) {
+    answer = found;
+    system = units.currentSystem();
+    const { results, warnings, verdicts } = found;
+    showValues(editor, found.inputs);
+    words.replaceChildren(
+      ...lines(
+        verdicts.filter((one) => one.id !== "verdict.checks"),
+        warnings,
+      ),
+      numbers(results),
+      ...checks.panel(judgedOf(found), text("duty.checks_caption"), page.jump),
+    );
+    charts.show(results, vocabulary.causes);
+    parts.replaceChildren(partsOf(results), brake(results), phases(results));
+  }
+
+  /** @param {DutyAnswer["results"]} results */
+  function numbers(results) {
+    const rows = NUMBERS.map(([name, { text: inUnits }]) => {
+      const value = /** @type {Record<string, any>} */ (results)[name];
+      const meaning = textOr(`quantity.${name}`, vocabulary.of_cycle[name].meaning);
+      return element("div", {}, element("dt", {}, meaning), element("dd", {}, data(name, value, inUnits(value))));
+    });
+    return element("div", { class: "numbers" }, element("dl", {}, ...rows));
+  }
+
+  /** What the motor is paid for: each part of its torque and of the energy, and their sums. @param {DutyAnswer["results"]} results */
+  function partsOf(results) {
+    const { torque_peak_by: peak, torque_rms_by: rms, energy_by: energy } = results;
+    const names = Object.keys(energy).filter((name) =>
+      [peak, rms, energy].some((one) => Math.abs(one[name] ?? 0) > ROUNDING),
+    );
+    /** @param {string} name */
+    const meaning = (name) =>
+      textOr(`mechanism.${name}`, vocabulary.mechanisms[name]?.words ?? name.replaceAll("_", " "));
+    /** @param {Record<string, number | null>} column */
+    const sum = (column) => Object.values(column).reduce((/** @type {number} */ found, one) => found + (one ?? 0), 0);
+    /** What is rounding is nothing. @param {Record<string, number | null>} column @param {string} name */
+    const of = (column, name) => {
+      const largest = Math.max(...Object.values(column).map((one) => Math.abs(one ?? 0)));
+      return Math.abs(column[name] ?? 0) > ROUNDING * largest ? column[name] : 0;
+    };
+    const rows = [
+      ...names.map((name) => [
+        meaning(name),
+        TORQUE.text(of(peak, name)),
+        TORQUE.text(of(rms, name)),
+        ENERGY.text(of(energy, name)),
+      ]),
+      [
+        element("strong", {}, text("duty.sum")),
+        TORQUE.text(sum(peak)),
+        TORQUE.text(sum(rms)),
+        ENERGY.text(sum(energy)),
+      ],
+    ];
+    const headings = [text("duty.part"), text("duty.of_peak"), text("duty.of_rms"), text("duty.of_energy")];
+    return framed(text("duty.parts_caption"), headings, rows);
+  }
+
+  /** What the axis does with its motor off. @param {DutyAnswer["results"]} results */
+  function brake({ brake: { conditions, brake_torque: torque } }) {
+    const rows = /** @type {Record<string, any>[]} */ (conditions).map((one) => [
+      textOr(`duty.condition.${one.condition}`, one.condition),
+      TEMPERATURE.text(one.temperature),
+      text(one.falls ? "duty.falls" : one.goes_on ? "duty.goes_on" : "duty.stays"),
+      TORQUE.text(one.load_torque),
+      TORQUE.text(one.breakaway_torque),
+      one.falls || one.goes_on ? SPEED.text(one.speed_after_stroke) : "–",
+      TORQUE.text(one.holding_torque),
+    ]);
+    const headings = ["condition", "oil", "axis", "load", "breakaway", "speed_after", "holding"].map((name) =>
+      textOr(`duty.off.${name}`, name),
+    );
+    const caption = text("duty.brake_caption", { torque: TORQUE.text(torque) });
+    return framed(caption, headings, rows);
+  }
+
+  /** @param {DutyAnswer["results"]} results */
+  function phases(results) {
+    const rows = /** @type {Record<string, any>[]} */ (results.phases).map((one) => [
+      one.name,
+      TIME.text(one.start),
+      TIME.text(one.duration),
+      FORCE.text(one.largest_load),
+      TORQUE.text(one.torque_peak),
+      TORQUE.text(one.torque_rms),
+      ENERGY.text(one.energy),
+    ]);
+    const headings = ["name", "start", "duration", "load", "peak", "rms", "energy"].map((name) =>
+      textOr(`duty.phase.${name}`, name),
+    );
+    const heat = Object.entries(results.heat_by_element).map(
+      ([name, power]) => `${name.replaceAll("_", " ")} ${POWER.text(power)}`,
+    );
+    return element(
+      "div",
+      {},
+      element("p", { class: "small" }, text("duty.heat", { parts: heat.join(", ") })),
+      element(
+        "details",
+        {},
+        element("summary", {}, text("duty.phases")),
+        framed(text("duty.phases_caption"), headings, rows),
+      ),
+    );
+  }
+
+  return { follow, stop: asked.stop };
+}
+
+/** The checks of a cycle, and how many of them were judged. @param {DutyAnswer} found */
+function judgedOf({ checks: all }) {
+  const judged = all.filter((one) => one.holds !== null).length;
+  return { checks: all, judged, holds: all.every((one) => one.holds === true) };
+}
+
+/**
+ * A table that scrolls on its own.
+ *
+ * @param {string} caption
+ * @param {string[]} headings
+ * @param {import("../dom.js").Child[][]} rows
+ */
+function framed(caption, headings, rows) {
+  const frame = { class: "scroll whole", tabindex: "0", role: "region", "aria-label": caption };
+  return element("div", frame, table(caption, headings, rows));
+}

@@ -1,0 +1,212 @@
+// The card of files: designs by name, projects, screws of one's own, and what stays in this browser.
+
+import * as designs from "../designs.js";
+import { byId, element, save } from "../dom.js";
+import * as keeping from "../keeping.js";
+import * as opening from "../opening.js";
+import { linesOf, send } from "../server.js";
+import { LETTERS } from "../state.js";
+import { language, text } from "../texts.js";
+
+/** Kinds of project files. */
+const KINDS = ["toml", "json"];
+const WHEN = new Intl.DateTimeFormat(language, { dateStyle: "medium", timeStyle: "short" });
+
+/** @param {HTMLElement} holder */
+export function setUp(holder) {
+  const list = element("div", { id: "design-list" });
+  const rows = element("div", { id: "own-rows" });
+  const works = element("div", { id: "kept-list" });
+  const said = element("p", { id: "files-words", "aria-live": "polite" });
+  /** @param {string} words */
+  const say = (words) => {
+    said.textContent = words;
+  };
+  const projects = KINDS.map((kind) =>
+    element(
+      "button",
+      { type: "button", onclick: () => saveProject(kind, say) },
+      text("files.project", { kind: kind.toUpperCase() }),
+    ),
+  );
+  holder.replaceChildren(
+    element("p", { class: "small" }, text("files.about")),
+    element("button", { type: "button", onclick: () => byId("open").click() }, text("open.button")),
+    list,
+    element("p", {}, ...projects),
+    said,
+    rows,
+    element("h3", {}, text("keep.heading")),
+    works,
+  );
+  /** The letters and titles that the list was made of. */
+  let shown = "";
+  const follow = () => {
+    const { designs: all, show } = designs.all();
+    const key = JSON.stringify([
+      all.map((one) => [designs.titleOf({ ...one, name: "" }), Object.keys(one.aside ?? {})]),
+      show,
+    ]);
+    if (key !== shown) list.replaceChildren(listOfDesigns());
+    shown = key;
+    for (const [place, one] of all.entries()) {
+      const field = /** @type {HTMLInputElement} */ (byId(`name-${LETTERS[place]}`));
+      if (field !== document.activeElement) field.value = one.name ?? "";
+    }
+    showKept(works);
+  };
+  const showRows = () => showOwnRows(rows, say);
+  opening.follow(showRows);
+  keeping.follow(() => showKept(works));
+  showRows();
+  follow();
+  return { follow, stop: () => {} };
+}
+
+function listOfDesigns() {
+  const { designs: all, show } = designs.all();
+  const body = all.map((one, place) => {
+    const letter = LETTERS[place];
+    const asides = Object.keys(one.aside ?? {});
+    /** @param {"files.show" | "files.copy" | "files.delete"} key @param {() => void} action @param {boolean} disabled */
+    const button = (key, action, disabled) =>
+      element(
+        "button",
+        { type: "button", disabled, "aria-label": `${text(key)} ${letter}`, onclick: action },
+        text(key),
+      );
+    const field = element("input", {
+      type: "text",
+      id: `name-${letter}`,
+      value: one.name ?? "",
+      maxlength: 80,
+      "aria-label": text("files.name_of", { letter }),
+      oninput: () => designs.rename(place, field.value.trim()),
+    });
+    return element(
+      "tr",
+      {},
+      element("th", { scope: "row" }, letter),
+      element("td", {}, field),
+      element(
+        "td",
+        {},
+        designs.titleOf({ ...one, name: "" }),
+        asides.length
+          ? element("span", { class: "small" }, ` ${text("files.aside", { names: asides.join(", ") })}`)
+          : null,
+      ),
+      element(
+        "td",
+        { class: "actions" },
+        button("files.show", () => designs.show(place), place === show),
+        button("files.copy", () => designs.duplicate(place), !designs.hasRoom()),
+        button("files.delete", () => designs.remove(place), all.length === 1),
+      ),
+    );
+  });
+  const headings = ["files.design", "files.name", "files.from", "files.actions"];
+  return element(
+    "div",
+    { class: "scroll", tabindex: "0", role: "region", "aria-label": text("files.designs") },
+    element(
+      "table",
+      { class: "left" },
+      element("caption", {}, text("files.designs")),
+      element(
+        "thead",
+        {},
+        element(
+          "tr",
+          {},
+          ...headings.map((key) =>
+            element("th", { scope: "col" }, text(/** @type {import("../texts.js").Key} */ (key))),
+          ),
+        ),
+      ),
+      element("tbody", {}, ...body),
+    ),
+  );
+}
+
+/**
+ * @param {string} kind
+ * @param {(words: string) => void} say
+ */
+async function saveProject(kind, say) {
+  try {
+    const response = await send(`project?kind=${kind}`, { designs: await designs.forProject() });
+    save(`-project.${kind}`, await response.blob());
+    say(text("download.saved", { kind: text("files.project", { kind: kind.toUpperCase() }) }));
+  } catch (error) {
+    say(linesOf(error).join("; "));
+  }
+}
+
+/**
+ * The screws of the table that was opened, each to be taken as a design.
+ *
+ * @param {HTMLElement} holder
+ * @param {(words: string) => void} say
+ */
+function showOwnRows(holder, say) {
+  const table = opening.ownTable();
+  if (!table) {
+    holder.replaceChildren();
+    return;
+  }
+  const items = table.opened.designs.map((row) => {
+    const take = async () => say((await opening.takeRow(row)) ? "" : text("files.full", { most: LETTERS.length }));
+    const label = text("files.take_row", { name: row.name });
+    return element(
+      "li",
+      {},
+      `${row.name} `,
+      element("button", { type: "button", "aria-label": label, onclick: take }, text("files.take")),
+    );
+  });
+  holder.replaceChildren(
+    element("h3", {}, text("files.rows", { file: table.file.name })),
+    element("ul", { class: "rows" }, ...items),
+  );
+}
+
+/** @param {HTMLElement} holder */
+function showKept(holder) {
+  const works = keeping.kept();
+  const why = keeping.whyNot();
+  const items = works.map(({ id, fragment, title, saved }) => {
+    const when = WHEN.format(saved);
+    const mine = id === keeping.own();
+    const open = element(
+      "button",
+      {
+        type: "button",
+        disabled: mine,
+        "aria-label": text("keep.open_of", { when }),
+        onclick: () => {
+          location.hash = fragment;
+        },
+      },
+      text("keep.open"),
+    );
+    const forget = element(
+      "button",
+      { type: "button", "aria-label": text("keep.delete_of", { when }), onclick: () => keeping.forget([id]) },
+      text("files.delete"),
+    );
+    return element(
+      "li",
+      {},
+      `${when}: ${title} `,
+      mine ? element("em", {}, text("keep.mine")) : null,
+      " ",
+      open,
+      forget,
+    );
+  });
+  holder.replaceChildren(
+    element("p", { class: "small" }, why ? text(`keep.${why}`) : text("keep.about")),
+    works.length ? element("ul", { class: "rows" }, ...items) : element("p", {}, text("keep.none")),
+  );
+}

@@ -1,0 +1,180 @@
+// The inputs of the card of a duty: a motion of any kind, the axis that moves, and its motor.
+
+import { element } from "../dom.js";
+import * as schema from "../schema.js";
+import { text, textOr } from "../texts.js";
+import { fieldset } from "./case_fields.js";
+import { editor, idOf, kindOf } from "./segments.js";
+
+/** @typedef {import("../state.js").State} State */
+/** @typedef {import("../state.js").Tables} Tables */
+/** @typedef {import("../schema.js").SchemaNode} SchemaNode */
+
+const SEGMENTS = "segments";
+const OF_AXIS = [
+  "mass",
+  "inclination",
+  "inertia",
+  "counterweight",
+  "counterforce",
+  "guide_friction_coefficient",
+  "guide_seal_force",
+  "bearing_torque",
+  "transmission_ratio",
+  "transmission_efficiency",
+  "brake_holds",
+];
+const OF_MOTOR = ["rated_torque", "peak_torque", "largest_speed", "torque_constant", "resistance"];
+
+/**
+ * A change of the inputs: sections of the case, the field that was edited, and whether the inputs are made anew with the
+ * focus on the element of an ``id``.
+ *
+ * @typedef {(sections: Tables, options: { path?: string, isAnew?: boolean, id?: string }) => void} Put
+ */
+
+/**
+ * The schemas of the fields of a segment.
+ *
+ * @returns {Record<string, SchemaNode>}
+ */
+function nodesOfSegments() {
+  const node = /** @type {{ items?: SchemaNode } | undefined} */ (schema.fieldOf("motion.segment"));
+  return schema.definition(node?.items)?.properties ?? {};
+}
+
+/**
+ * The inputs.
+ *
+ * @param {Tables} tables sections of the case
+ * @param {Readonly<State>} state
+ * @param {Record<string, string[]>} motions the fields of each kind of motion
+ * @param {Tables | undefined} usualMotor the motor that a case without one is given
+ * @param {{ put: Put, onChange: (change: import("../fields.js").Change) => void }} listeners
+ */
+export function inputs(tables, state, motions, usualMotor, { put, onChange }) {
+  const source = { state, tables, onChange };
+  return [
+    motionFields(tables.motion, motions, source, put),
+    fieldset("axis", text("section.axis"), OF_AXIS, source),
+    ...motorFields(tables.motor, usualMotor, source, put),
+  ];
+}
+
+/**
+ * @param {Tables} motion
+ * @param {Record<string, string[]>} motions
+ * @param {Parameters<typeof fieldset>[3]} source
+ * @param {Put} put
+ */
+function motionFields(motion, motions, source, put) {
+  const kind = String(motion.kind ?? SEGMENTS);
+  const select = element(
+    "select",
+    {
+      id: "motion-kind",
+      onchange: () => put({ motion: asKind(motion, select.value, motions) }, { isAnew: true, id: "motion-kind" }),
+    },
+    ...Object.keys(motions).map((name) =>
+      element("option", { value: name, selected: name === kind }, textOr(`duty.kind.${name}`, name)),
+    ),
+  );
+  const names = (motions[kind] ?? []).filter((name) => name !== "segment" && name !== "kind");
+  const fields = fieldset("motion", text("section.motion"), names, source);
+  const chosen = element(
+    "div",
+    { class: "field", "data-path": "motion.kind" },
+    element("label", { for: "motion-kind" }, text("duty.kind")),
+    element("div", { class: "entry" }, select),
+    element("p", { class: "fault" }),
+  );
+  fields.querySelector(".grid")?.prepend(chosen);
+  if (kind === SEGMENTS) {
+    fields.append(
+      editor(motion.segment ?? [], nodesOfSegments(), (segment, { place, name, isAnew }) => {
+        const path = isAnew ? undefined : `motion.segment ${place + 1}.${name}`;
+        put({ motion: { ...motion, segment } }, { path, isAnew, id: idOf(place, name) });
+      }),
+    );
+  }
+  return fields;
+}
+
+/**
+ * A motion as one of another kind: what both have stays, and what the other needs is a usual value.
+ *
+ * @param {Tables} motion
+ * @param {string} kind
+ * @param {Record<string, string[]>} motions
+ */
+function asKind(motion, kind, motions) {
+  const { stroke, speed, dwell, segment } = motion;
+  /** @type {Tables} */
+  const found = { kind };
+  /** @type {import("./segments.js").Segment[]} */
+  const segments = Array.isArray(segment) ? segment : [];
+  const first = segments.find((one) => kindOf(one) === "move");
+  const known = { ...motion, stroke: stroke ?? first?.distance?.replace(/^[-−]/, ""), speed: speed ?? first?.speed };
+  for (const name of motions[kind] ?? []) {
+    const value = /** @type {Tables} */ (known)[name];
+    const needed =
+      ["stroke", "speed", "acceleration", "frequency"].includes(name) || (kind === "s-curve" && name === "jerk");
+    if (value !== undefined && name !== "kind") found[name] = value;
+    else if (needed) found[name] = schema.fieldOf(`motion.${name}`)?.examples?.[0];
+  }
+  if (kind === SEGMENTS && !found.segment) {
+    const rest = dwell ? [{ name: "rest", duration: dwell }] : [];
+    const ways = [stroke, `-${stroke}`].map((distance, way) => ({
+      name: way ? "back" : "forth",
+      distance,
+      speed: speed ?? "10 m/min",
+    }));
+    found.segment = ways.flatMap((one) => [one, ...rest]);
+  }
+  return found;
+}
+
+/**
+ * The motor, which a case may leave out.
+ *
+ * @param {Tables | undefined} motor
+ * @param {Tables | undefined} usualMotor
+ * @param {Parameters<typeof fieldset>[3]} source
+ * @param {Put} put
+ */
+function motorFields(motor, usualMotor, source, put) {
+  const id = "motor-toggle";
+  const toggle = () => put({ motor: motor ? null : (usualMotor ?? {}) }, { isAnew: true, id });
+  const button = element(
+    "button",
+    { type: "button", id, onclick: toggle },
+    text(motor ? "duty.no_motor" : "duty.add_motor"),
+  );
+  if (!motor) return [element("p", {}, `${text("duty.without_motor")} `, button)];
+  const fields = fieldset("motor", text("section.motor"), OF_MOTOR, source);
+  const input = element("input", {
+    type: "text",
+    id: "f-motor-curve",
+    spellcheck: "false",
+    "aria-describedby": "f-motor-curve-about f-motor-curve-fault",
+  });
+  input.value = (motor.curve ?? []).map((/** @type {string[]} */ point) => point.join(": ")).join("; ");
+  input.addEventListener("input", () => {
+    const points = input.value.split(";").map((point) => point.split(":").map((one) => one.trim()));
+    const { curve, ...others } = motor ?? {};
+    motor = input.value.trim() ? { ...others, curve: points } : others;
+    put({ motor }, { path: "motor.curve" });
+  });
+  fields.append(
+    element(
+      "div",
+      { class: "field", "data-path": "motor.curve" },
+      element("label", { for: "f-motor-curve" }, text("duty.curve_input")),
+      element("div", { class: "entry" }, input),
+      element("p", { class: "small", id: "f-motor-curve-about" }, text("duty.curve_form")),
+      element("p", { class: "fault", id: "f-motor-curve-fault" }),
+    ),
+    button,
+  );
+  return [fields];
+}

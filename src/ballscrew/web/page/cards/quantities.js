@@ -1,0 +1,48 @@
+// Quantities of cards: lists and numbers in SI, shown in the units of the page.
+
+import { element } from "../dom.js";
+import * as units from "../units.js";
+
+/**
+ * A quantity by its SI unit, and the metric unit in which it is shown.
+ *
+ * @param {string} si
+ * @param {string} metric
+ */
+export function quantity(si, metric) {
+  const unit = () => units.inSystem(metric);
+  /** @param {number | null | undefined} value */
+  const convert = (value) => (value === null || value === undefined ? null : units.fromSI(value, unit(), si));
+  return {
+    convert,
+    /** @param {readonly (number | null)[]} values */
+    all: (values) => values.map(convert),
+    /** @param {string} words */
+    titled: (words) => `${words} (${units.symbol(unit())})`,
+    /** @param {number | null | undefined} value @param {number} [digits] */
+    text: (value, digits = units.DIGITS) => units.formattedIn(value, metric, si, digits),
+  };
+}
+
+export const TIME = quantity("s", "s");
+export const HOURS = quantity("s", "h");
+export const POSITION = quantity("m", "mm");
+export const GROWTH = quantity("m", "um");
+export const SPEED = quantity("m/s", "m/min");
+export const TURNING = quantity("rad/s", "rpm");
+export const TORQUE = quantity("N m", "N m");
+export const FORCE = quantity("N", "N");
+export const ENERGY = quantity("J", "J");
+export const POWER = quantity("W", "W");
+export const TEMPERATURE = quantity("K", "degC");
+
+/**
+ * An exact number for programs, as text for people.
+ *
+ * @param {string} name
+ * @param {number | null | undefined} value
+ * @param {string} shown
+ */
+export function data(name, value, shown) {
+  return element("data", { value: String(value ?? ""), "data-name": name }, shown);
+}

@@ -1,0 +1,210 @@
+// The editor of a motion of segments: a table with a row for each, which are added, deleted and moved by keys.
+
+import { element } from "../dom.js";
+import { text, textOr } from "../texts.js";
+import * as units from "../units.js";
+
+/** @typedef {import("../schema.js").SchemaNode} SchemaNode */
+/** @typedef {Record<string, string>} Segment */
+/** @typedef {"move" | "stretch" | "rest"} Kind */
+
+/** Fields that each kind of segment has, besides its name. @type {Record<Kind, string[]>} */
+const FIELDS = {
+  move: ["distance", "speed", "acceleration", "force", "temperature"],
+  stretch: ["duration", "speed", "force", "temperature"],
+  rest: ["duration", "force", "temperature"],
+};
+const COLUMNS = ["distance", "duration", "speed", "acceleration", "force", "temperature"];
+/** What a new segment has, and one whose kind was changed where it has nothing. @type {Segment} */
+const USUAL = { distance: "100 mm", duration: "1 s", speed: "10 m/min" };
+/** @type {Record<Kind, string[]>} */
+const NEEDED = { move: ["distance", "speed"], stretch: ["duration", "speed"], rest: ["duration"] };
+
+/** @param {Segment} segment @returns {Kind} */
+export function kindOf(segment) {
+  if (segment.distance !== undefined) return "move";
+  return units.parse(segment.speed ?? "0 m/s", "m/s")?.number === 0 ? "rest" : "stretch";
+}
+
+/**
+ * A segment as one of another kind: what both have stays.
+ *
+ * @param {Segment} segment
+ * @param {Kind} kind
+ * @returns {Segment}
+ */
+export function asKind(segment, kind) {
+  const kept = Object.entries(segment).filter(([name]) => name === "name" || FIELDS[kind].includes(name));
+  const usual = NEEDED[kind].map((name) => [name, USUAL[name]]);
+  return { ...Object.fromEntries(usual), ...Object.fromEntries(kept) };
+}
+
+/**
+ * The table of segments.
+ *
+ * @param {Segment[]} segments
+ * @param {Record<string, SchemaNode>} nodes schemas of the fields of a segment
+ * @param {(segments: Segment[], edited: { place: number, name: string, isAnew: boolean }) => void} onChange ``isAnew``
+ *   where the table has to be made anew, with the focus on this field
+ */
+export function editor(segments, nodes, onChange) {
+  /** @param {number} place @param {number} by */
+  const move = (place, by) => {
+    const to = place + by;
+    if (to < 0 || to >= segments.length) return;
+    const found = segments.toSpliced(place, 1).toSpliced(to, 0, segments[place]);
+    onChange(found, { place: to, name: by < 0 ? "up" : "down", isAnew: true });
+  };
+  const rows = segments.map((segment, place) => row(segment, place, { segments, nodes, onChange, move }));
+  const add = () => {
+    const [place, name] = [segments.length, "name"];
+    onChange([...segments, { ...asKind({}, "rest") }], { place, name, isAnew: true });
+  };
+  const headings = [
+    text("segments.number"),
+    text("segments.order"),
+    text("segments.name"),
+    text("segments.kind"),
+    ...COLUMNS.map((name) => heading(name, nodes[name])),
+  ];
+  const content = element(
+    "table",
+    { class: "segments" },
+    element("caption", {}, text("segments.caption")),
+    element("thead", {}, element("tr", {}, ...headings.map((words) => element("th", { scope: "col" }, words)))),
+    element("tbody", {}, ...rows),
+  );
+  const frame = { class: "scroll whole", tabindex: "0", role: "region", "aria-label": text("segments.caption") };
+  return element(
+    "div",
+    {},
+    element("div", frame, content),
+    element("button", { type: "button", id: "segment-add", onclick: add }, text("segments.add")),
+    element("span", { class: "small" }, ` ${text("segments.keys")}`),
+  );
+}
+
+/** @param {SchemaNode | undefined} node */
+function unitOf(node) {
+  return units.inSystem(node?.["x-unit"] ?? "");
+}
+
+/** @param {string} name @param {SchemaNode | undefined} node */
+function heading(name, node) {
+  return `${textOr(`segments.${name}`, name)} (${units.symbol(unitOf(node))})`;
+}
+
+/**
+ * @typedef {object} Table
+ * @property {Segment[]} segments
+ * @property {Record<string, SchemaNode>} nodes
+ * @property {Parameters<typeof editor>[2]} onChange
+ * @property {(place: number, by: number) => void} move
+ */
+
+/**
+ * @param {Segment} segment
+ * @param {number} place
+ * @param {Table} all
+ */
+function row(segment, place, { segments, nodes, onChange, move }) {
+  const kind = kindOf(segment);
+  const title = text("segments.title", { number: place + 1 });
+  /** @param {Segment} found @param {string} name */
+  const put = (found, name, isAnew = false) => onChange(segments.with(place, found), { place, name, isAnew });
+  /** @param {string} name @param {string} value */
+  const set = (name, value) => {
+    const { [name]: _, ...others } = segment;
+    segment = value === "" ? others : { ...others, [name]: value };
+    put(segment, name);
+  };
+  const names = element("input", {
+    type: "text",
+    id: idOf(place, "name"),
+    "aria-label": `${title}: ${text("segments.name")}`,
+  });
+  names.value = segment.name ?? "";
+  names.addEventListener("input", () => set("name", names.value));
+  const kinds = element(
+    "select",
+    {
+      id: idOf(place, "kind"),
+      "aria-label": `${title}: ${text("segments.kind")}`,
+      onchange: () => put(asKind(segment, /** @type {Kind} */ (kinds.value)), "kind", true),
+    },
+    ...Object.keys(FIELDS).map((one) =>
+      element("option", { value: one, selected: one === kind }, textOr(`segments.is.${one}`, one)),
+    ),
+  );
+  const cells = COLUMNS.map((name) => {
+    if (!FIELDS[kind].includes(name)) return element("td", { class: "none" });
+    return cell(place, name, nodes[name], segment[name], `${title}: ${heading(name, nodes[name])}`, (value) =>
+      set(name, value),
+    );
+  });
+  /** @param {string} name @param {string} sign @param {boolean} disabled @param {() => void} onclick */
+  const button = (name, sign, disabled, onclick) => {
+    const label = `${title}: ${textOr(`segments.${name}`, name)}`;
+    return element("button", { type: "button", id: idOf(place, name), disabled, onclick, "aria-label": label }, sign);
+  };
+  const remove = () =>
+    onChange(segments.toSpliced(place, 1), { place: Math.max(0, place - 1), name: "delete", isAnew: true });
+  const last = segments.length - 1;
+  const found = element(
+    "tr",
+    { "data-path": `motion.segment ${place + 1}` },
+    element("th", { scope: "row" }, String(place + 1), element("p", { class: "fault" })),
+    element(
+      "td",
+      { class: "order" },
+      button("up", "↑", place === 0, () => move(place, -1)),
+      button("down", "↓", place === last, () => move(place, 1)),
+      button("delete", "×", segments.length === 1, remove),
+    ),
+    element("td", {}, names),
+    element("td", {}, kinds),
+    ...cells,
+  );
+  found.addEventListener("keydown", (event) => {
+    if (!event.altKey || (event.key !== "ArrowUp" && event.key !== "ArrowDown")) return;
+    event.preventDefault();
+    event.stopPropagation();
+    move(place, event.key === "ArrowUp" ? -1 : 1);
+  });
+  return found;
+}
+
+/** @param {number} place @param {string} name */
+export function idOf(place, name) {
+  return `segment-${place + 1}-${name}`;
+}
+
+/**
+ * A cell with a number in the unit of its column, or a text with a unit of its own.
+ *
+ * @param {number} place
+ * @param {string} name
+ * @param {SchemaNode | undefined} node
+ * @param {string | undefined} value
+ * @param {string} label
+ * @param {(value: string) => void} onInput
+ */
+function cell(place, name, node, value, label, onInput) {
+  const id = idOf(place, name);
+  const fault = `${id}-fault`;
+  const input = element("input", {
+    type: "text",
+    inputmode: "decimal",
+    id,
+    "aria-label": label,
+    "aria-describedby": fault,
+  });
+  input.value = value === undefined ? "" : (units.digitsIn(value, unitOf(node), node?.["x-si-unit"]) ?? value);
+  input.addEventListener("input", () => {
+    const typed = input.value.trim();
+    const isBare = typed !== "" && /^[\s\d.,'eE+±-]*$/.test(typed);
+    onInput(isBare ? `${typed} ${unitOf(node)}` : typed);
+  });
+  const path = `motion.segment ${place + 1}.${name}`;
+  return element("td", { "data-path": path }, input, element("p", { class: "fault", id: fault }));
+}

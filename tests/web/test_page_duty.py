@@ -1,0 +1,120 @@
+"""The cards of a duty and of warming up: walked through whole, by keyboard where something is moved."""
+
+import tomllib
+
+from .test_page_access import violations
+
+
+def case_of(here):
+    """The case that the page gives."""
+    return tomllib.loads(here.download("#downloads button:text-is('TOML')").decode())
+
+
+def number(here, card, name):
+    return float(here.page.locator(f"#{card} [data-name={name}]").get_attribute("value"))
+
+
+def answered(here, card):
+    """Wait until a card has asked and has its answer."""
+    here.page.wait_for_function(
+        f"""() => {{ const one = document.querySelector("#{card} .card-result");
+            return one?.getAttribute("aria-busy") === "false" && !one.classList.contains("earlier"); }}"""
+    )
+    return here
+
+
+def edited(here, card, action):
+    """Do something that is answered anew."""
+    before = here.page.locator(f"#{card} .card-result").get_attribute("aria-busy")
+    assert before == "false"
+    action()
+    here.page.wait_for_selector(f"#{card} .card-result[aria-busy=true]", state="attached")
+    return answered(here, card)
+
+
+def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
+    here = visit()
+    here.expected = ("status of 422",)
+    here.open("#A=paper&A.nut.type=double&A.nut.preload=2+kN&A.screw.dynamic_load_rating=20+kN&band=0")
+    page = here.page
+    page.locator("#duty-open").click()
+    answered(here, "duty")
+    assert "an example, a vertical axis" in here.text("#duty")
+    assert "motion" not in case_of(here)
+    # the first change takes the example into the design
+    edited(here, "duty", lambda: page.locator("#segment-1-distance").fill("300"))
+    case = case_of(here)
+    assert [one["name"] for one in case["motion"]["segment"]][:2] == ["up", "change of tool"]
+    assert case["motion"]["segment"][0]["distance"] == "300 mm"
+    answer = server.post("duty", {"case": case}).json()
+    results = answer["results"]
+    assert number(here, "duty", "torque_rms") == results["torque_rms"]
+    assert number(here, "duty", "life_time") == results["life_time"] > 0
+    said = page.eval_on_selector_all("#duty [data-record]", "all => all.map((one) => one.dataset.record)")
+    assert said == [one["id"] for one in (*answer["verdicts"], *answer["warnings"]) if one["id"] != "verdict.checks"]
+    assert {"verdict.brake", "duty.open_cycle"} <= set(said)
+    assert page.locator("#duty .checks tbody tr").count() == len(answer["checks"])
+    assert "sum" in here.text("#duty table:has(caption:has-text('paid for'))")
+    # a fault stands beside its cell, the answer above stays, and undo takes it back
+    page.locator("#segment-1-speed").fill("fast")
+    page.wait_for_selector("#segment-1-speed[aria-invalid=true]")
+    assert here.text("#duty td.wrong .fault")
+    assert "of the input before" in here.text("#duty .card-line")
+    assert not page.locator("#results").evaluate("one => one.classList.contains('stale')")
+    page.locator("#undo").click()
+    answered(here, "duty")
+    assert page.input_value("#segment-1-speed") == "30"
+    # moved, added and deleted by keys, with the focus at the segment
+    page.locator("#segment-1-name").focus()
+    edited(here, "duty", lambda: page.keyboard.press("Alt+ArrowDown"))
+    assert page.input_value("#segment-2-name") == "up"
+    assert page.evaluate("document.activeElement.id") == "segment-2-down"
+    edited(here, "duty", lambda: page.locator("#segment-add").press("Enter"))
+    assert page.evaluate("document.activeElement.id") == "segment-6-name"
+    edited(here, "duty", lambda: page.locator("#segment-6-delete").press("Enter"))
+    assert page.locator("#duty .segments tbody tr").count() == 5
+    edited(here, "duty", lambda: page.locator("#motion-kind").select_option("s-curve"))
+    edited(here, "duty", lambda: page.locator("#f-axis-mass").fill("200"))
+    edited(here, "duty", lambda: page.locator("#motor-toggle").press("Enter"))
+    case = case_of(here)
+    assert (case["motion"]["kind"], case["axis"]["mass"]) == ("s-curve", "200 kg")
+    assert "motor" not in case
+    assert violations(here) == []
+    # the link has all of it, with the card open
+    page.wait_for_function("location.hash.includes('cards=duty')")
+    here.open(page.url.partition("/")[2].partition("#")[2].join(["#", ""]))
+    answered(here, "duty")
+    assert page.input_value("#f-axis-mass") == "200"
+
+
+def test_warming_up_with_a_band_that_is_cancelled(visit, server):
+    here = visit(width=390, height=844, scheme="dark")
+    here.expected = ("status of 422", "ERR_FAILED")
+    here.open("#A=warm-up&band=0&cards=warm-up")
+    page = here.page
+    answered(here, "warm-up")
+    end = server.post("warm-up", {"case": case_of(here)}).json()["results"]["equilibrium"]
+    assert number(here, "warm-up", "nut_temperature") == end["nut_temperature"]
+    assert number(here, "warm-up", "growth") == end["growth"]
+    page.locator("#warm-hours").fill("never")
+    page.wait_for_selector("#warm-hours[aria-invalid=true]")
+    edited(here, "warm-up", lambda: page.locator("#warm-hours").fill("0,5"))
+    edited(here, "warm-up", lambda: page.locator("#f-surroundings-ambient").fill("30"))
+    assert case_of(here)["surroundings"]["ambient"] == "30 degC"
+    assert number(here, "warm-up", "nut_temperature") > end["nut_temperature"]
+    # what takes long says so, and is cancelled
+    held = []
+    page.route("**/api/v1/warm-up", lambda route: held.append(route))
+    page.locator("#warm-band").check()
+    page.locator("#warm-up .card-line button").click()
+    assert "Cancelled. What stands below is of the input before." in here.text("#warm-up .card-line")
+    page.unroute("**/api/v1/warm-up")
+    edited(here, "warm-up", lambda: page.locator("#warm-up .card-line button").click())
+    assert " to " in here.text("#warm-up .interval >> nth=0")
+    # the picture of the axis at another instant
+    page.locator("#warm-axis-chart").scroll_into_view_if_needed()
+    page.wait_for_selector("#warm-axis-chart .main-svg")
+    said = page.locator("#warm-axis-chart .plot").get_attribute("aria-label")
+    page.locator("#warm-instant").press("Home")
+    assert page.locator("#warm-axis-chart .plot").get_attribute("aria-label") != said
+    assert violations(here) == []
