@@ -578,6 +578,8 @@ def test_what_cannot_be_written_is_one_line_and_nothing_is_left(ballscrew, tmp_p
         (line,) = done.stderr.splitlines()
         assert line.startswith(f"--to: {problem}")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["folder.pdf"]
+    done = ballscrew("report", case, "-o", tmp_path / "x.pdf", *["--beside", case] * 4)
+    assert (done.returncode, done.stderr) == (2, "--beside: too many designs (4) · 3 at most\n")
     done = ballscrew("report", case, "-o", tmp_path / "x.pdf", "--samples", "1")
     assert (done.returncode, done.stdout) == (2, "")
     assert "--samples" in done.stderr

@@ -106,6 +106,14 @@ def test_no_script_has_a_text_of_its_own():
     assert {name: lines for name, lines in found.items() if lines} == {}
 
 
+def test_help_names_pages_of_the_theory():
+    pages = set(re.findall(r'^  (?:"[a-z_.]+"|[a-z]+): "([a-z]+)",$', SCRIPTS["help.js"], re.MULTILINE))
+    theory = Path(__file__).parents[2] / "docs" / "theory"
+    assert len(pages) > 5
+    assert {page for page in pages if not (theory / f"{page}.md").is_file()} == set()
+    assert {f"help.page.{page}" for page in pages} == {key for key in ENGLISH if key.startswith("help.page.")}
+
+
 @pytest.mark.parametrize(
     ("cookie", "header", "language"),
     [

@@ -40,12 +40,20 @@ def report_bytes(
     done: Done | None = None,
     samples: int | None = None,
     heading: Heading = NO_HEADING,
+    beside: Sequence[case_file.Case] = (),
 ) -> bytes:
     """The report of a case as a PDF or HTML file; equal cases with equal headings give equal bytes.
 
-    ``done(finished, total)`` is told how far it is. Needs the extra ``report``.
+    With other designs ``beside`` it all of them stand side by side first. ``done(finished, total)`` is told how far it
+    is. Needs the extra ``report``.
     """
-    found = dataclasses.replace(content(case, done, samples), heading=heading.lines)
+    if beside:
+        from ballscrew.report import several
+
+        whole = several.content([case, *beside], done, samples)
+    else:
+        whole = content(case, done, samples)
+    found = dataclasses.replace(whole, heading=heading.lines)
     if kind == "html":
         from ballscrew.report.html import html_bytes
 
@@ -90,12 +98,12 @@ def content(case: case_file.Case, done: Done | None = None, samples: int | None 
         *_heat(case),
         Section("What to beware of", result_tables.beware(found)),
         Section(
-            "Inputs and model", [*_model(case), Columns.of([*inputs, input_tables.laws(case)]), _origins(case, inputs)]
+            "Inputs and model", [*_model(case), Columns.of([*inputs, input_tables.laws(case)]), origins(case, inputs)]
         ),
-        Section("Sources", [Links(_sources(case, uncertain))]),
+        Section("Sources", [Links(sources(case, uncertain))]),
     ]
     pages = _PAGES + (case.motion is not None) * _PAGES_OF_CYCLE + (case.surroundings is not None) * _PAGES_OF_HEAT
-    return Report("Friction of a ball screw", _subtitle(case), sections, f"ballscrew {__version__}", pages)
+    return Report("Friction of a ball screw", subtitle(case), sections, f"ballscrew {__version__}", pages)
 
 
 def _cycle(case: case_file.Case) -> list[Section]:
@@ -117,7 +125,8 @@ def _heat(case: case_file.Case) -> list[Section]:
     return [Section("As it warms up", warm_up_section.blocks_of(case))]
 
 
-def _subtitle(case: case_file.Case) -> list[str]:
+def subtitle(case: case_file.Case) -> list[str]:
+    """Row, screw, nut, operating point and model of a case, a line each."""
     of_row = [] if case.row is None else [f"{case.row.name} ({case.row.source})"]
     nut = [] if case.nut is None else [descriptions.nut_text(case.nut)]
     lines = [*of_row, descriptions.design(case, plain_text=True), *nut]
@@ -179,11 +188,13 @@ def _model(case: case_file.Case) -> Sequence[Block]:
     return [Paragraph(" ".join(said))]
 
 
-def _origins(case: case_file.Case, inputs: list[Table]) -> Paragraph:
+def origins(case: case_file.Case, inputs: list[Table]) -> Paragraph:
+    """Where the values of the inputs are from."""
     return Paragraph(f"Where values are from: {input_tables.sources_in_words(case, inputs)}")
 
 
-def _sources(case: case_file.Case, found: band.BandReport) -> list[tuple[str, str]]:
+def sources(case: case_file.Case, found: band.BandReport) -> list[tuple[str, str]]:
+    """Sources of a case and its band, in words, each with its address."""
     keys = [*case_file.references(case), *_OF_CHECKS, *(one.source for one in found.inputs.values())]
     keys += [] if case.row is None else bibliography.of_catalogue(case.row.source)
     return [(f"{source.key}: {source.words}", source.link) for source in bibliography.sources(keys)]

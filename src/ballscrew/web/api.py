@@ -12,6 +12,11 @@ from fastapi import APIRouter, Depends, Query, Request
 from starlette.responses import Response
 
 from ballscrew import units
+from ballscrew.api_answers import answers
+from ballscrew.api_answers import check as check_answers
+from ballscrew.api_answers import duty as duty_answers
+from ballscrew.api_answers import select as select_answers
+from ballscrew.api_answers import warm_up as warm_up_answers
 from ballscrew.axis_studies import duty as duties
 from ballscrew.axis_studies import stiffness as chains
 from ballscrew.axis_studies import warm_up as warm_ups
@@ -38,18 +43,7 @@ from ballscrew.studies import sweep as sweeps
 from ballscrew.studies import validation
 from ballscrew.studies.check import with_nut_named
 from ballscrew.studies.comparison import comparison
-from ballscrew.web import (
-    answers,
-    check_answers,
-    documents,
-    duty_answers,
-    file_api,
-    limits,
-    openapi,
-    select_answers,
-    vocabulary,
-    warm_up_answers,
-)
+from ballscrew.web import documents, file_api, limits, log_api, openapi, vocabulary
 from ballscrew.web.bodies import (
     BandBody,
     CaseBody,
@@ -86,6 +80,7 @@ KINDS: Mapping[str, str] = {"pdf": "application/pdf", "html": "text/html; charse
 _VALIDATION_LOCK = threading.Lock()
 router = APIRouter(prefix="/api/v1", dependencies=[Depends(known_query)])
 router.include_router(file_api.router)
+router.include_router(log_api.router)
 
 
 @router.post("/run", openapi_extra=openapi.body(CaseBody), response_model=answers.Run, responses=openapi.problems_of())
@@ -354,9 +349,11 @@ async def report(
     def work(done: Deadline) -> Response:
         from ballscrew.report.contents import Kind, report_bytes  # slow to import
 
-        case = case_of(body.case)
+        case, *beside = map(case_of, (body.case, *body.beside))
         written: Kind = "pdf" if kind == "pdf" else "html"
-        found = report_bytes(case, written, done, limits.samples_of(case), heading)
+        # none has more samples than the largest of them may have
+        fewest = [count for each in (case, *beside) if (count := limits.samples_of(each)) is not None]
+        found = report_bytes(case, written, done, min(fewest) if fewest else None, heading, beside)
         return Response(found, media_type=KINDS[kind])
 
     return await heavy(request, work)

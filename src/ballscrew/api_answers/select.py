@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from ballscrew.web.answer_parts import Closed, Number, Numbers, Open, Provenance, Record, Tables, field
+from ballscrew.api_answers.parts import Closed, Number, Numbers, Open, Provenance, Record, Tables, field
 
 
 class Failing(Closed):
