@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from ballscrew.case_schema.schema import json_schema
+from ballscrew.optimisation.need_schema import json_schema as need_schema
 from ballscrew.web import languages
 
 PAGE = Path(languages.__file__).with_name("page")
@@ -26,7 +27,7 @@ _WORDS = re.compile(r"[A-Za-z]{2,}[,:;]? [a-z]{2,}")
 #: Two words that nobody reads: classes of elements, units, selectors, and a defect of the page.
 CODES = {
     "(prefers-color-scheme: dark)", "card-start whole-width", "chart low", "field given", "field start given",
-    "input, select", "lbf in", "mm rpm",
+    "input, select", "kg cm^2", "lbf in", "line thin", "mm rpm",
     "no element #…", "no element …", "scroll whole", "verdict careful",
     # English remedies of the server for files, said for a page
     "fill in the section …", "fill in {", "in a file write", "the section …",
@@ -84,7 +85,9 @@ def fields(schema, node, path=()):
 @pytest.mark.parametrize("name", OTHERS)
 def test_translated_fields_are_fields(name):
     schema = json_schema()
-    known = set(fields(schema, schema))
+    of_needs = need_schema()
+    known = set(fields(schema, schema)) | {path for path in fields(of_needs, of_needs) if path.startswith("need.")}
+    known |= {f"need.{name}" for name in of_needs["properties"]}
     translated = {key for key in languages.texts()[name] if key.startswith("field.")}
     assert len(translated) > 150
     assert {key for key in translated if key.removeprefix("field.").rpartition(".")[0] not in known} == set()
@@ -101,6 +104,14 @@ def test_no_script_has_a_text_of_its_own():
         for name, text in SCRIPTS.items()
     }
     assert {name: lines for name, lines in found.items() if lines} == {}
+
+
+def test_help_names_pages_of_the_theory():
+    pages = set(re.findall(r'^  (?:"[a-z_.]+"|[a-z]+): "([a-z]+)",$', SCRIPTS["help.js"], re.MULTILINE))
+    theory = Path(__file__).parents[2] / "docs" / "theory"
+    assert len(pages) > 5
+    assert {page for page in pages if not (theory / f"{page}.md").is_file()} == set()
+    assert {f"help.page.{page}" for page in pages} == {key for key in ENGLISH if key.startswith("help.page.")}
 
 
 @pytest.mark.parametrize(

@@ -157,7 +157,9 @@ def test_headings_tables_and_labels(visit):
     )
     assert wrong == 0
     names = here.page.locator("#results button, #results summary").evaluate_all(
-        "all => all.map((one) => one.ariaLabel ?? one.textContent)"
+        """all => all.map((one) => one.ariaLabel ?? (one.hasAttribute("aria-labelledby")
+          ? one.getAttribute("aria-labelledby").split(" ").map((id) => document.getElementById(id).textContent).join()
+          : one.textContent))"""
     )
     assert len(names) == len(set(names))  # also those of the charts, one below the other
     groups = here.page.locator("[data-path$='.young_modulus'] input").evaluate_all(

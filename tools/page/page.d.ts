@@ -26,6 +26,7 @@ declare global {
 
   var Plotly: {
     react(place: Element, traces: object[], layout: object, config: object): Promise<void>;
+    restyle(place: Element, changes: object, traces: number[]): Promise<void>;
     toImage(figure: object, options: object): Promise<string>;
   };
   var SwaggerUIBundle: (options: object) => void;

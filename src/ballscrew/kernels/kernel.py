@@ -33,8 +33,9 @@ COLUMN_TILE = 512
 LARGEST_CACHED = 4 * 2**20
 #: Most kernels in the cache in memory, and on disk; the oldest are removed.
 MOST_IN_MEMORY = MOST_ON_DISK = 256
-#: Level of optimisation: beyond this, compiling takes longer and the code runs no faster.
-OPTIMISATION = 2
+#: Levels of optimisation, of the assembly and of the code: beyond these, compiling takes longer and the code runs no
+#: faster. An assembly is written without repeated terms and with its vectors; only functions are left to insert.
+ASSEMBLY_OPTIMISATION, CODE_OPTIMISATION = 0, 2
 
 #: Version of the calling convention of kernels.
 FORMAT = 1
@@ -179,7 +180,7 @@ def _machine() -> Any:
     """A new target machine for this processor; an execution engine takes ownership of it."""
     llvm = _llvm()
     return llvm.Target.from_default_triple().create_target_machine(
-        cpu=llvm.get_host_cpu_name(), features=llvm.get_host_cpu_features().flatten(), opt=OPTIMISATION, jit=True
+        cpu=llvm.get_host_cpu_name(), features=llvm.get_host_cpu_features().flatten(), opt=CODE_OPTIMISATION, jit=True
     )
 
 
@@ -187,7 +188,8 @@ def _machine() -> Any:
 def _processor() -> str:
     llvm = _llvm()
     features = llvm.get_host_cpu_features().flatten()
-    return f"{llvm.get_default_triple()} {llvm.get_host_cpu_name()} {features} {llvm.llvm_version_info} {FORMAT}"
+    host = f"{llvm.get_default_triple()} {llvm.get_host_cpu_name()} {features} {llvm.llvm_version_info}"
+    return f"{host} {FORMAT} {ASSEMBLY_OPTIMISATION} {CODE_OPTIMISATION}"
 
 
 @functools.lru_cache(maxsize=64)
@@ -207,7 +209,7 @@ def _optimise(text: str) -> tuple[Any, Any]:
     module = llvm.parse_assembly(text)
     module.verify()
     machine = _machine()
-    tuning = llvm.create_pipeline_tuning_options(speed_level=OPTIMISATION)
+    tuning = llvm.create_pipeline_tuning_options(speed_level=ASSEMBLY_OPTIMISATION)
     tuning.loop_vectorization = tuning.slp_vectorization = tuning.loop_unrolling = False  # vectors are explicit
     passes = llvm.create_pass_builder(machine, tuning)
     passes.getModulePassManager().run(module, passes)

@@ -12,6 +12,11 @@ from fastapi import APIRouter, Depends, Query, Request
 from starlette.responses import Response
 
 from ballscrew import units
+from ballscrew.api_answers import answers
+from ballscrew.api_answers import check as check_answers
+from ballscrew.api_answers import duty as duty_answers
+from ballscrew.api_answers import select as select_answers
+from ballscrew.api_answers import warm_up as warm_up_answers
 from ballscrew.axis_studies import duty as duties
 from ballscrew.axis_studies import stiffness as chains
 from ballscrew.axis_studies import warm_up as warm_ups
@@ -26,6 +31,7 @@ from ballscrew.documents import sweep as sweep_documents
 from ballscrew.documents import validation as validation_documents
 from ballscrew.documents import warm_up as warm_up_documents
 from ballscrew.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.optimisation.need_schema import json_schema as schema_of_needs
 from ballscrew.report.heading import Heading
 from ballscrew.screw_tables import catalogue as rows
 from ballscrew.selection.need import need_of
@@ -37,18 +43,7 @@ from ballscrew.studies import sweep as sweeps
 from ballscrew.studies import validation
 from ballscrew.studies.check import with_nut_named
 from ballscrew.studies.comparison import comparison
-from ballscrew.web import (
-    answers,
-    check_answers,
-    documents,
-    duty_answers,
-    file_api,
-    limits,
-    openapi,
-    select_answers,
-    vocabulary,
-    warm_up_answers,
-)
+from ballscrew.web import documents, file_api, limits, log_api, openapi, vocabulary
 from ballscrew.web.bodies import (
     BandBody,
     CaseBody,
@@ -85,6 +80,7 @@ KINDS: Mapping[str, str] = {"pdf": "application/pdf", "html": "text/html; charse
 _VALIDATION_LOCK = threading.Lock()
 router = APIRouter(prefix="/api/v1", dependencies=[Depends(known_query)])
 router.include_router(file_api.router)
+router.include_router(log_api.router)
 
 
 @router.post("/run", openapi_extra=openapi.body(CaseBody), response_model=answers.Run, responses=openapi.problems_of())
@@ -289,6 +285,17 @@ async def schema() -> Response:
 @functools.cache
 def _schema() -> bytes:
     return as_bytes(json_schema())
+
+
+@router.get("/need-schema", response_model=answers.NeedSchema, responses=openapi.problems_of())
+async def need_schema() -> Response:
+    """JSON Schema of a need, as ``ballscrew schema --need`` prints it."""
+    return sent(_need_schema())
+
+
+@functools.cache
+def _need_schema() -> bytes:
+    return as_bytes(schema_of_needs())
 
 
 @router.get("/vocabulary", response_model=vocabulary.Vocabulary, responses=openapi.problems_of())

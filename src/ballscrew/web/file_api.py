@@ -8,11 +8,12 @@ import tomlkit
 from fastapi import APIRouter, Path, Query, Request
 from starlette.responses import Response
 
+from ballscrew.api_answers import file as file_answers
 from ballscrew.cases import project as projects
 from ballscrew.errors import Fault, InputError, nearest
 from ballscrew.output.json_text import as_json as json_text
 from ballscrew.studies.opened_file import opened
-from ballscrew.web import file_answers, openapi
+from ballscrew.web import openapi
 from ballscrew.web.bodies import LONGEST_TICKET, CaseBody, OpenBody, ProjectBody, case_of, read, refuse_nulls
 from ballscrew.web.endpoint_parts import as_json, heavy, queue_of
 from ballscrew.web.progress import progress_of

@@ -2,6 +2,7 @@
 
 import * as parts from "./chart_parts.js";
 import { element } from "./dom.js";
+import { letDrag } from "./operating_point.js";
 import { draw, layout } from "./plot.js";
 import { data } from "./results.js";
 import { text, textOr } from "./texts.js";
@@ -56,6 +57,12 @@ export function torque(swept, answer, mechanisms) {
     return element("span", { class: "value" }, data("screw_torque", part), percent);
   };
   const totalText = units.formatted("screw_torque", sum);
+  /** The sum of the nearest speed of the curve. @param {number} at */
+  const nearest = (at) => {
+    const [[place]] = speeds.map((one, i) => [i, Math.abs(one - at)]).sort(([, a], [, b]) => a - b);
+    return total[place];
+  };
+  letDrag("torque-chart", { x: "screw_speed", trace: names.length + 1, place: (at) => [at, nearest(at)] });
   return draw("torque-chart", {
     name: "torque_over_speed",
     caption: text("speed.caption", { load }),
@@ -140,6 +147,7 @@ export function map(swept, answer) {
     units.inDisplayUnit("axial_load", operation.axial_load),
   );
   const efficiency = units.digits(answer.results.efficiency);
+  letDrag("map-chart", { x: "screw_speed", y: "axial_load", trace: 2, place: (at, load) => [at, load] });
   return draw("map-chart", {
     name: "efficiency_map",
     caption: text("map.caption"),

@@ -37,7 +37,7 @@ export function labelOf(path) {
  *
  * @param {string} remedy
  */
-function plain(remedy) {
+export function plain(remedy) {
   return remedy
     .replace(/,? in Python .*$/, "")
     .replace("in a file write", "write")

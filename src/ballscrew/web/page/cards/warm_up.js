@@ -145,9 +145,9 @@ export function setUp(holder, page) {
     const hours = (name, option) => {
       const id = `warm-${name}`;
       const input = element("input", { type: "text", inputmode: "decimal", id, "aria-describedby": `${id}-fault` });
-      input.value = heat[name];
+      input.value = units.inLanguage(heat[name]);
       input.addEventListener("input", () => {
-        heat[name] = input.value.trim();
+        heat[name] = units.ofLanguage(input.value.trim());
         shown = keyOf();
         page.keep();
       });

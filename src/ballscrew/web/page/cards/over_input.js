@@ -1,0 +1,414 @@
+// A result over any input: one curve for each design, all at one load and speed or each at its own.
+
+import * as parts from "../chart_parts.js";
+import * as designs from "../designs.js";
+import { element } from "../dom.js";
+import { inWords } from "../faults.js";
+import { labelIn } from "../fields.js";
+import { draw, layout, showFailure } from "../plot.js";
+import { numbersOf } from "../results.js";
+import { definition, fieldOf, SECTIONS } from "../schema.js";
+import { ask, linesOf, Problem, sendJson } from "../server.js";
+import { LETTERS, valueAt } from "../state.js";
+import { text } from "../texts.js";
+import * as units from "../units.js";
+
+const CHART = "over-input-chart";
+/** Points of a curve; fewer for a nut whose balls are computed one by one. */
+const POINTS = 31;
+const POINTS_OF_NUT = 13;
+/** Milliseconds after the last key. */
+const DELAY = 300;
+/** Sections whose numbers can be varied, and the shares of a value from which to which they are. @type {Record<string, [number, number]>} */
+const VARIED = {
+  operation: [0.02, 2],
+  screw: [0.8, 1.2],
+  nut: [0.1, 2],
+  lubricant: [0.25, 2],
+  model: [0.5, 1.5],
+};
+/** A cold start and a hot machine, K. */
+const TEMPERATURES = [273.15, 353.15];
+/** What catalogues and data sheets state: no friction follows from it alone. */
+const STATED = [
+  "screw.dynamic_load_rating",
+  "screw.static_load_rating",
+  "screw.root_diameter",
+  "lubricant.kinematic_viscosity_40",
+  "lubricant.kinematic_viscosity_100",
+  "lubricant.density_15",
+  "lubricant.pour_point",
+  "lubricant.lowest_temperature",
+  "lubricant.highest_temperature",
+];
+/** The greatest value, in the unit that is shown, of an input that is nothing; the fewest steps of a whole number. */
+const FOR_NOTHING = 100;
+const FEWEST = 4;
+const OUTPUTS = /** @type {const} */ (["screw_torque", "drive_torque", "efficiency", "friction_power"]);
+const DASHES = ["solid", "dash", "dot", "dashdot"];
+/** The same in the legend. */
+const KEYS = ["line", "dash", "dot", "dash"];
+/** Colours of the third and the fourth design, on light and on dark. */
+const MORE_COLOURS = ["#009E73", "#A3569B"];
+
+/**
+ * A curve of a design, or the reason why it has none.
+ *
+ * @typedef {{ letter: string, run?: Run, at?: number, swept?: Sweep, reason?: string }} Curve
+ */
+/** @typedef {{ path: string, output: typeof OUTPUTS[number], from?: number, to?: number }} Question */
+
+/**
+ * Set the card up in its place, which has the place of its chart.
+ *
+ * @param {HTMLElement} holder
+ */
+export function setUp(holder) {
+  /** @type {Question} */
+  const question = { path: "", output: "screw_torque" };
+  /** @type {ReturnType<typeof setTimeout>} */
+  let timer;
+  let requests = new AbortController();
+  const input = element("select", { id: "over-input-of" });
+  const output = element(
+    "select",
+    { id: "over-input-result" },
+    ...OUTPUTS.map((name) => element("option", { value: name }, text(`results.${name}`))),
+  );
+  const from = element("input", { type: "text", inputmode: "decimal", id: "over-input-from" });
+  const to = element("input", { type: "text", inputmode: "decimal", id: "over-input-to" });
+  const unit = element("span");
+  const reasons = element("div", { role: "status" });
+  /** @param {HTMLElement} control @param {import("../texts.js").Key} key */
+  const labelled = (control, key) => element("p", {}, element("label", { for: control.id }, text(key)), control);
+  holder.prepend(
+    element(
+      "div",
+      { class: "choices" },
+      labelled(output, "over_input.result"),
+      labelled(input, "over_input.over"),
+      labelled(from, "over_input.from"),
+      labelled(to, "over_input.to"),
+      unit,
+    ),
+  );
+  holder.append(reasons);
+
+  input.addEventListener("change", () => {
+    question.path = input.value;
+    question.from = undefined;
+    question.to = undefined;
+    show();
+  });
+  output.addEventListener("change", () => {
+    question.output = /** @type {Question["output"]} */ (output.value);
+    show();
+  });
+  for (const [end, control] of /** @type {["from" | "to", HTMLInputElement][]} */ ([
+    ["from", from],
+    ["to", to],
+  ])) {
+    control.addEventListener("input", () => {
+      const number = Number(units.withPoint(units.ofLanguage(control.value)));
+      const given = control.value.trim() !== "" && Number.isFinite(number);
+      question[end] = given ? inSI(question.path, number) : undefined;
+      later();
+    });
+  }
+
+  function later() {
+    clearTimeout(timer);
+    timer = setTimeout(show, DELAY);
+  }
+
+  function stop() {
+    clearTimeout(timer);
+    requests.abort();
+  }
+
+  async function show() {
+    stop();
+    requests = new AbortController();
+    const { signal } = requests;
+    holder.setAttribute("aria-busy", "true");
+    try {
+      const runs = await runsOf(signal);
+      if (signal.aborted) return;
+      const paths = inputsOf(runs);
+      if (!paths.includes(question.path)) question.path = usual(paths);
+      showInputs(paths);
+      if (!question.path) {
+        showFailure(CHART, runs.map(({ reason }) => reason).join("; "));
+        return;
+      }
+      const [low, high] = rangeOf(question, runs);
+      showEnd(from, low);
+      showEnd(to, high);
+      unit.textContent = units.symbol(unitOf(question.path));
+      const curves = await Promise.all(runs.map((one) => curveOf(one, question, low, high, signal)));
+      if (signal.aborted) return;
+      const failed = curves.filter(({ reason }) => reason);
+      reasons.replaceChildren(
+        ...failed.map(({ letter, reason }) =>
+          element("p", { class: "warning" }, `${text("compare.design", { letter })}: ${reason}`),
+        ),
+      );
+      if (failed.length < curves.length) await chart(curves, question);
+      else showFailure(CHART, failed[0].reason ?? "");
+    } catch (error) {
+      if (signal.aborted) return;
+      showFailure(CHART, linesOf(error).join("; "));
+    } finally {
+      if (!signal.aborted) holder.setAttribute("aria-busy", "false");
+    }
+  }
+
+  /** @param {string[]} paths */
+  function showInputs(paths) {
+    /** @type {Map<string, string[]>} */
+    const groups = new Map();
+    for (const path of paths) {
+      const [section] = path.split(".");
+      groups.set(section, [...(groups.get(section) ?? []), path]);
+    }
+    const options = [...groups].map(([section, members]) =>
+      element(
+        "optgroup",
+        { label: SECTIONS[section] },
+        ...members.map((path) => element("option", { value: path }, labelIn(path))),
+      ),
+    );
+    input.replaceChildren(...options);
+    input.value = question.path;
+  }
+
+  /** @param {HTMLInputElement} control @param {number} value */
+  function showEnd(control, value) {
+    if (document.activeElement !== control) control.value = units.digits(shown(question.path, value));
+  }
+
+  return { follow: later, stop };
+}
+
+/**
+ * The answers of all designs, which the page has asked for already; at the load and the speed of the first one, unless
+ * each is compared at its own.
+ *
+ * @param {AbortSignal} signal
+ * @returns {Promise<(Curve & { body?: { case: Record<string, unknown> } })[]>}
+ */
+async function runsOf(signal) {
+  const { designs: all, own } = designs.all();
+  const cases = await Promise.all(all.map(designs.caseOf));
+  const { operation } = cases[0];
+  return Promise.all(
+    cases.map(async (one, place) => {
+      const body = { case: own || !operation ? one : { ...one, operation } };
+      const letter = LETTERS[place];
+      try {
+        return { letter, body, run: await ask("run", body, signal) };
+      } catch (error) {
+        return { letter, body, reason: linesOf(error).join("; ") };
+      }
+    }),
+  );
+}
+
+/**
+ * The paths of the numbers that all designs together have, and that can be varied.
+ *
+ * @param {Curve[]} runs
+ */
+function inputsOf(runs) {
+  /** @type {Set<string>} */
+  const found = new Set();
+  for (const { run } of runs) {
+    for (const section of Object.keys(VARIED)) {
+      const table = /** @type {Record<string, any>} */ (run?.inputs[section] ?? {});
+      for (const [name, value] of Object.entries(table)) {
+        if (typeof value === "number") found.add(`${section}.${name}`);
+        if (value?.law) {
+          for (const [inner, one] of Object.entries(value)) {
+            if (typeof one === "number") found.add(`${section}.${name}.${inner}`);
+          }
+        }
+      }
+    }
+  }
+  return [...found].filter((path) => fieldOf(path) && !STATED.includes(path));
+}
+
+/** The input to begin with. @param {string[]} paths */
+function usual(paths) {
+  const wanted = ["nut.preload", "lubricant.temperature", "operation.axial_load"];
+  return wanted.find((path) => paths.includes(path)) ?? paths[0] ?? "";
+}
+
+/** The unit that an input is shown in. @param {string} path */
+function unitOf(path) {
+  return units.inSystem(definition(fieldOf(path))?.["x-unit"] ?? "");
+}
+
+/** @param {string} path @param {number} value in SI */
+function shown(path, value) {
+  return units.fromSI(value, unitOf(path), fieldOf(path)?.["x-si-unit"]);
+}
+
+/** @param {string} path @param {number} number in the unit that is shown */
+function inSI(path, number) {
+  return units.toSI(number, unitOf(path), fieldOf(path)?.["x-si-unit"]);
+}
+
+/**
+ * From where to where an input is varied, in SI: as given, or around the values of the designs and within its bounds.
+ *
+ * @param {Question} question
+ * @param {Curve[]} runs
+ * @returns {[number, number]}
+ */
+function rangeOf({ path, from, to }, runs) {
+  const values = runs.map(({ run }) => valueAt(run?.inputs, path)).filter((value) => typeof value === "number");
+  const sizes = values.map(Math.abs);
+  const [first, last] = VARIED[path.split(".")[0]];
+  let [low, high] = [Math.min(...sizes) * first, Math.max(...sizes) * last || inSI(path, FOR_NOTHING)];
+  if (values.every((value) => value < 0)) [low, high] = [-high, -low];
+  if (path === "lubricant.temperature") {
+    [low, high] = [Math.min(TEMPERATURES[0], ...values), Math.max(TEMPERATURES[1], ...values)];
+  }
+  const { type, minimum, maximum, exclusiveMinimum, exclusiveMaximum } = numberOf(path);
+  if (type === "integer") [low, high] = [Math.round(low), Math.max(Math.round(high), Math.round(low) + FEWEST)];
+  if (minimum !== undefined) low = Math.max(low, minimum);
+  if (maximum !== undefined) high = Math.min(high, maximum);
+  if (exclusiveMinimum !== undefined && low <= exclusiveMinimum) low = inside(exclusiveMinimum, high);
+  if (exclusiveMaximum !== undefined && high >= exclusiveMaximum) high = inside(exclusiveMaximum, low);
+  return [from ?? low, to ?? high];
+}
+
+/**
+ * A value just inside a bound that is none itself.
+ *
+ * @param {number} bound
+ * @param {number} other the other end of the range
+ */
+function inside(bound, other) {
+  return bound + 0.02 * (other - bound);
+}
+
+/**
+ * The part of the schema of a field that has its bounds, of a number without a unit.
+ *
+ * @param {string} path
+ * @returns {import("../schema.js").SchemaNode & Partial<Record<"minimum" | "maximum" | "exclusiveMinimum" | "exclusiveMaximum", number>>}
+ */
+function numberOf(path) {
+  const node = fieldOf(path) ?? {};
+  return node.anyOf?.find(({ type }) => type === "number") ?? node;
+}
+
+/**
+ * The sweep of a design over the input.
+ *
+ * @param {Curve & { body?: { case: Record<string, unknown> } }} one
+ * @param {Question} question
+ * @param {number} low
+ * @param {number} high
+ * @param {AbortSignal} signal
+ * @returns {Promise<Curve>}
+ */
+async function curveOf({ letter, run, reason, body }, { path, output }, low, high, signal) {
+  if (!run) return { letter, reason };
+  const at = valueAt(run.inputs, path);
+  if (typeof at !== "number") return { letter, reason: text("over_input.absent", { input: labelIn(path) }) };
+  const count = run.loads ? POINTS_OF_NUT : POINTS;
+  const name = path.slice(path.indexOf(".") + 1);
+  const node = numberOf(path);
+  let axis = `${low}:${high}:${count} ${node["x-si-unit"] ?? ""}`.trim();
+  if (node.type === "integer") {
+    const step = Math.max(1, Math.round((high - low) / (count - 1)));
+    const whole = Array.from({ length: count }, (_, place) => Math.round(low) + place * step);
+    axis = whole.filter((value) => value <= Math.max(high, Math.round(low))).join(", ");
+  }
+  try {
+    const swept = await sendJson("sweep", { ...body, vary: { [name]: axis }, outputs: [output] }, signal);
+    return { letter, run, at, swept };
+  } catch (error) {
+    const [fault] = error instanceof Problem ? error.faults : [];
+    return { letter, reason: fault ? inWords(fault) : linesOf(error).join("; ") };
+  }
+}
+
+/**
+ * @param {Curve[]} all
+ * @param {Question} question
+ */
+async function chart(all, { path, output }) {
+  const curves = all.flatMap((one) => {
+    const { letter, run, at, swept } = one;
+    if (!run || !swept || at === undefined) return [];
+    const axis = Object.values(swept.axes)[0];
+    const number = numbersOf(run)[output];
+    return [
+      {
+        name: text("compare.design", { letter }),
+        place: LETTERS.indexOf(letter),
+        x: parts.valuesOf(axis).map((value) => shown(path, value)),
+        y: parts.converted(output, swept.outputs[output]),
+        valid: parts.validAlong(swept),
+        at: [shown(path, at), units.inDisplayUnit(output, number)],
+      },
+    ];
+  });
+  const unit = unitOf(path);
+  const words = labelIn(path);
+  const x = unit ? `${words} (${units.symbol(unit)})` : words;
+  const y = units.heading(output, text(`results.${output}`));
+  /** @param {import("../plot.js").Colours} colours @param {number} place */
+  const colour = ({ accent, second }, place) => [accent, second, ...MORE_COLOURS][place];
+  const caption = text("over_input.caption", { result: text(`results.${output}`), input: words });
+  const isInvalid = curves.some(({ valid }) => !valid.every(Boolean));
+  await draw(CHART, {
+    name: "over_input",
+    caption,
+    description: text("over_input.description", { caption, count: curves.length }),
+    figure: (colours) => ({
+      traces: [
+        ...curves.map(({ name, place, ...one }) => ({
+          x: one.x,
+          y: one.y.map((value, point) => (one.valid[point] ? value : null)),
+          name,
+          mode: "lines",
+          hovertemplate: "%{y:.4g}",
+          line: { width: 2, color: colour(colours, place), dash: DASHES[place] },
+        })),
+        // thin where the model is not valid, up to the next point where it is
+        ...curves.map(({ name, place, ...one }) => ({
+          x: one.x,
+          y: one.y.map((value, point) =>
+            [point - 1, point, point + 1].some((near) => one.valid[near] === false) ? value : null,
+          ),
+          name,
+          mode: "lines",
+          hoverinfo: "skip",
+          line: { width: 0.8, color: colour(colours, place) },
+        })),
+        ...curves.map(({ at, place }) => ({
+          ...parts.pointAt({ ink: colour(colours, place), panel: colours.panel }, at[0], at[1]),
+          hoverinfo: "skip",
+        })),
+      ],
+      layout: layout(colours, x, y),
+    }),
+    legend: (colours) => [
+      ...curves.map(({ name, place }) => ({ kind: KEYS[place], name, colour: colour(colours, place) })),
+      parts.pointEntry(colours),
+      ...(isInvalid ? [{ kind: "line thin", name: parts.OUTSIDE, colour: colours.ink }] : []),
+    ],
+    numbers: () => [
+      [x, ...curves.flatMap(({ name }) => [`${y}, ${name}`, `${text("chart.valid")}, ${name}`])],
+      curves[0].x.map((at, place) => [
+        at,
+        ...curves.flatMap((one) => [one.y[place], parts.yesOrNo(one.valid[place] ?? false)]),
+      ]),
+    ],
+  });
+}

@@ -1,0 +1,227 @@
+// The operating point moved by hand: sliders beside the fields, and the diamond of a chart that can be dragged.
+
+import { byId, element } from "./dom.js";
+import { text } from "./texts.js";
+import * as units from "./units.js";
+
+/** Fields with a slider, and the least and the greatest value where they are known in SI. @type {Record<string, [number, number] | null>} */
+const SLIDERS = {
+  "operation.axial_load": null,
+  "operation.screw_speed": null,
+  "lubricant.temperature": [253.15, 393.15],
+};
+const STEPS = 200;
+/** Shares of the greatest value from which the ends are set anew. */
+const CLOSE = 0.95;
+const FAR = 0.05;
+const DIGITS = 3;
+/** Pixels around the diamond within which it is taken. */
+const REACH = 22;
+
+/**
+ * A slider for a field beside its number; none where the field has none, or is no plain number.
+ *
+ * @param {string} path
+ * @param {string} name
+ * @param {HTMLInputElement} input
+ * @param {HTMLSelectElement} unit
+ * @param {string | undefined} si
+ */
+export function sliderOf(path, name, input, unit, si) {
+  if (!Object.hasOwn(SLIDERS, path)) return null;
+  const slider = element("input", {
+    type: "range",
+    step: "any",
+    class: "slider",
+    id: `s-${path.replaceAll(".", "-")}`,
+    "aria-label": text("form.slider", { field: name }),
+  });
+  const say = () => slider.setAttribute("aria-valuetext", `${input.value} ${units.symbol(unit.value)}`);
+  let isMoving = false; // its ends stay as they are then
+  const follow = () => {
+    const number = Number(units.withPoint(units.ofLanguage(input.value)));
+    slider.disabled = !input.value.trim() || !Number.isFinite(number);
+    if (slider.disabled) return;
+    const ends = SLIDERS[path];
+    if (ends) setEnds(slider, units.fromSI(ends[0], unit.value, si), units.fromSI(ends[1], unit.value, si));
+    else {
+      const size = Math.abs(number) / Number(slider.dataset.end);
+      const isFar = !(size <= CLOSE && size >= FAR); // or there is no end yet
+      const end = isFar ? roundUp(2 * Math.abs(number)) : Number(slider.dataset.end);
+      setEnds(slider, number < 0 ? -end : 0, end);
+    }
+    slider.value = String(number);
+    say();
+  };
+  slider.addEventListener("input", () => {
+    const size = (Number(slider.max) - Number(slider.min)) / STEPS;
+    isMoving = true;
+    type(input, Math.round(Number(slider.value) / size) * size);
+    isMoving = false;
+    say();
+  });
+  input.addEventListener("input", () => {
+    if (!isMoving) follow();
+  });
+  slider.addEventListener("keydown", (event) => {
+    const turns = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };
+    const turn = turns[/** @type {keyof typeof turns} */ (event.key)];
+    if (!turn) return;
+    event.preventDefault(); // a step of its own, since a slider of any value has none
+    slider.value = String(Number(slider.value) + (turn * (Number(slider.max) - Number(slider.min))) / STEPS);
+    slider.dispatchEvent(new Event("input"));
+  });
+  slider.addEventListener("change", follow);
+  follow();
+  return slider;
+}
+
+/**
+ * @param {HTMLInputElement} slider
+ * @param {number} least
+ * @param {number} greatest
+ */
+function setEnds(slider, least, greatest) {
+  slider.min = String(least);
+  slider.max = String(greatest);
+  slider.dataset.end = String(greatest);
+}
+
+/**
+ * The next number with one digit of 1, 2 or 5; 100 for nothing.
+ *
+ * @param {number} value
+ */
+function roundUp(value) {
+  if (!(value > 0)) return 100;
+  const power = 10 ** Math.floor(Math.log10(value));
+  return ([1, 2, 5, 10].find((digit) => digit * power >= value * (1 - 1e-9)) ?? 10) * power;
+}
+
+/**
+ * Put a number into a field as if it had been typed.
+ *
+ * @param {HTMLInputElement} input
+ * @param {number} number
+ */
+function type(input, number) {
+  input.value = units.inLanguage(String(Number(number.toPrecision(DIGITS))));
+  input.dispatchEvent(new Event("input", { bubbles: true }));
+}
+
+/**
+ * Put a value in SI into a field, in the unit that it has.
+ *
+ * @param {string} path
+ * @param {number} value
+ * @param {string} si
+ */
+function put(path, value, si) {
+  const id = path.replaceAll(".", "-");
+  const input = /** @type {HTMLInputElement} */ (byId(`f-${id}`));
+  const unit = /** @type {HTMLSelectElement} */ (byId(`u-${id}`));
+  type(input, units.fromSI(value, unit.value, si));
+}
+
+/** Inputs along the axes of a chart, by their result's name. @type {Record<string, [string, string]>} */
+const FIELDS = {
+  screw_speed: ["operation.screw_speed", "rad/s"],
+  axial_load: ["operation.axial_load", "N"],
+};
+
+/**
+ * What can be dragged in a chart: the inputs along its axes, and where the diamond is drawn for a place of the pointer.
+ *
+ * @typedef {{ x: string, y?: string, place: (x: number, y: number) => [number, number], trace: number }} Handle
+ */
+/** The handle of each chart, in the units that it shows. @type {Map<string, Handle>} */
+const handles = new Map();
+
+/**
+ * Let the diamond of a chart be dragged. The field takes the value when it is let go: until then the chart stays as it
+ * is under the pointer.
+ *
+ * @param {string} id
+ * @param {Handle} handle
+ */
+export function letDrag(id, handle) {
+  const isNew = !handles.has(id);
+  handles.set(id, handle);
+  if (!isNew) return;
+  const holder = byId(id);
+  /** @type {[number, number] | undefined} */
+  let at;
+  holder.addEventListener("pointerdown", (event) => take(event), { capture: true });
+  holder.addEventListener("touchstart", (event) => at && event.stopPropagation(), { capture: true });
+  holder.addEventListener("pointermove", (event) => {
+    if (at) move(event);
+    else holder.classList.toggle("near", isNear(id, event));
+  });
+  holder.addEventListener("pointerup", () => drop());
+  holder.addEventListener("pointercancel", () => {
+    at = undefined;
+  });
+
+  /** @param {PointerEvent} event */
+  function take(event) {
+    if (!isNear(id, event)) return;
+    at = pointOf(id);
+    holder.setPointerCapture(event.pointerId);
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  /** @param {PointerEvent} event */
+  function move(event) {
+    const plot = plotOf(id);
+    const { place, trace } = /** @type {Handle} */ (handles.get(id));
+    if (!plot) return;
+    const { left, top } = plot.getBoundingClientRect();
+    const { xaxis, yaxis } = plot._fullLayout;
+    /** @param {any} axis @param {number} pixel */
+    const value = (axis, pixel) => axis.p2d(Math.min(axis._length, Math.max(0, pixel - axis._offset)));
+    at = place(value(xaxis, event.clientX - left), value(yaxis, event.clientY - top));
+    globalThis.Plotly.restyle(plot, { x: [[at[0]]], y: [[at[1]]] }, [trace]);
+  }
+
+  function drop() {
+    if (!at) return;
+    const [x, y] = at;
+    at = undefined;
+    const { x: first, y: second } = /** @type {Handle} */ (handles.get(id));
+    commit(first, x);
+    if (second) commit(second, y);
+  }
+}
+
+/**
+ * @param {string} name
+ * @param {number} shown the value in the unit that the chart shows
+ */
+function commit(name, shown) {
+  const [path, si] = FIELDS[name];
+  put(path, units.toSI(shown, units.unitOf(name), si), si);
+}
+
+/** The drawn plot of a chart. @param {string} id @returns {any} */
+function plotOf(id) {
+  const plot = /** @type {any} */ (byId(id).querySelector(".plot"));
+  return plot?._fullLayout?.xaxis ? plot : undefined;
+}
+
+/** The place of the diamond. @param {string} id @returns {[number, number] | undefined} */
+function pointOf(id) {
+  const trace = plotOf(id)?.data[handles.get(id)?.trace ?? -1];
+  return trace && [trace.x[0], trace.y[0]];
+}
+
+/** @param {string} id @param {PointerEvent} event */
+function isNear(id, event) {
+  const [plot, point] = [plotOf(id), pointOf(id)];
+  if (!plot || !point) return false;
+  const { left, top } = plot.getBoundingClientRect();
+  const { xaxis, yaxis } = plot._fullLayout;
+  const dx = xaxis.d2p(point[0]) + xaxis._offset - (event.clientX - left);
+  const dy = yaxis.d2p(point[1]) + yaxis._offset - (event.clientY - top);
+  return Math.hypot(dx, dy) < REACH;
+}

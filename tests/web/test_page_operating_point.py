@@ -1,0 +1,78 @@
+"""The operating point by hand: units of the nut's speed, sliders, the diamond of a chart; and charts over any input."""
+
+import re
+import tomllib
+
+DIAMOND = """(id) => {
+  const plot = document.querySelector(`#${id} .plot`), { left, top } = plot.getBoundingClientRect();
+  const { xaxis, yaxis } = plot._fullLayout, { x, y } = plot.data.find((one) => one.marker?.symbol === "diamond");
+  return [left + xaxis._offset + xaxis.d2p(x[0]), top + yaxis._offset + yaxis.d2p(y[0])];
+}"""
+
+
+def value(here, field):
+    return here.page.locator(here.id(field)).input_value()
+
+
+def test_the_operating_point_moves_by_hand(visit):
+    """The paper's screw, of 5 mm lead, from 600 rpm to 12 m/min, by a slider, and in the chart."""
+    here = visit().open()
+    before = here.numbers()["results"]["screw_torque"]
+    here.unit("operation.screw_speed", "m/min")
+    assert value(here, "operation.screw_speed") == "3"
+    assert here.numbers()["results"]["screw_torque"] == before
+    here.type("operation.screw_speed", "12")
+    assert "2400 rpm" in here.text("#case")
+    file = tomllib.loads(here.download("#downloads button:text-is('TOML')").decode())
+    assert file["operation"]["screw_speed"] == "12 m/min"
+    here.type("screw.lead", "10")  # the nut keeps its speed
+    assert "1200 rpm" in here.text("#case")
+
+    slider = here.page.locator("#s-operation-axial_load")
+    assert slider.get_attribute("aria-valuetext") == "4000 N"
+    slider.press("ArrowRight")
+    here.settle()
+    assert value(here, "operation.axial_load") == "4050"
+    here.type("operation.axial_load", "20000")
+    assert float(slider.get_attribute("max")) == 50_000
+
+    here.page.locator("#torque-chart").scroll_into_view_if_needed()
+    here.page.wait_for_selector("#torque-chart svg.main-svg")
+    x, y = here.page.evaluate(DIAMOND, "torque-chart")
+    mouse = here.page.mouse
+    mouse.move(x, y)
+    mouse.down()
+    mouse.move(x - 80, y + 40, steps=3)
+    assert value(here, "operation.screw_speed") == "12"  # the chart stays under the pointer until it is let go
+    mouse.up()
+    here.settle()
+    assert 5 < float(value(here, "operation.screw_speed")) < 12
+    assert re.search(r"screw_speed=[\d.]+\+m%2Fmin", here.page.url)
+
+
+def test_designs_over_any_input(visit, server):
+    """Two designs in one chart; one that has no such input is named, and not drawn."""
+    here = visit().open(
+        "#A=paper&B=paper&B.screw.lead=10+mm&B.lubricant.grade=ISO+VG+32&B.lubricant.viscosity=&B.lubricant.temperature=40+degC&band=0"
+    )
+    here.page.locator("#over-input-open").click()
+
+    def over(path):
+        here.page.locator("#over-input-of").select_option(path)
+        here.page.wait_for_selector('#over-input[aria-busy="false"]')
+        return here.text("#over-input [role=status]"), here.page.locator("#over-input-chart ul.legend").inner_text()
+
+    here.page.wait_for_selector("#over-input-of option", state="attached")
+    reasons, legend = over("screw.contact_angle")
+    assert (reasons, "Design A" in legend, "Design B" in legend) == ("", True, True)
+    assert here.page.locator("#over-input-from").input_value() == "36"
+    here.page.locator("#over-input-chart summary").click()
+    first = here.page.locator("#over-input-chart tbody tr").first.locator("td").all_inner_texts()
+    case = {**server.get("vocabulary").json()["starts"]["paper"]["case"]}
+    case["screw"] = {**case["screw"], "contact_angle": "36 deg"}
+    expected = server.post("run", {"case": case}).json()["results"]["screw_torque"]
+    assert abs(float(first[0]) - expected) < 1e-4 * expected
+    reasons, legend = over("lubricant.temperature")
+    assert ("Design A" in reasons, "Design A" in legend, "Design B" in legend) == (True, False, True)
+    here.page.locator("#over-input-open").click()
+    assert not here.page.locator("#over-input").is_visible()
