@@ -3,6 +3,8 @@
 import json
 import urllib.parse
 
+from .test_page_access import violations
+
 NEED = {
     "axial_load": "2.4 kN", "feed": "15 m/min", "unsupported_length": "1 m", "ends": "fixed-supported",
     "running_time": "20000 h", "preload": "2 %", "rows": "rexroth 32x",
@@ -16,7 +18,7 @@ def ask(here):
 
 
 def test_choose_a_screw(visit, server):
-    here = visit()
+    here = visit(scheme="dark")
     here.expected = ("status of 422",)
     rest = {"need": {"rows": NEED["rows"]}}
     texts = {name: text for name, text in NEED.items() if name not in ("rows", "axial_load")}
@@ -48,6 +50,8 @@ def test_choose_a_screw(visit, server):
     here.page.wait_for_selector("#choose-chart .scatterlayer")
     assert here.page.locator("#choose-chart .ytitle").text_content() == "life (h)"
 
+    assert violations(here) == []
+
     here.page.locator("#choose-result tbody button >> nth=0").click()
     here.page.wait_for_selector("#choose-result >> text=is design A")
     assert here.settle().page.locator("#start").input_value() == first["name"]
@@ -66,6 +70,8 @@ def test_choose_a_screw(visit, server):
     here.settle()
     ask(here)
     assert "MINE" in rows.nth(0).inner_text()
+    here.page.route("**/api/v1/select", lambda route: None)  # one that takes long
     here.page.locator("#choose-start").click()
     here.page.locator("#choose .card-line button").click()
     here.page.wait_for_selector("#choose .card-line >> text=Cancelled")
+    here.page.unroute("**/api/v1/select")

@@ -70,8 +70,10 @@ async def project(
 
 @router.get("/progress/{ticket}", response_model=file_answers.Progress, responses=openapi.problems_of())
 async def progress(
-    ticket: Annotated[str, Path(max_length=LONGEST_TICKET, description="of the request", examples=["4f0c"])],
+    ticket: Annotated[str, Path(description="of the request", examples=["4f0c"])],
 ) -> Response:
     """How far the work of a request is that was sent with this ticket."""
+    if len(ticket) > LONGEST_TICKET:
+        raise InputError(Fault("ticket", "is too long", ticket[:LONGEST_TICKET], f"{LONGEST_TICKET} letters at most"))
     finished, total = progress_of(ticket)
     return as_json({"finished": finished, "total": total})
