@@ -31,8 +31,8 @@ from ballscrew.references import bibliography as entries
 from ballscrew.report import contents, warm_up_section
 from ballscrew.report import curve_figures as figures
 from ballscrew.report.blocks import Bar, Columns, Links, Picture, Table, value
-from ballscrew.report.contents import report_bytes
 from ballscrew.report.curves import curves
+from ballscrew.report.files import report_bytes
 from ballscrew.report.heading import Heading
 from ballscrew.report.html import html_bytes
 from ballscrew.report.numbers import banded, banded_share

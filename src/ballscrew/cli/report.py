@@ -1,4 +1,4 @@
-"""``ballscrew report``: a case as a file to read and to keep. The work is done in ``report/contents``."""
+"""``ballscrew report``: a case as a file to read and to keep. The work is done in ``report/files``."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def report(
     heading = Heading.of(project, datetime.date.today().isoformat() if date == "today" else date)
     check_writable(_TO, to)
     from ballscrew.command_options.progress import progress
-    from ballscrew.report.contents import report_bytes
+    from ballscrew.report.files import report_bytes
 
     with progress("report") as done:
         written = report_bytes(loaded, _KINDS[kind], done, samples, heading, others)

@@ -1,11 +1,10 @@
-"""The report of a case: what is in it, as plain data, and as the bytes of a file."""
+"""The report of a case: what is in it, as plain data."""
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Callable, Sequence
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -17,58 +16,22 @@ from ballscrew.report.blocks import Block, Columns, Links, Paragraph, Picture, R
 from ballscrew.report.contact_geometry import drawn_ball
 from ballscrew.report.curves import Curves, curves
 from ballscrew.report.drawing import drawing
-from ballscrew.report.heading import Heading
 from ballscrew.studies import band
 from ballscrew.studies.check import checked
 from ballscrew.studies.run import Run, run
 
 Done = Callable[[int, int], None]
-Kind = Literal["pdf", "html"]
 #: How far along the work is after its steps, of a hundred: the answer, the band, the curves.
-_ANSWERED, _BANDED, _DRAWN, _ALL = 5, 60, 85, 100
+_ANSWERED, _BANDED, _DRAWN, ALL = 5, 60, 85, 100
 #: Pages at most, and how many more a cycle of motion and the heat may take.
 _PAGES, _PAGES_OF_CYCLE, _PAGES_OF_HEAT = 5, 2, 1
-#: Nobody says whose report it is.
-NO_HEADING = Heading()
 #: Sources of what a report says besides the model: the ratings and checks.
 _OF_CHECKS = ("ISO3408-5", "ISO76")
 
 
-def report_bytes(
-    case: case_file.Case,
-    kind: Kind,
-    done: Done | None = None,
-    samples: int | None = None,
-    heading: Heading = NO_HEADING,
-    beside: Sequence[case_file.Case] = (),
-) -> bytes:
-    """The report of a case as a PDF or HTML file; equal cases with equal headings give equal bytes.
-
-    With other designs ``beside`` it all of them stand side by side first. ``done(finished, total)`` is told how far it
-    is. Needs the extra ``report``.
-    """
-    if beside:
-        from ballscrew.report import several
-
-        whole = several.content([case, *beside], done, samples)
-    else:
-        whole = content(case, done, samples)
-    found = dataclasses.replace(whole, heading=heading.lines)
-    if kind == "html":
-        from ballscrew.report.html import html_bytes
-
-        written = html_bytes(found)
-    else:
-        from ballscrew.report.pdf import pdf_bytes
-
-        written = pdf_bytes(found)
-    _tell(done, _ALL)
-    return written
-
-
 def _tell(done: Done | None, finished: int) -> None:
     if done is not None:
-        done(finished, _ALL)
+        done(finished, ALL)
 
 
 def content(case: case_file.Case, done: Done | None = None, samples: int | None = None) -> Report:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from ballscrew._version import __version__
@@ -13,6 +13,7 @@ from ballscrew.evaluation.outputs import known_outputs
 from ballscrew.figures import side_by_side as figures
 from ballscrew.report import band_section, contents, input_tables, result_tables
 from ballscrew.report.blocks import Block, Columns, Links, Paragraph, Picture, Report, Section, Table, sentence
+from ballscrew.report.contents import ALL, Done
 from ballscrew.report.curve_figures import named, svg_of
 from ballscrew.report.numbers import banded, banded_share
 from ballscrew.sizing.checks import Check
@@ -23,13 +24,11 @@ from ballscrew.studies.run import Run, run
 from ballscrew.text import check as check_text
 from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
 
-Done = Callable[[int, int], None]
 #: Pages at most of what is side by side, and of each design.
 _PAGES, _PAGES_OF_EACH = 2, 2
 #: What designs are called, and so how many there may be: as many as the page has beside each other.
 _LETTERS = "ABCD"
 MOST = len(_LETTERS)
-_ALL = 100
 
 
 class Design(NamedTuple):
@@ -50,7 +49,7 @@ def content(cases: Sequence[Case], done: Done | None = None, samples: int | None
 
         def told(finished: int, total: int, place: int = place) -> None:
             if done is not None:
-                done(int(_ALL * (place + finished / max(total, 1)) / len(cases)), _ALL)
+                done(int(ALL * (place + finished / max(total, 1)) / len(cases)), ALL)
 
         uncertain = band.band(case, band.Options(samples=samples), told)
         designs.append(Design(name, case, found, uncertain, checked("", case, known=found)))

@@ -347,7 +347,7 @@ async def report(
     heading = Heading.of(body.project, body.date)
 
     def work(done: Deadline) -> Response:
-        from ballscrew.report.contents import Kind, report_bytes  # slow to import
+        from ballscrew.report.files import Kind, report_bytes  # slow to import
 
         case, *beside = map(case_of, (body.case, *body.beside))
         written: Kind = "pdf" if kind == "pdf" else "html"

@@ -14,7 +14,7 @@ from ballscrew.errors import Fault, InputError, nearest
 from ballscrew.output.json_text import as_json as json_text
 from ballscrew.studies.opened_file import opened
 from ballscrew.web import openapi
-from ballscrew.web.bodies import LONGEST_TICKET, CaseBody, OpenBody, ProjectBody, case_of, read, refuse_nulls
+from ballscrew.web.bodies import CaseBody, OpenBody, ProjectBody, case_of, read, refuse_nulls
 from ballscrew.web.endpoint_parts import as_json, heavy, queue_of
 from ballscrew.web.progress import progress_of
 from ballscrew.web.sent_files import written
