@@ -73,7 +73,5 @@ async def progress(
     ticket: Annotated[str, Path(description="of the request", examples=["4f0c"])],
 ) -> Response:
     """How far the work of a request is that was sent with this ticket."""
-    if len(ticket) > LONGEST_TICKET:
-        raise InputError(Fault("ticket", "is too long", ticket[:LONGEST_TICKET], f"{LONGEST_TICKET} letters at most"))
     finished, total = progress_of(ticket)
     return as_json({"finished": finished, "total": total})
