@@ -15,8 +15,8 @@ contact_angle = "45 ± 2 deg"   # measured
 type = "double"
 preload = "7 %"
 
-[bodies]
-nut_outer_diameter = "30 mm"
+[losses.seals]
+seal_torque = "0.05 N m"
 
 [model.rolling]
 law = "houpert"
