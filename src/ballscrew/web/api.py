@@ -68,7 +68,7 @@ from ballscrew.web.endpoint_parts import (
     sent,
 )
 from ballscrew.web.problems import Refused
-from ballscrew.web.progress import reported
+from ballscrew.web.progress import finish, reported, unfinished
 from ballscrew.web.request_queue import Deadline
 from ballscrew.web.sent_files import written
 from ballscrew.web.templates import template
@@ -205,17 +205,22 @@ async def warm_up(request: Request) -> Response:
     responses=openapi.problems_of(),
 )
 async def select(request: Request) -> Response:
-    """Screws of the catalogue for a need, ranked: the document of ``ballscrew select --json``."""
+    """Screws of the catalogue for a need, ranked: the document of ``ballscrew select --json``.
+
+    Where it takes longer than a request may, the same body with its ``ticket`` goes on where it stopped.
+    """
     body: NeedBody = await read(request, NeedBody)
 
     def work(done: Deadline) -> Response:
         refuse_paths(body.need)
         need = limits.check_need(need_of(body.need))
+        key = body.model_dump_json()
         with written({} if body.table is None else {"table": body.table}) as paths:
             found = selected(
                 need, rows=paths.get("table"), words=body.words or None, keep_going=bool(paths),
-                done=reported(body.ticket, done),
+                done=reported(body.ticket, done), known=unfinished(body.ticket, key),
             )  # fmt: skip
+        finish(body.ticket, key)
         return as_json(selection_documents.document(found))
 
     return await heavy(request, work)
