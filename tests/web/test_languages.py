@@ -15,7 +15,9 @@ ENGLISH = languages.texts()["en"]
 OTHERS = [name for name in languages.texts() if name != "en"]
 SCRIPTS = {file.name: file.read_text(encoding="utf-8") for file in PAGE.rglob("*.js")}
 #: Texts whose English stands at their source in Python: annotations of fields, and names of the vocabulary.
-OF_PYTHON = ("cause.", "field.", "mechanism.", "option.", "problem.", "quantity.", "record.", "start.")
+OF_PYTHON = (
+    "cause.", "field.", "mechanism.", "option.", "problem.", "quantity.", "record.", "sentence.", "start.", "unit.",
+)  # fmt: skip
 #: Comments and patterns, which are skipped; then strings, and templates, of which what is computed is left out.
 _TOKEN = re.compile(
     r"""/\*.*?\*/|(?:^|\s)//[^\n]*|(?<=\()/(?:\\.|[^/\n\\])+/|"((?:\\.|[^"\\\n])*)"|'[^'\n]*'|`((?:\\.|[^`\\])*)`""",
@@ -50,6 +52,10 @@ def test_a_translation_is_whole(name):
         key: placeholders(text) for key, text in ENGLISH.items()
     }
     assert all(text.strip() for text in found.values())
+    sentences = {
+        key: text for key, text in languages.texts()[name].items() if key.startswith(("sentence.", "problem."))
+    }
+    assert {key for key, text in sentences.items() if key.count("{}") != text.count("{}")} == set()
 
 
 @pytest.mark.parametrize("name", list(languages.texts()))

@@ -2,7 +2,7 @@
 
 import { labelIn, words } from "./fields.js";
 import { OF_CARDS, SECTIONS } from "./schema.js";
-import { text, textOr } from "./texts.js";
+import { sentence, text, textOr } from "./texts.js";
 
 /** What people read in place of a message for files: the field, what is wrong with it, and the text. */
 /** @type {[RegExp, RegExp, import("./texts.js").Key][]} */
@@ -66,5 +66,5 @@ export function inWords({ where, problem, given, remedy }) {
   if (own) return text(own[2]);
   const advice = plain(remedy);
   const value = given ? ` (${given})` : "";
-  return `${textOr(`problem.${problem}`, plain(problem))}${value}${advice ? `: ${advice}` : ""}`;
+  return `${textOr(`problem.${problem}`, plain(problem))}${value}${advice ? `: ${sentence(advice)}` : ""}`;
 }

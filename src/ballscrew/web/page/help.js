@@ -5,7 +5,7 @@ import { plain } from "./faults.js";
 import { helpIn, labelIn } from "./fields.js";
 import { fieldOf } from "./schema.js";
 import { symbol } from "./symbols.js";
-import { ofServer, text, textOr } from "./texts.js";
+import { languageOf, sentence, text, textOr } from "./texts.js";
 
 /** Pages of the theory, by field, or else by section. @type {Record<string, string>} */
 const PAGES = {
@@ -42,6 +42,9 @@ const PAGES = {
   bodies: "nut",
   deviations: "nut",
 };
+
+/** Remedies of which the form has no need. */
+const NEEDLESS = /^(in kelvin|in .* in Python|lengths are positive|give a whole number.*)$/;
 
 /** The address of the documentation, where the package has one. @type {string | null} */
 let documentation = null;
@@ -80,11 +83,11 @@ function follow(target) {
 function show(path) {
   const { description = "", "x-symbol": tex, "x-hint": hint } = fieldOf(path) ?? {};
   const help = helpIn(path, description);
-  const advice = /^in (kelvin|.* in Python)$/.test(hint ?? "") ? "" : plain(hint ?? "");
+  const advice = NEEDLESS.test(hint ?? "") ? "" : plain(hint ?? "");
   place.hidden = false;
   place.replaceChildren(
     element("p", {}, element("strong", {}, labelIn(path)), symbol(tex), help ? `: ${help}` : ""),
-    advice ? element("p", ofServer, advice) : "",
+    advice ? element("p", languageOf(advice), sentence(advice)) : "",
     element("p", {}, theoryOf(path)),
   );
 }
