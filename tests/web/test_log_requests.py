@@ -101,7 +101,7 @@ def test_columns(post, folders):
     ]  # fmt: skip
     assert found["columns"][0]["cells"] == ["1,2", "1,3"]
     assert found["missing"] == ["axial_load", "torque"]
-    assert any("needs a unit" in line for line in found["faults"])
+    assert any(one["problem"] == "needs a unit" for one in found["faults"])
     assert found["free"][0]["name"] == "friction.boundary_friction_coefficient"
     by_hand = {"torque": "M_x [N m]", "screw_speed": "v_ist [rpm]", "axial_load": "5 kN", "time": "zeit [s]"}
     found = post("log", {**body, "columns": by_hand})

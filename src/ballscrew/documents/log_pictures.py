@@ -43,6 +43,7 @@ def of_fit(model: CalibratedModel) -> dict[str, Any]:
     columns = {
         "measured": measured,
         "predicted": predicted,
+        "residual": predicted - measured,
         "screw_speed": np.abs(rows.log.screw_speed),
         "axial_load": np.abs(rows.log.axial_load),
         "temperature": rows.log.temperature,

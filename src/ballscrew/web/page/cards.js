@@ -24,6 +24,9 @@ const SCRIPTS = {
   "over-input": () => import("./cards/over_input.js"),
   duty: () => import("./cards/duty.js"),
   "warm-up": () => import("./cards/warm_up.js"),
+  calibration: () => import("./cards/calibrate.js"),
+  service: () => import("./cards/service.js"),
+  "hand-over": () => import("./cards/hand_over.js"),
   files: () => import("./cards/files.js"),
 };
 
