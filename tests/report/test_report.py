@@ -31,8 +31,8 @@ from ballscrew.references import bibliography as entries
 from ballscrew.report import contents, warm_up_section
 from ballscrew.report import curve_figures as figures
 from ballscrew.report.blocks import Bar, Columns, Links, Picture, Table, value
-from ballscrew.report.contents import report_bytes
 from ballscrew.report.curves import curves
+from ballscrew.report.files import report_bytes
 from ballscrew.report.heading import Heading
 from ballscrew.report.html import html_bytes
 from ballscrew.report.numbers import banded, banded_share
@@ -578,6 +578,8 @@ def test_what_cannot_be_written_is_one_line_and_nothing_is_left(ballscrew, tmp_p
         (line,) = done.stderr.splitlines()
         assert line.startswith(f"--to: {problem}")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["folder.pdf"]
+    done = ballscrew("report", case, "-o", tmp_path / "x.pdf", *["--beside", case] * 4)
+    assert (done.returncode, done.stderr) == (2, "--beside: too many designs (4) · 3 at most\n")
     done = ballscrew("report", case, "-o", tmp_path / "x.pdf", "--samples", "1")
     assert (done.returncode, done.stdout) == (2, "")
     assert "--samples" in done.stderr

@@ -328,16 +328,21 @@ REPORTS = [
 
 @pytest.mark.parametrize(("stem", "kind"), REPORTS)
 def test_report(server, stem, kind, tmp_path):
-    """Byte for byte the file that the command writes, with a project and a date where they are said."""
+    """Byte for byte the file that the command writes; as HTML with a project, a date and another design beside it."""
     path, to = PAPER.with_stem(stem), tmp_path / f"report.{kind}"
     said = {"project": "Axis 2", "date": "2026-11-23"} if kind == "html" else {}
-    found = server.post(f"report?kind={kind}", {"case": tables_of(path), **said})
+    beside = [PAPER] * bool(said)
+    others = {"beside": [tables_of(other) for other in beside]} if beside else {}
+    found = server.post(f"report?kind={kind}", {"case": tables_of(path), **said, **others})
     assert found.headers["content-type"].partition(";")[0] == {"pdf": "application/pdf", "html": "text/html"}[kind]
-    printed("report", path, "-o", to, *(text for name, value in said.items() for text in (f"--{name}", value)))
+    options = [text for name, value in said.items() for text in (f"--{name}", value)]
+    printed("report", path, "-o", to, *options, *(text for other in beside for text in ("--beside", other)))
     assert found.content == to.read_bytes()
-    assert (b"Project: Axis 2" in found.content) == bool(said)
+    assert (b"Project: Axis 2" in found.content) == (b"side by side" in found.content) == bool(said)
     refused = server.post("report", {"case": tables_of(path), "date": "tomorrow"})
     assert (refused.status_code, refused.json()["faults"][0]["where"]) == (422, "--date")
+    refused = server.post("report", {"case": tables_of(path), "beside": [tables_of(path)] * 4})
+    assert (refused.status_code, refused.json()["faults"][0]["where"]) == (422, "request.beside")
 
 
 # -- what is refused ------------------------------------------------------------------------------

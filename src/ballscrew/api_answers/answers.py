@@ -369,3 +369,10 @@ class CaseSchema(Open):
 
     dialect: str = Field(alias="$schema")
     properties: Tables
+
+
+class NeedSchema(Open):
+    """JSON Schema of a need."""
+
+    dialect: str = Field(alias="$schema")
+    properties: Tables

@@ -6,7 +6,9 @@ They are fitted with the same loss as the model, so that the rows held out show 
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +17,9 @@ from ballscrew.calibration.robust import (
     Loss,
     Vector,
     biweight,
+    minimum_scatter,
     pseudo_huber,
-    scatter_of,
+    scatter_above,
 )
 
 #: Speeds of Stribeck that are tried, as shares of the largest speed of the log.
@@ -82,11 +85,11 @@ def stribeck(conditions: Conditions, torque: Vector) -> Baseline:
     some = np.zeros(rest.size, dtype=bool)
     some[:: -(-rest.size // MOST_ROWS_OF_SEARCH)] = True
     searched, values = (conditions, rest) if some.all() else (conditions.rows(some), rest[some])
-    tried = [(speed, *robust_linear(columns(searched, speed), values)) for speed in STRIBECK_SHARES * fastest]
-    speed = min(tried, key=lambda trial: trial[2])[0]
+    tried = [(first_loss(columns(searched, speed), values), float(speed)) for speed in STRIBECK_SHARES * fastest]
+    speed = min(tried)[1]
     found, _ = robust_linear(columns(conditions, speed), rest)
     names = ("coulomb_torque", "torque_per_load", "stribeck_torque", "viscous_torque_coefficient")
-    coefficients = {**dict(zip(names, found.tolist(), strict=False)), "stribeck_speed": float(speed)}
+    coefficients = {**dict(zip(names, found.tolist(), strict=False)), "stribeck_speed": speed}
     words, numbers = "Stribeck, viscous and load", found.size + 1
     return Baseline(words, coefficients, numbers, lambda rows: torque_of(rows, speed, found))
 
@@ -118,26 +121,48 @@ def robust_linear(columns: Vector, values: Vector) -> tuple[Vector, float]:
 
     With them the root of the first loss, in the unit of the values. Iteratively reweighted least squares.
     """
+    scaled, scale = _scaled(columns)
+    found, scatter, loss = _by_first_loss(scaled, values)
+    return _reweighted(scaled, values, found, lambda _: scatter, biweight)[0] / scale, loss
+
+
+def first_loss(columns: Vector, values: Vector) -> float:
+    """The root of the first loss that :func:`robust_linear` ends with, for a search: the second one is not needed."""
+    return _by_first_loss(_scaled(columns)[0], values)[2]
+
+
+def _scaled(columns: Vector) -> tuple[Vector, Vector]:
     scale = np.linalg.norm(columns, axis=0)
     scale[scale == 0] = 1.0
-    scaled = columns / scale
+    return columns / scale, scale
 
-    def fitted(found: Vector, loss: Loss, scatter: float | None = None) -> tuple[Vector, float]:
-        held = scatter
-        for _ in range(_MAXIMUM_ITERATIONS):
-            residuals = scaled @ found - values
-            scatter = scatter_of(residuals, values) if held is None else held
-            root = np.sqrt(loss((residuals / scatter) ** 2)[1])
-            before, found = found, np.linalg.lstsq(root[:, np.newaxis] * scaled, root * values, rcond=None)[0]
-            if np.max(np.abs(found - before)) <= _TOLERANCE * np.max(np.abs(found), initial=1e-300):
-                break
-        return found, scatter_of(scaled @ found - values, values) if held is None else held
 
-    found, scatter = fitted(np.linalg.lstsq(scaled, values, rcond=None)[0], pseudo_huber)
+def _by_first_loss(scaled: Vector, values: Vector) -> tuple[Vector, float, float]:
+    """Coefficients by the first loss, the scatter that they leave, and the root of the loss."""
+    scatter = functools.partial(scatter_above, minimum_scatter(values))
+    found, residuals = _reweighted(scaled, values, _by_least_squares(scaled, values), scatter, pseudo_huber)
+    left = scatter(residuals)
     # the root, for a square of the scatter may be beyond all floats
-    loss = scatter * float(np.sqrt(np.sum(pseudo_huber(((scaled @ found - values) / scatter) ** 2)[0])))
-    found, _ = fitted(found, biweight, scatter)
-    return found / scale, loss
+    return found, left, left * float(np.sqrt(np.sum(pseudo_huber((residuals / left) ** 2)[0])))
+
+
+def _by_least_squares(columns: Vector, values: Vector) -> Vector:
+    found: Any = np.linalg.lstsq(columns, values, rcond=None)[0]  # NumPy's types leave the precision open
+    return found
+
+
+def _reweighted(
+    scaled: Vector, values: Vector, found: Vector, scatter: Callable[[Vector], float], loss: Loss
+) -> tuple[Vector, Vector]:
+    """Coefficients by a loss of residuals in units of their scatter, and the residuals."""
+    residuals = scaled @ found - values
+    for _ in range(_MAXIMUM_ITERATIONS):
+        root = np.sqrt(loss((residuals / scatter(residuals)) ** 2)[1])
+        before, found = found, _by_least_squares(root[:, np.newaxis] * scaled, root * values)
+        residuals = scaled @ found - values
+        if np.max(np.abs(found - before)) <= _TOLERANCE * np.max(np.abs(found), initial=1e-300):
+            break
+    return found, residuals
 
 
 ALL: Sequence[Callable[[Conditions, Vector], Baseline]] = (stribeck, efficiency_pair)

@@ -92,7 +92,12 @@ class Solution:
 
 def scatter_of(residuals: Vector, torques: Vector) -> float:
     """The scatter of residuals; see the module."""
-    return max(MAD_TO_STANDARD_DEVIATION * float(np.median(np.abs(residuals))), minimum_scatter(torques))
+    return scatter_above(minimum_scatter(torques), residuals)
+
+
+def scatter_above(least: float, residuals: Vector) -> float:
+    """The scatter of residuals, not below the least of their torques."""
+    return max(MAD_TO_STANDARD_DEVIATION * float(np.median(np.abs(residuals))), least)
 
 
 def noise_of(residuals: Vector, torques: Vector) -> Noise:

@@ -6,7 +6,6 @@ but the forces of the slip.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -78,6 +77,8 @@ class SlippingContact:
             (sign, 0, 0, 0),
             (0, bend * self.sine, bend * self.cosine, 0),
         )
+        #: of each of the four, which freedoms it has a slope by, and the slope
+        self.present = [[(i, slope) for i, slope in enumerate(row) if not is_zero(slope)] for row in self.slopes]
         self.side = Side(
             inputs.traction_limit, zero, zero, inputs.semi_major_axis, inputs.deformed_radius, inputs.ellipticity
         )
@@ -116,14 +117,9 @@ class ContactResponse(NamedTuple):
 
 
 def along(row: Sequence[Any], at: Freedoms) -> Any:
-    """Sum of slopes times freedoms, without those that are zero."""
+    """Sum of slopes times freedoms, without those that are absent."""
     terms = [slope * speed for slope, speed in zip(row, at, strict=True) if not is_zero(slope)]
     return sum(terms[1:], terms[0])
-
-
-def plus(total: Any, *factors: Any) -> Any:
-    """A total and one more product, if none of its factors is a plain zero."""
-    return total if any(map(is_zero, factors)) else total + math.prod(factors[1:], start=factors[0])
 
 
 def is_zero(number: Any) -> bool:

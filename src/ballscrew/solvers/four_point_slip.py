@@ -37,7 +37,6 @@ from ballscrew.solvers.four_contacts import (
     Freedoms,
     SlippingContact,
     carried_share,
-    plus,
     resistances_of,
 )
 
@@ -153,14 +152,14 @@ def _solve_slip(*numbers: Any) -> list[Any]:
         for contact in contacts:
             response = contact.response(at, newton_share)
             slipping = [total + part for total, part in zip(slipping, response.parts, strict=True)]
-            for i in range(4):
-                for force, row in zip(response.first, contact.slopes, strict=True):
-                    slopes[i] = plus(slopes[i], force, row[i])
+            for force, row in zip(response.first, contact.present, strict=True):
+                for i, slope in row:
+                    slopes[i] = slopes[i] + force * slope
             for k, m in itertools.product(range(3), repeat=2):
-                bend, one, other = response.second[max(k, m)][min(k, m)], contact.slopes[k], contact.slopes[m]
-                for i in range(4):
-                    for j in range(i + 1):
-                        seconds[i][j] = plus(seconds[i][j], bend, one[i], other[j])
+                bend = response.second[max(k, m)][min(k, m)]
+                for (i, one), (j, other) in itertools.product(contact.present[k], contact.present[m]):
+                    if j <= i:
+                        seconds[i][j] = seconds[i][j] + bend * one * other
         others = [share * part.power(at) for part in resistances]
         power = sum(slipping) + sum(others)
         size = xp.sqrt(sum(slope**2 for slope in slopes)) / capacity

@@ -31,6 +31,7 @@ from ballscrew.documents import sweep as sweep_documents
 from ballscrew.documents import validation as validation_documents
 from ballscrew.documents import warm_up as warm_up_documents
 from ballscrew.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.optimisation.need_schema import json_schema as schema_of_needs
 from ballscrew.report.heading import Heading
 from ballscrew.screw_tables import catalogue as rows
 from ballscrew.selection.need import need_of
@@ -286,6 +287,17 @@ def _schema() -> bytes:
     return as_bytes(json_schema())
 
 
+@router.get("/need-schema", response_model=answers.NeedSchema, responses=openapi.problems_of())
+async def need_schema() -> Response:
+    """JSON Schema of a need, as ``ballscrew schema --need`` prints it."""
+    return sent(_need_schema())
+
+
+@functools.cache
+def _need_schema() -> bytes:
+    return as_bytes(schema_of_needs())
+
+
 @router.get("/vocabulary", response_model=vocabulary.Vocabulary, responses=openapi.problems_of())
 async def get_vocabulary() -> Response:
     """Units and their factors, results and mechanisms by name, models, and cases to start from."""
@@ -335,11 +347,13 @@ async def report(
     heading = Heading.of(body.project, body.date)
 
     def work(done: Deadline) -> Response:
-        from ballscrew.report.contents import Kind, report_bytes  # slow to import
+        from ballscrew.report.files import Kind, report_bytes  # slow to import
 
-        case = case_of(body.case)
+        case, *beside = map(case_of, (body.case, *body.beside))
         written: Kind = "pdf" if kind == "pdf" else "html"
-        found = report_bytes(case, written, done, limits.samples_of(case), heading)
+        # none has more samples than the largest of them may have
+        fewest = [count for each in (case, *beside) if (count := limits.samples_of(each)) is not None]
+        found = report_bytes(case, written, done, min(fewest) if fewest else None, heading, beside)
         return Response(found, media_type=KINDS[kind])
 
     return await heavy(request, work)

@@ -111,10 +111,11 @@ class ProjectBody(Body):
 
 
 class ReportBody(CaseBody):
-    """A case, and what may stand below the title of its report: the name of a project, and a date."""
+    """A case, other designs beside it, and what may stand below the title: the name of a project, and a date."""
 
     project: str = Field(default="", strict=True)
     date: str = Field(default="", strict=True, description="such as 2026-11-23; none by itself")
+    beside: list[Tables] = Field(default_factory=list[Tables], description="other designs, three at most", max_length=3)
 
 
 class SweepBody(CaseBody):

@@ -14,7 +14,7 @@ from ballscrew.errors import Fault, InputError, nearest
 from ballscrew.output.json_text import as_json as json_text
 from ballscrew.studies.opened_file import opened
 from ballscrew.web import openapi
-from ballscrew.web.bodies import LONGEST_TICKET, CaseBody, OpenBody, ProjectBody, case_of, read, refuse_nulls
+from ballscrew.web.bodies import CaseBody, OpenBody, ProjectBody, case_of, read, refuse_nulls
 from ballscrew.web.endpoint_parts import as_json, heavy, queue_of
 from ballscrew.web.progress import progress_of
 from ballscrew.web.sent_files import written
@@ -70,7 +70,7 @@ async def project(
 
 @router.get("/progress/{ticket}", response_model=file_answers.Progress, responses=openapi.problems_of())
 async def progress(
-    ticket: Annotated[str, Path(max_length=LONGEST_TICKET, description="of the request", examples=["4f0c"])],
+    ticket: Annotated[str, Path(description="of the request", examples=["4f0c"])],
 ) -> Response:
     """How far the work of a request is that was sent with this ticket."""
     finished, total = progress_of(ticket)

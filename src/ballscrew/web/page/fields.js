@@ -48,7 +48,7 @@ export function labelIn(path) {
  * @param {string} path
  * @param {string} description
  */
-function helpIn(path, description) {
+export function helpIn(path, description) {
   const name = path.slice(path.lastIndexOf(".") + 1);
   return textOr(`field.${path}.help`, textOr(`field.${name}.help`, description));
 }

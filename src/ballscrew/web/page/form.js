@@ -4,6 +4,7 @@ import { isOfFile, setAside } from "./designs.js";
 import { byId, element, within } from "./dom.js";
 import { inWords, labelOf } from "./faults.js";
 import { choiceField, labelIn, numberField, showEffective } from "./fields.js";
+import * as help from "./help.js";
 import { definition, fieldOf, fieldsOf, isLaw, LEFT_OUT, SECTIONS } from "./schema.js";
 import { text, textOr } from "./texts.js";
 
@@ -63,7 +64,7 @@ export function build(state, vocabulary, given, lawOf) {
   // the list of starts stays: typing the first letters of one is not interrupted
   if (isFirst) form.append(startField(vocabulary));
   while (form.children.length > 1) form.lastChild?.remove();
-  form.append(...parts);
+  form.append(...parts, help.placeIn(form));
   const { start, changes, file } = state.designs[state.show];
   showStart(start, Object.hasOwn(vocabulary.starts, start) ? file : undefined);
   byId("reset").hidden = !Object.keys(changes).length;

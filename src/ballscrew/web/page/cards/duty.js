@@ -243,7 +243,7 @@ export function setUp(holder, page) {
       textOr(`duty.phase.${name}`, name),
     );
     const heat = Object.entries(results.heat_by_element).map(
-      ([name, power]) => `${name.replaceAll("_", " ")} ${POWER.text(power)}`,
+      ([name, power]) => `${textOr(`mechanism.${name}`, name.replaceAll("_", " "))} ${POWER.text(power)}`,
     );
     return element(
       "div",

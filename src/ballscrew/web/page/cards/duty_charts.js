@@ -128,7 +128,7 @@ function torque({ cycle, torque_rms: rms }, causes) {
           hoverinfo: "skip",
         },
       ],
-      layout: layout(colours, TIME.titled(text("duty.time")), TORQUE.titled(sum.name), {
+      layout: layout(colours, TIME.titled(text("duty.time")), TORQUE.titled(text("duty.torque")), {
         yaxis: { rangemode: "normal" },
       }),
     }),
@@ -167,7 +167,7 @@ function curve({ cycle, motor, torque_rms: rms, torque_peak: peak }) {
     rms: text("duty.rms"),
   };
   const x = TURNING.titled(text("duty.motor_speed"));
-  const y = TORQUE.titled(text("duty.motor_torque"));
+  const y = TORQUE.titled(text("duty.torque"));
   /** @param {number | null} value */
   const opposite = (value) => (value === null ? null : -value);
   draw("duty-curve-chart", {

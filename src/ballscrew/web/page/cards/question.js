@@ -130,7 +130,9 @@ export function question({ address, result, show, place, jump, send = ask }) {
         if (signal.aborted) return;
         stop();
         const faults = error instanceof Problem ? error.faults : [];
-        fail(place(faults), faults.length ? [] : linesOf(error));
+        const others = place(faults);
+        const lines = others.length < faults.length ? [text("card.marked")] : [];
+        fail(others, faults.length ? lines : linesOf(error));
       }
     }, rest);
   }
