@@ -60,7 +60,7 @@ def test_two_logs_tell_the_preload_that_is_left(visit, server):
     here.expected = ("status of 422",)
     here.open("#A=paper&A.nut.type=double&A.nut.preload=3+kN&A.model.name=olaru2005&band=0&cards=service")
     page = here.page
-    page.wait_for_selector("#service-worn")
+    page.wait_for_selector("#service-worn", state="attached")
     body = examples_with_logs(ServiceBody, case_of(here))["paper"]
     for name in ("worn", "new"):
         file = {"name": body[name]["name"], "mimeType": "text/csv", "buffer": body[name]["text"].encode()}

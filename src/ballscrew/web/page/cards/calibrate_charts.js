@@ -10,7 +10,7 @@ import { FORCE, TEMPERATURE, TIME, TORQUE, TURNING } from "./quantities.js";
 export const PLACES = ["calibrate-model-chart", "calibrate-residual-chart"];
 /** What residuals are shown over, if the log has it. @type {Record<string, typeof FORCE>} */
 const OVER = { screw_speed: TURNING, axial_load: FORCE, temperature: TEMPERATURE, time: TIME };
-const KINDS = ["fitted", "held out", "outlier"];
+const KINDS = ["fitted", "held_out", "outlier"];
 
 /** @typedef {{ kinds: string[], measured: number[], predicted: number[] } & Record<string, number[]>} Picture */
 

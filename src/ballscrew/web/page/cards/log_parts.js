@@ -9,7 +9,8 @@ import { ofServer, text } from "../texts.js";
 
 /** Bytes of a log that the server takes, with its third more for the request. */
 const MOST_BYTES = 3_000_000;
-/** Letters that need quotes in a shell. */
+/** Letters that a shell reads also within quotes, and those that need quotes. */
+const OF_SHELLS = /[$\u0060]/g;
 const SPECIAL = /[^\w@%+=:,./-]/;
 
 /** @typedef {{ name: string, text?: string, base64?: string }} SentFile */
@@ -125,7 +126,7 @@ export function ofLog({ where, problem, given, remedy }) {
  * @param {string[]} words
  */
 export function commandLine(words) {
-  const quoted = words.map((word) => (SPECIAL.test(word) ? `"${word.replaceAll(/(["\\$`])/g, "\\$1")}"` : word));
+  const quoted = words.map((word) => (SPECIAL.test(word) ? JSON.stringify(word).replaceAll(OF_SHELLS, "\\$&") : word));
   return element("p", { class: "small" }, `${text("log.command")} `, element("code", {}, quoted.join(" ")));
 }
 

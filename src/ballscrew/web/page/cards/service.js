@@ -32,8 +32,8 @@ export function setUp(holder, page) {
   let system = "";
   const problems = element("div");
   const words = element("div");
-  const chart = element("div", { id: CHART, class: "chart low whole-width", hidden: true });
-  const result = element("div", { class: "card-result" }, words, chart);
+  const chart = element("div", { id: CHART, class: "chart low", hidden: true });
+  const result = element("div", { class: "card-result" }, words, element("div", {}, chart));
   const asked = question({
     address: "service",
     result,
