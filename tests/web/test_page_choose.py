@@ -3,6 +3,8 @@
 import json
 import urllib.parse
 
+from .test_page_access import violations
+
 NEED = {
     "axial_load": "2.4 kN", "feed": "15 m/min", "unsupported_length": "1 m", "ends": "fixed-supported",
     "running_time": "20000 h", "preload": "2 %", "rows": "rexroth 32x",
@@ -16,8 +18,8 @@ def ask(here):
 
 
 def test_choose_a_screw(visit, server):
-    here = visit()
-    here.expected = ("status of 422",)
+    here = visit(scheme="dark")
+    here.expected = ("status of 422", "status of 408")
     rest = {"need": {"rows": NEED["rows"]}}
     texts = {name: text for name, text in NEED.items() if name not in ("rows", "axial_load")}
     need = urllib.parse.quote(json.dumps({"texts": {**texts, "axial_load": "2 furlong"}, "units": {}, "rest": rest}))
@@ -27,6 +29,9 @@ def test_choose_a_screw(visit, server):
     here.page.wait_for_selector("[data-path='need.axial_load'] .fault:not(:empty)")
     assert "furlong" in here.text("[data-path='need.axial_load'] .fault")
     here.page.locator("#f-need-axial_load").fill("2.4 kN")
+    out_of_time = {"type": "about:blank", "title": "Timeout", "status": 408, "lines": ["late"], "faults": []}
+    late = lambda route: route.fulfill(status=408, json=out_of_time)  # noqa: E731  (the next request goes on)
+    here.page.route("**/api/v1/select", late, times=1)
     ask(here)
     answer = server.post("select", {"need": {"need": NEED}}).json()
     rows = here.page.locator("#choose-result tbody tr")
@@ -48,6 +53,8 @@ def test_choose_a_screw(visit, server):
     here.page.wait_for_selector("#choose-chart .scatterlayer")
     assert here.page.locator("#choose-chart .ytitle").text_content() == "life (h)"
 
+    assert violations(here) == []
+
     here.page.locator("#choose-result tbody button >> nth=0").click()
     here.page.wait_for_selector("#choose-result >> text=is design A")
     assert here.settle().page.locator("#start").input_value() == first["name"]
@@ -66,6 +73,8 @@ def test_choose_a_screw(visit, server):
     here.settle()
     ask(here)
     assert "MINE" in rows.nth(0).inner_text()
+    here.page.route("**/api/v1/select", lambda route: None)  # one that takes long
     here.page.locator("#choose-start").click()
     here.page.locator("#choose .card-line button").click()
     here.page.wait_for_selector("#choose .card-line >> text=Cancelled")
+    here.page.unroute("**/api/v1/select")

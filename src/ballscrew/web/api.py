@@ -47,6 +47,7 @@ from ballscrew.web import documents, file_api, limits, log_api, openapi, vocabul
 from ballscrew.web.bodies import (
     BandBody,
     CaseBody,
+    CycleBody,
     DutyBody,
     NeedBody,
     ReportBody,
@@ -68,7 +69,7 @@ from ballscrew.web.endpoint_parts import (
     sent,
 )
 from ballscrew.web.problems import Refused
-from ballscrew.web.progress import reported
+from ballscrew.web.progress import finish, reported, unfinished
 from ballscrew.web.request_queue import Deadline
 from ballscrew.web.sent_files import written
 from ballscrew.web.templates import template
@@ -160,14 +161,16 @@ async def band(request: Request) -> Response:
 
 
 @router.post(
-    "/duty", openapi_extra=openapi.body(DutyBody), response_model=duty_answers.Duty, responses=openapi.problems_of()
+    "/duty", openapi_extra=openapi.body(CycleBody), response_model=duty_answers.Duty, responses=openapi.problems_of()
 )
 async def duty(request: Request) -> Response:
     """A cycle of the axis of a case: the document of ``ballscrew duty --json``."""
-    body: DutyBody = await read(request, DutyBody)
+    body: CycleBody = await read(request, CycleBody)
 
     def work(_: Deadline) -> Response:
-        return as_json(duty_documents.document(duties.duty(case_of(body.case, moves=True))))
+        with written({} if body.trace is None else {"trace": body.trace}) as paths:
+            case = case_of(body.case, moves=True, trace=paths.get("trace"))
+        return as_json(duty_documents.document(duties.duty(case)))
 
     return await heavy(request, work)
 
@@ -205,17 +208,22 @@ async def warm_up(request: Request) -> Response:
     responses=openapi.problems_of(),
 )
 async def select(request: Request) -> Response:
-    """Screws of the catalogue for a need, ranked: the document of ``ballscrew select --json``."""
+    """Screws of the catalogue for a need, ranked: the document of ``ballscrew select --json``.
+
+    Where it takes longer than a request may, the same body with its ``ticket`` goes on where it stopped.
+    """
     body: NeedBody = await read(request, NeedBody)
 
     def work(done: Deadline) -> Response:
         refuse_paths(body.need)
         need = limits.check_need(need_of(body.need))
+        key = body.model_dump_json()
         with written({} if body.table is None else {"table": body.table}) as paths:
             found = selected(
                 need, rows=paths.get("table"), words=body.words or None, keep_going=bool(paths),
-                done=reported(body.ticket, done),
+                done=reported(body.ticket, done), known=unfinished(body.ticket, key),
             )  # fmt: skip
+        finish(body.ticket, key)
         return as_json(selection_documents.document(found))
 
     return await heavy(request, work)

@@ -317,7 +317,7 @@ function typed(schema, path, text) {
 export function named(name, start, found) {
   const { screw: listed = {} } = start;
   const { screw = {} } = found;
-  if (Object.keys(listed).some((field) => !(field in screw))) return found;
+  if (!isTable(screw) || Object.keys(listed).some((field) => !(field in screw))) return found;
   const changed = Object.entries(screw).filter(([field, value]) => !isSame(value, listed[field]));
   return { ...found, screw: { catalogue: name, ...Object.fromEntries(changed) } };
 }

@@ -40,6 +40,8 @@ const OF_DUTY = ["axis", "motion", "motor"];
 const OF_NEEDS = { back_driving: { enum: ["allowed", "needed", "forbidden"], default: "allowed" }, accuracy: {} };
 /** Milliseconds between questions of how far the work is. */
 const EVERY = 700;
+/** Requests for one answer, each as long as the server lets it compute. */
+const MOST_REQUESTS = 30;
 
 /** @typedef {import("../state.js").Need} Need */
 
@@ -139,8 +141,7 @@ export function setUp(holder) {
     say(signal, ticket);
     try {
       const body = { need: await tables(need()), ticket, ...(table && { table }) };
-      /** @type {Select} */
-      const found = await sendJson("select", body, signal);
+      const found = await answerTo(body, signal);
       place([]);
       candidates(result, found);
       progress.replaceChildren(element("p", { role: "status" }, counts(found)));
@@ -225,6 +226,23 @@ export function setUp(holder) {
     },
     stop: () => request.abort(),
   };
+}
+
+/**
+ * The answer to a need; where it takes longer than one request may, the next one goes on with it.
+ *
+ * @param {object} body
+ * @param {AbortSignal} signal
+ * @returns {Promise<Select>}
+ */
+async function answerTo(body, signal) {
+  for (let left = MOST_REQUESTS; ; left -= 1) {
+    try {
+      return await sendJson("select", body, signal);
+    } catch (error) {
+      if (!(error instanceof Problem && error.isOutOfTime && left > 1)) throw error;
+    }
+  }
 }
 
 /** @param {Select} found */

@@ -2,7 +2,7 @@
 
 import { element } from "../dom.js";
 import { inWords, labelOf } from "../faults.js";
-import { ask, linesOf, Problem } from "../server.js";
+import { ask, linesOf, Problem, sendJson } from "../server.js";
 import { text } from "../texts.js";
 
 /** Milliseconds after the last key, and until it is said that something is computed. */
@@ -117,7 +117,8 @@ export function question({ address, result, show, place, jump }) {
     signal.addEventListener("abort", () => clearTimeout(patience));
     timer = setTimeout(async () => {
       try {
-        const found = await ask(address, body, signal);
+        // answers about files are not kept: their bodies are large
+        const found = await ("trace" in body ? sendJson : ask)(address, body, signal);
         if (signal.aborted) return;
         stop();
         place([]);
