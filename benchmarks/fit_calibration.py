@@ -19,19 +19,23 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import functools
 import json
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from scipy.optimize import least_squares
 
 import ballscrew
 from ballscrew.components.laws import two_neighbours
+from ballscrew.components.materials import Lubricant
 from ballscrew.components.mixed_friction import LoadSharing, RunInSharing
+from ballscrew.components.screw import BallScrew
 from ballscrew.friction.calibrations import PARAMETERS, with_parameters
 from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.result import FrictionResult
 from ballscrew.studies import validation
 from ballscrew.validation.entries import Conditions, Entry, Point
 from ballscrew.validation.sets import SETS
@@ -56,6 +60,43 @@ def entries(model: FrictionModel, on_four_contacts: FrictionModel | None = None)
         points = [point for row in rows for point in data.evaluate(model, row, Conditions())]
         found.append(Entry(data=data, model=model, calibration=None, points=points))
     return found
+
+
+class Nuts(NamedTuple):
+    """A set with the reference model, and the preloaded screws of its points as one screw of arrays."""
+
+    entry: Entry
+    screws: BallScrew
+
+    def torques(self, model: FrictionModel) -> np.ndarray[Any, Any]:
+        """Torque of each point without load."""
+        at = Conditions()
+        return np.asarray(model(self.screws, at.lubricant, axial_load=0.0, screw_speed=at.screw_speed).screw_torque)
+
+
+@functools.cache
+def nuts() -> tuple[Nuts, ...]:
+    """The nuts of the two sets: a fit asks for all of them hundreds of times, and so at once."""
+    asked: list[BallScrew] = []
+    reference = FrictionModel.reference()
+
+    def model(screw: BallScrew, oil: Lubricant, *, axial_load: float, screw_speed: float) -> FrictionResult:
+        if axial_load == 0:
+            asked.append(screw)
+        return reference(screw, oil, axial_load=axial_load, screw_speed=screw_speed)
+
+    sets = entries(cast("FrictionModel", model))
+    screws = iter(asked)
+    return tuple(Nuts(entry, _together([next(screws) for _ in entry.points])) for entry in sets)
+
+
+def _together(screws: Sequence[BallScrew]) -> BallScrew:
+    """One screw, whose numbers are arrays where those of the screws differ."""
+    numbers = {field.name: [getattr(screw, field.name) for screw in screws] for field in dataclasses.fields(BallScrew)}
+    nut = numbers.pop("nut")[0]
+    preload = np.array([screw.nut.preload for screw in screws])
+    arrays = {name: np.array(values) for name, values in numbers.items() if any(one != values[0] for one in values)}
+    return dataclasses.replace(screws[0], **arrays, nut=dataclasses.replace(nut, preload=preload))
 
 
 def points(sets: Sequence[Entry]) -> list[Point]:
@@ -85,10 +126,13 @@ class Rival(NamedTuple):
     #: The model for balls on four contacts where it is another.
     on_four_contacts: Callable[..., FrictionModel] | None = None
 
+    def models(self, *numbers: float) -> tuple[FrictionModel, FrictionModel]:
+        """The models of the two sets with these numbers."""
+        return self.model(*numbers), (self.on_four_contacts or self.model)(*numbers)
+
     def entries(self, *numbers: float) -> list[Entry]:
         """The two sets with these numbers."""
-        other = None if self.on_four_contacts is None else self.on_four_contacts(*numbers)
-        return entries(self.model(*numbers), other)
+        return entries(*self.models(*numbers))
 
 
 def declared(boundary: float, share: float) -> FrictionModel:
@@ -169,8 +213,14 @@ def fit(rival: Rival, kept: Callable[[Entry, Point], bool] = lambda *_: True) ->
     """Least squares; the covariance is that of the linear model at the end, of what is not at its bound."""
 
     def residuals(x: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-        found = rival.entries(*map(float, x))
-        return np.array([rival.residual(point) for entry in found for point in entry.points if kept(entry, point)])
+        return np.array(
+            [
+                rival.residual(dataclasses.replace(point, value=float(torque)))
+                for one, model in zip(nuts(), rival.models(*map(float, x)), strict=True)
+                for point, torque in zip(one.entry.points, one.torques(model), strict=True)
+                if kept(one.entry, point)
+            ]
+        )
 
     scale = np.array(rival.start)
     found = least_squares(
@@ -265,7 +315,7 @@ def rivals_table() -> str:
         sets = rival.entries(*map(float, found.values))
         errors = np.sqrt(np.diag(found.covariance))
         values = ", ".join(
-            f"{name} = {value:.3g} ± {error:.1g}"
+            f"{name} = {_shown(value)} ± {error:.1g}"
             for name, value, error in zip(rival.names, found.values, errors, strict=True)
         )
         off = [in_half_bands(point) for entry in sets for point in entry.points]

@@ -9,6 +9,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+from command import program_at_hand
+
 ROOT = Path(__file__).parents[1]
 EXAMPLES = "rig.toml", "rig_log.csv"
 FIT = ["fit", "examples/rig_log.csv", "--case", "examples/rig.toml"]
@@ -42,24 +44,26 @@ def write(folder: Path) -> None:
         for example in EXAMPLES:
             shutil.copy(ROOT / "examples" / example, place / "examples")
         for name, arguments in COMMANDS.items():
-            output = _output_of(["-m", "ballscrew.cli", *arguments], place)
+            done = program_at_hand().run(arguments, folder=place, environment={"COLUMNS": WIDTH})
+            output = _whole(done, arguments)
             output = _shortened(output) if name in SHORTENED else output
             (folder / f"{name}.txt").write_text(f"$ {_typed(arguments)}\n{output}", encoding="utf-8")
         for name in WRITTEN:
             shutil.copy(place / name, folder)
-        output = _output_of([str(ROOT / "docs" / "calibration_example.py")], place)
-        (folder / "python.txt").write_text(output, encoding="utf-8")
+        example = str(ROOT / "docs" / "calibration_example.py")
+        done = subprocess.run(
+            [sys.executable, example],
+            cwd=place,
+            env={**os.environ, "COLUMNS": WIDTH, "PYTHONIOENCODING": "utf-8"},
+            capture_output=True,
+            encoding="utf-8",
+            check=False,
+        )
+        (folder / "python.txt").write_text(_whole(done, [example]), encoding="utf-8")
 
 
-def _output_of(arguments: list[str], place: Path) -> str:
-    done = subprocess.run(
-        [sys.executable, *arguments],
-        cwd=place,
-        env={**os.environ, "COLUMNS": WIDTH, "PYTHONIOENCODING": "utf-8"},
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-    )
+def _whole(done: subprocess.CompletedProcess[str], arguments: list[str]) -> str:
+    """What was printed, if all went well."""
     if done.returncode:
         raise RuntimeError(f"{' '.join(arguments)}\n{done.stderr}")
     return "\n".join(line.rstrip() for line in done.stdout.splitlines()) + "\n"

@@ -19,7 +19,7 @@ def write(folder: Path) -> None:
     cases = figures.drawn_cases()
     with style.house_style():
         for plot in (*figures.PLOTS, *law_figures.PLOTS):
-            style.save(plot.draw(cases), folder, plot.name)
+            style.save_as(plot.draw(cases), folder / f"{plot.name}.svg", "svg")
     for case in cases.values():
         (folder / f"steps_{case.name}.md").write_text(steps_table(case), encoding="utf-8")
     (folder / "sensitivities.md").write_text(sensitivity_table(), encoding="utf-8")

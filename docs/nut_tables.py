@@ -15,5 +15,5 @@ def write(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     with style.house_style():
         for name, draw in nut_figures.DRAWN.items():
-            style.save(draw(), folder, name)
+            style.save_as(draw(), folder / f"{name}.svg", "svg")
     (folder / "four_point.md").write_text(printed("four_point.py", "--markdown", "--cases", CASES), encoding="utf-8")

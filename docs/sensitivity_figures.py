@@ -23,4 +23,4 @@ def write(folder: Path) -> None:
         text.print_sensitivity(case, report)
     (folder / "feed_drive.txt").write_text(said.getvalue(), encoding="utf-8")
     with style.house_style():
-        style.save(figures.picture(case, report), folder, "feed_drive")
+        style.save_as(figures.picture(case, report), folder / "feed_drive.svg", "svg")

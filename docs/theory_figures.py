@@ -29,7 +29,7 @@ def write(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     with style.house_style():
         for name, draw in {**FIGURES, **theory_screw_figures.FIGURES}.items():
-            style.save(draw(), folder, name)
+            style.save_as(draw(), folder / f"{name}.svg", "svg")
 
 
 # -- geometry -------------------------------------------------------------------------------------

@@ -44,7 +44,7 @@ def write(folder: Path) -> None:
     with style.house_style():
         options = band.Options()
         report = band.band(case, options)
-        style.save(figures.picture(case, report, band.curve(case, report, options)), folder, "band")
+        style.save_as(figures.picture(case, report, band.curve(case, report, options)), folder / "band.svg", "svg")
     (folder / "assumed.md").write_text(assumed_table(), encoding="utf-8")
 
 

@@ -101,7 +101,7 @@ class Page:
     def _done(self, typed: str) -> str:
         words = shlex.split(typed)
         if words[0] == PROGRAM and not _SHELL.search(typed):
-            code, said = _commands().together(words[1:], self._place(), {"COLUMNS": WIDTH, "NO_COLOR": "1"})
+            code, said = program_at_hand().together(words[1:], self._place(), {"COLUMNS": WIDTH, "NO_COLOR": "1"})
             said = said.replace("python -m ballscrew.cli", "ballscrew")
         else:
             code, said = self._by_shell(typed)
@@ -131,7 +131,7 @@ class Page:
 
 
 @functools.cache
-def _commands() -> Any:
+def program_at_hand() -> Any:
     """The process whose forks run commands: most of the time of a command is that of loading the program."""
     sys.path.append(str(ROOT / "tests"))
     from support.commands import Commands

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import math
 import re
 import tomllib
 from pathlib import Path
@@ -223,6 +224,21 @@ def test_duty(server, tmp_path):
     del tables["operation"]
     assert_same(server.post("duty", {"case": tables}).json(), document("duty", written(tables, tmp_path), "--json"))
     assert server.post("run", {"case": tables}).status_code == 422
+
+
+def test_duty_of_a_recorded_motion(server, tmp_path):
+    """A file that comes with the case stands in the place of its motion, as ``--trace`` does."""
+    tables = tables_of(next(path for path in EXAMPLES if path.stem == "vertical_axis"))
+    rows = [f"{0.01 * i:.2f},{100 * (1 - math.cos(0.01 * math.pi * i)):.3f}" for i in range(201)]
+    log = tmp_path / "run.csv"
+    log.write_text("\n".join(["time [s],position [mm]", *rows]), encoding="utf-8")
+    sent = {"name": log.name, "text": log.read_text(encoding="utf-8")}
+    found = server.post("duty", {"case": tables, "trace": sent}).json()
+    assert_same(found, document("duty", written(tables, tmp_path), "--trace", str(log), "--json"))
+    assert found["inputs"]["motion"] == {"kind": "trajectory", "file": "run.csv", "samples": 201}
+    refused = server.post("duty", {"case": tables, "trace": {"name": "a/run.csv", "text": "x"}})
+    assert refused.status_code == 422
+    assert refused.json()["lines"][0].startswith("run.csv")
 
 
 def test_warm_up(server, tmp_path):

@@ -16,6 +16,7 @@ from ballscrew.report.blocks import Block, Columns, Links, Paragraph, Picture, R
 from ballscrew.report.contact_geometry import drawn_ball
 from ballscrew.report.curves import Curves, curves
 from ballscrew.report.drawing import drawing
+from ballscrew.sizing.speed_limits import GENERAL, speed_limit_of
 from ballscrew.studies import band
 from ballscrew.studies.check import checked
 from ballscrew.studies.run import Run, run
@@ -160,4 +161,6 @@ def sources(case: case_file.Case, found: band.BandReport) -> list[tuple[str, str
     """Sources of a case and its band, in words, each with its address."""
     keys = [*case_file.references(case), *_OF_CHECKS, *(one.source for one in found.inputs.values())]
     keys += [] if case.row is None else bibliography.of_catalogue(case.row.source)
+    if case.limits.diameter_speed_product is None:
+        keys += (speed_limit_of(case.row) or GENERAL).sources
     return [(f"{source.key}: {source.words}", source.link) for source in bibliography.sources(keys)]

@@ -47,6 +47,7 @@ from ballscrew.web import documents, file_api, limits, log_api, openapi, vocabul
 from ballscrew.web.bodies import (
     BandBody,
     CaseBody,
+    CycleBody,
     DutyBody,
     NeedBody,
     ReportBody,
@@ -160,14 +161,16 @@ async def band(request: Request) -> Response:
 
 
 @router.post(
-    "/duty", openapi_extra=openapi.body(DutyBody), response_model=duty_answers.Duty, responses=openapi.problems_of()
+    "/duty", openapi_extra=openapi.body(CycleBody), response_model=duty_answers.Duty, responses=openapi.problems_of()
 )
 async def duty(request: Request) -> Response:
     """A cycle of the axis of a case: the document of ``ballscrew duty --json``."""
-    body: DutyBody = await read(request, DutyBody)
+    body: CycleBody = await read(request, CycleBody)
 
     def work(_: Deadline) -> Response:
-        return as_json(duty_documents.document(duties.duty(case_of(body.case, moves=True))))
+        with written({} if body.trace is None else {"trace": body.trace}) as paths:
+            case = case_of(body.case, moves=True, trace=paths.get("trace"))
+        return as_json(duty_documents.document(duties.duty(case)))
 
     return await heavy(request, work)
 

@@ -52,7 +52,7 @@ def _bodies(kind: type[BaseModel]) -> dict[str, Any]:
         return {"case": {"file": {"name": "case.toml", "text": text}}}
     if kind is ProjectBody:
         return {"two": {"designs": [{"name": name, "case": case} for name, case in (("paper", paper), ("nut", nut))]}}
-    if kind is DutyBody:
+    if issubclass(kind, DutyBody):
         moving: dict[str, Any] = {
             "axis": {"mass": "400 kg", "inclination": "90 deg"},
             "motion": {"kind": "trapezoid", "stroke": "0.5 m", "speed": "10 m/min", "acceleration": "0.5 g"},

@@ -5,6 +5,7 @@ import { byId, element, within } from "./dom.js";
 import { inWords, labelOf } from "./faults.js";
 import { choiceField, labelIn, numberField, showEffective } from "./fields.js";
 import * as help from "./help.js";
+import { slidersOf } from "./operating_point.js";
 import { definition, fieldOf, fieldsOf, isLaw, LEFT_OUT, SECTIONS } from "./schema.js";
 import { text, textOr } from "./texts.js";
 
@@ -220,7 +221,8 @@ function fields(path, unresolved, source) {
   }
   if (isLaw(node)) return lawFields(path, node, source);
   if (node.enum || node.type === "boolean") return [choiceField(path, node, source.given(path), source.onChange)];
-  return [numberField(path, node, source)];
+  const field = numberField(path, node, source);
+  return [field, ...slidersOf(path, field, labelIn(path), node["x-si-unit"])];
 }
 
 /**
