@@ -30,6 +30,14 @@ OF_PAGE = {
 }
 
 
+#: Tall enough that all charts of a card are near the viewport, and drawn.
+TALL = {"width": 1360, "height": 6000}
+OF_CARDS = {
+    "app_duty.png": ("duty", "#A=vertical-axis&band=0&cards=duty"),
+    "app_warm_up.png": ("warm-up", "#A=warm-up&band=0&cards=warm-up&rest=1&heat=band"),
+}
+
+
 def save(name: str, png: bytes) -> None:
     """Write a picture with a palette: drawings need few colours."""
     path = IMAGES / name
@@ -55,6 +63,17 @@ def of_page(browser: Browser, address: str) -> None:
             page.wait_for_selector("#torque-chart .main-svg")
         page.wait_for_timeout(500)
         save(name, page.screenshot())
+        page.close()
+
+
+def of_cards(browser: Browser, address: str) -> None:
+    """Screenshots of cards of the web page with their answers."""
+    for name, (card, fragment) in OF_CARDS.items():
+        page = browser.new_page(viewport=TALL, device_scale_factor=0.75)
+        page.goto(f"{address}/{fragment}")
+        page.wait_for_selector(f"#{card} .card-result[aria-busy=false] .main-svg")
+        page.wait_for_timeout(2000)
+        save(name, page.locator(f"section[aria-labelledby={card}-title]").screenshot())
         page.close()
 
 
@@ -117,6 +136,7 @@ def main() -> None:
         with sync_playwright() as playwright:
             browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
             of_page(browser, found[0])
+            of_cards(browser, found[0])
             of_print(browser, found[0])
             of_report()
             of_docs(browser)

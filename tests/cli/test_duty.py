@@ -8,7 +8,7 @@ import pytest
 
 from ballscrew.axis_studies.duty import duty
 from ballscrew.cases import case_file
-from ballscrew.documents.duty import document as document_of
+from ballscrew.documents import duty as documents
 from ballscrew.output.json_text import plain
 from ballscrew.text.duty import text
 from support.commands import ROOT
@@ -77,7 +77,7 @@ def found(tmp_path):
 
 
 def document(report):
-    return plain(document_of(report))
+    return plain(documents.document(report))
 
 
 def records(document, kind):
@@ -136,6 +136,16 @@ def test_words_say_what_stands_in_the_document(found):
         assert record["text"].split()[0] in said
     for words in ("What the motor is paid for", "Motor off", "Life by ISO 3408-5", "by the rule of catalogues (THK)"):
         assert words in said
+
+
+def test_a_long_motion_is_thinned_and_says_so(found, monkeypatch):
+    report = found(VERTICAL)
+    whole = document(report)["results"]["cycle"]
+    monkeypatch.setattr(documents, "MOST_STATES", 40)
+    some = document(report)["results"]["cycle"]
+    assert (whole["every"], len(whole["time"])) == (1, len(report.duty.states.time))
+    assert some["every"] == math.ceil(len(whole["time"]) / 40)
+    assert some["torque"] == whole["torque"][:: some["every"]]
 
 
 def test_the_horizontal_example_of_thk(found):

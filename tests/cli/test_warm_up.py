@@ -435,3 +435,11 @@ def test_fit_with_self_heating(ballscrew, tmp_path, case):
         refused = ballscrew("fit", name, "--case", "case.toml", "--self-heating")
         assert refused.returncode == 2
         assert line in refused.stderr
+
+
+def test_inputs_have_the_surroundings_that_count(case):
+    """Also of a case without any: a page shows them where nothing is typed."""
+    bare = POINT.replace('[surroundings]\nshaft_length = "1 m"\n', "")
+    inputs = document_of(warmed_up(case(bare), hours=0.1))["inputs"]
+    assert inputs["surroundings"]["ambient"] == 293.15
+    assert "shaft_length" not in inputs["surroundings"]

@@ -21,7 +21,7 @@ def test_the_answer_exists(row):
     path = ROOT / row["path"]
     assert path.is_dir() if row["path"].endswith("/") else path.is_file()
     if row["name"]:
-        defined = rf"^\s*(?:async )?(?:def|class) {row['name']}\b|^{row['name']}\b.*="
+        defined = rf"^\s*(?:export )?(?:async )?(?:def|class|function|const) {row['name']}\b|^{row['name']}\b.*="
         assert re.search(defined, path.read_text(encoding="utf-8"), re.MULTILINE), (
             f"update docs/where.md: {row['name']} is not in {path}"
         )

@@ -5,9 +5,10 @@ import math
 import pytest
 
 from ballscrew.friction.result import FrictionResult
+from ballscrew.output.plain_numbers import plain
 from ballscrew.quantities import quantities_of
 from ballscrew.report.blocks import Paragraph, Picture, Report, Section, as_data
-from ballscrew.report.numbers import banded, banded_share, last_place, plain, to_place, with_digits_of
+from ballscrew.report.numbers import banded, banded_share, last_place, to_place, with_digits_of
 from ballscrew.uncertainty.bands import Interval, OutputBand
 from ballscrew.units import shown
 

@@ -17,6 +17,7 @@ import pypdf
 import pytest
 
 import ballscrew as bs
+from ballscrew.axis_studies.duty import NUMBERS, duty
 from ballscrew.axis_studies.warm_up import warmed_up
 from ballscrew.axis_studies.warm_up_records import verdicts
 from ballscrew.cases import case_file
@@ -31,8 +32,8 @@ from ballscrew.references import bibliography as entries
 from ballscrew.report import contents, warm_up_section
 from ballscrew.report import curve_figures as figures
 from ballscrew.report.blocks import Bar, Columns, Links, Picture, Table, value
-from ballscrew.report.contents import report_bytes
 from ballscrew.report.curves import curves
+from ballscrew.report.files import report_bytes
 from ballscrew.report.heading import Heading
 from ballscrew.report.html import html_bytes
 from ballscrew.report.numbers import banded, banded_share
@@ -290,7 +291,8 @@ def test_sources_are_those_that_were_used(content):
     words = [text.partition(":")[0] for text, _ in links.entries]
     assert words == list(dict.fromkeys(words))
     case = case_of("catalogue_screw")
-    assert set(case_file.references(case)) | {"Rexroth2006", "ISO3408-5", "SKF2018"} <= set(words)
+    # THK514E: the general limit of the DN value
+    assert set(case_file.references(case)) | {"Rexroth2006", "ISO3408-5", "SKF2018", "THK514E"} <= set(words)
     assert "Saltelli2010" not in words
     links_of = dict(zip(words, (link for _, link in links.entries), strict=True))
     assert links_of["Olaru2005"] == "https://doi.org/10.1007/1-4020-2933-0_20"
@@ -578,6 +580,8 @@ def test_what_cannot_be_written_is_one_line_and_nothing_is_left(ballscrew, tmp_p
         (line,) = done.stderr.splitlines()
         assert line.startswith(f"--to: {problem}")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["folder.pdf"]
+    done = ballscrew("report", case, "-o", tmp_path / "x.pdf", *["--beside", case] * 4)
+    assert (done.returncode, done.stderr) == (2, "--beside: too many designs (4) · 3 at most\n")
     done = ballscrew("report", case, "-o", tmp_path / "x.pdf", "--samples", "1")
     assert (done.returncode, done.stdout) == (2, "")
     assert "--samples" in done.stderr
@@ -671,3 +675,17 @@ def test_heat_is_that_of_the_command():
     assert all(line in words for line in report.assumed)
     end = report.equilibrium["nut_temperature"] - 273.15
     assert f"{end:.2f} degC" in words
+
+
+def test_numbers_of_a_cycle_have_their_bands():
+    table = (
+        next(s for s in content_of("vertical_axis").sections if s.title.startswith("Over a cycle")).blocks[1].left[0]
+    )
+    rows = {words: (number, interval) for words, number, interval in table.rows}
+    with_band = [interval for _, interval in rows.values() if interval]
+    assert len(with_band) == 5  # RMS and peak torque, energy drawn, returned and lost
+    found = duty(case_of("vertical_axis"))
+    # duty --band with 1024 samples has 444 J to 638 J
+    number, interval = rows[NUMBERS["energy_lost"].info.meaning]
+    assert float(number.split()[0]) == pytest.approx(found.numbers["energy_lost"], abs=50)
+    assert [float(end) for end in interval.removesuffix(" J").split(" to ")] == pytest.approx([444, 638], abs=50)

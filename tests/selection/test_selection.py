@@ -12,6 +12,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.documents.selection import document
 from ballscrew.errors import InputError
+from ballscrew.selection import selection
 from ballscrew.selection.need import need_of
 from ballscrew.selection.pareto import front, hypervolume
 from ballscrew.text.selection import text
@@ -296,3 +297,28 @@ def test_the_schema_knows_what_is_read(ballscrew):
     validator.validate({"need": {"force": "6 kN", "speed": "15 rpm", "least_rigidity": "500 N/um"}})
     for wrong in ({"forse": "6 kN"}, {"need": {"leest_rigidity": "5 N/um"}}, {"optimise": {"population": 1}}):
         assert not validator.is_valid(wrong), wrong
+
+
+def test_a_selection_that_was_stopped_goes_on_where_it_stopped(monkeypatch):
+    """No candidate is judged twice, and the answer is that of one call."""
+    judged, names = selection.judged, []
+
+    def counted(need, variant, case):
+        names.append(variant.label)
+        return judged(need, variant, case)
+
+    class Late(Exception):
+        pass
+
+    def late(finished, total):
+        if finished < total:
+            raise Late
+
+    monkeypatch.setattr(selection, "judged", counted)
+    known = {}
+    with pytest.raises(Late):
+        bs.select(FEW, done=late, known=known)
+    found = bs.select(FEW, known=known)
+    assert len(names) == len(set(names)) == len(found.ranked) > 1
+    once = bs.select(FEW)
+    assert [one.candidate.variant.label for one in found.ranked] == [one.candidate.variant.label for one in once.ranked]

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import math
 import re
 import tomllib
 from pathlib import Path
@@ -225,6 +226,21 @@ def test_duty(server, tmp_path):
     assert server.post("run", {"case": tables}).status_code == 422
 
 
+def test_duty_of_a_recorded_motion(server, tmp_path):
+    """A file that comes with the case stands in the place of its motion, as ``--trace`` does."""
+    tables = tables_of(next(path for path in EXAMPLES if path.stem == "vertical_axis"))
+    rows = [f"{0.01 * i:.2f},{100 * (1 - math.cos(0.01 * math.pi * i)):.3f}" for i in range(201)]
+    log = tmp_path / "run.csv"
+    log.write_text("\n".join(["time [s],position [mm]", *rows]), encoding="utf-8")
+    sent = {"name": log.name, "text": log.read_text(encoding="utf-8")}
+    found = server.post("duty", {"case": tables, "trace": sent}).json()
+    assert_same(found, document("duty", written(tables, tmp_path), "--trace", str(log), "--json"))
+    assert found["inputs"]["motion"] == {"kind": "trajectory", "file": "run.csv", "samples": 201}
+    refused = server.post("duty", {"case": tables, "trace": {"name": "a/run.csv", "text": "x"}})
+    assert refused.status_code == 422
+    assert refused.json()["lines"][0].startswith("run.csv")
+
+
 def test_warm_up(server, tmp_path):
     """Of a motion and of an operating point, with bands and without; refused as on the command line."""
     tables = tables_of(next(path for path in EXAMPLES if path.stem == "warm_up"))
@@ -328,16 +344,21 @@ REPORTS = [
 
 @pytest.mark.parametrize(("stem", "kind"), REPORTS)
 def test_report(server, stem, kind, tmp_path):
-    """Byte for byte the file that the command writes, with a project and a date where they are said."""
+    """Byte for byte the file that the command writes; as HTML with a project, a date and another design beside it."""
     path, to = PAPER.with_stem(stem), tmp_path / f"report.{kind}"
     said = {"project": "Axis 2", "date": "2026-11-23"} if kind == "html" else {}
-    found = server.post(f"report?kind={kind}", {"case": tables_of(path), **said})
+    beside = [PAPER] * bool(said)
+    others = {"beside": [tables_of(other) for other in beside]} if beside else {}
+    found = server.post(f"report?kind={kind}", {"case": tables_of(path), **said, **others})
     assert found.headers["content-type"].partition(";")[0] == {"pdf": "application/pdf", "html": "text/html"}[kind]
-    printed("report", path, "-o", to, *(text for name, value in said.items() for text in (f"--{name}", value)))
+    options = [text for name, value in said.items() for text in (f"--{name}", value)]
+    printed("report", path, "-o", to, *options, *(text for other in beside for text in ("--beside", other)))
     assert found.content == to.read_bytes()
-    assert (b"Project: Axis 2" in found.content) == bool(said)
+    assert (b"Project: Axis 2" in found.content) == (b"side by side" in found.content) == bool(said)
     refused = server.post("report", {"case": tables_of(path), "date": "tomorrow"})
     assert (refused.status_code, refused.json()["faults"][0]["where"]) == (422, "--date")
+    refused = server.post("report", {"case": tables_of(path), "beside": [tables_of(path)] * 4})
+    assert (refused.status_code, refused.json()["faults"][0]["where"]) == (422, "request.beside")
 
 
 # -- what is refused ------------------------------------------------------------------------------

@@ -1,14 +1,18 @@
 """Whatever is sent: a clear refusal, and the server goes on as before."""
 
+import base64
 import concurrent.futures
+import io
 import json
+import random
 import select
 import socket
 import time
+import zipfile
 
 import pytest
 
-from ballscrew.web import bodies, limits
+from ballscrew.web import limits
 from ballscrew.web.guard import HEADERS
 from support.short_timeouts import READ_TIMEOUT
 
@@ -52,12 +56,12 @@ BODIES = {
     "long name": (json.dumps({"case": {"x" * 1100: 1}}).encode(), 413, "a text of more than 1000 characters"),
     "unpaired surrogate": (b'{"case": {"screw": "\\ud800"}}', 400, "unpaired surrogate"),
     "another name": (b'{"case": {}, "model": "reference"}', 422, "request.model: unknown key"),
-    "large": (b" " * 10_000_000, 413, f"more than {bodies.MOST_BYTES} bytes"),
+    "large": (b" " * 10_000_000, 413, "more than"),
 }
 
 
 @pytest.mark.parametrize("name", BODIES)
-@pytest.mark.parametrize("address", ["run", "band"])
+@pytest.mark.parametrize("address", ["run", "band", "fit"])
 def test_bodies(server, name, address):
     refused(server, address, *BODIES[name])
 
@@ -119,6 +123,93 @@ def test_many_faults_at_once(server, paper):
     unknown = {f"axial_lod{i}": "1 N" for i in range(900)}
     refused(server, "run", {"case": {**paper, "operation": unknown}}, 422, "unknown key")
     refused(server, "sweep", {"case": paper, "outputs": list(unknown)}, 422, "unknown output")
+
+
+def packed(size):
+    """A workbook that unpacks to so many bytes."""
+    with io.BytesIO() as made:
+        with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as archive:
+            archive.writestr("xl/workbook.xml", b"<workbook/>" + b" " * size)
+        return made.getvalue()
+
+
+HEADINGS = b"speed [rpm],axial load [N],torque [N m]\n"
+#: Contents of logs and what is said of them; None where there are numbers that may be fitted.
+LOGS = {
+    "no bytes": (b"", "is empty"),
+    "empty lines": (b"\n" * 1000, "is empty"),
+    "only headings": (HEADINGS, ""),
+    "zeros": (b"\0" * 4000, ""),
+    "random bytes": (random.Random(1).randbytes(4000), ""),
+    "a picture": (b"\x89PNG\r\n\x1a\n" + random.Random(2).randbytes(900), ""),
+    "no workbook": (b"PK\x03\x04" + random.Random(3).randbytes(900), ""),
+    "a workbook with nothing in it": (packed(10), ""),
+    "an old workbook": (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + random.Random(4).randbytes(2000), ""),
+    "MATLAB": (b"MATLAB 5.0 MAT-file" + random.Random(5).randbytes(2000), ""),
+    "MATLAB 7.3": (b"MATLAB 7.3 MAT-file" + b" " * 493 + b"\x89HDF\r\n\x1a\n" + b"\0" * 500, ""),
+    "many columns": (
+        b",".join(b"a%d" % i for i in range(20_000)) + b"\n" + b"1," * 20_000,
+        "has too many columns (20,001)",
+    ),
+    "many headings": (b",".join([b"torque [N m]"] * 900) + b"\n" + b"1," * 900, ""),
+    "a long line": (HEADINGS + b"1" * 1_000_000, ""),
+    "a quote without end": (HEADINGS + b'"1,2,3\n' * 100, ""),
+    "NaN": (HEADINGS + b"nan,nan,nan\n" * 50, ""),
+    "infinity": (HEADINGS + b"inf,-inf,1e999\n" * 50, ""),
+    "huge": (HEADINGS + b"1e308,1e308,1e308\n" * 50, ""),
+    "zeros in all rows": (HEADINGS + b"0,0,0\n" * 50, ""),
+    "one row again and again": (HEADINGS + b"50,1000,0.8\n" * 50, None),
+    "formulas": (HEADINGS + b"=1+1,@SUM(A1:A9),=cmd|'/c calc'!A0\n" * 50, "is not a number"),
+    "errors of a spreadsheet": (HEADINGS + b"#DIV/0!,#N/A,#REF!\n" * 50, ""),
+    "scripts": (b"<script>alert(1)</script>,torque [N m]\n1,2\n", ""),
+    "other digits": (HEADINGS + "١,٢,٣\n".encode() * 5, None),
+    "only commas": (b"," * 100_000 + b"\n", ""),
+}
+
+
+@pytest.mark.parametrize("name", LOGS)
+def test_logs(server, paper, name):
+    """Whatever is in them, they are read or refused, by their own name; a fit of no use is refused as well."""
+    content, words = LOGS[name]
+    case = {**paper, "model": {"name": "olaru2005"}, "nut": {"type": "double", "preload": "1 kN"}}
+    log = {"name": "log.csv", "base64": base64.b64encode(content).decode()}
+    asked = [("log", {"log": log}), ("fit", {"log": log})][name.startswith("MATLAB") :]  # a process for each
+    for address, body in [*asked, *[("service", {"worn": log})] * (name in ("NaN", "random bytes"))]:
+        found = server.post(address, {"case": case, **body})
+        if found.status_code == 200 and (address == "log" or words is None):
+            continue  # its columns are shown, good or not; numbers are fitted, however few they are
+        refused(server, address, {"case": case, **body}, 422, words)
+
+
+@pytest.mark.parametrize(
+    ("address", "more", "status", "words"),
+    [
+        ("fit", {}, 422, "request.log: missing"),
+        ("fit", {"log": "speed"}, 422, "request.log"),
+        ("fit", {"log": {"name": "x" * 2000, "text": ""}}, 413, "a text of more than 1000 characters"),
+        ("fit", {"log": {"name": "x.csv", "text": ["a"] * 2000}}, 413, "more than 1000 values"),
+        ("fit", {"log": {"name": "x.csv", "text": "\ud800"}}, 422, "log.text: has an unpaired surrogate"),
+        ("fit", {"log": {"name": "x.csv", "text": "a"}, "free": ["x" * 900]}, 422, ""),
+        ("fit", {"log": {"name": "x.csv", "text": "a"}, "bounds": {"../../etc/passwd": "1:2"}}, 422, "--bounds"),
+        ("fit", {"log": {"name": "x.csv", "text": "a"}, "limits": {"screw_speed": "9" * 900}}, 422, "--limits"),
+        ("fit", {"log": {"name": "x.csv", "text": "a"}, "columns": {"torque": "../../etc/passwd"}}, 422, ""),
+        ("fit", {"log": {"name": "x.csv", "text": "a"}, "holdout": 1e308}, 422, ""),
+        ("fit", {"log": {"name": "x.csv", "text": "a"}, "seed": 10**4000}, 422, ""),
+        ("fit", {"log": {"name": "x.csv", "text": "x" * 5_000_000}}, 413, "more than 4194304 bytes"),
+        ("service", {"worn": {"name": "x.csv", "text": "a"}, "tolerance": -5}, 422, ""),
+        ("hand-over", {}, 422, "request.to: missing"),
+        ("hand-over", {"to": "../../etc/passwd"}, 422, "unknown target"),
+        ("hand-over", {"to": "os"}, 422, "unknown target"),
+        ("hand-over", {"to": "drive", "options": {"points": "-1"}}, 422, "points"),
+        ("hand-over", {"to": "mujoco", "options": {"plugin": "../../x"}}, 422, "plugin"),
+        ("hand-over", {"to": "linuxcnc", "options": {"joint": "1e999"}}, 422, "joint"),
+        ("hand-over", {"to": "c", "outputs": ["efficiency"] * 100}, 422, "too many"),
+        ("hand-over", {"to": "c", "ranges": {"axial_load": "1e308:-1e308 N"}}, 422, "axial_load"),
+        ("hand-over", {"to": "table", "options": {"tolerance": "1e-300"}}, 422, "tolerance"),
+    ],
+)
+def test_options_of_logs_and_targets(server, paper, address, more, status, words):
+    refused(server, address, {"case": paper, **more}, status, words)
 
 
 SWEEPS = {

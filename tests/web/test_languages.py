@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from ballscrew.case_schema.schema import json_schema
+from ballscrew.optimisation.need_schema import json_schema as need_schema
 from ballscrew.web import languages
 
 PAGE = Path(languages.__file__).with_name("page")
@@ -14,7 +15,9 @@ ENGLISH = languages.texts()["en"]
 OTHERS = [name for name in languages.texts() if name != "en"]
 SCRIPTS = {file.name: file.read_text(encoding="utf-8") for file in PAGE.rglob("*.js")}
 #: Texts whose English stands at their source in Python: annotations of fields, and names of the vocabulary.
-OF_PYTHON = ("cause.", "field.", "mechanism.", "option.", "problem.", "quantity.", "record.", "start.")
+OF_PYTHON = (
+    "cause.", "field.", "mechanism.", "option.", "problem.", "quantity.", "record.", "sentence.", "start.", "unit.",
+)  # fmt: skip
 #: Comments and patterns, which are skipped; then strings, and templates, of which what is computed is left out.
 _TOKEN = re.compile(
     r"""/\*.*?\*/|(?:^|\s)//[^\n]*|(?<=\()/(?:\\.|[^/\n\\])+/|"((?:\\.|[^"\\\n])*)"|'[^'\n]*'|`((?:\\.|[^`\\])*)`""",
@@ -26,7 +29,7 @@ _WORDS = re.compile(r"[A-Za-z]{2,}[,:;]? [a-z]{2,}")
 #: Two words that nobody reads: classes of elements, units, selectors, and a defect of the page.
 CODES = {
     "(prefers-color-scheme: dark)", "card-start whole-width", "chart low", "field given", "field start given",
-    "input, select", "lbf in", "line thin", "mm rpm",
+    "input, select", "kg cm^2", "lbf in", "line thin", "mm rpm",
     "no element #…", "no element …", "scroll whole", "verdict careful",
     # English remedies of the server for files, said for a page
     "fill in the section …", "fill in {", "in a file write", "the section …",
@@ -49,6 +52,10 @@ def test_a_translation_is_whole(name):
         key: placeholders(text) for key, text in ENGLISH.items()
     }
     assert all(text.strip() for text in found.values())
+    sentences = {
+        key: text for key, text in languages.texts()[name].items() if key.startswith(("sentence.", "problem."))
+    }
+    assert {key for key, text in sentences.items() if key.count("{}") != text.count("{}")} == set()
 
 
 @pytest.mark.parametrize("name", list(languages.texts()))
@@ -84,7 +91,9 @@ def fields(schema, node, path=()):
 @pytest.mark.parametrize("name", OTHERS)
 def test_translated_fields_are_fields(name):
     schema = json_schema()
-    known = set(fields(schema, schema))
+    of_needs = need_schema()
+    known = set(fields(schema, schema)) | {path for path in fields(of_needs, of_needs) if path.startswith("need.")}
+    known |= {f"need.{name}" for name in of_needs["properties"]}
     translated = {key for key in languages.texts()[name] if key.startswith("field.")}
     assert len(translated) > 150
     assert {key for key in translated if key.removeprefix("field.").rpartition(".")[0] not in known} == set()
@@ -101,6 +110,14 @@ def test_no_script_has_a_text_of_its_own():
         for name, text in SCRIPTS.items()
     }
     assert {name: lines for name, lines in found.items() if lines} == {}
+
+
+def test_help_names_pages_of_the_theory():
+    pages = set(re.findall(r'^  (?:"[a-z_.]+"|[a-z]+): "([a-z]+)",$', SCRIPTS["help.js"], re.MULTILINE))
+    theory = Path(__file__).parents[2] / "docs" / "theory"
+    assert len(pages) > 5
+    assert {page for page in pages if not (theory / f"{page}.md").is_file()} == set()
+    assert {f"help.page.{page}" for page in pages} == {key for key in ENGLISH if key.startswith("help.page.")}
 
 
 @pytest.mark.parametrize(

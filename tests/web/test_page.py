@@ -248,6 +248,7 @@ NONSENSE = {
         "left out: A.__proto__.polluted, A.constructor.polluted, A.operation.constructor",
     ),
     "path of a file": ("#A=paper&A.screw.catalogue_file=/etc/passwd", "left out: A.screw.catalogue_file"),
+    "tables": ("#A=paper&A.tables=[1]&A.aside=5&A.tables={", "left out: A.tables, A.aside, A.tables"),
     "unknown unit": ("#A=paper&unit.operation.axial_load=furlong", "left out: unit.operation.axial_load"),
     "script": ("#A=<script>window.hurt=1</script>&A.<img src=x onerror=hurt=1>=1", "<script>window.hurt=1</script>"),
     "long": (f"#A={'x' * 100_000}&{'y' * 100_000}=1&z=1&z=2&z=3&z=4", "…"),

@@ -73,6 +73,14 @@ def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
     assert page.evaluate("document.activeElement.id") == "segment-6-name"
     edited(here, "duty", lambda: page.locator("#segment-6-delete").press("Enter"))
     assert page.locator("#duty .segments tbody tr").count() == 5
+    # a recorded motion counts until it is taken away
+    rows = [f"{0.02 * i:.2f},{0.1 * (i % 100 if i % 200 < 100 else 100 - i % 100):.1f}" for i in range(201)]
+    file = {"name": "run.csv", "mimeType": "text/csv", "buffer": "\n".join(["time [s],position [mm]", *rows]).encode()}
+    edited(here, "duty", lambda: page.locator("#duty-trace").set_input_files(file))
+    assert number(here, "duty", "cycle_time") == 4.0
+    assert "run.csv counts in place of the motion" in here.text("#duty")
+    edited(here, "duty", lambda: page.locator("#duty-trace-remove").click())
+    assert number(here, "duty", "cycle_time") != 4.0
     edited(here, "duty", lambda: page.locator("#motion-kind").select_option("s-curve"))
     edited(here, "duty", lambda: page.locator("#f-axis-mass").fill("200"))
     edited(here, "duty", lambda: page.locator("#motor-toggle").press("Enter"))

@@ -8,6 +8,9 @@ DIAMOND = """(id) => {
   const { xaxis, yaxis } = plot._fullLayout, { x, y } = plot.data.find((one) => one.marker?.symbol === "diamond");
   return [left + xaxis._offset + xaxis.d2p(x[0]), top + yaxis._offset + yaxis.d2p(y[0])];
 }"""
+#: The chart is that of this load.
+DRAWN = """(load) => document.querySelector("#torque-chart svg.main-svg")
+  && document.querySelector("#torque-chart .plot").getAttribute("aria-label").includes(load)"""
 
 
 def value(here, field):
@@ -37,7 +40,7 @@ def test_the_operating_point_moves_by_hand(visit):
     assert float(slider.get_attribute("max")) == 50_000
 
     here.page.locator("#torque-chart").scroll_into_view_if_needed()
-    here.page.wait_for_selector("#torque-chart svg.main-svg")
+    here.page.wait_for_function(DRAWN, arg=20_000)
     x, y = here.page.evaluate(DIAMOND, "torque-chart")
     mouse = here.page.mouse
     mouse.move(x, y)
@@ -47,6 +50,7 @@ def test_the_operating_point_moves_by_hand(visit):
     mouse.up()
     here.settle()
     assert 5 < float(value(here, "operation.screw_speed")) < 12
+    here.rest(400)  # the address follows
     assert re.search(r"screw_speed=[\d.]+\+m%2Fmin", here.page.url)
 
 
@@ -67,6 +71,7 @@ def test_designs_over_any_input(visit, server):
     assert (reasons, "Design A" in legend, "Design B" in legend) == ("", True, True)
     assert here.page.locator("#over-input-from").input_value() == "36"
     here.page.locator("#over-input-chart summary").click()
+    here.page.wait_for_selector("#over-input-chart tbody td")
     first = here.page.locator("#over-input-chart tbody tr").first.locator("td").all_inner_texts()
     case = {**server.get("vocabulary").json()["starts"]["paper"]["case"]}
     case["screw"] = {**case["screw"], "contact_angle": "36 deg"}

@@ -4,6 +4,7 @@ import json
 import tomllib
 
 from .conftest import Visit
+from .test_page_access import SIZES, violations
 
 MINE = """# of the shop
 [screw]
@@ -14,8 +15,8 @@ contact_angle = "45 ± 2 deg"   # measured
 type = "double"
 preload = "7 %"
 
-[bodies]
-nut_outer_diameter = "30 mm"
+[losses.seals]
+seal_torque = "0.05 N m"
 
 [model.rolling]
 law = "houpert"
@@ -108,11 +109,12 @@ def test_files_and_designs(visit):
     here.page.wait_for_selector("#design-B")
     assert here.settle().page.locator("#name-B").input_value() == "lighter oil"
 
-    there = visit().open()
+    there = visit(**SIZES["phone"]).open("#band=0&cards=files")
     given(there, "all.toml", project)
     there.page.locator("#design-B").click()
     assert there.settle().numbers() == lighter
     assert "lighter oil" in there.text("#design-B")
+    assert violations(there) == []
     nine = {"ballscrew_project": 1, "designs": [{**saved["designs"][0], "name": f"no {k}"} for k in range(9)]}
     assert "holds 8 designs. There was no place for no 6, no 7, no 8." in given(
         there, "9.json", json.dumps(nine).encode()

@@ -203,6 +203,8 @@ def json_of(quantity: Quantity, default: Any, may_vary: bool = False) -> dict[st
     info = quantity.info
     examples = [_example(quantity, default)]
     description = {"description": info.meaning, "x-symbol": info.symbol}
+    if info.hint:
+        description["x-hint"] = info.hint
     if quantity.unit != "1":
         return {
             **description,

@@ -36,19 +36,26 @@ _DIGITS = 12
 
 def save(to: Path, tables: Mapping[str, Any], folder: Path, case: Case, found: CalibratedModel) -> None:
     """Write the case that ``tables`` from a file in ``folder`` describe, with the fitted numbers in place."""
-    import tomlkit
-
-    text = tomlkit.dumps(_plain({**_with_numbers(tables, case, found), "calibration": calibration_of(case, found)}))
+    text = text_of(tables, case, found)
     for section, key in (("screw", "catalogue_file"), ("lubricant", "oil_file")):
         file = tables.get(section, {}).get(key)
         if file is not None:
             moved = os.path.relpath(folder / file, to.parent)
             text = text.replace(f'{key} = "{file}"', f'{key} = "{Path(moved).as_posix()}"')
     with atomic_write("--to", to) as path:
-        path.write_text(f"# {_HEAD}\n\n{text}", encoding="utf-8")
+        path.write_text(text, encoding="utf-8")
 
 
-def _with_numbers(tables: Mapping[str, Any], case: Case, found: CalibratedModel) -> dict[str, Any]:
+def text_of(tables: Mapping[str, Any], case: Case, found: CalibratedModel) -> str:
+    """The case that ``tables`` describe as TOML, with the fitted numbers in place and ``[calibration]``."""
+    import tomlkit
+
+    made = {**with_numbers(tables, case, found), "calibration": calibration_of(case, found)}
+    return f"# {_HEAD}\n\n{tomlkit.dumps(_plain(made))}"
+
+
+def with_numbers(tables: Mapping[str, Any], case: Case, found: CalibratedModel) -> dict[str, Any]:
+    """The tables of a case with the fitted numbers in place."""
     made = _copied(tables)
     made["model"] = {**written_out(made.get("model", {}), case), "name": case.model.name}
     known = found.subject.inputs

@@ -1,4 +1,4 @@
-"""``ballscrew compare``: all models and laws side by side."""
+"""``ballscrew compare``: all models and laws side by side, or several designs."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ import typer
 from ballscrew.command_options.common_options import (
     AllowCode,
     CalibrationName,
-    CaseFile,
     ModelName,
     SelfHeatingOption,
     Settings,
@@ -18,7 +17,10 @@ from ballscrew.command_options.common_options import (
 
 
 def compare(
-    case: CaseFile,
+    cases: Annotated[
+        list[Path],
+        typer.Argument(metavar="CASE...", help="Case file (TOML); or several, or a project, for designs side by side."),
+    ],
     model: ModelName = None,
     calibration: CalibrationName = None,
     settings: Settings = None,
@@ -28,9 +30,15 @@ def compare(
         typer.Option("--to", "-o", metavar="FILE", help="Also draw a picture of the spread: .png, .svg or .pdf."),
     ] = None,
     self_heating: SelfHeatingOption = False,
+    own: Annotated[
+        bool, typer.Option("--own", help="Several designs each at its own load and speed, not at those of the first.")
+    ] = False,
     allow_code: AllowCode = False,
 ) -> None:
-    """All models and all laws side by side at the operating point of a case file.
+    """All models and all laws side by side at the operating point of a case file; or several designs side by side.
+
+    Of several case files, or of a project file, each design is run and checked, and changes are against the first;
+    project.toml#name is one design of it, as for all commands. Of one case it is as follows.
 
     First the models as they are, then the model of the case with one law at a time in place of its
     own: torque, its parts, efficiency in both directions, and what lies outside its validity. With
@@ -39,15 +47,22 @@ def compare(
     from ballscrew.cases import case_file
     from ballscrew.documents import comparison as documents
     from ballscrew.documents.self_heating import with_self_heating
+    from ballscrew.errors import Fault, InputError
     from ballscrew.figures import files
     from ballscrew.output import json_text
     from ballscrew.output.wrapping import wrapped
     from ballscrew.studies.comparison import comparison
+    from ballscrew.studies.side_by_side import is_one_case
     from ballscrew.text import comparison as text
 
-    loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     if to is not None:
         files.check_picture(to)
+    if not is_one_case(cases):
+        _designs(cases, settings or [], model, calibration, as_json, to, self_heating, own, allow_code)
+        return
+    if own:
+        raise InputError(Fault("--own", "is for several designs", "", "name several case files, or a project"))
+    loaded = case_file.load(cases[0], settings or [], model, calibration=calibration, allow_code=allow_code)
     heating = None
     if self_heating:
         from ballscrew.axis_studies import self_heating as studies
@@ -66,3 +81,37 @@ def compare(
 
         files.draw(lambda: figures.picture(loaded, compared), to)
         typer.echo(f"{to}: {len(compared.rows)} models and laws", err=as_json)
+
+
+def _designs(
+    paths: list[Path],
+    settings: list[str],
+    model: str | None,
+    calibration: str | None,
+    as_json: bool,
+    to: Path | None,
+    self_heating: bool,
+    own: bool,
+    allow_code: bool,
+) -> None:
+    """Several designs side by side."""
+    from ballscrew.documents import side_by_side as documents
+    from ballscrew.errors import Fault, InputError
+    from ballscrew.output import json_text
+    from ballscrew.studies.side_by_side import side_by_side
+    from ballscrew.text import side_by_side as text
+
+    if self_heating:
+        raise InputError(Fault("--self-heating", "is for one case", "", "compare one design alone"))
+    found = side_by_side(paths, own=own, settings=settings, model=model, calibration=calibration, allow_code=allow_code)
+    typer.echo(json_text.as_json(documents.document(found)) if as_json else text.text(found))
+    if to is not None:
+        from ballscrew.figures import files  # matplotlib is slow to import
+        from ballscrew.figures.side_by_side import DesignBar, picture
+
+        bars = [
+            DesignBar(one.name, {name: float(part) for name, part in one.run.friction.contributions.items()}, 0.0, 0.0)
+            for one in found.designs
+        ]
+        files.draw(lambda: picture(bars), to)
+        typer.echo(f"{to}: {len(bars)} designs", err=as_json)

@@ -125,7 +125,7 @@ def fit(
         _refuse_self_heating("is given beside --rows", "leave one of them out")
     if rows is not None:
         from ballscrew.cli.fit_rows import fit_rows
-        from ballscrew.command_options.fit_options import options
+        from ballscrew.studies.fit_options import options
 
         fit_rows(
             case, rows, row, functools.partial(
@@ -141,10 +141,10 @@ def fit(
     loaded = case_file.build(tables, model, case.parent, calibration=calibration, allow_code=allow_code)
 
     # pandas is slow to import: only for a good case
-    from ballscrew.command_options.fit_options import check_to, moving_options, options
     from ballscrew.command_options.progress import progress
     from ballscrew.figures import files
     from ballscrew.studies.fit_log import steady_log
+    from ballscrew.studies.fit_options import check_to, moving_options, options
     from ballscrew.studies.moving_log import is_moving
 
     if picture is not None:

@@ -1,4 +1,4 @@
-"""``ballscrew report``: a case as a file to read and to keep. The work is done in ``report/contents``."""
+"""``ballscrew report``: a case as a file to read and to keep. The work is done in ``report/files``."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ from ballscrew.command_options.common_options import AllowCode, CalibrationName,
 _NEEDS = {".html": ("jinja2",), ".pdf": ("typst",)}
 _KINDS: dict[str, Literal["pdf", "html"]] = {".html": "html", ".pdf": "pdf"}
 _TO = "--to"
+#: Designs beside the first, as :mod:`ballscrew.report.several` has letters for.
+_MOST_BESIDE = 3
 
 
 def report(
@@ -30,11 +32,15 @@ def report(
     date: Annotated[
         str | None, typer.Option("--date", metavar="DATE", help="Such as 2026-11-23, or today; none by itself.")
     ] = None,
+    beside: Annotated[
+        list[Path] | None, typer.Option("--beside", metavar="CASE", help="Another design, up to three; repeatable.")
+    ] = None,
     allow_code: AllowCode = False,
 ) -> None:
     """A report to file: checks, results with their bands, drawing, curves, what makes the band, inputs, sources.
 
-    It has up to five pages, two more of a case with a motion, and one more with [surroundings], for four hours of
+    With --beside other designs stand side by side with the first, checks and bands included, then each by itself. A
+    report has up to five pages, two more of a case with a motion, and one more with [surroundings], for four hours of
     warming up. The .html is one file that asks for nothing from outside; the .pdf can be read by machines, too
     (PDF/UA-1). The same case gives the same bytes: a date stands on it only where --date says one.
     """
@@ -50,14 +56,19 @@ def report(
     from ballscrew.files import atomic_write, check_writable
     from ballscrew.report.heading import Heading
 
-    loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
+    if len(beside or []) > _MOST_BESIDE:
+        raise InputError(Fault("--beside", "too many designs", str(len(beside or [])), f"{_MOST_BESIDE} at most"))
+    loaded, *others = (
+        case_file.load(path, settings or [], model, calibration=calibration, allow_code=allow_code)
+        for path in (case, *(beside or []))
+    )
     heading = Heading.of(project, datetime.date.today().isoformat() if date == "today" else date)
     check_writable(_TO, to)
     from ballscrew.command_options.progress import progress
-    from ballscrew.report.contents import report_bytes
+    from ballscrew.report.files import report_bytes
 
     with progress("report") as done:
-        written = report_bytes(loaded, _KINDS[kind], done, samples, heading)
+        written = report_bytes(loaded, _KINDS[kind], done, samples, heading, others)
     with atomic_write(_TO, to) as path:
         path.write_bytes(written)
     typer.echo(f"{to}: report of {case.name}, {len(written) // 1000} kB")

@@ -73,11 +73,11 @@ def service(
     """
     from ballscrew.cases import case_file
     from ballscrew.command_options.progress import progress
-    from ballscrew.command_options.service_options import check_question, fit_options, reading
     from ballscrew.documents import service as documents
     from ballscrew.figures import files
     from ballscrew.output.json_text import as_json as json_text
     from ballscrew.studies import service as studies
+    from ballscrew.studies.service_options import check_question, fit_options, reading
     from ballscrew.text import service as text
 
     file = check_question(logs or [], case, torque, speed, temperature)

@@ -7,11 +7,11 @@ from pathlib import Path
 
 from ballscrew import units
 from ballscrew.cases.case import Case
-from ballscrew.command_options import fit_options
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import Fault, fault_of, raise_if_any
 from ballscrew.quantities import Quantity
 from ballscrew.service.posterior import PRELOAD
+from ballscrew.studies import fit_options
 from ballscrew.studies.condition import Options
 from ballscrew.torque_logs.torque_series import quantities
 

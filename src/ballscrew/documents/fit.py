@@ -51,9 +51,12 @@ def _next_test(test: NextTest) -> dict[str, Any]:
 
 
 def _estimate(estimate: Estimate) -> dict[str, Any]:
+    low, high = estimate.interval() or (None, None)
     return {
         "value": estimate.value,
         "std": estimate.std,
+        "low": low,
+        "high": high,
         "identified": estimate.identified,
         "unit": estimate.quantity.unit,
         "start": estimate.start,

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from pathlib import Path
+from pathlib import PurePath
 from typing import Any
 
+from ballscrew import units
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
 from ballscrew.exports.export import Export
+from ballscrew.exports.targets import TARGETS, Option, options_of
 from ballscrew.records import documents
 
 
-def document(export: Export, case: Case, written: Sequence[Path]) -> dict[str, Any]:
+def document(export: Export, case: Case, written: Sequence[PurePath]) -> dict[str, Any]:
     """The document of an export that was written."""
     return {
         "inputs": case_file.inputs(case),
@@ -29,3 +32,30 @@ def document(export: Export, case: Case, written: Sequence[Path]) -> dict[str, A
         "checks": [],
         "provenance": dict(export.provenance),
     }
+
+
+def targets() -> dict[str, Any]:
+    """The targets, and the choices that each has."""
+    return {
+        "targets": [
+            {
+                "name": name,
+                "meaning": target.meaning,
+                "options": [
+                    {"name": choice, "default": _written(option), "meaning": option.meaning}
+                    for choice, option in options_of(name).items()
+                ],
+            }
+            for name, target in TARGETS.items()
+        ]
+    }
+
+
+def _written(option: Option) -> str:
+    """The usual value of a choice as it is written; empty where the case gives it."""
+    value = option.default
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float) and not math.isfinite(value):
+        return ""
+    return str(value) if option.quantity is None else units.shown(value, option.quantity)

@@ -77,6 +77,11 @@ def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
         "rank": ranked.rank,
         "name": found.name,
         "label": found.variant.label,
+        "row": {
+            "nominal_diameter": found.variant.row.nominal_diameter,
+            "lead": found.variant.row.lead,
+            "source": found.variant.row.source,
+        },
         "nut": found.variant.nut,
         "preload": float(found.checked.nut.preload),
         "oil": found.variant.oil_name,

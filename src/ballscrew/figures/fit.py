@@ -16,6 +16,7 @@ from ballscrew.calibration.calibrated_model import CalibratedModel
 from ballscrew.calibration.fit_result import Rows
 from ballscrew.calibration.next_test import NextTest
 from ballscrew.cases.case import Case
+from ballscrew.documents.log_pictures import measured_and_predicted, some
 from ballscrew.figures import style
 from ballscrew.quantities import Quantity
 from ballscrew.studies.fit import FitReport
@@ -68,8 +69,7 @@ def overview(title: str, caption: str, found: CalibratedModel, test: NextTest | 
 
 def _some(rows: Rows) -> NDArray[np.int64]:
     """Rows to draw, the same each time."""
-    count = len(rows.log)
-    return np.arange(count) if count <= MOST_POINTS else np.random.default_rng(0).choice(count, MOST_POINTS, False)
+    return some(np.arange(len(rows.log)), MOST_POINTS)
 
 
 def _kinds(rows: Rows, shown: NDArray[np.int64]) -> Sequence[tuple[str, str, NDArray[np.int64]]]:
@@ -83,8 +83,7 @@ def _kinds(rows: Rows, shown: NDArray[np.int64]) -> Sequence[tuple[str, str, NDA
 
 def _against(panel: Axes, found: CalibratedModel, shown: NDArray[np.int64]) -> None:
     rows = found.rows
-    predicted = rows.friction + found.constant_torque
-    measured = predicted - rows.residuals * rows.direction
+    measured, predicted = measured_and_predicted(found)
     for label, colour, chosen in _kinds(rows, shown):
         if chosen.size:
             panel.plot(measured[chosen], predicted[chosen], ".", ms=3, color=colour, label=label, alpha=0.7)
@@ -140,8 +139,8 @@ def _next(panel: Axes, found: CalibratedModel, test: NextTest, axes: dict[str, A
     )
     panel.figure.colorbar(drawn, ax=panel, label="volume of what is open that is left [%]")
     log = found.rows.log
-    some = _some(found.rows)
-    logged = of_speed(np.abs(log.screw_speed[some])), of_load(np.abs(log.axial_load[some]))
+    shown = _some(found.rows)
+    logged = of_speed(np.abs(log.screw_speed[shown])), of_load(np.abs(log.axial_load[shown]))
     panel.plot(*logged, ".", ms=1.5, color="white")
     panel.plot(speed[place], load[place], "*", ms=15, color=style.RED, mec="white")
     panel.set(xscale="log", yscale="log", xlabel=speed_label, ylabel=load_label)

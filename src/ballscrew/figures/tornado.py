@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ballscrew.figures import style
+from ballscrew.output.plain_numbers import plain
 from ballscrew.studies.tornado import Tornado
 from ballscrew.text.band import spoken
 from ballscrew.uncertainty.one_at_a_time import Swing
@@ -17,7 +18,7 @@ from ballscrew.uncertainty.one_at_a_time import Swing
 #: Inputs that are drawn, and the share of the widest swing below which an input is left out.
 MOST, LEAST = 12, 0.01
 #: Inches: width, height of a bar, and of what stands above and below all bars.
-_WIDTH, _ROW, _FRAME = 7.1, 0.19, 0.62
+_WIDTH, _ROW, _FRAME = 7.1, 0.19, 0.8
 _BAR = 0.72
 _OF_LAWS = "#999999"
 
@@ -43,7 +44,7 @@ def picture(tornado: Tornado) -> Figure:
         (style.ORANGE, "at its upper end", [swing.at_upper for swing in swings]),
     ):
         panel.barh(places, np.array(ends) - value, _BAR, left=value, color=colour, label=label)
-    labels = [f"{spoken(swing.input)}: {tornado.inputs[swing.input].description}" for swing in swings]
+    labels = [plain(f"{spoken(swing.input)}: {tornado.inputs[swing.input].description}") for swing in swings]
     if with_laws:
         panel.barh(len(swings), laws.high - laws.low, _BAR, left=laws.low, color=_OF_LAWS, label="other laws")
         labels.append("other laws that are valid here, together")
@@ -53,5 +54,5 @@ def picture(tornado: Tornado) -> Figure:
     panel.tick_params(axis="y", length=0)
     panel.grid(visible=False, axis="y")
     panel.set_xlabel("friction torque on the screw (N m)")
-    panel.legend(loc="lower right")
+    panel.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3)
     return figure

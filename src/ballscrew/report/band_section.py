@@ -16,7 +16,7 @@ from ballscrew.report.curve_figures import named, svg_of
 from ballscrew.report.numbers import banded, banded_share, with_digits_of
 from ballscrew.studies.band import BandReport
 from ballscrew.studies.run import Run
-from ballscrew.studies.tornado import Tornado, tornado
+from ballscrew.studies.tornado import tornado
 from ballscrew.text import band
 from ballscrew.uncertainty.bands import Interval
 
@@ -74,8 +74,7 @@ def blocks(case: Case, report: BandReport) -> list[Block]:
     inputs: list[Block] = [Paragraph(f"{band.input_counts(report)}.")]
     for heading, entries in band.uncertain_inputs(report):
         inputs += [Paragraph(f"{sentence(heading)}:"), Bullets(entries)]
-    swings = _swings(tornado(case, report))
-    return [*summary, _causes(report), *swings, *warned, *exchanged * bool(laws.heading), *inputs]
+    return [*summary, _causes(report), *swings(case, report), *warned, *exchanged * bool(laws.heading), *inputs]
 
 
 def _causes(report: BandReport) -> Table:
@@ -109,13 +108,14 @@ def _bar(interval: Interval, value: float, ends: Sequence[float]) -> Bar | str:
     return Bar(*places)
 
 
-def _swings(found: Tornado) -> list[Block]:
+def swings(case: Case, report: BandReport) -> list[Block]:
     """The tornado, where an input moves the torque."""
-    swings = figures.shown(found)
-    if not swings:
+    found = tornado(case, report)
+    widest = figures.shown(found) if has_band(report) else ()
+    if not widest:
         return []
     first = ", ".join(
-        f"{band.spoken(one.input)} {banded(found.torque.value, *one.ends, _TORQUE).interval}" for one in swings[:3]
+        f"{band.spoken(one.input)} {banded(found.torque.value, *one.ends, _TORQUE).interval}" for one in widest[:3]
     )
     level = f"{100 * found.level:.4g} %"
     words = f"Friction torque with one uncertain input at a time at either end of its {level}; the widest: {first}."

@@ -12,8 +12,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
 from ballscrew import units
+from ballscrew.output.plain_numbers import plain
 from ballscrew.quantities import Quantity
-from ballscrew.report.numbers import plain
 
 
 @dataclasses.dataclass(frozen=True)

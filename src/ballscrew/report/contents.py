@@ -1,11 +1,10 @@
-"""The report of a case: what is in it, as plain data, and as the bytes of a file."""
+"""The report of a case: what is in it, as plain data."""
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Callable, Sequence
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -17,50 +16,23 @@ from ballscrew.report.blocks import Block, Columns, Links, Paragraph, Picture, R
 from ballscrew.report.contact_geometry import drawn_ball
 from ballscrew.report.curves import Curves, curves
 from ballscrew.report.drawing import drawing
-from ballscrew.report.heading import Heading
+from ballscrew.sizing.speed_limits import GENERAL, speed_limit_of
 from ballscrew.studies import band
 from ballscrew.studies.check import checked
 from ballscrew.studies.run import Run, run
 
 Done = Callable[[int, int], None]
-Kind = Literal["pdf", "html"]
 #: How far along the work is after its steps, of a hundred: the answer, the band, the curves.
-_ANSWERED, _BANDED, _DRAWN, _ALL = 5, 60, 85, 100
+_ANSWERED, _BANDED, _DRAWN, ALL = 5, 60, 85, 100
 #: Pages at most, and how many more a cycle of motion and the heat may take.
 _PAGES, _PAGES_OF_CYCLE, _PAGES_OF_HEAT = 5, 2, 1
-#: Nobody says whose report it is.
-NO_HEADING = Heading()
 #: Sources of what a report says besides the model: the ratings and checks.
 _OF_CHECKS = ("ISO3408-5", "ISO76")
 
 
-def report_bytes(
-    case: case_file.Case,
-    kind: Kind,
-    done: Done | None = None,
-    samples: int | None = None,
-    heading: Heading = NO_HEADING,
-) -> bytes:
-    """The report of a case as a PDF or HTML file; equal cases with equal headings give equal bytes.
-
-    ``done(finished, total)`` is told how far it is. Needs the extra ``report``.
-    """
-    found = dataclasses.replace(content(case, done, samples), heading=heading.lines)
-    if kind == "html":
-        from ballscrew.report.html import html_bytes
-
-        written = html_bytes(found)
-    else:
-        from ballscrew.report.pdf import pdf_bytes
-
-        written = pdf_bytes(found)
-    _tell(done, _ALL)
-    return written
-
-
 def _tell(done: Done | None, finished: int) -> None:
     if done is not None:
-        done(finished, _ALL)
+        done(finished, ALL)
 
 
 def content(case: case_file.Case, done: Done | None = None, samples: int | None = None) -> Report:
@@ -90,12 +62,12 @@ def content(case: case_file.Case, done: Done | None = None, samples: int | None 
         *_heat(case),
         Section("What to beware of", result_tables.beware(found)),
         Section(
-            "Inputs and model", [*_model(case), Columns.of([*inputs, input_tables.laws(case)]), _origins(case, inputs)]
+            "Inputs and model", [*_model(case), Columns.of([*inputs, input_tables.laws(case)]), origins(case, inputs)]
         ),
-        Section("Sources", [Links(_sources(case, uncertain))]),
+        Section("Sources", [Links(sources(case, uncertain))]),
     ]
     pages = _PAGES + (case.motion is not None) * _PAGES_OF_CYCLE + (case.surroundings is not None) * _PAGES_OF_HEAT
-    return Report("Friction of a ball screw", _subtitle(case), sections, f"ballscrew {__version__}", pages)
+    return Report("Friction of a ball screw", subtitle(case), sections, f"ballscrew {__version__}", pages)
 
 
 def _cycle(case: case_file.Case) -> list[Section]:
@@ -117,7 +89,8 @@ def _heat(case: case_file.Case) -> list[Section]:
     return [Section("As it warms up", warm_up_section.blocks_of(case))]
 
 
-def _subtitle(case: case_file.Case) -> list[str]:
+def subtitle(case: case_file.Case) -> list[str]:
+    """Row, screw, nut, operating point and model of a case, a line each."""
     of_row = [] if case.row is None else [f"{case.row.name} ({case.row.source})"]
     nut = [] if case.nut is None else [descriptions.nut_text(case.nut)]
     lines = [*of_row, descriptions.design(case, plain_text=True), *nut]
@@ -179,11 +152,15 @@ def _model(case: case_file.Case) -> Sequence[Block]:
     return [Paragraph(" ".join(said))]
 
 
-def _origins(case: case_file.Case, inputs: list[Table]) -> Paragraph:
+def origins(case: case_file.Case, inputs: list[Table]) -> Paragraph:
+    """Where the values of the inputs are from."""
     return Paragraph(f"Where values are from: {input_tables.sources_in_words(case, inputs)}")
 
 
-def _sources(case: case_file.Case, found: band.BandReport) -> list[tuple[str, str]]:
+def sources(case: case_file.Case, found: band.BandReport) -> list[tuple[str, str]]:
+    """Sources of a case and its band, in words, each with its address."""
     keys = [*case_file.references(case), *_OF_CHECKS, *(one.source for one in found.inputs.values())]
     keys += [] if case.row is None else bibliography.of_catalogue(case.row.source)
+    if case.limits.diameter_speed_product is None:
+        keys += (speed_limit_of(case.row) or GENERAL).sources
     return [(f"{source.key}: {source.words}", source.link) for source in bibliography.sources(keys)]

@@ -4,17 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ballscrew.axis_studies import duty_records
+from ballscrew.axis_studies import duty_band, duty_records
 from ballscrew.axis_studies.duty import NUMBERS, DutyReport
+from ballscrew.axis_studies.duty_band import DutyBandReport
+from ballscrew.errors import InputError
 from ballscrew.figures import duty as figures
 from ballscrew.quantities import Quantity
 from ballscrew.report import result_tables
 from ballscrew.report.blocks import Bar, Block, Bullets, Columns, Paragraph, Picture, Table, sentence
 from ballscrew.report.blocks import value as value_of
 from ballscrew.report.curve_figures import named, svg_of
+from ballscrew.report.numbers import banded
 from ballscrew.text import duty as text
 
 _TORQUE, _ENERGY = NUMBERS["torque_rms"], NUMBERS["energy_lost"]
+#: Samples of the bands of a cycle, and where its balls are solved one by one: a fifth of the time of a report.
+_SAMPLES, _SAMPLES_OF_NUT = 256, 64
+
+
+def _bands(report: DutyReport) -> DutyBandReport | None:
+    """The bands of a cycle; None for a screw without inputs that are uncertain."""
+    nut = report.case.screw.nut
+    try:
+        return duty_band.band(report, _SAMPLES_OF_NUT if nut.one_by_one else _SAMPLES)
+    except InputError:
+        return None
 
 
 def blocks(report: DutyReport) -> list[Block]:
@@ -29,7 +43,7 @@ def blocks(report: DutyReport) -> list[Block]:
     drawn = named(svg_of(lambda: figures.panels(report), "duty"), words)
     return [
         Paragraph(" ".join([f"{sentence(text.title(report))}.", *said]), strong=True),
-        Columns([_numbers(report)], [_paid_for(report)]),
+        Columns([_numbers(report, _bands(report))], [_paid_for(report)]),
         Picture(drawn, words, caption),
         *_power_off(report),
         Table(
@@ -43,12 +57,20 @@ def blocks(report: DutyReport) -> list[Block]:
     ]
 
 
-def _numbers(report: DutyReport) -> Table:
-    rows = [
-        (quantity.info.meaning, text.number(quantity, report.numbers[name]))
-        for name, quantity in text.shown_numbers(report).items()
-    ]
-    return Table("The cycle", ("", "value"), rows)
+def _numbers(report: DutyReport, found: DutyBandReport | None) -> Table:
+    bands = {} if found is None else found.bands.numbers
+    rows: list[tuple[str, str, str]] = []
+    for name, quantity in text.shown_numbers(report).items():
+        value, interval = text.number(quantity, report.numbers[name]), ""
+        if name in bands:
+            low, high = bands[name].band
+            value, interval = banded(report.numbers[name], low, high, quantity)
+        rows.append((quantity.info.meaning, value, interval))
+    if found is None:
+        return Table("The cycle", ("", "value", "band"), rows)
+    samples = f"{100 * found.bands.level:.4g} % of {found.bands.count} samples"
+    note = f"Bands: {samples} of the uncertain inputs, laws as they are."
+    return Table("The cycle", ("", "value", "band"), rows, note=note)
 
 
 def _paid_for(report: DutyReport) -> Table:

@@ -1,4 +1,4 @@
-"""Numbers of a report as people write them: no notation of programs, and no more digits than a band leaves."""
+"""Numbers of a report with no more digits than a band leaves."""
 
 from __future__ import annotations
 
@@ -8,38 +8,15 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 from ballscrew import units
+from ballscrew.output.plain_numbers import MILLIONS, plain
 from ballscrew.quantities import Quantity
 from ballscrew.uncertainty.bands import OutputBand
 
-#: A number as programs write it, such as 4.03e+08.
-_WRITTEN_BY_PROGRAMS = re.compile(
-    r"(?<![\w.])(?P<sign>[-\u2212]?)(?P<digits>\d+(?:\.\d+)?)e(?P<power>[+-]?\d+)(?![\w.]*\w)"
-)
 #: What :func:`~ballscrew.units.placeholders` puts in place of a quantity.
 _PLACEHOLDER = re.compile(r"\{(\d+)_*\}")
-_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-#: From where on and up to where numbers are counted in millions; below which size they are not written out.
-_MILLIONS, _LARGEST, _SMALLEST = 1e7, 1e12, 1e-4
 #: Half of a band is written with two digits if its first ones are below this, else with one.
 _TWO_DIGITS_BELOW = 3.55
 _MOST_DECIMALS = 6
-
-
-def plain(text: str) -> str:
-    """A text with its numbers written out: ``4.03e+08`` is ``403 million``, ``1.5e-08`` is ``1.5 × 10⁻⁸``."""
-    return _WRITTEN_BY_PROGRAMS.sub(_written_out, text)
-
-
-def _written_out(found: re.Match[str]) -> str:
-    digits, power = found["digits"], int(found["power"])
-    size = float(f"{digits}e{power}")
-    if size and not _SMALLEST <= size < _LARGEST:
-        times = "" if digits == "1" else f"{digits} × "
-        return f"{found['sign']}{times}10{str(power).translate(_SUPERSCRIPTS)}"
-    if size >= _MILLIONS:
-        return f"{found['sign']}{size / 1e6:.10g} million"
-    decimals = max(0, len(digits.partition(".")[2]) - power)
-    return f"{found['sign']}{size:.{decimals}f}"
 
 
 class Banded(NamedTuple):
@@ -75,7 +52,7 @@ def to_place(value: float, place: int) -> str:
     if place < -_MOST_DECIMALS:
         return plain(f"{value:.4g}")
     rounded = round(value, -place) + 0.0
-    return f"{rounded:.{max(0, -place)}f}" if abs(rounded) < _MILLIONS else plain(f"{rounded:.{_MOST_DECIMALS}e}")
+    return f"{rounded:.{max(0, -place)}f}" if abs(rounded) < MILLIONS else plain(f"{rounded:.{_MOST_DECIMALS}e}")
 
 
 def banded_share(value: float, low: float, high: float) -> Banded:

@@ -72,9 +72,13 @@ def _with_band(
     return words, said.value, said.interval
 
 
+def meaning(name: str, quantity: Quantity) -> str:
+    """The meaning of a result, short where there is little room."""
+    return _SHORT.get(name, quantity.info.meaning)
+
+
 def _row(result: Any, name: str, known: Mapping[str, Any]) -> tuple[str, str]:
-    words: str = _SHORT.get(name, known[name].info.meaning)
-    return words, value_of(float(getattr(result, name)), known[name])
+    return meaning(name, known[name]), value_of(float(getattr(result, name)), known[name])
 
 
 def _contacts(title: str, sides: Mapping[str, Mapping[str, Any]], alone: bool) -> Table:

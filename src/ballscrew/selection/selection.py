@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, MutableMapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -77,6 +77,7 @@ def select(
     allow_code: bool = False,
     keep_going: bool = False,
     done: Done | None = None,
+    known: MutableMapping[str, Candidate] | None = None,
 ) -> Selection:
     """Every row of the catalogue with every nut, preload and oil of a need, judged and ranked.
 
@@ -84,7 +85,8 @@ def select(
     nothing is estimated. First come those of which no check fails, within the validity of the model before those
     outside, members of the Pareto front before others, then by the first of the ``objectives``; those that fail follow
     by their largest utilisation. ``rows`` is a table of one's own in place of the catalogue, ``words`` what rows must
-    have in name, source or kind of nut.
+    have in name, source or kind of nut. ``known`` are candidates by their labels that a call with the same arguments
+    found before it was stopped; those found now are put in.
 
     Raises :class:`~ballscrew.errors.InputError` for faults of the need, and of rows; with ``keep_going`` rows at fault
     are left out, with a note, if any other is good.
@@ -109,9 +111,13 @@ def select(
         remedy = f"name fewer; {MOST_VARIANTS} at most"
         raise InputError(Fault("need", "has too many combinations", str(len(every)), remedy))
 
+    before = {} if known is None else known
+
     def work(variant: Variant) -> Candidate:
-        case: Case = case_of(asked, variant, model=model, calibration=calibration, allow_code=allow_code)
-        return judged(asked, variant, case)
+        if variant.label not in before:
+            case: Case = case_of(asked, variant, model=model, calibration=calibration, allow_code=allow_code)
+            before[variant.label] = judged(asked, variant, case)
+        return before[variant.label]
 
     # a variant that no maker could build, such as a preload beyond its rating, is left out of the shipped rows, too
     found = each({one.label: one for one in every}, work, keep_going=keep_going or table is None, done=done)

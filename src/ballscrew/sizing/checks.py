@@ -218,10 +218,12 @@ def _life(rated: Force | None, loads: Sequence[Force], speed: AngularSpeed, limi
     time = life.running_time(revolutions, as_array(speed))
     endless = not np.isfinite(revolutions)
     text = (
-        "no load tires it" if endless else f"nine of ten outlive {float(revolutions):.3g} revolutions, preload included"
+        "no load tires it"
+        if endless
+        else f"nine of ten outlive {_written(float(revolutions) / 1e6)} million revolutions, preload included"
     )
     without_end = text if endless else "no turn tires it"
-    hours = f"{float(time / HOUR):.3g} h at this speed" if np.isfinite(time) else without_end
+    hours = f"{_written(float(time / HOUR))} h at this speed" if np.isfinite(time) else without_end
     required = limits.running_time
     at_rest = not endless and not float(as_array(speed))
     if required is None or at_rest:
@@ -236,6 +238,11 @@ def _life(rated: Force | None, loads: Sequence[Force], speed: AngularSpeed, limi
         _at_least(names[0], revolutions, turns, "1", text),
         _at_least(names[1], time, required, "s", hours),
     )
+
+
+def _written(number: float) -> str:
+    """Three digits, without the exponent of programs."""
+    return f"{float(f'{number:.3g}'):.10g}"
 
 
 def _contact_pressure(pressure: Pressure | None) -> Check:

@@ -17,10 +17,11 @@ MM_RPM = 1e-3 * math.tau / 60
 
 
 class SpeedLimit(NamedTuple):
-    """The largest DN value, and whose limit it is: words that follow on "limit"."""
+    """The largest DN value, and whose limit it is: words that follow on "limit", and keys in the bibliography."""
 
     value: DiameterSpeed
     words: str
+    sources: tuple[str, ...] = ()
 
 
 class PrintedLimit(NamedTuple):
@@ -38,7 +39,9 @@ class PrintedLimit(NamedTuple):
 #: That of standard nuts of THK514E and HIWIN2016, where that of a make is not known. Nuts that are made for speed stand
 #: more: up to 140000 mm · rpm by Thomson's list, over 160000 by NSK's.
 GENERAL = SpeedLimit(
-    70000 * MM_RPM, "of standard nuts in general (THK514E, HIWIN2016): that of this make is not known, it may be more"
+    70000 * MM_RPM,
+    "of standard nuts in general (THK514E, HIWIN2016): that of this make is not known, it may be more",
+    ("THK514E", "HIWIN2016"),
 )
 
 
@@ -61,12 +64,14 @@ def printed_limit(make: str, recirculation: str = "") -> SpeedLimit | None:
     found = (listed.get((wanted, kind)) or listed.get(("", kind))) if kind else None
     if found is not None:
         whose = f"of {found.make} for this recirculation" if found.make else "of all makes for this recirculation"
-        return SpeedLimit(found.value, f"{whose}, {found.recirculation} ({found.source})")
+        return SpeedLimit(found.value, f"{whose}, {found.recirculation} ({found.source})", (found.source,))
     standard = listed.get((wanted, "")) if wanted else None
     if standard is None:
         return None
     doubt = f": what its {recirculation} recirculation stands could not be read, it may be more" if kind else ""
-    return SpeedLimit(standard.value, f"of standard nuts of {standard.make} ({standard.source}){doubt}")
+    return SpeedLimit(
+        standard.value, f"of standard nuts of {standard.make} ({standard.source}){doubt}", (standard.source,)
+    )
 
 
 @functools.cache

@@ -126,7 +126,8 @@ def every_row(
 
 def is_case(name: str) -> bool:
     """Test whether a name is that of a case file, not of a row."""
-    return Path(name).suffix == ".toml" or "/" in name or Path(name).is_file()
+    file = name.partition("#")[0]  # a design of a project
+    return Path(file).suffix in (".toml", ".json") or "/" in name or Path(name).is_file()
 
 
 # -- tables ---------------------------------------------------------------------------------------

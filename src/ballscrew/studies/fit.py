@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple
 
 from ballscrew import units
 from ballscrew.calibration.calibrated_model import CalibratedModel
@@ -12,12 +14,14 @@ from ballscrew.calibration.next_test import NextTest
 from ballscrew.calibration.problem import CONSTANT_TORQUE
 from ballscrew.calibration.response import resolve_input
 from ballscrew.cases.case import Case
+from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import Fault, InputError
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.quantities import Quantity
 from ballscrew.records import Record
-from ballscrew.studies.fit_log import Options
+from ballscrew.studies.fit_log import DEFAULT_FREE, Options
 from ballscrew.torque_logs.torque_log import TorqueLog
+from ballscrew.uncertainty.default_uncertainties import default_distributions
 
 #: Options of the command line by the fields in which the fit finds faults.
 _OPTIONS: Mapping[str, str] = {f"fit.{name}": f"--{name}" for name in ("free", "holdout", "kind", "seed")}
@@ -36,7 +40,7 @@ class FitReport:
     assumed: Sequence[str] = ()
 
 
-def fit(case: Case, log: TorqueLog, options: Options) -> FitReport:
+def fit(case: Case, log: TorqueLog, options: Options, done: Callable[[int, int], None] | None = None) -> FitReport:
     """Fit of a case to a log. Raises ``InputError`` that names options of the command line.
 
     A distribution that the case gives a free number is its prior. :mod:`~ballscrew.studies.fit_log` reads the log.
@@ -55,6 +59,7 @@ def fit(case: Case, log: TorqueLog, options: Options) -> FitReport:
         model = fitted(
             case.model, case.screw, case.lubricant, log, options.free, priors=priors, bounds=options.bounds,
             kind=options.kind, inertia=options.inertia, holdout=options.holdout, seed=options.seed,
+            done=done,
         )  # fmt: skip
     except InputError as error:
         raise InputError(*(_with_option(fault) for fault in error.faults)) from None
@@ -90,6 +95,26 @@ def _full_name(subject: Configuration, name: str) -> str | None:
         return resolve_input(subject, name)
     except InputError:
         return None
+
+
+class Candidate(NamedTuple):
+    """A number that can be fitted: its name, its quantity and its value in the case, SI; NaN where a law gives it."""
+
+    name: str
+    quantity: Quantity
+    value: float
+
+
+def candidates(case: Case) -> list[Candidate]:
+    """The numbers of a case that are usually uncertain, and so worth a fit; those fitted most often come first."""
+    subject = Configuration(case.model, case.screw, case.lubricant)
+    usual = default_distributions(case.model, case.screw, case.lubricant)
+    names = sorted(
+        (name for name in usual if name != TEMPERATURE.name), key=lambda name: not name.endswith(DEFAULT_FREE)
+    )
+    values = {name: subject.value_of(name) for name in names}
+    found = [Candidate(n, subject.inputs[n][1], math.nan if x is None else float(x)) for n, x in values.items()]
+    return [*found[:1], Candidate(CONSTANT_TORQUE.name, CONSTANT_TORQUE, 0.0), *found[1:]]
 
 
 def free_quantities(case: Case, free: Sequence[str]) -> dict[str, Quantity]:

@@ -14,6 +14,8 @@ from ballscrew.torque_logs import reading
 from ballscrew.torque_logs.log_rows import Kind
 from ballscrew.torque_logs.torque_log import TorqueLog
 
+#: The number that is fitted by default.
+DEFAULT_FREE = "boundary_friction_coefficient"
 #: The quantities that describe a test.
 CONDITIONS = ("axial_load", "screw_speed", "temperature")
 Range = tuple[float, float]

@@ -134,7 +134,10 @@ def delimiter_of(text: str, is_heading: Callable[[str], bool], within: int = HEA
     lines = list(itertools.islice(filter(_counts, io.StringIO(text, newline="")), within))
 
     def score(delimiter: str) -> tuple[int, int]:
-        split = list(csv.reader(lines, delimiter=delimiter))
+        try:
+            split = list(csv.reader(lines, delimiter=delimiter))
+        except csv.Error:  # a cell longer than any: whoever splits the text with this delimiter finds it again
+            return 0, 0
         headings = max((sum(map(is_heading, cells)) for cells in split), default=0)
         return headings, max(map(len, split), default=0)
 

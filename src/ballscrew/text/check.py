@@ -9,6 +9,7 @@ from ballscrew import units
 from ballscrew.cases import descriptions, nut_tables
 from ballscrew.components.screw import BallScrew
 from ballscrew.friction.result import FrictionResult
+from ballscrew.output.plain_numbers import plain
 from ballscrew.output.wrapping import beside, wrapped
 from ballscrew.quantities import Info, Quantity, quantities_of
 from ballscrew.screw_tables.nut_kinds import LISTED
@@ -37,12 +38,12 @@ def quantity_of(check: Check) -> Quantity:
 
 
 def shown(check: Check, value: float | None) -> str:
-    """Four digits and the unit, up to a million without an exponent."""
+    """Four digits and the unit, without the exponent of programs."""
     if value is None or not math.isfinite(value):
         return "–"
     quantity = quantity_of(check)
     rounded = float(f"{value:.4g}") if quantity.unit == "1" else float(units.rounded(value, quantity))
-    return f"{rounded:.6g}" + ("" if quantity.unit == "1" else f" {quantity.shown_in}")
+    return plain(f"{rounded:.6g}") + ("" if quantity.unit == "1" else f" {quantity.shown_in}")
 
 
 def _line(what: str, value: str) -> str:
@@ -116,14 +117,14 @@ def _ratings(found: Checked) -> list[str]:
 def check_lines(checks: Sequence[Check], give: Mapping[str, str] | None = None) -> list[str]:
     """A line for each check: value, limit, share used, verdict; ``give`` names what to give for inputs it lacks."""
     said = _GIVE if give is None else give
-    lines = [f"{'Checks':<26}{'value':>12} {'limit':>12} {'used':>7}  verdict"]
+    lines = [f"{'Checks':<26}{'value':>13} {'limit':>13} {'used':>7}  verdict"]
     for check in checks:
         used = "–" if check.utilisation is None else f"{check.utilisation:.1%}"
         verdict = {True: "passes", False: "FAILS", None: ""}[check.holds]
         explanation = check.text
         if check.missing in said:
             explanation = explanation.replace(check.missing, said[check.missing])
-        cells = f"{shown(check, check.value):>12} {shown(check, check.limit):>12} {used:>7}"
+        cells = f"{shown(check, check.value):>13} {shown(check, check.limit):>13} {used:>7}"
         prefix = f"  {check.name.replace('_', ' '):<24}{cells}  "
         lines.append(beside(prefix, ": ".join(filter(None, [verdict, explanation]))))
     return lines

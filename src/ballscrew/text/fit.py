@@ -85,14 +85,19 @@ def _number(estimate: Estimate, value: float, digits: int = 4) -> str:
 
 def _combinations(model: CalibratedModel) -> Table:
     table = table_of("\nWhat the log tells, the best known first", "product of powers", "known to", "")
-    for combination in model.identifiability.combinations:
+    for product, combination in zip(combinations(model), model.identifiability.combinations, strict=True):
         error = combination.relative_error
         table.add_row(
-            product_of_powers(combination.powers),
+            product,
             f"{error:.2%}" if error < 1 else "–",
             "" if combination.identified else "not identified",
         )
     return table
+
+
+def combinations(model: CalibratedModel) -> list[str]:
+    """The products of powers that the table of combinations lists, in its order."""
+    return [product_of_powers(one.powers) for one in model.identifiability.combinations]
 
 
 def _scores(model: CalibratedModel) -> Table:

@@ -14,14 +14,18 @@ from ballscrew.quantities import Quantity
 
 def text(export: Export, written: Sequence[Path]) -> str:
     """The files, the range, the worst error of each output, and the warnings."""
-    lines = [*(f"{path}" for path in written), "range, beyond which the nearest value counts and valid is 0:"]
+    return "\n".join(map(wrapped, [*(f"{path}" for path in written), *lines(export)]))
+
+
+def lines(export: Export) -> list[str]:
+    """The range, the worst error of each output, and the warnings, one line each."""
+    lines = ["range, beyond which the nearest value counts and valid is 0:"]
     lines += [f"  {name}: {_ends(ends, export.quantities[name])}" for name, ends in export.valid_range.items()]
     if export.worst_error:
         over = "; ".join(f"{n} {_ends(ends, export.quantities[n])}" for n, ends in export.measured_range.items())
         lines += [f"worst error against the model at random points, {over}:"]
         lines += [f"  {_error(one)}" for one in export.worst_error]
-    lines += [f"warning: {record.text}" for record in export.warnings]
-    return "\n".join(map(wrapped, lines))
+    return [*lines, *(f"warning: {record.text}" for record in export.warnings)]
 
 
 def _ends(ends: tuple[float, float], quantity: Quantity) -> str:

@@ -12,6 +12,11 @@ from fastapi import APIRouter, Depends, Query, Request
 from starlette.responses import Response
 
 from ballscrew import units
+from ballscrew.api_answers import answers
+from ballscrew.api_answers import check as check_answers
+from ballscrew.api_answers import duty as duty_answers
+from ballscrew.api_answers import select as select_answers
+from ballscrew.api_answers import warm_up as warm_up_answers
 from ballscrew.axis_studies import duty as duties
 from ballscrew.axis_studies import stiffness as chains
 from ballscrew.axis_studies import warm_up as warm_ups
@@ -26,6 +31,7 @@ from ballscrew.documents import sweep as sweep_documents
 from ballscrew.documents import validation as validation_documents
 from ballscrew.documents import warm_up as warm_up_documents
 from ballscrew.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.optimisation.need_schema import json_schema as schema_of_needs
 from ballscrew.report.heading import Heading
 from ballscrew.screw_tables import catalogue as rows
 from ballscrew.selection.need import need_of
@@ -37,21 +43,11 @@ from ballscrew.studies import sweep as sweeps
 from ballscrew.studies import validation
 from ballscrew.studies.check import with_nut_named
 from ballscrew.studies.comparison import comparison
-from ballscrew.web import (
-    answers,
-    check_answers,
-    documents,
-    duty_answers,
-    file_api,
-    limits,
-    openapi,
-    select_answers,
-    vocabulary,
-    warm_up_answers,
-)
+from ballscrew.web import documents, file_api, limits, log_api, openapi, vocabulary
 from ballscrew.web.bodies import (
     BandBody,
     CaseBody,
+    CycleBody,
     DutyBody,
     NeedBody,
     ReportBody,
@@ -73,7 +69,7 @@ from ballscrew.web.endpoint_parts import (
     sent,
 )
 from ballscrew.web.problems import Refused
-from ballscrew.web.progress import reported
+from ballscrew.web.progress import finish, reported, unfinished
 from ballscrew.web.request_queue import Deadline
 from ballscrew.web.sent_files import written
 from ballscrew.web.templates import template
@@ -85,6 +81,7 @@ KINDS: Mapping[str, str] = {"pdf": "application/pdf", "html": "text/html; charse
 _VALIDATION_LOCK = threading.Lock()
 router = APIRouter(prefix="/api/v1", dependencies=[Depends(known_query)])
 router.include_router(file_api.router)
+router.include_router(log_api.router)
 
 
 @router.post("/run", openapi_extra=openapi.body(CaseBody), response_model=answers.Run, responses=openapi.problems_of())
@@ -164,14 +161,16 @@ async def band(request: Request) -> Response:
 
 
 @router.post(
-    "/duty", openapi_extra=openapi.body(DutyBody), response_model=duty_answers.Duty, responses=openapi.problems_of()
+    "/duty", openapi_extra=openapi.body(CycleBody), response_model=duty_answers.Duty, responses=openapi.problems_of()
 )
 async def duty(request: Request) -> Response:
     """A cycle of the axis of a case: the document of ``ballscrew duty --json``."""
-    body: DutyBody = await read(request, DutyBody)
+    body: CycleBody = await read(request, CycleBody)
 
     def work(_: Deadline) -> Response:
-        return as_json(duty_documents.document(duties.duty(case_of(body.case, moves=True))))
+        with written({} if body.trace is None else {"trace": body.trace}) as paths:
+            case = case_of(body.case, moves=True, trace=paths.get("trace"))
+        return as_json(duty_documents.document(duties.duty(case)))
 
     return await heavy(request, work)
 
@@ -209,17 +208,22 @@ async def warm_up(request: Request) -> Response:
     responses=openapi.problems_of(),
 )
 async def select(request: Request) -> Response:
-    """Screws of the catalogue for a need, ranked: the document of ``ballscrew select --json``."""
+    """Screws of the catalogue for a need, ranked: the document of ``ballscrew select --json``.
+
+    Where it takes longer than a request may, the same body with its ``ticket`` goes on where it stopped.
+    """
     body: NeedBody = await read(request, NeedBody)
 
     def work(done: Deadline) -> Response:
         refuse_paths(body.need)
         need = limits.check_need(need_of(body.need))
+        key = body.model_dump_json()
         with written({} if body.table is None else {"table": body.table}) as paths:
             found = selected(
                 need, rows=paths.get("table"), words=body.words or None, keep_going=bool(paths),
-                done=reported(body.ticket, done),
+                done=reported(body.ticket, done), known=unfinished(body.ticket, key),
             )  # fmt: skip
+        finish(body.ticket, key)
         return as_json(selection_documents.document(found))
 
     return await heavy(request, work)
@@ -291,6 +295,17 @@ def _schema() -> bytes:
     return as_bytes(json_schema())
 
 
+@router.get("/need-schema", response_model=answers.NeedSchema, responses=openapi.problems_of())
+async def need_schema() -> Response:
+    """JSON Schema of a need, as ``ballscrew schema --need`` prints it."""
+    return sent(_need_schema())
+
+
+@functools.cache
+def _need_schema() -> bytes:
+    return as_bytes(schema_of_needs())
+
+
 @router.get("/vocabulary", response_model=vocabulary.Vocabulary, responses=openapi.problems_of())
 async def get_vocabulary() -> Response:
     """Units and their factors, results and mechanisms by name, models, and cases to start from."""
@@ -340,11 +355,13 @@ async def report(
     heading = Heading.of(body.project, body.date)
 
     def work(done: Deadline) -> Response:
-        from ballscrew.report.contents import Kind, report_bytes  # slow to import
+        from ballscrew.report.files import Kind, report_bytes  # slow to import
 
-        case = case_of(body.case)
+        case, *beside = map(case_of, (body.case, *body.beside))
         written: Kind = "pdf" if kind == "pdf" else "html"
-        found = report_bytes(case, written, done, limits.samples_of(case), heading)
+        # none has more samples than the largest of them may have
+        fewest = [count for each in (case, *beside) if (count := limits.samples_of(each)) is not None]
+        found = report_bytes(case, written, done, min(fewest) if fewest else None, heading, beside)
         return Response(found, media_type=KINDS[kind])
 
     return await heavy(request, work)

@@ -9,12 +9,14 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any, ClassVar, NoReturn
 
 import anyio
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import ClientDisconnect, Request
 
+from ballscrew.case_schema.duty_schema import TRAJECTORY
 from ballscrew.case_schema.schema import read_table
 from ballscrew.cases import case_file
 from ballscrew.cases.case_file import Case
@@ -66,6 +68,15 @@ class DutyBody(CaseBody):
     """A case with an axis and a motion; it needs no operating point."""
 
 
+class CycleBody(DutyBody):
+    """A case with an axis, and its motion; in place of that perhaps the ``trace`` of one that was recorded."""
+
+    most_bytes: ClassVar[int] = MOST_FILE_BYTES
+    files: ClassVar[tuple[str, ...]] = ("trace",)
+
+    trace: SentFile | None = None
+
+
 class WarmUpBody(CaseBody):
     """A case that warms up by its motion or its operating point, the hours of work and of rest, perhaps with bands."""
 
@@ -111,10 +122,11 @@ class ProjectBody(Body):
 
 
 class ReportBody(CaseBody):
-    """A case, and what may stand below the title of its report: the name of a project, and a date."""
+    """A case, other designs beside it, and what may stand below the title: the name of a project, and a date."""
 
     project: str = Field(default="", strict=True)
     date: str = Field(default="", strict=True, description="such as 2026-11-23; none by itself")
+    beside: list[Tables] = Field(default_factory=list[Tables], description="other designs, three at most", max_length=3)
 
 
 class SweepBody(CaseBody):
@@ -241,12 +253,15 @@ def _texts(value: Any) -> list[str]:
     return [value] if isinstance(value, str) else []
 
 
-def case_of(tables: Mapping[str, Any], *, moves: bool = False) -> Case:
+def case_of(tables: Mapping[str, Any], *, moves: bool = False, trace: Path | None = None) -> Case:
     """The case that the tables of a request describe. Raises :class:`~ballscrew.errors.InputError`.
 
-    No value in them is read as a path. One that ``moves`` has an axis and a motion.
+    No value in them is read as a path. One that ``moves`` has an axis and a motion; a recorded motion, in a file that
+    came with the request, takes the place of that of the tables.
     """
     refuse_paths(tables)
+    if trace is not None:
+        tables = {**tables, "motion": {"kind": TRAJECTORY, "file": str(trace)}}
     case = case_file.build(tables, rows=catalogue(), moves=moves)
     if case.nut is not None and case.nut.one_by_one and case.screw.loaded_balls > MOST_BALLS:
         given, remedy = f"{case.screw.loaded_balls:g}", f"{MOST_BALLS} at most where balls differ or bodies are elastic"

@@ -8,12 +8,13 @@ import tomlkit
 from fastapi import APIRouter, Path, Query, Request
 from starlette.responses import Response
 
+from ballscrew.api_answers import file as file_answers
 from ballscrew.cases import project as projects
 from ballscrew.errors import Fault, InputError, nearest
 from ballscrew.output.json_text import as_json as json_text
 from ballscrew.studies.opened_file import opened
-from ballscrew.web import file_answers, openapi
-from ballscrew.web.bodies import LONGEST_TICKET, CaseBody, OpenBody, ProjectBody, case_of, read, refuse_nulls
+from ballscrew.web import openapi
+from ballscrew.web.bodies import CaseBody, OpenBody, ProjectBody, case_of, read, refuse_nulls
 from ballscrew.web.endpoint_parts import as_json, heavy, queue_of
 from ballscrew.web.progress import progress_of
 from ballscrew.web.sent_files import written
@@ -69,7 +70,7 @@ async def project(
 
 @router.get("/progress/{ticket}", response_model=file_answers.Progress, responses=openapi.problems_of())
 async def progress(
-    ticket: Annotated[str, Path(max_length=LONGEST_TICKET, description="of the request", examples=["4f0c"])],
+    ticket: Annotated[str, Path(description="of the request", examples=["4f0c"])],
 ) -> Response:
     """How far the work of a request is that was sent with this ticket."""
     finished, total = progress_of(ticket)

@@ -6,7 +6,7 @@ Each of these takes some seconds at most on two processors: ``benchmarks/serve.p
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from ballscrew.cases.case_file import (
     Case,
@@ -31,6 +31,10 @@ SHORT_POINTS, SHORT_POINTS_OF_NUT, SHORT_BALLS = 1_000, 200, 5_000
 MANY_BALLS = 300
 #: Combinations of nut, preload and oil for each row of the catalogue.
 MOST_CHOICES = 24
+#: Columns of a log, and the lines at its top in which they are counted.
+MOST_COLUMNS, _FIRST_LINES = 1_000, 5_000
+#: Parameters, outputs and derivatives of a hand-over besides the usual ones.
+MOST_MORE = 8
 #: Balls with two contacts that take as long as one with four.
 _FOUR_CONTACTS = 3
 
@@ -93,6 +97,22 @@ def check_need(need: Need) -> Need:
         remedy = f"{MOST_CHOICES} at most here; the rest by ballscrew select"
         raise InputError(Fault("need", "has too many choices of nut, preload and oil", str(choices), remedy))
     return need
+
+
+def check_columns(name: str, content: bytes) -> None:
+    """Refuse a log of very many columns, each of which would be looked up among the names that are known."""
+    widest = max((line.count(mark) for line in content.splitlines()[:_FIRST_LINES] for mark in b";\t,"), default=0)
+    if widest >= MOST_COLUMNS:
+        raise InputError(Fault(name, "has too many columns", f"{widest + 1:,}", f"{MOST_COLUMNS:,} at most here"))
+
+
+def check_hand_over(case: Case, *lists: Sequence[str]) -> Case:
+    """The case, unless more inputs, outputs or derivatives are asked for than are made here."""
+    asked = sum(map(len, lists))
+    if asked > MOST_MORE:
+        remedy = f"{MOST_MORE} at most here; the rest by ballscrew hand-over"
+        raise InputError(Fault("hand_over", "has too many parameters, outputs and derivatives", str(asked), remedy))
+    return case
 
 
 def is_short(case: Case, plan: sweeps.Plan) -> bool:

@@ -8,11 +8,12 @@ from fastapi import FastAPI, Path
 from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel
 
+from ballscrew.api_answers.parts import Problem
 from ballscrew.case_schema.schema import json_schema
 from ballscrew.sizing.catalogue import catalogue
 from ballscrew.web import problems
-from ballscrew.web.answer_parts import Problem
-from ballscrew.web.bodies import BandBody, DutyBody, NeedBody, OpenBody, ProjectBody, SweepBody, WarmUpBody
+from ballscrew.web.bodies import BandBody, CaseBody, DutyBody, NeedBody, OpenBody, ProjectBody, SweepBody, WarmUpBody
+from ballscrew.web.log_bodies import examples_with_logs
 from ballscrew.web.vocabulary import vocabulary
 
 _CASE, _SUMMARY = "Case", "Friction losses of ball screws"
@@ -51,13 +52,15 @@ def _bodies(kind: type[BaseModel]) -> dict[str, Any]:
         return {"case": {"file": {"name": "case.toml", "text": text}}}
     if kind is ProjectBody:
         return {"two": {"designs": [{"name": name, "case": case} for name, case in (("paper", paper), ("nut", nut))]}}
-    if kind is DutyBody:
+    if issubclass(kind, DutyBody):
         moving: dict[str, Any] = {
             "axis": {"mass": "400 kg", "inclination": "90 deg"},
             "motion": {"kind": "trapezoid", "stroke": "0.5 m", "speed": "10 m/min", "acceleration": "0.5 g"},
             "installation": {"unsupported_length": "1 m", "ends": "fixed-supported"},
         }
         return {name: {"case": {**case, **moving}} for name, case in (("paper", paper), ("nut", nut))}
+    if issubclass(kind, CaseBody) and (found := examples_with_logs(kind, paper)):
+        return found
     more: dict[str, Any] = {}
     if kind is SweepBody:
         more = {"vary": {"axial_load": "100:4000:5 N", "screw_speed": "10, 100 rpm"}, "outputs": ["efficiency"]}

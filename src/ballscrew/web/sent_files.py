@@ -13,6 +13,7 @@ from collections.abc import Generator, Mapping
 from pathlib import Path
 
 from ballscrew.errors import Fault, InputError
+from ballscrew.web.limits import check_columns
 
 #: What a name of a file has not: what leads elsewhere, and what some system does not take.
 _ODD = re.compile(r'[\x00-\x1f\x7f<>:"/\\|?*]')
@@ -32,7 +33,9 @@ def written(files: Mapping[str, Mapping[str, str]]) -> Generator[dict[str, Path]
             place = Path(folder) / field  # each in a folder of its own: both logs may have one name
             place.mkdir()
             paths[field] = place / _name(file.get("name", ""))
-            paths[field].write_bytes(_content(field, file))
+            content = _content(field, file)
+            check_columns(paths[field].name, content)
+            paths[field].write_bytes(content)
         try:
             yield paths
         except InputError as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import importlib.metadata
 from collections.abc import Mapping
 from typing import Any
 
@@ -98,6 +99,7 @@ class Vocabulary(_Table):
     """Units and their factors, results and mechanisms by name, models, and cases to start from."""
 
     version: str
+    documentation: str | None
     units: dict[str, list[UnitChoice]]
     systems: dict[str, dict[str, str]]
     results: dict[str, ResultQuantity]
@@ -120,6 +122,7 @@ def vocabulary() -> dict[str, Any]:
     """The vocabulary as one document."""
     return {
         "version": __version__,
+        "documentation": _documentation(),
         "units": _units(),
         "systems": {"metric": {}, "inch": dict(_INCHES)},
         "results": _results(),
@@ -139,6 +142,19 @@ def vocabulary() -> dict[str, Any]:
         "starts": starts(),
         "rows": [{"name": row.name, "source": row.source, "nut": row.nut or "single"} for row in catalogue().values()],
     }
+
+
+def _documentation() -> str | None:
+    """The address of the documentation, where the project gives one; the page asks nothing of it by itself."""
+    try:
+        addresses = importlib.metadata.metadata("ballscrew").get_all("Project-URL") or []
+    except importlib.metadata.PackageNotFoundError:  # run from its sources: nothing says one
+        return None
+    for written in addresses:
+        label, _, address = str(written).partition(",")
+        if label.strip().lower() == "documentation":
+            return address.strip()
+    return None
 
 
 def _units() -> dict[str, Any]:

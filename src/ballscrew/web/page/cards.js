@@ -16,7 +16,7 @@ import { text } from "./texts.js";
 /**
  * A card that is open: ``follow`` shows what the state of the page is now.
  *
- * @typedef {{ follow: () => void, stop: () => void }} Card
+ * @typedef {{ follow: () => void | Promise<void>, stop: () => void }} Card
  */
 
 /** Scripts of the cards, by the names of their places. @type {Record<string, () => Promise<{ setUp: (holder: HTMLElement, page: Page) => Card }>>} */
@@ -24,17 +24,27 @@ const SCRIPTS = {
   "over-input": () => import("./cards/over_input.js"),
   duty: () => import("./cards/duty.js"),
   "warm-up": () => import("./cards/warm_up.js"),
+  choose: () => import("./cards/choose.js"),
+  calibration: () => import("./cards/calibrate.js"),
+  service: () => import("./cards/service.js"),
+  "hand-over": () => import("./cards/hand_over.js"),
   files: () => import("./cards/files.js"),
 };
 
 /** @type {Page} */
 let page;
+/** Goes to a field of the form. @type {(path: string) => void} */
+let goToForm = () => {};
 /** Cards that have been opened once. @type {Map<string, Card>} */
 const opened = new Map();
 
+/** Sections of the case by the cards that have their fields. @type {Record<string, string>} */
+const HOMES = { axis: "duty", motion: "duty", motor: "duty", surroundings: "warm-up" };
+
 /** @param {Page} found */
 export function setUp(found) {
-  page = found;
+  page = { ...found, jump };
+  goToForm = found.jump;
   for (const name of Object.keys(SCRIPTS)) {
     byId(`${name}-open`).addEventListener("click", () => {
       const { cards } = designs.all();
@@ -76,13 +86,37 @@ export async function openAll() {
     byId(name).hidden = !isOpen;
     const card = opened.get(name);
     if (!isOpen) card?.stop();
-    else if (card) card.follow();
+    else if (card) await card.follow();
     else {
       const { setUp: make } = await SCRIPTS[name]();
       opened.set(name, opened.get(name) ?? make(byId(name), page));
-      opened.get(name)?.follow();
+      await opened.get(name)?.follow();
     }
   }
+}
+
+/**
+ * Go to the field at a path, in the form or in a card, which is opened.
+ *
+ * @param {string} path
+ */
+async function jump(path) {
+  const home = HOMES[path.split(".")[0]];
+  if (!home) {
+    goToForm(path);
+    return;
+  }
+  const { cards } = designs.all();
+  if (!cards.includes(home)) {
+    cards.push(home);
+    page.keep();
+    await openAll();
+  }
+  /** @type {NodeListOf<HTMLElement>} */
+  const fields = byId(home).querySelectorAll("[data-path]");
+  const field = [...fields].find((one) => one.dataset.path === path);
+  (field ?? byId(home)).scrollIntoView({ block: "center" });
+  /** @type {HTMLElement | null | undefined} */ (field?.querySelector("input, select"))?.focus();
 }
 
 /** Tell the open cards of a change. */

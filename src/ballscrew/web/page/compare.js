@@ -1,5 +1,6 @@
 // Designs side by side, and the case with other models and laws.
 
+import { operationOf } from "./chart_parts.js";
 import * as charts from "./charts.js";
 import { verdict } from "./checks.js";
 import { byId, element, scrolling, table } from "./dom.js";
@@ -96,7 +97,7 @@ export async function showDesigns(answers, starts, mechanisms) {
     ],
   ];
   const headings = ["", ...letters.map((letter) => text("compare.design", { letter }))];
-  const caption = text("compare.caption", { conditions: conditions(first), first: letters[0] });
+  const caption = text("compare.caption", { conditions: conditions(runs), first: letters[0] });
   place.replaceChildren(scrolling(text("compare.table"), table(caption, headings, rows)));
   const computed = Object.fromEntries(
     letters.flatMap((letter) => {
@@ -108,20 +109,28 @@ export async function showDesigns(answers, starts, mechanisms) {
 }
 
 /**
- * Where the designs are compared.
+ * Where the designs are compared: at one speed of the screw, or of the nut where their leads differ.
  *
- * @param {Run | undefined} first
+ * @param {Run[]} runs
  */
-function conditions(first) {
+function conditions(runs) {
+  const [first] = runs;
   const own = /** @type {HTMLInputElement} */ (byId("own")).checked;
   const { axial_load: load, screw_speed: speed } = /** @type {Record<string, number>} */ (
     first?.inputs.operation ?? {}
   );
   if (own || load === undefined) return text("compare.own");
+  const isSame = runs.every((run) => operationOf(run).screw_speed === speed);
   return text("compare.at", {
     load: units.formatted("axial_load", load),
-    speed: units.formatted("screw_speed", speed),
+    speed: isSame ? units.formatted("screw_speed", speed) : units.formattedIn(alongOf(first), "m/min", "m/s"),
   });
+}
+
+/** The speed of the nut in m/s: one turn is one lead. @param {Run} run */
+function alongOf(run) {
+  const { lead } = /** @type {{ lead: number }} */ (run.inputs.screw);
+  return (operationOf(run).screw_speed * lead) / (2 * Math.PI);
 }
 
 /** @typedef {{ name: string, slot?: string, counts?: boolean } & Compare["case"]} ComparedRow */

@@ -200,6 +200,17 @@ export async function setTables(sections, path) {
   await follow(schema.areOfCards(given) ? { ofCards: true, keep: !path, path } : { rebuild: true, keep: true });
 }
 
+/**
+ * Change the need of the card of choosing; all keys of one field are undone at once.
+ *
+ * @param {states.Need} need
+ * @param {string} [path] the field that was edited, if it was one
+ */
+export function setNeed(need, path) {
+  state.need = need;
+  follow({ ofCards: true, keep: !path, path });
+}
+
 // -- files and several designs ----------------------------------------------------------------------
 
 /** What people call a design: its name, and what it starts from. @param {states.Design} design */

@@ -1,7 +1,7 @@
 // The drawing of the ball: beside each other where there is room, one below the other on a phone.
 
 import { byId } from "./dom.js";
-import { filled } from "./units.js";
+import { inUnits } from "./units.js";
 
 const NARROW = matchMedia("(max-width: 46rem)");
 /** Room before the title of the second half. */
@@ -15,8 +15,9 @@ NARROW.addEventListener("change", () => {
 
 /** @param {Template} template */
 export function show(template) {
-  const found = new DOMParser().parseFromString(filled(template), "image/svg+xml").documentElement;
+  const found = new DOMParser().parseFromString(inUnits(template), "image/svg+xml").documentElement;
   if (found.nodeName !== "svg") return;
+  found.setAttribute("lang", "en"); // its words are the server's
   shown = template;
   const whole = /** @type {SVGSVGElement} */ (/** @type {unknown} */ (document.importNode(found, true)));
   byId("drawing").replaceChildren(...(NARROW.matches ? halves(whole) : [whole]));

@@ -2,7 +2,7 @@
 
 import { labelIn, words } from "./fields.js";
 import { OF_CARDS, SECTIONS } from "./schema.js";
-import { text, textOr } from "./texts.js";
+import { sentence, text, textOr } from "./texts.js";
 
 /** What people read in place of a message for files: the field, what is wrong with it, and the text. */
 /** @type {[RegExp, RegExp, import("./texts.js").Key][]} */
@@ -37,7 +37,7 @@ export function labelOf(path) {
  *
  * @param {string} remedy
  */
-function plain(remedy) {
+export function plain(remedy) {
   return remedy
     .replace(/,? in Python .*$/, "")
     .replace("in a file write", "write")
@@ -66,5 +66,5 @@ export function inWords({ where, problem, given, remedy }) {
   if (own) return text(own[2]);
   const advice = plain(remedy);
   const value = given ? ` (${given})` : "";
-  return `${textOr(`problem.${problem}`, plain(problem))}${value}${advice ? `: ${advice}` : ""}`;
+  return `${textOr(`problem.${problem}`, plain(problem))}${value}${advice ? `: ${sentence(advice)}` : ""}`;
 }

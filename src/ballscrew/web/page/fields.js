@@ -1,7 +1,6 @@
 // Fields of the form: a choice, or a number beside its unit.
 
-import { element, within } from "./dom.js";
-import { sliderOf } from "./operating_point.js";
+import { element } from "./dom.js";
 import { symbol } from "./symbols.js";
 import { text, textOr } from "./texts.js";
 import * as units from "./units.js";
@@ -48,7 +47,7 @@ export function labelIn(path) {
  * @param {string} path
  * @param {string} description
  */
-function helpIn(path, description) {
+export function helpIn(path, description) {
   const name = path.slice(path.lastIndexOf(".") + 1);
   return textOr(`field.${path}.help`, textOr(`field.${name}.help`, description));
 }
@@ -174,10 +173,7 @@ function quantityField(path, node, input, value, state, onChange) {
     input.value = units.inLanguage(found.digits);
     select.value = found.unit;
   });
-  const field = frame(path, node, value !== undefined, input, select);
-  const slider = sliderOf(path, labelIn(path), input, select, si);
-  if (slider) within(field, ".entry").after(slider);
-  return field;
+  return frame(path, node, value !== undefined, input, select);
 }
 
 /**

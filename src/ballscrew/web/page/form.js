@@ -4,6 +4,8 @@ import { isOfFile, setAside } from "./designs.js";
 import { byId, element, within } from "./dom.js";
 import { inWords, labelOf } from "./faults.js";
 import { choiceField, labelIn, numberField, showEffective } from "./fields.js";
+import * as help from "./help.js";
+import { slidersOf } from "./operating_point.js";
 import { definition, fieldOf, fieldsOf, isLaw, LEFT_OUT, SECTIONS } from "./schema.js";
 import { text, textOr } from "./texts.js";
 
@@ -63,7 +65,7 @@ export function build(state, vocabulary, given, lawOf) {
   // the list of starts stays: typing the first letters of one is not interrupted
   if (isFirst) form.append(startField(vocabulary));
   while (form.children.length > 1) form.lastChild?.remove();
-  form.append(...parts);
+  form.append(...parts, help.placeIn(form));
   const { start, changes, file } = state.designs[state.show];
   showStart(start, Object.hasOwn(vocabulary.starts, start) ? file : undefined);
   byId("reset").hidden = !Object.keys(changes).length;
@@ -219,7 +221,8 @@ function fields(path, unresolved, source) {
   }
   if (isLaw(node)) return lawFields(path, node, source);
   if (node.enum || node.type === "boolean") return [choiceField(path, node, source.given(path), source.onChange)];
-  return [numberField(path, node, source)];
+  const field = numberField(path, node, source);
+  return [field, ...slidersOf(path, field, labelIn(path), node["x-si-unit"])];
 }
 
 /**

@@ -8,6 +8,7 @@ import { byId, element, nameFiles, within } from "./dom.js";
 import * as downloads from "./downloads.js";
 import * as files from "./files.js";
 import * as form from "./form.js";
+import * as help from "./help.js";
 import * as entries from "./history.js";
 import * as keeping from "./keeping.js";
 import * as results from "./results.js";
@@ -312,6 +313,7 @@ async function begin() {
   answers.setVocabulary(words, form.jump);
   schema.setSchema(document_);
   form.setListener(onChange);
+  help.setVocabulary(vocabulary);
   byId("version").textContent = text("page.version", { version: vocabulary.version });
   designs.setUp(vocabulary, follow);
   if (latest) history.replaceState(null, "", latest.fragment);

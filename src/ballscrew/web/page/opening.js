@@ -42,8 +42,18 @@ function read(file) {
   return sendJson("open", { file });
 }
 
-/** @param {File} file */
-async function sent(file) {
+/** True of a file that the server takes. @param {File} file */
+export function isSmall(file) {
+  return file.size <= MOST_BYTES;
+}
+
+/** That a file is too large. @param {File} file */
+export function tooLarge(file) {
+  return text("open.large", { file: file.name, size: Math.round(MOST_BYTES / 1000) });
+}
+
+/** A file as a request has it. @param {File} file */
+export async function sent(file) {
   const bytes = new Uint8Array(await file.arrayBuffer());
   let binary = "";
   for (const byte of bytes) binary += String.fromCharCode(byte);
@@ -59,8 +69,8 @@ async function sent(file) {
 export async function open(files) {
   const lines = [];
   for (const file of files) {
-    if (file.size > MOST_BYTES) {
-      lines.push(text("open.large", { file: file.name, size: Math.round(MOST_BYTES / 1000) }));
+    if (!isSmall(file)) {
+      lines.push(tooLarge(file));
       continue;
     }
     try {

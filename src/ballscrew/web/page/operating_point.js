@@ -19,16 +19,16 @@ const DIGITS = 3;
 const REACH = 22;
 
 /**
- * A slider for a field beside its number; none where the field has none, or is no plain number.
+ * A slider for a field, to stand below it; none where the field has none.
  *
  * @param {string} path
+ * @param {HTMLElement} field
  * @param {string} name
- * @param {HTMLInputElement} input
- * @param {HTMLSelectElement} unit
  * @param {string | undefined} si
  */
-export function sliderOf(path, name, input, unit, si) {
-  if (!Object.hasOwn(SLIDERS, path)) return null;
+export function slidersOf(path, field, name, si) {
+  const [input, unit] = [field.querySelector("input"), field.querySelector("select")];
+  if (!Object.hasOwn(SLIDERS, path) || !input || !unit) return [];
   const slider = element("input", {
     type: "range",
     step: "any",
@@ -72,8 +72,9 @@ export function sliderOf(path, name, input, unit, si) {
     slider.dispatchEvent(new Event("input"));
   });
   slider.addEventListener("change", follow);
+  input.addEventListener("change", follow); // its unit may have moved to the list of units
   follow();
-  return slider;
+  return [slider];
 }
 
 /**

@@ -2,7 +2,7 @@
 
 import { verdict } from "./checks.js";
 import { byId, element, table } from "./dom.js";
-import { ofServer, text, textOr } from "./texts.js";
+import { languageOf, sentence, text, textOr } from "./texts.js";
 import * as units from "./units.js";
 
 /** Results of the first table. */
@@ -143,7 +143,7 @@ export function show(answer, { band, checks }) {
   const { results, display, warnings } = answer;
   const numbers = numbersOf(answer);
   const known = band?.state === "done" ? band.answer : undefined;
-  byId("case").replaceChildren(element("span", ofServer, units.filled(display.title)));
+  byId("case").replaceChildren(element("span", languageOf(display.title.text), units.filled(display.title)));
   const torque = rounded("screw_torque", results.screw_torque, known);
   const numbersInWords = text("answer.summary", {
     friction: `${torque.text}${torque.interval ? ` (${torque.interval})` : ""}`,
@@ -197,7 +197,7 @@ function showVerdicts({ verdicts, warnings, display }) {
   const lines = verdicts.map(({ severity }, place) =>
     element(
       "p",
-      { class: severity === "info" ? "verdict" : "verdict careful", ...ofServer },
+      { class: severity === "info" ? "verdict" : "verdict careful", ...languageOf(display.verdicts[place].text) },
       units.filled(display.verdicts[place]),
     ),
   );
@@ -223,14 +223,14 @@ function showVerdicts({ verdicts, warnings, display }) {
 /** @param {VerdictRecord} record */
 function warning(record) {
   const subject = element("strong", {}, `${text("answer.beware", { subject: nameOf(record) })} `);
-  return element("p", { class: "warning" }, subject, element("span", ofServer, record.text));
+  return element("p", { class: "warning" }, subject, element("span", languageOf(record.text), sentence(record.text)));
 }
 
 /** @param {Run} answer */
 function showAssumptions({ display, provenance }) {
   const { model, version, references } = provenance;
   byId("assumed").replaceChildren(
-    element("ul", ofServer, ...display.assumed.map((one) => element("li", {}, units.filled(one)))),
+    element("ul", {}, ...display.assumed.map((one) => element("li", languageOf(one.text), units.filled(one)))),
     element("p", { class: "small" }, text("assumed.sources", { model, version, references: references.join(", ") })),
   );
 }
@@ -290,16 +290,16 @@ function showBand(answer, band) {
     const { display, words, warnings } = band.answer;
     const shown = new Set(answer.warnings.map((record) => record.id));
     const others = warnings.filter((record) => !shown.has(record.id));
-    const [first, ...sentences] = display.sentences.map((one) => units.filled(one));
+    const [first, ...sentences] = display.sentences;
     const isOpen = place.querySelector("details")?.open ?? false;
     place.replaceChildren(
       element(
         "details",
-        { open: isOpen, ...ofServer },
-        element("summary", {}, first),
-        ...sentences.map((one) => element("p", {}, one)),
-        element("p", { class: "small" }, words.inputs),
-        ...others.map((record) => element("p", { class: "small" }, record.text)),
+        { open: isOpen },
+        element("summary", languageOf(first.text), units.filled(first)),
+        ...sentences.map((one) => element("p", languageOf(one.text), units.filled(one))),
+        element("p", { class: "small", ...languageOf(words.inputs) }, sentence(words.inputs)),
+        ...others.map((record) => element("p", { class: "small", ...languageOf(record.text) }, sentence(record.text))),
       ),
     );
   }

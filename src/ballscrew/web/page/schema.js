@@ -16,6 +16,7 @@ import { text } from "./texts.js";
  * @property {string} [x-si-unit]
  * @property {string} [x-unit]
  * @property {string} [x-symbol]
+ * @property {string} [x-hint]
  * @property {string} [x-through-lead] the SI unit of a speed of the nut, which may stand in its place
  */
 

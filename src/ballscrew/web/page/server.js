@@ -3,12 +3,14 @@
 import { text } from "./texts.js";
 
 const TOO_MANY = 429;
+const TOO_LONG = 408;
 
 export class Problem extends Error {
   /** @param {{ title: string, status?: number, lines?: string[], faults?: FaultLine[] }} document */
   constructor(document) {
     super(document.title);
     this.isBusy = document.status === TOO_MANY;
+    this.isOutOfTime = document.status === TOO_LONG;
     this.faults = document.faults ?? [];
     this.lines = document.lines?.length ? document.lines : [document.title];
   }

@@ -1,7 +1,7 @@
 // State of the page: its designs, each with its start, its own tables and its changes. All of it is in the address.
 
 export const LETTERS = ["A", "B", "C", "D", "E", "F", "G", "H"];
-const OTHER_KEYS = ["show", "units", "band", "at", "cards", "hours", "rest", "heat"];
+const OTHER_KEYS = ["need", "show", "units", "band", "at", "cards", "hours", "rest", "heat"];
 /** Hours of work and of rest of a warm-up. */
 const HOURS = "4";
 const REST = "0";
@@ -26,6 +26,12 @@ export const OF_SCREW = ["screw", "nut", "bodies", "deviations"];
  * @typedef {{ start: string, changes: Record<string, string> } & Own} Design
  */
 /**
+ * What a screw has to do: texts and units by field, the rest of the tables of a file, and whether the duty of the
+ * current design counts.
+ *
+ * @typedef {{ texts: Record<string, string>, units: Record<string, string>, rest: Tables, duty: boolean }} Need
+ */
+/**
  * ``show`` is the place of the current design, ``own`` compares each design at its own load and speed, ``fields`` has
  * units chosen for single fields, ``cards`` are those that are open, ``heat`` has the hours of work and of rest of a
  * warm-up as they were typed, and whether it has bands.
@@ -39,6 +45,7 @@ export const OF_SCREW = ["screw", "nut", "bodies", "deviations"];
  * @property {Record<string, string>} fields
  * @property {string[]} cards
  * @property {{ hours: string, rest: string, band: boolean }} heat
+ * @property {Need} need
  */
 
 /**
@@ -84,10 +91,49 @@ export function base(start, { tables: sections = {} }) {
   return Object.fromEntries(Object.entries(found).filter(([, section]) => section !== null));
 }
 
+/** @returns {Need} */
+function noNeed() {
+  return { texts: {}, units: {}, rest: {}, duty: false };
+}
+
+/**
+ * @param {string | null} text
+ * @returns {Need}
+ */
+function needIn(text) {
+  const { texts, units, rest, duty } = tablesIn(text ?? "") ?? {};
+  return { texts: plainTexts(texts), units: plainTexts(units), rest: isTable(rest) ? rest : {}, duty: duty === true };
+}
+
+/** @param {unknown} value @returns {value is Tables} */
+function isTable(value) {
+  return value !== null && typeof value === "object" && !Array.isArray(value);
+}
+
+/**
+ * The texts of a table.
+ *
+ * @param {unknown} table
+ * @returns {Record<string, string>}
+ */
+function plainTexts(table) {
+  return isTable(table) ? Object.fromEntries(Object.entries(table).filter(([, one]) => typeof one === "string")) : {};
+}
+
 /** @returns {State} */
 function initial() {
   const heat = { hours: HOURS, rest: REST, band: false };
-  return { designs: [design()], show: 0, system: "metric", band: true, own: false, fields: {}, cards: [], heat };
+  return {
+    designs: [design()],
+    show: 0,
+    system: "metric",
+    band: true,
+    own: false,
+    fields: {},
+    cards: [],
+    heat,
+    need: noNeed(),
+  };
 }
 
 /**
@@ -105,6 +151,7 @@ export function toFragment(state) {
     }
     for (const [path, text] of Object.entries(one.changes)) parameters.set(`${LETTERS[place]}.${path}`, text);
   });
+  if (JSON.stringify(state.need) !== JSON.stringify(noNeed())) parameters.set("need", JSON.stringify(state.need));
   if (state.show) parameters.set("show", LETTERS[state.show]);
   if (state.system !== "metric") parameters.set("units", state.system);
   for (const [path, unit] of Object.entries(state.fields)) parameters.set(`unit.${path}`, unit);
@@ -144,6 +191,7 @@ export function fromFragment(fragment, schema, isUnit) {
   state.system = parameters.get("units") ?? "metric";
   state.band = parameters.get("band") !== "0";
   state.own = parameters.get("at") === "own";
+  state.need = needIn(parameters.get("need"));
   state.cards = (parameters.get("cards") ?? "").split(" ").filter(Boolean);
   state.heat = {
     hours: parameters.get("hours") ?? HOURS,
@@ -180,7 +228,7 @@ function takeOwn(one, key, text) {
 function tablesIn(text) {
   try {
     const found = JSON.parse(text);
-    return found && typeof found === "object" && !Array.isArray(found) ? found : undefined;
+    return isTable(found) ? found : undefined;
   } catch {
     return undefined;
   }
@@ -269,7 +317,7 @@ function typed(schema, path, text) {
 export function named(name, start, found) {
   const { screw: listed = {} } = start;
   const { screw = {} } = found;
-  if (Object.keys(listed).some((field) => !(field in screw))) return found;
+  if (!isTable(screw) || Object.keys(listed).some((field) => !(field in screw))) return found;
   const changed = Object.entries(screw).filter(([field, value]) => !isSame(value, listed[field]));
   return { ...found, screw: { catalogue: name, ...Object.fromEntries(changed) } };
 }

@@ -1,6 +1,6 @@
 // Units. Inputs are kept as text with a unit, as they were typed; only what is displayed is converted.
 
-import { hasComma, localised } from "./texts.js";
+import { hasComma, localised, sentence, textOr } from "./texts.js";
 
 const NUMBER = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i;
 const COMMA = /^(\s*[-+]?\d*),(\d+)/;
@@ -78,7 +78,7 @@ export function setLead(text) {
  * @param {string} unit
  */
 export function symbol(unit) {
-  return SYMBOLS[unit] ?? unit;
+  return textOr(`unit.${unit}`, SYMBOLS[unit] ?? unit);
 }
 
 /**
@@ -303,11 +303,20 @@ export function toPlace(value, place) {
 }
 
 /**
- * A text of the server with its quantities in the current units.
+ * A sentence of the server in the language of the page, with its quantities in the current units.
  *
  * @param {Template} template
  */
 export function filled({ text, quantities }) {
+  return inUnits({ text: sentence(text), quantities });
+}
+
+/**
+ * A text of the server with its quantities in the current units.
+ *
+ * @param {Template} template
+ */
+export function inUnits({ text, quantities }) {
   return text.replace(PLACEHOLDER, (placeholder, place) => {
     const one = quantities[Number(place)];
     if (!one) return placeholder;

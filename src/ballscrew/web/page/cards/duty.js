@@ -3,9 +3,11 @@
 import * as checks from "../checks.js";
 import * as designs from "../designs.js";
 import { element, table } from "../dom.js";
+import { isSmall, sent, tooLarge } from "../opening.js";
 import { watch } from "../plot.js";
 import * as schema from "../schema.js";
 import * as states from "../state.js";
+import { ask, sendJson } from "../server.js";
 import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
 import { placeFaults, showValues } from "./case_fields.js";
@@ -60,8 +62,11 @@ export function setUp(holder, page) {
     show: (found) => show(found),
     place: (faults) => placeFaults(editor, faults),
     jump: page.jump,
+    // answers about files are not kept: their bodies are large
+    send: (address, body, signal) => ("trace" in body ? sendJson : ask)(address, body, signal),
   });
-  holder.replaceChildren(examples(vocabulary.starts), note, editor, asked.line, result);
+  const recorded = element("p", { class: "card-start" });
+  holder.replaceChildren(examples(vocabulary.starts), recorded, note, editor, asked.line, result);
   for (const place of places) watch(place);
 
   /** Sections of the case, with those of the example where it has none. @type {Tables} */
@@ -69,6 +74,8 @@ export function setUp(holder, page) {
   let isExample = false;
   /** What the inputs show, as text. */
   let shown = "";
+  /** A recorded motion, which is no part of the design. @type {{ name: string, base64: string } | undefined} */
+  let trace;
   /** @type {DutyAnswer | undefined} */
   let answer;
   let system = "";
@@ -118,7 +125,50 @@ export function setUp(holder, page) {
       if (focused) document.getElementById(focused)?.focus({ preventScroll: true });
     }
     if (answer && system !== units.currentSystem()) show(answer);
-    asked.follow({ case: tables });
+    asked.follow(trace ? { case: tables, trace } : { case: tables });
+  }
+
+  /**
+   * Take a recorded motion in place of that of the design, or none.
+   *
+   * @param {File | undefined} file
+   */
+  async function take(file) {
+    trace = undefined;
+    const isTaken = file && isSmall(file);
+    if (isTaken) trace = await sent(file);
+    showRecorded(file && !isTaken ? tooLarge(file) : "");
+    await follow();
+  }
+
+  /** @param {string} fault */
+  function showRecorded(fault) {
+    const input = element("input", { type: "file", id: "duty-trace", accept: ".csv,.txt,.tsv,.xlsx,.ods" });
+    input.addEventListener("change", () => take(input.files?.[0]));
+    const remove = () => take(undefined).then(() => document.getElementById("duty-trace")?.focus());
+    const words = trace ? text("duty.recorded", { file: trace.name }) : fault;
+    recorded.replaceChildren(
+      element("label", { for: "duty-trace" }, text("duty.trace")),
+      input,
+      element("span", { class: fault ? "fault" : "small", role: "status" }, words),
+      ...(trace
+        ? [element("button", { type: "button", id: "duty-trace-remove", onclick: remove }, text("duty.no_trace"))]
+        : []),
+    );
+  }
+
+  holder.addEventListener("drop", (event) => {
+    event.preventDefault(); // the page does not open it as a case
+    take(event.dataTransfer?.files[0]);
+  });
+  showRecorded("");
+
+  /** How a recorded motion was smoothed. @param {DutyAnswer["results"]} results */
+  function smoothing(results) {
+    const found = /** @type {Record<string, any>} */ (results).smoothing;
+    if (!found) return [];
+    const { samples, torque_rms_unsmoothed: rms } = found;
+    return [element("p", { class: "small" }, text("duty.smoothed", { samples, rms: TORQUE.text(rms) }))];
   }
 
   /** That bearings and guides of the case count, which are not shown here. */
@@ -160,6 +210,7 @@ export function setUp(holder, page) {
         warnings,
       ),
       numbers(results),
+      ...smoothing(results),
       ...checks.panel(judgedOf(found), text("duty.checks_caption"), page.jump),
     );
     charts.show(results, vocabulary.causes);
@@ -243,7 +294,7 @@ export function setUp(holder, page) {
       textOr(`duty.phase.${name}`, name),
     );
     const heat = Object.entries(results.heat_by_element).map(
-      ([name, power]) => `${name.replaceAll("_", " ")} ${POWER.text(power)}`,
+      ([name, power]) => `${textOr(`mechanism.${name}`, name.replaceAll("_", " "))} ${POWER.text(power)}`,
     );
     return element(
       "div",

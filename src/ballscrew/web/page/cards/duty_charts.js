@@ -22,6 +22,16 @@ export function show(results, causes) {
   curve(results);
 }
 
+/**
+ * The torques by mechanics, as the states have them, where the numbers above may be by the rule of catalogues.
+ *
+ * @param {Results} results
+ * @returns {{ torque_rms: number, torque_peak: number }}
+ */
+function byMechanics(results) {
+  return /** @type {Record<string, any>} */ (results).rules.mechanics;
+}
+
 /** Position and speed over the time of a cycle. @param {Results} results */
 function motion({ cycle }) {
   const time = TIME.all(cycle.time);
@@ -87,7 +97,9 @@ function motion({ cycle }) {
  * @param {Results} results
  * @param {Vocabulary["causes"]} causes
  */
-function torque({ cycle, torque_rms: rms }, causes) {
+function torque(results, causes) {
+  const { cycle } = results;
+  const { torque_rms: rms } = byMechanics(results);
   const time = TIME.all(cycle.time);
   const parts = Object.entries(cycle.torque_by).map(([name, values]) => ({
     name: textOr(`cause.${name}`, causes[name]?.words ?? name),
@@ -128,7 +140,7 @@ function torque({ cycle, torque_rms: rms }, causes) {
           hoverinfo: "skip",
         },
       ],
-      layout: layout(colours, TIME.titled(text("duty.time")), TORQUE.titled(sum.name), {
+      layout: layout(colours, TIME.titled(text("duty.time")), TORQUE.titled(text("duty.torque")), {
         yaxis: { rangemode: "normal" },
       }),
     }),
@@ -149,7 +161,9 @@ function torque({ cycle, torque_rms: rms }, causes) {
  *
  * @param {Results} results
  */
-function curve({ cycle, motor, torque_rms: rms, torque_peak: peak }) {
+function curve(results) {
+  const { cycle, motor } = results;
+  const { torque_rms: rms, torque_peak: peak } = byMechanics(results);
   const speed = TURNING.all(cycle.motor_speed);
   const values = TORQUE.all(cycle.torque);
   const level = TORQUE.convert(rms);
@@ -165,9 +179,12 @@ function curve({ cycle, motor, torque_rms: rms, torque_peak: peak }) {
     peak: text("duty.peak"),
     rated: text("duty.rated"),
     rms: text("duty.rms"),
+    largest: text("duty.largest"),
   };
+  const sizes = cycle.torque.map((one) => Math.abs(one ?? 0));
+  const worst = sizes.indexOf(Math.max(...sizes));
   const x = TURNING.titled(text("duty.motor_speed"));
-  const y = TORQUE.titled(text("duty.motor_torque"));
+  const y = TORQUE.titled(text("duty.torque"));
   /** @param {number | null} value */
   const opposite = (value) => (value === null ? null : -value);
   draw("duty-curve-chart", {
@@ -214,6 +231,14 @@ function curve({ cycle, motor, torque_rms: rms, torque_peak: peak }) {
           marker: { color: colours.accent, size: 6 },
           hovertemplate: "%{x:.4g}, %{y:.4g}<extra></extra>",
         },
+        {
+          x: [speed[worst]],
+          y: [values[worst]],
+          name: names.largest,
+          mode: "markers",
+          marker: { symbol: "diamond", size: 11, color: colours.panel, line: { color: colours.ink, width: 2.5 } },
+          hovertemplate: "%{x:.4g}, %{y:.4g}<extra></extra>",
+        },
       ],
       layout: layout(colours, x, y, {
         hovermode: "closest",
@@ -223,6 +248,7 @@ function curve({ cycle, motor, torque_rms: rms, torque_peak: peak }) {
     }),
     legend: (colours) => [
       { kind: "area", name: names.cycle, colour: colours.accent },
+      { kind: "point", name: `${names.largest} ${TORQUE.text(peak)}`, colour: colours.ink },
       { kind: "dash", name: `${names.rms} ${TORQUE.text(rms)}`, colour: colours.ink },
       ...(known
         ? [

@@ -21,6 +21,20 @@ export function quantity(si, metric) {
     titled: (words) => `${words} (${units.symbol(unit())})`,
     /** @param {number | null | undefined} value @param {number} [digits] */
     text: (value, digits = units.DIGITS) => units.formattedIn(value, metric, si, digits),
+    /**
+     * A number with no more digits than its band leaves it, and the ends of that; null without a band.
+     *
+     * @param {number} value
+     * @param {unknown} low
+     * @param {unknown} high
+     */
+    within: (value, low, high) => {
+      if (typeof low !== "number" || typeof high !== "number" || high <= low) return null;
+      const [shown, ...ends] = [value, low, high].map((one) => units.fromSI(one, unit(), si));
+      const place = units.lastPlace(ends[0], ends[1]);
+      const [number, from, to] = [shown, ...ends].map((one) => units.toPlace(one, place));
+      return { text: `${number}\u00a0${units.symbol(unit())}`, low: from, high: `${to}\u00a0${units.symbol(unit())}` };
+    },
   };
 }
 

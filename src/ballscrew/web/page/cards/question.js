@@ -15,11 +15,12 @@ const SECOND = 1000;
  * those of no field of the card.
  *
  * @typedef {object} Parts
- * @property {"duty" | "warm-up"} address
+ * @property {"duty" | "warm-up" | "fit" | "service" | "hand-over"} address
  * @property {HTMLElement} result
  * @property {(answer: any) => void} show
  * @property {(faults: FaultLine[]) => FaultLine[]} place
  * @property {(path: string) => void} jump goes to a field of the form
+ * @property {(address: any, body: object, signal: AbortSignal) => Promise<any>} [send] of a body that is too large to keep
  */
 
 /**
@@ -27,7 +28,7 @@ const SECOND = 1000;
  *
  * @param {Parts} parts
  */
-export function question({ address, result, show, place, jump }) {
+export function question({ address, result, show, place, jump, send = ask }) {
   const line = element("div", { class: "card-line" });
   let request = new AbortController();
   /** @type {ReturnType<typeof setTimeout> | undefined} */
@@ -117,7 +118,7 @@ export function question({ address, result, show, place, jump }) {
     signal.addEventListener("abort", () => clearTimeout(patience));
     timer = setTimeout(async () => {
       try {
-        const found = await ask(address, body, signal);
+        const found = await send(address, body, signal);
         if (signal.aborted) return;
         stop();
         place([]);
@@ -129,10 +130,24 @@ export function question({ address, result, show, place, jump }) {
         if (signal.aborted) return;
         stop();
         const faults = error instanceof Problem ? error.faults : [];
-        fail(place(faults), faults.length ? [] : linesOf(error));
+        const others = place(faults);
+        const lines = others.length < faults.length ? [text("card.marked")] : [];
+        fail(others, faults.length ? lines : linesOf(error));
       }
     }, rest);
   }
 
-  return { line, follow, stop };
+  /**
+   * Say whether the answer is of this body, where it is asked for by a button only.
+   *
+   * @param {object} body
+   */
+  function compare(body) {
+    if (!answered || asked) return;
+    const isEarlier = JSON.stringify(body) !== answered;
+    result.classList.toggle("earlier", isEarlier);
+    line.replaceChildren(...(isEarlier ? [element("p", {}, earlier())] : []));
+  }
+
+  return { line, follow, compare, stop };
 }

@@ -199,9 +199,10 @@ function cell(place, name, node, value, label, onInput) {
     "aria-label": label,
     "aria-describedby": fault,
   });
-  input.value = value === undefined ? "" : (units.digitsIn(value, unitOf(node), node?.["x-si-unit"]) ?? value);
+  const digits = value === undefined ? "" : units.digitsIn(value, unitOf(node), node?.["x-si-unit"]);
+  input.value = units.inLanguage(digits ?? String(value));
   input.addEventListener("input", () => {
-    const typed = input.value.trim();
+    const typed = units.ofLanguage(input.value.trim());
     const isBare = typed !== "" && /^[\s\d.,'eE+±-]*$/.test(typed);
     onInput(isBare ? `${typed} ${unitOf(node)}` : typed);
   });

@@ -145,9 +145,9 @@ export function setUp(holder, page) {
     const hours = (name, option) => {
       const id = `warm-${name}`;
       const input = element("input", { type: "text", inputmode: "decimal", id, "aria-describedby": `${id}-fault` });
-      input.value = heat[name];
+      input.value = units.inLanguage(heat[name]);
       input.addEventListener("input", () => {
-        heat[name] = input.value.trim();
+        heat[name] = units.ofLanguage(input.value.trim());
         shown = keyOf();
         page.keep();
       });
@@ -205,13 +205,14 @@ export function setUp(holder, page) {
   function steady({ results, band }) {
     const end = /** @type {Record<string, any>} */ (results.equilibrium);
     const ends = /** @type {Record<string, any>} */ (band?.equilibrium ?? {});
-    const rows = STEADY.filter(([name]) => typeof end[name] === "number").map(([name, { text: inUnits }]) => {
+    const known = STEADY.filter(([name]) => typeof end[name] === "number");
+    const rows = known.map(([name, { text: inUnits, within }]) => {
       const meaning = charts.meaning(SERIES[name] ?? name, vocabulary);
-      const { low, high } = ends[name] ?? {};
-      const interval =
-        typeof low === "number" ? text("warm_up.interval", { low: inUnits(low), high: inUnits(high) }) : "";
-      const shown = [data(name, end[name], inUnits(end[name])), element("span", { class: "interval" }, interval)];
-      return element("div", {}, element("dt", {}, meaning), element("dd", {}, ...shown));
+      const found = within(end[name], ends[name]?.low, ends[name]?.high);
+      const shown = data(name, end[name], found?.text ?? inUnits(end[name]));
+      const interval = found ? text("warm_up.interval", { low: found.low, high: found.high }) : "";
+      const beside = element("span", { class: "interval" }, interval);
+      return element("div", {}, element("dt", {}, meaning), element("dd", {}, shown, beside));
     });
     return element("div", { class: "numbers" }, element("h3", {}, text("warm_up.ends")), element("dl", {}, ...rows));
   }

@@ -1,4 +1,4 @@
-"""The options of ``ballscrew fit``: text from the command line as numbers in SI."""
+"""The options of a fit: text from the command line or a request as numbers in SI."""
 
 from __future__ import annotations
 
@@ -12,12 +12,9 @@ from ballscrew.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.evaluation.outputs import inputs_of
 from ballscrew.files import check_writable
 from ballscrew.quantities import Quantity
-from ballscrew.studies.fit_log import CONDITIONS, Options, Range
+from ballscrew.studies.fit_log import CONDITIONS, DEFAULT_FREE, Options, Range
 from ballscrew.studies.moving_log import CARRIED_MASS, GAIN, MovingOptions
 from ballscrew.torque_logs.log_rows import INERTIA, TORQUE_CONSTANT, Kind
-
-#: The number that is fitted by default.
-DEFAULT_FREE = "boundary_friction_coefficient"
 
 
 def options(

@@ -10,17 +10,7 @@ from typing import Annotated, Any, TypeAlias
 
 from pydantic import BaseModel, Field
 
-from ballscrew.case_schema.schema import LAWS
-from ballscrew.components.contact import RaceState
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.friction.result import FrictionResult
-from ballscrew.quantities import fields_of, quantities_of
-from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.studies.run import OF_ONE_BALL
-from ballscrew.text.run import SHOWN
-from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
-from ballscrew.uncertainty.bands import Interval, OutputBand
-from ballscrew.web.answer_parts import (
+from ballscrew.api_answers.parts import (
     MASKS,
     Closed,
     Number,
@@ -35,6 +25,16 @@ from ballscrew.web.answer_parts import (
     model,
     quantities,
 )
+from ballscrew.case_schema.schema import LAWS
+from ballscrew.components.contact import RaceState
+from ballscrew.components.operating_state import OperatingState
+from ballscrew.friction.result import FrictionResult
+from ballscrew.quantities import fields_of, quantities_of
+from ballscrew.sizing.catalogue import CatalogueRow
+from ballscrew.studies.run import OF_ONE_BALL
+from ballscrew.text.run import SHOWN
+from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
+from ballscrew.uncertainty.bands import Interval, OutputBand
 
 # -- run ------------------------------------------------------------------------------------------
 
@@ -366,6 +366,13 @@ class ValidationEntry(Open):
 
 class CaseSchema(Open):
     """JSON Schema of a case file."""
+
+    dialect: str = Field(alias="$schema")
+    properties: Tables
+
+
+class NeedSchema(Open):
+    """JSON Schema of a need."""
 
     dialect: str = Field(alias="$schema")
     properties: Tables

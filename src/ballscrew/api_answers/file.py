@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from ballscrew.web.answer_parts import Closed, Tables
+from ballscrew.api_answers.parts import Closed, Tables
 
 
 class OpenedDesign(Closed):

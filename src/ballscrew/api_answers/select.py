@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from ballscrew.web.answer_parts import Closed, Number, Numbers, Open, Provenance, Record, Tables, field
+from ballscrew.api_answers.parts import Closed, Number, Numbers, Open, Provenance, Record, Tables, field
 
 
 class Failing(Closed):
@@ -14,12 +14,21 @@ class Failing(Closed):
     utilisation: Number = Field(description="demand over capacity; null where the check is a question of yes or no")
 
 
+class RowSizes(Closed):
+    """Sizes of a row, and its source."""
+
+    nominal_diameter: float = field("nominal diameter, SI", "m")
+    lead: float = field("lead, SI", "m")
+    source: str
+
+
 class Candidate(Open):
     """A row with a nut, a preload and an oil: the document of its check, with its rank."""
 
     rank: int
     name: str = Field(description="of the row")
     label: str = Field(description="row, nut, preload and oil")
+    row: RowSizes
     nut: str
     preload: Number = field("axial preload, SI", "N")
     oil: str

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from ballscrew.axis_studies.duty import NUMBERS
-from ballscrew.axis_studies.stiffness import FRICTION, LOAD, SERIES, SPEED
-from ballscrew.web.answer_parts import (
+from ballscrew.api_answers.parts import (
     Closed,
     JudgedCheck,
     Number,
@@ -17,6 +15,8 @@ from ballscrew.web.answer_parts import (
     model,
     quantities,
 )
+from ballscrew.axis_studies.duty import NUMBERS
+from ballscrew.axis_studies.stiffness import FRICTION, LOAD, SERIES, SPEED
 
 
 class PowerOff(Open):

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from ballscrew.web.answer_parts import (
+from ballscrew.api_answers.answers import Results
+from ballscrew.api_answers.parts import (
     Closed,
     JudgedCheck,
     Number,
@@ -15,7 +16,6 @@ from ballscrew.web.answer_parts import (
     VendorRows,
     field,
 )
-from ballscrew.web.answers import Results
 
 
 class OneCheck(JudgedCheck):

@@ -1,4 +1,4 @@
-"""The options of ``ballscrew service``: text from the command line as numbers in SI."""
+"""The options of a service: text from the command line or a request as numbers in SI."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from pathlib import Path
 
 from ballscrew import units
 from ballscrew.cases.case import Case
-from ballscrew.command_options.fit_options import options
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.errors import Fault, raise_if_any
 from ballscrew.quantities import Quantity, fields_of
 from ballscrew.service.posterior import PRELOAD
 from ballscrew.studies.fit import Options
+from ballscrew.studies.fit_options import options
 from ballscrew.studies.service import TORQUE, Reading
 from ballscrew.uncertainty.distributions import Normal
 from ballscrew.uncertainty.uncertain_value import parse_uncertain

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from ballscrew.axis_studies.warm_up import EQUILIBRIUM, SERIES
-from ballscrew.quantities import Quantity
-from ballscrew.web.answer_parts import (
+from ballscrew.api_answers.parts import (
     Closed,
     Number,
     Open,
@@ -17,6 +15,8 @@ from ballscrew.web.answer_parts import (
     model,
     quantities,
 )
+from ballscrew.axis_studies.warm_up import EQUILIBRIUM, SERIES
+from ballscrew.quantities import Quantity
 
 
 def _lists(quantity: Quantity) -> Any:

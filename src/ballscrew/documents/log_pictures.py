@@ -1,0 +1,118 @@
+"""Points of the pictures of a fit and of a service, as the figures and the page draw them; SI."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.calibration.calibrated_model import CalibratedModel
+from ballscrew.calibration.fit import points_of
+from ballscrew.calibration.fit_result import Rows
+from ballscrew.service.estimate import PreloadEstimate
+from ballscrew.service.posterior import torque_of_model
+from ballscrew.studies.service import ServiceReport
+
+Numbers = NDArray[np.float64]
+#: Points of a log in a document, points of a curve, and digits of each.
+MOST_POINTS, CURVE_POINTS, DIGITS = 1500, 80, 5
+#: Kinds of rows of a fit.
+KINDS = ("fitted", "held_out", "outlier")
+
+
+def some(places: NDArray[np.int64], most: int) -> NDArray[np.int64]:
+    """At most so many of some rows, the same each time."""
+    return places if places.size <= most else np.random.default_rng(0).choice(places, most, replace=False)
+
+
+def measured_and_predicted(model: CalibratedModel) -> tuple[Numbers, Numbers]:
+    """The friction torque of each row as it was measured, and by the calibrated model, N m."""
+    rows = model.rows
+    predicted = rows.friction + model.constant_torque
+    return predicted - rows.residuals * rows.direction, predicted
+
+
+def of_fit(model: CalibratedModel) -> dict[str, Any]:
+    """The rows of a fit to draw: kind, measured and predicted friction torque, and where they were measured."""
+    rows = model.rows
+    places = some(np.arange(len(rows.log)), MOST_POINTS)
+    measured, predicted = measured_and_predicted(model)
+    kinds = np.where(rows.outlying, 2, np.where(rows.held_out, 1, 0))
+    columns = {
+        "measured": measured,
+        "predicted": predicted,
+        "residual": predicted - measured,
+        "screw_speed": np.abs(rows.log.screw_speed),
+        "axial_load": np.abs(rows.log.axial_load),
+        "temperature": rows.log.temperature,
+        "time": rows.log.time,
+    }
+    return {
+        "rows": len(rows.log),
+        "kinds": [KINDS[kind] for kind in kinds[places]],
+        **{name: short(values[places]) for name, values in columns.items() if values is not None},
+    }
+
+
+class Curve(NamedTuple):
+    """A log of a service over the speed: the model with its preload, and the rows moved to its load and temperature."""
+
+    speed: Numbers
+    torque: Numbers
+    measured_speed: Numbers
+    measured: Numbers
+
+
+def curves(report: ServiceReport, most: int) -> dict[str, Curve]:
+    """The curve of each log, with at most so many of its rows that are no outliers.
+
+    Rows of other loads and temperatures are shown by what they are off the curve.
+    """
+    found: dict[str, Curve] = {}
+    for label, one in report.estimates.items():
+        if one.fit is None:
+            continue
+        rows = one.fit.rows
+        x = np.abs(rows.log.screw_speed)
+        along = np.geomspace(float(x.min()), float(x.max()), CURVE_POINTS) if np.ptp(x) > 0 else x[:1]
+        curve = _friction(one, {**_usual(rows), "screw_speed": along})
+        own = points_of(rows.log, one.fit.lubricant)
+        measured = rows.friction + one.fit.constant_torque - rows.residuals * rows.direction
+        measured = measured + _friction(one, {**_usual(rows), "screw_speed": x}) - _friction(one, own)
+        places = some(np.flatnonzero(~rows.outlying), most)
+        found[label] = Curve(along, curve, x[places], measured[places])
+    return found
+
+
+def of_service(report: ServiceReport) -> dict[str, Any]:
+    """The curves and the rows of the logs of a service."""
+    return {
+        label: {name: short(values) for name, values in one._asdict().items()}
+        for label, one in curves(report, MOST_POINTS).items()
+    }
+
+
+def short(values: Numbers) -> list[float]:
+    """Numbers with as many digits as a picture shows."""
+    return [float(f"{value:.{DIGITS}g}") for value in values]
+
+
+def _usual(rows: Rows) -> dict[str, Any]:
+    """The median load and the mean temperature of a log."""
+    found: dict[str, Any] = {"axial_load": float(np.median(np.abs(rows.log.axial_load)))}
+    if rows.log.temperature is not None:
+        found["temperature"] = float(np.mean(rows.log.temperature))
+    return found
+
+
+def _friction(one: PreloadEstimate, points: Mapping[str, Any]) -> Numbers:
+    """The friction torque with the preload and the numbers that were found."""
+    assert one.subject is not None
+    graded = one.subject.lubricant.follows_temperature
+    there: dict[str, Any] = {"temperature": one.subject.lubricant.temperature, **points} if graded else dict(points)
+    if not graded:
+        there.pop("temperature", None)
+    size = np.broadcast_arrays(*there.values())
+    return torque_of_model(one.subject, dict(zip(there, size, strict=True)), np.array([[0.0], [1.0]]), one.warmer)

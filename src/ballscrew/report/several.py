@@ -1,0 +1,157 @@
+"""A report of several designs: side by side first, then each by itself."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from ballscrew._version import __version__
+from ballscrew.cases import descriptions
+from ballscrew.cases.case import Case
+from ballscrew.evaluation.outputs import known_outputs
+from ballscrew.figures import side_by_side as figures
+from ballscrew.report import band_section, contents, input_tables, result_tables
+from ballscrew.report.blocks import Block, Columns, Links, Paragraph, Picture, Report, Section, Table, sentence
+from ballscrew.report.contents import ALL, Done
+from ballscrew.report.curve_figures import named, svg_of
+from ballscrew.report.numbers import banded, banded_share
+from ballscrew.sizing.checks import Check
+from ballscrew.studies import band
+from ballscrew.studies.band import BandReport
+from ballscrew.studies.check import Checked, checked
+from ballscrew.studies.run import Run, run
+from ballscrew.text import check as check_text
+from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
+
+#: Pages at most of what is side by side, and of each design.
+_PAGES, _PAGES_OF_EACH = 2, 2
+#: What designs are called, and so how many there may be: as many as the page has beside each other.
+_LETTERS = "ABCD"
+MOST = len(_LETTERS)
+
+
+class Design(NamedTuple):
+    """A case by its name, and what came out of it."""
+
+    name: str
+    case: Case
+    run: Run
+    band: BandReport
+    checked: Checked
+
+
+def content(cases: Sequence[Case], done: Done | None = None, samples: int | None = None) -> Report:
+    """Contents of the report of several cases, A, B and so on, each at its own load and speed."""
+    designs: list[Design] = []
+    for place, (case, name) in enumerate(zip(cases, _LETTERS, strict=False)):
+        found = run(case)
+
+        def told(finished: int, total: int, place: int = place) -> None:
+            if done is not None:
+                done(int(ALL * (place + finished / max(total, 1)) / len(cases)), ALL)
+
+        uncertain = band.band(case, band.Options(samples=samples), told)
+        designs.append(Design(name, case, found, uncertain, checked("", case, known=found)))
+    sections = [
+        Section("Answer", [_answer(one) for one in designs]),
+        Section("Checks", [_checks(designs)]),
+        Section("Side by side", [_table(designs), *_picture(designs)]),
+    ]
+    for one in designs:
+        sections += [
+            Section(f"Design {one.name}", _of_one(one)),
+            Section(f"Inputs and model of {one.name}", _inputs(one)),
+        ]
+    sources = dict.fromkeys(source for one in designs for source in contents.sources(one.case, one.band))
+    sections.append(Section("Sources", [Links(list(sources))]))
+    subtitle = [f"{one.name}: {'; '.join(contents.subtitle(one.case))}" for one in designs]
+    subtitle.append(f"designs {', '.join(one.name for one in designs)}")
+    pages = _PAGES + _PAGES_OF_EACH * len(designs)
+    title = f"Friction of {len(designs)} ball screws, side by side"
+    return Report(title, subtitle, sections, f"ballscrew {__version__}", pages)
+
+
+def _answer(one: Design) -> Paragraph:
+    said = band_section.answer(one.run, one.band).text
+    return Paragraph(f"{one.name}: {said} Checks: {one.checked.verdict}.", strong=True)
+
+
+def _checks(designs: Sequence[Design]) -> Table:
+    """The share of each limit that is used, of all designs; the limits are in words where each design has its own."""
+    names = list(dict.fromkeys(check.name for one in designs for check in one.checked.checks))
+    rows = [(name.replace("_", " "), *(_used(one.checked.check(name)) for one in designs)) for name in names]
+    rows.append(("all", *(sentence(one.checked.verdict) for one in designs)))
+    texts = tuple(range(len(designs) + 1))
+    return Table("Share of each limit that is used", ("", *(one.name for one in designs)), rows, texts)
+
+
+def _used(check: Check) -> str:
+    if check.holds is None:
+        wanted = check.missing.rpartition(".")[2].replace("_", " ")
+        return f"not judged: give {wanted}" if wanted else "not judged"
+    used = "" if check.utilisation is None else f"{check.utilisation:.1%}: "
+    value, limit = (check_text.shown(check, number) for number in (check.value, check.limit))
+    return f"{'' if check.holds else 'FAILS, '}{used}{value} against {limit}"
+
+
+def _table(designs: Sequence[Design]) -> Table:
+    """Results with their bands, and what they change against the first design."""
+    rows: list[tuple[str, ...]] = [
+        ("load and speed", *(descriptions.operating_point(one.case) for one in designs))
+    ]  # fmt: skip
+    for name in BAND_OUTPUTS:
+        quantity = known_outputs(designs[0].case.screw.nut)[name].quantity
+        rows.append((result_tables.meaning(name, quantity), *(_cell(one, name, designs[0]) for one in designs)))
+    texts = tuple(range(len(designs) + 1))
+    note = "In brackets the band, then the change of the value against the first design."
+    return Table(
+        "Results, each at its own load and speed", ("", *(one.name for one in designs)), rows, texts, note=note
+    )
+
+
+def _cell(one: Design, name: str, first: Design) -> str:
+    quantity = known_outputs(one.case.screw.nut)[name].quantity
+    value, start = (float(getattr(each.run.friction, name)) for each in (one, first))
+    ends = one.band.band[name].both if band_section.has_band(one.band) else (math.nan, math.nan)
+    share = name.endswith("efficiency")
+    said = banded_share(value, *ends) if share else banded(value, *ends, quantity)
+    words = said.value + (f" ({said.interval})" if said.interval else "")
+    # a ratio of torques of either sign says nothing
+    if one is first or not (value > 0 < start and math.isfinite(value) and math.isfinite(start)):
+        return words
+    return f"{words}, {100 * (value - start):+.1f} points" if share else f"{words}, {value / start - 1:+.0%}"
+
+
+def _picture(designs: Sequence[Design]) -> list[Block]:
+    bars = [
+        figures.DesignBar(
+            one.name,
+            {name: float(part) for name, part in one.run.friction.contributions.items()},
+            *one.band.band["screw_torque"].both,
+        )
+        for one in designs
+    ]
+    if not any(math.isfinite(part) and part for bar in bars for part in bar.parts.values()):
+        return []
+    words = "Friction torque of " + ", ".join(
+        f"{bar.name} {sum(bar.parts.values()):.3g} N m ({bar.low:.3g} to {bar.high:.3g})" for bar in bars
+    )
+    caption = "Friction torque by its parts at the values of each case; the line with ends is its band."
+    return [Picture(named(svg_of(lambda: figures.picture(bars), "designs"), words), f"{words}.", caption)]
+
+
+def _of_one(one: Design) -> list[Block]:
+    bands = one.band.band.outputs if band_section.has_band(one.band) else {}
+    return [
+        Columns.of(result_tables.results(one.run, bands)),
+        *result_tables.parts(one.run),
+        *band_section.swings(one.case, one.band),
+        *band_section.vendor_blocks(one.case),
+        *result_tables.beware(one.run),
+    ]
+
+
+def _inputs(one: Design) -> list[Block]:
+    inputs = input_tables.tables(one.case)
+    return [Columns.of([*inputs, input_tables.laws(one.case)]), contents.origins(one.case, inputs)]

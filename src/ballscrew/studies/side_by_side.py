@@ -1,0 +1,67 @@
+"""Designs side by side: the cases of several files, or of a project, each run and checked."""
+
+from __future__ import annotations
+
+import copy
+import dataclasses
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from ballscrew.cases import case_file, project
+from ballscrew.errors import Fault, InputError
+from ballscrew.studies.check import Checked, checked, with_nut_named
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class SideBySide:
+    """Designs with what the model and all checks say of them, in the order that they were given."""
+
+    designs: Sequence[Checked]
+    #: Whether each stands at its own load and speed, and not at those of the first one.
+    own: bool
+
+
+def is_one_case(paths: Sequence[Path]) -> bool:
+    """Test whether there is nothing to stand beside: one path of one design. Raises ``InputError``."""
+    return len(paths) == 1 and len(project.read(paths[0])) == 1
+
+
+def side_by_side(
+    paths: Sequence[str | Path],
+    *,
+    own: bool = False,
+    settings: Sequence[str] = (),
+    model: str | None = None,
+    calibration: str | None = None,
+    allow_code: bool = False,
+) -> SideBySide:
+    """The designs of case files and projects, at the load and speed of the first one, or each at its own.
+
+    A design is called as its project calls it, or as its file. Raises :class:`~ballscrew.errors.InputError` with the
+    name of the design that is at fault.
+    """
+    found = [(design, Path(path).parent) for path in paths for design in project.read(path)]
+    names = [design.name for design, _ in found]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise InputError(Fault("compare", "two designs of one name", twice, "name the files, or the designs, apart"))
+    tables = [case_file.override(copy.deepcopy(dict(design.tables)), settings) for design, _ in found]
+    operation = tables[0].get("operation")
+    checks: list[Checked] = []
+    for (design, folder), each in zip(found, tables, strict=True):
+        at = each if own or operation is None else {**each, "operation": operation}
+        checks.append(_checked(design.name, at, folder, model, calibration, allow_code))
+    return SideBySide(checks, own)
+
+
+def _checked(
+    name: str, tables: dict[str, Any], folder: Path, model: str | None, calibration: str | None, allow_code: bool
+) -> Checked:
+    try:
+        made, notes = with_nut_named(tables, folder)
+        case = case_file.build(made, model, folder, calibration=calibration, allow_code=allow_code)
+        return checked(name, case, notes)
+    except InputError as error:
+        faults = [dataclasses.replace(fault, where=f"{name}: {fault.where}") for fault in error.faults]
+        raise InputError(*faults) from None

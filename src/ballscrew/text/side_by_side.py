@@ -1,0 +1,52 @@
+"""``ballscrew compare`` of several designs: one line for each, and what fails."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ballscrew import units
+from ballscrew.cases import descriptions
+from ballscrew.documents.comparison import percent
+from ballscrew.documents.side_by_side import COMPARED, change_of
+from ballscrew.friction.result import FrictionResult
+from ballscrew.output.wrapping import wrapped
+from ballscrew.quantities import quantities_of
+from ballscrew.studies.check import Checked
+from ballscrew.studies.side_by_side import SideBySide
+
+_RESULT = quantities_of(FrictionResult)
+_HEADINGS = ("design", "torque", "", "drive torque", "", "eff.", "", "eff. back", "", "heat", "")
+
+
+def text(found: SideBySide) -> str:
+    """The table, the verdicts of the checks, and load and speed."""
+    first = found.designs[0]
+    rows = [list(_HEADINGS), *([one.name, *_cells(one, first)] for one in found.designs)]
+    widths = [max(len(row[place]) for row in rows) for place in range(len(_HEADINGS))]
+    lines = [_line(row, widths) for row in rows]
+    if found.own:
+        at = [f"{one.name}: {descriptions.operating_point(one.case)}" for one in found.designs]
+    else:
+        at = [f"all at {descriptions.operating_point(first.case)}; --own takes each at its own load and speed"]
+    checks = [f"{one.name}: checks {one.verdict}" for one in found.designs]
+    beware = [
+        f"{one.name}: beware {record.name}: {record.text}" for one in found.designs for record in one.run.warnings
+    ]
+    changes = f"changes are against {first.name}"
+    return "\n".join([*lines, "", *map(wrapped, [*at, changes]), "", *map(wrapped, [*checks, *beware])])
+
+
+def _line(cells: Sequence[str], widths: Sequence[int]) -> str:
+    name, *numbers = zip(cells, widths, strict=True)
+    return "  ".join([name[0].ljust(name[1]), *(cell.rjust(width) for cell, width in numbers)]).rstrip()
+
+
+def _cells(one: Checked, first: Checked) -> list[str]:
+    """Each result with its change against the first design."""
+    cells: list[str] = []
+    for name in COMPARED:
+        value = float(getattr(one.run.friction, name))
+        cells.append(units.shown(value, _RESULT[name]) if value == value else "–")
+        change = None if one is first else change_of(name, one, first)
+        cells.append("" if change is None else percent(change))
+    return cells

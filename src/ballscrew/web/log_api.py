@@ -1,0 +1,147 @@
+"""The JSON API for logs and hand-overs: calibrate a case, find the preload that is left, and hand the model over.
+
+A log is read by the readers of the command line from a folder that is removed before the answer is sent.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+from collections.abc import Sequence
+
+from fastapi import APIRouter, Request
+from starlette.responses import Response
+
+from ballscrew.api_answers import log as log_answers
+from ballscrew.cases.case import Case
+from ballscrew.documents import hand_over as hand_over_documents
+from ballscrew.documents import log as log_documents_of
+from ballscrew.errors import Fault, InputError
+from ballscrew.exports import requests
+from ballscrew.studies import fit as fits
+from ballscrew.studies import fit_options, service_options
+from ballscrew.studies import service as services
+from ballscrew.studies.fit_log import steady_log
+from ballscrew.studies.moving_log import is_moving
+from ballscrew.torque_logs.preview import preview
+from ballscrew.web import limits, log_documents, openapi, sent_files, starts
+from ballscrew.web.bodies import case_of, read
+from ballscrew.web.endpoint_parts import as_bytes, as_json, heavy, sent
+from ballscrew.web.log_bodies import FitBody, HandOverBody, LogBody, ServiceBody, assignments
+from ballscrew.web.request_queue import Deadline
+
+router = APIRouter()
+
+
+@router.post(
+    "/log", openapi_extra=openapi.body(LogBody), response_model=log_answers.Log, responses=openapi.problems_of()
+)
+async def log(request: Request) -> Response:
+    """The columns of a log and what each is taken for, and the numbers of the case that may be fitted to it."""
+    body: LogBody = await read(request, LogBody)
+
+    def work(_: Deadline) -> Response:
+        case = case_of(body.case)
+        with sent_files.written({"log": body.log}) as paths:
+            moving = is_moving(paths["log"], assignments(body.columns))
+            found = preview(paths["log"], body.columns)
+        return as_json(log_documents_of.document(found, fits.candidates(case), moving=moving))
+
+    return await heavy(request, work)
+
+
+@router.post(
+    "/fit", openapi_extra=openapi.body(FitBody), response_model=log_answers.Fit, responses=openapi.problems_of()
+)
+async def fit(request: Request) -> Response:
+    """A case fitted to a log of torques: the document of ``ballscrew fit --json``, with words, rows and the case."""
+    body: FitBody = await read(request, FitBody)
+
+    def work(done: Deadline) -> Response:
+        case = case_of(body.case)
+        chosen = fit_options.options(
+            case, free=body.free, bounds=assignments(body.bounds), limits=assignments(body.limits),
+            columns=assignments(body.columns), kind=body.kind, inertia=body.inertia,
+            torque_constant=body.torque_constant, holdout=body.holdout, seed=body.seed, keep_going=body.keep_going,
+        )  # fmt: skip
+        with sent_files.written({"log": body.log}) as paths:
+            if is_moving(paths["log"], assignments(body.columns)):
+                remedy = "give a log of load, speed and torque; this one is for ballscrew fit on the command line"
+                raise InputError(Fault("log", "is of a moving axis", paths["log"].name, remedy))
+            steady = steady_log(case, paths["log"], chosen, done)
+        assumed: Sequence[str] = ()
+        if body.self_heating:
+            from ballscrew.axis_studies.warm_log import warm_log
+
+            steady, assumed = warm_log(case, steady, chosen.kind)
+        report = dataclasses.replace(fits.fit(case, steady, chosen, done), assumed=assumed)
+        return as_json(log_documents.fit(case, body.case, report))
+
+    return await heavy(request, work)
+
+
+@router.post(
+    "/service",
+    openapi_extra=openapi.body(ServiceBody),
+    response_model=log_answers.Service,
+    responses=openapi.problems_of(),
+)
+async def service(request: Request) -> Response:
+    """The preload left in a nut, by one log or two: the document of ``ballscrew service --json``, with curves."""
+    body: ServiceBody = await read(request, ServiceBody)
+
+    def work(done: Deadline) -> Response:
+        case = case_of(body.case)
+        chosen = service_options.fit_options(
+            case, free=body.free, columns=assignments(body.columns), kind=body.kind, inertia=body.inertia,
+            torque_constant=body.torque_constant, keep_going=body.keep_going,
+        )  # fmt: skip
+        logs = {name: file for name, file in (("new", body.new), ("worn", body.worn)) if file is not None}
+        with sent_files.written(logs) as paths:
+            report = services.of_logs(case, list(paths.values()), chosen, body.tolerance, done)
+        return as_json(log_documents.service(case, report))
+
+    return await heavy(request, work)
+
+
+@router.post(
+    "/hand-over",
+    openapi_extra=openapi.body(HandOverBody),
+    response_model=log_answers.HandOver,
+    responses=openapi.problems_of(),
+)
+async def hand_over(request: Request) -> Response:
+    """A case as files for another program: the document of ``ballscrew hand-over --json``, with the files."""
+    body: HandOverBody = await read(request, HandOverBody)
+
+    def work(_: Deadline) -> Response:
+        requests.check_target(body.to)
+        case: Case = limits.check_hand_over(case_of(body.case), body.parameters, body.outputs, body.derivatives)
+        asked = requests.Request(
+            assignments(body.ranges), body.parameters, body.outputs, body.derivatives, assignments(body.options)
+        )
+        return as_json(log_documents.hand_over(case, requests.of_case(case, body.to, asked)))
+
+    return await heavy(request, work)
+
+
+@router.get("/targets", response_model=log_answers.Targets, responses=openapi.problems_of())
+async def targets() -> Response:
+    """The targets of a hand-over, and the choices that each has."""
+    return sent(_targets())
+
+
+@functools.cache
+def _targets() -> bytes:
+    return as_bytes(hand_over_documents.targets())
+
+
+@router.get("/examples", response_model=log_answers.Examples, responses=openapi.problems_of())
+async def examples() -> Response:
+    """Logs to try, each with its case: those of the folder ``examples`` of the repository."""
+    return sent(_examples())
+
+
+@functools.cache
+def _examples() -> bytes:
+    return as_bytes(starts.logs())

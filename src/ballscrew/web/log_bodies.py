@@ -1,0 +1,111 @@
+"""Bodies of requests that bring logs, and of those for a hand-over."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from pydantic import Field
+
+from ballscrew.web.bodies import CaseBody, SentFile, Tables
+
+#: Bytes of a request with a log: some 100,000 rows as text.
+MOST_LOG_BYTES = 4_194_304
+
+
+class _LogBody(CaseBody):
+    most_bytes: ClassVar[int] = MOST_LOG_BYTES
+
+    columns: dict[str, str] = Field(default_factory=dict)
+    kind: str | None = Field(default=None, strict=True)
+    torque_constant: str | None = Field(default=None, strict=True)
+    inertia: str | None = Field(default=None, strict=True)
+    keep_going: bool = Field(default=False, strict=True)
+
+
+class LogBody(CaseBody):
+    """A case and a log whose columns are asked for, with those that are given by hand."""
+
+    most_bytes: ClassVar[int] = MOST_LOG_BYTES
+    files: ClassVar[tuple[str, ...]] = ("log",)
+
+    log: SentFile
+    columns: dict[str, str] = Field(default_factory=dict)
+
+
+class FitBody(_LogBody):
+    """A case, a log of torques, and the options of ``ballscrew fit``, as text with units."""
+
+    files: ClassVar[tuple[str, ...]] = ("log",)
+
+    log: SentFile
+    free: list[str] = Field(default_factory=list)
+    bounds: dict[str, str] = Field(default_factory=dict)
+    limits: dict[str, str] = Field(default_factory=dict)
+    holdout: float = Field(default=0.2, strict=True)
+    seed: int = Field(default=0, strict=True)
+    self_heating: bool = Field(default=False, strict=True)
+
+
+class ServiceBody(_LogBody):
+    """A case, the log of the worn screw, perhaps that of the new one, and the options of ``ballscrew service``."""
+
+    files: ClassVar[tuple[str, ...]] = ("new", "worn")
+
+    new: SentFile | None = None
+    worn: SentFile
+    tolerance: float = Field(default=0.1, strict=True)
+    free: list[str] = Field(default_factory=list)
+
+
+class HandOverBody(CaseBody):
+    """A case, a target, and the options of ``ballscrew hand-over``, as text."""
+
+    to: str = Field(strict=True)
+    ranges: dict[str, str] = Field(default_factory=dict)
+    parameters: list[str] = Field(default_factory=list)
+    outputs: list[str] = Field(default_factory=list)
+    derivatives: list[str] = Field(default_factory=list)
+    options: dict[str, str] = Field(default_factory=dict)
+
+
+def assignments(given: Mapping[str, Any]) -> list[str]:
+    """``name=value``, as on the command line."""
+    return [f"{name}={value}" for name, value in given.items()]
+
+
+#: Logs to try, made by the model with noise of 0.2 %: of the paper's screw, and of it with a preload of 3 kN and 2 kN.
+_LOG = """speed [rpm],axial load [N],torque [N m]
+50,1000,0.8456
+100,1000,0.8538
+200,1000,0.8655
+400,1000,0.8829
+50,2000,1.6943
+100,2000,1.7017
+200,2000,1.7134
+400,2000,1.7415
+50,3000,2.5455
+100,3000,2.5553
+200,3000,2.5708
+400,3000,2.6005
+"""
+_NEW, _WORN = (
+    "\n".join(["speed [rpm],axial load [N],friction torque [N m]", *(f"{n},0,{torque}" for n, torque in rows)])
+    for rows in (
+        ((20, 0.2562), (50, 0.2485), (100, 0.2441), (200, 0.2461), (300, 0.2525), (400, 0.2609), (500, 0.2708)),
+        ((20, 0.15), (50, 0.15), (100, 0.1538), (200, 0.1623), (300, 0.1733), (400, 0.185), (500, 0.1961)),
+    )
+)
+
+
+def examples_with_logs(kind: type[CaseBody], paper: Tables) -> dict[str, Any]:
+    """Bodies to try, by name; none for a body of another kind."""
+    log = {"name": "log.csv", "text": _LOG}
+    nut = {**paper, "nut": {"type": "double", "preload": "3 kN"}, "model": {"name": "olaru2005"}}
+    found: dict[type[CaseBody], dict[str, Any]] = {
+        LogBody: {"log": log},
+        FitBody: {"log": log, "free": ["boundary_friction_coefficient"]},
+        HandOverBody: {"to": "linuxcnc", "options": {"joint": "1"}},
+        ServiceBody: {"new": {"name": "new.csv", "text": _NEW}, "worn": {"name": "worn.csv", "text": _WORN}},
+    }
+    return {"paper": {"case": nut if kind is ServiceBody else paper, **found[kind]}} if kind in found else {}

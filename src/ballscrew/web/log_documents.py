@@ -1,0 +1,89 @@
+"""Documents of the API for logs and hand-overs: those of the commands, with words, pictures and files beside them."""
+
+from __future__ import annotations
+
+import base64
+import io
+import tomllib
+import zipfile
+from collections.abc import Mapping
+from pathlib import PurePosixPath
+from typing import Any
+
+from ballscrew import units
+from ballscrew.cases import fitted_case
+from ballscrew.cases.case import Case
+from ballscrew.documents import fit as fit_documents
+from ballscrew.documents import hand_over as hand_over_documents
+from ballscrew.documents import log_pictures
+from ballscrew.documents import service as service_documents
+from ballscrew.exports.export import Export
+from ballscrew.studies.fit import FitReport
+from ballscrew.studies.service import ServiceReport
+from ballscrew.text import fit as fit_text
+from ballscrew.text import hand_over as hand_over_text
+from ballscrew.text import service as service_text
+from ballscrew.web.templates import fill_records, filled, template
+
+
+def fit(case: Case, tables: Mapping[str, Any], report: FitReport) -> dict[str, Any]:
+    """The document of a fit, what it says in words, the rows to draw, and the case with the fitted numbers."""
+    document = fit_documents.document(case, report)
+    with units.placeholders() as quantities:
+        test = [] if report.next_test is None else fit_text.describe_next_test(report.next_test, report.model)
+    lines = [line.strip() for line in test]
+    calibrated = fitted_case.text_of(tables, case, report.model)
+    return {
+        **document,
+        "words": {
+            "title": fit_text.log_and_model(case, report),
+            "combinations": fit_text.combinations(report.model),
+            "next_test": [filled(line, quantities) for line in lines],
+        },
+        "display": {"next_test": [template(line, quantities) for line in lines]},
+        "picture": log_pictures.of_fit(report.model),
+        "calibrated": {"toml": calibrated, "case": tomllib.loads(calibrated)},
+    }
+
+
+def service(case: Case, report: ServiceReport) -> dict[str, Any]:
+    """The document of a service, what it says in words, and the curves to draw."""
+    with units.placeholders() as quantities:
+        document = service_documents.document(case, report)
+    said = [record["text"] for record in document["verdicts"]]
+    fill_records(document, quantities)
+    return {
+        **document,
+        "words": {"title": ", ".join(service_text.names(report)), "causes": service_text.causes(report)},
+        "display": {"verdicts": [template(text, quantities) for text in said]},
+        "picture": log_pictures.of_service(report),
+    }
+
+
+def hand_over(case: Case, export: Export) -> dict[str, Any]:
+    """The document of a hand-over, and its file: that of the target, or a zip archive of them all."""
+    names = [PurePosixPath(name) for name in export.files]
+    return {
+        **hand_over_documents.document(export, case, names),
+        "words": {"lines": hand_over_text.lines(export)},
+        "file": _file(export),
+    }
+
+
+def _file(export: Export) -> dict[str, str]:
+    """The only file of an export, or an archive of several."""
+    if len(export.files) == 1:
+        ((name, content),) = export.files.items()
+        media = "application/octet-stream"
+    else:
+        name, media, content = f"{export.target}.zip", "application/zip", _archive(export.files)
+    return {"name": name, "media_type": media, "base64": base64.b64encode(content).decode()}
+
+
+def _archive(files: Mapping[str, bytes]) -> bytes:
+    """A zip archive, the same bytes for the same files."""
+    with io.BytesIO() as made:
+        with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as archive:
+            for name, content in files.items():
+                archive.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED)
+        return made.getvalue()

@@ -1,0 +1,331 @@
+// Candidates for a need: the ranked list with filters, and the picture of the Pareto front.
+
+import * as designs from "../designs.js";
+import { element } from "../dom.js";
+import { draw, layout, watch } from "../plot.js";
+import { LETTERS } from "../state.js";
+import { text, textOr } from "../texts.js";
+import * as units from "../units.js";
+
+/** Candidates in the list before more are asked for. */
+const FIRST = 25;
+const DIGITS = 3;
+/** Display units, by SI unit. @type {Record<string, string>} */
+const SHOWN_IN = {
+  "kg m^2": "kg cm^2",
+  s: "h",
+  "N/m": "N/um",
+  N: "kN",
+  Pa: "MPa",
+  "rad/s": "rpm",
+  "m rad/s": "mm rpm",
+};
+/** Objectives of the list and of the picture, with their SI units. @type {Record<string, string>} */
+const OBJECTIVES = {
+  loss: "W",
+  inertia: "kg m^2",
+  life: "s",
+  rigidity: "N/m",
+  drive_torque: "N m",
+  preload_torque: "N m",
+  reflected_mass: "kg",
+  price_index: "1",
+};
+const IN_LIST = ["loss", "inertia", "life", "rigidity", "drive_torque", "price_index"];
+const OPEN = "#8a8f96";
+
+/** @typedef {Select["candidates"][number]} Candidate */
+
+/** @param {string} name */
+function objective(name) {
+  return textOr(`choose.objective.${name}`, name.replaceAll("_", " "));
+}
+
+/** @param {string} name */
+function unitOf(name) {
+  const si = OBJECTIVES[name];
+  return si === "1" ? "" : units.inSystem(SHOWN_IN[si] ?? si);
+}
+
+/**
+ * A number of a candidate in the unit in which it is shown; none where it is not known or without end.
+ *
+ * @param {Candidate} candidate
+ * @param {string} name
+ */
+function numberOf({ objectives }, name) {
+  const value = objectives[name];
+  return value === null || value === undefined ? null : units.fromSI(value, unitOf(name), OBJECTIVES[name]);
+}
+
+/** @param {string} name */
+function heading(name) {
+  const unit = unitOf(name);
+  return unit ? `${objective(name)} (${units.symbol(unit)})` : objective(name);
+}
+
+/**
+ * The list and the picture of an answer.
+ *
+ * @param {HTMLElement} holder
+ * @param {Select} found
+ */
+export function candidates(holder, found) {
+  const { candidates: all, notes } = found;
+  const known = Object.keys(OBJECTIVES).filter((name) => all.some((one) => Number.isFinite(numberOf(one, name))));
+  const list = element("div", {});
+  const words = element("p", { "aria-live": "polite" });
+  const chart = element("div", { id: "choose-chart", class: "chart low" });
+  let most = FIRST;
+  const filter = filters(all, () => show());
+
+  function show() {
+    const kept = all.filter(filter.holds);
+    const shown = kept.slice(0, most);
+    const more = element(
+      "button",
+      {
+        type: "button",
+        onclick: () => {
+          most = kept.length;
+          show();
+        },
+      },
+      text("choose.all", { count: kept.length }),
+    );
+    list.replaceChildren(tableOf(shown, known, say), kept.length > shown.length ? more : "");
+    picture(kept, x.value, y.value, found);
+  }
+
+  /** @param {string} line */
+  function say(line) {
+    words.textContent = line;
+  }
+
+  /** @param {string} id @param {"choose.across" | "choose.up"} key @param {string} chosen */
+  function axis(id, key, chosen) {
+    const options = known.map((name) => element("option", { value: name, selected: name === chosen }, objective(name)));
+    return element("select", { id, "aria-label": text(key), onchange: show }, ...options);
+  }
+
+  const x = axis("choose-x", "choose.across", "loss");
+  const y = axis("choose-y", "choose.up", known.includes("inertia") ? "inertia" : known[0]);
+  holder.replaceChildren(
+    element("p", { class: "small" }, [.../** @type {string[]} */ (found.need.assumed ?? []), ...notes].join("; ")),
+    filter.fields,
+    words,
+    list,
+    element("p", { class: "filters" }, text("choose.across"), " ", x, " ", text("choose.up"), " ", y),
+    chart,
+  );
+  watch(chart);
+  show();
+}
+
+/**
+ * Fields that leave candidates out of the list and of the picture.
+ *
+ * @param {Candidate[]} all
+ * @param {() => void} follow
+ */
+function filters(all, follow) {
+  const words = element("input", { type: "text", id: "choose-words", oninput: follow });
+  /**
+   * @param {string} id
+   * @param {(candidate: Candidate) => string} value
+   */
+  const choice = (id, value) => {
+    const values = [...new Set(all.map(value))].sort(
+      (one, other) => Number.parseFloat(one) - Number.parseFloat(other) || one.localeCompare(other),
+    );
+    return element(
+      "select",
+      { id, onchange: follow },
+      element("option", { value: "" }, text("choose.any")),
+      ...values.map((one) => element("option", { value: one }, one)),
+    );
+  };
+  /** @param {number | null} length */
+  const size = (length) => units.formattedIn(length, "mm", "m");
+  const chosen = [
+    { key: "diameter", value: (/** @type {Candidate} */ { row }) => size(row.nominal_diameter) },
+    { key: "lead", value: (/** @type {Candidate} */ { row }) => size(row.lead) },
+    { key: "nut", value: (/** @type {Candidate} */ { nut }) => nut },
+  ].map((one) => ({ ...one, select: choice(`choose-${one.key}`, one.value) }));
+  const holding = element("input", { type: "checkbox", id: "choose-holding", onchange: follow });
+  /** @param {string} key @param {Node} field */
+  const labelled = (key, field) => element("label", {}, `${textOr(`choose.${key}`, key)} `, field);
+  const fields = element(
+    "div",
+    { class: "filters" },
+    labelled("words", words),
+    ...chosen.map(({ key, select }) => labelled(key, select)),
+    element("label", {}, holding, ` ${text("choose.holding")}`),
+  );
+  /** @param {Candidate} one */
+  const holds = (one) =>
+    (!holding.checked || one.holds) &&
+    chosen.every(({ select, value }) => !select.value || value(one) === select.value) &&
+    words.value
+      .toLowerCase()
+      .split(/\s+/)
+      .every((word) => `${one.label} ${one.row.source}`.toLowerCase().includes(word));
+  return { fields, holds };
+}
+
+/**
+ * @param {Candidate[]} shown
+ * @param {string[]} known
+ * @param {(line: string) => void} say
+ */
+function tableOf(shown, known, say) {
+  const columns = IN_LIST.filter((name) => known.includes(name));
+  const headings = [
+    "",
+    text("choose.candidate"),
+    text("choose.verdict"),
+    ...columns.map(heading),
+    text("files.actions"),
+  ];
+  const rows = shown.map((one) =>
+    element(
+      "tr",
+      { "data-rank": one.rank },
+      element("th", { scope: "row" }, String(one.rank)),
+      element("td", { class: "words" }, one.label, one.pareto ? element("em", {}, ` ${text("choose.pareto")}`) : null),
+      element("td", { class: "words" }, verdictOf(one)),
+      ...columns.map((name) =>
+        element(
+          "td",
+          {},
+          element("data", { value: String(one.objectives[name] ?? "") }, units.digits(numberOf(one, name), DIGITS)),
+        ),
+      ),
+      element(
+        "td",
+        {},
+        element(
+          "button",
+          { type: "button", "aria-label": text("files.take_row", { name: one.label }), onclick: () => take(one, say) },
+          text("files.take"),
+        ),
+      ),
+    ),
+  );
+  const label = text("choose.caption");
+  return element(
+    "div",
+    { class: "scroll", tabindex: "0", role: "region", "aria-label": label },
+    element(
+      "table",
+      {},
+      element("caption", {}, label),
+      element(
+        "thead",
+        {},
+        element("tr", {}, ...headings.map((words) => (words ? element("th", { scope: "col" }, words) : element("td")))),
+      ),
+      element("tbody", {}, ...rows),
+    ),
+  );
+}
+
+/** @param {{ name: string }} check */
+function nameOf({ name }) {
+  return textOr(`checks.name.${name}`, name.replaceAll("_", " "));
+}
+
+/** @param {number | null | undefined} share */
+function multiple(share) {
+  return share === null || share === undefined
+    ? ""
+    : ` ${text("choose.times", { times: units.digits(share, DIGITS) })}`;
+}
+
+/**
+ * What holds, what fails and by how much; all checks where it is opened.
+ *
+ * @param {Candidate} candidate
+ */
+function verdictOf({ fails, checks, holds, valid }) {
+  const open = checks.filter((check) => check.holds === null).length;
+  const failing = fails.map((check) => `${nameOf(check)}${multiple(check.utilisation)}`).join(", ");
+  const words = failing ? text("checks.fail", { names: failing }) : text(holds ? "checks.holds" : "choose.rest_holds");
+  const others = [open ? text("choose.open", { open }) : "", valid ? "" : text("choose.outside")];
+  const summary = element(
+    "summary",
+    {},
+    element("strong", { class: failing ? "fails" : "" }, words),
+    ` ${others.join(" ")}`,
+  );
+  const details = element("details", {}, summary);
+  details.addEventListener("toggle", () => {
+    if (details.childElementCount > 1) return;
+    const lines = checks.map((check) => {
+      const { name, unit, value, limit, utilisation } = /** @type {Record<string, any>} */ (check);
+      /** @param {number | null} number */
+      const shown = (number) => units.formattedIn(number, SHOWN_IN[unit] ?? unit, unit, DIGITS);
+      const share = typeof utilisation === "number" ? ` (${units.digits(100 * utilisation, DIGITS)} %)` : "";
+      const numbers = check.holds === null ? text("checks.not_judged") : `${shown(value)} / ${shown(limit)}${share}`;
+      return element("li", {}, `${nameOf({ name })}: ${numbers}`);
+    });
+    details.append(element("ul", {}, ...lines));
+  });
+  return details;
+}
+
+/**
+ * @param {Candidate} candidate
+ * @param {(line: string) => void} say
+ */
+async function take({ case: sections, label }, say) {
+  if (!designs.hasRoom()) {
+    say(text("files.full", { most: LETTERS.length }));
+    return;
+  }
+  designs.add([await designs.ofCase(sections, { name: label })]);
+  say(text("choose.taken", { name: label, letter: LETTERS[designs.all().show] }));
+}
+
+/**
+ * All candidates by two numbers: those that hold, those that fail, and the front.
+ *
+ * @param {Candidate[]} kept
+ * @param {string} x
+ * @param {string} y
+ * @param {Select} found
+ */
+function picture(kept, x, y, { objectives }) {
+  const known = kept.filter((one) => [x, y].every((name) => Number.isFinite(numberOf(one, name))));
+  const fits = (/** @type {Candidate} */ one) => !one.fails.length;
+  /** @param {{ second: string, accent: string }} colours */
+  const groups = ({ second, accent }) => [
+    { key: "choose.fail", symbol: "x-thin-open", colour: OPEN, of: known.filter((one) => !fits(one)) },
+    { key: "choose.fit", symbol: "circle", colour: accent, of: known.filter((one) => fits(one) && !one.pareto) },
+    { key: "choose.front", symbol: "diamond", colour: second, of: known.filter((one) => one.pareto) },
+  ];
+  const names = objectives.map(({ name }) => objective(name)).join(", ");
+  const label = (/** @type {string} */ key) => textOr(key, key, { names });
+  draw("choose-chart", {
+    name: "candidates",
+    description: text("choose.picture", { x: objective(x), y: objective(y) }),
+    caption: text("choose.caption"),
+    figure: (colours) => ({
+      traces: groups(colours).map(({ key, symbol, colour, of }) => ({
+        x: of.map((one) => numberOf(one, x)),
+        y: of.map((one) => numberOf(one, y)),
+        text: of.map((one) => one.label),
+        name: label(key),
+        mode: "markers",
+        marker: { symbol, color: colour, size: 9, line: { color: colour, width: 1.5 } },
+        hovertemplate: "%{text}<br>%{x:.4g}, %{y:.4g}<extra></extra>",
+      })),
+      layout: layout(colours, heading(x), heading(y), { hovermode: "closest" }),
+    }),
+    legend: (colours) => groups(colours).map(({ key, colour }) => ({ kind: "point", name: label(key), colour })),
+    numbers: () => [
+      [text("choose.candidate"), heading(x), heading(y), text("choose.front_column"), text("checks.holds")],
+      known.map((one) => [one.label, numberOf(one, x), numberOf(one, y), one.pareto, one.holds]),
+    ],
+  });
+}

@@ -1,0 +1,300 @@
+// The card of choosing: what a screw has to do, and every row of the catalogue judged by the full model, ranked.
+
+import * as designs from "../designs.js";
+import { element, within } from "../dom.js";
+import { inWords, labelOf } from "../faults.js";
+import { choiceField, numberField } from "../fields.js";
+import * as opening from "../opening.js";
+import * as schema from "../schema.js";
+import { get, linesOf, Problem, sendJson } from "../server.js";
+import { valueAt } from "../state.js";
+import { text } from "../texts.js";
+import { candidates } from "./candidates.js";
+
+/** Fields of a need, by their short names: where a case has them, or nothing where only needs have them. */
+/** @type {Record<string, string>} */
+const FIELDS = {
+  axial_load: "operation.axial_load",
+  feed: "",
+  stroke: "",
+  unsupported_length: "installation.unsupported_length",
+  ends: "installation.ends",
+  running_time: "limits.running_time",
+  nut: "nut.type",
+  preload: "nut.preload",
+  grade: "lubricant.grade",
+  temperature: "lubricant.temperature",
+  back_driving: "",
+  accuracy: "",
+  least_rigidity: "",
+  largest_drive_torque: "",
+  largest_preload_torque: "",
+  largest_inertia: "",
+};
+/** Fields that take several values. */
+const LISTS = ["preload"];
+/** Fields that a duty has in its own way, and its sections. */
+const OF_POINT = ["axial_load", "feed"];
+const OF_DUTY = ["axis", "motion", "motor"];
+/** @type {Record<string, import("../schema.js").SchemaNode>} */
+const OF_NEEDS = { back_driving: { enum: ["allowed", "needed", "forbidden"], default: "allowed" }, accuracy: {} };
+/** Milliseconds between questions of how far the work is. */
+const EVERY = 700;
+/** Requests for one answer, each as long as the server lets it compute. */
+const MOST_REQUESTS = 30;
+
+/** @typedef {import("../state.js").Need} Need */
+
+/** @param {HTMLElement} holder @returns {import("../cards.js").Card} */
+export function setUp(holder) {
+  const fields = element("div", { class: "grid" });
+  const sources = element("div", {});
+  const faults = element("div", { class: "faults" });
+  const progress = element("div", { class: "card-line" });
+  const result = element("div", { id: "choose-result", "aria-live": "off" });
+  const start = element("button", { type: "button", id: "choose-start", onclick: () => ask() }, text("choose.start"));
+  const fill = element("button", { type: "button", onclick: () => takeDesign() }, text("choose.from_design"));
+  holder.replaceChildren(
+    element("fieldset", { class: "card-fields" }, element("legend", {}, text("choose.need")), fields, sources),
+    element("p", {}, start, " ", fill),
+    faults,
+    progress,
+    result,
+  );
+  /** Schemas of the fields that only needs have. @type {Record<string, import("../schema.js").SchemaNode>} */
+  let known = {};
+  /** What the fields were made of. */
+  let shown = "";
+  let request = new AbortController();
+  let withTable = true;
+
+  /** @returns {Need} */
+  const need = () => designs.all().need;
+
+  function build() {
+    const { texts, units } = need();
+    const state = { ...designs.all(), fields: units };
+    /** @param {string} path */
+    const given = (path) => texts[path.slice("need.".length)];
+    const made = Object.entries(FIELDS).map(([name, path]) => {
+      const node = (path ? schema.fieldOf(path) : known[name]) ?? {};
+      const place = `need.${name}`;
+      if (node.enum) return choiceField(place, node, given(place), onChange);
+      return numberField(place, LISTS.includes(name) ? {} : node, { state, given, lawOf: () => undefined, onChange });
+    });
+    fields.replaceChildren(...made);
+    showSources();
+    shown = JSON.stringify(need());
+  }
+
+  /** The duty of the current design, and a table of one's own in place of the catalogue. */
+  async function showSources() {
+    const table = opening.ownTable();
+    const moves = "motion" in (await designs.currentCase());
+    const own = element("input", {
+      type: "checkbox",
+      checked: withTable,
+      onchange: () => {
+        withTable = own.checked;
+      },
+    });
+    const duty = element("input", {
+      type: "checkbox",
+      checked: need().duty,
+      onchange: () => write({ ...need(), duty: duty.checked }),
+    });
+    sources.replaceChildren(
+      moves ? element("label", {}, duty, ` ${text("choose.duty")}`) : "",
+      table ? element("label", {}, own, ` ${text("choose.table", { file: table.file.name })}`) : "",
+    );
+  }
+
+  /** @param {Need} found @param {string} [path] */
+  function write(found, path) {
+    shown = path ? JSON.stringify(found) : "";
+    designs.setNeed(found, path);
+  }
+
+  /** @param {import("../fields.js").Change} change */
+  function onChange({ path = "", text: typed = "", unit }) {
+    const { texts, units, ...others } = need();
+    if (unit !== undefined) write({ ...others, texts, units: { ...units, [path]: unit } });
+    else write({ ...others, units, texts: { ...texts, [path.slice("need.".length)]: typed } }, path);
+  }
+
+  /** Take load, length, life and oil from the design on the page. */
+  async function takeDesign() {
+    const found = await designs.currentCase();
+    const entries = Object.entries(FIELDS).flatMap(([name, path]) => {
+      const value = path && !["nut", "preload"].includes(name) ? valueAt(found, path) : undefined;
+      return typeof value === "string" || typeof value === "number" ? [[name, String(value)]] : [];
+    });
+    write({ ...need(), texts: { ...need().texts, ...Object.fromEntries(entries) }, duty: "motion" in found });
+  }
+
+  async function ask() {
+    request.abort();
+    request = new AbortController();
+    const { signal } = request;
+    const ticket = crypto.getRandomValues(new Uint32Array(2)).join("-");
+    const table = withTable ? opening.ownTable()?.file : undefined;
+    say(signal, ticket);
+    try {
+      const body = { need: await tables(need()), ticket, ...(table && { table }) };
+      const found = await answerTo(body, signal);
+      place([]);
+      candidates(result, found);
+      progress.replaceChildren(element("p", { role: "status" }, counts(found)));
+    } catch (error) {
+      if (signal.aborted) {
+        progress.replaceChildren(element("p", {}, text("card.cancelled")));
+        return;
+      }
+      const lines = error instanceof Problem ? error.faults : [];
+      place(lines);
+      progress.replaceChildren(
+        element("p", { class: "warning" }, lines.length ? text("card.not_computed") : linesOf(error).join("; ")),
+      );
+    } finally {
+      request.abort(); // nobody asks for the progress any more
+    }
+  }
+
+  /**
+   * Say how far the work is, with a button that cancels it.
+   *
+   * @param {AbortSignal} signal
+   * @param {string} ticket
+   */
+  function say(signal, ticket) {
+    const bar = element("progress", { "aria-label": text("card.computing") });
+    const words = element("span", {}, text("card.computing"));
+    const cancel = element("button", { type: "button", onclick: () => request.abort() }, text("card.cancel"));
+    progress.replaceChildren(bar, words, cancel);
+    const timer = setInterval(async () => {
+      const { finished, total } = await get(`progress/${ticket}`).catch(() => ({}));
+      if (!total || signal.aborted) return;
+      bar.max = total;
+      bar.value = finished;
+      words.textContent = text("choose.progress", { finished, total });
+    }, EVERY);
+    signal.addEventListener("abort", () => clearInterval(timer));
+  }
+
+  /**
+   * Show faults beside the fields that they name, and the others above the list.
+   *
+   * @param {FaultLine[]} lines
+   */
+  function place(lines) {
+    for (const wrong of fields.querySelectorAll(".field")) {
+      wrong.classList.remove("wrong");
+      within(wrong, ".fault").textContent = "";
+      wrong.querySelector("[aria-invalid]")?.removeAttribute("aria-invalid");
+    }
+    const others = lines.filter((fault) => {
+      const [name] =
+        Object.entries(FIELDS).find(([short, path]) => [path, `need.${short}`, short].includes(fault.where)) ?? [];
+      const field = name && fields.querySelector(`[data-path="need.${name}"]`);
+      if (!field) return true;
+      field.classList.add("wrong");
+      within(field, ".fault").textContent = inWords(fault);
+      within(field, "input, select").setAttribute("aria-invalid", "true");
+      return false;
+    });
+    faults.replaceChildren(...others.map((fault) => element("p", {}, `${labelOf(fault.where)}: ${inWords(fault)}`)));
+    fields.querySelector(".wrong")?.scrollIntoView({ block: "nearest" });
+  }
+
+  const takeNeed = () => {
+    const found = opening.openedNeed();
+    if (found) write(readNeed(found.tables));
+  };
+  opening.follow(takeNeed);
+  opening.follow(showSources);
+  const ready = get("need-schema").then((found) => {
+    known = { ...found.$defs.Need.properties, ...OF_NEEDS };
+    if (opening.openedNeed() && !Object.keys(need().texts).length) takeNeed();
+    else if (!Object.keys(need().texts).length) takeDesign();
+    else build();
+  });
+  return {
+    follow: () => {
+      ready.then(() => {
+        if (JSON.stringify(need()) !== shown) build();
+      });
+    },
+    stop: () => request.abort(),
+  };
+}
+
+/**
+ * The answer to a need; where it takes longer than one request may, the next one goes on with it.
+ *
+ * @param {object} body
+ * @param {AbortSignal} signal
+ * @returns {Promise<Select>}
+ */
+async function answerTo(body, signal) {
+  for (let left = MOST_REQUESTS; ; left -= 1) {
+    try {
+      return await sendJson("select", body, signal);
+    } catch (error) {
+      if (!(error instanceof Problem && error.isOutOfTime && left > 1)) throw error;
+    }
+  }
+}
+
+/** @param {Select} found */
+function counts({ candidates: all, holding }) {
+  return text("choose.counts", { all: all.length, holding });
+}
+
+/**
+ * The tables of a need, as ``ballscrew select`` reads them.
+ *
+ * @param {Need} need
+ */
+async function tables({ texts, rest, duty }) {
+  const given = Object.entries(texts).filter(([name, value]) => value && !(duty && OF_POINT.includes(name)));
+  const values = given.map(([name, value]) => [name, LISTS.includes(name) ? value.split(/;|,\s+/) : value]);
+  const found = { ...rest, need: { .../** @type {object} */ (rest.need), ...Object.fromEntries(values) } };
+  if (!duty) return found;
+  const current = await designs.currentCase();
+  const moving = OF_DUTY.filter((name) => name in current).map((name) => [name, current[name]]);
+  return { ...found, ...Object.fromEntries(moving) };
+}
+
+/**
+ * A need that was opened: what fields show becomes their texts, the rest stays as it is.
+ *
+ * @param {Record<string, any>} opened
+ * @returns {Need}
+ */
+function readNeed(opened) {
+  const rest = structuredClone(opened);
+  /** @type {Record<string, string>} */
+  const texts = {};
+  for (const [name, path] of Object.entries(FIELDS)) {
+    for (const place of [path, `need.${name}`, name].filter(Boolean)) {
+      const [section, field] = place.split(".");
+      const value = valueAt(rest, place);
+      const isShort =
+        field === undefined
+          ? !["string", "number"].includes(typeof value)
+          : typeof value === "object" && !Array.isArray(value);
+      if (value === undefined || isShort || (Array.isArray(value) && !LISTS.includes(name))) continue;
+      texts[name] = Array.isArray(value) ? value.join("; ") : String(value);
+      if (field === undefined) delete rest[section];
+      else delete rest[section][field];
+      if (field !== undefined && !Object.keys(rest[section]).length) delete rest[section];
+    }
+  }
+  // an operation may state the feed
+  if (typeof rest.operation?.feed === "string") {
+    texts.feed = rest.operation.feed;
+    delete rest.operation.feed;
+    if (!Object.keys(rest.operation).length) delete rest.operation;
+  }
+  return { texts, units: {}, rest, duty: false };
+}

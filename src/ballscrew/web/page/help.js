@@ -1,0 +1,104 @@
+// Help for the field that has the focus: what its annotation says, and the page of the theory.
+
+import { element } from "./dom.js";
+import { plain } from "./faults.js";
+import { helpIn, labelIn } from "./fields.js";
+import { fieldOf } from "./schema.js";
+import { symbol } from "./symbols.js";
+import { languageOf, sentence, text, textOr } from "./texts.js";
+
+/** Pages of the theory, by field, or else by section. @type {Record<string, string>} */
+const PAGES = {
+  operation: "efficiency",
+  screw: "geometry",
+  "screw.screw_conformity": "hertz",
+  "screw.nut_conformity": "hertz",
+  "screw.ball_material": "hertz",
+  "screw.screw_material": "hertz",
+  "screw.nut_material": "hertz",
+  "screw.ball_roughness": "film",
+  "screw.screw_roughness": "film",
+  "screw.nut_roughness": "film",
+  "screw.dynamic_load_rating": "life",
+  "screw.static_load_rating": "life",
+  nut: "nut",
+  lubricant: "film",
+  model: "balance",
+  "model.frame": "geometry",
+  "model.hertz": "hertz",
+  "model.film": "film",
+  "model.film_parameter": "film",
+  "model.inlet": "film",
+  "model.friction": "friction",
+  "model.full_film": "friction",
+  "model.rolling": "rolling",
+  "model.elastic_resistance": "rolling",
+  "model.slip": "slip",
+  "model.pure_rolling_offset": "slip",
+  "model.ideal_torque": "efficiency",
+  losses: "nut",
+  installation: "life",
+  limits: "life",
+  bodies: "nut",
+  deviations: "nut",
+};
+
+/** Remedies of which the form has no need. */
+const NEEDLESS = /^(in kelvin|in .* in Python|lengths are positive|give a whole number.*)$/;
+
+/** The address of the documentation, where the package has one. @type {string | null} */
+let documentation = null;
+
+/** @param {Vocabulary} vocabulary */
+export function setVocabulary(vocabulary) {
+  documentation = vocabulary.documentation;
+}
+
+const place = element("aside", { id: "help", "aria-label": text("help.label") });
+
+/**
+ * The place of the help, at the lower end of the form.
+ *
+ * @param {HTMLElement} form
+ */
+export function placeIn(form) {
+  if (!place.parentElement) form.addEventListener("focusin", ({ target }) => follow(target));
+  if (!place.childElementCount) place.hidden = true;
+  return place;
+}
+
+/** @param {EventTarget | null} target */
+function follow(target) {
+  const field = target instanceof Element ? target.closest("[data-path]") : null;
+  const path = field instanceof HTMLElement ? field.dataset.path : undefined;
+  if (path) show(path);
+  else if (!(target instanceof Node && place.contains(target))) place.hidden = true;
+}
+
+/**
+ * Show the help of a field.
+ *
+ * @param {string} path
+ */
+function show(path) {
+  const { description = "", "x-symbol": tex, "x-hint": hint } = fieldOf(path) ?? {};
+  const help = helpIn(path, description);
+  const advice = NEEDLESS.test(hint ?? "") ? "" : plain(hint ?? "");
+  place.hidden = false;
+  place.replaceChildren(
+    element("p", {}, element("strong", {}, labelIn(path)), symbol(tex), help ? `: ${help}` : ""),
+    advice ? element("p", languageOf(advice), sentence(advice)) : "",
+    element("p", {}, theoryOf(path)),
+  );
+}
+
+/** The page of the theory of a field: a link where the documentation has an address. @param {string} path */
+function theoryOf(path) {
+  const [section, field] = path.split(".");
+  const page = PAGES[`${section}.${field}`] ?? PAGES[section];
+  if (!page) return "";
+  const words = text("help.theory", { page: textOr(`help.page.${page}`, page) });
+  if (!documentation) return words;
+  const address = `${documentation.replace(/\/$/, "")}/theory/${page}.html`;
+  return element("a", { href: address, target: "_blank", rel: "noreferrer" }, words);
+}

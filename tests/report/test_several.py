@@ -1,0 +1,63 @@
+"""A report of several designs: side by side what each has by itself, and no page nearly blank."""
+
+import io
+
+import pypdf
+import pytest
+from tests.report.test_report import _EXPONENT, _NO_NUMBERS, LEAST_FILLED, SAMPLES, case_of, least_filled, text_of
+
+from ballscrew.friction.result import FrictionResult
+from ballscrew.quantities import quantities_of
+from ballscrew.report import several
+from ballscrew.report.blocks import as_data
+from ballscrew.report.numbers import banded
+from ballscrew.report.pdf import pdf_bytes
+from ballscrew.studies import band
+from ballscrew.studies.check import checked
+from ballscrew.studies.run import run
+
+NAMES = ("catalogue_screw", "feed_drive", "rig")
+_TORQUE = quantities_of(FrictionResult)["screw_torque"]
+
+
+@pytest.fixture(scope="module")
+def content():
+    return several.content([case_of(name) for name in NAMES], samples=SAMPLES)
+
+
+def table_of(content, title):
+    (section,) = (section for section in content.sections if section.title == title)
+    return next(block for block in section.blocks if hasattr(block, "rows"))
+
+
+def test_each_column_is_what_the_design_has_by_itself(content):
+    assert [section.title for section in content.sections][:3] == ["Answer", "Checks", "Side by side"]
+    torque = next(row for row in table_of(content, "Side by side").rows if row[0] == "friction torque on the screw")
+    verdicts = table_of(content, "Checks").rows[-1]
+    first = float(run(case_of(NAMES[0])).friction.screw_torque)
+    for place, name in enumerate(NAMES, start=1):
+        case = case_of(name)
+        value = float(run(case).friction.screw_torque)
+        both = band.band(case, band.Options(samples=SAMPLES)).band["screw_torque"].both
+        said = banded(value, *both, _TORQUE)
+        change = "" if place == 1 else f", {value / first - 1:+.0%}"
+        assert torque[place] == f"{said.value} ({said.interval}){change}"
+        assert verdicts[place].lower() == checked("", case).verdict.lower()
+    buckling = next(row for row in table_of(content, "Checks").rows if row[0] == "buckling")
+    assert buckling[1].startswith("7.5%: 7 kN against ")
+    assert buckling[2] == "not judged: give installation"
+
+
+def test_its_pages_are_few_and_none_is_nearly_blank(content):
+    reader = pypdf.PdfReader(io.BytesIO(pdf_bytes(content)))
+    assert 3 <= len(reader.pages) <= content.pages == 8
+    assert least_filled(reader) >= LEAST_FILLED
+    words = text_of(reader)
+    assert not _NO_NUMBERS.search(words)
+    assert not _EXPONENT.findall(words)
+    assert "designs A, B, C" in words
+
+
+def test_equal_designs_give_equal_reports(content):
+    again = several.content([case_of(name) for name in NAMES], samples=SAMPLES)
+    assert as_data(again) == as_data(content)

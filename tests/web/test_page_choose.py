@@ -1,0 +1,80 @@
+"""The card of choosing, walked through whole: a need, the ranked list, filters, the picture, and a design of it."""
+
+import json
+import urllib.parse
+
+from .test_page_access import violations
+
+NEED = {
+    "axial_load": "2.4 kN", "feed": "15 m/min", "unsupported_length": "1 m", "ends": "fixed-supported",
+    "running_time": "20000 h", "preload": "2 %", "rows": "rexroth 32x",
+}  # fmt: skip
+OWN = "name,d0 [mm],lead [mm],ball [mm],turns,nut\nMINE,40,20,6,4,single\n"
+
+
+def ask(here):
+    here.page.locator("#choose-start").click()
+    here.page.wait_for_selector("#choose [role=status]")
+
+
+def test_choose_a_screw(visit, server):
+    here = visit(scheme="dark")
+    here.expected = ("status of 422", "status of 408")
+    rest = {"need": {"rows": NEED["rows"]}}
+    texts = {name: text for name, text in NEED.items() if name not in ("rows", "axial_load")}
+    need = urllib.parse.quote(json.dumps({"texts": {**texts, "axial_load": "2 furlong"}, "units": {}, "rest": rest}))
+    here.open(f"#band=0&cards=choose&need={need}")
+    here.page.wait_for_selector("#choose-start")
+    here.page.locator("#choose-start").click()
+    here.page.wait_for_selector("[data-path='need.axial_load'] .fault:not(:empty)")
+    assert "furlong" in here.text("[data-path='need.axial_load'] .fault")
+    here.page.locator("#f-need-axial_load").fill("2.4 kN")
+    out_of_time = {"type": "about:blank", "title": "Timeout", "status": 408, "lines": ["late"], "faults": []}
+    late = lambda route: route.fulfill(status=408, json=out_of_time)  # noqa: E731  (the next request goes on)
+    here.page.route("**/api/v1/select", late, times=1)
+    ask(here)
+    answer = server.post("select", {"need": {"need": NEED}}).json()
+    rows = here.page.locator("#choose-result tbody tr")
+    assert rows.count() == min(25, len(answer["candidates"]))
+    first = answer["candidates"][0]
+    assert first["label"] in rows.nth(0).inner_text()
+    assert float(rows.nth(0).locator("data >> nth=0").get_attribute("value")) == first["objectives"]["loss"]
+    failing = next(one for one in answer["candidates"] if one["fails"])
+    rank = f"#choose-result tr[data-rank='{failing['rank']}']"
+    assert "life in hours" in here.text(rank)
+    assert "times the limit" in here.text(rank)
+    here.page.locator("#choose-holding").check()
+    assert rows.count() == min(25, answer["holding"])
+    here.page.locator("#choose-words").fill("no such screw")
+    assert rows.count() == 0
+    here.page.locator("#choose-words").fill("")
+    here.page.locator("#choose-y").select_option("life")
+    here.page.locator("#choose-chart").scroll_into_view_if_needed()
+    here.page.wait_for_selector("#choose-chart .scatterlayer")
+    assert here.page.locator("#choose-chart .ytitle").text_content() == "life (h)"
+
+    assert violations(here) == []
+
+    here.page.locator("#choose-result tbody button >> nth=0").click()
+    here.page.wait_for_selector("#choose-result >> text=is design A")
+    assert here.settle().page.locator("#start").input_value() == first["name"]
+    torque = here.numbers()["results"]["screw_torque"]
+    assert torque == first["results"]["screw_torque"]
+    assert first["label"] in here.text("#designs [aria-pressed=true]")
+    here.page.locator("#undo").click()
+    here.page.wait_for_function("(name) => document.querySelector('#start').value !== name", arg=first["name"])
+    here.settle()
+
+    file = {"name": "own.csv", "mimeType": "text/csv", "buffer": OWN.encode()}
+    here.page.locator("#open-file").set_input_files(file)
+    here.page.wait_for_selector("#choose label >> text=own.csv")
+    # words of rows would leave the only one out
+    here.page.evaluate("location.hash = location.hash.replace(/rexroth[^%]*32x/, '')")
+    here.settle()
+    ask(here)
+    assert "MINE" in rows.nth(0).inner_text()
+    here.page.route("**/api/v1/select", lambda route: None)  # one that takes long
+    here.page.locator("#choose-start").click()
+    here.page.locator("#choose .card-line button").click()
+    here.page.wait_for_selector("#choose .card-line >> text=Cancelled")
+    here.page.unroute("**/api/v1/select")
