@@ -8,9 +8,13 @@ DIAMOND = """(id) => {
   const { xaxis, yaxis } = plot._fullLayout, { x, y } = plot.data.find((one) => one.marker?.symbol === "diamond");
   return [left + xaxis._offset + xaxis.d2p(x[0]), top + yaxis._offset + yaxis.d2p(y[0])];
 }"""
-#: The chart is that of this load.
-DRAWN = """(load) => document.querySelector("#torque-chart svg.main-svg")
-  && document.querySelector("#torque-chart .plot").getAttribute("aria-label").includes(load)"""
+#: The chart is that of this load, and its diamond is drawn at the torque that the legend says.
+DRAWN = """(load) => {
+  const place = document.querySelector("#torque-chart"), plot = place.querySelector(".plot");
+  const point = plot?._fullLayout?.xaxis && plot.data.find((one) => one.marker?.symbol === "diamond");
+  const torque = Number(place.querySelector("ul.legend data")?.value);
+  return plot?.ariaLabel.includes(load) && point && Math.abs(point.y[0] - torque) < 1e-9;
+}"""
 
 
 def value(here, field):
