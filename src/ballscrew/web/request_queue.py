@@ -175,7 +175,8 @@ def _busy(waiting: int) -> Refused:
 
 
 def _out_of_time(seconds: float) -> Refused:
-    return Refused(408, Fault("server", f"stopped after {seconds:g} s", "", "request fewer points or samples"))
+    remedy = "request fewer points or samples, or start the server with a longer --time-limit"
+    return Refused(408, Fault("server", f"stopped after {seconds:g} s", "", remedy))
 
 
 def _closing() -> Refused:
