@@ -7,7 +7,7 @@ from pathlib import Path
 
 import httpx
 
-from ballscrew.web import bodies, connections, limits, problems, request_queue
+from ballscrew.web import bodies, connections, limits, log_bodies, problems, request_queue
 from ballscrew.web.server import application
 
 #: The case of the examples, as Python source.
@@ -91,6 +91,8 @@ def limits_table() -> str:
     rows = {
         "bytes of a body": bodies.MOST_BYTES,
         "bytes of the head of a request": connections.LONGEST_HEAD,
+        "bytes of a body with a log": log_bodies.MOST_LOG_BYTES,
+        "columns of a log": limits.MOST_COLUMNS,
         "values in a body": bodies.MOST_VALUES,
         "characters of a text": bodies.LONGEST_TEXT,
         "depth of nested tables": bodies.DEEPEST,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import concurrent.futures
 import contextlib
 import http.client
@@ -20,7 +21,7 @@ from benchmarks.hostile.server import MOST_SECONDS, started, wrong_answer
 from benchmarks.hostile.tally import Outcome, Tally
 from benchmarks.serve import CASE, NUT, requests
 
-from web.test_hostile import BODIES, HEAD, SWEEPS, VALUES
+from web.test_hostile import BODIES, HEAD, LOGS, SWEEPS, VALUES
 
 COUNT, SECONDS = 10_000, 200.0
 TRIED = (
@@ -38,7 +39,9 @@ WRONG = (
 
 CLIENTS, SLOW = 8, 20
 USUAL = 20
-ADDRESSES = ("run", "sweep", "compare", "band", "toml", "drawing", "drawing/template")
+#: Addresses that take logs, and the field of each.
+WITH_FILES = {"log": "log", "fit": "log", "service": "worn"}
+ADDRESSES = ("run", "sweep", "compare", "band", "toml", "drawing", "drawing/template", *WITH_FILES, "hand-over")
 PATHS = (
     "/", "/api", "/api/v1", "/api/v1/", "/api/v1/run", "/api/v1/run/", "/api/v1/catalogue", "/api/v1/catalogue/%2e%2e",
     "/api/v1/schema",
@@ -48,6 +51,10 @@ PATHS = (
     "/api/v1/validate?set=none",
     "/api/v1/openapi.json", "/docs", "/favicon.ico", "/api/v1/report?kind=exe", "/%F0%9F%98%80", "/" + "x" * 3000,
     "/?" + "a=1&" * 900,
+)  # fmt: skip
+GOOD_LOG = (
+    b"speed [rpm],axial load [N],torque [N m]\n"
+    + b"".join(b"%d,%d,%.3f\n" % (50 * n, 500 * f, 0.42 * f) for n in (1, 2, 4) for f in (2, 4, 6))
 )  # fmt: skip
 METHODS = ("GET", "HEAD", "POST", "PUT", "DELETE", "PATCH", "OPTIONS", "TRACE", "CONNECT", "BREW", "get")
 HEADERS = (
@@ -160,6 +167,13 @@ def bodies(rng: Random) -> tuple[str, bytes]:
         case = mutated_tables(case, rng)
     address = chosen(rng, ADDRESSES)
     more: dict[str, Any] = {"samples": 64} if address == "band" else {}
+    if address in WITH_FILES:
+        content = LOGS[chosen(rng, list(LOGS))][0]
+        if rng.random() < 0.5:
+            content = OF_TEXT_BYTES[chosen(rng, list(OF_TEXT_BYTES))](GOOD_LOG, rng)
+        more = {WITH_FILES[address]: {"name": "log.csv", "base64": base64.b64encode(content).decode()}}
+    if address == "hand-over":
+        more = {"to": chosen(rng, ("c", "linuxcnc", "urdf", "nothing")), "options": {"load": "1 kN"}}
     if rng.random() < 0.1:
         more = mutated_tables({"more": {"samples": 64, "level": 0.9, "vary": {"axial_load": "1:2:3 kN"}}}, rng)
     body = json.dumps({"case": case, **more}).encode()

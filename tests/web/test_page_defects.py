@@ -1,5 +1,6 @@
 """Defects that the page once had, and what came in their place, on one page that stays open: its address leads on."""
 
+import datetime
 import io
 import json
 import re
@@ -252,6 +253,11 @@ def test_downloads_keep_the_name_of_the_catalogue(go):
     with here.page.expect_download() as chart:
         here.page.locator("#torque-chart button[aria-label^=CSV]").click()
     assert chart.value.suggested_filename == f"ballscrew-{DOUBLE}-torque_over_speed.csv"
+    here.page.fill("#project", "Mill 7, z axis")
+    here.page.check("#dated")
+    report = here.download("#downloads button:text-is('HTML')").decode()
+    assert "Mill 7, z axis" in report
+    assert f"Date: {datetime.date.today():%Y-}" in report
 
 
 def test_print_leaves_no_page_blank(go):

@@ -159,6 +159,16 @@ def what_stays_in_the_browser(here):
     assert "storage of this browser is full" in again.text("#not-kept")
     here.page.wait_for_selector("#forget >> text=(2)")
     again.page.close()
+    strict = Visit(here.page.context.new_page(), here.address)
+    strict.page.set_default_timeout(180_000)
+    strict.page.add_init_script(
+        "for (const name of ['localStorage', 'sessionStorage']) Object.defineProperty(window, name,"
+        " { get() { throw new DOMException('', 'SecurityError'); } });"
+        "navigator.locks.request = () => Promise.reject(new DOMException('', 'SecurityError'));"
+    )
+    strict.open("")
+    assert "does not let the page keep anything" in strict.text("#not-kept")
+    strict.page.close()
     for _ in range(2):  # the second time is sure
         here.page.locator("#forget").click()
     assert here.page.evaluate("Object.keys(localStorage).length") == 0

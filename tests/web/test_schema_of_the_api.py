@@ -14,7 +14,7 @@ from schemathesis.specs.openapi.definitions import OPENAPI_31
 
 from ballscrew.case_schema.schema import json_schema
 from ballscrew.studies import validation
-from ballscrew.web import api, problems
+from ballscrew.web import api, memory, problems
 from ballscrew.web.request_queue import RequestQueue
 from ballscrew.web.server import (
     application,
@@ -46,6 +46,15 @@ schema = described("examples", "fuzzing")
 #: All words of an address one by one. Those of ``POST``, a thousand fields of a case, are in the file of the long run.
 one_by_one = described("coverage")
 OPERATIONS = [(path, method) for path, methods in schema.raw_schema["paths"].items() for method in methods]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def loaded():
+    """As the server does when it starts: after each heavy answer it collects what is not loaded by then.
+
+    Here that is what all tests of the worker before have left, too: a tenth of a second a time.
+    """
+    memory.keep_loaded()
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -4,7 +4,7 @@ from importlib import resources
 
 import pytest
 
-from ballscrew.web.starts import starts
+from ballscrew.web.starts import logs, starts
 from support.commands import ROOT
 
 
@@ -14,3 +14,11 @@ def test_a_start_is_the_example_of_its_name(name):
     shipped = resources.files("ballscrew").joinpath(f"data/starts/{file}").read_bytes()
     assert shipped == (ROOT / "examples" / file).read_bytes()
     assert {"axis", "motion"} <= set(starts()[name]["case"])
+
+
+def test_logs_to_try_are_examples():
+    folder = resources.files("ballscrew").joinpath("data/logs")
+    shipped = {path.name: path.read_bytes() for path in folder.iterdir()}
+    assert shipped == {name: (ROOT / "examples" / name).read_bytes() for name in shipped}
+    given = {one["name"] for found in logs().values() for one in found["logs"]}
+    assert {*given, *(found["file"] for found in logs().values())} == set(shipped)

@@ -22,6 +22,12 @@ declare global {
   type FaultLine = Schemas["FaultLine"];
   type CatalogueRow = Schemas["Row"];
   type Opened = Schemas["Opened"];
+  type LogAnswer = Schemas["Log"];
+  type FitAnswer = Schemas["Fit"];
+  type ServiceAnswer = Schemas["Service"];
+  type HandOverAnswer = Schemas["HandOver"];
+  type Targets = Schemas["Targets"];
+  type Examples = Schemas["Examples"];
   type Select = Schemas["Select"];
 
   var Plotly: {

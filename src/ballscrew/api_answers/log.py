@@ -38,6 +38,16 @@ class Candidate(Closed):
     value: Number = Field(description="in the case, SI")
 
 
+class ColumnFault(Closed):
+    """A fault of the columns of a log."""
+
+    where: str
+    problem: str
+    given: str
+    remedy: str = Field(description="on the command line")
+    column: str = Field(description="that it is about; may be empty")
+
+
 class Log(Closed):
     """The columns of a log, and what may be fitted to it."""
 
@@ -49,7 +59,7 @@ class Log(Closed):
     known: list[KnownColumn]
     missing: list[str] = Field(description="columns that are needed and not there")
     free: list[Candidate] = Field(description="numbers that are usually uncertain")
-    faults: list[str] = Field(description="for which the log cannot be read as it is")
+    faults: list[ColumnFault] = Field(description="for which the log cannot be read as it is")
 
 
 class Estimate(Closed):
@@ -175,6 +185,28 @@ class Service(Closed):
     words: ServiceWords
     display: ServiceDisplay
     picture: Tables
+
+
+class ExampleLog(Closed):
+    """A log to try."""
+
+    name: str
+    text: str
+
+
+class Example(Closed):
+    """A case, and logs that belong to it."""
+
+    file: str
+    case: Tables
+    logs: list[ExampleLog]
+
+
+class Examples(Closed):
+    """Logs to try; no screw was measured for them."""
+
+    fit: Example
+    service: Example
 
 
 class Choice(Closed):

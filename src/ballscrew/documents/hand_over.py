@@ -58,4 +58,4 @@ def _written(option: Option) -> str:
         return "yes" if value else "no"
     if isinstance(value, float) and not math.isfinite(value):
         return ""
-    return str(value) if option.quantity is None else units.written(value, option.quantity)
+    return str(value) if option.quantity is None else units.shown(value, option.quantity)

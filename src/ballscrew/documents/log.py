@@ -44,5 +44,9 @@ def document(found: Preview, candidates: Sequence[Candidate], *, moving: bool) -
             }
             for one in candidates
         ],
-        "faults": [str(fault) for fault in found.faults],
+        "faults": [
+            {"where": fault.field, "problem": fault.plain.problem, "given": fault.plain.given,
+             "remedy": fault.plain.remedy, "column": fault.column}
+            for fault in found.faults
+        ],
     }  # fmt: skip

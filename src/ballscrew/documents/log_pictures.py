@@ -19,7 +19,7 @@ Numbers = NDArray[np.float64]
 #: Points of a log in a document, points of a curve, and digits of each.
 MOST_POINTS, CURVE_POINTS, DIGITS = 1500, 80, 5
 #: Kinds of rows of a fit.
-KINDS = ("fitted", "held out", "outlier")
+KINDS = ("fitted", "held_out", "outlier")
 
 
 def some(places: NDArray[np.int64], most: int) -> NDArray[np.int64]:
@@ -43,6 +43,7 @@ def of_fit(model: CalibratedModel) -> dict[str, Any]:
     columns = {
         "measured": measured,
         "predicted": predicted,
+        "residual": predicted - measured,
         "screw_speed": np.abs(rows.log.screw_speed),
         "axial_load": np.abs(rows.log.axial_load),
         "temperature": rows.log.temperature,

@@ -24,7 +24,7 @@ from ballscrew.studies import service as services
 from ballscrew.studies.fit_log import steady_log
 from ballscrew.studies.moving_log import is_moving
 from ballscrew.torque_logs.preview import preview
-from ballscrew.web import limits, log_documents, openapi, sent_files
+from ballscrew.web import limits, log_documents, openapi, sent_files, starts
 from ballscrew.web.bodies import case_of, read
 from ballscrew.web.endpoint_parts import as_bytes, as_json, heavy, sent
 from ballscrew.web.log_bodies import FitBody, HandOverBody, LogBody, ServiceBody, assignments
@@ -134,3 +134,14 @@ async def targets() -> Response:
 @functools.cache
 def _targets() -> bytes:
     return as_bytes(hand_over_documents.targets())
+
+
+@router.get("/examples", response_model=log_answers.Examples, responses=openapi.problems_of())
+async def examples() -> Response:
+    """Logs to try, each with its case: those of the folder ``examples`` of the repository."""
+    return sent(_examples())
+
+
+@functools.cache
+def _examples() -> bytes:
+    return as_bytes(starts.logs())

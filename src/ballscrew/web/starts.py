@@ -37,6 +37,26 @@ def starts() -> dict[str, Any]:
     return found
 
 
+#: Cases to which logs belong, by the question: all of them are examples of the repository.
+_LOGS: Mapping[str, tuple[str, ...]] = {
+    "fit": ("rig.toml", "rig_log.csv"), "service": ("service.toml", "nut_new.csv", "nut_worn.csv"),
+}  # fmt: skip
+
+
+def logs() -> dict[str, Any]:
+    """Logs to try, which are synthetic, each with its case."""
+    folder = resources.files("ballscrew").joinpath("data/logs")
+    texts = {name: folder.joinpath(name).read_text(encoding="utf-8") for names in _LOGS.values() for name in names}
+    return {
+        question: {
+            "file": case,
+            "case": tomllib.loads(texts[case]),
+            "logs": [{"name": name, "text": texts[name]} for name in names],
+        }
+        for question, (case, *names) in _LOGS.items()
+    }
+
+
 def _paper() -> dict[str, Any]:
     """The paper's screw, oil and operating point as the tables of a case."""
     return {

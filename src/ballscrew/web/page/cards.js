@@ -25,6 +25,9 @@ const SCRIPTS = {
   duty: () => import("./cards/duty.js"),
   "warm-up": () => import("./cards/warm_up.js"),
   choose: () => import("./cards/choose.js"),
+  calibration: () => import("./cards/calibrate.js"),
+  service: () => import("./cards/service.js"),
+  "hand-over": () => import("./cards/hand_over.js"),
   files: () => import("./cards/files.js"),
 };
 

@@ -54,7 +54,7 @@ async function saveAs(kind, { whole, answer, alongSpeed }) {
   try {
     if (address) {
       say(text("download.making", { kind }));
-      save(`.${kind.toLowerCase()}`, await (await send(address, kind === "TOML" ? withAside(whole) : whole)).blob());
+      save(`.${kind.toLowerCase()}`, await (await send(address, bodyOf(address, whole))).blob());
     } else if (kind === "JSON") {
       const { words, display, ...document } = answer;
       save(".json", new Blob([JSON.stringify(document, null, 2)], { type: "application/json" }));
@@ -63,6 +63,20 @@ async function saveAs(kind, { whole, answer, alongSpeed }) {
   } catch (error) {
     say(linesOf(error).join("; "));
   }
+}
+
+/**
+ * What makes a file: of a report also the name of a project and a date, where they are wished for.
+ *
+ * @param {string} address
+ * @param {{ case?: object }} whole
+ */
+function bodyOf(address, whole) {
+  if (address === "toml") return withAside(whole);
+  if (!address.startsWith("report")) return whole;
+  const [project, dated] = ["project", "dated"].map((id) => /** @type {HTMLInputElement} */ (byId(id)));
+  const day = new Date().toLocaleDateString("sv-SE"); // as ISO 8601 writes it
+  return { ...whole, ...(project.value ? { project: project.value } : {}), ...(dated.checked ? { date: day } : {}) };
 }
 
 /**

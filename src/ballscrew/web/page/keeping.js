@@ -54,10 +54,11 @@ export function whyNot() {
 function claim(wanted) {
   if (!wanted || !navigator.locks) return Promise.resolve(false); // without HTTPS each tab begins an entry of its own
   return new Promise((resolve) => {
-    navigator.locks.request(PREFIX + wanted, { ifAvailable: true }, (lock) => {
+    const held = navigator.locks.request(PREFIX + wanted, { ifAvailable: true }, (lock) => {
       resolve(lock !== null);
       return lock ? new Promise(() => {}) : undefined;
     });
+    held.catch(() => resolve(false)); // where storage is forbidden, locks may be, too
   });
 }
 

@@ -21,6 +21,8 @@ const SYMBOLS = {
   "W/(m K)": "W/(m·K)",
   "J/(kg K)": "J/(kg·K)",
   "1/m^2": "1/m²",
+  "kg cm^2": "kg·cm²",
+  "kg m^2": "kg·m²",
   "mm rpm": "mm·rpm",
   "m rad/s": "m·rad/s",
 };

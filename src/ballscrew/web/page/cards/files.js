@@ -33,7 +33,7 @@ export function setUp(holder) {
     element("p", { class: "small" }, text("files.about")),
     element("button", { type: "button", onclick: () => byId("open").click() }, text("open.button")),
     list,
-    element("p", {}, ...projects),
+    element("p", { class: "actions" }, ...projects),
     said,
     rows,
     element("h3", {}, text("keep.heading")),

@@ -2,7 +2,7 @@
 
 import { element } from "../dom.js";
 import { inWords, labelOf } from "../faults.js";
-import { ask, linesOf, Problem, sendJson } from "../server.js";
+import { ask, linesOf, Problem } from "../server.js";
 import { text } from "../texts.js";
 
 /** Milliseconds after the last key, and until it is said that something is computed. */
@@ -15,11 +15,12 @@ const SECOND = 1000;
  * those of no field of the card.
  *
  * @typedef {object} Parts
- * @property {"duty" | "warm-up"} address
+ * @property {"duty" | "warm-up" | "fit" | "service" | "hand-over"} address
  * @property {HTMLElement} result
  * @property {(answer: any) => void} show
  * @property {(faults: FaultLine[]) => FaultLine[]} place
  * @property {(path: string) => void} jump goes to a field of the form
+ * @property {(address: any, body: object, signal: AbortSignal) => Promise<any>} [send] of a body that is too large to keep
  */
 
 /**
@@ -27,7 +28,7 @@ const SECOND = 1000;
  *
  * @param {Parts} parts
  */
-export function question({ address, result, show, place, jump }) {
+export function question({ address, result, show, place, jump, send = ask }) {
   const line = element("div", { class: "card-line" });
   let request = new AbortController();
   /** @type {ReturnType<typeof setTimeout> | undefined} */
@@ -117,8 +118,7 @@ export function question({ address, result, show, place, jump }) {
     signal.addEventListener("abort", () => clearTimeout(patience));
     timer = setTimeout(async () => {
       try {
-        // answers about files are not kept: their bodies are large
-        const found = await ("trace" in body ? sendJson : ask)(address, body, signal);
+        const found = await send(address, body, signal);
         if (signal.aborted) return;
         stop();
         place([]);
@@ -137,5 +137,17 @@ export function question({ address, result, show, place, jump }) {
     }, rest);
   }
 
-  return { line, follow, stop };
+  /**
+   * Say whether the answer is of this body, where it is asked for by a button only.
+   *
+   * @param {object} body
+   */
+  function compare(body) {
+    if (!answered || asked) return;
+    const isEarlier = JSON.stringify(body) !== answered;
+    result.classList.toggle("earlier", isEarlier);
+    line.replaceChildren(...(isEarlier ? [element("p", {}, earlier())] : []));
+  }
+
+  return { line, follow, compare, stop };
 }

@@ -1,0 +1,206 @@
+// The card of a calibration: a log, what its columns were taken for, the fit, and the case with what was found.
+
+import * as designs from "../designs.js";
+import { element, save, scrolling, table } from "../dom.js";
+import { watch } from "../plot.js";
+import { linesOf, sendJson } from "../server.js";
+import { ofServer, text } from "../texts.js";
+import * as units from "../units.js";
+import * as charts from "./calibrate_charts.js";
+import { choices, columns, meaningOf } from "./log_columns.js";
+import { button, caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
+import { quantity, TORQUE } from "./quantities.js";
+import { question } from "./question.js";
+import { lines } from "./records.js";
+
+/** Numbers of a sensor that the table leaves out: how its zero wanders over hours. */
+const WANDER = "torque_wander";
+const DIGITS = 4;
+/** Sections that a calibration changes. */
+const CHANGED = ["model", "lubricant", "screw", "nut", "losses", "calibration"];
+
+/**
+ * @param {HTMLElement} holder
+ * @param {import("../cards.js").Page} page
+ * @returns {import("../cards.js").Card}
+ */
+export function setUp(holder, page) {
+  /** @type {import("./log_parts.js").SentFile | undefined} */
+  let log;
+  /** Columns given by hand. @type {Record<string, string>} */
+  let given = {};
+  /** @type {string[]} */
+  let free = [];
+  /** @type {LogAnswer | undefined} */
+  let seen;
+  /** @type {FitAnswer | undefined} */
+  let answer;
+  /** @type {import("../state.js").Tables} */
+  let tables = {};
+  /** What the columns were asked with, as text. */
+  let asked = "";
+  let system = "";
+
+  const inspected = element("div", { class: "card-inputs" });
+  const problems = element("div");
+  const words = element("div");
+  const rest = element("div");
+  const places = charts.PLACES.map((id) => element("div", { id, class: "chart low", hidden: true }));
+  const result = element("div", { class: "card-result" }, words, ...places, rest);
+  const fit = question({
+    address: "fit",
+    result,
+    show: (found) => show(found),
+    place: (faults) => {
+      problems.replaceChildren(...faultLines(faults, page.jump));
+      return [];
+    },
+    jump: page.jump,
+    send: sendJson,
+  });
+  const drop = dropZone("calibrate-log", text("calibrate.drop"), (file) => {
+    log = file;
+    given = {};
+    free = [];
+    inspect();
+  });
+  const example = exampleButton("fit", (logs) => drop.use(logs[0]));
+  holder.replaceChildren(drop.zone, example, inspected, fit.line, problems, result);
+  for (const place of places) watch(place);
+
+  function body() {
+    return { case: tables, log, columns: given, free };
+  }
+
+  /** Ask what the columns of the log are taken for. */
+  async function inspect() {
+    if (!log) return;
+    tables = await designs.currentCase();
+    const question = { case: tables, log, columns: given };
+    const key = JSON.stringify(question);
+    if (key === asked) return;
+    asked = key;
+    try {
+      /** @type {LogAnswer} */
+      const found = await sendJson("log", question);
+      if (asked !== key) return;
+      seen = found;
+      if (!free.length) free = [found.free[0].name];
+      problems.replaceChildren();
+      showColumns();
+    } catch (error) {
+      if (asked !== key) return;
+      asked = "";
+      seen = undefined;
+      inspected.replaceChildren(element("p", { class: "warning", ...ofServer }, linesOf(error).join("; ")));
+    }
+    fit.compare(body());
+  }
+
+  function showColumns() {
+    if (!seen || !log) return;
+    const focused = document.activeElement?.id;
+    const isReady = !seen.moving && !seen.faults.length;
+    const start = button("calibrate-fit", "calibrate.fit", () => fit.follow(body(), 0));
+    start.disabled = !isReady;
+    const column = Object.entries(given).flatMap(([name, heading]) => ["--column", `${name}=${heading}`]);
+    inspected.replaceChildren(
+      columns(seen, given, (changed) => {
+        given = changed;
+        inspect();
+      }),
+      choices(seen.free, free, (chosen) => {
+        free = chosen;
+        showColumns();
+        fit.compare(body());
+      }),
+      element("p", { class: "card-start" }, start),
+      commandLine(["ballscrew", "fit", log.name, "--case", caseFile(), "--free", free.join(","), ...column]),
+    );
+    if (focused) document.getElementById(focused)?.focus({ preventScroll: true });
+  }
+
+  /** @param {FitAnswer} found */
+  function show(found) {
+    answer = found;
+    system = units.currentSystem();
+    const { rows, words: said, display } = found;
+    const left = Object.entries(rows.left_out).map(([reason, count]) => `${reason}: ${count}`);
+    words.replaceChildren(
+      element("p", {}, text("calibrate.rows", { used: rows.used, read: rows.read, held: rows.held_out })),
+      element("p", { class: "small", ...ofServer }, [...left, ...rows.notes, rows.torque].join("; ")),
+      estimates(found),
+      ...lines(found.verdicts, found.warnings),
+      ...(said.combinations.length > 1 ? [combinations(found)] : []),
+      ...(display.next_test.length ? [element("h3", {}, text("calibrate.next"))] : []),
+      ...display.next_test.map((line) => element("p", ofServer, units.filled(line))),
+    );
+    charts.show(found);
+    const used = element("p", { id: "calibrate-used", role: "status" });
+    rest.replaceChildren(
+      element(
+        "p",
+        { class: "card-start" },
+        button("calibrate-use", "calibrate.use", async () => {
+          await use(found);
+          used.textContent = text("calibrate.used");
+        }),
+        button("calibrate-save", "calibrate.save", () =>
+          save("-calibrated.toml", new Blob([found.calibrated.toml], { type: "application/toml" })),
+        ),
+      ),
+      used,
+    );
+  }
+
+  /** Put what was found into the design; the button Undo takes it back. @param {FitAnswer} found */
+  async function use({ calibrated }) {
+    /** @type {import("../state.js").Tables} */
+    const fitted = calibrated.case;
+    const before = await designs.currentCase();
+    const isNew = (/** @type {string} */ name) => JSON.stringify(fitted[name]) !== JSON.stringify(before[name]);
+    const changed = CHANGED.filter((name) => name in fitted && isNew(name));
+    await designs.setTables(Object.fromEntries(changed.map((name) => [name, fitted[name]])));
+  }
+
+  /** Values before and after, with their intervals. @param {FitAnswer} found */
+  function estimates({ estimates: numbers, sensor, residual_rms: rms, holdout_rms: held }) {
+    const shown = Object.entries({ ...numbers, ...sensor }).filter(([name]) => !name.startsWith(WANDER));
+    const rows = shown.map(([name, one]) => {
+      const { text: written } = quantity(one.unit, metricOf(name, one.unit));
+      const ends = `${written(one.low, DIGITS)} – ${written(one.high, DIGITS)}`;
+      return [
+        meaningOf(name, seen?.free ?? []),
+        written(one.start, DIGITS),
+        element("data", { value: String(one.value), "data-name": name }, written(one.value, DIGITS)),
+        one.identified && one.low !== null ? ends : text("calibrate.not_told"),
+      ];
+    });
+    const caption = text("calibrate.values", { rms: TORQUE.text(rms), held: TORQUE.text(held) });
+    const headings = ["", text("calibrate.before"), text("calibrate.after"), text("calibrate.interval")];
+    return scrolling(caption, table(caption, headings, rows));
+  }
+
+  /** @param {string} name @param {string} si */
+  function metricOf(name, si) {
+    return seen?.free.find((one) => one.name === name)?.shown_in ?? si;
+  }
+
+  /** What the log tells, the best known first. @param {FitAnswer} found */
+  function combinations({ words: said, identifiability }) {
+    const known = /** @type {{ relative_error: number, identified: boolean }[]} */ (identifiability.combinations);
+    const rows = said.combinations.map((product, place) => [
+      product.replaceAll("_", " "),
+      known[place].identified ? `${units.digits(100 * known[place].relative_error, 2)} %` : text("calibrate.not_told"),
+    ]);
+    const caption = text("calibrate.told");
+    return scrolling(caption, table(caption, [text("calibrate.product"), text("calibrate.known_to")], rows));
+  }
+
+  async function follow() {
+    if (answer && system !== units.currentSystem()) show(answer);
+    await inspect();
+  }
+
+  return { follow, stop: fit.stop };
+}

@@ -1,0 +1,148 @@
+// The card of a hand-over: a target, its choices, the error of what is made, its files, and the command for the same.
+
+import * as designs from "../designs.js";
+import { element, save, scrolling, table } from "../dom.js";
+import { get } from "../server.js";
+import { ofServer, text, textOr } from "../texts.js";
+import * as units from "../units.js";
+import { button, caseFile, commandLine, faultLines } from "./log_parts.js";
+import { question } from "./question.js";
+import { lines } from "./records.js";
+
+/** Ranges that may be given, with an example. @type {Record<string, string>} */
+const RANGES = { axial_load: "-5:5 kN", screw_speed: "-300:300 rpm" };
+
+/**
+ * @param {HTMLElement} holder
+ * @param {import("../cards.js").Page} page
+ * @returns {import("../cards.js").Card}
+ */
+export function setUp(holder, page) {
+  /** @type {Targets["targets"]} */
+  let targets = [];
+  /** @type {import("../state.js").Tables} */
+  let tables = {};
+  const select = element("select", { id: "hand-over-target" });
+  const options = element("div", { class: "grid" });
+  const problems = element("div");
+  const command = element("div");
+  const result = element("div", { class: "card-result" });
+  const asked = question({
+    address: "hand-over",
+    result,
+    show: (found) => show(found),
+    place: (faults) => {
+      problems.replaceChildren(...faultLines(faults, page.jump));
+      return [];
+    },
+    jump: page.jump,
+  });
+  const make = button("hand-over-make", "hand_over.make", async () => {
+    tables = await designs.currentCase();
+    asked.follow(body(), 0);
+  });
+  holder.replaceChildren(
+    element("p", { class: "card-start" }, element("label", { for: select.id }, text("hand_over.target")), select),
+    element("fieldset", { class: "card-fields" }, element("legend", {}, text("hand_over.options")), options),
+    element("p", { class: "card-start" }, make),
+    command,
+    asked.line,
+    problems,
+    result,
+  );
+  select.addEventListener("change", () => {
+    showOptions();
+    follow();
+  });
+  options.addEventListener("input", () => follow());
+
+  function chosen() {
+    return targets.find(({ name }) => name === select.value);
+  }
+
+  /** The fields that are filled in, of one kind. @param {string} kind */
+  function filled(kind) {
+    const inputs = [...options.querySelectorAll("input")].filter(
+      (one) => one.dataset.kind === kind && one.value.trim(),
+    );
+    return Object.fromEntries(inputs.map((one) => [one.name, one.value.trim()]));
+  }
+
+  function body() {
+    return { case: tables, to: select.value, ranges: filled("range"), options: filled("option") };
+  }
+
+  function showOptions() {
+    const target = chosen();
+    /** @param {string} kind @param {string} name @param {string} label @param {string} example @param {object} more */
+    const field = (kind, name, label, example, more = {}) => {
+      const id = `hand-over-${kind}-${name}`;
+      const input = element("input", { type: "text", id, name, placeholder: example, "data-kind": kind });
+      return element("p", {}, element("label", { for: id, ...more }, label), element("br"), input);
+    };
+    options.replaceChildren(
+      ...Object.entries(RANGES).map(([name, example]) =>
+        field("range", name, text("hand_over.range", { name: textOr(`log.column.${name}`, name) }), example),
+      ),
+      ...(target?.options ?? []).map((one) => field("option", one.name, one.meaning, one.default, ofServer)),
+    );
+  }
+
+  async function follow() {
+    tables = await designs.currentCase();
+    if (!targets.length) {
+      /** @type {Targets} */
+      const found = await get("targets");
+      targets = found.targets;
+      select.replaceChildren(
+        ...targets.map(({ name, meaning }) => element("option", { value: name, ...ofServer }, `${name}: ${meaning}`)),
+      );
+      showOptions();
+    }
+    /** @param {string} option @param {Record<string, string>} given */
+    const words = (option, given) => Object.entries(given).flatMap(([name, value]) => [option, `${name}=${value}`]);
+    const { ranges, options: choices } = body();
+    const said = ["ballscrew", "hand-over", caseFile(), "--to", select.value, "-o", "out"];
+    command.replaceChildren(commandLine([...said, ...words("--range", ranges), ...words("--option", choices)]));
+    asked.compare(body());
+  }
+
+  /** @param {HandOverAnswer} found */
+  function show({ results, warnings, words, file }) {
+    const worst = /** @type {Record<string, Record<string, any>>} */ (results.worst_error);
+    const rows = Object.entries(worst).map(([name, one]) => [
+      textOr(`result.${name}`, name.replaceAll("_", " ")),
+      element(
+        "data",
+        { value: String(one.value), "data-name": name },
+        `${units.digits(one.value, 2)} ${one.unit === "1" ? "" : one.unit}`,
+      ),
+      one.of_largest === null || one.of_largest === undefined ? "–" : `${units.digits(100 * one.of_largest, 2)} %`,
+    ]);
+    const caption = text("hand_over.caption");
+    const headings = [text("hand_over.output"), text("hand_over.error"), text("hand_over.share")];
+    const bytes = Uint8Array.from(atob(file.base64), (letter) => letter.charCodeAt(0));
+    const names = /** @type {string[]} */ (results.files);
+    const download = button("hand-over-download", "hand_over.download", () =>
+      save(`-${file.name}`, new Blob([bytes], { type: file.media_type })),
+    );
+    result.replaceChildren(
+      element(
+        "div",
+        {},
+        element("p", {}, text("hand_over.files", { files: names.join(", "), size: Math.ceil(bytes.length / 1000) })),
+        element("p", { class: "card-start" }, download),
+        ...(rows.length ? [scrolling(caption, table(caption, headings, rows))] : []),
+        ...lines([], warnings),
+        element(
+          "details",
+          {},
+          element("summary", {}, text("hand_over.ranges")),
+          element("ul", ofServer, ...words.lines.map((line) => element("li", {}, line.trim()))),
+        ),
+      ),
+    );
+  }
+
+  return { follow, stop: asked.stop };
+}

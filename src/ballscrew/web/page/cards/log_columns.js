@@ -1,0 +1,142 @@
+// The columns of a log: what each was taken for, changed by a menu, and the numbers that are fitted to it.
+
+import { element, scrolling, table } from "../dom.js";
+import { ofServer, text, textOr } from "../texts.js";
+import { ofLog } from "./log_parts.js";
+import { quantity } from "./quantities.js";
+
+/** Numbers to fit that are shown at once. */
+const FIRST = 2;
+
+/**
+ * The columns of a log with a menu each; ``given`` are those that were chosen by hand, by name.
+ *
+ * @param {LogAnswer} found
+ * @param {Record<string, string>} given
+ * @param {(given: Record<string, string>) => void} change
+ */
+export function columns(found, given, change) {
+  const names = found.known.map(({ name }) => name);
+  const rows = found.columns.map((one, place) => [
+    one.heading || "–",
+    menu(one, place),
+    unitField(one, place),
+    one.cells.join("; "),
+  ]);
+  /** @param {LogAnswer["columns"][number]} one @param {number} place */
+  function menu(one, place) {
+    const select = element(
+      "select",
+      { id: `log-column-${place}`, "aria-label": text("log.taken_for_of", { heading: one.heading }) },
+      element("option", { value: "" }, text("log.not_used")),
+      ...names.map((name) => element("option", { value: name }, nameOf(name))),
+    );
+    select.value = one.taken_for;
+    select.addEventListener("change", () => choose(one, select.value, one.unit));
+    return select;
+  }
+  /** @param {LogAnswer["columns"][number]} one @param {number} place */
+  function unitField(one, place) {
+    const input = element("input", {
+      type: "text",
+      size: "8",
+      id: `log-unit-${place}`,
+      value: one.unit,
+      disabled: !one.taken_for,
+      "aria-label": text("log.unit_of", { heading: one.heading }),
+    });
+    input.addEventListener("change", () => choose(one, one.taken_for, input.value));
+    return input;
+  }
+  /** @param {LogAnswer["columns"][number]} one @param {string} name @param {string} unit */
+  function choose(one, name, unit) {
+    const others = Object.entries(given).filter(([other]) => other !== name && other !== one.taken_for);
+    const known = found.known.find((each) => each.name === name);
+    const written = `${one.bare_heading} [${unit || known?.shown_in}]`;
+    change({ ...Object.fromEntries(others), ...(name && { [name]: written }) });
+  }
+  const caption = text("log.columns_caption", { file: found.file });
+  const headings = [text("log.heading"), text("log.taken_for"), text("log.unit"), text("log.cells")];
+  const content = table(caption, headings, rows);
+  content.className = "columns-of-log";
+  const faults = found.faults.map((fault) => element("p", { class: "fault", ...ofServer }, ofLog(fault)));
+  return element("div", {}, scrolling(caption, content), ...(found.moving ? [movingNote()] : faults), constants());
+
+  /** Values that count in every row, for columns that the log lacks. */
+  function constants() {
+    const wanted = found.moving ? [] : [...new Set([...found.missing, ...Object.keys(found.constants)])];
+    const fields = wanted
+      .filter((name) => name !== "torque")
+      .map((name) => {
+        const known = found.known.find((one) => one.name === name);
+        const input = element("input", {
+          type: "text",
+          id: `log-constant-${name}`,
+          value: given[name] ?? "",
+          placeholder: `0 ${known?.shown_in ?? ""}`,
+        });
+        input.addEventListener("change", () => {
+          const others = Object.fromEntries(Object.entries(given).filter(([other]) => other !== name));
+          change(input.value.trim() ? { ...others, [name]: input.value.trim() } : others);
+        });
+        const label = text("log.in_every_row", { name: nameOf(name) });
+        return element("p", { class: "card-start" }, element("label", { for: input.id }, label), input);
+      });
+    return element("div", {}, ...fields);
+  }
+}
+
+function movingNote() {
+  return element("p", { class: "warning" }, text("log.moving"));
+}
+
+/** @param {string} name */
+export function nameOf(name) {
+  return textOr(`log.column.${name}`, name.replaceAll("_", " "));
+}
+
+/**
+ * Boxes for the numbers that may be fitted; the rare ones behind "more".
+ *
+ * @param {LogAnswer["free"]} free
+ * @param {string[]} chosen
+ * @param {(chosen: string[]) => void} change
+ */
+export function choices(free, chosen, change) {
+  const boxes = free.map((one, place) => {
+    const box = element("input", { type: "checkbox", id: `free-${place}`, checked: chosen.includes(one.name) });
+    box.addEventListener("change", () => {
+      change(
+        free.filter(({ name }) => (name === one.name ? box.checked : chosen.includes(name))).map(({ name }) => name),
+      );
+    });
+    const value = one.value === null ? "" : ` (${quantity(one.unit, one.shown_in).text(one.value)})`;
+    return element("label", {}, box, ` ${meaningOf(one.name, free)}${value}`);
+  });
+  const more = element("details", {}, element("summary", {}, text("log.more_free")), ...lined(boxes.slice(FIRST)));
+  more.open = free.slice(FIRST).some(({ name }) => chosen.includes(name));
+  return element(
+    "fieldset",
+    { class: "card-fields" },
+    element("legend", {}, text("log.free")),
+    ...lined(boxes.slice(0, FIRST)),
+    more,
+  );
+}
+
+/** @param {HTMLElement[]} boxes */
+function lined(boxes) {
+  return boxes.map((box) => element("p", { class: "card-start" }, box));
+}
+
+/**
+ * What a number that may be fitted is, in words.
+ *
+ * @param {string} name
+ * @param {LogAnswer["free"]} free
+ */
+export function meaningOf(name, free) {
+  const last = name.split(".").at(-1) ?? name;
+  const known = free.find((one) => one.name === name);
+  return textOr(`fit.number.${last}`, known?.meaning ?? last.replaceAll("_", " "));
+}

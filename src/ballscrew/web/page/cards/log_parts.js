@@ -1,0 +1,147 @@
+// Parts that cards with logs share: a place to drop a log, its faults in words, and the command that does the same.
+
+import * as designs from "../designs.js";
+import { element } from "../dom.js";
+import { inWords, labelOf } from "../faults.js";
+import * as schema from "../schema.js";
+import { get } from "../server.js";
+import { ofServer, text } from "../texts.js";
+
+/** Bytes of a log that the server takes, with its third more for the request. */
+const MOST_BYTES = 3_000_000;
+/** Letters that a shell reads also within quotes, and those that need quotes. */
+const OF_SHELLS = /[$\u0060]/g;
+const SPECIAL = /[^\w@%+=:,./-]/;
+
+/** @typedef {{ name: string, text?: string, base64?: string }} SentFile */
+
+/**
+ * A place to drop a log or to choose one; it takes nothing beside its own area.
+ *
+ * @param {string} id
+ * @param {string} label
+ * @param {(file: SentFile) => void} take
+ */
+export function dropZone(id, label, take) {
+  const said = element("span", { id: `${id}-name`, "aria-live": "polite" });
+  const input = element("input", { type: "file", id, hidden: true, accept: ".csv,.txt,.tsv,.xlsx,.xls,.ods,.mat" });
+  const choose = element("button", { type: "button", onclick: () => input.click() }, text("log.choose"));
+  choose.setAttribute("aria-label", `${text("log.choose")}: ${label}`);
+  /** @param {File | undefined} file */
+  const read = async (file) => {
+    if (!file) return;
+    if (file.size > MOST_BYTES) {
+      said.textContent = text("log.large", { file: file.name, size: Math.round(MOST_BYTES / 1e6) });
+      return;
+    }
+    use({ name: file.name, base64: inBase64(new Uint8Array(await file.arrayBuffer())) });
+  };
+  /** @param {SentFile} file */
+  const use = (file) => {
+    said.textContent = text("log.taken", { file: file.name });
+    take(file);
+  };
+  input.addEventListener("change", () => {
+    read(input.files?.[0]);
+    input.value = ""; // the same file can be chosen again
+  });
+  const zone = element("div", { class: "drop" }, element("span", {}, label), choose, input, said);
+  for (const kind of ["dragenter", "dragover"]) {
+    zone.addEventListener(kind, (event) => {
+      event.preventDefault();
+      zone.classList.add("over");
+    });
+  }
+  zone.addEventListener("dragleave", () => zone.classList.remove("over"));
+  zone.addEventListener("drop", (event) => {
+    event.preventDefault(); // the page would open it as a case
+    zone.classList.remove("over");
+    read(event.dataTransfer?.files[0]);
+  });
+  return { zone, use };
+}
+
+/** @param {Uint8Array} bytes */
+function inBase64(bytes) {
+  let binary = "";
+  for (const byte of bytes) binary += String.fromCharCode(byte);
+  return btoa(binary);
+}
+
+/**
+ * A button that takes an example: its case as a design, and its logs.
+ *
+ * @param {"fit" | "service"} name
+ * @param {(logs: SentFile[]) => void} take
+ */
+export function exampleButton(name, take) {
+  const onclick = async () => {
+    /** @type {Examples} */
+    const examples = await get("examples");
+    const { case: sections, file, logs } = examples[name];
+    const left = designs.add([await designs.ofCase(sections, { file })]);
+    said.textContent = left ? text("log.no_room") : "";
+    if (!left) take(logs);
+  };
+  const said = element("span", { role: "status" });
+  const button = element("button", { type: "button", id: `${name}-example`, onclick }, text("log.example"));
+  return element("p", { class: "card-start" }, button, said, element("span", { class: "small" }, text("log.private")));
+}
+
+/**
+ * A line for each fault: a button to the field of the form, or the words on the log.
+ *
+ * @param {FaultLine[]} faults
+ * @param {(path: string) => void} jump
+ */
+export function faultLines(faults, jump) {
+  return faults.map((fault) => {
+    if (schema.fieldOf(fault.where)) {
+      const words = `${labelOf(fault.where)}: ${inWords(fault)}`;
+      return element(
+        "p",
+        { class: "fault" },
+        element("button", { type: "button", onclick: () => jump(fault.where) }, words),
+      );
+    }
+    return element("p", { class: "fault", ...ofServer }, ofLog(fault));
+  });
+}
+
+/**
+ * A fault of a log without what only the command line has.
+ *
+ * @param {{ where: string, problem: string, given: string, remedy: string }} fault
+ */
+export function ofLog({ where, problem, given, remedy }) {
+  const advice = remedy.split(/, or name it: |, or give --| --/)[0].trim();
+  const isForCommands = remedy.includes("--") && (advice === remedy || /^(give|add|write)$/.test(advice));
+  const place = where.replace(/^--/, "");
+  return `${place}: ${problem}${given ? ` (${given})` : ""}${advice && !isForCommands ? `; ${advice}` : ""}`;
+}
+
+/**
+ * The command that does the same as a card.
+ *
+ * @param {string[]} words
+ */
+export function commandLine(words) {
+  const quoted = words.map((word) => (SPECIAL.test(word) ? JSON.stringify(word).replaceAll(OF_SHELLS, "\\$&") : word));
+  return element("p", { class: "small" }, `${text("log.command")} `, element("code", {}, quoted.join(" ")));
+}
+
+/** The name of the case file that belongs to a command. */
+export function caseFile() {
+  return `${designs.fileName(designs.current())}.toml`;
+}
+
+/**
+ * A button with an id.
+ *
+ * @param {string} id
+ * @param {import("../texts.js").Key} key
+ * @param {() => void} onclick
+ */
+export function button(id, key, onclick) {
+  return element("button", { type: "button", id, onclick }, text(key));
+}

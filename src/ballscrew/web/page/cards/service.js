@@ -1,0 +1,222 @@
+// The card of a service: two logs, the preload that is left in the nut, and what else could explain them.
+
+import * as designs from "../designs.js";
+import { element, scrolling, table } from "../dom.js";
+import { draw, layout, watch } from "../plot.js";
+import { sendJson } from "../server.js";
+import { ofServer, text } from "../texts.js";
+import * as units from "../units.js";
+import { button, caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
+import { data, FORCE, TEMPERATURE, TORQUE, TURNING } from "./quantities.js";
+import { question } from "./question.js";
+import { lines } from "./records.js";
+
+const CHART = "service-chart";
+/** Share of the preload that may be lost, in percent, where nothing else is typed. */
+const TOLERANCE = "10";
+
+/** @typedef {{ speed: number[], torque: number[], measured_speed: number[], measured: number[] }} Curve */
+
+/**
+ * @param {HTMLElement} holder
+ * @param {import("../cards.js").Page} page
+ * @returns {import("../cards.js").Card}
+ */
+export function setUp(holder, page) {
+  /** @type {Record<string, import("./log_parts.js").SentFile>} */
+  const logs = {};
+  /** @type {import("../state.js").Tables} */
+  let tables = {};
+  /** @type {ServiceAnswer | undefined} */
+  let answer;
+  let system = "";
+  const problems = element("div");
+  const words = element("div");
+  const chart = element("div", { id: CHART, class: "chart low", hidden: true });
+  const result = element("div", { class: "card-result" }, words, element("div", {}, chart));
+  const asked = question({
+    address: "service",
+    result,
+    show: (found) => show(found),
+    place: (faults) => {
+      problems.replaceChildren(...faultLines(faults, page.jump));
+      return [];
+    },
+    jump: page.jump,
+    send: sendJson,
+  });
+  const zones = ["new", "worn"].map((name) =>
+    dropZone(`service-${name}`, text(name === "new" ? "service.new" : "service.worn"), (file) => {
+      logs[name] = file;
+      follow();
+    }),
+  );
+  const example = exampleButton("service", (found) => {
+    for (const [place, file] of found.entries()) zones[place].use(file);
+  });
+  const tolerance = element("input", { type: "text", id: "service-tolerance", size: "5", value: TOLERANCE });
+  tolerance.addEventListener("input", () => follow());
+  const start = button("service-start", "service.start", async () => {
+    tables = await designs.currentCase();
+    asked.follow(body(), 0);
+  });
+  start.disabled = true;
+  const command = element("div");
+  holder.replaceChildren(
+    ...zones.map(({ zone }) => zone),
+    example,
+    element(
+      "p",
+      { class: "card-start" },
+      element("label", { for: tolerance.id }, text("service.tolerance")),
+      tolerance,
+      "%",
+      start,
+    ),
+    command,
+    asked.line,
+    problems,
+    result,
+  );
+  watch(chart);
+
+  function share() {
+    return Number(units.withPoint(tolerance.value)) / 100;
+  }
+
+  function body() {
+    return { case: tables, ...logs, tolerance: Number.isFinite(share()) ? share() : -1 };
+  }
+
+  async function follow() {
+    tables = await designs.currentCase();
+    start.disabled = !logs.worn;
+    const names = ["new", "worn"].flatMap((name) => (logs[name] ? [logs[name].name] : []));
+    const option = tolerance.value === TOLERANCE ? [] : ["--tolerance", String(share())];
+    const said = ["ballscrew", "service", ...names, "--case", caseFile(), ...option];
+    command.replaceChildren(...(logs.worn ? [commandLine(said)] : []));
+    if (answer && system !== units.currentSystem()) show(answer);
+    asked.compare(body());
+  }
+
+  /** @param {ServiceAnswer} found */
+  function show(found) {
+    answer = found;
+    system = units.currentSystem();
+    const { verdicts, display, warnings, words: said, results } = found;
+    const inUnits = verdicts.map((one, place) => ({ ...one, text: units.filled(display.verdicts[place]) }));
+    const ratio = /** @type {{ value: number, low: number, high: number } | undefined} */ (results.ratio);
+    words.replaceChildren(
+      ...lines(inUnits.slice(0, 1), []),
+      ...(ratio ? [left(ratio)] : []),
+      preloads(results),
+      ...said.causes.map((line) => element("p", { class: "small", ...ofServer }, line)),
+      ...(inUnits.length > 1 ? [element("h3", {}, text("service.others"))] : []),
+      ...lines(inUnits.slice(1), warnings),
+    );
+    draw(CHART, picture(/** @type {Record<string, Curve>} */ (found.picture)));
+  }
+
+  /** @param {{ value: number, low: number, high: number }} ratio */
+  function left({ value, low, high }) {
+    /** @param {number} one */
+    const percent = (one) => `${units.digits(100 * one, 2)}\u00a0%`;
+    return element(
+      "div",
+      { class: "numbers" },
+      element(
+        "dl",
+        {},
+        element(
+          "div",
+          {},
+          element("dt", {}, text("service.left")),
+          element("dd", {}, data("ratio", value, percent(value)), ` (${percent(low)} – ${percent(high)})`),
+        ),
+      ),
+    );
+  }
+
+  /** @param {ServiceAnswer["results"]} results */
+  function preloads(results) {
+    const rows = ["new", "worn"].flatMap((name) => {
+      const one = /** @type {Record<string, number | null> | undefined} */ (results[name]);
+      if (!one) return [];
+      return [
+        [
+          text(name === "worn" ? "service.now" : one.rows === null ? "service.nominal" : "service.then"),
+          FORCE.text(one.preload),
+          `${FORCE.text(one.low)} – ${FORCE.text(one.high)}`,
+          one.rows ?? "–",
+          TEMPERATURE.text(one.temperature),
+        ],
+      ];
+    });
+    const names = [
+      text("service.preload"),
+      text("service.interval"),
+      text("service.rows"),
+      text("service.temperature"),
+    ];
+    const caption = text("service.caption");
+    return scrolling(caption, table(caption, ["", ...names], rows));
+  }
+
+  /** @param {Record<string, Curve>} curves @returns {import("../plot.js").Chart} */
+  function picture(curves) {
+    const names = Object.keys(curves);
+    /** @param {string} name */
+    const words = (name) => text(name === "worn" ? "service.now" : "service.then");
+    /** @param {import("../plot.js").Colours} colours @param {string} name */
+    const colourOf = (colours, name) => (name === "worn" ? colours.second : colours.accent);
+    const [speed, torque] = [TURNING.titled(text("chart.speed")), TORQUE.titled(text("chart.torque"))];
+    return {
+      name: "service",
+      caption: text("service.chart_caption"),
+      description: text("service.chart_description"),
+      figure: (colours) => ({
+        traces: names.flatMap((name) => {
+          const one = curves[name];
+          const colour = colourOf(colours, name);
+          return [
+            {
+              x: TURNING.all(one.measured_speed),
+              y: TORQUE.all(one.measured),
+              mode: "markers",
+              name: words(name),
+              marker: { size: 4, color: colour, opacity: 0.5 },
+              hovertemplate: "%{x:.4g}, %{y:.4g}",
+            },
+            {
+              x: TURNING.all(one.speed),
+              y: TORQUE.all(one.torque),
+              mode: "lines",
+              name: words(name),
+              line: { color: colour, width: 2, dash: name === "worn" ? "dash" : "solid" },
+              hovertemplate: "%{y:.4g}",
+            },
+          ];
+        }),
+        layout: layout(colours, speed, torque, { hovermode: "closest" }),
+      }),
+      legend: (colours) =>
+        names.map((name) => ({
+          kind: name === "worn" ? "dash" : "line",
+          name: words(name),
+          colour: colourOf(colours, name),
+        })),
+      numbers: () => [
+        [text("service.log"), speed, torque],
+        names.flatMap((name) =>
+          curves[name].speed.map((x, place) => [
+            words(name),
+            TURNING.convert(x),
+            TORQUE.convert(curves[name].torque[place]),
+          ]),
+        ),
+      ],
+    };
+  }
+
+  return { follow, stop: asked.stop };
+}

@@ -1,0 +1,116 @@
+"""The cards that take logs, and the hand-over: each walked through whole."""
+
+from ballscrew.web.log_bodies import ServiceBody, examples_with_logs
+
+from .test_page_access import violations
+from .test_page_duty import answered, case_of, number
+
+
+def test_a_log_is_fitted_and_used(visit, server):
+    """From the example, with a column that is chosen by hand, to the case with the calibration, and back."""
+    here = visit()
+    here.expected = ("status of 422",)
+    here.open("#A=paper&band=0&cards=calibration")
+    page = here.page
+    page.locator("#fit-example").click(timeout=20_000)
+    page.wait_for_selector("#calibrate-fit:enabled")
+    assert page.input_value("#log-column-3") == "torque"
+    case = case_of(here)
+    assert case["lubricant"]["grade"] == "ISO VG 68"
+    # a column that is taken for what its unit is not of is refused beside it
+    page.locator("#log-column-3").select_option("temperature")
+    page.wait_for_selector("#calibrate-fit:disabled")
+    assert "column temperature" in here.text("#calibration .card-inputs .fault >> nth=0")
+    page.locator("#log-column-3").select_option("torque")
+    page.wait_for_selector("#calibrate-fit:enabled")
+    page.locator("#free-1").check()
+    assert "--free friction.boundary_friction_coefficient,constant_torque" in here.text("#calibration code")
+    page.locator("#calibrate-fit").click()
+    page.wait_for_selector("#calibrate-use")
+    answered(here, "calibration")
+    log = server.get("examples").json()["fit"]["logs"][0]
+    free = ["friction.boundary_friction_coefficient", "constant_torque"]
+    found = server.post("fit", {"case": case, "log": log, "free": free}).json()
+    for name in free:
+        assert number(here, "calibration", f"'{name}'") == found["estimates"][name]["value"]
+    assert "0.12" in here.text("#calibration table:has(caption:has-text('fitted numbers'))")
+    assert "next test" in here.text("#calibration .card-result")
+    page.locator("#calibrate-residual-chart").scroll_into_view_if_needed()
+    page.wait_for_selector("#calibrate-residual-chart .main-svg")
+    page.locator("#calibrate-over").select_option("time")
+    assert "over time" in page.locator("#calibrate-residual-chart .plot").get_attribute("aria-label")
+    saved = here.download("#calibrate-save").decode()
+    assert saved == found["calibrated"]["toml"]
+    page.locator("#calibrate-use").click()
+    page.wait_for_selector("#calibrate-used:has-text('Undo')")
+    here.settle()
+    used = case_of(here)
+    assert used["calibration"]["numbers"] == found["calibrated"]["case"]["calibration"]["numbers"]
+    assert used["model"]["friction"] == found["calibrated"]["case"]["model"]["friction"]
+    assert server.post("run", {"case": used}).status_code == 200
+    assert "of the input before" in here.text("#calibration .card-line")
+    assert violations(here) == []
+    page.locator("#undo").click()
+    here.settle()
+    assert case_of(here) == case
+
+
+def test_two_logs_tell_the_preload_that_is_left(visit, server):
+    here = visit(width=390, height=844, scheme="dark")
+    here.expected = ("status of 422",)
+    here.open("#A=paper&A.nut.type=double&A.nut.preload=3+kN&A.model.name=olaru2005&band=0&cards=service")
+    page = here.page
+    page.wait_for_selector("#service-worn", state="attached")
+    body = examples_with_logs(ServiceBody, case_of(here))["paper"]
+    for name in ("worn", "new"):
+        file = {"name": body[name]["name"], "mimeType": "text/csv", "buffer": body[name]["text"].encode()}
+        page.set_input_files(f"#service-{name}", file)
+        page.wait_for_selector(f"#service-{name}-name:has-text('{name}.csv')")
+    page.wait_for_selector("#service-start:enabled")
+    page.locator("#service-tolerance").fill("5")
+    page.wait_for_selector("#service code:has-text('--tolerance 0.05')")
+    assert "ballscrew service new.csv worn.csv" in here.text("#service code")
+    page.locator("#service-start").click()
+    page.wait_for_selector("#service [data-name=ratio]")
+    answered(here, "service")
+    found = server.post("service", {**body, "case": case_of(here), "tolerance": 0.05}).json()
+    assert number(here, "service", "ratio") == found["results"]["ratio"]["value"]
+    assert here.text("#service [data-record='service.preload_left']")[1:].startswith(found["verdicts"][0]["text"][1:20])
+    page.locator("#service-chart").scroll_into_view_if_needed()
+    page.wait_for_selector("#service-chart .main-svg")
+    page.locator("#service-tolerance").fill("500")
+    page.locator("#service-start").click()
+    page.wait_for_selector("#service .fault")
+    assert "tolerance" in here.text("#service .fault")
+    assert violations(here) == []
+
+
+def test_a_design_is_handed_over(visit, server):
+    import base64
+
+    here = visit()
+    here.expected = ("status of 422",)
+    here.open("#A=paper&band=0&cards=hand-over")
+    page = here.page
+    page.wait_for_selector("#hand-over-target option >> nth=1", state="attached")
+    page.locator("#hand-over-target").select_option("linuxcnc")
+    page.locator("#hand-over-option-joint").fill("two")
+    page.locator("#hand-over-make").click()
+    page.wait_for_selector("#hand-over .fault")
+    assert "joint" in here.text("#hand-over .fault")
+    page.locator("#hand-over-option-joint").fill("2")
+    page.locator("#hand-over-range-screw_speed").fill("-200:200 rpm")
+    page.wait_for_selector("#hand-over code:has-text('--option joint=2')")
+    page.locator("#hand-over-make").click()
+    page.wait_for_selector("#hand-over-download")
+    answered(here, "hand-over")
+    body = {
+        "case": case_of(here),
+        "to": "linuxcnc",
+        "ranges": {"screw_speed": "-200:200 rpm"},
+        "options": {"joint": "2"},
+    }
+    found = server.post("hand-over", body).json()
+    assert here.download("#hand-over-download") == base64.b64decode(found["file"]["base64"])
+    assert number(here, "hand-over", "screw_torque") == found["results"]["worst_error"]["screw_torque"]["value"]
+    assert violations(here) == []
