@@ -208,6 +208,27 @@ def test_a_duty_is_judged_by_its_cycle(ballscrew, tmp_path):
     assert found.duty.numbers["energy_lost"] == pytest.approx(alone["results"]["energy_lost"], rel=1e-9)
 
 
+def test_a_load_that_takes_the_preload_away_is_said_beside_what_holds():
+    """By the force of the need, and by the largest of a cycle though steady travel leaves preload."""
+    tables = {"force": "8 kN", "feed": "15 m/min", "nut": "double", "preload": "2 %", "rows": "hiwin-40-20k4"}
+    found = bs.select(tables)
+    mine = document(found)["candidates"][0]
+    limit = next(one["limit"] for one in mine["verdicts"] if one["id"] == "verdict.preload_lost")
+    assert mine["preload_lost_above"] == limit < 8000
+    assert f"preload lost above {limit:.4g} N" in mine["verdict"]
+    assert mine["case"]["operation"]["screw_speed"] == "15 m/min"  # as typed: the lead makes the speed of it
+    assert mine["verdict"].rpartition("; ")[2] in " ".join(text(found, found.ranked).split())
+    lighter = document(bs.select({**tables, "force": f"{0.9 * limit} N"}))["candidates"][0]
+    assert lighter["preload_lost_above"] is None
+    assert "preload" not in lighter["verdict"]
+    moving = {"axis": {"mass": "1000 kg"}, "motion": {"kind": "trapezoid", "stroke": "0.4 m", "speed": "15 m/min"}}
+    moving["motion"]["acceleration"] = f"{1.1 * limit / 1000} m/s^2"
+    rest = {name: value for name, value in tables.items() if name not in ("force", "feed")}
+    cycle = bs.select({**rest, **moving}).ranked[0].candidate
+    assert cycle.preload_lost_above == pytest.approx(limit)
+    assert not cycle.checked.nut.preload_is_lost
+
+
 def test_requirements_are_checks():
     tables = {
         **FEW,
