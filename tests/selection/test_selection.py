@@ -14,6 +14,7 @@ from ballscrew.documents.selection import document
 from ballscrew.errors import InputError
 from ballscrew.selection import selection
 from ballscrew.selection.need import need_of
+from ballscrew.selection.need_motion import OF_MOTION
 from ballscrew.selection.pareto import front, hypervolume
 from ballscrew.text.selection import text
 from support.commands import ROOT
@@ -227,6 +228,35 @@ def test_a_load_that_takes_the_preload_away_is_said_beside_what_holds():
     cycle = bs.select({**rest, **moving}).ranked[0].candidate
     assert cycle.preload_lost_above == pytest.approx(limit)
     assert not cycle.checked.nut.preload_is_lost
+
+
+MOVING = {
+    "mass": "400 kg", "inclination": "90 deg", "acceleration": "3 m/s^2", "feed": "15 m/min", "stroke": "600 mm",
+    "nut": "double", "preload": "5 %", "life": "20000 h", "rows": "hiwin-40-20k4",
+}  # fmt: skip
+
+
+def test_a_mass_and_an_acceleration_are_an_axis_and_a_motion():
+    """The short names are the tables of a duty: the largest load is m (g + a), the life that of the cycle."""
+    found = bs.select(MOVING)
+    tables = {name: value for name, value in MOVING.items() if name not in OF_MOTION and name != "feed"}
+    motion = {"kind": "trapezoid", "stroke": "600 mm", "speed": "15 m/min", "acceleration": "3 m/s^2"}
+    written = bs.select({**tables, "axis": {"mass": "400 kg", "inclination": "90 deg"}, "motion": motion})
+    mine, other = found.ranked[0].candidate, written.ranked[0].candidate
+    assert mine.objectives == other.objectives
+    assert mine.duty is not None
+    assert mine.duty.largest_load == pytest.approx(400 * (9.80665 + 3))
+    assert any("without rests" in note for note in found.need.notes)
+    operation = document(found)["candidates"][0]["case"]["operation"]  # steady travel, for the other questions
+    assert operation["axial_load"] == "3922.66 N"
+    assert operation["screw_speed"] == "750 rpm"
+
+
+def test_a_mass_says_what_it_needs_beside_it():
+    with pytest.raises(InputError) as raised:
+        bs.select({"mass": "400 kg", "force": "5 kN", "feed": "15 m/min"})
+    places = [fault.where for fault in raised.value.faults]
+    assert places == ["motion.acceleration", "need.stroke", "operation.axial_load"]
 
 
 def test_requirements_are_checks():

@@ -7,6 +7,7 @@ from typing import Any
 
 from ballscrew import units
 from ballscrew.cases import provenance
+from ballscrew.components.operating_state import OperatingState
 from ballscrew.documents import check as check_documents
 from ballscrew.quantities import fields_of, quantities_of
 from ballscrew.selection.candidates import Candidate, case_tables
@@ -96,13 +97,21 @@ def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
         "fails": [{"name": c.name, "utilisation": c.utilisation} for c in found.failed],
         "verdict": verdict(found),
         "objectives": dict(found.objectives),
-        "case": case_tables(need, found.variant),
+        "case": _case(found, need),
         "results": whole.pop("results"),
         **duty,
         "checks": [check_documents.check_document(check) for check in found.checks],
         "judged": judged(found.checks),
         **{name: part for name, part in whole.items() if name not in (*_LEFT_OUT, "nut")},
     }
+
+
+def _case(found: Candidate, need: Need) -> dict[str, Any]:
+    """The case file of a candidate; one that moves has its steady travel as operation, for all other questions."""
+    known, at = fields_of(OperatingState), found.checked.case.operation
+    steady = {name: units.written(getattr(at, name), known[name]) for name in ("axial_load", "screw_speed")}
+    tables = case_tables(need, found.variant)
+    return {**tables, "operation": steady} if need.moves and "operation" not in tables else tables
 
 
 def verdict(found: Candidate) -> str:
