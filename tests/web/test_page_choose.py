@@ -61,8 +61,7 @@ def test_choose_a_screw(visit, server):
     here.page.locator("[data-sort=rank]").click()
     here.page.locator("#choose-y").select_option("life")
     here.page.locator("#choose-chart").scroll_into_view_if_needed()
-    here.page.wait_for_selector("#choose-chart .scatterlayer")
-    assert here.page.locator("#choose-chart .ytitle").text_content() == "life (h)"
+    here.page.wait_for_function("() => document.querySelector('#choose-chart .ytitle')?.textContent === 'life (h)'")
 
     assert violations(here) == []
 
