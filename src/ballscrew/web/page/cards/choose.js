@@ -96,7 +96,15 @@ export function setUp(holder) {
     });
     for (const field of made) {
       const hint = textOr(`choose.hint.${nameOf(field)}`, "");
-      if (hint) within(field, "input").setAttribute("placeholder", hint);
+      if (!hint) continue;
+      const input = within(field, "input, select");
+      if (!field.querySelector("select.unit")) input.setAttribute("placeholder", hint);
+      else {
+        // beside a unit there is no room for it
+        const id = `${input.id}-hint`;
+        input.setAttribute("aria-describedby", `${input.getAttribute("aria-describedby")} ${id}`);
+        within(field, ".entry").after(element("span", { id, class: "small" }, hint));
+      }
     }
     fields.replaceChildren(...made);
     bar();
