@@ -105,6 +105,8 @@ def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
     assert number(here, "duty", "cycle_time") != 4.0
     edited(here, "duty", lambda: page.locator("#motion-kind").select_option("s-curve"))
     edited(here, "duty", lambda: page.locator("#f-axis-mass").fill("200"))
+    edited(here, "duty", lambda: page.locator("#f-motor-largest_speed").fill("100"))
+    assert "no torque above 100 rpm" in here.text("#duty [data-check=motor_peak_torque]")
     edited(here, "duty", lambda: page.locator("#motor-toggle").press("Enter"))
     case = case_of(here)
     assert (case["motion"]["kind"], case["axis"]["mass"]) == ("s-curve", "200 kg")
