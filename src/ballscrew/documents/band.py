@@ -13,6 +13,7 @@ from ballscrew.documents.run import document as run_document
 from ballscrew.evaluation.outputs import known_outputs
 from ballscrew.friction.validity import NUT_REASONS
 from ballscrew.records import Record, documents
+from ballscrew.studies import starvation
 from ballscrew.studies.band import BandReport
 from ballscrew.studies.run import Run
 from ballscrew.uncertainty.bands import OutputBand
@@ -46,7 +47,7 @@ def document(run: Run, report: BandReport) -> dict[str, Any]:
 
 
 def verdicts(case: Case, report: BandReport) -> list[Record]:
-    """The friction torque with its band, the log of a fit, and the share of self-locking samples."""
+    """The friction torque with its band, a full bath beside it, the log of a fit, the share that locks itself."""
     band, torque = report.band, report.band[_TORQUE]
     quantity = known_outputs(case.screw.nut)[_TORQUE].quantity
     if not math.isfinite(torque.median):
@@ -62,6 +63,7 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
         f"{100 * band.level:.4g} % of the samples between {low} and {high}"
     )
     records = [Record(id="band.torque", subject=_TORQUE, text=text, value=torque.median, unit=quantity.unit)]
+    records += starvation.beside_band(torque.both.high, report.flooded_torque)
     if case.fit:
         text = (
             f"calibrated to {case.fit.get('log') or 'a log'}: what the fit held counts as known, no law is exchanged; "

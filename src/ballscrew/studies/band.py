@@ -17,7 +17,7 @@ from ballscrew.errors import InputError
 from ballscrew.evaluation.comparison import Candidate
 from ballscrew.friction.calibrations import PARAMETERS
 from ballscrew.overflow import overflow_as_input_error
-from ballscrew.studies import comparison
+from ballscrew.studies import comparison, starvation
 from ballscrew.uncertainty import bands
 from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.uncertainty.bands import Band, BandCurve
@@ -49,6 +49,8 @@ class BandReport:
 
     band: Band
     inputs: Mapping[str, Uncertain]
+    #: The friction torque in a full bath of oil, N m, where that of the case is starved of oil; None elsewhere.
+    flooded_torque: float | None = None
 
     @property
     def given(self) -> int:
@@ -108,10 +110,17 @@ def band(case: Case, options: Options, done: Done | None = None, heat: HeatSampl
                 done=done,
             ),
             inputs,
+            _flooded_torque(case),
         )
     except InputError as error:
         faults = (dataclasses.replace(f, where=_OPTIONS.get(f.where, f.where)) for f in error.faults)
         raise InputError(*faults) from None
+
+
+def _flooded_torque(case: Case) -> float | None:
+    load, speed = case.operation.axial_load, case.operation.screw_speed
+    found = case.model(case.screw, case.lubricant, axial_load=load, screw_speed=speed)
+    return starvation.flooded_torque(case, found)
 
 
 def axis_of_curve(case: Case) -> str:
