@@ -179,7 +179,10 @@ def test_a_motor_that_fits_and_one_that_does_not():
     rms, torque, speed = MotorCheck(found, weak).checks
     assert (rms.holds, torque.holds, speed.holds) == (True, False, True)
     slow = dataclasses.replace(fits, largest_speed=0.9 * fastest)
-    assert math.isinf(MotorCheck(found, slow).checks[1].utilisation)
+    _, beyond, _ = MotorCheck(found, slow).checks
+    assert math.isinf(beyond.utilisation)
+    needed, ends = (f"{speed * 30 / math.pi:.6g} rpm" for speed in (fastest, 0.9 * fastest))
+    assert beyond.text == f"the motor has no torque above {ends}, where its curve ends; the cycle needs {needed}"
     heated = dataclasses.replace(fits, torque_constant=0.5, resistance=2.0)
     cycle = found.states.cycle_time
     assert MotorCheck(found, heated).copper_loss == pytest.approx(2.0 * found.torque_rms**2 / 0.25 * cycle, rel=1e-12)

@@ -15,6 +15,9 @@ from ballscrew.motion.states import Numbers
 from ballscrew.quantities import Energy
 from ballscrew.sizing.checks import Check
 
+#: Turns a minute in rad/s: what data sheets of motors have.
+_RPM = 2 * math.pi / 60
+
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class MotorCheck(ByValue):
@@ -60,6 +63,11 @@ class MotorCheck(ByValue):
         rms = math.sqrt(self.duty.states.integral(self.torque**2) / self.duty.states.cycle_time)
         of_rms = "RMS torque, rests included, against the rated torque"
         of_peak = f"torque against the curve of the motor, worst in “{name}”"
+        if speed > motor.largest_speed:
+            of_peak = (
+                f"the motor has no torque above {float(motor.largest_speed) / _RPM:.6g} rpm, where its curve ends; "
+                f"the cycle needs {speed / _RPM:.6g} rpm"
+            )
         of_speed = "speed of the motor against its largest"
         return (
             _check("motor_rms_torque", rms, motor.rated_torque, "N m", of_rms),

@@ -215,7 +215,8 @@ function showTabs() {
       },
       element("span", { class: "long" }, text("designs.long")),
       states.LETTERS[place],
-      one.name ? element("span", { class: "own-name" }, ` ${one.name}`) : null,
+      " ", // a space within a block of its own is not seen
+      one.name ? element("span", { class: "own-name" }, one.name) : null,
     ),
   );
   const add = turn(() => {

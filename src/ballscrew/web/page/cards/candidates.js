@@ -247,15 +247,19 @@ function multiple(share) {
  *
  * @param {Candidate} candidate
  */
-function verdictOf({ fails, checks, holds, valid }) {
+function verdictOf({ fails, checks, holds, valid, preload_lost_above: limit }) {
   const open = checks.filter((check) => check.holds === null).length;
   const failing = fails.map((check) => `${nameOf(check)}${multiple(check.utilisation)}`).join(", ");
   const words = failing ? text("checks.fail", { names: failing }) : text(holds ? "checks.holds" : "choose.rest_holds");
+  const load = units.formattedIn(limit, "N", "N", DIGITS + 1);
+  const lost =
+    limit === null ? null : element("strong", { class: "fails" }, ` ${text("choose.preload_lost", { load })}`);
   const others = [open ? text("choose.open", { open }) : "", valid ? "" : text("choose.outside")];
   const summary = element(
     "summary",
     {},
     element("strong", { class: failing ? "fails" : "" }, words),
+    lost,
     ` ${others.join(" ")}`,
   );
   const details = element("details", {}, summary);
