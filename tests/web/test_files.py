@@ -62,6 +62,23 @@ def test_what_is_refused(server, paper):
         assert (found.status_code, words in found.text) == (422, True), found.text[:300]
 
 
+def test_no_small_file_takes_the_memory_or_the_stack(server):
+    """Long keys took a gigabyte in ``tomllib``, deep tables the stack and the connection with it."""
+    before = server.memory
+    for name, content, words in (
+        ("a.toml", "[screw]\n" + "a." * 12_000 + "b=1", "a key has more than 16 parts"),
+        ("a.toml", "[" + "a . " * 12_000 + "b]", "a key has more than 16 parts"),
+        ("a.toml", '"a".' * 900 + "b=1", "a key has more than 16 parts"),
+        ("a.toml", "a=" + "{a=" * 100 + "1" + "}" * 100, "nested more than 16 deep"),
+        ("a.json", '{"a":' * 300 + "1" + "}" * 300, "nested more than 16 deep"),
+    ):
+        found = opened(server, name, content)
+        assert (found.status_code, words in found.json()["lines"][0]) == (422, True), (name, found.text[:300])
+    assert server.memory - before < 50
+    dots = f'[aside]\nnote = "{"a." * 99}" # {"a." * 99}\n'
+    assert opened(server, "a.toml", dots).json()["comments"] == 1
+
+
 def test_a_selection_tells_its_progress_and_the_cases_of_its_candidates(server):
     need = {"force": "2 kN", "feed": "15 m/min", "length": "1 m", "ends": "fixed-supported", "preload": "2 %"}
     table = {"name": "own.csv", "text": (ROOT / "examples" / "own_screws.csv").read_text(encoding="utf-8")}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -15,10 +15,16 @@ from ballscrew.friction.law_names import LAWS
 
 #: Bytes of a case file at most, and bits of a whole number in it: no float is larger.
 LARGEST_FILE, LARGEST_INTEGER = 4_000_000, 1024
+#: Tables within tables at most, and parts of a dotted key.
+DEEPEST = 16
 _START = 'start from "ballscrew catalogue show hiwin-40-20k4 --case"'
-#: Strings of TOML, and what begins with # outside them.
-_STRING_OR_COMMENT = re.compile(
-    r"\"{3}(?:\\.|[^\\])*?\"{3}|'{3}.*?'{3}|\"(?:\\.|[^\"\\\n])*\"|'[^'\n]*'|(?P<comment>#[^\n]*)", re.DOTALL
+#: Strings of TOML, and what begins with # outside them; keys of too many parts, and other words. Its possessive parts
+#: keep the time in proportion to the text, also where a string has no end.
+_TOKEN = re.compile(
+    rf"""(?P<key>(?:(?:[\w-]++|"(?:[^"\\\n]++|\\.)*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){{{DEEPEST}}})
+    |"{{3}}(?:[^"\\]++|\\.|"{{1,2}}(?!"))*+"{{0,5}}+ | '{{3}}(?:[^']++|'{{1,2}}(?!'))*+'{{0,5}}+
+    |"(?:[^"\\\n]++|\\.)*+"? | '[^'\n]*+'? | (?P<comment>\#[^\n]*+) | [\w-]++""",
+    re.DOTALL | re.VERBOSE,
 )
 
 
@@ -51,13 +57,18 @@ def tables_in(content: bytes, where: str) -> dict[str, Any]:
 
 
 def toml(text: str) -> dict[str, Any]:
-    """The tables of a text. Raises ``ValueError`` where it is no TOML, and for whole numbers beyond any float."""
+    """The tables of a text.
+
+    Raises ``ValueError`` where it is no TOML, for tables nested too deeply, and for whole numbers beyond any float.
+    """
+    if any(found["key"] for found in _TOKEN.finditer(text)):  # tomllib keeps each beginning of a key: 24 kB take 1.1 GB
+        raise ValueError(f"a key has more than {DEEPEST} parts")
     return _checked(tomllib.loads(text))
 
 
 def comments_in(text: str) -> int:
     """The number of comments in a text of TOML."""
-    return sum(found["comment"] is not None for found in _STRING_OR_COMMENT.finditer(text))
+    return sum(found["comment"] is not None for found in _TOKEN.finditer(text))
 
 
 def comments_at(path: Path) -> int:
@@ -67,10 +78,10 @@ def comments_at(path: Path) -> int:
 
 
 def _json(text: str) -> dict[str, Any]:
-    tables = json.loads(text, parse_constant=_no_number, object_pairs_hook=_table)
+    tables = _checked(json.loads(text, parse_constant=_no_number, object_pairs_hook=_table))
     if any(leaf is None for leaf in _leaves(tables)):
         raise ValueError("null stands for nothing: leave such names out")
-    return _checked(tables)
+    return tables
 
 
 def _no_number(name: str) -> NoReturn:
@@ -88,9 +99,20 @@ def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _checked(tables: dict[str, Any]) -> dict[str, Any]:
+    level: list[Any] = [tables]
+    for _ in range(DEEPEST + 1):
+        level = [inner for value in level for inner in _inside(value)]
+    if level:
+        raise ValueError(f"its tables are nested more than {DEEPEST} deep")
     if any(isinstance(leaf, int) and leaf.bit_length() > LARGEST_INTEGER for leaf in _leaves(tables)):
         raise ValueError(f"a whole number has more than {LARGEST_INTEGER} bits")
     return tables
+
+
+def _inside(value: Any) -> Iterable[Any]:
+    if isinstance(value, dict):
+        return value.values()
+    return value if isinstance(value, list) else ()
 
 
 def _leaves(value: Any) -> Iterator[Any]:
