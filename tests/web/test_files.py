@@ -79,6 +79,32 @@ def test_no_small_file_takes_the_memory_or_the_stack(server):
     assert opened(server, "a.toml", dots).json()["comments"] == 1
 
 
+def test_what_json_has_not_is_kept_as_text(server, paper):
+    """Nothing is rounded or lost on the way through the page, and all that opens can be saved."""
+    aside = """
+    bought = 2026-01-01
+    at = 2026-01-01T07:00:00Z
+    price = nan
+    most = [1.5, -inf]
+    number = 9007199254740993
+    deep = { a = { b = { c = 1 } } }
+    """
+    saved = server.post("toml", {"case": paper}).text
+    found = opened(server, "case.toml", f"{saved}\n[shop]\n{aside}")
+    assert found.status_code == 200, found.text
+    (design,) = found.json()["designs"]
+    assert design["aside"]["shop"] == {
+        "bought": "2026-01-01", "at": "2026-01-01T07:00:00+00:00", "price": "nan", "most": [1.5, "-inf"],
+        "number": "9007199254740993", "deep": {"a": {"b": {"c": 1}}},
+    }  # fmt: skip
+    names = ("bought", "at", "price", "most", "number")
+    assert [note.partition(" is kept as text")[0] for note in found.json()["notes"]] == [f"shop.{n}" for n in names]
+    again = server.post("project", {"designs": [design]})
+    assert (again.status_code, tomllib.loads(again.text)["designs"][0]) == (200, design)
+    too_deep = opened(server, "case.toml", f"{saved}\n[shop]\na.b.c.d.e = 1")
+    assert (too_deep.status_code, "shop.a.b.c.d.e: is nested too deeply" in too_deep.text) == (422, True)
+
+
 def test_a_selection_tells_its_progress_and_the_cases_of_its_candidates(server):
     need = {"force": "2 kN", "feed": "15 m/min", "length": "1 m", "ends": "fixed-supported", "preload": "2 %"}
     table = {"name": "own.csv", "text": (ROOT / "examples" / "own_screws.csv").read_text(encoding="utf-8")}

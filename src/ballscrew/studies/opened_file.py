@@ -34,15 +34,26 @@ class OpenedFile:
     designs: Sequence[Design]
     #: The number of comments, which are in no design.
     comments: int = 0
-    #: Columns that are not used, and rows that are left out.
+    #: Columns that are not used, rows that are left out, and values that are kept as text.
     notes: Sequence[str] = ()
 
 
 def opened(path: Path) -> OpenedFile:
     """The designs of a file. Raises :class:`~ballscrew.errors.InputError` where it has none.
 
-    Tables that no case has are kept aside.
+    Tables that no case has are kept aside. Values that JSON has not are kept as text: dates, what is not finite, and
+    whole numbers beyond 2^53.
     """
+    found = _opened(path)
+    notes = list(found.notes)
+    designs = [
+        Design(one.name, *(case_text.for_json("", tables, notes) for tables in (one.tables, one.aside)))
+        for one in found.designs
+    ]
+    return dataclasses.replace(found, designs=designs, notes=notes)
+
+
+def _opened(path: Path) -> OpenedFile:
     begin = read_bytes(path, case_text.LARGEST_FILE)[:8] if path.is_file() else b""
     if path.suffix.lower() in _TABLES or is_spreadsheet(path, begin):
         rows = catalogue.screws(path, keep_going=True)
