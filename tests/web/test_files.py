@@ -79,6 +79,14 @@ def test_no_small_file_takes_the_memory_or_the_stack(server):
     assert opened(server, "a.toml", dots).json()["comments"] == 1
 
 
+def test_a_project_of_very_many_names_is_written_at_once(server, paper):
+    """The writer took time by their square: more than a request may, and one of the four places of quick work."""
+    designs = [{"name": "a", "case": paper, "aside": {"shop": {f"bin {i}": i for i in range(15_000)}}}]
+    saved = server.post("project", {"designs": designs})
+    assert saved.status_code == 200, saved.text[:300]
+    assert tomllib.loads(saved.text)["designs"] == designs
+
+
 def test_what_json_has_not_is_kept_as_text(server, paper):
     """Nothing is rounded or lost on the way through the page, and all that opens can be saved."""
     aside = """
