@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import datetime
 import json
+import math
 import re
 import tomllib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -17,6 +19,10 @@ from ballscrew.friction.law_names import LAWS
 LARGEST_FILE, LARGEST_INTEGER = 4_000_000, 1024
 #: Tables within tables at most, and parts of a dotted key.
 DEEPEST = 16
+#: Tables within a design that goes through JSON at most: answers and requests have three more around it.
+_DEEPEST_DESIGN = 5
+#: Whole numbers up to this are the same in every program that reads JSON.
+_LARGEST_EXACT = 2**53
 _START = 'start from "ballscrew catalogue show hiwin-40-20k4 --case"'
 #: Strings of TOML, and what begins with # outside them; keys of too many parts, and other words. Its possessive parts
 #: keep the time in proportion to the text, also where a string has no end.
@@ -75,6 +81,32 @@ def comments_at(path: Path) -> int:
     """The number of comments in a file of TOML; JSON has none."""
     text = read_bytes(path, LARGEST_FILE).decode("utf-8-sig", "replace")
     return 0 if text.lstrip().startswith("{") else comments_in(text)
+
+
+def for_json(where: str, value: Any, notes: list[str], depth: int = 0) -> Any:
+    """The tables of a design as JSON has them, with a note for each value that is kept as text.
+
+    Raises :class:`~ballscrew.errors.InputError` where they are nested too deeply for an answer.
+    """
+    if depth > _DEEPEST_DESIGN:
+        raise InputError(Fault(where, "is nested too deeply", "", f"{_DEEPEST_DESIGN} levels at most in a design"))
+    if isinstance(value, Mapping):
+        return {
+            name: for_json(f"{where}.{name}".removeprefix("."), inner, notes, depth + 1)
+            for name, inner in value.items()
+        }
+    if isinstance(value, list):
+        return [for_json(where, inner, notes, depth + 1) for inner in value]
+    if isinstance(value, datetime.date | datetime.time):
+        text = value.isoformat()
+    elif (isinstance(value, int) and abs(value) > _LARGEST_EXACT) or (
+        isinstance(value, float) and not math.isfinite(value)
+    ):
+        text = str(value)
+    else:
+        return value
+    notes.append(f"{where} is kept as text: {text}")
+    return text
 
 
 def _json(text: str) -> dict[str, Any]:
