@@ -159,7 +159,8 @@ export function show(answer, { band, checks }) {
   showVerdicts(answer);
   // without a load there is nothing to hold, as the verdict says
   const unloaded = answer.verdicts.some(({ id }) => id === "verdict.no_load");
-  const isShown = (/** @type {string} */ name) => numbers[name] !== undefined && !(unloaded && name === "holding_torque");
+  const isShown = (/** @type {string} */ name) =>
+    numbers[name] !== undefined && !(unloaded && name === "holding_torque");
   const rows = FIRST.filter(isShown).map((name) => {
     const { text: shown, interval } = rounded(name, numbers[name], known);
     // the place of an interval that is still computed is kept
