@@ -133,7 +133,7 @@ def test_a_ball_that_skids_is_said(example, ballscrew):
         r"^skids: friction carries only \d+\.\d% of what resists the rolling of a ball$", text, re.MULTILINE
     )
     assert "beware  skid: " in text
-    line = r"^self-locking: .* at this speed; [\d.]+ N m on the shaft lower it \(outside the model's validity\)$"
+    line = r"^not self-locking: .*: it needs a brake; [\d.]+ N m on .* at this speed \(outside the model's validity\)$"
     assert re.search(line, text, re.MULTILINE)
     assert re.search(r"^back-drives: .* at rest$", text, re.MULTILINE)
     lines = text.splitlines()

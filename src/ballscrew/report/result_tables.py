@@ -157,7 +157,7 @@ def check_row(one: Check) -> tuple[str, ...]:
         one.name.replace("_", " "),
         check_text.shown(one, one.value),
         check_text.shown(one, one.limit),
-        "–" if one.utilisation is None else f"{one.utilisation:.1%}",
+        check_text.used_of(one),
         ": ".join(filter(None, [verdict, one.text])),
     )
 

@@ -127,7 +127,7 @@ def check_lines(checks: Sequence[Check], give: Mapping[str, str] | None = None) 
     said = _GIVE if give is None else give
     lines = [f"{'Checks':<26}{'value':>13} {'limit':>13} {'used':>7}  verdict"]
     for check in checks:
-        used = "–" if check.utilisation is None else f"{check.utilisation:.1%}"
+        used = used_of(check)
         verdict = {True: "passes", False: "FAILS", None: ""}[check.holds]
         explanation = check.text
         if check.missing in said:
@@ -136,6 +136,12 @@ def check_lines(checks: Sequence[Check], give: Mapping[str, str] | None = None) 
         prefix = f"  {check.name.replace('_', ' '):<24}{cells}  "
         lines.append(beside(prefix, ": ".join(filter(None, [verdict, explanation]))))
     return lines
+
+
+def used_of(check: Check) -> str:
+    """The share of a limit that is used; a dash where there is no limit, or nothing is left of it."""
+    used = check.utilisation
+    return "–" if used is None or not math.isfinite(used) else f"{used:.1%}"
 
 
 def list_text(found: Sequence[Checked]) -> str:
