@@ -62,6 +62,17 @@ def test_what_is_refused(server, paper):
         assert (found.status_code, words in found.text) == (422, True), found.text[:300]
 
 
+def test_only_tables_have_columns(server, paper):
+    """A project in one line, as many programs write JSON, has many commas in it."""
+    designs = [{"name": str(i), "case": paper} for i in range(80)]
+    project_in_one_line = json.dumps({project.KEY: project.VERSION, "designs": designs})
+    assert project_in_one_line.count(",") > 1_000
+    for name, content in (("a.json", project_in_one_line), ("a.toml", f"[aside]\na = [{'1,' * 1_100}]")):
+        assert opened(server, name, content).status_code == 200
+    for name in ("a.csv", "a.TSV"):
+        assert "has too many columns (1,101)" in opened(server, name, "1," * 1_100).text
+
+
 def test_no_small_file_takes_the_memory_or_the_stack(server):
     """Long keys took a gigabyte in ``tomllib``, deep tables the stack and the connection with it."""
     before = server.memory

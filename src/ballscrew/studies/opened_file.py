@@ -53,9 +53,14 @@ def opened(path: Path) -> OpenedFile:
     return dataclasses.replace(found, designs=designs, notes=notes)
 
 
-def _opened(path: Path) -> OpenedFile:
+def is_table(path: Path) -> bool:
+    """Test whether a file is opened as a table."""
     begin = read_bytes(path, case_text.LARGEST_FILE)[:8] if path.is_file() else b""
-    if path.suffix.lower() in _TABLES or is_spreadsheet(path, begin):
+    return path.suffix.lower() in _TABLES or is_spreadsheet(path, begin)
+
+
+def _opened(path: Path) -> OpenedFile:
+    if is_table(path):
         rows = catalogue.screws(path, keep_going=True)
         return OpenedFile("table", [Design(row.name, tables_of_row(row)) for row in rows.values()], notes=rows.notes)
     tables = case_text.tables_at(path)

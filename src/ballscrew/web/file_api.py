@@ -33,7 +33,7 @@ async def open_file(request: Request) -> Response:
     body: OpenBody = await read(request, OpenBody)
 
     def work(_: Any) -> Response:
-        with written({"file": body.file}) as paths:
+        with written({"file": body.file}, tables=False) as paths:
             found = opened(paths["file"])
         designs = [{"name": one.name, "case": dict(one.tables), "aside": dict(one.aside)} for one in found.designs]
         return as_json({"kind": found.kind, "designs": designs, "comments": found.comments, "notes": list(found.notes)})
