@@ -153,6 +153,19 @@ def test_a_case_file_is_written_whole(fit, log):
     assert float(half) == pytest.approx(1.959964 * constant["std"], rel=1e-6)
 
 
+def test_a_constant_torque_that_would_help_is_named(fit, log):
+    """Seals of 0.1 N m, which the noise of 0.004 N m does not hide; with them free nothing is left to say."""
+    data = columns()
+    path = log({**data, "torque": data["torque"] + 0.1 * np.sign(data["speed"])})
+    first, *_ = document_of(fit(path, "--json"))["warnings"]
+    assert first["id"] == "fit.free_more"
+    assert first["value"] == pytest.approx(NOISE, rel=0.3)
+    assert "with the constant torque free, too, the rows miss by" in first["text"]
+    healthy = (fit(log(), "--json"), fit(path, "--json", "--free", f"{FRICTION},constant_torque"))
+    for done in healthy:
+        assert "fit.free_more" not in {warning["id"] for warning in document_of(done)["warnings"]}
+
+
 def test_a_fit_is_not_lost_for_want_of_a_next_test(fit, log):
     found = document_of(fit(log(), "--limits", "axial_load=1:2 GN", "--json"))
     assert found["next_test"] is None
