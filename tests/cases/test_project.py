@@ -7,10 +7,10 @@ import pytest
 import tomlkit
 
 from ballscrew.cases import case_file, project
+from ballscrew.cases.opened_file import opened
 from ballscrew.cases.project import Design
 from ballscrew.cases.toml_text import as_toml
 from ballscrew.errors import InputError
-from ballscrew.studies.opened_file import opened
 
 CASE = {
     "screw": {"catalogue": "hiwin-40-20k4", "contact_angle": "45 ± 2 deg"},

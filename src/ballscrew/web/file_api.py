@@ -9,10 +9,10 @@ from starlette.responses import Response
 
 from ballscrew.api_answers import file as file_answers
 from ballscrew.cases import project as projects
+from ballscrew.cases.opened_file import opened
 from ballscrew.cases.toml_text import as_toml
 from ballscrew.errors import Fault, InputError, nearest
 from ballscrew.output.json_text import as_json as json_text
-from ballscrew.studies.opened_file import opened
 from ballscrew.web import openapi
 from ballscrew.web.bodies import CaseBody, OpenBody, ProjectBody, case_of, read, refuse_nulls
 from ballscrew.web.endpoint_parts import as_json, heavy, queue_of

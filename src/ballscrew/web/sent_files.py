@@ -12,8 +12,8 @@ import tempfile
 from collections.abc import Generator, Mapping
 from pathlib import Path
 
+from ballscrew.cases.opened_file import is_table
 from ballscrew.errors import Fault, InputError
-from ballscrew.studies.opened_file import is_table
 from ballscrew.web.limits import check_columns
 
 #: What a name of a file has not: what leads elsewhere, and what some system does not take.
