@@ -7,6 +7,9 @@ import pytest
 from ballscrew.case_schema.schema import json_schema
 from ballscrew.cases import case_file
 from ballscrew.errors import InputError
+from ballscrew.studies.run import run
+from ballscrew.studies.sweep import plan, sweep
+from ballscrew.table_files import sweep_files
 from ballscrew.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.uncertainty.distributions import Normal
 
@@ -42,6 +45,13 @@ def test_it_follows_the_lead_and_so_does_its_spread():
     assert (spread.mean, spread.deviation) == pytest.approx((600 * RPM, 50 * RPM / NORMAL_95))
 
 
+@pytest.mark.parametrize("speed", ["12 m/min ± 5 %", "12 m/min +/- 5 %", "12 m/min ± 0,6 m/min", "(12 ± 0.6) m/min"])
+def test_its_spread_may_be_written_after_its_unit(speed):
+    spread = built(speed, lead="20 mm").uncertain["screw_speed"]
+    assert isinstance(spread, Normal)
+    assert (spread.mean, spread.deviation) == pytest.approx((600 * RPM, 30 * RPM / NORMAL_95))
+
+
 @pytest.mark.parametrize(
     ("speed", "problem"),
     [("12 m", "wrong unit"), ("12 Nm/s", "unknown unit"), ("x m/min", "is not a number with a unit")],
@@ -50,6 +60,18 @@ def test_what_is_no_speed_is_said_once(speed, problem):
     with pytest.raises(InputError) as found:
         built(speed)
     assert [(fault.where, fault.problem) for fault in found.value.faults] == [("operation.screw_speed", problem)]
+
+
+def test_a_sweep_over_the_lead_keeps_it(tmp_path):
+    case = built("12 m/min", lead="20 mm")
+    planned = plan(case, ["lead=20, 40 mm"], ["screw_torque"], None)
+    swept = sweep(case, planned)
+    alone = [float(run(built("12 m/min", lead=lead)).friction.screw_torque) for lead in ("20 mm", "40 mm")]
+    assert swept.screw_torque.to_numpy() == pytest.approx(alone, rel=1e-9)
+    assert swept.screw_speed.to_numpy() / RPM == pytest.approx([600, 300])
+    sweep_files.write(swept, planned, tmp_path / "sweep.xlsx")  # a file of a speed for each lead
+    turning = built("600 rpm", lead="20 mm")
+    assert sweep(turning, plan(turning, ["lead=20, 40 mm"], [], None)).screw_speed / RPM == pytest.approx(600)
 
 
 def test_a_faulty_lead_is_the_only_fault():

@@ -133,7 +133,7 @@ def test_a_ball_that_skids_is_said(example, ballscrew):
         r"^skids: friction carries only \d+\.\d% of what resists the rolling of a ball$", text, re.MULTILINE
     )
     assert "beware  skid: " in text
-    line = r"^self-locking: .* at this speed; [\d.]+ N m on the shaft lower it \(outside the model's validity\)$"
+    line = r"^not self-locking: .*: it needs a brake; [\d.]+ N m on .* at this speed \(outside the model's validity\)$"
     assert re.search(line, text, re.MULTILINE)
     assert re.search(r"^back-drives: .* at rest$", text, re.MULTILINE)
     lines = text.splitlines()
@@ -322,7 +322,7 @@ def test_files_hold_the_same_numbers(suffix, example, tmp_path, ballscrew):
 def test_changed_laws_are_named(example, ballscrew):
     settings = ["--set", "model.rolling=houpert", "--set", "model.friction.boundary_friction_coefficient=0.15"]
     text = ballscrew("run", example, "--model", "reference", *settings).stdout
-    changed = "changed: friction run-in (boundary friction coefficient 0.15), rolling houpert"
+    changed = "changed: friction = run-in (boundary friction coefficient 0.15), rolling = houpert"
     assert f"4000 N, 600 rpm, model reference, {changed}" in text.replace("\n", " ")
 
 

@@ -14,6 +14,7 @@ from ballscrew.documents.selection import document
 from ballscrew.errors import InputError
 from ballscrew.selection import selection
 from ballscrew.selection.need import need_of
+from ballscrew.selection.need_motion import OF_MOTION
 from ballscrew.selection.pareto import front, hypervolume
 from ballscrew.text.selection import text
 from support.commands import ROOT
@@ -206,6 +207,56 @@ def test_a_duty_is_judged_by_its_cycle(ballscrew, tmp_path):
     assert [check.name for check in found.checks] == [check["id"].rpartition(".")[2] for check in alone["checks"]]
     assert found.duty is not None
     assert found.duty.numbers["energy_lost"] == pytest.approx(alone["results"]["energy_lost"], rel=1e-9)
+
+
+def test_a_load_that_takes_the_preload_away_is_said_beside_what_holds():
+    """By the force of the need, and by the largest of a cycle though steady travel leaves preload."""
+    tables = {"force": "8 kN", "feed": "15 m/min", "nut": "double", "preload": "2 %", "rows": "hiwin-40-20k4"}
+    found = bs.select(tables)
+    mine = document(found)["candidates"][0]
+    limit = next(one["limit"] for one in mine["verdicts"] if one["id"] == "verdict.preload_lost")
+    assert mine["preload_lost_above"] == limit < 8000
+    assert f"preload lost above {limit:.4g} N" in mine["verdict"]
+    assert mine["case"]["operation"]["screw_speed"] == "15 m/min"  # as typed: the lead makes the speed of it
+    assert mine["verdict"].rpartition("; ")[2] in " ".join(text(found, found.ranked).split())
+    lighter = document(bs.select({**tables, "force": f"{0.9 * limit} N"}))["candidates"][0]
+    assert lighter["preload_lost_above"] is None
+    assert "preload" not in lighter["verdict"]
+    moving = {"axis": {"mass": "1000 kg"}, "motion": {"kind": "trapezoid", "stroke": "0.4 m", "speed": "15 m/min"}}
+    moving["motion"]["acceleration"] = f"{1.1 * limit / 1000} m/s^2"
+    rest = {name: value for name, value in tables.items() if name not in ("force", "feed")}
+    cycle = bs.select({**rest, **moving}).ranked[0].candidate
+    assert cycle.preload_lost_above == pytest.approx(limit)
+    assert not cycle.checked.nut.preload_is_lost
+
+
+MOVING = {
+    "mass": "400 kg", "inclination": "90 deg", "acceleration": "3 m/s^2", "feed": "15 m/min", "stroke": "600 mm",
+    "nut": "double", "preload": "5 %", "life": "20000 h", "rows": "hiwin-40-20k4",
+}  # fmt: skip
+
+
+def test_a_mass_and_an_acceleration_are_an_axis_and_a_motion():
+    """The short names are the tables of a duty: the largest load is m (g + a), the life that of the cycle."""
+    found = bs.select(MOVING)
+    tables = {name: value for name, value in MOVING.items() if name not in OF_MOTION and name != "feed"}
+    motion = {"kind": "trapezoid", "stroke": "600 mm", "speed": "15 m/min", "acceleration": "3 m/s^2"}
+    written = bs.select({**tables, "axis": {"mass": "400 kg", "inclination": "90 deg"}, "motion": motion})
+    mine, other = found.ranked[0].candidate, written.ranked[0].candidate
+    assert mine.objectives == other.objectives
+    assert mine.duty is not None
+    assert mine.duty.largest_load == pytest.approx(400 * (9.80665 + 3))
+    assert any("without rests" in note for note in found.need.notes)
+    operation = document(found)["candidates"][0]["case"]["operation"]  # steady travel, for the other questions
+    assert operation["axial_load"] == "3922.66 N"
+    assert operation["screw_speed"] == "750 rpm"
+
+
+def test_a_mass_says_what_it_needs_beside_it():
+    with pytest.raises(InputError) as raised:
+        bs.select({"mass": "400 kg", "force": "5 kN", "feed": "15 m/min"})
+    places = [fault.where for fault in raised.value.faults]
+    assert places == ["motion.acceleration", "need.stroke", "operation.axial_load"]
 
 
 def test_requirements_are_checks():

@@ -55,6 +55,28 @@ def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
     assert {"verdict.brake", "duty.open_cycle"} <= set(said)
     assert page.locator("#duty .checks tbody tr").count() == len(answer["checks"])
     assert "sum" in here.text("#duty table:has(caption:has-text('paid for'))")
+    # each edit begins from the ones before, in the same table, in another segment and in another section
+    edits = {"segment-1-speed": "15", "segment-3-distance": "-500", "f-motion-acceleration": "3"}
+    for id, typed in edits.items():
+        edited(here, "duty", lambda id=id, typed=typed: page.locator(f"#{id}").fill(typed))
+    edited(here, "duty", lambda: page.locator("#segment-3-speed").fill("12"))
+    page.locator("#add").click()
+    page.locator("#design-A").click()
+    here.settle()
+    answered(here, "duty")
+    assert {id: page.input_value(f"#{id}") for id in edits} == edits
+    motion = case_of(here)["motion"]
+    one, _, two, *_ = motion["segment"]
+    assert motion["acceleration"] == "3 m/s^2"
+    assert [one["distance"], one["speed"], two["distance"], two["speed"]] == [
+        "300 mm", "15 m/min", "-500 mm", "12 m/min"
+    ]  # fmt: skip
+    results = server.post("duty", {"case": case_of(here)}).json()["results"]
+    assert number(here, "duty", "torque_rms") == results["torque_rms"]
+    assert number(here, "duty", "cycle_time") == results["cycle_time"]
+    page.locator("#remove").click()
+    here.settle()
+    answered(here, "duty")
     # a fault stands beside its cell, the answer above stays, and undo takes it back
     page.locator("#segment-1-speed").fill("fast")
     page.wait_for_selector("#segment-1-speed[aria-invalid=true]")
@@ -63,7 +85,7 @@ def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
     assert not page.locator("#results").evaluate("one => one.classList.contains('stale')")
     page.locator("#undo").click()
     answered(here, "duty")
-    assert page.input_value("#segment-1-speed") == "30"
+    assert page.input_value("#segment-1-speed") == "15"
     # moved, added and deleted by keys, with the focus at the segment
     page.locator("#segment-1-name").focus()
     edited(here, "duty", lambda: page.keyboard.press("Alt+ArrowDown"))
@@ -83,6 +105,8 @@ def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
     assert number(here, "duty", "cycle_time") != 4.0
     edited(here, "duty", lambda: page.locator("#motion-kind").select_option("s-curve"))
     edited(here, "duty", lambda: page.locator("#f-axis-mass").fill("200"))
+    edited(here, "duty", lambda: page.locator("#f-motor-largest_speed").fill("100"))
+    assert "no torque above 100 rpm" in here.text("#duty [data-check=motor_peak_torque]")
     edited(here, "duty", lambda: page.locator("#motor-toggle").press("Enter"))
     case = case_of(here)
     assert (case["motion"]["kind"], case["axis"]["mass"]) == ("s-curve", "200 kg")
@@ -110,6 +134,12 @@ def test_warming_up_with_a_band_that_is_cancelled(visit, server):
     edited(here, "warm-up", lambda: page.locator("#f-surroundings-ambient").fill("30"))
     assert case_of(here)["surroundings"]["ambient"] == "30 degC"
     assert number(here, "warm-up", "nut_temperature") > end["nut_temperature"]
+    # Undo of something else leaves the hours to be changed
+    here.type("operation.axial_load", "1 kN")
+    page.locator("#undo").click()
+    answered(here.settle(), "warm-up")
+    edited(here, "warm-up", lambda: page.locator("#warm-hours").fill("0,75"))
+    page.wait_for_function("new URLSearchParams(location.hash.slice(1)).get('hours') === '0,75'")
     # what takes long says so, and is cancelled
     held = []
     page.route("**/api/v1/warm-up", lambda route: held.append(route))

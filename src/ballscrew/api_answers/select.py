@@ -35,6 +35,9 @@ class Candidate(Open):
     holds: bool = Field(description="true where all checks were judged and hold")
     valid: bool
     pareto: bool = Field(description="true where no other candidate that fits is better in all objectives")
+    preload_lost_above: Number = field(
+        "load above which the nut has no preload left, SI; null where no load of the need reaches it", "N"
+    )
     worst: Number = Field(description="largest utilisation")
     fails: list[Failing]
     verdict: str

@@ -8,12 +8,15 @@ from typing import Any
 
 import numpy as np
 
+from ballscrew import units
 from ballscrew._arrays import ByValue, lazy
 from ballscrew.axis.duty import Duty
 from ballscrew.axis.motor import Motor
 from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Energy
+from ballscrew.quantities import Energy, fields_of
 from ballscrew.sizing.checks import Check
+
+_LARGEST_SPEED = fields_of(Motor)["largest_speed"]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -60,6 +63,11 @@ class MotorCheck(ByValue):
         rms = math.sqrt(self.duty.states.integral(self.torque**2) / self.duty.states.cycle_time)
         of_rms = "RMS torque, rests included, against the rated torque"
         of_peak = f"torque against the curve of the motor, worst in “{name}”"
+        if speed > motor.largest_speed:
+            of_peak = (
+                f"the motor has no torque above {units.shown(float(motor.largest_speed), _LARGEST_SPEED)}, where its "
+                f"curve ends; the cycle needs {units.shown(speed, _LARGEST_SPEED)}"
+            )
         of_speed = "speed of the motor against its largest"
         return (
             _check("motor_rms_torque", rms, motor.rated_torque, "N m", of_rms),

@@ -146,8 +146,9 @@ def read_preload(raw: object) -> float:
 #: The speed of the screw, and that of the nut along it, which may stand in its place.
 _SCREW_SPEED = fields_of(OperatingState)["screw_speed"]
 NUT_SPEED = Quantity("screw_speed", "m/s", Info("v", "speed of the nut along the screw", "m/min"))
-#: A unit of a speed along a line: a length by a time. A unit of a turn is none, as the r of "r/min".
-_ALONG = re.compile(r"(?<![A-Za-z])(?:m|[a-zµμ]m|in|inch|inches|ft|foot|feet)\s*/\s*(?:min|s|h|sec|hour)$")
+#: A unit of a speed along a line: a length by a time, at the end or before a deviation. A unit of a turn is none, as
+#: the r of "r/min".
+_ALONG = re.compile(r"(?<![A-Za-z])(?:m|[a-zµμ]m|in|inch|inches|ft|foot|feet)\s*/\s*(?:min|s|h|sec|hour)\s*(?:$|[±+])")
 
 
 class NutSpeed(float):

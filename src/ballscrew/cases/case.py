@@ -86,6 +86,8 @@ class Case(Displayed):
     efficiency: float | None = None
     #: Whether the operating point is that of steady travel in the motion, as the file gives none.
     travels: bool = False
+    #: Whether the file gives the speed of the nut: of another lead, it is another speed of the screw.
+    speed_of_nut: bool = False
     #: The bearings of the shaft by their place on it.
     bearings: Mapping[str, MountedBearing] = dataclasses.field(default_factory=dict[str, MountedBearing])
     #: Distributions of numbers of bearings and guides that the file gives, by section and field.

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from ballscrew import units
 from ballscrew.case_schema.duty_schema import DUTY_TABLES
-from ballscrew.case_schema.fields import NutSpeed
+from ballscrew.case_schema.fields import NutSpeed, is_nut_speed
 from ballscrew.case_schema.option_faults import in_options
 from ballscrew.case_schema.schema import (
     DEFAULT_MODEL,
@@ -199,6 +199,7 @@ def build(
         given_surroundings=frozenset(tables.get("surroundings", {})),
         efficiency=efficiency,
         travels=travels,
+        speed_of_nut=is_nut_speed(tables.get("operation", {}).get("screw_speed")),
         bearings=bearings,
         uncertain_supports=support_tables.distributions(sections),
     )

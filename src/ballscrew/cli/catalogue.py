@@ -1,4 +1,6 @@
-"""``ballscrew catalogue``: rows of catalogues, shipped or one's own. The work is done in ``screw_tables/catalogue``."""
+"""``ballscrew catalogue``: rows of catalogues, shipped or one's own. The work is done in ``screw_tables/catalogue``,
+the text written in ``text/catalogue``.
+"""
 
 from __future__ import annotations
 
@@ -32,11 +34,12 @@ def list_rows(
     """All rows, one line each."""
     from ballscrew.output import json_text
     from ballscrew.screw_tables import catalogue
+    from ballscrew.text import catalogue as text
 
     found, notes = catalogue.load(rows, keep_going)
     chosen = catalogue.chosen(found, " ".join(words or []), rows)
     _say(notes)
-    typer.echo(json_text.as_json(catalogue.list_document(chosen)) if as_json else catalogue.list_text(chosen))
+    typer.echo(json_text.as_json(catalogue.list_document(chosen)) if as_json else text.list_text(chosen))
 
 
 @app.command()
@@ -51,6 +54,7 @@ def show(
     from ballscrew.errors import Fault, InputError
     from ballscrew.output import json_text
     from ballscrew.screw_tables import catalogue
+    from ballscrew.text import catalogue as text
 
     if as_case and as_json:
         raise InputError(Fault("--case", "does not go with --json", "", "give one of the two"))
@@ -60,7 +64,7 @@ def show(
     if as_case:
         typer.echo(catalogue.case_text(row))
     else:
-        typer.echo(json_text.as_json(catalogue.show_document(row)) if as_json else catalogue.show_text(row))
+        typer.echo(json_text.as_json(catalogue.show_document(row)) if as_json else text.show_text(row))
 
 
 def _say(notes: Sequence[str]) -> None:

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from ballscrew import units
-from ballscrew.cases import uncertain_inputs
+from ballscrew.cases import starvation, uncertain_inputs
 from ballscrew.cases.case_file import Case
 from ballscrew.cases.uncertain_inputs import Uncertain
 from ballscrew.documents.run import document as run_document
@@ -46,7 +46,7 @@ def document(run: Run, report: BandReport) -> dict[str, Any]:
 
 
 def verdicts(case: Case, report: BandReport) -> list[Record]:
-    """The friction torque with its band, the log of a fit, and the share of self-locking samples."""
+    """The friction torque with its band, a full bath beside it, the log of a fit, the share that locks itself."""
     band, torque = report.band, report.band[_TORQUE]
     quantity = known_outputs(case.screw.nut)[_TORQUE].quantity
     if not math.isfinite(torque.median):
@@ -62,6 +62,7 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
         f"{100 * band.level:.4g} % of the samples between {low} and {high}"
     )
     records = [Record(id="band.torque", subject=_TORQUE, text=text, value=torque.median, unit=quantity.unit)]
+    records += starvation.beside_band(torque.both.high, report.flooded_torque)
     if case.fit:
         text = (
             f"calibrated to {case.fit.get('log') or 'a log'}: what the fit held counts as known, no law is exchanged; "

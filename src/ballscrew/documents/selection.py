@@ -5,16 +5,20 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from ballscrew import units
 from ballscrew.cases import provenance
+from ballscrew.components.operating_state import OperatingState
 from ballscrew.documents import check as check_documents
-from ballscrew.quantities import fields_of
+from ballscrew.quantities import fields_of, quantities_of
 from ballscrew.selection.candidates import Candidate, case_tables
 from ballscrew.selection.need import Need
 from ballscrew.selection.objectives import OBJECTIVES
 from ballscrew.selection.requirements import Requirements
 from ballscrew.selection.selection import Ranked, Selection
 from ballscrew.sizing.checks import judged, verdict_of
+from ballscrew.solvers.load_distribution import BallLoads
 
+_LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
 #: What is the same for all candidates, or too long for a list.
 _LEFT_OUT = ("units", "provenance", "loads", "name", "checks", "judged", "verdict")
 
@@ -22,8 +26,8 @@ _LEFT_OUT = ("units", "provenance", "loads", "name", "checks", "judged", "verdic
 def document(found: Selection) -> dict[str, Any]:
     """The document in SI; ``results`` and ``checks`` of a candidate are those of ``ballscrew check --json``."""
     first = found.ranked[0].candidate if found.ranked else None
-    units: dict[str, Any] = {} if first is None else check_documents.list_document([first.checked])[0]["units"]
-    units.pop("loads", None)
+    known: dict[str, Any] = {} if first is None else check_documents.list_document([first.checked])[0]["units"]
+    known.pop("loads", None)
     best = found.best
     return {
         "need": need_document(found.need),
@@ -32,7 +36,7 @@ def document(found: Selection) -> dict[str, Any]:
         "holding": len(found.holding),
         "candidates": [candidate_document(each, found.need) for each in found.ranked],
         "notes": list(found.notes),
-        "units": {**units, "objectives": {name: each.quantity.unit for name, each in OBJECTIVES.items()}},
+        "units": {**known, "objectives": {name: each.quantity.unit for name, each in OBJECTIVES.items()}},
         "provenance": None if first is None else provenance.of_case(first.checked.case),
     }
 
@@ -88,11 +92,12 @@ def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
         "holds": found.holds,
         "valid": found.valid,
         "pareto": ranked.pareto,
+        "preload_lost_above": found.preload_lost_above,
         "worst": found.worst if math.isfinite(found.worst) else None,
         "fails": [{"name": c.name, "utilisation": c.utilisation} for c in found.failed],
         "verdict": verdict(found),
         "objectives": dict(found.objectives),
-        "case": case_tables(need, found.variant),
+        "case": _case(found, need),
         "results": whole.pop("results"),
         **duty,
         "checks": [check_documents.check_document(check) for check in found.checks],
@@ -101,9 +106,18 @@ def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
     }
 
 
+def _case(found: Candidate, need: Need) -> dict[str, Any]:
+    """The case file of a candidate; one that moves has its steady travel as operation, for all other questions."""
+    known, at = fields_of(OperatingState), found.checked.case.operation
+    steady = {name: units.written(getattr(at, name), known[name]) for name in ("axial_load", "screw_speed")}
+    tables = case_tables(need, found.variant)
+    return {**tables, "operation": steady} if need.moves and "operation" not in tables else tables
+
+
 def verdict(found: Candidate) -> str:
     """All checks in a few words, with the utilisation of those that fail."""
     text = verdict_of(found.checks, passes="holds", by_how_much=True)
-    if found.checked.nut.preload_is_lost:
-        text += "; the load takes the preload away"
+    limit = found.preload_lost_above
+    if limit is not None:
+        text += f"; preload lost above {units.shown(limit, _LIFT_OFF)}"
     return text if found.valid else f"{text}; outside the model's validity"

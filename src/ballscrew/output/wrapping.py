@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 #: Columns of the widest line.
 WIDTH = 120
@@ -27,12 +27,13 @@ def beside(prefix: str, words: str, narrowest: int = 24) -> str:
     return "\n".join([(prefix + lines[0]).rstrip(), *(" " * len(prefix) + line for line in lines[1:])])
 
 
-def aligned(lines: Sequence[Sequence[str]]) -> list[str]:
-    """Cells in columns: the first to the left, the others to the right."""
+def aligned(lines: Sequence[Sequence[str]], of_text: Collection[int] = (0,)) -> list[str]:
+    """Cells in columns: those of text to the left, the others to the right."""
     widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
 
     def one(line: Sequence[str]) -> str:
-        first, *others = zip(line, widths, strict=True)
-        return "  ".join([first[0].ljust(first[1]), *(cell.rjust(width) for cell, width in others)]).rstrip()
+        cells = enumerate(zip(line, widths, strict=True))
+        placed = [cell.ljust(width) if place in of_text else cell.rjust(width) for place, (cell, width) in cells]
+        return "  ".join(placed).rstrip()
 
     return [one(line) for line in lines]

@@ -27,8 +27,9 @@ from ballscrew.tables import column_names
 from ballscrew.tables.headings import Column
 from ballscrew.tables.rows import Row, made, read
 
-_FIELDS = fields_of(CatalogueRow)
-_DERIVED = {name: quantity for name, quantity in quantities_of(CatalogueRow).items() if name not in _FIELDS}
+#: Quantities of a row that are listed, and that follow from it.
+FIELDS = fields_of(CatalogueRow)
+DERIVED = {name: quantity for name, quantity in quantities_of(CatalogueRow).items() if name not in FIELDS}
 _DEFAULTS = {field.name: field.default for field in dataclasses.fields(CatalogueRow)}
 _REQUIRED = ("nominal_diameter", "lead", "ball_diameter", "turns")
 
@@ -43,14 +44,14 @@ def _column(name: str, quantity: Quantity | None = None) -> Column:
         hints,
         product=name in column_names.PRODUCTS,
         capitals=column_names.CAPITALS.get(name, ()),
-        share=_FIELDS.get(column_names.SHARES.get(name, "")),
+        share=FIELDS.get(column_names.SHARES.get(name, "")),
         words=column_names.WORDS.get(name, {}),
     )
 
 
 COLUMNS = (
     _column("name"),
-    *(_column(name, quantity) for name, quantity in _FIELDS.items()),
+    *(_column(name, quantity) for name, quantity in FIELDS.items()),
     _column("nut"),
     _column("make"),
     _column("recirculation"),
@@ -60,9 +61,6 @@ COLUMNS = (
 )
 #: Preloads of the kinds of nut, as catalogues have them.
 EXAMPLE_PRELOADS: Mapping[str, str] = {"double": "7 %", "offset-lead": "7 %", "oversize-balls": "5 %"}
-#: Columns of the list: a row of the catalogue in the units people think in.
-_LIST = ("name", "d0 x lead [mm]", "ball [mm]", "turns", "balls/turn", "loaded", "C_a [kN]", "C_0a [kN]", "source")
-_TEXTS = (0, len(_LIST) - 1)
 
 
 class Screws(dict[str, CatalogueRow]):
@@ -149,7 +147,7 @@ def _in_column(fault: Fault, row: Row) -> Fault:
 
 
 def _called_by_sizes(values: Mapping[str, Any]) -> str:
-    sizes = [units.from_si(values[name], _FIELDS[name]) for name in ("nominal_diameter", "lead", "ball_diameter")]
+    sizes = [units.from_si(values[name], FIELDS[name]) for name in ("nominal_diameter", "lead", "ball_diameter")]
     return f"{'x'.join(f'{size:.6g}' for size in sizes)}-{values['turns']:g}"
 
 
@@ -185,79 +183,9 @@ def named(rows: Mapping[str, CatalogueRow], name: str, where: str = "", file: st
 # -- for people -----------------------------------------------------------------------------------
 
 
-def list_text(rows: Sequence[CatalogueRow]) -> str:
-    """One line a row."""
-    cells = [list(_LIST), *map(_cells, rows)]
-    widths = [max(len(row[place]) for row in cells) for place in range(len(_LIST))]
-    lines = [
-        "  ".join(
-            cell.ljust(width) if place in _TEXTS else cell.rjust(width)
-            for place, (cell, width) in enumerate(zip(row, widths, strict=True))
-        ).rstrip()
-        for row in cells
-    ]
-    return "\n".join(lines)
-
-
-def _cells(row: CatalogueRow) -> list[str]:
-    size = " x ".join(_number(row, name) for name in ("nominal_diameter", "lead"))
-    numbers = [
-        _number(row, name)
-        for name in (
-            "ball_diameter", "turns", "balls_per_turn", "loaded_balls", "dynamic_load_rating", "static_load_rating",
-        )
-    ]  # fmt: skip
-    return [row.name, size, *numbers, row.source]
-
-
-def _number(row: CatalogueRow, name: str) -> str:
-    value = getattr(row, name)
-    return "-" if value is None else f"{units.from_si(float(value), quantities_of(CatalogueRow)[name]):.5g}"
-
-
-def show_text(row: CatalogueRow) -> str:
-    """Catalogue row of a screw, the values that follow from it, and the assumptions."""
-    kind = f", nut: {row.nut}" if row.nut else ""
-    lines = [f"{row.name} ({row.source}){kind}", "", "Listed"]
-    unlisted = assumed(row)
-    lines += [
-        _line(q, getattr(row, n)) + (_source_of_nut(row) if n == "nut_outer_diameter" else "")
-        for n, q in _FIELDS.items()
-        if n not in unlisted and getattr(row, n) is not None
-    ]
-    lines += ["", "Derived"]
-    lines += [
-        _line(q, getattr(row, n)) + (_root_doubt(row) if n == "groove_root_diameter" else "")
-        for n, q in _DERIVED.items()
-    ]
-    lines += ["", "Assumed", *(f"  {words}" for words in unlisted.values())]
-    return "\n".join(lines)
-
-
-def _source_of_nut(row: CatalogueRow) -> str:
-    return f" ({row.nut_outer_diameter_source})" if row.nut_outer_diameter_source else ""
-
-
-def _line(quantity: Quantity, value: Any) -> str:
-    return f"  {quantity.info.meaning:<58} {units.shown(value, quantity, digits=5)}"
-
-
-def _root_doubt(row: CatalogueRow) -> str:
-    """Change of the root diameter with the conformity, and the value of the catalogue."""
-    quantity = _DERIVED["groove_root_diameter"]
-    around = [
-        dataclasses.replace(row, conformity=row.conformity + doubt).groove_root_diameter
-        for doubt in (CONFORMITY_DOUBT, -CONFORMITY_DOUBT)
-        if 0.5 < row.conformity + doubt <= 1
-    ]
-    span = " to ".join(units.shown(value, quantity, digits=5) for value in around)
-    listed = "" if row.root_diameter is None else f"; listed: {units.shown(row.root_diameter, quantity, digits=5)}"
-    return f" ({span} for a conformity of {row.conformity:g} ± {CONFORMITY_DOUBT:g}{listed})"
-
-
 def assumed(row: CatalogueRow) -> dict[str, str]:
     """In words, what stands for what a catalogue leaves out, by field."""
-    angle = units.shown(row.contact_angle, _FIELDS["contact_angle"])
+    angle = units.shown(row.contact_angle, FIELDS["contact_angle"])
     words = {
         "starts": "one thread start",
         "contact_angle": f"contact angle {angle}, the usual one",
@@ -349,7 +277,7 @@ def _nut(row: CatalogueRow) -> list[str]:
 
 def _listed_part(row: CatalogueRow, name: str, key: str) -> list[str]:
     value = getattr(row, name)
-    return [] if value is None else [_setting(key, _written(value, _FIELDS[name]), "as listed")]
+    return [] if value is None else [_setting(key, _written(value, FIELDS[name]), "as listed")]
 
 
 def _seals(row: CatalogueRow) -> list[str]:
@@ -384,12 +312,12 @@ def _document(row: CatalogueRow) -> dict[str, Any]:
         "name": row.name,
         "nut": row.nut or None,
         "source": row.source,
-        "row": {name: getattr(row, name) for name in _FIELDS},
-        "derived": {name: getattr(row, name) for name in _DERIVED},
+        "row": {name: getattr(row, name) for name in FIELDS},
+        "derived": {name: getattr(row, name) for name in DERIVED},
     }
 
 
 def _with_units(document: dict[str, Any]) -> dict[str, Any]:
-    parts = {"row": _FIELDS, "derived": _DERIVED}
+    parts = {"row": FIELDS, "derived": DERIVED}
     found = {part: {name: quantity.unit for name, quantity in names.items()} for part, names in parts.items()}
     return document | {"units": found, "provenance": {"version": __version__}}

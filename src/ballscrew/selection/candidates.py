@@ -14,11 +14,12 @@ from ballscrew import units
 from ballscrew.axis_studies.duty import DutyReport, duty
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
-from ballscrew.quantities import Length, fields_of
+from ballscrew.quantities import Force, Length, fields_of
 from ballscrew.screw_tables.catalogue import assumed, case_text
 from ballscrew.selection import requirement_checks
 from ballscrew.selection.need import Need
 from ballscrew.selection.objectives import USUAL_LENGTH, reflected_mass, shaft_inertia, shaft_length
+from ballscrew.selection.requirements import Requirements
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.checks import Check
 from ballscrew.sizing.installation import Installation
@@ -32,6 +33,7 @@ from ballscrew.thermal.network import nut_length
 USUAL_PRELOADS = ("2 %", "5 %", "10 %")
 #: How a length is made of a stroke.
 LENGTH_OF_STROKE = "the stroke and a nut of its loaded turns and two leads; add what lies between it and the bearings"
+_FEED = fields_of(Requirements)["feed"]
 _DENSITY = Installation.__dataclass_fields__["shaft_density"].default
 
 
@@ -93,6 +95,14 @@ class Candidate:
         return bool(self.checked.run.friction.valid)
 
     @property
+    def preload_lost_above(self) -> Force | None:
+        """The load above which the nut has no preload left, N; None where no load of the need reaches it."""
+        nut = self.checked.nut
+        limit = float(nut.loads.lift_off_load)
+        in_cycle = self.duty is not None and nut.preload > 0 and self.duty.largest_load >= limit
+        return limit if nut.preload_is_lost or in_cycle else None
+
+    @property
     def failed(self) -> Sequence[Check]:
         """The checks that fail."""
         return [check for check in self.checks if check.holds is False]
@@ -142,7 +152,7 @@ def tables_of(need: Need, variant: Variant) -> dict[str, Any]:
     made["lubricant"] = dict(variant.oil)
     feed = need.requirements.feed
     if feed is not None and isinstance(operation := made.setdefault("operation", {}), dict):
-        operation["screw_speed"] = f"{2 * math.pi * feed / variant.row.lead!r} rad/s"
+        operation["screw_speed"] = units.written(feed, _FEED)
     if need.length_is_stroke and need.requirements.stroke is not None:
         length = need.requirements.stroke + _nut_length(variant)
         made["installation"] = {**made["installation"], "unsupported_length": f"{length!r} m"}

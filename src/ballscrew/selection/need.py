@@ -19,6 +19,7 @@ from ballscrew.components.materials import grades
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.errors import MISSING, Fault, InputError, closest, nearest, raise_if_any
 from ballscrew.quantities import Quantity, fields_of
+from ballscrew.selection.need_motion import OF_MOTION, with_motion
 from ballscrew.selection.objectives import USUAL_LENGTH, USUAL_OBJECTIVES, objectives_named
 from ballscrew.selection.requirements import ALLOWED, FORBIDDEN, NEEDED, Requirements
 
@@ -41,6 +42,7 @@ SHORT_NAMES: Mapping[str, str] = {
     "temperature": "lubricant.temperature",
     **dict.fromkeys(("back_driving", "back_drive", "backdriving", "back_drives"), "need.back_driving"),
     **dict.fromkeys(("accuracy", "accuracy_class", "accuracy_grade"), "need.accuracy"),
+    **OF_MOTION,
     "rows": "need.rows",
     "objectives": "need.objectives",
     "price_index": "need.price_index",
@@ -125,8 +127,9 @@ def need_of(need: str | Path | Mapping[str, Any] | Need, settings: Sequence[str]
         remedy = "write [axis] and [motion], with [[motion.segment]] for its parts"
         raise InputError(Fault("duty", "must be a table", "a list", remedy))
     faults: list[Fault] = []
-    tables = _in_places(_named(case_file.override(tables, settings), faults), faults)
-    return _need(tables, folder, name, faults)
+    notes: list[str] = []
+    tables = _in_places(_named(case_file.override(tables, settings), faults), faults, notes)
+    return _need(tables, folder, name, faults, notes)
 
 
 def _named(tables: Mapping[str, Any], faults: list[Fault]) -> dict[str, Any]:
@@ -145,7 +148,7 @@ def _named(tables: Mapping[str, Any], faults: list[Fault]) -> dict[str, Any]:
     return made
 
 
-def _in_places(tables: dict[str, Any], faults: list[Fault]) -> dict[str, Any]:
+def _in_places(tables: dict[str, Any], faults: list[Fault], notes: list[str]) -> dict[str, Any]:
     """Tables with the short names moved to where they belong; places given twice are faults."""
     own = tables.pop("need", {})
     if not isinstance(own, dict):
@@ -168,6 +171,8 @@ def _in_places(tables: dict[str, Any], faults: list[Fault]) -> dict[str, Any]:
         _short_in(made, section, faults)
     for place, other, quantity in (("operation.screw_speed", "need.feed", _FEED), (*_TURNS, _SPEED)):
         _by_unit(made, place, other, quantity, faults)
+    if any(name in top or name in own for name in OF_MOTION):
+        notes += with_motion(made, faults)
     return made
 
 
@@ -220,8 +225,7 @@ def _put(made: dict[str, Any], place: str, value: Any, where: str, faults: list[
         table[field] = value
 
 
-def _need(tables: dict[str, Any], folder: Path, name: str, faults: list[Fault]) -> Need:
-    notes: list[str] = []
+def _need(tables: dict[str, Any], folder: Path, name: str, faults: list[Fault], notes: list[str]) -> Need:
     own = tables.pop("need")
     objectives, rows = own.pop("objectives", None), own.pop("rows", "")
     prices = own.pop("price_index", {})
@@ -248,7 +252,7 @@ def _need(tables: dict[str, Any], folder: Path, name: str, faults: list[Fault]) 
     tables.pop("optimise", None)
     tables.pop("sweep", None)
     if "bodies" not in tables:
-        notes.append("elastic bodies of screw and nut of a usual size: no [bodies] was given")
+        notes.append("elastic bodies of screw and nut of a usual size, as none were given")
     try:
         names = objectives_named(
             USUAL_OBJECTIVES if objectives is None else _texts("need.objectives", objectives, faults), "need.objectives"

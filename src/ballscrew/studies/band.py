@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ballscrew.case_schema.schema import LAWS
-from ballscrew.cases import uncertain_inputs
+from ballscrew.cases import starvation, uncertain_inputs
 from ballscrew.cases.case_file import Case
 from ballscrew.cases.uncertain_inputs import Uncertain
 from ballscrew.components.traits import traits_of
@@ -49,6 +49,8 @@ class BandReport:
 
     band: Band
     inputs: Mapping[str, Uncertain]
+    #: The friction torque in a full bath of oil, N m, where that of the case is starved of oil; None elsewhere.
+    flooded_torque: float | None = None
 
     @property
     def given(self) -> int:
@@ -108,10 +110,17 @@ def band(case: Case, options: Options, done: Done | None = None, heat: HeatSampl
                 done=done,
             ),
             inputs,
+            _flooded_torque(case),
         )
     except InputError as error:
         faults = (dataclasses.replace(f, where=_OPTIONS.get(f.where, f.where)) for f in error.faults)
         raise InputError(*faults) from None
+
+
+def _flooded_torque(case: Case) -> float | None:
+    load, speed = case.operation.axial_load, case.operation.screw_speed
+    found = case.model(case.screw, case.lubricant, axial_load=load, screw_speed=speed)
+    return starvation.flooded_torque(case, found)
 
 
 def axis_of_curve(case: Case) -> str:

@@ -38,17 +38,33 @@ class OpenedFile:
     designs: Sequence[Design]
     #: The number of comments, which are in no design.
     comments: int = 0
-    #: Columns that are not used, and rows that are left out.
+    #: Columns that are not used, rows that are left out, and values that are kept as text.
     notes: Sequence[str] = ()
 
 
 def opened(path: Path) -> OpenedFile:
     """The designs of a file. Raises :class:`~ballscrew.errors.InputError` where it has none.
 
-    Tables that no case has are kept aside.
+    Tables that no case has are kept aside. Values that JSON has not are kept as text: dates, what is not finite, and
+    whole numbers beyond 2^53.
     """
+    found = _opened(path)
+    notes = list(found.notes)
+    designs = [
+        Design(one.name, *(case_text.for_json("", tables, notes) for tables in (one.tables, one.aside)))
+        for one in found.designs
+    ]
+    return dataclasses.replace(found, designs=designs, notes=notes)
+
+
+def is_table(path: Path) -> bool:
+    """Test whether a file is opened as a table."""
     begin = read_bytes(path, case_text.LARGEST_FILE)[:8] if path.is_file() else b""
-    if path.suffix.lower() in _TABLES or is_spreadsheet(path, begin):
+    return path.suffix.lower() in _TABLES or is_spreadsheet(path, begin)
+
+
+def _opened(path: Path) -> OpenedFile:
+    if is_table(path):
         rows = _screws(path)
         return OpenedFile("table", [Design(row.name, tables_of_row(row)) for row in rows.values()], notes=rows.notes)
     tables = case_text.tables_at(path)

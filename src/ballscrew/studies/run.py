@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ballscrew import units
+from ballscrew.cases import starvation
 from ballscrew.cases.case import Case
 from ballscrew.cases.nut_tables import dynamic_rating
 from ballscrew.components.contact import RaceState
@@ -55,6 +56,11 @@ class Holding(NamedTuple):
     holding_torque: float
     valid: bool
 
+    @property
+    def drives(self) -> bool:
+        """The load alone turns the screw."""
+        return self.holding_torque * self.axial_load > 0
+
     @classmethod
     def of(cls, friction: FrictionResult, place: tuple[int, ...] = ()) -> Holding:
         """That of a result, at a place of its arrays."""
@@ -82,6 +88,8 @@ class Run:
     quadrants: Mapping[str, Quadrant]
     #: None without a nut.
     nut: NutState | None = None
+    #: The friction torque in a full bath of oil, N m, where the result is starved of oil; None elsewhere.
+    flooded_torque: float | None = None
 
     @property
     def quantities(self) -> Mapping[str, Quantity]:
@@ -96,15 +104,17 @@ class Run:
 
     @property
     def verdicts(self) -> list[Record]:
-        """The quadrant, where it is not the usual one; whether the load drives; skidding; loss of the preload."""
+        """Starvation; the quadrant, if not the usual one; whether the load drives; skidding; loss of the preload."""
+        starved = starvation.verdict(float(self.friction.screw_torque), self.flooded_torque)
         if float(self.friction.axial_load) == 0:
             found = [
                 Record(id="verdict.no_load", subject="axial_load", text="no load: nothing to hold", value=0.0, unit="N")
             ]
-            return [*found, *self._lost()]
+            return [*starved, *found, *self._lost()]
         moving = bool(self.friction.screw_speed)
-        found = _holding(Holding.of(self.friction), "") if moving else []
+        found = _holding(Holding.of(self.friction), "", self.at_rest.drives) if moving else []
         return [
+            *starved,
             *_quadrant(self.friction),
             *found,
             *_holding(self.at_rest, "at_rest"),
@@ -200,18 +210,27 @@ def _quadrant(friction: FrictionResult) -> list[Record]:
     ]  # fmt: skip
 
 
-def _holding(holding: Holding, place: str) -> list[Record]:
-    """Whether the load drives, and the torque that holds or lowers it; empty where it is NaN."""
+def _holding(holding: Holding, place: str, drives_at_rest: bool = False) -> list[Record]:
+    """Whether the load drives, and the torque that holds or lowers it; empty where it is NaN.
+
+    What holds a load only while it turns is no self-locking: nobody may leave a brake out because of it.
+    """
     held = holding.holding_torque
     if math.isnan(held):
         return []
-    drives = held * holding.axial_load > 0
+    drives = holding.drives
     torque, when = units.shown(abs(held), _TORQUE), "at rest" if place else "at this speed"
     beware = "" if holding.valid else " (outside the model's validity)"
     if drives:
         name, text = (
             "back_driving",
             f"back-drives: the load turns the screw; {torque} on the shaft hold it {when}{beware}",
+        )
+    elif drives_at_rest:
+        name = "held_in_motion"
+        text = (
+            "not self-locking: friction holds the load only while the screw turns at this speed; "
+            f"at rest the load drives: it needs a brake; {torque} on the shaft lower it {when}{beware}"
         )
     else:
         name = "self_locking"
@@ -258,6 +277,7 @@ def _of_balls(case: Case) -> Run:
         rolling_share=float(found.rolling_share),
         ball_to_ball_force=float(found.ball_to_ball_force),
         quadrants=found.quadrants,
+        flooded_torque=starvation.flooded_torque(case, found),
     )
 
 
@@ -303,6 +323,7 @@ def with_nut(case: Case, nut: Nut) -> Run:
             loaded=loaded,
             relieved=relieved,
         ),
+        flooded_torque=starvation.flooded_torque(case, found),
     )
 
 

@@ -23,7 +23,14 @@ from ballscrew.components.screw import MATERIALS
 from ballscrew.components.traits import traits_of
 from ballscrew.errors import Fault, InputError, fault_of, nearest, raise_if_any
 from ballscrew.evaluation.engines import FEW_POINTS
-from ballscrew.evaluation.outputs import DEFAULT_OUTPUTS, NUT_OUTPUTS, OPERATION, inputs_of, known_outputs
+from ballscrew.evaluation.outputs import (
+    DEFAULT_OUTPUTS,
+    NUT_OUTPUTS,
+    OPERATION,
+    attributes_of,
+    inputs_of,
+    known_outputs,
+)
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.evaluation.plan import Plan as Swept
 from ballscrew.files import check_writable
@@ -247,11 +254,13 @@ def sweep(
 ) -> xr.Dataset:
     """The dataset of a plan; load and speed are those of the case where they are not varied.
 
+    Over the lead, a speed that the case gives as that of the nut stays that of the nut.
+
     It also says which points are valid, and why not, whether that was asked for or not. With a
     store ``to`` it is filled first, by the workers of a ``cluster`` if there is one; ``verify`` and ``trust`` are
     those of :func:`~ballscrew.sweeps.sweep.sweep`.
     """
-    fixed = {name: getattr(case.operation, name) for name in OPERATION if name not in plan.axes}
+    fixed = _unvaried(case, plan)
     names = dict.fromkeys((*plan.outputs, "valid", *(f"validity_{reason}" for reason in reasons_of(case))))
     varied: dict[str, Any] = {}
     for name, values in plan.axes.items():
@@ -302,8 +311,20 @@ def workers(scheduler: str | None, to: Path | None) -> Generator[Any]:
 def implausible(case: Case, plan: Plan) -> list[Record]:
     """A warning for each input that no ball screw has, at some point of the sweep."""
     subject = Configuration(case.model, case.screw, case.lubricant)
-    there = {name: getattr(case.operation, name) for name in OPERATION}
+    there = {name: np.asarray(value) for name, value in _unvaried(case, plan).items()}
     return units.in_display_units_of(subject.implausible({**there, **plan.axes}))
+
+
+def _unvaried(case: Case, plan: Plan) -> dict[str, Any]:
+    """The load and the speed that are not varied; that of a nut whose lead is varied is one for each lead."""
+    found: dict[str, Any] = {name: getattr(case.operation, name) for name in OPERATION if name not in plan.axes}
+    if "screw_speed" in found and "lead" in plan.axes and case.speed_of_nut:
+        leads = plan.axes["lead"]
+        speeds = found["screw_speed"] * case.screw.lead / leads
+        attributes = attributes_of(plan.quantities["lead"])
+        coords = {"lead": xr.DataArray(leads, dims="lead", attrs=attributes)}
+        found["screw_speed"] = xr.DataArray(speeds, coords, "lead")
+    return found
 
 
 def reasons_of(case: Case) -> Mapping[str, str]:

@@ -107,7 +107,11 @@ def _inputs(dataset: xr.Dataset, plan: Plan) -> Iterator[list[Any]]:
     yield ["input", "value", "unit (SI)"]
     fixed = {name: dataset[name] for name in OPERATION if name not in plan.axes}
     for name, value in fixed.items():
-        yield [f"operation_{name}", float(value), plan.quantities[name].unit]
+        if not value.ndim:
+            yield [f"operation_{name}", float(value), plan.quantities[name].unit]
+        elif value.dims == ("lead",):  # that of a nut whose speed is given
+            for lead, number in zip(plan.axes["lead"], value.to_numpy(), strict=True):
+                yield [f"operation_{name}, lead {lead:g} m", float(number), plan.quantities[name].unit]
     for name, value in dataset.attrs.items():
         number = isinstance(value, int | float | np.number) and not isinstance(value, bool)
         yield [name, float(value) if number else str(value), plan.units.get(str(name), "") if number else ""]

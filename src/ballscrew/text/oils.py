@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from ballscrew import units
 from ballscrew.components.data_sheet import DataSheet
 from ballscrew.components.materials import Lubricant
+from ballscrew.output.wrapping import aligned
 from ballscrew.quantities import fields_of
 
 _FIELDS = fields_of(DataSheet)
@@ -18,16 +19,7 @@ _OF_TEXT = (0, len(_COLUMNS) - 2, len(_COLUMNS) - 1)
 
 def list_text(sheets: Sequence[DataSheet]) -> str:
     """One line an oil."""
-    cells = [list(_COLUMNS), *map(_cells, sheets)]
-    widths = [max(len(row[place]) for row in cells) for place in range(len(_COLUMNS))]
-    lines = [
-        "  ".join(
-            cell.ljust(width) if place in _OF_TEXT else cell.rjust(width)
-            for place, (cell, width) in enumerate(zip(row, widths, strict=True))
-        ).rstrip()
-        for row in cells
-    ]
-    return "\n".join(lines)
+    return "\n".join(aligned([_COLUMNS, *map(_cells, sheets)], _OF_TEXT))
 
 
 def _cells(sheet: DataSheet) -> list[str]:

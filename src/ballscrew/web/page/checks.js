@@ -66,13 +66,19 @@ function numberOf(check) {
   return element("data", { value: String(check.value ?? ""), "data-name": check.name }, shown(check, check.value));
 }
 
-/** @param {OneCheck} check */
-function limitOf(check) {
-  return element(
-    "span",
-    { class: "limit" },
-    check.limit === null ? "" : text("checks.limit", { limit: shown(check, check.limit) }),
-  );
+/**
+ * The limit of a check; a motor above its largest speed has no torque, which is said with both speeds.
+ *
+ * @param {OneCheck} check
+ * @param {OneCheck[]} all
+ */
+function limitOf(check, all) {
+  const speed = all.find(({ name }) => name === "motor_speed");
+  const words =
+    check.name === "motor_peak_torque" && check.limit === 0 && speed
+      ? text("checks.no_torque", { largest: shown(speed, speed.limit), needed: shown(speed, speed.value) })
+      : text("checks.limit", { limit: shown(check, check.limit) });
+  return element("span", { class: "limit" }, check.limit === null ? "" : words);
 }
 
 /**
@@ -143,7 +149,7 @@ export function panel(found, caption, jump) {
   const headings = ["", text("checks.value"), text("checks.used")];
   const rows = found.checks.map((check) => [
     element("span", { title: check.display ? units.filled(check.display) : check.text }, nameOf(check)),
-    element("span", {}, numberOf(check), limitOf(check)),
+    element("span", {}, numberOf(check), limitOf(check, found.checks)),
     used(check, jump),
   ]);
   const content = table(caption, headings, rows);

@@ -111,7 +111,9 @@ export function setUp(holder, page) {
   }
 
   async function follow() {
+    const design = designs.current();
     const found = await designs.currentCase();
+    if (design !== designs.current()) return; // another one was chosen in the meantime, and is followed on its own
     isExample = !found.motion || !found.axis;
     const example = vocabulary.starts[EXAMPLE].case;
     tables = isExample ? { ...found, axis: example.axis, motion: example.motion, motor: example.motor } : found;
@@ -120,7 +122,7 @@ export function setUp(holder, page) {
       shown = keyOf(tables);
       const focused = document.activeElement?.id;
       const usual = /** @type {Tables} */ (example.motor);
-      editor.replaceChildren(...inputs(tables, designs.all(), vocabulary.motions, usual, { put, onChange }));
+      editor.replaceChildren(...inputs(() => tables, designs.all(), vocabulary.motions, usual, { put, onChange }));
       if (answer) showValues(editor, answer.inputs);
       if (focused) document.getElementById(focused)?.focus({ preventScroll: true });
     }
@@ -276,7 +278,8 @@ export function setUp(holder, page) {
       textOr(`duty.off.${name}`, name),
     );
     const caption = text("duty.brake_caption", { torque: TORQUE.text(torque) });
-    return framed(caption, headings, rows);
+    const note = element("p", { class: "small" }, text("duty.brake_note"));
+    return element("div", {}, framed(caption, headings, rows), note);
   }
 
   /** @param {DutyAnswer["results"]} results */

@@ -3,6 +3,7 @@
 import { element } from "../dom.js";
 import * as schema from "../schema.js";
 import { text, textOr } from "../texts.js";
+import * as units from "../units.js";
 import { fieldset } from "./case_fields.js";
 import { editor, idOf, kindOf } from "./segments.js";
 
@@ -44,36 +45,36 @@ function nodesOfSegments() {
 }
 
 /**
- * The inputs.
+ * The inputs. They stay while somebody types, so that each edit begins from what the sections are by then.
  *
- * @param {Tables} tables sections of the case
+ * @param {() => Tables} current sections of the case as they are now
  * @param {Readonly<State>} state
  * @param {Record<string, string[]>} motions the fields of each kind of motion
  * @param {Tables | undefined} usualMotor the motor that a case without one is given
  * @param {{ put: Put, onChange: (change: import("../fields.js").Change) => void }} listeners
  */
-export function inputs(tables, state, motions, usualMotor, { put, onChange }) {
-  const source = { state, tables, onChange };
+export function inputs(current, state, motions, usualMotor, { put, onChange }) {
+  const source = { state, tables: current(), onChange };
   return [
-    motionFields(tables.motion, motions, source, put),
+    motionFields(() => current().motion, motions, source, put),
     fieldset("axis", text("section.axis"), OF_AXIS, source),
-    ...motorFields(tables.motor, usualMotor, source, put),
+    ...motorFields(() => current().motor, usualMotor, source, put),
   ];
 }
 
 /**
- * @param {Tables} motion
+ * @param {() => Tables} current
  * @param {Record<string, string[]>} motions
  * @param {Parameters<typeof fieldset>[3]} source
  * @param {Put} put
  */
-function motionFields(motion, motions, source, put) {
-  const kind = String(motion.kind ?? SEGMENTS);
+function motionFields(current, motions, source, put) {
+  const kind = String(current().kind ?? SEGMENTS);
   const select = element(
     "select",
     {
       id: "motion-kind",
-      onchange: () => put({ motion: asKind(motion, select.value, motions) }, { isAnew: true, id: "motion-kind" }),
+      onchange: () => put({ motion: asKind(current(), select.value, motions) }, { isAnew: true, id: "motion-kind" }),
     },
     ...Object.keys(motions).map((name) =>
       element("option", { value: name, selected: name === kind }, textOr(`duty.kind.${name}`, name)),
@@ -90,10 +91,11 @@ function motionFields(motion, motions, source, put) {
   );
   fields.querySelector(".grid")?.prepend(chosen);
   if (kind === SEGMENTS) {
+    const segments = () => current().segment ?? [];
     fields.append(
-      editor(motion.segment ?? [], nodesOfSegments(), (segment, { place, name, isAnew }) => {
+      editor(segments, nodesOfSegments(), (segment, { place, name, isAnew }) => {
         const path = isAnew ? undefined : `motion.segment ${place + 1}.${name}`;
-        put({ motion: { ...motion, segment } }, { path, isAnew, id: idOf(place, name) });
+        put({ motion: { ...current(), segment } }, { path, isAnew, id: idOf(place, name) });
       }),
     );
   }
@@ -137,12 +139,13 @@ function asKind(motion, kind, motions) {
 /**
  * The motor, which a case may leave out.
  *
- * @param {Tables | undefined} motor
+ * @param {() => Tables | undefined} current
  * @param {Tables | undefined} usualMotor
  * @param {Parameters<typeof fieldset>[3]} source
  * @param {Put} put
  */
-function motorFields(motor, usualMotor, source, put) {
+function motorFields(current, usualMotor, source, put) {
+  const motor = current();
   const id = "motor-toggle";
   const toggle = () => put({ motor: motor ? null : (usualMotor ?? {}) }, { isAnew: true, id });
   const button = element(
@@ -158,12 +161,13 @@ function motorFields(motor, usualMotor, source, put) {
     spellcheck: "false",
     "aria-describedby": "f-motor-curve-about f-motor-curve-fault",
   });
-  input.value = (motor.curve ?? []).map((/** @type {string[]} */ point) => point.join(": ")).join("; ");
+  /** @type {string[][]} */
+  const points = motor.curve ?? [];
+  input.value = points.map((point) => point.map(units.inLanguage).join(": ")).join("; ");
   input.addEventListener("input", () => {
-    const points = input.value.split(";").map((point) => point.split(":").map((one) => one.trim()));
-    const { curve, ...others } = motor ?? {};
-    motor = input.value.trim() ? { ...others, curve: points } : others;
-    put({ motor }, { path: "motor.curve" });
+    const points = input.value.split(";").map((point) => point.split(":").map((one) => units.ofLanguage(one.trim())));
+    const { curve, ...others } = current() ?? {};
+    put({ motor: input.value.trim() ? { ...others, curve: points } : others }, { path: "motor.curve" });
   });
   fields.append(
     element(

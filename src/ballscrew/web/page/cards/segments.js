@@ -40,25 +40,25 @@ export function asKind(segment, kind) {
 }
 
 /**
- * The table of segments.
+ * The table of segments. Typing does not make it anew, so that each edit begins from what the segments are by then.
  *
- * @param {Segment[]} segments
+ * @param {() => Segment[]} current the segments as they are now
  * @param {Record<string, SchemaNode>} nodes schemas of the fields of a segment
  * @param {(segments: Segment[], edited: { place: number, name: string, isAnew: boolean }) => void} onChange ``isAnew``
  *   where the table has to be made anew, with the focus on this field
  */
-export function editor(segments, nodes, onChange) {
+export function editor(current, nodes, onChange) {
+  const { length } = current();
   /** @param {number} place @param {number} by */
   const move = (place, by) => {
     const to = place + by;
-    if (to < 0 || to >= segments.length) return;
-    const found = segments.toSpliced(place, 1).toSpliced(to, 0, segments[place]);
+    if (to < 0 || to >= length) return;
+    const found = current().toSpliced(place, 1).toSpliced(to, 0, current()[place]);
     onChange(found, { place: to, name: by < 0 ? "up" : "down", isAnew: true });
   };
-  const rows = segments.map((segment, place) => row(segment, place, { segments, nodes, onChange, move }));
+  const rows = current().map((segment, place) => row(segment, place, { current, nodes, onChange, move }));
   const add = () => {
-    const [place, name] = [segments.length, "name"];
-    onChange([...segments, { ...asKind({}, "rest") }], { place, name, isAnew: true });
+    onChange([...current(), asKind({}, "rest")], { place: length, name: "name", isAnew: true });
   };
   const headings = [
     text("segments.number"),
@@ -96,7 +96,7 @@ function heading(name, node) {
 
 /**
  * @typedef {object} Table
- * @property {Segment[]} segments
+ * @property {() => Segment[]} current
  * @property {Record<string, SchemaNode>} nodes
  * @property {Parameters<typeof editor>[2]} onChange
  * @property {(place: number, by: number) => void} move
@@ -107,16 +107,15 @@ function heading(name, node) {
  * @param {number} place
  * @param {Table} all
  */
-function row(segment, place, { segments, nodes, onChange, move }) {
+function row(segment, place, { current, nodes, onChange, move }) {
   const kind = kindOf(segment);
   const title = text("segments.title", { number: place + 1 });
   /** @param {Segment} found @param {string} name */
-  const put = (found, name, isAnew = false) => onChange(segments.with(place, found), { place, name, isAnew });
+  const put = (found, name, isAnew = false) => onChange(current().with(place, found), { place, name, isAnew });
   /** @param {string} name @param {string} value */
   const set = (name, value) => {
-    const { [name]: _, ...others } = segment;
-    segment = value === "" ? others : { ...others, [name]: value };
-    put(segment, name);
+    const { [name]: _, ...others } = current()[place];
+    put(value === "" ? others : { ...others, [name]: value }, name);
   };
   const names = element("input", {
     type: "text",
@@ -130,7 +129,7 @@ function row(segment, place, { segments, nodes, onChange, move }) {
     {
       id: idOf(place, "kind"),
       "aria-label": `${title}: ${text("segments.kind")}`,
-      onchange: () => put(asKind(segment, /** @type {Kind} */ (kinds.value)), "kind", true),
+      onchange: () => put(asKind(current()[place], /** @type {Kind} */ (kinds.value)), "kind", true),
     },
     ...Object.keys(FIELDS).map((one) =>
       element("option", { value: one, selected: one === kind }, textOr(`segments.is.${one}`, one)),
@@ -148,8 +147,8 @@ function row(segment, place, { segments, nodes, onChange, move }) {
     return element("button", { type: "button", id: idOf(place, name), disabled, onclick, "aria-label": label }, sign);
   };
   const remove = () =>
-    onChange(segments.toSpliced(place, 1), { place: Math.max(0, place - 1), name: "delete", isAnew: true });
-  const last = segments.length - 1;
+    onChange(current().toSpliced(place, 1), { place: Math.max(0, place - 1), name: "delete", isAnew: true });
+  const last = current().length - 1;
   const found = element(
     "tr",
     { "data-path": `motion.segment ${place + 1}` },
@@ -159,7 +158,7 @@ function row(segment, place, { segments, nodes, onChange, move }) {
       { class: "order" },
       button("up", "↑", place === 0, () => move(place, -1)),
       button("down", "↓", place === last, () => move(place, 1)),
-      button("delete", "×", segments.length === 1, remove),
+      button("delete", "×", last === 0, remove),
     ),
     element("td", {}, names),
     element("td", {}, kinds),

@@ -104,7 +104,10 @@ export function setUp(holder, page) {
   }
 
   async function follow() {
-    tables = await designs.currentCase();
+    const design = designs.current();
+    const given = await designs.currentCase();
+    if (design !== designs.current()) return; // another one was chosen in the meantime, and is followed on its own
+    tables = given;
     const { heat } = designs.all();
     const moves = Boolean(tables.motion && tables.axis);
     note.textContent = text(moves ? "warm_up.of_motion" : "warm_up.of_point");
@@ -147,7 +150,7 @@ export function setUp(holder, page) {
       const input = element("input", { type: "text", inputmode: "decimal", id, "aria-describedby": `${id}-fault` });
       input.value = units.inLanguage(heat[name]);
       input.addEventListener("input", () => {
-        heat[name] = units.ofLanguage(input.value.trim());
+        designs.all().heat[name] = units.ofLanguage(input.value.trim()); // Undo puts another state in its place
         shown = keyOf();
         page.keep();
       });
@@ -162,7 +165,7 @@ export function setUp(holder, page) {
     const band = element("input", { type: "checkbox", id: "warm-band" });
     band.checked = heat.band;
     band.addEventListener("change", () => {
-      heat.band = band.checked;
+      designs.all().heat.band = band.checked;
       shown = keyOf();
       page.keep();
     });

@@ -1,0 +1,53 @@
+"""Motion of a need by short names: a mass that goes there and back over the stroke, with an acceleration."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ballscrew.errors import MISSING, Fault
+
+#: Short names of an axis and its motion, and the places they stand for.
+OF_MOTION: Mapping[str, str] = {
+    "mass": "axis.mass",
+    "inclination": "axis.inclination",
+    "acceleration": "motion.acceleration",
+    "dwell": "motion.dwell",
+}
+#: What a mass needs beside it, by place, with what to add.
+_BESIDE: Mapping[str, str] = {
+    "axis.mass": 'add mass = "400 kg", or write force and feed alone',
+    "motion.acceleration": 'add acceleration = "3 m/s^2": with the mass it makes the load',
+    "need.stroke": 'add stroke = "600 mm", the way of the mass',
+    "need.feed": 'add feed = "15 m/min", the largest speed of the mass',
+}
+_FORCE = "leave it out: mass, inclination and acceleration make the load; a force at work is [motion] force"
+
+
+def with_motion(tables: dict[str, Any], faults: list[Fault]) -> list[str]:
+    """Make ``[motion]`` a trapezoid of stroke, feed and acceleration where it has no kind; return what was assumed.
+
+    The feed moves from ``[need]`` to the motion; what is missing, and a force or a screw speed beside it, are faults.
+    """
+    axis, motion = tables.setdefault("axis", {}), tables.setdefault("motion", {})
+    if not isinstance(axis, dict) or not isinstance(motion, dict) or "kind" in motion:
+        return []
+    missing = [Fault(place, MISSING, "", add) for place, add in _BESIDE.items() if _at(tables, place) is None]
+    beside = (("axial_load", _FORCE), ("screw_speed", "write the feed: each lead then has a speed of its own"))
+    given = [(name, _at(tables, f"operation.{name}"), remedy) for name, remedy in beside]
+    wrong = [Fault(f"operation.{n}", "is given beside a mass", str(v), r) for n, v, r in given if v is not None]
+    if missing or wrong:
+        faults += [*missing, *wrong]
+        tables["need"].pop("feed", None)  # it is no second fault
+        return []
+    motion |= {"kind": "trapezoid", "stroke": tables["need"]["stroke"], "speed": tables["need"].pop("feed")}
+    return [
+        *([] if "dwell" in motion else ["motion: there and back over the stroke without rests, as no dwell was given"]),
+        *([] if "inclination" in axis else ["axis: horizontal, as no inclination was given"]),
+    ]  # fmt: skip
+
+
+def _at(tables: Mapping[str, Any], place: str) -> Any:
+    section, _, name = place.partition(".")
+    table = tables.get(section)
+    return table.get(name) if isinstance(table, dict) else None

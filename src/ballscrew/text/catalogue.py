@@ -1,0 +1,78 @@
+"""Text of rows of catalogues on the terminal: a list of them, and one with what follows from it."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from typing import Any
+
+from ballscrew import units
+from ballscrew.output.wrapping import aligned
+from ballscrew.quantities import Quantity, quantities_of
+from ballscrew.screw_tables.catalogue import DERIVED, FIELDS, assumed
+from ballscrew.sizing.catalogue import CONFORMITY_DOUBT, CatalogueRow
+
+#: Columns of the list: a row of the catalogue in the units people think in.
+_LIST = ("name", "d0 x lead [mm]", "ball [mm]", "turns", "balls/turn", "loaded", "C_a [kN]", "C_0a [kN]", "source")
+_TEXTS = (0, len(_LIST) - 1)
+
+
+def list_text(rows: Sequence[CatalogueRow]) -> str:
+    """One line a row."""
+    return "\n".join(aligned([_LIST, *map(_cells, rows)], _TEXTS))
+
+
+def _cells(row: CatalogueRow) -> list[str]:
+    size = " x ".join(_number(row, name) for name in ("nominal_diameter", "lead"))
+    numbers = [
+        _number(row, name)
+        for name in (
+            "ball_diameter", "turns", "balls_per_turn", "loaded_balls", "dynamic_load_rating", "static_load_rating",
+        )
+    ]  # fmt: skip
+    return [row.name, size, *numbers, row.source]
+
+
+def _number(row: CatalogueRow, name: str) -> str:
+    value = getattr(row, name)
+    return "-" if value is None else f"{units.from_si(float(value), quantities_of(CatalogueRow)[name]):.5g}"
+
+
+def show_text(row: CatalogueRow) -> str:
+    """Catalogue row of a screw, the values that follow from it, and the assumptions."""
+    kind = f", nut: {row.nut}" if row.nut else ""
+    lines = [f"{row.name} ({row.source}){kind}", "", "Listed"]
+    unlisted = assumed(row)
+    lines += [
+        _line(q, getattr(row, n)) + (_source_of_nut(row) if n == "nut_outer_diameter" else "")
+        for n, q in FIELDS.items()
+        if n not in unlisted and getattr(row, n) is not None
+    ]
+    lines += ["", "Derived"]
+    lines += [
+        _line(q, getattr(row, n)) + (_root_doubt(row) if n == "groove_root_diameter" else "")
+        for n, q in DERIVED.items()
+    ]
+    lines += ["", "Assumed", *(f"  {words}" for words in unlisted.values())]
+    return "\n".join(lines)
+
+
+def _source_of_nut(row: CatalogueRow) -> str:
+    return f" ({row.nut_outer_diameter_source})" if row.nut_outer_diameter_source else ""
+
+
+def _line(quantity: Quantity, value: Any) -> str:
+    return f"  {quantity.info.meaning:<58} {units.shown(value, quantity, digits=5)}"
+
+
+def _root_doubt(row: CatalogueRow) -> str:
+    """Change of the root diameter with the conformity, and the value of the catalogue."""
+    quantity = DERIVED["groove_root_diameter"]
+    around = [
+        dataclasses.replace(row, conformity=row.conformity + doubt).groove_root_diameter
+        for doubt in (CONFORMITY_DOUBT, -CONFORMITY_DOUBT)
+        if 0.5 < row.conformity + doubt <= 1
+    ]
+    span = " to ".join(units.shown(value, quantity, digits=5) for value in around)
+    listed = "" if row.root_diameter is None else f"; listed: {units.shown(row.root_diameter, quantity, digits=5)}"
+    return f" ({span} for a conformity of {row.conformity:g} ± {CONFORMITY_DOUBT:g}{listed})"
