@@ -19,7 +19,7 @@ from accuracy_table import short_table  # noqa: E402  (after the path of its fol
 from effect_study import effect_figures as figures  # noqa: E402  (likewise)
 from effect_study.cases import PAPER  # noqa: E402  (likewise)
 from effect_tables import light_load_words, sensitivity_table  # noqa: E402  (likewise)
-from validation_tables import vendors_table  # noqa: E402  (likewise)
+from validation_tables import vendors_in_words, vendors_table  # noqa: E402  (likewise)
 
 README = HERE.parent / "README.md"
 IMAGES = HERE / "images"
@@ -45,8 +45,8 @@ def with_accuracy(text: str) -> str:
 
 
 def with_vendors(text: str) -> str:
-    """The README with the current comparison with vendors; takes a few seconds."""
-    return with_block(text, "vendors", vendors_table())
+    """The README with the current comparison with vendors, as a table and in words; takes a few seconds."""
+    return with_block(with_block(text, "vendors", vendors_table()), "vendors in words", vendors_in_words())
 
 
 def with_sensitivities(text: str) -> str:
@@ -59,22 +59,29 @@ def with_light_load(text: str) -> str:
     return with_block(text, "light load", textwrap.fill(light_load_words(PAPER), 130) + "\n")
 
 
-def example(text: str) -> str:
-    """The Python example of the README."""
-    return text.split("```python\n")[1].split("```")[0]
+#: The names of the outputs of the Python blocks, in their order.
+EXAMPLES = ("example", "example of a nut", "example of a spread")
 
 
-def with_example(text: str) -> str:
-    """The README with the current output of its example."""
-    shown = io.StringIO()
-    with contextlib.redirect_stdout(shown):
-        exec(compile(example(text), "README.md", "exec"), {})
-    return with_block(text, "example", f"```text\n{shown.getvalue()}```\n")
+def examples(text: str) -> list[str]:
+    """The Python blocks of the README, which share their names."""
+    return [block.split("```")[0] for block in text.split("```python\n")[1:]]
+
+
+def with_examples(text: str) -> str:
+    """The README with the current output of its Python blocks."""
+    names: dict[str, object] = {}
+    for name, source in zip(EXAMPLES, examples(text), strict=True):
+        shown = io.StringIO()
+        with contextlib.redirect_stdout(shown):
+            exec(compile(source, "README.md", "exec"), names)
+        text = with_block(text, name, f"```text\n{shown.getvalue()}```\n")
+    return text
 
 
 def main() -> None:
     text = README.read_text(encoding="utf-8")
-    for part in (with_claims, with_accuracy, with_vendors, with_sensitivities, with_light_load, with_example):
+    for part in (with_claims, with_accuracy, with_vendors, with_sensitivities, with_light_load, with_examples):
         text = part(text)
     README.write_text(text, encoding="utf-8")
     IMAGES.mkdir(exist_ok=True)

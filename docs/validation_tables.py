@@ -7,6 +7,7 @@ import functools
 import math
 import subprocess
 import sys
+import textwrap
 from pathlib import Path
 
 from ballscrew.components.nut import DoubleNut, OversizeBallNut
@@ -125,7 +126,7 @@ SHORT = {
     "rexroth-double-nut": "Rexroth: no-load torque of double nuts",
     "rexroth-single-nut": "Rexroth: no-load torque of single nuts, oversize balls",
     "thk-jis": "THK: no-load torque of a double nut, not fitted",
-    "xjtu": "XJTU: torque of two new screws, sizes that could be theirs",
+    "xjtu": "XJTU: torque of two new screws, measured, against sizes that could be theirs",
     "chart-friction": "THK, HIWIN: friction coefficient of the thread under load",
     "balan-2015": "rolling torque of balls between rings, measured",
     "hiwin-ratings": "HIWIN: dynamic load rating by ISO 3408-5",
@@ -154,6 +155,55 @@ def vendors_table() -> str:
             ]
         )
     return _table(lines)
+
+
+#: What stands out in the table of the README, a line for each point.
+VENDORS_IN_WORDS = """
+Uncalibrated, the no-load torque of preloaded nuts is {double_below} (double nuts) and {single_below} (oversize balls)
+below the middle of Rexroth's tables.
+
+Rexroth's own rule of one line, a torque in proportion to preload and diameter, fits its table of double nuts with
+{rule}, the model with {double}. The rule scatters as little as the digits of the table: the table was probably computed
+by it. So agreement with it is agreement with a rule.
+
+THK's worked example of a double nut is missed: {thk:.2f} of its drag, {thk_calibrated:.2f} calibrated. It is computed
+by JIS B 1192, whose rule gives {jis:.2f} of Rexroth's double nuts, and Rexroth's rule {thk_rexroth:.2f} of THK's
+example: the vendors contradict each other, and nothing here tells which is closer to a real screw.
+
+Measured are two things. The rolling torque of balls between rings is {rings} of the measured one. Of the two new screws
+of XJTU, the only measured torques of ball screws found in public, neither size nor nut nor oil is stated. So the row
+has {n} screws that could be theirs, from {low:.2f} to {high:.2f} of the measured torque; {within} lie between the two
+screws, and those with double nuts all lie below, at {least:.2f} to {most:.2f}. That confirms nothing, and leaves open
+that the model is far too low.
+"""
+
+
+def vendors_in_words() -> str:
+    """The points of :data:`VENDORS_IN_WORDS` with their numbers, as a list."""
+    by_key = {(entry.data.name, entry.calibration is not None): entry for entry in _entries()}
+    double, thk, screws = (by_key[name, False] for name in ("rexroth-double-nut", "thk-jis", "xjtu"))
+    rule = next(rule for rule in double.rules if rule.rule == "rexroth")
+    double_nuts = [point.ratio for point in screws.points if "double" in point.name]
+    low, high = screws.range_ratio
+    words = VENDORS_IN_WORDS.strip().format(
+        double_below=_percent(1 - double.mean_ratio),
+        single_below=_percent(1 - by_key["rexroth-single-nut", False].mean_ratio),
+        rule=f"{rule.mean_ratio:.3f} ± {rule.std_ratio:.3f}",
+        double=_spread(double),
+        thk=thk.mean_ratio,
+        thk_calibrated=by_key["thk-jis", True].mean_ratio,
+        jis=double.mean_laws["jis"],
+        thk_rexroth=thk.mean_laws["rexroth"],
+        rings=_spread(by_key["balan-2015", False]),
+        n=len(screws.points),
+        low=low,
+        high=high,
+        within=sum(bool(point.in_band) for point in screws.points),
+        least=min(double_nuts),
+        most=max(double_nuts),
+    )
+    points = (textwrap.fill(point, 130, initial_indent="- ", subsequent_indent="  ") for point in words.split("\n\n"))
+    return "".join(f"{point}\n" for point in points)
 
 
 def oil_table() -> str:

@@ -1,12 +1,14 @@
 """Project files: what is written is read again, what is wrong is said, and a path names one design."""
 
 import json
+import tomllib
 
 import pytest
 import tomlkit
 
 from ballscrew.cases import case_file, project
 from ballscrew.cases.project import Design
+from ballscrew.cases.toml_text import as_toml
 from ballscrew.errors import InputError
 from ballscrew.studies.opened_file import opened
 
@@ -90,3 +92,23 @@ def test_results_are_no_case(tmp_path):
     path.write_text('{"inputs": {"screw": 1}, "results": {}}')
     with pytest.raises(InputError, match="has results and no case"):
         opened(path)
+
+
+@pytest.mark.parametrize(
+    "tables",
+    [
+        {"a": 1, "b": {"c": [1, {"d": []}, [True, -0.5e-300]], "e": {}}, "f": {"g": {"h": 2}}},
+        {"rows": [{"a": 1, "b": {"c": 2}}, {}, {"rows": [{"x": 1}]}], "none": [], "mixed": [{"a": 1}, 2]},
+        {"": {"ö\n": {'"': "\\ \x00\x7f\u2028😀"}}, "a.b": {"c d": 1e22}},
+    ],
+)
+def test_tables_are_the_same_after_their_text(tables):
+    assert tomllib.loads(as_toml(tables)) == tables
+
+
+def test_the_text_of_a_case_is_laid_out_as_people_write_it():
+    case = {"model": {"name": "a"}, "losses": {"x": {"law": "known", "torque": "1 N m"}}}
+    assert as_toml(project.tables_of([project.Design("one", case)])) == (
+        'ballscrew_project = 1\n\n[[designs]]\nname = "one"\n\n[designs.case.model]\nname = "a"\n\n'
+        '[designs.case.losses.x]\nlaw = "known"\ntorque = "1 N m"\n'
+    )

@@ -134,7 +134,13 @@ def test_words_say_what_stands_in_the_document(found):
     assert said.startswith("vertical axis, 100 kg, trapezoid over 300 mm at up to 15 m/min: model reference\n")
     for record in (*written["verdicts"], *written["warnings"]):
         assert record["text"].split()[0] in said
-    for words in ("What the motor is paid for", "Motor off", "Life by ISO 3408-5", "by the rule of catalogues (THK)"):
+    for words in (
+        "What the motor is paid for",
+        "Motor off",
+        "an upper bound",
+        "Life by ISO 3408-5",
+        "by the rule of catalogues (THK)",
+    ):
         assert words in said
 
 

@@ -70,6 +70,7 @@ def test_words(fit, log):
     assert text.startswith("log.csv: 120 of 120 rows used, model olaru2005\n")
     for words in (
         "torque read as: torque on the shaft, load and speed with their signs",
+        "among the numbers are 3 for a sensor whose zero wanders slowly, not listed above",
         "the model calibrated",
         "the model as given",
         "Stribeck, viscous and load",
@@ -151,6 +152,19 @@ def test_a_case_file_is_written_whole(fit, log):
     value, half = (part.removesuffix(" N m") for part in tables["losses"]["constant"]["constant_torque"].split(" ± "))
     assert float(value) == pytest.approx(constant["value"], rel=1e-11)
     assert float(half) == pytest.approx(1.959964 * constant["std"], rel=1e-6)
+
+
+def test_a_constant_torque_that_would_help_is_named(fit, log):
+    """Seals of 0.1 N m, which the noise of 0.004 N m does not hide; with them free nothing is left to say."""
+    data = columns()
+    path = log({**data, "torque": data["torque"] + 0.1 * np.sign(data["speed"])})
+    first, *_ = document_of(fit(path, "--json"))["warnings"]
+    assert first["id"] == "fit.free_more"
+    assert first["value"] == pytest.approx(NOISE, rel=0.3)
+    assert "with the constant torque free, too, the rows miss by" in first["text"]
+    healthy = (fit(log(), "--json"), fit(path, "--json", "--free", f"{FRICTION},constant_torque"))
+    for done in healthy:
+        assert "fit.free_more" not in {warning["id"] for warning in document_of(done)["warnings"]}
 
 
 def test_a_fit_is_not_lost_for_want_of_a_next_test(fit, log):

@@ -6,6 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from ballscrew.cases import case_file
+from ballscrew.components.materials import TEMPERATURE
+from ballscrew.studies.sensitivity import Options, sensitivity
+
 ROOT = Path(__file__).parents[2]
 
 
@@ -62,13 +66,35 @@ def test_the_loads_of_skidding_are_up_to_date(make_readme, text):
     assert make_readme.with_light_load(text) == text
 
 
-def test_the_python_example_prints_what_stands_below_it(make_readme, text):
+def test_the_python_examples_print_what_stands_below_them(make_readme, text):
     """If this fails, run ``make readme``."""
-    assert make_readme.with_example(text) == text
+    assert make_readme.with_examples(text) == text
+
+
+def test_the_comparison_with_vendors_is_up_to_date(make_readme, text):
+    """If this fails, run ``make readme``."""
+    assert make_readme.with_vendors(text) == text
+
+
+def test_the_inputs_said_to_move_the_torque_most_are_those_of_the_command(text):
+    """In the order of ``ballscrew sensitivity examples/feed_drive.toml``; two of them are about as large."""
+    case = case_file.load(ROOT / "examples" / "feed_drive.toml")
+    total = sensitivity(case, Options(samples=256)).result.total
+    shares = {name.rpartition(".")[2]: one.value for name, one in total.items()}
+    first, *next_two, fourth = sorted(shares, key=shares.__getitem__, reverse=True)[:4]
+    assert first == "share_of_load"
+    assert shares[first] > 2 * shares[next_two[0]]
+    assert sorted(next_two) == ["ball_friction_coefficient", "full_film_friction_coefficient"]
+    assert fourth == TEMPERATURE.name
+    assert shares["boundary_friction_coefficient"] < 0.05
+    assert (
+        "force between balls, far ahead; friction of the full film and friction between balls; temperature of the oil."
+        in " ".join(text.split())
+    )
 
 
 def test_the_python_example_is_ten_lines_and_readable(make_readme, text):
-    assert len([line for line in make_readme.example(text).splitlines() if line]) == 10
+    assert len([line for line in make_readme.examples(text)[0].splitlines() if line]) == 10
     shown = text.split("<!-- example: begin -->")[1].split("<!-- example: end -->")[0]
     assert "helix" in shown
     assert "np." not in shown

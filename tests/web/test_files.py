@@ -47,6 +47,7 @@ def test_what_is_refused(server, paper):
         ("a.json", json.dumps({"inputs": {}, "results": {}}), "has results and no case"),
         ("a.json", '{"screw": null}', "null stands for nothing"),
         ("a.csv", "a,b\n1,2\n", "a.csv"),
+        ("rig.csv", "speed [rpm],axial load [N],torque [N m]\n50,1000,0.8\n", "is a log of torques"),
         ("a.xlsx", b"PK\x03\x04 no workbook", "a.xlsx"),
         ("../../etc/passwd", "", "is empty"),
     ):
@@ -60,6 +61,68 @@ def test_what_is_refused(server, paper):
     ):
         found = server.post("project", {"designs": designs})
         assert (found.status_code, words in found.text) == (422, True), found.text[:300]
+
+
+def test_only_tables_have_columns(server, paper):
+    """A project in one line, as many programs write JSON, has many commas in it."""
+    designs = [{"name": str(i), "case": paper} for i in range(80)]
+    project_in_one_line = json.dumps({project.KEY: project.VERSION, "designs": designs})
+    assert project_in_one_line.count(",") > 1_000
+    for name, content in (("a.json", project_in_one_line), ("a.toml", f"[aside]\na = [{'1,' * 1_100}]")):
+        assert opened(server, name, content).status_code == 200
+    for name in ("a.csv", "a.TSV"):
+        assert "has too many columns (1,101)" in opened(server, name, "1," * 1_100).text
+
+
+def test_no_small_file_takes_the_memory_or_the_stack(server):
+    """Long keys took a gigabyte in ``tomllib``, deep tables the stack and the connection with it."""
+    before = server.memory
+    for name, content, words in (
+        ("a.toml", "[screw]\n" + "a." * 12_000 + "b=1", "a key has more than 16 parts"),
+        ("a.toml", "[" + "a . " * 12_000 + "b]", "a key has more than 16 parts"),
+        ("a.toml", '"a".' * 900 + "b=1", "a key has more than 16 parts"),
+        ("a.toml", "a=" + "{a=" * 100 + "1" + "}" * 100, "nested more than 16 deep"),
+        ("a.json", '{"a":' * 300 + "1" + "}" * 300, "nested more than 16 deep"),
+    ):
+        found = opened(server, name, content)
+        assert (found.status_code, words in found.json()["lines"][0]) == (422, True), (name, found.text[:300])
+    assert server.memory - before < 50
+    dots = f'[aside]\nnote = "{"a." * 99}" # {"a." * 99}\n'
+    assert opened(server, "a.toml", dots).json()["comments"] == 1
+
+
+def test_a_project_of_very_many_names_is_written_at_once(server, paper):
+    """The writer took time by their square: more than a request may, and one of the four places of quick work."""
+    designs = [{"name": "a", "case": paper, "aside": {"shop": {f"bin {i}": i for i in range(15_000)}}}]
+    saved = server.post("project", {"designs": designs})
+    assert saved.status_code == 200, saved.text[:300]
+    assert tomllib.loads(saved.text)["designs"] == designs
+
+
+def test_what_json_has_not_is_kept_as_text(server, paper):
+    """Nothing is rounded or lost on the way through the page, and all that opens can be saved."""
+    aside = """
+    bought = 2026-01-01
+    at = 2026-01-01T07:00:00Z
+    price = nan
+    most = [1.5, -inf]
+    number = 9007199254740993
+    deep = { a = { b = { c = 1 } } }
+    """
+    saved = server.post("toml", {"case": paper}).text
+    found = opened(server, "case.toml", f"{saved}\n[shop]\n{aside}")
+    assert found.status_code == 200, found.text
+    (design,) = found.json()["designs"]
+    assert design["aside"]["shop"] == {
+        "bought": "2026-01-01", "at": "2026-01-01T07:00:00+00:00", "price": "nan", "most": [1.5, "-inf"],
+        "number": "9007199254740993", "deep": {"a": {"b": {"c": 1}}},
+    }  # fmt: skip
+    names = ("bought", "at", "price", "most", "number")
+    assert [note.partition(" is kept as text")[0] for note in found.json()["notes"]] == [f"shop.{n}" for n in names]
+    again = server.post("project", {"designs": [design]})
+    assert (again.status_code, tomllib.loads(again.text)["designs"][0]) == (200, design)
+    too_deep = opened(server, "case.toml", f"{saved}\n[shop]\na.b.c.d.e = 1")
+    assert (too_deep.status_code, "shop.a.b.c.d.e: is nested too deeply" in too_deep.text) == (422, True)
 
 
 def test_a_selection_tells_its_progress_and_the_cases_of_its_candidates(server):

@@ -352,11 +352,36 @@ def test_cold_and_hot(go, server):
         oil = {"grade": "ISO VG 100", "temperature": temperature}
         found = server.post("run", {"case": {**case, "lubricant": oil}}).json()["results"]
         assert cells.locator("th").inner_text().replace("\u00a0", " ") == temperature.replace("deg", "°")
-        torque = float(cells.locator("data").get_attribute("value"))
+        torque, bath = (float(one.get_attribute("value")) for one in cells.locator("data").all())
         assert torque == pytest.approx(found["screw_torque"], rel=1e-9)
+        assert bath > torque  # a track full of oil rolls harder
         assert ("self-locking" in cells.inner_text()) == found["self_locking"]
     go("#A=paper&band=0")
     assert "Choose a grade" in here.text("#temperatures")
+
+
+def test_a_starved_screw_beside_a_full_bath(go):
+    """Cold, thick oil: both torques, a button that fills the bath and takes that back, and what needs a brake."""
+    oil = "A.lubricant.grade=ISO+VG+220&A.lubricant.temperature=5+degC"
+    here = go(f"#A=rexroth-40x10x6-6-double&{oil}&A.operation.axial_load=3+kN&A.operation.screw_speed=1000+rpm&band=0")
+    starved = here.numbers()["results"]["screw_torque"]
+    assert "in a full bath the friction torque is 7.1 N·m" in here.text("#summary")
+    assert "in a full bath of oil" in here.text("#verdicts")
+    assert "replenishment_constant" not in here.text("#verdicts")
+    assert "for an inlet full of oil" in here.text("#contacts")
+    beside = here.page.locator("#temperatures tbody tr >> nth=1").locator("data >> nth=1").get_attribute("value")
+    here.page.locator("#bath").click()
+    here.page.wait_for_selector("#bath:has-text('Compute without')")
+    flooded = here.settle().numbers()["results"]["screw_torque"]
+    assert flooded == pytest.approx(float(beside), rel=1e-6)
+    assert flooded > 5 * starved
+    assert "it needs a brake" in here.text("#verdicts")
+    assert "for an inlet full of oil" not in here.text("#contacts")
+    here.page.locator("#bath").click()
+    here.page.wait_for_selector("#bath:has-text('Compute with a')")
+    assert here.settle().numbers()["results"]["screw_torque"] == starved
+    here.page.locator("#undo").click()
+    here.page.wait_for_selector("#bath:has-text('Compute without')")
 
 
 def test_a_decimal_comma(go):

@@ -101,6 +101,8 @@ def brake_of(duty: Duty, *, brake_factor: Ratio = BRAKE_FACTOR, process_force: F
 
     As the case has it, with the oil at 5 °C and at 60 °C, and dry: all contacts at the boundary, none of the rolling
     that oil makes. An oil without a grade has one temperature only. What belt or gears lose is not counted on.
+    The least friction follows the product of speed and viscosity: another temperature moves it to another speed and
+    leaves it about as large, so that the conditions differ little unless it lies beyond the speeds of the duty.
     """
     off = _Off(duty, duty.axis.gravity_force + process_force)
     found = [off.let_go("as in the case", None)]

@@ -8,15 +8,15 @@ from typing import Any
 
 import numpy as np
 
+from ballscrew import units
 from ballscrew._arrays import ByValue, lazy
 from ballscrew.axis.duty import Duty
 from ballscrew.axis.motor import Motor
 from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Energy
+from ballscrew.quantities import Energy, fields_of
 from ballscrew.sizing.checks import Check
 
-#: Turns a minute in rad/s: what data sheets of motors have.
-_RPM = 2 * math.pi / 60
+_LARGEST_SPEED = fields_of(Motor)["largest_speed"]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -65,8 +65,8 @@ class MotorCheck(ByValue):
         of_peak = f"torque against the curve of the motor, worst in “{name}”"
         if speed > motor.largest_speed:
             of_peak = (
-                f"the motor has no torque above {float(motor.largest_speed) / _RPM:.6g} rpm, where its curve ends; "
-                f"the cycle needs {speed / _RPM:.6g} rpm"
+                f"the motor has no torque above {units.shown(float(motor.largest_speed), _LARGEST_SPEED)}, where its "
+                f"curve ends; the cycle needs {units.shown(speed, _LARGEST_SPEED)}"
             )
         of_speed = "speed of the motor against its largest"
         return (

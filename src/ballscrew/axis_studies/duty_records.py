@@ -188,7 +188,10 @@ def _too_fast(report: DutyReport) -> list[Record]:
     found: list[Record] = []
     for name, remedy in (
         ("critical_speed", "hold the ends firmer, shorten the shaft, or take a greater lead"),
-        ("diameter_speed_product", "take a greater lead, or a nut made for it and its limits.diameter_speed_product"),
+        (
+            "diameter_speed_product",
+            "take a greater lead, or a nut made for such speeds, with its own limit of the DN value",
+        ),
     ):
         check = _check(report, name)
         if check is None or check.holds is not False or check.utilisation is None:

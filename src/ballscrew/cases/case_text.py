@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import datetime
 import json
+import math
 import re
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -15,10 +17,20 @@ from ballscrew.friction.law_names import LAWS
 
 #: Bytes of a case file at most, and bits of a whole number in it: no float is larger.
 LARGEST_FILE, LARGEST_INTEGER = 4_000_000, 1024
+#: Tables within tables at most, and parts of a dotted key.
+DEEPEST = 16
+#: Tables within a design that goes through JSON at most: answers and requests have three more around it.
+_DEEPEST_DESIGN = 5
+#: Whole numbers up to this are the same in every program that reads JSON.
+_LARGEST_EXACT = 2**53
 _START = 'start from "ballscrew catalogue show hiwin-40-20k4 --case"'
-#: Strings of TOML, and what begins with # outside them.
-_STRING_OR_COMMENT = re.compile(
-    r"\"{3}(?:\\.|[^\\])*?\"{3}|'{3}.*?'{3}|\"(?:\\.|[^\"\\\n])*\"|'[^'\n]*'|(?P<comment>#[^\n]*)", re.DOTALL
+#: Strings of TOML, and what begins with # outside them; keys of too many parts, and other words. Its possessive parts
+#: keep the time in proportion to the text, also where a string has no end.
+_TOKEN = re.compile(
+    rf"""(?P<key>(?:(?:[\w-]++|"(?:[^"\\\n]++|\\.)*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){{{DEEPEST}}})
+    |"{{3}}(?:[^"\\]++|\\.|"{{1,2}}(?!"))*+"{{0,5}}+ | '{{3}}(?:[^']++|'{{1,2}}(?!'))*+'{{0,5}}+
+    |"(?:[^"\\\n]++|\\.)*+"? | '[^'\n]*+'? | (?P<comment>\#[^\n]*+) | [\w-]++""",
+    re.DOTALL | re.VERBOSE,
 )
 
 
@@ -51,13 +63,18 @@ def tables_in(content: bytes, where: str) -> dict[str, Any]:
 
 
 def toml(text: str) -> dict[str, Any]:
-    """The tables of a text. Raises ``ValueError`` where it is no TOML, and for whole numbers beyond any float."""
+    """The tables of a text.
+
+    Raises ``ValueError`` where it is no TOML, for tables nested too deeply, and for whole numbers beyond any float.
+    """
+    if any(found["key"] for found in _TOKEN.finditer(text)):  # tomllib keeps each beginning of a key: 24 kB take 1.1 GB
+        raise ValueError(f"a key has more than {DEEPEST} parts")
     return _checked(tomllib.loads(text))
 
 
 def comments_in(text: str) -> int:
     """The number of comments in a text of TOML."""
-    return sum(found["comment"] is not None for found in _STRING_OR_COMMENT.finditer(text))
+    return sum(found["comment"] is not None for found in _TOKEN.finditer(text))
 
 
 def comments_at(path: Path) -> int:
@@ -66,11 +83,37 @@ def comments_at(path: Path) -> int:
     return 0 if text.lstrip().startswith("{") else comments_in(text)
 
 
+def for_json(where: str, value: Any, notes: list[str], depth: int = 0) -> Any:
+    """The tables of a design as JSON has them, with a note for each value that is kept as text.
+
+    Raises :class:`~ballscrew.errors.InputError` where they are nested too deeply for an answer.
+    """
+    if depth > _DEEPEST_DESIGN:
+        raise InputError(Fault(where, "is nested too deeply", "", f"{_DEEPEST_DESIGN} levels at most in a design"))
+    if isinstance(value, Mapping):
+        return {
+            name: for_json(f"{where}.{name}".removeprefix("."), inner, notes, depth + 1)
+            for name, inner in value.items()
+        }
+    if isinstance(value, list):
+        return [for_json(where, inner, notes, depth + 1) for inner in value]
+    if isinstance(value, datetime.date | datetime.time):
+        text = value.isoformat()
+    elif (isinstance(value, int) and abs(value) > _LARGEST_EXACT) or (
+        isinstance(value, float) and not math.isfinite(value)
+    ):
+        text = str(value)
+    else:
+        return value
+    notes.append(f"{where} is kept as text: {text}")
+    return text
+
+
 def _json(text: str) -> dict[str, Any]:
-    tables = json.loads(text, parse_constant=_no_number, object_pairs_hook=_table)
+    tables = _checked(json.loads(text, parse_constant=_no_number, object_pairs_hook=_table))
     if any(leaf is None for leaf in _leaves(tables)):
         raise ValueError("null stands for nothing: leave such names out")
-    return _checked(tables)
+    return tables
 
 
 def _no_number(name: str) -> NoReturn:
@@ -88,9 +131,20 @@ def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _checked(tables: dict[str, Any]) -> dict[str, Any]:
+    level: list[Any] = [tables]
+    for _ in range(DEEPEST + 1):
+        level = [inner for value in level for inner in _inside(value)]
+    if level:
+        raise ValueError(f"its tables are nested more than {DEEPEST} deep")
     if any(isinstance(leaf, int) and leaf.bit_length() > LARGEST_INTEGER for leaf in _leaves(tables)):
         raise ValueError(f"a whole number has more than {LARGEST_INTEGER} bits")
     return tables
+
+
+def _inside(value: Any) -> Iterable[Any]:
+    if isinstance(value, dict):
+        return value.values()
+    return value if isinstance(value, list) else ()
 
 
 def _leaves(value: Any) -> Iterator[Any]:

@@ -95,4 +95,5 @@ def _power_off(report: DutyReport) -> list[Block]:
     if not report.brake.load_torque:
         return []
     rows = [text.condition_cells(found) for found in report.brake.conditions]
-    return [Table("The axis with its motor off and no brake", text.CONDITIONS, rows, (0, len(text.CONDITIONS) - 1))]
+    of_words = (0, len(text.CONDITIONS) - 1)
+    return [Table("The axis with its motor off and no brake", text.CONDITIONS, rows, of_words, note=text.OFF_NOTE)]

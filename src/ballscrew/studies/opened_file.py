@@ -18,9 +18,13 @@ from ballscrew.files import read_bytes
 from ballscrew.screw_tables import catalogue
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.tables.sheets import is_spreadsheet
+from ballscrew.torque_logs.preview import preview
 
 #: Endings of files that are tables as text.
 _TABLES = (".csv", ".tsv")
+#: Columns of a log, of which it has one of either kind.
+_TORQUES = frozenset({"torque", "friction_torque", "drive_torque", "current"})
+_CONDITIONS = frozenset({"axial_load", "screw_speed", "feed_rate", "position", "time"})
 #: What a document of results has, and no case.
 _OF_RESULTS = ("inputs", "results")
 
@@ -34,18 +38,34 @@ class OpenedFile:
     designs: Sequence[Design]
     #: The number of comments, which are in no design.
     comments: int = 0
-    #: Columns that are not used, and rows that are left out.
+    #: Columns that are not used, rows that are left out, and values that are kept as text.
     notes: Sequence[str] = ()
 
 
 def opened(path: Path) -> OpenedFile:
     """The designs of a file. Raises :class:`~ballscrew.errors.InputError` where it has none.
 
-    Tables that no case has are kept aside.
+    Tables that no case has are kept aside. Values that JSON has not are kept as text: dates, what is not finite, and
+    whole numbers beyond 2^53.
     """
+    found = _opened(path)
+    notes = list(found.notes)
+    designs = [
+        Design(one.name, *(case_text.for_json("", tables, notes) for tables in (one.tables, one.aside)))
+        for one in found.designs
+    ]
+    return dataclasses.replace(found, designs=designs, notes=notes)
+
+
+def is_table(path: Path) -> bool:
+    """Test whether a file is opened as a table."""
     begin = read_bytes(path, case_text.LARGEST_FILE)[:8] if path.is_file() else b""
-    if path.suffix.lower() in _TABLES or is_spreadsheet(path, begin):
-        rows = catalogue.screws(path, keep_going=True)
+    return path.suffix.lower() in _TABLES or is_spreadsheet(path, begin)
+
+
+def _opened(path: Path) -> OpenedFile:
+    if is_table(path):
+        rows = _screws(path)
         return OpenedFile("table", [Design(row.name, tables_of_row(row)) for row in rows.values()], notes=rows.notes)
     tables = case_text.tables_at(path)
     comments = case_text.comments_at(path)
@@ -59,6 +79,26 @@ def opened(path: Path) -> OpenedFile:
         remedy = "open the case file that it came from, or save that as TOML"
         raise InputError(Fault(path.name, "has results and no case", "", remedy))
     return OpenedFile("case", [_kept(Design(path.stem, tables))], comments)
+
+
+def _screws(path: Path) -> catalogue.Screws:
+    """The rows of a table of screws; a log of torques, which is opened elsewhere, is called what it is."""
+    try:
+        return catalogue.screws(path, keep_going=True)
+    except InputError:
+        if not _is_log(path):
+            raise
+    remedy = "use it in Calibrate or Service of the page, or by ballscrew fit or service"
+    raise InputError(Fault(path.name, "is a log of torques and no table of screws", "", remedy))
+
+
+def _is_log(path: Path) -> bool:
+    """Test whether a table has a torque, and what belongs to it."""
+    try:
+        found = {column.taken_for for column in preview(path).columns}
+    except InputError:
+        return False
+    return bool(found & _TORQUES) and bool(found & _CONDITIONS)
 
 
 def _kept(design: Design) -> Design:

@@ -36,6 +36,12 @@ _TORQUE, _ENERGY, _POWER = (NUMBERS[name] for name in ("torque_rms", "energy_los
 _MECHANISMS = 3
 #: Columns of the axis with its motor off.
 CONDITIONS = ("", "oil", "load", "friction from rest", "least in motion", "ratio", "after the stroke", "")
+#: Why the rows of the axis with its motor off are often alike.
+OFF_NOTE = (
+    "Friction from rest is without an oil film. In motion the least friction at any speed of the cycle counts: a "
+    "thinner oil moves it to a higher speed, where it is about as large, so that rows may be alike. The speed after "
+    "the stroke is reckoned with it all the way, an upper bound."
+)
 #: The options for an input of a check that is missing.
 _GIVE = {
     "installation": "[installation]",
@@ -200,7 +206,7 @@ def _power_off(report: DutyReport) -> list[str]:
         return ["Motor off: no load turns the screw"]
     rows = [["Motor off", *CONDITIONS[1:]]]
     rows += [[f"  {first}", *others] for first, *others in map(condition_cells, report.brake.conditions)]
-    return aligned(rows)
+    return [*aligned(rows), f"  {OFF_NOTE}"]
 
 
 def condition_cells(found: LetGo) -> list[str]:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-import tomlkit
 from fastapi import APIRouter, Path, Query, Request
 from starlette.responses import Response
 
 from ballscrew.api_answers import file as file_answers
 from ballscrew.cases import project as projects
+from ballscrew.cases.toml_text import as_toml
 from ballscrew.errors import Fault, InputError, nearest
 from ballscrew.output.json_text import as_json as json_text
 from ballscrew.studies.opened_file import opened
@@ -33,7 +33,7 @@ async def open_file(request: Request) -> Response:
     body: OpenBody = await read(request, OpenBody)
 
     def work(_: Any) -> Response:
-        with written({"file": body.file}) as paths:
+        with written({"file": body.file}, tables=False) as paths:
             found = opened(paths["file"])
         designs = [{"name": one.name, "case": dict(one.tables), "aside": dict(one.aside)} for one in found.designs]
         return as_json({"kind": found.kind, "designs": designs, "comments": found.comments, "notes": list(found.notes)})
@@ -45,8 +45,12 @@ async def open_file(request: Request) -> Response:
 async def toml(request: Request) -> Response:
     """The case as a file, ready for ``ballscrew run``."""
     body: CaseBody = await read(request, CaseBody)
-    await queue_of(request).quick(lambda: case_of(body.case))
-    return Response(tomlkit.dumps(body.case), media_type="application/toml")
+
+    def text() -> str:
+        case_of(body.case)
+        return as_toml(body.case)
+
+    return Response(await queue_of(request).quick(text), media_type="application/toml")
 
 
 @router.post("/project", openapi_extra=openapi.body(ProjectBody), responses=openapi.text(*KINDS.values()))
@@ -58,14 +62,14 @@ async def project(
     body: ProjectBody = await read(request, ProjectBody)
     if kind not in KINDS:
         raise InputError(Fault("?kind", "unknown kind of file", kind, nearest(kind, KINDS)))
-    refuse_nulls(body.designs)
-    found = projects.designs_of({projects.KEY: projects.VERSION, "designs": body.designs}, "request")
 
-    def text() -> str:
+    def work(_: Any) -> Response:
+        refuse_nulls(body.designs)
+        found = projects.designs_of({projects.KEY: projects.VERSION, "designs": body.designs}, "request")
         tables = projects.tables_of(found)
-        return tomlkit.dumps(tables) if kind == "toml" else json_text(tables)
+        return Response(as_toml(tables) if kind == "toml" else json_text(tables), media_type=KINDS[kind])
 
-    return Response(await queue_of(request).quick(text), media_type=KINDS[kind])
+    return await heavy(request, work)
 
 
 @router.get("/progress/{ticket}", response_model=file_answers.Progress, responses=openapi.problems_of())

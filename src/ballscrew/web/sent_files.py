@@ -13,6 +13,7 @@ from collections.abc import Generator, Mapping
 from pathlib import Path
 
 from ballscrew.errors import Fault, InputError
+from ballscrew.studies.opened_file import is_table
 from ballscrew.web.limits import check_columns
 
 #: What a name of a file has not: what leads elsewhere, and what some system does not take.
@@ -21,9 +22,10 @@ LONGEST_NAME = 50
 
 
 @contextlib.contextmanager
-def written(files: Mapping[str, Mapping[str, str]]) -> Generator[dict[str, Path]]:
+def written(files: Mapping[str, Mapping[str, str]], *, tables: bool = True) -> Generator[dict[str, Path]]:
     """Paths of files by their fields, in a private folder that is there only for a while.
 
+    They are ``tables`` whatever their names are; without it each is what ``opened_file`` takes it for.
     Each file has a ``name`` and its content as ``text`` or in ``base64``. Faults that are found meanwhile name the file
     and not the folder. Raises :class:`~ballscrew.errors.InputError` for what is no such file.
     """
@@ -34,8 +36,9 @@ def written(files: Mapping[str, Mapping[str, str]]) -> Generator[dict[str, Path]
             place.mkdir()
             paths[field] = place / _name(file.get("name", ""))
             content = _content(field, file)
-            check_columns(paths[field].name, content)
             paths[field].write_bytes(content)
+            if tables or is_table(paths[field]):
+                check_columns(paths[field].name, content)
         try:
             yield paths
         except InputError as error:

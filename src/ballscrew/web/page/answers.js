@@ -1,5 +1,6 @@
 // Answers of the server for the designs, shown as they come: numbers first, then the charts from the top down.
 
+import * as bath from "./bath.js";
 import * as charts from "./charts.js";
 import * as checks from "./checks.js";
 import { showDesigns, showModels } from "./compare.js";
@@ -109,6 +110,7 @@ export async function update(cases, { designs, show, band: wanted, own }, report
     results.succeed();
     if (wanted && !displayed.band) displayed.band = { state: "pending" };
     results.show(answer, displayed);
+    bath.show(answer);
     stiffness.show(answer);
     measurePaint("numbers", start, signal);
     const checked = showChecks(body, answer, signal);

@@ -158,7 +158,23 @@ export function reset() {
  */
 export function startFrom(start) {
   const own = states.ownOfUse(current());
-  state.designs[state.show] = states.design(start, changesOfUse(current()), own);
+  const changes = { ...changesOfUse(current()), ...preloadFor(start) };
+  state.designs[state.show] = states.design(start, changes, own);
+}
+
+/**
+ * The preload that a design has of its own, for a row with the same kind of nut; one in newton is for the same row.
+ *
+ * @param {string} start
+ * @returns {Record<string, string>}
+ */
+function preloadFor(start) {
+  const row = vocabulary.rows.find(({ name }) => name === start);
+  const { type, preload } = /** @type {Record<string, unknown>} */ (tablesOf(current()).nut ?? {});
+  const listed = states.valueAt(starts.get(current().start) ?? {}, "nut.preload");
+  const isOwn = typeof preload === "string" && preload !== "" && preload !== listed;
+  const fits = row?.nut === type && (start === current().start || String(preload).endsWith("%"));
+  return isOwn && fits ? { "nut.preload": preload } : {};
 }
 
 /**

@@ -1,6 +1,7 @@
 // The page: its state in the address, the form, and the answer that follows what is typed.
 
 import * as answers from "./answers.js";
+import * as bath from "./bath.js";
 import * as cards from "./cards.js";
 import { consequences } from "./consequences.js";
 import * as designs from "./designs.js";
@@ -306,6 +307,10 @@ function addListeners() {
     const path = "model.calibration";
     const tables = designs.tablesOf(designs.current());
     onChange({ path, text: states.valueAt(tables, path) ? "" : CALIBRATION, rebuild: true });
+  });
+  byId("bath").addEventListener("click", () => {
+    bath.turn();
+    follow({ rebuild: true, keep: true });
   });
   byId("share").addEventListener("click", copyLink);
   byId("models-button").addEventListener("click", answers.compareModels);

@@ -1,5 +1,6 @@
 // The answer in numbers and words: torque and efficiency, verdicts, contacts, with each warning beside its subject.
 
+import { inHeadline, isStarved } from "./bath.js";
 import { verdict } from "./checks.js";
 import { byId, element, table } from "./dom.js";
 import { languageOf, sentence, text, textOr } from "./texts.js";
@@ -150,14 +151,18 @@ export function show(answer, { band, checks }) {
     drive: rounded("drive_torque", results.drive_torque, known).text,
     efficiency: rounded("efficiency", results.efficiency, known).text,
   });
-  const summary = `${numbersInWords}${checks ? ` ${verdict(checks)}` : ""}`;
+  const summary = `${numbersInWords}${inHeadline(answer)}${checks ? ` ${verdict(checks)}` : ""}`;
   byId("summary").textContent = summary;
   if (!byId("results").classList.contains("stale")) {
     announce(summary);
     document.title = `${torque.text} · ballscrew`;
   }
   showVerdicts(answer);
-  const rows = FIRST.filter((name) => numbers[name] !== undefined).map((name) => {
+  // without a load there is nothing to hold, as the verdict says
+  const unloaded = answer.verdicts.some(({ id }) => id === "verdict.no_load");
+  const isShown = (/** @type {string} */ name) =>
+    numbers[name] !== undefined && !(unloaded && name === "holding_torque");
+  const rows = FIRST.filter(isShown).map((name) => {
     const { text: shown, interval } = rounded(name, numbers[name], known);
     // the place of an interval that is still computed is kept
     const ends = interval || band ? element("span", { class: "interval" }, interval ?? "\u00a0") : null;
@@ -193,7 +198,8 @@ function showVendorRows({ vendor_rows: near }) {
 }
 
 /** @param {Run} answer */
-function showVerdicts({ verdicts, warnings, display }) {
+function showVerdicts(answer) {
+  const { verdicts, warnings, display } = answer;
   const lines = verdicts.map(({ severity }, place) =>
     element(
       "p",
@@ -216,7 +222,10 @@ function showVerdicts({ verdicts, warnings, display }) {
     );
   }
   const said = new Set(verdicts.map((record) => record.text));
-  const others = warnings.filter((record) => !isOfContact(record) && !said.has(record.text));
+  const others = warnings.filter(
+    (record) =>
+      !isOfContact(record) && !said.has(record.text) && !(record.id === "lubricant.starved" && isStarved(answer)),
+  );
   byId("verdicts").replaceChildren(...lines, ...others.map(warning));
 }
 
@@ -257,7 +266,10 @@ function showContacts(answer, warnings) {
       "p",
       { class: "regime" },
       Number.isFinite(film)
-        ? text("contact.film", { film: units.digits(film, 3), regime: regime(film) })
+        ? text(isStarved(answer) ? "contact.film_of_full_inlet" : "contact.film", {
+            film: units.digits(film, 3),
+            regime: regime(film),
+          })
         : text("contact.no_film"),
     ),
     table(caption, ["", text("contact.screw"), text("contact.nut")], rows),

@@ -23,10 +23,21 @@ export function question(answer) {
   if (!FOLLOWS.some((name) => oil[name] !== undefined) || !load || !speed) return undefined;
   const now = typeof oil.temperature === "number" ? [oil.temperature] : [];
   const temperatures = [...new Set([COLD, ...now, HOT])].sort((one, other) => one - other);
+  const constant = replenishmentOf(answer);
   return {
-    vary: { temperature: `${temperatures.join(", ")} K`, screw_speed: `0, ${speed} rad/s` },
+    vary: {
+      temperature: `${temperatures.join(", ")} K`,
+      screw_speed: `0, ${speed} rad/s`,
+      ...(constant ? { "inlet.replenishment_constant": `0, ${constant}` } : {}),
+    },
     outputs: ["screw_torque", "holding_torque"],
   };
+}
+
+/** How slowly oil flows back into the track; none where it is always full. @param {Run} answer */
+function replenishmentOf(answer) {
+  const inlet = /** @type {Record<string, any>} */ (answer.inputs.model).inlet;
+  return /** @type {number | undefined} */ (inlet?.replenishment_constant);
 }
 
 /** Say why there is nothing to show. @param {Run} answer */
@@ -38,12 +49,14 @@ export function leaveOut(answer) {
 
 /**
  * @param {number | null} held
+ * @param {number | null} atRest
  * @param {number} load
  */
-function driven(held, load) {
+function driven(held, atRest, load) {
   if (held === null) return "–";
   const torque = units.formatted("holding_torque", Math.abs(held), units.DIGITS);
-  return text(held * load > 0 ? "temperatures.back_drives" : "temperatures.locks", { torque });
+  if (held * load > 0) return text("temperatures.back_drives", { torque });
+  return text((atRest ?? 0) * load > 0 ? "temperatures.held" : "temperatures.locks", { torque });
 }
 
 /**
@@ -53,19 +66,30 @@ function driven(held, load) {
 export function show(swept, answer) {
   const { axial_load: load } = operationOf(answer);
   const { temperature } = swept.axes;
-  const torques = /** @type {(number | null)[][]} */ (swept.outputs.screw_torque.values);
-  const held = /** @type {(number | null)[][]} */ (swept.outputs.holding_torque.values);
-  const valid = /** @type {boolean[][]} */ (swept.outputs.valid.values);
-  const rows = valuesOf(temperature).map((at, place) => [
-    units.formattedIn(at, "degC", "K", units.DIGITS),
-    data("screw_torque", torques[place][1]),
-    driven(held[place][1], load),
-    driven(held[place][0], load),
-    valid[place].every(Boolean) ? "" : OUTSIDE,
-  ]);
+  const isSlow = Boolean(replenishmentOf(answer));
+  // by temperature, at rest and at speed, and where the track may be short of oil in a full bath and as it is
+  const [torques, held, valid] = [swept.outputs.screw_torque, swept.outputs.holding_torque, swept.outputs.valid].map(
+    ({ values }) => {
+      const found = /** @type {any[][]} */ (values);
+      return isSlow ? found : found.map((row) => row.map((one) => [one]));
+    },
+  );
+  const own = isSlow ? 1 : 0;
+  const rows = valuesOf(temperature).map((at, place) => {
+    const [atRest, atSpeed] = held[place].map((one) => one[own]);
+    return [
+      units.formattedIn(at, "degC", "K", units.DIGITS),
+      data("screw_torque", torques[place][1][own]),
+      ...(isSlow ? [data("screw_torque", torques[place][1][0])] : []),
+      driven(atSpeed, atRest, load),
+      driven(atRest, atRest, load),
+      valid[place].every((one) => one[own]) ? "" : OUTSIDE,
+    ];
+  });
   const headings = [
     text("temperatures.oil"),
     text("chart.torque"),
+    ...(isSlow ? [text("temperatures.full_bath")] : []),
     text("temperatures.moving"),
     text("temperatures.at_rest"),
     "",

@@ -32,6 +32,8 @@ const OBJECTIVES = {
   price_index: "1",
 };
 const IN_LIST = ["loss", "inertia", "life", "rigidity", "drive_torque", "price_index"];
+/** Objectives that are better when larger: their column begins with the largest. */
+const LARGER = ["life", "rigidity"];
 const OPEN = "#8a8f96";
 
 /** @typedef {Select["candidates"][number]} Candidate */
@@ -73,14 +75,17 @@ function heading(name) {
 export function candidates(holder, found) {
   const { candidates: all, notes } = found;
   const known = Object.keys(OBJECTIVES).filter((name) => all.some((one) => Number.isFinite(numberOf(one, name))));
+  const names = found.objectives.map(({ name }) => objective(name));
   const list = element("div", {});
   const words = element("p", { "aria-live": "polite" });
   const chart = element("div", { id: "choose-chart", class: "chart low" });
   let most = FIRST;
+  /** The column that sorts, and whether it begins with the largest. */
+  let order = { column: "rank", down: false };
   const filter = filters(all, () => show());
 
   function show() {
-    const kept = all.filter(filter.holds);
+    const kept = sorted(all.filter(filter.holds), order);
     const shown = kept.slice(0, most);
     const more = element(
       "button",
@@ -93,8 +98,15 @@ export function candidates(holder, found) {
       },
       text("choose.all", { count: kept.length }),
     );
-    list.replaceChildren(tableOf(shown, known, say), kept.length > shown.length ? more : "");
+    list.replaceChildren(tableOf(shown, known, order, sortBy, say), kept.length > shown.length ? more : "");
     picture(kept, x.value, y.value, found);
+  }
+
+  /** @param {string} column */
+  function sortBy(column) {
+    order = { column, down: order.column === column ? !order.down : LARGER.includes(column) };
+    show();
+    /** @type {HTMLElement | null} */ (list.querySelector(`[data-sort="${column}"]`))?.focus();
   }
 
   /** @param {string} line */
@@ -114,6 +126,7 @@ export function candidates(holder, found) {
     element("p", { class: "small" }, [.../** @type {string[]} */ (found.need.assumed ?? []), ...notes].join("; ")),
     filter.fields,
     words,
+    element("p", { class: "small" }, text("choose.order", { first: names[0], names: names.join(", ") })),
     list,
     element("p", { class: "filters" }, text("choose.across"), " ", x, " ", text("choose.up"), " ", y),
     chart,
@@ -174,19 +187,50 @@ function filters(all, follow) {
 }
 
 /**
+ * Candidates by a column; what has no number there comes last.
+ *
+ * @param {Candidate[]} kept
+ * @param {{ column: string, down: boolean }} order
+ */
+function sorted(kept, { column, down }) {
+  const sign = down ? -1 : 1;
+  if (column === "candidate") return kept.toSorted((one, other) => sign * one.label.localeCompare(other.label));
+  /** @param {Candidate} one */
+  const value = (one) => {
+    if (column === "rank") return one.rank;
+    return column === "verdict" ? one.worst : numberOf(one, column);
+  };
+  return kept.toSorted((one, other) => {
+    const [first, second] = [value(one), value(other)];
+    if (typeof first === "number" && typeof second === "number") return sign * (first - second);
+    return Number(typeof second === "number") - Number(typeof first === "number");
+  });
+}
+
+/**
  * @param {Candidate[]} shown
  * @param {string[]} known
+ * @param {{ column: string, down: boolean }} order
+ * @param {(column: string) => void} sortBy
  * @param {(line: string) => void} say
  */
-function tableOf(shown, known, say) {
+function tableOf(shown, known, order, sortBy, say) {
   const columns = IN_LIST.filter((name) => known.includes(name));
+  /** @type {[string, string][]} */
   const headings = [
-    "",
-    text("choose.candidate"),
-    text("choose.verdict"),
-    ...columns.map(heading),
-    text("files.actions"),
+    ["rank", text("choose.rank")],
+    ["candidate", text("choose.candidate")],
+    ["verdict", text("choose.verdict")],
+    ...columns.map((name) => /** @type {[string, string]} */ ([name, heading(name)])),
   ];
+  const direction = order.down ? "descending" : "ascending";
+  const sorting = headings.map(([column, words]) =>
+    element(
+      "th",
+      { scope: "col", "aria-sort": column === order.column ? direction : null },
+      element("button", { type: "button", class: "sort", "data-sort": column, onclick: () => sortBy(column) }, words),
+    ),
+  );
   const rows = shown.map((one) =>
     element(
       "tr",
@@ -215,16 +259,12 @@ function tableOf(shown, known, say) {
   const label = text("choose.caption");
   return element(
     "div",
-    { class: "scroll", tabindex: "0", role: "region", "aria-label": label },
+    { class: "scroll whole", tabindex: "0", role: "region", "aria-label": label },
     element(
       "table",
       {},
       element("caption", {}, label),
-      element(
-        "thead",
-        {},
-        element("tr", {}, ...headings.map((words) => (words ? element("th", { scope: "col" }, words) : element("td")))),
-      ),
+      element("thead", {}, element("tr", {}, ...sorting, element("th", { scope: "col" }, text("files.actions")))),
       element("tbody", {}, ...rows),
     ),
   );

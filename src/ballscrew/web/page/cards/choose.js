@@ -8,13 +8,16 @@ import * as opening from "../opening.js";
 import * as schema from "../schema.js";
 import { get, linesOf, Problem, sendJson } from "../server.js";
 import { valueAt } from "../state.js";
-import { text } from "../texts.js";
+import { text, textOr } from "../texts.js";
 import { candidates } from "./candidates.js";
 
 /** Fields of a need, by their short names: where a case has them, or nothing where only needs have them. */
 /** @type {Record<string, string>} */
 const FIELDS = {
   axial_load: "operation.axial_load",
+  mass: "axis.mass",
+  inclination: "axis.inclination",
+  acceleration: "motion.acceleration",
   feed: "",
   stroke: "",
   unsupported_length: "installation.unsupported_length",
@@ -35,6 +38,8 @@ const FIELDS = {
 const LISTS = ["preload"];
 /** Fields that a duty has in its own way, and its sections. */
 const OF_POINT = ["axial_load", "feed"];
+/** Fields that make a motion, in place of a force; a design has them in its duty. */
+const OF_MASS = ["mass", "inclination", "acceleration"];
 const OF_DUTY = ["axis", "motion", "motor"];
 /** @type {Record<string, import("../schema.js").SchemaNode>} */
 const OF_NEEDS = { back_driving: { enum: ["allowed", "needed", "forbidden"], default: "allowed" }, accuracy: {} };
@@ -55,7 +60,14 @@ export function setUp(holder) {
   const start = element("button", { type: "button", id: "choose-start", onclick: () => ask() }, text("choose.start"));
   const fill = element("button", { type: "button", onclick: () => takeDesign() }, text("choose.from_design"));
   holder.replaceChildren(
-    element("fieldset", { class: "card-fields" }, element("legend", {}, text("choose.need")), fields, sources),
+    element(
+      "fieldset",
+      { class: "card-fields" },
+      element("legend", {}, text("choose.need")),
+      element("p", { class: "small" }, text("choose.load_by")),
+      fields,
+      sources,
+    ),
     element("p", {}, start, " ", fill),
     faults,
     progress,
@@ -82,9 +94,32 @@ export function setUp(holder) {
       if (node.enum) return choiceField(place, node, given(place), onChange);
       return numberField(place, LISTS.includes(name) ? {} : node, { state, given, lawOf: () => undefined, onChange });
     });
+    for (const field of made) {
+      const hint = textOr(`choose.hint.${nameOf(field)}`, "");
+      if (!hint) continue;
+      const input = within(field, "input, select");
+      if (!field.querySelector("select.unit")) input.setAttribute("placeholder", hint);
+      else {
+        // beside a unit there is no room for it
+        const id = `${input.id}-hint`;
+        input.setAttribute("aria-describedby", `${input.getAttribute("aria-describedby")} ${id}`);
+        within(field, ".entry").after(element("span", { id, class: "small" }, hint));
+      }
+    }
     fields.replaceChildren(...made);
+    bar();
     showSources();
     shown = JSON.stringify(need());
+  }
+
+  /** Close the fields that others stand for. */
+  function bar() {
+    const closed = leftOut(need());
+    for (const field of /** @type {NodeListOf<HTMLElement>} */ (fields.querySelectorAll(".field"))) {
+      /** @type {NodeListOf<HTMLInputElement | HTMLSelectElement>} */
+      const controls = field.querySelectorAll("input, select");
+      for (const control of controls) control.disabled = closed.includes(nameOf(field));
+    }
   }
 
   /** The duty of the current design, and a table of one's own in place of the catalogue. */
@@ -120,13 +155,14 @@ export function setUp(holder) {
     const { texts, units, ...others } = need();
     if (unit !== undefined) write({ ...others, texts, units: { ...units, [path]: unit } });
     else write({ ...others, units, texts: { ...texts, [path.slice("need.".length)]: typed } }, path);
+    bar();
   }
 
   /** Take load, length, life and oil from the design on the page. */
   async function takeDesign() {
     const found = await designs.currentCase();
     const entries = Object.entries(FIELDS).flatMap(([name, path]) => {
-      const value = path && !["nut", "preload"].includes(name) ? valueAt(found, path) : undefined;
+      const value = path && !["nut", "preload", ...OF_MASS].includes(name) ? valueAt(found, path) : undefined;
       return typeof value === "string" || typeof value === "number" ? [[name, String(value)]] : [];
     });
     write({ ...need(), texts: { ...need().texts, ...Object.fromEntries(entries) }, duty: "motion" in found });
@@ -245,6 +281,21 @@ async function answerTo(body, signal) {
   }
 }
 
+/**
+ * The fields that do not count: a duty has load and speed in its own way, and a mass makes the force.
+ *
+ * @param {Need} need
+ */
+function leftOut({ texts, duty }) {
+  if (duty) return [...OF_POINT, ...OF_MASS];
+  return texts.mass ? ["axial_load"] : [];
+}
+
+/** @param {HTMLElement} field */
+function nameOf(field) {
+  return (field.dataset.path ?? "").slice("need.".length);
+}
+
 /** @param {Select} found */
 function counts({ candidates: all, holding }) {
   return text("choose.counts", { all: all.length, holding });
@@ -255,8 +306,10 @@ function counts({ candidates: all, holding }) {
  *
  * @param {Need} need
  */
-async function tables({ texts, rest, duty }) {
-  const given = Object.entries(texts).filter(([name, value]) => value && !(duty && OF_POINT.includes(name)));
+async function tables(need) {
+  const { texts, rest, duty } = need;
+  const closed = leftOut(need);
+  const given = Object.entries(texts).filter(([name, value]) => value && !closed.includes(name));
   const values = given.map(([name, value]) => [name, LISTS.includes(name) ? value.split(/;|,\s+/) : value]);
   const found = { ...rest, need: { .../** @type {object} */ (rest.need), ...Object.fromEntries(values) } };
   if (!duty) return found;
@@ -276,7 +329,9 @@ function readNeed(opened) {
   /** @type {Record<string, string>} */
   const texts = {};
   for (const [name, path] of Object.entries(FIELDS)) {
-    for (const place of [path, `need.${name}`, name].filter(Boolean)) {
+    // a motion that is written out stays as it is
+    const places = OF_MASS.includes(name) ? [] : [path];
+    for (const place of [...places, `need.${name}`, name].filter(Boolean)) {
       const [section, field] = place.split(".");
       const value = valueAt(rest, place);
       const isShort =

@@ -278,7 +278,8 @@ export function setUp(holder, page) {
       textOr(`duty.off.${name}`, name),
     );
     const caption = text("duty.brake_caption", { torque: TORQUE.text(torque) });
-    return framed(caption, headings, rows);
+    const note = element("p", { class: "small" }, text("duty.brake_note"));
+    return element("div", {}, framed(caption, headings, rows), note);
   }
 
   /** @param {DutyAnswer["results"]} results */

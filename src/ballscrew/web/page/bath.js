@@ -1,0 +1,43 @@
+// The button beside a result that is starved of oil: computes it with a full bath, and takes that back.
+
+import * as designs from "./designs.js";
+import { byId } from "./dom.js";
+import { text } from "./texts.js";
+import * as units from "./units.js";
+
+const PATH = "model.inlet.replenishment_constant";
+const FULL = "0";
+
+/** The friction torque in a full bath, in SI, of a result that is starved of oil. @param {Run} answer */
+function floodedTorque({ verdicts }) {
+  return verdicts.find(({ id }) => id === "verdict.starved")?.value;
+}
+
+/** True where a result is starved of oil. @param {Run} answer */
+export function isStarved(answer) {
+  return floodedTorque(answer) !== undefined;
+}
+
+/** The torque of the full bath in words, for the headline of a result that is starved. @param {Run} answer */
+export function inHeadline(answer) {
+  if (!isStarved(answer)) return "";
+  return ` ${text("bath.beside", { torque: units.formatted("screw_torque", floodedTorque(answer), 2) })}`;
+}
+
+/** True where the button has filled the bath of the current design. */
+function isFull() {
+  return designs.current().changes[PATH] === FULL;
+}
+
+/** @param {Run} answer */
+export function show(answer) {
+  const button = byId("bath");
+  button.hidden = !isFull() && !isStarved(answer);
+  button.textContent = text(isFull() ? "bath.undo" : "bath.fill");
+}
+
+/** Fill the bath of the current design, or leave that out again. */
+export function turn() {
+  if (isFull()) delete designs.current().changes[PATH];
+  else designs.change(PATH, FULL);
+}
