@@ -213,11 +213,11 @@ async def select(request: Request) -> Response:
     Where it takes longer than a request may, the same body with its ``ticket`` goes on where it stopped.
     """
     body: NeedBody = await read(request, NeedBody)
+    key = body.model_dump_json()
 
     def work(done: Deadline) -> Response:
         refuse_paths(body.need)
         need = limits.check_need(need_of(body.need))
-        key = body.model_dump_json()
         with written({} if body.table is None else {"table": body.table}) as paths:
             found = selected(
                 need, rows=paths.get("table"), words=body.words or None, keep_going=bool(paths),
@@ -226,7 +226,12 @@ async def select(request: Request) -> Response:
         finish(body.ticket, key)
         return as_json(selection_documents.document(found))
 
-    return await heavy(request, work)
+    try:
+        return await heavy(request, work)
+    except Refused as refused:
+        if refused.status == 400:  # the client has left, and will not go on
+            finish(body.ticket, key)
+        raise
 
 
 @router.post(

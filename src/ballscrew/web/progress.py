@@ -5,19 +5,26 @@ A request that was stopped by the limit of its time goes on where it stopped whe
 
 from __future__ import annotations
 
+import hashlib
 import threading
+import time
 from collections import OrderedDict
 from collections.abc import Callable
 from typing import Any
 
+from ballscrew.web.request_queue import HEAVY, MOST_WAITING, TIME_LIMIT
+
 #: Tickets that are kept; the oldest is forgotten first.
 MOST_TICKETS = 64
 
-#: Requests whose work is kept to be gone on with.
-MOST_UNFINISHED = 2
+#: Requests whose work is kept to be gone on with: all that compute or wait, or they would forget each other's.
+MOST_UNFINISHED = HEAVY + MOST_WAITING
+#: Seconds after which the next such request forgets it: longer than one may wait for those before it.
+OLDEST = TIME_LIMIT * (2 + MOST_WAITING)
 
 _finished: OrderedDict[str, tuple[int, int]] = OrderedDict()
-_unfinished: OrderedDict[tuple[str, str], dict[str, Any]] = OrderedDict()
+#: When each was last asked for, and what it has found, by ticket and digest of the body; the oldest is first.
+_unfinished: OrderedDict[tuple[str, bytes], tuple[float, dict[str, Any]]] = OrderedDict()
 _lock = threading.Lock()
 
 
@@ -47,15 +54,21 @@ def unfinished(ticket: str, body: str) -> dict[str, Any]:
     """What the work of a request with this ticket and body has found so far, by name; nothing without a ticket."""
     if not ticket:
         return {}
+    key, now = _key(ticket, body), time.monotonic()
     with _lock:
-        found = _unfinished.setdefault((ticket, body), {})
-        _unfinished.move_to_end((ticket, body))
-        if len(_unfinished) > MOST_UNFINISHED:
+        _, found = _unfinished.pop(key, (now, {}))
+        _unfinished[key] = now, found
+        while len(_unfinished) > MOST_UNFINISHED or next(iter(_unfinished.values()))[0] < now - OLDEST:
             _unfinished.popitem(last=False)
         return found
 
 
 def finish(ticket: str, body: str) -> None:
-    """Forget what was found, as the request is answered."""
+    """Forget what was found, as the request is answered or nobody waits for it."""
     with _lock:
-        _unfinished.pop((ticket, body), None)
+        _unfinished.pop(_key(ticket, body), None)
+
+
+def _key(ticket: str, body: str) -> tuple[str, bytes]:
+    """The ticket and a digest of the body, which is not kept."""
+    return ticket, hashlib.sha256(body.encode()).digest()
