@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from ballscrew import units
 from ballscrew.calibration.calibrated_model import CalibratedModel
+from ballscrew.calibration.constant_torque import constant_torque_missed
 from ballscrew.calibration.fit import fit as fitted
 from ballscrew.calibration.next_test import NextTest
 from ballscrew.calibration.problem import CONSTANT_TORQUE
@@ -26,10 +27,6 @@ from ballscrew.uncertainty.default_uncertainties import default_distributions
 #: Options of the command line by the fields in which the fit finds faults.
 _OPTIONS: Mapping[str, str] = {f"fit.{name}": f"--{name}" for name in ("free", "holdout", "kind", "seed")}
 _LIMITS = "fit.limits."
-#: Signs that the model misses more than noise: then it is tried whether the constant torque is what it misses.
-_SIGNS = ("fit.baseline_better", "fit.trend")
-#: A number that brings the residuals below this share of what they were is worth a word.
-_WORTH = 0.7
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -71,7 +68,7 @@ def fit(case: Case, log: TorqueLog, options: Options, done: Callable[[int, int],
         model = refit(options.free)
     except InputError as error:
         raise InputError(*(_with_option(fault) for fault in error.faults)) from None
-    warnings = [*_constant_torque_missed(model, refit), *units.in_display_units_of(model.warning_records)]
+    warnings = [*constant_torque_missed(model, refit), *units.in_display_units_of(model.warning_records)]
     if again:
         text = "the case was fitted to this very log before: its errors are not taken as priors"
         warnings.append(Record(id="fit.same_log", subject="priors", text=text, severity="warning", holds=False))
@@ -87,33 +84,6 @@ def fit(case: Case, log: TorqueLog, options: Options, done: Callable[[int, int],
             for fault in error.faults
         ]  # fmt: skip
     return FitReport(dataclasses.replace(model, warning_records=tuple(warnings)), test, log)
-
-
-def _constant_torque_missed(model: CalibratedModel, refit: Callable[[Sequence[str]], CalibratedModel]) -> list[Record]:
-    """That the constant torque is what the model misses, if a fit with it free shows so.
-
-    Friction of seals and bearings is in nearly every log, and this fit is cheap: no contact is solved anew.
-    """
-    free = model.settings["free"]
-    if CONSTANT_TORQUE.name in free or not any(record.id in _SIGNS for record in model.warning_records):
-        return []
-    try:
-        more = refit([*free, CONSTANT_TORQUE.name])
-    except InputError:  # too few rows for one number more
-        return []
-    before, after = model.residual_rms, more.residual_rms
-    if not more.estimates[CONSTANT_TORQUE.name].identified or after > _WORTH * before:
-        return []
-    text = (
-        f"with the constant torque free, too, the rows miss by {after:.2g} N m instead of {before:.2g} N m: "
-        "the log has friction of seals or bearings, which the model of the balls does not; free it"
-    )
-    return [
-        Record(
-            id="fit.free_more", subject=CONSTANT_TORQUE.name, text=text, severity="warning", holds=False,
-            value=after, limit=_WORTH * before, unit="N m",
-        )
-    ]  # fmt: skip
 
 
 def _with_option(fault: Fault) -> Fault:
