@@ -308,6 +308,9 @@ def test_four_contacts_and_no_load(ballscrew):
     assert document["results"]["efficiency"] is None  # no load is driven
     assert document["results"]["back_driving_efficiency"] is None
     assert "no load: nothing to hold" in ballscrew("run", EXAMPLE, "--set", "operation.axial_load=0 N").stdout
+    band = ballscrew("run", EXAMPLE, "--set", "operation.axial_load=0 N", "--band", "--samples", "64").stdout
+    assert "power dissipated by friction" in band
+    assert "torque that holds the load" not in band
 
 
 def test_compare_with_a_nut(ballscrew):

@@ -58,7 +58,8 @@ def test_a_row_is_checked_in_one_command(ballscrew):
     for words in (
         f"{NAME} (Rexroth R310RU 3301 (2006.02)): 7210 N, 600 rpm, double nut, preload 5047 N, model reference",
         "efficiency, screw drives the nut", "efficiency, the load drives the screw", "torque without load",
-        "axial rigidity of the nut", "dynamic axial load rating 72.1 kN", "static safety", "nine of ten outlive",
+        "axial rigidity of the nut", "dynamic axial load rating 72.1 kN",
+        "the listed one counts: a maker may have another criterion", "static safety", "nine of ten outlive",
         "buckling", "critical speed", "diameter speed product", "verdict: 6 of 8 judged, and these hold",
         "assumed axial load 7.21 kN: a tenth of C_a speed 600 rpm oil ISO VG 100", "conformity 0.54 ± 0.01",
         "screw and nut elastic, of a usual size", "5.047 kN: 7 % of the dynamic load rating 72.1 kN, as listed",

@@ -322,7 +322,7 @@ def test_files_hold_the_same_numbers(suffix, example, tmp_path, ballscrew):
 def test_changed_laws_are_named(example, ballscrew):
     settings = ["--set", "model.rolling=houpert", "--set", "model.friction.boundary_friction_coefficient=0.15"]
     text = ballscrew("run", example, "--model", "reference", *settings).stdout
-    changed = "changed: friction run-in (boundary friction coefficient 0.15), rolling houpert"
+    changed = "changed: friction = run-in (boundary friction coefficient 0.15), rolling = houpert"
     assert f"4000 N, 600 rpm, model reference, {changed}" in text.replace("\n", " ")
 
 

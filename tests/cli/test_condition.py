@@ -95,7 +95,7 @@ REFUSALS = {
     "unit": (("condition", TABLE, "--at", "9 N", *QUICK), "--at: "),
     "cold": (("condition", TABLE, "--at", "-300 degC", *QUICK), "--at: "),
     "kind": (("condition", TABLE, "--kind", "drive", *QUICK), "--kind: is for logs (drive)"),
-    "no preload": (("condition", TABLE, "--case", EXAMPLES / "rig.toml"), "nut: has no preload (SingleNut)"),
+    "no preload": (("condition", TABLE, "--case", EXAMPLES / "rig.toml"), "nut: has no preload (a single nut)"),
     "picture": (("condition", TABLE, "--to", "nut.txt", *QUICK), "--to: unknown kind of file (nut.txt)"),
     "column": (("condition", TABLE, "--column", "drag=M", *QUICK), "--column drag: unknown column"),
 }  # fmt: skip

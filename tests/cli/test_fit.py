@@ -70,6 +70,7 @@ def test_words(fit, log):
     assert text.startswith("log.csv: 120 of 120 rows used, model olaru2005\n")
     for words in (
         "torque read as: torque on the shaft, load and speed with their signs",
+        "among the numbers are 3 for a sensor whose zero wanders slowly, not listed above",
         "the model calibrated",
         "the model as given",
         "Stribeck, viscous and load",

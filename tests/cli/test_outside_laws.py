@@ -88,7 +88,7 @@ def test_on_the_command_line(case, ballscrew):
     assert "add --allow-code" in refused.stderr
     found = ballscrew("run", case, *law, "--allow-code")
     assert found.returncode == 0, found.stderr
-    assert "changed: rolling laws_of_a_test:half" in found.stdout
+    assert "changed: rolling = laws_of_a_test:half" in found.stdout
     swept = ballscrew("sweep", case, *law, "--allow-code", "--verbose")
     assert swept.returncode == 0, swept.stderr
     assert "evaluated by numpy: " in swept.stderr

@@ -87,7 +87,7 @@ REFUSALS = {
     "nothing": (("service", *QUICK), "WORN: missing"),
     "three logs": (("service", NEW, WORN, NEW, *QUICK), "WORN: more than two logs (3)"),
     "no such log": (("service", NEW, "gone.csv", *QUICK), "gone.csv"),
-    "no preload": (("service", WORN, "--case", EXAMPLES / "rig.toml"), "nut: has no preload (SingleNut)"),
+    "no preload": (("service", WORN, "--case", EXAMPLES / "rig.toml"), "nut: has no preload (a single nut)"),
     "bodies": (("service", WORN, "--case", EXAMPLES / "catalogue_screw.toml"), "leave out [bodies] and [deviations]"),
     "torque and log": (("service", WORN, "--torque", "1 N m", "--speed", "1 rpm", *QUICK), "--torque: is given beside"),
     "no speed": (("service", "--torque", "1 N m", *QUICK), "--speed: missing"),

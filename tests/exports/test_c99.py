@@ -14,6 +14,7 @@ from ballscrew.exports import c99, c_source, interpreter, program_file
 from ballscrew.exports.export import Export
 from ballscrew.exports.targets import export_of
 from ballscrew.friction.law_names import LAWS
+from ballscrew.friction.validity import NUT_REASONS
 from ballscrew.solvers.line_slip import TOLERANCE as LINE_TOLERANCE
 from ballscrew.solvers.line_slip import line_slip
 from ballscrew.tracing.program import Program
@@ -306,6 +307,8 @@ def test_an_export_says_where_it_comes_from(handed_over):
     export = c99.export(handed_over(bs.FrictionModel.olaru2005(), NUTS["row"]))
     assert isinstance(export, Export)
     text = export.files["README.txt"].decode()
+    assert "valid is 0 beyond the range" in text
+    assert f"  {NUT_REASONS['elastic_regime']}\n" in text
     assert "Olaru2005" in text
     assert "loaded_balls = " in text
     assert f"ballscrew {bs.__version__}" in text

@@ -200,7 +200,7 @@ def test_another_screw_is_said(exact):
 
 
 REFUSED = {
-    "no preload": ({"screw": dataclasses.replace(SCREW, nut=bs.SingleNut())}, "nut: has no preload (SingleNut)"),
+    "no preload": ({"screw": dataclasses.replace(SCREW, nut=bs.SingleNut())}, "nut: has no preload (a single nut)"),
     "preload zero": ({"screw": dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=0.0))}, "nut: has no preload (0 N)"),
     "elastic": (
         {"screw": dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=PRELOAD, bodies=bs.Bodies()))},

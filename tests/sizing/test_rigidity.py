@@ -87,13 +87,13 @@ def test_a_nut_without_preload_is_load_over_deflection():
     assert any("without preload" in text for text in unloaded.assumed)
 
 
-def test_nothing_from_memory_is_a_default():
+def test_nothing_recalled_is_a_default():
     """Without a factor there is no R_nu,ar, and the result says what it stands on."""
     r = found()
     assert math.isnan(r.nut_corrected)
     assert r.accuracy_factor is None
     assert math.isnan(r.drive)
-    assert any("from memory" in text for text in r.assumed)
+    assert any("as ISO 3408-4 is recalled; it was not read" in text for text in r.assumed)
 
 
 def test_outer_diameters_of_the_standard_and_beyond():

@@ -47,6 +47,7 @@ def test_what_is_refused(server, paper):
         ("a.json", json.dumps({"inputs": {}, "results": {}}), "has results and no case"),
         ("a.json", '{"screw": null}', "null stands for nothing"),
         ("a.csv", "a,b\n1,2\n", "a.csv"),
+        ("rig.csv", "speed [rpm],axial load [N],torque [N m]\n50,1000,0.8\n", "is a log of torques"),
         ("a.xlsx", b"PK\x03\x04 no workbook", "a.xlsx"),
         ("../../etc/passwd", "", "is empty"),
     ):

@@ -35,6 +35,16 @@ def test_the_operating_point_moves_by_hand(visit):
     here.type("screw.lead", "10")  # the nut keeps its speed
     assert "1200 rpm" in here.text("#case")
 
+    here.type("screw.lead", "20 mm ± 0.1 mm").rest(400)  # the lead that counts is known from the answer
+    assert "600 rpm" in here.text("#case")
+    here.unit("operation.screw_speed", "rpm")
+    assert value(here, "operation.screw_speed") == "600"
+    here.unit("operation.screw_speed", "m/min")
+    here.page.locator("#s-operation-screw_speed").press("ArrowRight")
+    assert "615 rpm" in here.settle().text("#case")
+    assert value(here, "operation.screw_speed") == "12.3"
+    here.type("operation.screw_speed", "12").type("screw.lead", "10 mm")
+
     slider = here.page.locator("#s-operation-axial_load")
     assert slider.get_attribute("aria-valuetext") == "4000 N"
     slider.press("ArrowRight")

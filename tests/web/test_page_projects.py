@@ -153,6 +153,12 @@ def what_stays_in_the_browser(here):
     assert again.numbers() == changed
     again.type("operation.axial_load", "3 kN").rest(500)
     assert again.page.evaluate("Object.keys(localStorage).length") == 2
+    kept = "Object.values(localStorage).map((one) => JSON.parse(one).fragment).sort()"
+    works = again.page.evaluate(kept)
+    again.page.locator("#kept-list button:text-is('Open'):enabled").click()
+    assert again.settle().numbers() == shown
+    again.rest(500)
+    assert again.page.evaluate(kept) == works  # what was on the page before is still kept
     full = "() => { Storage.prototype.setItem = () => { throw new DOMException('', 'QuotaExceededError'); }; }"
     again.page.evaluate(full)
     again.type("operation.axial_load", "4 kN").rest(500)

@@ -77,8 +77,8 @@ def _not_identified(found: FitResult) -> list[Record]:
             records.append(_warning("not_identified", names[0], text))
         elif with_prior:
             text = (
-                f"{' and '.join(names)} cannot be told apart by this log: what is known of "
-                f"{' and '.join(with_prior)} is known with the help of the prior"
+                f"{' and '.join(names)} cannot be told apart by this log alone: the error of "
+                f"{' and '.join(with_prior)} stands on the prior, what was known before"
             )
             records.append(_warning("confounded", ",".join(names), text))
         else:

@@ -29,7 +29,7 @@ RANDOM_TEST_COUNT = 50
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class NextTest:
-    """Tests that were thought of, in SI, and what each would leave of the volume of what is open."""
+    """Tests that were thought of, in SI, and what each would leave of the uncertainty of all parameters together."""
 
     #: The values of the inputs at all tests, each an array of one length.
     tests: Mapping[str, NDArray[np.float64]]

@@ -79,7 +79,7 @@ def _change(case: Case, name: str) -> str:
         for coefficient, quantity in coefficients(value).items()
         if getattr(value, coefficient) != getattr(usual, coefficient, None)
     ]
-    return f"{label} {law}" + (f" ({', '.join(numbers)})" if numbers else "")
+    return f"{label} = {law}" + (f" ({', '.join(numbers)})" if numbers else "")
 
 
 def design(case: Case, plain_text: bool = False) -> str:

@@ -18,9 +18,13 @@ from ballscrew.files import read_bytes
 from ballscrew.screw_tables import catalogue
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.tables.sheets import is_spreadsheet
+from ballscrew.torque_logs.preview import preview
 
 #: Endings of files that are tables as text.
 _TABLES = (".csv", ".tsv")
+#: Columns of a log, of which it has one of either kind.
+_TORQUES = frozenset({"torque", "friction_torque", "drive_torque", "current"})
+_CONDITIONS = frozenset({"axial_load", "screw_speed", "feed_rate", "position", "time"})
 #: What a document of results has, and no case.
 _OF_RESULTS = ("inputs", "results")
 
@@ -61,7 +65,7 @@ def is_table(path: Path) -> bool:
 
 def _opened(path: Path) -> OpenedFile:
     if is_table(path):
-        rows = catalogue.screws(path, keep_going=True)
+        rows = _screws(path)
         return OpenedFile("table", [Design(row.name, tables_of_row(row)) for row in rows.values()], notes=rows.notes)
     tables = case_text.tables_at(path)
     comments = case_text.comments_at(path)
@@ -75,6 +79,26 @@ def _opened(path: Path) -> OpenedFile:
         remedy = "open the case file that it came from, or save that as TOML"
         raise InputError(Fault(path.name, "has results and no case", "", remedy))
     return OpenedFile("case", [_kept(Design(path.stem, tables))], comments)
+
+
+def _screws(path: Path) -> catalogue.Screws:
+    """The rows of a table of screws; a log of torques, which is opened elsewhere, is called what it is."""
+    try:
+        return catalogue.screws(path, keep_going=True)
+    except InputError:
+        if not _is_log(path):
+            raise
+    remedy = "use it in Calibrate or Service of the page, or by ballscrew fit or service"
+    raise InputError(Fault(path.name, "is a log of torques and no table of screws", "", remedy))
+
+
+def _is_log(path: Path) -> bool:
+    """Test whether a table has a torque, and what belongs to it."""
+    try:
+        found = {column.taken_for for column in preview(path).columns}
+    except InputError:
+        return False
+    return bool(found & _TORQUES) and bool(found & _CONDITIONS)
 
 
 def _kept(design: Design) -> Design:

@@ -274,7 +274,7 @@ class ProportionalBallForce(ByValue):
         Ratio,
         Info(
             "F_B/Q",
-            "force between balls in units of the ball's load",
+            "force between balls / load of a ball",
             at_least=0,
             hint="0.0075, of known order only; the paper's net force is about 0.0002",
             usual=(0.0, 0.5),

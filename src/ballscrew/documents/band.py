@@ -6,14 +6,13 @@ import math
 from typing import Any
 
 from ballscrew import units
-from ballscrew.cases import uncertain_inputs
+from ballscrew.cases import starvation, uncertain_inputs
 from ballscrew.cases.case_file import Case
 from ballscrew.cases.uncertain_inputs import Uncertain
 from ballscrew.documents.run import document as run_document
 from ballscrew.evaluation.outputs import known_outputs
 from ballscrew.friction.validity import NUT_REASONS
 from ballscrew.records import Record, documents
-from ballscrew.studies import starvation
 from ballscrew.studies.band import BandReport
 from ballscrew.studies.run import Run
 from ballscrew.uncertainty.bands import OutputBand

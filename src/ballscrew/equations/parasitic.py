@@ -78,7 +78,7 @@ def ball_drag_force_harris(
 
     .. math:: F_D = \frac{\pi X C_v \rho d_w^2 (2 v_o)^{1.95}}{32}
 
-    Harris2001, from memory: exponent and denominator are recalled, not read. A dimensional fit (SI only), close to
+    Harris2001, as recalled: exponent and denominator were not read. A dimensional fit (SI only), close to
     the pressure on the ball's cross-section. For Reynolds numbers above about 1000; thick oil in a ball
     screw has 1 to 100, for which :func:`ball_drag_force` is made.
     """

@@ -95,7 +95,7 @@ def preloaded_ball_track_rigidity(preload: Force, preload_deflection: Length) ->
 
     Derived: at a constant contact angle that load is :math:`2^{3/2} F_{pr}` (HIWIN2017 prints it in 3.7.2), and it
     moves the nut by the deflection :math:`\delta_{pr}` that the preload has given each half. That ISO3408-4 takes this
-    load, and not a small one (the tangent is :math:`3 F_{pr} / \delta_{pr}`, 6 % more), is from memory.
+    load, and not a small one (the tangent is :math:`3 F_{pr} / \delta_{pr}`, 6 % more), is as recalled.
     """
     F_pr, delta_pr = preload, preload_deflection
     return 2**1.5 * F_pr / delta_pr
@@ -127,7 +127,7 @@ def rigidity_corrected_for_accuracy(accuracy_factor: Ratio, rigidity: Stiffness)
     .. math:: R_a = f_a R
 
     ISO3408-4 5.5.3, as Steinmeyer2019 says in words: not all balls carry alike, and the factor goes with the accuracy
-    grade. Its values (0.6, 0.55 and 0.5) are from memory, so that none is the default of anything.
+    grade. Its values (0.6, 0.55 and 0.5) are as recalled, so that none is the default of anything.
     """
     f_a, R = accuracy_factor, rigidity
     return f_a * R

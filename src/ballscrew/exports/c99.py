@@ -14,6 +14,7 @@ from ballscrew.exports.interpreter import errors_of_program
 from ballscrew.exports.readme import readme
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.two_levels import two_levels
+from ballscrew.friction.validity import NUT_REASONS
 
 #: Points of the test vector, and of that of a nut with elastic bodies, each of which takes Python milliseconds.
 TEST_POINTS, TEST_POINTS_OF_ELASTIC_BODIES = 100, 20
@@ -164,7 +165,8 @@ def export(handed: HandOver) -> Export:
         "test_vector.csv": test_vector(handed),
     }
     errors = errors_of_program(handed)
-    files["README.txt"] = readme(handed, "C99 source", _NOTES.format(stack=-(-body.room * 8 // 1000)), errors)
+    notes = _NOTES.format(stack=-(-body.room * 8 // 1000)) + _example_at_fault(handed)
+    files["README.txt"] = readme(handed, "C99 source", notes, errors)
     content = {name: text.encode() for name, text in files.items()}
     return Export.of(handed, "c", content, valid_range=limits, worst_error=errors)
 
@@ -213,8 +215,23 @@ def body_of(handed: HandOver) -> Body:
 
 
 def _example(handed: HandOver) -> str:
+    load, speed = _example_point(handed)
+    return _MAIN.replace("{load}", number(load)).replace("{speed}", number(speed))
+
+
+def _example_point(handed: HandOver) -> tuple[float, float]:
+    """Load and speed of the example."""
     load, speed = (one.range[1] for one in handed.inputs[:2])
-    return _MAIN.replace("{load}", number(0.25 * load)).replace("{speed}", number(0.5 * speed))
+    return 0.25 * load, 0.5 * speed
+
+
+def _example_at_fault(handed: HandOver) -> str:
+    """Why ``valid`` is 0 in the example, where it is."""
+    load, speed = _example_point(handed)
+    with np.errstate(all="ignore"):
+        found = handed.subject.at({"axial_load": np.array([load]), "screw_speed": np.array([speed])})
+    reasons = [NUT_REASONS[name] for name, mask in found.validity.items() if not np.all(mask)]
+    return f"main.c prints valid = 0: {'; '.join(reasons)}.\n" if reasons else ""
 
 
 def test_vector(handed: HandOver) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from ballscrew.components.materials import OF_A_GRADE
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.worst_error import WorstError
+from ballscrew.friction.validity import NUT_REASONS
 
 _SIGNS = """\
 Signs: axial_load > 0 is the load that a positive screw_speed lifts. screw_torque is the size of the friction;
@@ -40,6 +41,9 @@ def readme(handed: HandOver, kind: str, notes: str, errors: Sequence[WorstError]
             *outputs,
             "",
             _SIGNS,
+            "valid is 0 beyond the range of an input, and where one of these is so:",
+            *(f"  {reason}" for name, reason in NUT_REASONS.items() if name != "inputs"),
+            "",
             notes,
             *(["Worst error against the model in Python:", *found, ""] if found else []),
             f"Sources of the model: {', '.join(made_of['references'])}",

@@ -137,7 +137,7 @@ def _next(panel: Axes, found: CalibratedModel, test: NextTest, axes: dict[str, A
     drawn = panel.scatter(
         speed[chosen], load[chosen], c=100 * test.remaining_volume[chosen], marker="s", s=42, cmap="viridis_r"
     )
-    panel.figure.colorbar(drawn, ax=panel, label="volume of what is open that is left [%]")
+    panel.figure.colorbar(drawn, ax=panel, label="uncertainty of all free numbers together that is left [%]")
     log = found.rows.log
     shown = _some(found.rows)
     logged = of_speed(np.abs(log.screw_speed[shown])), of_load(np.abs(log.axial_load[shown]))

@@ -47,7 +47,10 @@ _SHORT: Mapping[str, str] = {
 
 def results(run: Run, bands: Mapping[str, OutputBand]) -> list[Table]:
     """Torque, efficiency and power with their bands; of a nut how it gives way; and the contacts with screw and nut."""
-    rows = [_with_band(run.friction, name, run.quantities, bands) for name in _RESULTS if name in run.quantities]
+    known = [name for name in _RESULTS if name in run.quantities]
+    if not float(run.friction.axial_load):
+        known.remove("holding_torque")  # there is nothing to hold, as the verdict says
+    rows = [_with_band(run.friction, name, run.quantities, bands) for name in known]
     stiff, whose = [], "Contacts of each ball"
     if run.nut is not None:
         rows.insert(1, ("torque without load", value_of(run.nut.preload_drag, _TORQUE), ""))

@@ -172,9 +172,9 @@ def _shares(found: Posterior, logarithm: Mixture, nominal: PreloadEstimate | Non
 def with_preload(subject: Configuration) -> Configuration:
     """The subject with a nut that is described by its preload. Raises ``InputError`` for one that has none."""
     nut: Any = subject.nut
-    remedy = 'give one: type = "double" (or "oversize", "offset") and preload = "4 kN"'
+    remedy = "choose the type double, oversize or offset, and give its preload, such as 4 kN"
     if not hasattr(nut, "preload"):
-        raise InputError(Fault("nut", "has no preload", type(nut).__name__, remedy))
+        raise InputError(Fault("nut", "has no preload", "a single nut", remedy))
     if nut.preload is None:
         loads = subject.model(subject.screw, subject.lubricant, axial_load=0.0, screw_speed=1.0).loads
         subject = subject.changed({PRELOAD: float(loads.remaining_preload)})

@@ -30,7 +30,7 @@ DIN_69051_5 = {
     0.080: (0.105, 0.125),
 }
 COARSE_LEAD = 0.020
-#: Factors for accuracy that ISO 3408-4 has by grade, greatest and least; from memory, the default of nothing.
+#: Factors for accuracy that ISO 3408-4 has by grade, greatest and least; as recalled, the default of nothing.
 RECALLED_ACCURACY_FACTORS = (0.6, 0.5)
 
 
@@ -98,7 +98,7 @@ def rigidity_iso3408(
         assumed.append("no rigidity of the nut: the usual one has no wall around these balls, give nut_outer_diameter")
     if preload > 0:
         R_ns = 2 * R_ns
-        assumed.append("R_b/t up to the load that relieves one half (from memory of ISO 3408-4)")
+        assumed.append("R_b/t up to the load that relieves one half, as ISO 3408-4 is recalled; it was not read")
         if load > 2**1.5 * preload:
             assumed.append("the load is beyond that which relieves one half: there the nut is stiffer than R_nu says")
     elif not load:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ballscrew.case_schema.schema import LAWS
-from ballscrew.cases import uncertain_inputs
+from ballscrew.cases import starvation, uncertain_inputs
 from ballscrew.cases.case_file import Case
 from ballscrew.cases.uncertain_inputs import Uncertain
 from ballscrew.components.traits import traits_of
@@ -17,7 +17,7 @@ from ballscrew.errors import InputError
 from ballscrew.evaluation.comparison import Candidate
 from ballscrew.friction.calibrations import PARAMETERS
 from ballscrew.overflow import overflow_as_input_error
-from ballscrew.studies import comparison, starvation
+from ballscrew.studies import comparison
 from ballscrew.uncertainty import bands
 from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.uncertainty.bands import Band, BandCurve

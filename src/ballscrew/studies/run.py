@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ballscrew import units
+from ballscrew.cases import starvation
 from ballscrew.cases.case import Case
 from ballscrew.cases.nut_tables import dynamic_rating
 from ballscrew.components.contact import RaceState
@@ -27,7 +28,6 @@ from ballscrew.records import Record
 from ballscrew.screw_tables.nut_kinds import LISTED, NUT_FIELDS
 from ballscrew.sizing.rigidity import AxialRigidity, rigidity_iso3408
 from ballscrew.solvers.load_distribution import BallLoads, preload_of
-from ballscrew.studies import starvation
 from ballscrew.studies.nut_state import Flank, NutState, Touching
 
 _KNOWN = quantities_of(FrictionResult)

@@ -37,7 +37,8 @@ class SensitivityReport:
     def describe(self, name: str) -> str:
         """The meaning of an input, short enough for a table."""
         law, _, field = name.rpartition(".")
-        if name == TEMPERATURE.name or (law and "_" not in field):  # "decay" alone says little
+        # "decay" and "share of load" alone say little
+        if name == TEMPERATURE.name or field == "share_of_load" or (law and "_" not in field):
             return self.known[name][1].info.meaning
         return field.replace("_", " ")
 

@@ -149,7 +149,7 @@ class SKFBearing(ByValue):
 class PalmgrenBearing(ByValue):
     """A bearing by Palmgren's two moments, :math:`M_0 + M_1`, and its seals. Recalled: nothing takes it by default.
 
-    A :class:`~ballscrew.friction.element.FrictionElement`. The form is from memory of Harris2001, and neither factor
+    A :class:`~ballscrew.friction.element.FrictionElement`. The form is Harris2001's as recalled, and neither factor
     has a default: both are read in a maker's table for the type of bearing and the way it is lubricated. The load here
     is the axial one; what a table makes of it (1.4 times, for some bearings) belongs into
     ``load_factor``.

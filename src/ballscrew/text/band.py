@@ -101,6 +101,8 @@ def _bar(interval: Interval, value: float, ends: Sequence[float], encoding: str)
 def _others(case: Case, report: BandReport) -> Table:
     table = table_of("\nWhat follows from it", "", "case", "median", "from", "to")
     for name in SHOWN:
+        if name == "holding_torque" and not case.operation.axial_load:
+            continue  # nothing to hold
         quantity, one = _quantities(case)[name], report.band[name]
         table.add_row(
             _SHORT.get(name, quantity.info.meaning),

@@ -14,6 +14,7 @@ from ballscrew.calibration.calibrated_model import CalibratedModel
 from ballscrew.calibration.diagnostics import product_of_powers
 from ballscrew.calibration.fit_result import Estimate
 from ballscrew.calibration.next_test import NextTest
+from ballscrew.calibration.problem import TORQUE_WANDER
 from ballscrew.cases.case_file import Case
 from ballscrew.cases.descriptions import design, model_text
 from ballscrew.friction.result import FrictionResult
@@ -48,6 +49,8 @@ def print_fit(case: Case, report: FitReport) -> None:
     if len(model.estimates) > 1:
         console.print(_combinations(model))
     console.print(_scores(model))
+    if unlisted := sum(map(_is_wandering, model.sensor)):
+        say(f"among the numbers are {unlisted} for a sensor whose zero wanders slowly, not listed above", "dim")
     console.print(_residuals(model))
     if report.next_test is not None:
         for line in describe_next_test(report.next_test, model):
@@ -56,7 +59,7 @@ def print_fit(case: Case, report: FitReport) -> None:
 
 def _estimates(model: CalibratedModel) -> Table:
     table = table_of("Fitted", "", "", "value", "± standard error", "95 % interval", "from")
-    shown = [e for e in model.sensor.values() if not e.name.startswith("torque_wander")]
+    shown = [e for e in model.sensor.values() if not _is_wandering(e.name)]
     for estimate in (*model.estimates.values(), *shown):
         table.add_row(
             spoken(estimate.name),
@@ -67,6 +70,11 @@ def _estimates(model: CalibratedModel) -> Table:
             _number(estimate, estimate.start),
         )
     return table
+
+
+def _is_wandering(name: str) -> bool:
+    """Whether a number is a wave of the zero of the sensor, which says nothing of the screw."""
+    return name in {quantity.name for quantity in TORQUE_WANDER.values()}
 
 
 def interval(estimate: Estimate) -> str:
@@ -84,7 +92,7 @@ def _number(estimate: Estimate, value: float, digits: int = 4) -> str:
 
 
 def _combinations(model: CalibratedModel) -> Table:
-    table = table_of("\nWhat the log tells, the best known first", "product of powers", "known to", "")
+    table = table_of("\nWhat the log tells, the best known first", "combination of the numbers", "known to", "")
     for product, combination in zip(combinations(model), model.identifiability.combinations, strict=True):
         error = combination.relative_error
         table.add_row(
@@ -125,7 +133,7 @@ def describe_next_test(test: NextTest, model: CalibratedModel) -> list[str]:
     where = ", ".join(units.shown(value, known[name], 3) for name, value in test.best.items())
     both = ", half of them in each direction" if model.rows.log.forward.any() and model.rows.log.backward.any() else ""
     errors = (f"{share:.0%} of the error of the {spoken(name)}" for name, share in test.remaining_error.items())
-    left = f"{test.best_volume:.0%} of the volume of what is open (a random test {test.random_volume:.0%})"
+    left = f"{test.best_volume:.0%} of the uncertainty of all together (a random test {test.random_volume:.0%})"
     return [
         f"\nnext test: {where}; {test.readings} readings{both}",
         f"it would leave {left}, {', '.join(errors)}",

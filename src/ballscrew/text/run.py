@@ -171,7 +171,7 @@ def rigidity_rows(found: AxialRigidity) -> list[tuple[str, str]]:
         return rows
     most, least = RECALLED_ACCURACY_FACTORS
     ends = " to ".join(units.shown(factor * found.nut, _RIGIDITY["nut"]) for factor in (least, most))
-    meaning = f"R_nu,ar, {least:g} to {most:g} of it by accuracy grade (from memory)"
+    meaning = f"R_nu,ar, {least:g} to {most:g} of it by accuracy grade (values unchecked)"
     return [*rows[:3], (meaning, ends), *rows[3:]]
 
 

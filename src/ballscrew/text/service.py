@@ -21,6 +21,8 @@ from ballscrew.text.tables import table_of
 _MOST_CAUSES = 3
 #: A cause that is less than this share of an interval is not named.
 _LEAST_CAUSE = 0.1
+#: More than this share of an interval is most of it.
+_MOST = 0.5
 
 
 def print_service(case: Case, report: ServiceReport) -> None:
@@ -94,7 +96,11 @@ def causes(report: ServiceReport) -> list[str]:
     of = report.preload.shares if report.preload is not None else of
     shares = sorted(((share, name) for name, share in of.items() if math.isfinite(share)), reverse=True)
     named = [f"{spoken(name)} ({share:.0%})" for share, name in shares[:_MOST_CAUSES] if share >= _LEAST_CAUSE]
-    return [f"most of the interval is from: {', '.join(named)}"] if named else []
+    if not named:
+        return []
+    is_most = sum(share for share, _ in shares[:_MOST_CAUSES]) > _MOST
+    said = "most of the interval is from" if is_most else "no cause makes most of the interval; the largest"
+    return [f"{said}: {', '.join(named)}"]
 
 
 def caption(case: Case, report: ServiceReport) -> str:

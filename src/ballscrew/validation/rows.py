@@ -29,7 +29,7 @@ from ballscrew.validation.entries import Band, Conditions, Point, UpperLimitOnly
 #: The share of the dynamic load rating at which THK514E defines the rigidity of a nut without preload (as recalled).
 RIGIDITY_LOAD = 0.30
 #: Factor for accuracy of the rigidity that a catalogue prints. Rexroth2006 names neither it nor a grade. ISO 3408-4 has
-#: 0.6, 0.55 and 0.5 (from memory); this is that of its coarsest grade, and the others are reported beside it.
+#: 0.6, 0.55 and 0.5 (as recalled); this is that of its coarsest grade, and the others are reported beside it.
 ACCURACY_FACTOR = 0.5
 OTHER_FACTORS = (0.55, 0.6)
 #: The share of the dynamic load rating that vendors preload double nuts with at most.

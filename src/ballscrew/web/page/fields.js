@@ -111,7 +111,8 @@ export function choiceField(path, node, value, onChange, present) {
  * @param {State} state
  */
 function unitOf(path, node, value, state) {
-  if (state.fields[path]) return state.fields[path];
+  const chosen = state.fields[path];
+  if (chosen && units.choicesOf(node).includes(chosen)) return chosen;
   const usual = node["x-unit"] ?? "";
   const typed = units.parse(value ?? "", node["x-si-unit"])?.unit ?? usual;
   if (units.currentSystem() === "metric") return INCH_ONLY.includes(typed) ? usual : typed;
@@ -151,8 +152,7 @@ function quantityField(path, node, input, value, state, onChange) {
   const shown = value === undefined ? "" : units.digitsIn(value, unit, si);
   const isOther = shown === null;
   input.value = units.inLanguage(shown ?? String(value));
-  const taken = [...units.choices(si), ...units.choices(node["x-through-lead"])];
-  const known = [...new Set([unit, ...taken.map((one) => one.unit)])];
+  const known = [...new Set([unit, ...units.choicesOf(node)])];
   const select = element(
     "select",
     { class: "unit", id: `u-${idOf(path)}`, "aria-label": text("form.unit_of", { field: labelIn(path) }) },

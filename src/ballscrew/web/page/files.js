@@ -72,8 +72,6 @@ function setUpKeeping() {
 export function sayRestored({ saved }, say) {
   const when = new Intl.DateTimeFormat(language, { dateStyle: "medium", timeStyle: "short" }).format(saved);
   const afresh = element("button", { type: "button", id: "afresh" }, text("keep.afresh"));
-  afresh.addEventListener("click", () => {
-    location.hash = "A=paper";
-  });
+  afresh.addEventListener("click", () => keeping.show("#A=paper"));
   say(`${text("keep.restored", { when })} `, afresh);
 }

@@ -72,17 +72,37 @@ export async function begin() {
   addEventListener("pagehide", write);
   const [latest] = location.hash ? [] : kept();
   const before = latest ? latest.id : readOwn();
-  id = (await claim(before)) ? before : "";
-  if (!id) {
-    id = crypto.getRandomValues(new Uint32Array(2)).join("-");
-    await claim(id);
-  }
+  if (await claim(before)) beOwn(before);
+  else await claim(beNew());
+  return latest;
+}
+
+/** @param {string} one the entry of this tab from now on */
+function beOwn(one) {
+  id = one;
   try {
     sessionStorage.setItem(OWN, id);
   } catch {
     trouble ||= "forbidden";
   }
-  return latest;
+}
+
+function beNew() {
+  beOwn(crypto.getRandomValues(new Uint32Array(2)).join("-"));
+  return id;
+}
+
+/**
+ * Show other work in this tab. What it has kept stays, and so does what is shown: a change begins an entry of its own.
+ *
+ * @param {string} fragment
+ */
+export function show(fragment) {
+  write();
+  first = fragment;
+  claim(beNew());
+  tell();
+  location.hash = fragment;
 }
 
 function readOwn() {

@@ -29,6 +29,8 @@ let vocabulary;
 let state;
 /** Laws of the answer that the form was built with. @type {string | undefined} */
 let laws;
+/** Leads in SI that are no plain number in their design, by its screw as it is given. @type {Map<unknown, number>} */
+const leads = new Map();
 
 // -- inputs -----------------------------------------------------------------------------------------
 
@@ -129,7 +131,7 @@ async function update() {
       // the laws of the model are known with its answer
       const { answer } = answers.current();
       const found = answer && JSON.stringify([answer.inputs.model, answer.inputs.losses]);
-      if (found !== laws && !faults.length) {
+      if (!faults.length && (keepLead(answer) || found !== laws)) {
         laws = found;
         showForm();
       }
@@ -137,6 +139,21 @@ async function update() {
       return form.showFaults(faults);
     },
   );
+}
+
+/**
+ * Keep the lead that the design on the page was computed with, where it is no plain number. Returns whether it is new.
+ *
+ * @param {Run | undefined} answer
+ */
+function keepLead(answer) {
+  const tables = designs.tablesOf(designs.current());
+  const lead = states.valueAt(answer?.inputs, "screw.lead");
+  const screw = JSON.stringify(tables.screw);
+  if (units.parse(states.valueAt(tables, "screw.lead"), "m") || typeof lead !== "number") return false;
+  if (leads.get(screw) === lead) return false;
+  leads.set(screw, lead);
+  return true;
 }
 
 /**
@@ -158,7 +175,7 @@ async function showForm() {
   await designs.startOf(design.start);
   if (design !== designs.current()) return; // another one was chosen in the meantime
   const tables = designs.tablesOf(design);
-  units.setLead(states.valueAt(tables, "screw.lead"));
+  units.setLead(states.valueAt(tables, "screw.lead"), leads.get(JSON.stringify(tables.screw)));
   // a text stays as it was typed while typing goes on: 0.10 may become 0.107
   /** @param {string} path */
   const given = (path) => {

@@ -121,6 +121,7 @@ function put(path, value, si) {
   const id = path.replaceAll(".", "-");
   const input = /** @type {HTMLInputElement} */ (byId(`f-${id}`));
   const unit = /** @type {HTMLSelectElement} */ (byId(`u-${id}`));
+  if (!unit.value) unit.value = unit.options[1].value; // what was as typed is a number now
   type(input, units.fromSI(value, unit.value, si));
 }
 

@@ -158,7 +158,11 @@ export function show(answer, { band, checks }) {
     document.title = `${torque.text} · ballscrew`;
   }
   showVerdicts(answer);
-  const rows = FIRST.filter((name) => numbers[name] !== undefined).map((name) => {
+  // without a load there is nothing to hold, as the verdict says
+  const unloaded = answer.verdicts.some(({ id }) => id === "verdict.no_load");
+  const isShown = (/** @type {string} */ name) =>
+    numbers[name] !== undefined && !(unloaded && name === "holding_torque");
+  const rows = FIRST.filter(isShown).map((name) => {
     const { text: shown, interval } = rounded(name, numbers[name], known);
     // the place of an interval that is still computed is kept
     const ends = interval || band ? element("span", { class: "interval" }, interval ?? "\u00a0") : null;

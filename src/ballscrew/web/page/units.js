@@ -47,8 +47,8 @@ const OF_NUT = "m/s";
 /** @type {Vocabulary} */
 let vocabulary;
 let system = "metric";
-/** The lead in SI: one turn of the screw moves the nut by it. */
-let lead = 0.01;
+/** The lead in SI, where it is known: one turn of the screw moves the nut by it. @type {number | undefined} */
+let lead;
 
 /** @param {Vocabulary} document */
 export function setVocabulary(document) {
@@ -65,13 +65,14 @@ export function currentSystem() {
 }
 
 /**
- * The lead that turns speeds of the nut into speeds of the screw; it stays where the text is no lead.
+ * The lead that turns speeds of the nut into speeds of the screw; where it is not known, neither does.
  *
  * @param {unknown} text as the design gives it
+ * @param {number | undefined} computed the lead in SI that it was computed with, where the text is no plain number
  */
-export function setLead(text) {
+export function setLead(text, computed) {
   const found = parse(text, "m");
-  if (found?.number) lead = toSI(found.number, found.unit, "m");
+  lead = (found ? toSI(found.number, found.unit, "m") : computed) || undefined;
 }
 
 /**
@@ -103,13 +104,22 @@ export function choices(si) {
 }
 
 /**
- * True where a field, as the schema has it, can be displayed in a unit.
+ * True where a field, as the schema has it, may have a unit.
  *
  * @param {string} unit
  * @param {SchemaNode | undefined} field
  */
 export function isUnit(unit, field) {
-  return Boolean(field?.["x-si-unit"] && conversion(unit, field["x-si-unit"]));
+  return [...choices(field?.["x-si-unit"]), ...choices(field?.["x-through-lead"])].some((one) => one.unit === unit);
+}
+
+/**
+ * The units to choose from for a field: those along the screw where the lead is known.
+ *
+ * @param {SchemaNode} field
+ */
+export function choicesOf(field) {
+  return [...choices(field["x-si-unit"]), ...(lead ? choices(field["x-through-lead"]) : [])].map((one) => one.unit);
 }
 
 /**
@@ -118,7 +128,7 @@ export function isUnit(unit, field) {
  */
 function conversion(unit, si) {
   const found = choices(si).find((one) => one.unit === unit);
-  if (found || si !== OF_SCREW) return found;
+  if (found || si !== OF_SCREW || !lead) return found;
   const along = choices(OF_NUT).find((one) => one.unit === unit);
   return along && { ...along, factor: (along.factor * 2 * Math.PI) / lead };
 }

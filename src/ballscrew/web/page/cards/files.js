@@ -184,9 +184,7 @@ function showKept(holder) {
         type: "button",
         disabled: mine,
         "aria-label": text("keep.open_of", { when }),
-        onclick: () => {
-          location.hash = fragment;
-        },
+        onclick: () => keeping.show(fragment),
       },
       text("keep.open"),
     );

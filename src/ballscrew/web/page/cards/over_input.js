@@ -45,9 +45,10 @@ const STATED = [
 const FOR_NOTHING = 100;
 const FEWEST = 4;
 const OUTPUTS = /** @type {const} */ (["screw_torque", "drive_torque", "efficiency", "friction_power"]);
+/** Lines of four designs, of which the next four have the colours. */
 const DASHES = ["solid", "dash", "dot", "dashdot"];
 /** The same in the legend. */
-const KEYS = ["line", "dash", "dot", "dash"];
+const KEYS = ["line", "dash", "dot", "dashdot"];
 /** Colours of the third and the fourth design, on light and on dark. */
 const MORE_COLOURS = ["#009E73", "#A3569B"];
 
