@@ -249,6 +249,10 @@ def test_limits_of_the_next_test(fit, log):
     point = document_of(fit(log(), "--json", *limits))["next_test"]["point"]
     assert 1000 * (1 - 1e-12) <= point["axial_load"] <= 2000 * (1 + 1e-12)
     assert 1000 * RPM * (1 - 1e-12) <= point["screw_speed"] <= 3000 * RPM * (1 + 1e-12)
+    within = ("--limits", "screw_speed=20:900 rpm", "--limits", "axial_load=1:2 kN")
+    assert "beyond the log" not in fit(log(), *within).stdout
+    beyond = ("--limits", "screw_speed=20:900 rpm", "--limits", "axial_load=6:9 kN")
+    assert "that is beyond the log, which ends at axial load" in fit(log(), *beyond).stdout
 
 
 def test_the_kind_wins_over_what_the_model_would_tell(fit, log):

@@ -140,7 +140,9 @@ def test_language_of_a_visitor(server, cookie, header, language):
 
 
 def test_the_page_in_german(visit):
-    here = visit().open()
+    here = visit()
+    here.expected = ("status of 422",)
+    here.open()
     here.page.locator("#language").select_option("de")
     here.page.wait_for_selector('html[lang="de"][data-ready]')
     try:
@@ -148,5 +150,9 @@ def test_the_page_in_german(visit):
         assert here.text("#checks-title") == "Nachweise"
         assert re.search(r"\d,\d", here.text("#numbers"))
         assert not re.search(r"\d\.\d", here.text("#numbers"))
+        here.unit("operation.axial_load", "N").type("operation.axial_load", "1.234")  # a thousand to most, not to all
+        fault = here.page.locator("[data-path='operation.axial_load'] .fault").inner_text()
+        assert "könnte zwei Zahlen sein (1.234 N): 1234 oder 1,234 schreiben" in fault
+        assert here.type("operation.axial_load", "1.234,4").text("#case").startswith("1234 N")
     finally:
         here.page.context.clear_cookies()

@@ -43,6 +43,7 @@ def test_a_log_is_fitted_and_used(visit, server):
     assert saved == found["calibrated"]["toml"]
     page.locator("#calibrate-use").click()
     page.wait_for_selector("#calibrate-used:has-text('Undo')")
+    assert "→" in here.text("#calibrate-used")
     here.settle()
     used = case_of(here)
     assert used["calibration"]["numbers"] == found["calibrated"]["case"]["calibration"]["numbers"]
@@ -53,6 +54,7 @@ def test_a_log_is_fitted_and_used(visit, server):
     page.locator("#undo").click()
     here.settle()
     assert case_of(here) == case
+    page.wait_for_selector("#calibrate-used:text-is('')", state="attached")
 
 
 def test_two_logs_tell_the_preload_that_is_left(visit, server):
@@ -82,6 +84,7 @@ def test_two_logs_tell_the_preload_that_is_left(visit, server):
     page.locator("#service-start").click()
     page.wait_for_selector("#service .fault")
     assert "tolerance" in here.text("#service .fault")
+    assert not page.locator("#service [data-name=ratio]").is_visible()  # no number stands below a fault
     assert violations(here) == []
 
 

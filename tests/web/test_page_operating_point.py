@@ -91,6 +91,16 @@ def test_designs_over_any_input(visit, server):
     case["screw"] = {**case["screw"], "contact_angle": "36 deg"}
     expected = server.post("run", {"case": case}).json()["results"]["screw_torque"]
     assert abs(float(first[0]) - expected) < 1e-4 * expected
+    here.page.locator("#add").click()
+    for _ in range(4):
+        here.settle().page.locator("#add").click()
+    here.settle().page.wait_for_selector("#over-input-chart ul.legend li:nth-child(8)")
+    looks = here.page.evaluate(
+        "[...document.querySelectorAll('#over-input-chart ul.legend li .key')].slice(0, 7)"
+        ".map((key) => `${key.className} ${getComputedStyle(key).color}`)"
+    )
+    assert len(set(looks)) == 7
+    assert "undefined" not in "".join(looks)
     reasons, legend = over("lubricant.temperature")
     assert ("Design A" in reasons, "Design A" in legend, "Design B" in legend) == (True, False, True)
     here.page.locator("#over-input-open").click()

@@ -26,7 +26,7 @@ from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
 
 #: Pages at most of what is side by side, and of each design.
 _PAGES, _PAGES_OF_EACH = 2, 2
-#: What designs are called, and so how many there may be: as many as the page has beside each other.
+#: What designs are called, and so how many there may be: as many as fit side by side on paper.
 _LETTERS = "ABCD"
 MOST = len(_LETTERS)
 
@@ -44,7 +44,7 @@ class Design(NamedTuple):
 def content(cases: Sequence[Case], done: Done | None = None, samples: int | None = None) -> Report:
     """Contents of the report of several cases, A, B and so on, each at its own load and speed."""
     designs: list[Design] = []
-    for place, (case, name) in enumerate(zip(cases, _LETTERS, strict=False)):
+    for place, (case, name) in enumerate(zip(cases, _LETTERS[: len(cases)], strict=True)):
         found = run(case)
 
         def told(finished: int, total: int, place: int = place) -> None:

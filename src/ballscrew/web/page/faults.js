@@ -3,6 +3,7 @@
 import { labelIn, words } from "./fields.js";
 import { OF_CARDS, SECTIONS } from "./schema.js";
 import { sentence, text, textOr } from "./texts.js";
+import { inLanguage } from "./units.js";
 
 /** What people read in place of a message for files: the field, what is wrong with it, and the text. */
 /** @type {[RegExp, RegExp, import("./texts.js").Key][]} */
@@ -65,6 +66,6 @@ export function inWords({ where, problem, given, remedy }) {
   const own = OWN.find(([field, wrong]) => field.test(where) && wrong.test(problem));
   if (own) return text(own[2]);
   const advice = plain(remedy);
-  const value = given ? ` (${given})` : "";
+  const value = given ? ` (${inLanguage(given)})` : "";
   return `${textOr(`problem.${problem}`, plain(problem))}${value}${advice ? `: ${sentence(advice)}` : ""}`;
 }

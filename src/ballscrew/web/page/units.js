@@ -36,6 +36,11 @@ const MOST_DECIMALS = 6;
 const TWO_DIGITS_BELOW = 3.55;
 /** The number at the start of an input, with what is told of its spread. */
 const LEADING = /^[\s\d.,'eE+±-]+/;
+/** Digits in groups of three by the mark between them, which may stand between thousands. */
+const GROUPS = {
+  ".": /(?<![\d.,])[1-9]\d{0,2}(?:\.\d{3})+(?![\d.])/,
+  ",": /(?<![\d.,])[1-9]\d{0,2}(?:,\d{3})+(?![\d,])/,
+};
 const PLACEHOLDER = /\{(\d{1,4})\}/g;
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
@@ -165,12 +170,13 @@ export function withPoint(text) {
 }
 
 /**
- * An input as it is kept, with points, where the language writes commas.
+ * An input as it is kept, with points, where the language writes commas. Points between thousands become commas there,
+ * which the server does not take for decimals.
  *
  * @param {string} text
  */
 export function ofLanguage(text) {
-  return hasComma ? text.replace(LEADING, (number) => number.replaceAll(",", ".")) : text;
+  return hasComma ? text.replace(LEADING, (number) => swapped(number, ",")) : text;
 }
 
 /**
@@ -179,7 +185,20 @@ export function ofLanguage(text) {
  * @param {string} text
  */
 export function inLanguage(text) {
-  return hasComma ? text.replace(LEADING, (number) => number.replaceAll(".", ",")) : text;
+  return hasComma ? text.replace(LEADING, (number) => swapped(number, ".")) : text;
+}
+
+/**
+ * A number with one mark of its decimals in place of the other; with both, where the other one stands between groups.
+ *
+ * @param {string} number
+ * @param {"." | ","} mark the one that is replaced
+ */
+function swapped(number, mark) {
+  const other = mark === "," ? "." : ",";
+  return GROUPS[other].test(number)
+    ? number.replace(/[.,]/g, (one) => (one === "," ? "." : ","))
+    : number.replaceAll(mark, other);
 }
 
 /**

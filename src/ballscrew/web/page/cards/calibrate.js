@@ -3,7 +3,7 @@
 import * as designs from "../designs.js";
 import { element, save, scrolling, table } from "../dom.js";
 import { watch } from "../plot.js";
-import { linesOf, sendJson } from "../server.js";
+import { ask, linesOf, sendJson } from "../server.js";
 import { ofServer, text } from "../texts.js";
 import * as units from "../units.js";
 import * as charts from "./calibrate_charts.js";
@@ -40,6 +40,8 @@ export function setUp(holder, page) {
   /** What the columns were asked with, as text. */
   let asked = "";
   let system = "";
+  /** The calibration that the design was given, as text: once it is gone, it is no longer said to be there. */
+  let calibration = "";
 
   const inspected = element("div", { class: "card-inputs" });
   const problems = element("div");
@@ -53,6 +55,7 @@ export function setUp(holder, page) {
     show: (found) => show(found),
     place: (faults) => {
       problems.replaceChildren(...faultLines(faults, page.jump));
+      result.hidden = faults.length > 0; // what another log told is no answer below a fault
       return [];
     },
     jump: page.jump,
@@ -76,6 +79,8 @@ export function setUp(holder, page) {
   async function inspect() {
     if (!log) return;
     tables = await designs.currentCase();
+    const used = document.getElementById("calibrate-used");
+    if (used?.textContent && JSON.stringify(tables.calibration) !== calibration) used.textContent = "";
     const question = { case: tables, log, columns: given };
     const key = JSON.stringify(question);
     if (key === asked) return;
@@ -136,14 +141,23 @@ export function setUp(holder, page) {
       ...display.next_test.map((line) => element("p", ofServer, units.filled(line))),
     );
     charts.show(found);
+    const untold = Object.entries(found.estimates)
+      .filter(([, one]) => !one.identified)
+      .map(([name]) => meaningOf(name, seen?.free ?? []));
     const used = element("p", { id: "calibrate-used", role: "status" });
     rest.replaceChildren(
+      ...(untold.length
+        ? [element("p", { class: "warning" }, text("calibrate.untold", { names: untold.join(", ") }))]
+        : []),
       element(
         "p",
         { class: "card-start" },
         button("calibrate-use", "calibrate.use", async () => {
+          const before = await torqueOf(await designs.currentCase());
           await use(found);
-          used.textContent = text("calibrate.used");
+          const after = await designs.currentCase();
+          calibration = JSON.stringify(after.calibration);
+          used.textContent = [text("calibrate.used"), await change(before, await torqueOf(after))].join(" ").trim();
         }),
         button("calibrate-save", "calibrate.save", () =>
           save("-calibrated.toml", new Blob([found.calibrated.toml], { type: "application/toml" })),
@@ -151,6 +165,22 @@ export function setUp(holder, page) {
       ),
       used,
     );
+  }
+
+  /** The friction torque of a case; null of one at fault. @param {import("../state.js").Tables} tables */
+  async function torqueOf(tables) {
+    try {
+      const found = await ask("run", { case: tables }, new AbortController().signal);
+      return found.results.screw_torque;
+    } catch {
+      return null;
+    }
+  }
+
+  /** @param {number | null} before @param {number | null} after */
+  function change(before, after) {
+    if (before === null || after === null) return "";
+    return text("calibrate.change", { before: TORQUE.text(before), after: TORQUE.text(after) });
   }
 
   /** Put what was found into the design; the button Undo takes it back. @param {FitAnswer} found */

@@ -82,7 +82,12 @@ export function setUp(holder, page) {
     };
     options.replaceChildren(
       ...Object.entries(RANGES).map(([name, example]) =>
-        field("range", name, text("hand_over.range", { name: textOr(`log.column.${name}`, name) }), example),
+        field(
+          "range",
+          name,
+          text("hand_over.range", { name: textOr(`log.column.${name}`, name), example }),
+          text("hand_over.usual"),
+        ),
       ),
       ...(target?.options ?? []).map((one) => field("option", one.name, one.meaning, one.default, ofServer)),
     );
@@ -136,7 +141,7 @@ export function setUp(holder, page) {
         ...lines([], warnings),
         element(
           "details",
-          {},
+          { open: "" },
           element("summary", {}, text("hand_over.ranges")),
           element("ul", ofServer, ...words.lines.map((line) => element("li", {}, line.trim()))),
         ),

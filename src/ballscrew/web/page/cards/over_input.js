@@ -45,12 +45,12 @@ const STATED = [
 const FOR_NOTHING = 100;
 const FEWEST = 4;
 const OUTPUTS = /** @type {const} */ (["screw_torque", "drive_torque", "efficiency", "friction_power"]);
-/** Lines of four designs, of which the next four have the colours. */
 const DASHES = ["solid", "dash", "dot", "dashdot"];
 /** The same in the legend. */
 const KEYS = ["line", "dash", "dot", "dashdot"];
 /** Colours of the third and the fourth design, on light and on dark. */
 const MORE_COLOURS = ["#009E73", "#A3569B"];
+const COLOURS = 2 + MORE_COLOURS.length;
 
 /**
  * A curve of a design, or the reason why it has none.
@@ -339,6 +339,15 @@ async function curveOf({ letter, run, reason, body }, { path, output }, low, hig
 }
 
 /**
+ * The line of a design by its place: the next one where the colours begin again, so that no two designs look the same.
+ *
+ * @param {number} place
+ */
+function lineOf(place) {
+  return (place + Math.floor(place / COLOURS)) % DASHES.length;
+}
+
+/**
  * @param {Curve[]} all
  * @param {Question} question
  */
@@ -364,7 +373,7 @@ async function chart(all, { path, output }) {
   const x = unit ? `${words} (${units.symbol(unit)})` : words;
   const y = units.heading(output, text(`results.${output}`));
   /** @param {import("../plot.js").Colours} colours @param {number} place */
-  const colour = ({ accent, second }, place) => [accent, second, ...MORE_COLOURS][place];
+  const colour = ({ accent, second }, place) => [accent, second, ...MORE_COLOURS][place % COLOURS];
   const caption = text("over_input.caption", { result: text(`results.${output}`), input: words });
   const isInvalid = curves.some(({ valid }) => !valid.every(Boolean));
   await draw(CHART, {
@@ -379,7 +388,7 @@ async function chart(all, { path, output }) {
           name,
           mode: "lines",
           hovertemplate: "%{y:.4g}",
-          line: { width: 2, color: colour(colours, place), dash: DASHES[place] },
+          line: { width: 2, color: colour(colours, place), dash: DASHES[lineOf(place)] },
         })),
         // thin where the model is not valid, up to the next point where it is
         ...curves.map(({ name, place, ...one }) => ({
@@ -400,7 +409,7 @@ async function chart(all, { path, output }) {
       layout: layout(colours, x, y),
     }),
     legend: (colours) => [
-      ...curves.map(({ name, place }) => ({ kind: KEYS[place], name, colour: colour(colours, place) })),
+      ...curves.map(({ name, place }) => ({ kind: KEYS[lineOf(place)], name, colour: colour(colours, place) })),
       parts.pointEntry(colours),
       ...(isInvalid ? [{ kind: "line thin", name: parts.OUTSIDE, colour: colours.ink }] : []),
     ],

@@ -77,7 +77,7 @@ export function question({ address, result, show, place, jump, send = ask }) {
 
   /** That what stands below is not of the input as it is; nothing where nothing stands there. */
   function earlier() {
-    return answered ? `${text("card.earlier")} ` : "";
+    return answered && !result.hidden ? `${text("card.earlier")} ` : "";
   }
 
   /** @param {FaultLine[]} faults @param {string[]} lines */

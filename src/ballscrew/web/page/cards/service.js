@@ -40,6 +40,7 @@ export function setUp(holder, page) {
     show: (found) => show(found),
     place: (faults) => {
       problems.replaceChildren(...faultLines(faults, page.jump));
+      result.hidden = faults.length > 0; // what another log told is no answer below a fault
       return [];
     },
     jump: page.jump,
