@@ -49,12 +49,17 @@ def test_a_log_is_fitted_and_used(visit, server):
     assert used["calibration"]["numbers"] == found["calibrated"]["case"]["calibration"]["numbers"]
     assert used["model"]["friction"] == found["calibrated"]["case"]["model"]["friction"]
     assert server.post("run", {"case": used}).status_code == 200
-    assert "of the input before" in here.text("#calibration .card-line")
+    page.wait_for_selector("#calibration .card-line:has-text('of the input before')")
     assert violations(here) == []
     page.locator("#undo").click()
     here.settle()
     assert case_of(here) == case
     page.wait_for_selector("#calibrate-used:text-is('')", state="attached")
+    # a fit of another case is not written over this one
+    here.choose("lubricant.grade", "ISO VG 220").settle()
+    page.locator("#calibrate-use").click()
+    page.wait_for_selector("#calibrate-used:has-text('another one')")
+    assert case_of(here)["lubricant"]["grade"] == "ISO VG 220"
 
 
 def test_two_logs_tell_the_preload_that_is_left(visit, server):

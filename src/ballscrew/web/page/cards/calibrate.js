@@ -16,6 +16,8 @@ import { lines } from "./records.js";
 /** Numbers of a sensor that the table leaves out: how its zero wanders over hours. */
 const WANDER = "torque_wander";
 const DIGITS = 4;
+/** Milliseconds after the last key until the server is asked about a log, which may be long. */
+const REST = 400;
 /** Sections that a calibration changes. */
 const CHANGED = ["model", "lubricant", "screw", "nut", "losses", "calibration"];
 
@@ -42,6 +44,10 @@ export function setUp(holder, page) {
   let system = "";
   /** The calibration that the design was given, as text: once it is gone, it is no longer said to be there. */
   let calibration = "";
+  /** The case of the fit that is shown. @type {import("../state.js").Tables} */
+  let fittedCase = {};
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  let timer;
 
   const inspected = element("div", { class: "card-inputs" });
   const problems = element("div");
@@ -106,7 +112,10 @@ export function setUp(holder, page) {
     if (!seen || !log) return;
     const focused = document.activeElement?.id;
     const isReady = !seen.moving && !seen.faults.length;
-    const start = button("calibrate-fit", "calibrate.fit", () => fit.follow(body(), 0));
+    const start = button("calibrate-fit", "calibrate.fit", () => {
+      fittedCase = tables;
+      fit.follow(body(), 0);
+    });
     start.disabled = !isReady;
     const column = Object.entries(given).flatMap(([name, heading]) => ["--column", `${name}=${heading}`]);
     inspected.replaceChildren(
@@ -153,7 +162,12 @@ export function setUp(holder, page) {
         "p",
         { class: "card-start" },
         button("calibrate-use", "calibrate.use", async () => {
-          const before = await torqueOf(await designs.currentCase());
+          const design = await designs.currentCase();
+          if (ofFit(design) !== ofFit(fittedCase) && ofFit(design) !== ofFit(found.calibrated.case)) {
+            used.textContent = text("calibrate.other");
+            return;
+          }
+          const before = await torqueOf(design);
           await use(found);
           const after = await designs.currentCase();
           calibration = JSON.stringify(after.calibration);
@@ -165,6 +179,11 @@ export function setUp(holder, page) {
       ),
       used,
     );
+  }
+
+  /** The sections of a case that a fit starts from, as text. @param {import("../state.js").Tables} tables */
+  function ofFit(tables) {
+    return JSON.stringify(CHANGED.filter((name) => name !== "calibration").map((name) => tables[name] ?? {}));
   }
 
   /** The friction torque of a case; null of one at fault. @param {import("../state.js").Tables} tables */
@@ -227,10 +246,16 @@ export function setUp(holder, page) {
     return scrolling(caption, table(caption, [text("calibrate.product"), text("calibrate.known_to")], rows));
   }
 
-  async function follow() {
+  function follow() {
     if (answer && system !== units.currentSystem()) show(answer);
-    await inspect();
+    clearTimeout(timer);
+    timer = setTimeout(inspect, REST);
   }
 
-  return { follow, stop: fit.stop };
+  function stop() {
+    clearTimeout(timer);
+    fit.stop();
+  }
+
+  return { follow, stop };
 }
