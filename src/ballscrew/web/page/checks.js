@@ -18,6 +18,7 @@ const CLOSE = 0.8;
 /** The share from which it is written as a multiple. */
 const MULTIPLE = 10;
 const DIGITS = 3;
+const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 
 /** @typedef {{ name: string, value: number | null, limit: number | null, unit: string, holds: boolean | null,
  *   utilisation: number | null, missing: string, text: string, display?: Template }} OneCheck */
@@ -56,9 +57,18 @@ function toneOf({ holds, utilisation }) {
   return (utilisation ?? 0) > CLOSE ? "close" : "holds";
 }
 
-/** @param {OneCheck} check @param {number | null} value */
+/**
+ * A value in its unit; a life of many turns as 9.56 · 10⁶.
+ *
+ * @param {OneCheck} check
+ * @param {number | null} value
+ */
 function shown({ unit }, value) {
-  return units.formattedIn(value, SHOWN_IN[unit] ?? unit, unit, DIGITS);
+  const written = units.formattedIn(value, SHOWN_IN[unit] ?? unit, unit, DIGITS);
+  return written.replace(
+    /e(\d+)/,
+    (_, power) => `\u00a0·\u00a010${[...power].map((one) => RAISED[Number(one)]).join("")}`,
+  );
 }
 
 /** @param {OneCheck} check */
