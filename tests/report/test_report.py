@@ -404,7 +404,18 @@ def test_a_project_and_a_date_stand_on_it_only_if_somebody_says_so(content):
 
 
 #: Each of them is much like another case.
-LONG = ("axis", "corrected", "nut at rest", "nut without load", "oversize balls", "service", "skids", "xjtu")
+LONG = (
+    "axis",
+    "corrected",
+    "feed_axis",
+    "nut at rest",
+    "nut without load",
+    "oversize balls",
+    "service",
+    "skids",
+    "vertical_axis",
+    "xjtu",
+)
 
 
 @pytest.mark.parametrize("name", [pytest.param(n, marks=[pytest.mark.long] if n in LONG else []) for n in CASES])
