@@ -30,7 +30,7 @@ def test_fifty_users_at_once(server, serve):
     assert len(seconds) == 200
 
 
-@pytest.mark.long
+@pytest.mark.long  # 80 requests of all kinds; test_hostile.py watches the memory over its own in every run
 def test_memory_stays_after_the_first_requests(server, serve):
     """What is loaded once comes with the first."""
 

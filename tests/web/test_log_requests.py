@@ -121,8 +121,8 @@ def test_columns(post, folders):
 
 def test_a_workbook(post, folders):
     """Read as the command reads it."""
-    pytest.importorskip("python_calamine")
-    openpyxl = pytest.importorskip("openpyxl")
+    pytest.importorskip("python_calamine", reason='needs python-calamine, of the extra "data", to read a spreadsheet')
+    openpyxl = pytest.importorskip("openpyxl", reason="needs openpyxl to write the spreadsheet that is sent")
     path = folders[0] / "log.xlsx"
     book = openpyxl.Workbook()
     for line in ("speed [rpm],axial load [N],torque [N m]", "50,1000,0.84", "100,1000,0.85"):
