@@ -33,13 +33,14 @@ def verdicts_of(case):
 def test_a_starved_torque_stands_beside_that_of_the_full_bath():
     bath = run(case_with(constant=0.0))
     flooded = float(bath.friction.screw_torque)
-    starved = verdicts_of(case_with())["verdict.starved"]
+    starved = verdicts_of(case_with())["lubricant.starved"]
     assert starved["value"] == pytest.approx(flooded, rel=1e-12)
     assert starved["unit"] == "N m"
     assert starved["severity"] == "warning"
     assert f"{flooded:.4g} N m in a full bath of oil" in starved["text"]
-    assert bath.flooded_torque is None
-    assert "verdict.starved" not in verdicts_of(case_with("60 degC"))
+    assert starved["limit"] == float(run(case_with()).friction.screw_torque)
+    assert bath.friction.flooded_torque == flooded
+    assert "lubricant.starved" not in verdicts_of(case_with("60 degC"))
 
 
 def test_what_friction_holds_in_motion_alone_is_no_self_locking():
@@ -54,6 +55,6 @@ def test_the_band_says_where_the_full_bath_lies():
     case = case_with()
     report = band.band(case, band.Options(samples=2, only_given=True))
     found = {record.id: record for record in band_documents.verdicts(case, report)}["band.flooded"]
-    assert found.value == run(case).flooded_torque
+    assert found.value == run(case).friction.flooded_torque
     assert found.limit == report.band["screw_torque"].both.high < found.value  # nothing is uncertain here
     assert found.text.endswith("above it")

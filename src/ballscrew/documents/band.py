@@ -6,18 +6,21 @@ import math
 from typing import Any
 
 from ballscrew import units
-from ballscrew.cases import starvation, uncertain_inputs
+from ballscrew.cases import uncertain_inputs
 from ballscrew.cases.case_file import Case
 from ballscrew.cases.uncertain_inputs import Uncertain
 from ballscrew.documents.run import document as run_document
 from ballscrew.evaluation.outputs import known_outputs
+from ballscrew.friction.result import FrictionResult
 from ballscrew.friction.validity import NUT_REASONS
+from ballscrew.quantities import quantities_of
 from ballscrew.records import Record, documents
 from ballscrew.studies.band import BandReport
 from ballscrew.studies.run import Run
 from ballscrew.uncertainty.bands import OutputBand
 
 _TORQUE = "screw_torque"
+_KNOWN = quantities_of(FrictionResult)[_TORQUE]
 
 
 def document(run: Run, report: BandReport) -> dict[str, Any]:
@@ -62,7 +65,7 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
         f"{100 * band.level:.4g} % of the samples between {low} and {high}"
     )
     records = [Record(id="band.torque", subject=_TORQUE, text=text, value=torque.median, unit=quantity.unit)]
-    records += starvation.beside_band(torque.both.high, report.flooded_torque)
+    records += _full_bath(torque.both.high, report.flooded_torque)
     if case.fit:
         text = (
             f"calibrated to {case.fit.get('log') or 'a log'}: what the fit held counts as known, no law is exchanged; "
@@ -74,6 +77,23 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
         text = f"self-locking in {share:.2%} of the samples" if share else "self-locking in none of the samples"
         records.append(Record(id="band.self_locking_share", subject="self_locking", text=text, value=share))
     return records
+
+
+def _full_bath(high: float, flooded: float | None) -> list[Record]:
+    """That a band has the starved track only, and where the torque of the full bath lies; empty where none starves."""
+    if flooded is None:
+        return []
+    where = "above it" if flooded > high else "within it"
+    text = (
+        "the band takes oil to come back into the track late, as in bearings; "
+        f"a full bath of oil gives {units.shown(flooded, _KNOWN)}: {where}"
+    )
+    return [
+        Record(
+            id="band.flooded", subject=_TORQUE, text=text, severity="warning", holds=flooded <= high,
+            value=flooded, limit=high, unit=_KNOWN.unit,
+        )
+    ]  # fmt: skip
 
 
 def warnings(report: BandReport) -> list[Record]:

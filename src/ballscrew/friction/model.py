@@ -291,6 +291,14 @@ class FrictionModel(ByValue):
         )
 
     @lazy
+    def in_full_bath(self) -> FrictionModel:
+        """The model in a full bath of oil, which is always back in the track in time; itself where nothing is late."""
+        constant = getattr(self.inlet, "replenishment_constant", None)
+        if constant is None or (isinstance(constant, int | float) and constant == 0):
+            return self
+        return dataclasses.replace(self, inlet=dataclasses.replace(self.inlet, replenishment_constant=0.0))
+
+    @lazy
     def parted(self) -> FrictionModel:
         """The model of balls that spacer balls part: none touches another that carries load."""
         apart = {"ball_chain": parted_neighbours, "ball_force": ProportionalBallForce(0.0), "ball_to_ball_force": None}

@@ -14,7 +14,6 @@ import numpy as np
 
 from ballscrew.components.data_sheet import SHEET_TEMPERATURE, DataSheet
 from ballscrew.components.screw import MATERIALS, BallScrew
-from ballscrew.equations import rolling
 from ballscrew.errors import shown
 from ballscrew.quantities import Quantity, quantities_of
 from ballscrew.records import Record
@@ -32,8 +31,6 @@ _ABOVE = "lubricant at {0}, above the {1} that its maker states: it does not las
 _EXTRAPOLATED = "oil at {0}: its viscosity is extrapolated far from the two points of its data sheet; give its {1}"
 #: Constant of replenishment of a track with grease (SKF2018).
 GREASE_REPLENISHMENT = 6e-8
-#: Share of the rolling force that a late replenishment must leave; with less a warning says so.
-MOST_STARVED = 0.5
 #: Without a pour point or a range on the sheet, temperatures as far from 40 and 100 °C as this are extrapolated, K.
 _COLD, _HOT = 273.15, 393.15
 
@@ -126,40 +123,6 @@ def _grease_as_oil(lubricant: Any, inlet: Any) -> list[Record]:
             holds=False,
             value=least,
             limit=GREASE_REPLENISHMENT,
-        )
-    ]
-
-
-def starved(parts: Mapping[str, Any], entrainment_speed: Any) -> list[Record]:
-    """A warning where oil that flows back too late takes more than half of the rolling force away.
-
-    The factor is of bearings (:func:`~ballscrew.equations.rolling.replenishment_factor`), and of speeds and oils that
-    bearings have: in the cold it may make friction fall that would rise with a full track.
-    """
-    constant = getattr(parts.get("model.inlet"), "replenishment_constant", None)
-    oil, screw = parts.get("lubricant"), parts.get("screw")
-    if constant is None or oil is None or screw is None:
-        return []
-    left = rolling.replenishment_factor(
-        np.asarray(oil.viscosity / oil.density, dtype=float), entrainment_speed, screw.ball_diameter, constant
-    )
-    least = float(np.min(left, initial=1.0, where=np.isfinite(left)))
-    if least >= MOST_STARVED:
-        return []
-    text = (
-        f"oil this thick does not flow back into the track in time: by a formula of bearings {1 - least:.0%} of the "
-        "hydrodynamic rolling is gone, and the torque may be far too low; a full bath: [model] "
-        "inlet.replenishment_constant = 0"
-    )
-    return [
-        Record(
-            id="lubricant.starved",
-            subject="model.inlet.replenishment_constant",
-            text=text,
-            severity="warning",
-            holds=False,
-            value=least,
-            limit=MOST_STARVED,
         )
     ]
 

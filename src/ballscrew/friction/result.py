@@ -6,6 +6,8 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Annotated, Any, NamedTuple
 
+import numpy as np
+
 from ballscrew._arrays import lazy
 from ballscrew._displayed import Drawn
 from ballscrew.components.contact import RaceState
@@ -13,10 +15,10 @@ from ballscrew.components.frame import Frame
 from ballscrew.components.laws import BallChain, IdealTorqueLaw
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import transmission
-from ballscrew.friction import directions, loaded_balls
+from ballscrew.friction import directions, loaded_balls, starvation
 from ballscrew.friction.balls import MECHANISMS as MECHANISMS
 from ballscrew.friction.loaded_balls import LoadedBalls, LoadedPair
-from ballscrew.friction.plausibility import implausible, starved
+from ballscrew.friction.plausibility import implausible
 from ballscrew.friction.validity import (
     NUT_CONDITIONS,
     imbalance_records,
@@ -25,7 +27,7 @@ from ballscrew.friction.validity import (
     warning_records,
 )
 from ballscrew.friction.vendor_terms import VendorTerms
-from ballscrew.quantities import AngularSpeed, Force, Info, Mask, Power, Pressure, Ratio, Speed, Torque
+from ballscrew.quantities import AngularSpeed, Force, Info, Mask, Power, Pressure, Ratio, Speed, Torque, quantities_of
 from ballscrew.records import Record
 from ballscrew.solvers.load_distribution import BallLoads
 
@@ -92,6 +94,22 @@ class FrictionResult(VendorTerms, Drawn):
         """Friction torque on the nut, the reaction and not a further loss."""
         balls = [kind.sum_of(lambda ball: ball.nut_torque) for kind in self.kinds]
         return _sum([*balls, *self.losses.values()])
+
+    @lazy
+    def flooded_torque(
+        self,
+    ) -> Annotated[Torque, Info("M_{S,f}", "friction torque on the screw in a full bath of oil")]:
+        """The same in a full bath of oil, which is always back in the track in time.
+
+        Equal to ``screw_torque`` where the model has no law of the inlet that starves.
+        """
+        model = self.parts["model"]
+        full = model.in_full_bath
+        if full is model:
+            return self.screw_torque
+        with np.errstate(all="ignore"):
+            bath = full.under(self.solved_loads, self.ball_screw, self.parts["lubricant"], self.parts["operation"])
+            return bath.screw_torque
 
     @lazy
     def ideal_torque(
@@ -357,11 +375,20 @@ class FrictionResult(VendorTerms, Drawn):
         return holds
 
     @property
+    def starvation(self) -> list[Record]:
+        """The torque where it is starved the most, beside that of a full bath; empty where they hardly differ."""
+        if starvation.least_replenished(self.parts, self.entrainment_speed) >= starvation.NEARLY_ALL:
+            return []
+        found = starvation.most_starved(self.screw_torque, self.flooded_torque)
+        quantity = quantities_of(FrictionResult)["screw_torque"]
+        return [] if found is None else starvation.records([starvation.BothTorques(quantity, *found)])
+
+    @property
     def warning_records(self) -> list[Record]:
         """Inputs that no ball screw has, an imbalance of power, and the conditions that fail somewhere, as records."""
         contacts = [contact for pair in self.pairs for contact in (pair.screw, pair.nut)]
         unbalanced = imbalance_records(self.power_imbalance, self.nut_torque)
-        strange = [*implausible(self.parts), *starved(self.parts, self.entrainment_speed)]
+        strange = [*implausible(self.parts), *self.starvation]
         return [*strange, *unbalanced, *warning_records(self.validity, contacts, NUT_CONDITIONS)]
 
     @property

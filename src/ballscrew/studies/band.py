@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ballscrew.case_schema.schema import LAWS
-from ballscrew.cases import starvation, uncertain_inputs
+from ballscrew.cases import uncertain_inputs
 from ballscrew.cases.case_file import Case
 from ballscrew.cases.uncertain_inputs import Uncertain
 from ballscrew.components.traits import traits_of
@@ -120,7 +120,7 @@ def band(case: Case, options: Options, done: Done | None = None, heat: HeatSampl
 def _flooded_torque(case: Case) -> float | None:
     load, speed = case.operation.axial_load, case.operation.screw_speed
     found = case.model(case.screw, case.lubricant, axial_load=load, screw_speed=speed)
-    return starvation.flooded_torque(case, found)
+    return float(found.flooded_torque) if found.starvation else None
 
 
 def axis_of_curve(case: Case) -> str:

@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ballscrew import units
-from ballscrew.cases import starvation
 from ballscrew.cases.case import Case
 from ballscrew.cases.nut_tables import dynamic_rating
 from ballscrew.components.contact import RaceState
@@ -21,6 +20,7 @@ from ballscrew.components.nut import Nut
 from ballscrew.components.screw import BallScrew
 from ballscrew.components.traits import traits_of
 from ballscrew.errors import InputError
+from ballscrew.friction import starvation
 from ballscrew.friction.result import QUADRANTS, FrictionResult, Quadrant
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Quantity, quantities_of
@@ -88,8 +88,6 @@ class Run:
     quadrants: Mapping[str, Quadrant]
     #: None without a nut.
     nut: NutState | None = None
-    #: The friction torque in a full bath of oil, N m, where the result is starved of oil; None elsewhere.
-    flooded_torque: float | None = None
 
     @property
     def quantities(self) -> Mapping[str, Quantity]:
@@ -105,7 +103,7 @@ class Run:
     @property
     def verdicts(self) -> list[Record]:
         """Starvation; the quadrant, if not the usual one; whether the load drives; skidding; loss of the preload."""
-        starved = starvation.verdict(float(self.friction.screw_torque), self.flooded_torque)
+        starved = units.in_display_units_of(self.friction.starvation)
         if float(self.friction.axial_load) == 0:
             found = [
                 Record(id="verdict.no_load", subject="axial_load", text="no load: nothing to hold", value=0.0, unit="N")
@@ -153,8 +151,9 @@ class Run:
 
     @property
     def conditions(self) -> list[Record]:
-        """The warnings of the friction, and a preload beyond the ratings."""
-        return [*units.in_display_units_of(self.friction.warning_records), *self._heavy_preload()]
+        """The warnings of the friction but starvation, which is a verdict, and a preload beyond the ratings."""
+        found = [record for record in self.friction.warning_records if record.id != starvation.STARVED]
+        return [*units.in_display_units_of(found), *self._heavy_preload()]
 
     def _skid(self, moving: bool) -> list[Record]:
         share = self.rolling_share
@@ -277,7 +276,6 @@ def _of_balls(case: Case) -> Run:
         rolling_share=float(found.rolling_share),
         ball_to_ball_force=float(found.ball_to_ball_force),
         quadrants=found.quadrants,
-        flooded_torque=starvation.flooded_torque(case, found),
     )
 
 
@@ -323,7 +321,6 @@ def with_nut(case: Case, nut: Nut) -> Run:
             loaded=loaded,
             relieved=relieved,
         ),
-        flooded_torque=starvation.flooded_torque(case, found),
     )
 
 

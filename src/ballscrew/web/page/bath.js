@@ -10,7 +10,7 @@ const FULL = "0";
 
 /** The friction torque in a full bath, in SI, of a result that is starved of oil. @param {Run} answer */
 function floodedTorque({ verdicts }) {
-  return verdicts.find(({ id }) => id === "verdict.starved")?.value;
+  return verdicts.find(({ id }) => id === "lubricant.starved")?.value;
 }
 
 /** True where a result is starved of oil. @param {Run} answer */

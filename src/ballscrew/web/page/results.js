@@ -222,10 +222,7 @@ function showVerdicts(answer) {
     );
   }
   const said = new Set(verdicts.map((record) => record.text));
-  const others = warnings.filter(
-    (record) =>
-      !isOfContact(record) && !said.has(record.text) && !(record.id === "lubricant.starved" && isStarved(answer)),
-  );
+  const others = warnings.filter((record) => !isOfContact(record) && !said.has(record.text));
   byId("verdicts").replaceChildren(...lines, ...others.map(warning));
 }
 

@@ -1,0 +1,105 @@
+"""Starvation: oil that flows back into the track too late, and the torque of the same screw in a full bath of oil.
+
+One rule for all answers. Which of the two torques a ball screw has is not measured: the factor that starves is one of
+bearings (:func:`~ballscrew.equations.rolling.replenishment_factor`), and in the cold it may make friction fall that
+would rise with a full track. A supply that is known to be short (``inlet_film_ratio``) is left as it is given.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ballscrew.equations import rolling
+from ballscrew.errors import shown
+from ballscrew.quantities import Quantity
+from ballscrew.records import Record
+
+#: The id of the record, in every answer that holds a torque.
+STARVED = "lubricant.starved"
+#: Two torques differ where that of the full bath is larger by more than this share of the other.
+LARGEST_DIFFERENCE = 0.1
+#: Share of the rolling force that is left, at and above which the torque of a full bath is not asked for: rolling is
+#: one part of the torque of several, so that a twentieth of it is less than the difference that counts.
+NEARLY_ALL = 0.95
+
+_LATE = "starved: {0} if oil this thick comes back into the track too late, as in bearings; "
+_ONE = _LATE + "{1} in a full bath of oil; "
+_SEVERAL = _LATE + "in a full bath of oil {1}; "
+_UNKNOWN = "which of them a ball screw has is not measured"
+
+
+class BothTorques(NamedTuple):
+    """A number of an answer, such as a torque, with the inlet as it is given and in a full bath of oil, SI."""
+
+    quantity: Quantity
+    given: float
+    flooded: float
+
+
+def differs(given: Any, flooded: Any) -> Any:
+    """Mask: the torque of a full bath is larger by more than :data:`LARGEST_DIFFERENCE`; False where one is NaN."""
+    given, flooded = np.asarray(given, dtype=float), np.asarray(flooded, dtype=float)
+    return flooded > (1 + LARGEST_DIFFERENCE) * given
+
+
+def most_starved(given: Any, flooded: Any) -> tuple[float, float] | None:
+    """Both torques where they differ the most, by their ratio; None where they differ nowhere."""
+    given, flooded = np.broadcast_arrays(np.asarray(given, dtype=float), np.asarray(flooded, dtype=float))
+    apart = differs(given, flooded)
+    if not np.any(apart):
+        return None
+    ratio = np.where(apart, flooded / np.maximum(given, np.finfo(float).tiny), 0.0)
+    place = np.unravel_index(int(np.argmax(ratio)), ratio.shape)
+    return float(given[place]), float(flooded[place])
+
+
+def least_replenished(parts: Mapping[str, Any], entrainment_speed: Any) -> float:
+    """Least share of the rolling force that oil coming back late leaves over; one without a law that starves."""
+    constant = getattr(parts.get("model.inlet"), "replenishment_constant", None)
+    oil, screw = parts.get("lubricant"), parts.get("screw")
+    if constant is None or oil is None or screw is None:
+        return 1.0
+    left = rolling.replenishment_factor(
+        np.asarray(oil.viscosity / oil.density, dtype=float), entrainment_speed, screw.ball_diameter, constant
+    )
+    return float(np.min(left, initial=1.0, where=np.isfinite(left)))
+
+
+def records(numbers: Sequence[BothTorques]) -> list[Record]:
+    """The record of an answer that is starved; the first of the numbers is its value, in a full bath.
+
+    The limit of the record is that number with the inlet as it is given.
+    """
+    first = numbers[0]
+    if len(numbers) == 1:
+        template, quantities = _ONE, ((first.given, first.quantity), (first.flooded, first.quantity))
+    else:
+        places = [f"{one.quantity.info.meaning} {{{i}}}" for i, one in enumerate(numbers)]
+        others = [f"{{{i + len(numbers)}}}" for i in range(len(numbers))]
+        template = _SEVERAL.format(_listed(places), _listed(others))
+        quantities = (
+            *((one.given, one.quantity) for one in numbers),
+            *((one.flooded, one.quantity) for one in numbers),
+        )
+    template += _UNKNOWN
+    return [
+        Record(
+            id=STARVED,
+            subject=first.quantity.name,
+            text=template.format(*(shown(number, quantity.unit) for number, quantity in quantities)),
+            severity="warning",
+            holds=False,
+            value=first.flooded,
+            limit=first.given,
+            unit=first.quantity.unit,
+            template=template,
+            quantities=quantities,
+        )
+    ]
+
+
+def _listed(texts: Sequence[str]) -> str:
+    return " and ".join(filter(None, [", ".join(texts[:-1]), texts[-1]]))
