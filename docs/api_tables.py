@@ -7,7 +7,7 @@ from pathlib import Path
 
 import httpx
 
-from ballscrew.web import bodies, connections, limits, log_bodies, problems, request_queue
+from ballscrew.web import bodies, connections, jobs, limits, log_bodies, problems, request_queue
 from ballscrew.web.server import application
 
 #: The case of the examples, as Python source.
@@ -105,9 +105,12 @@ def limits_table() -> str:
         "samples of a band": limits.MOST_SAMPLES,
         "samples of a band of a whole nut": limits.MOST_SAMPLES_OF_NUT,
         "balls over all points or samples (a ball with four contacts counts as three)": limits.MOST_BALLS_IN_ALL,
-        "seconds of computing for a request": request_queue.TIME_LIMIT,
-        "heavy requests computed at a time": request_queue.HEAVY,
-        "heavy requests in the queue": request_queue.MOST_WAITING,
+        "seconds of processor for a request": request_queue.TIME_LIMIT,
+        "seconds of processor for a job": jobs.LONGER * request_queue.TIME_LIMIT,
+        "heavy requests computed at a time, and as many jobs": request_queue.HEAVY,
+        "heavy requests in the queue, and jobs": request_queue.MOST_WAITING,
+        "seconds that a job goes on unless somebody asks about it": jobs.LEFT_ALONE,
+        "seconds that the answer of a job is kept": jobs.KEPT,
     }
     return "\n".join(["| at most | |", "|---|--:|", *(f"| {words} | {n:,.0f} |" for words, n in rows.items())]) + "\n"
 

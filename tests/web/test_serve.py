@@ -108,7 +108,7 @@ def test_what_was_sent_before_the_end_is_answered(paper, accepted):
 
     async def scene():
         config = uvicorn.Config(application, http=connections._TimeoutProtocol, lifespan="off", log_level="error")
-        server = connections._Server(config, application.state.requests)
+        server = connections._Server(config, application.state.requests, application.state.jobs)
         config.load()
         server.lifespan = config.lifespan_class(config)
         await server.startup([listening])

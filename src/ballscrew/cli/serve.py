@@ -25,7 +25,9 @@ def serve(
     open_browser: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
     time_limit: Annotated[
         float | None,
-        typer.Option("--time-limit", metavar="SECONDS", min=0.1, help="Of one request; 20, more on a slow machine."),
+        typer.Option(
+            "--time-limit", metavar="SECONDS", min=0.1, help="Of processor, for one request; 20. Jobs: 30 times."
+        ),
     ] = None,
 ) -> None:
     """The application in the browser, and its JSON API, on this machine; Ctrl-C ends it.
@@ -44,12 +46,15 @@ def serve(
         raise InputError(Fault("serve", f"needs {' and '.join(missing)}", "", 'pip install "ballscrew[web]"'))
     listening = _listening(host, port)
     from ballscrew.web import connections, guard, server
+    from ballscrew.web.job_process import Forks
     from ballscrew.web.request_queue import TIME_LIMIT, RequestQueue
 
     name = f"[{host}]" if ":" in host else host
     hosts = guard.LOOPBACK if host in _LOOPBACK else ("*",) if host in _ANY else (name.lower(), *guard.LOOPBACK)
     application = server.application(hosts, RequestQueue(TIME_LIMIT if time_limit is None else time_limit))
     server.warm_up()
+    if sys.platform == "linux":  # elsewhere a fork is not safe, or there is none
+        application.state.jobs.start = Forks(listening)
     address = f"http://{name}:{listening.getsockname()[1]}"
     typer.echo(f"ballscrew in the browser: {address} · API: {address}/api · Ctrl-C ends it")
     if host not in _LOOPBACK:

@@ -43,7 +43,7 @@ from ballscrew.studies import sweep as sweeps
 from ballscrew.studies import validation
 from ballscrew.studies.check import with_nut_named
 from ballscrew.studies.comparison import comparison
-from ballscrew.web import documents, file_api, limits, log_api, openapi, vocabulary
+from ballscrew.web import documents, file_api, job_api, limits, log_api, openapi, vocabulary
 from ballscrew.web.bodies import (
     BandBody,
     CaseBody,
@@ -82,6 +82,7 @@ _VALIDATION_LOCK = threading.Lock()
 router = APIRouter(prefix="/api/v1", dependencies=[Depends(known_query)])
 router.include_router(file_api.router)
 router.include_router(log_api.router)
+router.include_router(job_api.router)
 
 
 @router.post("/run", openapi_extra=openapi.body(CaseBody), response_model=answers.Run, responses=openapi.problems_of())

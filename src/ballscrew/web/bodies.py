@@ -146,10 +146,7 @@ class BandBody(CaseBody):
 
 async def read(request: Request, kind: type[Body]) -> Any:
     """The body of a request as one of the kinds above. Raises :class:`~ballscrew.web.problems.Refused`."""
-    media = request.headers.get("content-type", "").partition(";")[0].strip().lower()
-    if media != "application/json":
-        raise Refused(415, Fault("Content-Type", "is not application/json", media, "send JSON"))
-    value = _json(await _bytes(request, kind.most_bytes))
+    value = _json(await content_of(request, kind.most_bytes))
     _count(_without_contents(value, kind.files), kind.most_values)
     faults: list[Fault] = []
     table = read_table("request", kind, value, faults)
@@ -170,7 +167,11 @@ def _without_contents(value: Any, files: Sequence[str]) -> Any:
     }
 
 
-async def _bytes(request: Request, most: int) -> bytes:
+async def content_of(request: Request, most: int) -> bytes:
+    """The bytes of a body that says it is JSON. Raises :class:`~ballscrew.web.problems.Refused`."""
+    media = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+    if media != "application/json":
+        raise Refused(415, Fault("Content-Type", "is not application/json", media, "send JSON"))
     remedy = "send one case" if most == MOST_BYTES else "send a shorter log, or read it by the command line"
     too_large = Refused(413, Fault("request", f"has more than {most} bytes", "", remedy))
     length = request.headers.get("content-length", "0")

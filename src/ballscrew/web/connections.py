@@ -16,6 +16,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 from ballscrew.errors import Fault
 from ballscrew.web import problems
 from ballscrew.web.bodies import READ_TIMEOUT
+from ballscrew.web.jobs import Jobs
 from ballscrew.web.request_queue import RequestQueue
 
 #: Bytes of the head of a request.
@@ -122,11 +123,11 @@ class _TimeoutProtocol(H11Protocol):
 
 
 class _Server(uvicorn.Server):
-    """A server that closes its request queue at shutdown."""
+    """A server that closes its request queue and ends its jobs at shutdown."""
 
-    def __init__(self, config: uvicorn.Config, requests: RequestQueue) -> None:
+    def __init__(self, config: uvicorn.Config, requests: RequestQueue, jobs: Jobs) -> None:
         super().__init__(config)
-        self._requests = requests
+        self._requests, self._jobs = requests, jobs
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """Refuse the requests that wait, and close the connections whose requests are incomplete.
@@ -135,6 +136,7 @@ class _Server(uvicorn.Server):
         client would get no response.
         """
         self._requests.close()
+        self._jobs.close()
         for _ in range(_TURNS_TO_READ):
             await asyncio.sleep(0)
         for connection in list(self.server_state.connections):
@@ -151,4 +153,4 @@ def serve(application: FastAPI, listening: socket.socket) -> None:
         proxy_headers=False, server_header=False, timeout_keep_alive=75, timeout_graceful_shutdown=_SHUTDOWN_TIMEOUT,
         h11_max_incomplete_event_size=LONGEST_HEAD,
     )  # fmt: skip
-    _Server(settings, application.state.requests).run([listening])
+    _Server(settings, application.state.requests, application.state.jobs).run([listening])

@@ -1,4 +1,4 @@
-"""Request queue: work in threads, with limits on computing time and on the number of waiting requests."""
+"""Request queue: work in threads, with limits on processor time and on the number of waiting requests."""
 
 from __future__ import annotations
 
@@ -16,8 +16,10 @@ from anyio import CapacityLimiter, fail_after
 from ballscrew.errors import Fault
 from ballscrew.web.problems import Refused
 
-#: Seconds that one request may compute.
+#: Seconds of processor that one request may take.
 TIME_LIMIT = 20.0
+#: Seconds between two looks at the processor time of work that does not look itself.
+_LOOK = 0.25
 #: Requests that compute at the same time. More would only share the same processors.
 QUICK, SHORT, HEAVY = 4, 1, 2
 #: Heavy requests that may wait, short ones, which take a tenth of a second each, and quick ones, some milliseconds.
@@ -30,20 +32,54 @@ class _OutOfTime(Exception):
     """The computing time of a request is used up."""
 
 
-class Deadline:
-    """Progress callback ``done(finished, total)`` that stops work when its time is used up."""
+def _nothing(*_: Any) -> None:
+    """Tell nobody."""
 
-    def __init__(self, seconds: float) -> None:
-        self.end = time.monotonic() + seconds
+
+class Deadline:
+    """Progress callback ``done(finished, total)`` that stops work when its processor time is used up.
+
+    Other work on the machine does not count, only that of the thread that works.
+    """
+
+    def __init__(
+        self,
+        seconds: float,
+        progress: Callable[[int, int], None] = _nothing,
+        row: Callable[[bytes], None] = _nothing,
+    ) -> None:
+        self.limit = seconds
+        self._progress, self._row = progress, row
+        self._clock: Callable[[], float] | None = None
+        self._start = 0.0
+
+    def begin(self) -> None:
+        """Count from now on, in the thread that works."""
+        if hasattr(time, "pthread_getcpuclockid"):
+            clock = time.pthread_getcpuclockid(threading.get_ident())
+            self._clock = lambda: time.clock_gettime(clock)
+        else:  # macOS and Windows tell it to the thread itself only: for others it is the time that passes
+            self._clock = time.monotonic
+        self._start = self._clock()
+
+    @property
+    def computed(self) -> float:
+        """Seconds since the work began."""
+        return 0.0 if self._clock is None else self._clock() - self._start
 
     def __call__(self, finished: int, total: int) -> None:
-        """Raise when the time is used up."""
-        if time.monotonic() > self.end and finished < total:
+        """Tell how far the work is, and raise when the time is used up."""
+        self._progress(finished, total)
+        if self.computed > self.limit and finished < total:
             raise _OutOfTime
+
+    def row(self, document: bytes) -> None:
+        """Tell a part of the answer that is there before the rest, as JSON; where nobody asks for it, it is lost."""
+        self._row(document)
 
     def stop(self) -> None:
         """Stop the work at its next call."""
-        self.end = -1.0
+        self.limit = -1.0
 
 
 class _Workers:
@@ -86,9 +122,17 @@ class RequestQueue:
     """
 
     def __init__(
-        self, time_limit: float = TIME_LIMIT, quick: int = QUICK, heavy: int = HEAVY, waiting: int = MOST_WAITING
+        self,
+        time_limit: float = TIME_LIMIT,
+        quick: int = QUICK,
+        heavy: int = HEAVY,
+        waiting: int = MOST_WAITING,
+        *,
+        progress: Callable[[int, int], None] = _nothing,
+        row: Callable[[bytes], None] = _nothing,
     ) -> None:
         self.time_limit = time_limit
+        self._progress, self._row = progress, row
         self.waiting = waiting
         self._quick, self._short, self._heavy = _Workers(quick), _Workers(SHORT), _Workers(heavy)
         self._running: dict[asyncio.Future[Any], Deadline] = {}
@@ -97,19 +141,19 @@ class RequestQueue:
     async def quick(self, work: Callable[[], Result]) -> Result:
         """Run work that takes some milliseconds."""
         if self._quick.limiter.statistics().tasks_waiting >= MOST_QUICK_WAITING:
-            raise _busy(MOST_QUICK_WAITING)
+            raise busy(MOST_QUICK_WAITING)
         return await self._result(lambda _: work(), self._quick)
 
     async def short(self, work: Callable[[Deadline], Result]) -> Result:
         """Run work that takes a tenth of a second; it does not wait for heavy work."""
         if self._short.limiter.statistics().tasks_waiting >= MOST_SHORT_WAITING:
-            raise _busy(MOST_SHORT_WAITING)
+            raise busy(MOST_SHORT_WAITING)
         return await self._result(work, self._short)
 
     async def heavy(self, work: Callable[[Deadline], Result]) -> Result:
         """Run longer work; it is refused where many requests wait, and stopped when its time is used up."""
         if self._heavy.limiter.statistics().tasks_waiting >= self.waiting:
-            raise _busy(self.waiting)
+            raise busy(self.waiting)
         return await self._result(work, self._heavy)
 
     def close(self) -> None:
@@ -118,7 +162,7 @@ class RequestQueue:
         for future, deadline in list(self._running.items()):
             deadline.stop()
             if not future.done():
-                future.set_exception(_closing())
+                future.set_exception(closing())
         for workers in (self._quick, self._short, self._heavy):
             workers.limiter.total_tokens = math.inf  # the waiting requests go on, and are refused
 
@@ -128,20 +172,21 @@ class RequestQueue:
             with fail_after(self.time_limit * (1 + self.waiting)):
                 await limiter.acquire_on_behalf_of(borrower)
         except TimeoutError:
-            raise _out_of_time(self.time_limit) from None
+            raise busy(limiter.statistics().tasks_waiting) from None
         if self._closed:
             limiter.release_on_behalf_of(borrower)
-            raise _closing()
+            raise closing()
         loop = asyncio.get_running_loop()
         future: asyncio.Future[Any] = loop.create_future()
-        deadline = self._running[future] = Deadline(self.time_limit)
+        deadline = self._running[future] = Deadline(self.time_limit, self._progress, self._row)
         outcome: list[tuple[Any, BaseException | None]] = []
 
         def run() -> None:
             try:
+                deadline.begin()
                 outcome.append((work(deadline), None))
             except _OutOfTime:
-                outcome.append((None, _out_of_time(self.time_limit)))
+                outcome.append((None, out_of_time(self.time_limit)))
             except BaseException as error:  # it is raised where the result is awaited
                 outcome.append((None, error))
 
@@ -162,22 +207,26 @@ class RequestQueue:
 
         workers.start(run, finished)
         try:
-            with fail_after(self.time_limit + 1):
-                return await future
-        except TimeoutError:
-            raise _out_of_time(self.time_limit) from None
+            while not future.done():
+                await asyncio.wait((future,), timeout=_LOOK)
+                if not future.done() and deadline.computed > self.time_limit + 1:
+                    raise out_of_time(self.time_limit)
+            return future.result()
         finally:
             deadline.stop()
 
 
-def _busy(waiting: int) -> Refused:
+def busy(waiting: int) -> Refused:
+    """The refusal where too many requests wait."""
     return Refused(429, Fault("server", "is busy", f"{waiting} requests are waiting", "try again soon"))
 
 
-def _out_of_time(seconds: float) -> Refused:
-    remedy = "request fewer points or samples, or start the server with a longer --time-limit"
-    return Refused(408, Fault("server", f"stopped after {seconds:g} s", "", remedy))
+def out_of_time(seconds: float) -> Refused:
+    """The refusal of work that has computed for too long; it would do so again, so no client shall send it again."""
+    remedy = "ask for less at a time, or start the server with a longer time limit"
+    return Refused(422, Fault("server", f"stopped the work after {seconds:g} s of processor time", "", remedy))
 
 
-def _closing() -> Refused:
+def closing() -> Refused:
+    """The refusal while the server ends."""
     return Refused(503, Fault("server", "is shutting down", "", "start it again"))

@@ -7,6 +7,7 @@ import json
 from collections.abc import Sequence
 
 from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 from starlette.responses import Response
 from starlette.types import ASGIApp
@@ -17,6 +18,7 @@ from ballscrew.studies.run import run
 from ballscrew.web import api, files, memory, openapi, problems, vocabulary
 from ballscrew.web.bodies import case_of
 from ballscrew.web.guard import HEADERS, LOOPBACK, Guard
+from ballscrew.web.jobs import Jobs
 from ballscrew.web.policy import policy
 from ballscrew.web.problems import Refused
 from ballscrew.web.request_queue import RequestQueue
@@ -33,7 +35,9 @@ class _Application(FastAPI):
         return Guard(super().build_middleware_stack(), self.hosts, self.state.headers)
 
 
-def application(hosts: Sequence[str] = LOOPBACK, requests: RequestQueue | None = None) -> FastAPI:
+def application(
+    hosts: Sequence[str] = LOOPBACK, requests: RequestQueue | None = None, jobs: Jobs | None = None
+) -> FastAPI:
     """The application. ``hosts`` are the names it answers to, ``("*",)`` for any."""
     app = _Application(
         title="ballscrew", version=__version__, docs_url=None, redoc_url=None, openapi_url=None, redirect_slashes=False
@@ -41,6 +45,7 @@ def application(hosts: Sequence[str] = LOOPBACK, requests: RequestQueue | None =
     app.hosts = hosts
     app.state.headers = {**HEADERS, "Content-Security-Policy": policy(files.plotly_path())}
     app.state.requests = requests or RequestQueue()
+    app.state.jobs = jobs or Jobs(app.state.requests.time_limit)
     app.include_router(api.router)
     description = functools.cache(lambda: json.dumps(openapi.document(app)).encode())
 
@@ -52,6 +57,7 @@ def application(hosts: Sequence[str] = LOOPBACK, requests: RequestQueue | None =
     app.add_exception_handler(Refused, _refused)
     app.add_exception_handler(InputError, _input_error)
     app.add_exception_handler(HTTPException, _http_error)
+    app.add_exception_handler(RequestValidationError, _invalid)
     app.add_exception_handler(Exception, _defect)
     return app
 
@@ -71,6 +77,16 @@ async def _http_error(request: Request, error: Exception) -> Response:
     found = problems.response(error.status_code, [Fault(request.url.path, str(error.detail))])
     found.headers.update(error.headers or {})
     return found
+
+
+async def _invalid(_: Request, error: Exception) -> Response:
+    """Parts of an address that are no numbers, or too large."""
+    assert isinstance(error, RequestValidationError)
+    faults = [
+        Fault(f"?{one['loc'][-1]}", str(one["msg"])[:1].lower() + str(one["msg"])[1:], str(one["input"])[:40])
+        for one in error.errors()
+    ]
+    return problems.response(422, faults)
 
 
 async def _defect(_: Request, __: Exception) -> Response:

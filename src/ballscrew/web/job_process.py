@@ -1,0 +1,309 @@
+"""The process of one job: it answers one request as the server would, tells how far it is, and ends.
+
+A process can be killed at any time, its processor time is its own, and its memory goes back with it. On Linux it is a
+fork of a process that was itself forked from the server before that had threads, so it finds everything loaded;
+elsewhere it starts from nothing.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import pickle
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import traceback
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO, Any, NoReturn
+
+#: Seconds between two messages on how much has been computed.
+EVERY = 0.2
+#: A lower priority than that of the server, which answers quick requests meanwhile.
+_NICE = 5
+_PROGRAM = "from ballscrew.web.job_process import main; main()"
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A request to an address of the API, with the limit of its processor time in seconds."""
+
+    path: str
+    query: str
+    body: bytes
+    limit: float
+    #: The folder for what it writes meanwhile; whoever starts the process removes it.
+    folder: str
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How much is done of how much, as the work itself counts it."""
+
+    finished: int
+    total: int
+
+
+@dataclass(frozen=True)
+class Row:
+    """A part of the answer that is there before the rest, as JSON."""
+
+    document: bytes
+
+
+@dataclass(frozen=True)
+class Computed:
+    """Seconds of processor that the job has taken."""
+
+    seconds: float
+
+
+@dataclass(frozen=True)
+class OutOfTime:
+    """The limit of processor time was reached."""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """The answer of the address."""
+
+    status: int
+    media_type: str
+    body: bytes
+
+
+Message = Progress | Row | Computed | OutOfTime | Answer
+
+
+class Process:
+    """A process that waits for its request: its two pipes, and the way to end it."""
+
+    def __init__(self, requests: IO[bytes], messages: IO[bytes], kill: Callable[[int], None]) -> None:
+        self._requests, self._messages, self._kill = requests, messages, kill
+        self._lock, self._pid, self._ended = threading.Lock(), 0, False
+
+    def ask(self, asked: Asked) -> None:
+        """Send the request; the process begins."""
+        pickle.dump(asked, self._requests)
+        self._requests.flush()
+
+    def message(self) -> Message | None:
+        """The next message; None once the process has ended. It waits, in a thread of its own."""
+        try:
+            found: Message | int = pickle.load(self._messages)
+            while isinstance(found, int):  # the process says first who it is
+                with self._lock:
+                    self._pid = found
+                    if self._ended:
+                        self._kill(found)
+                found = pickle.load(self._messages)
+        except (EOFError, OSError, pickle.UnpicklingError):  # killed meanwhile, perhaps within a message
+            return None
+        return found
+
+    def end(self) -> None:
+        """Kill the process and those that it has started."""
+        with self._lock:
+            if not self._ended and self._pid:
+                self._kill(self._pid)
+            self._ended = True
+
+    def close(self) -> None:
+        """Close the pipes, once no message is waited for; a process that still runs ends by itself."""
+        for stream in (self._requests, self._messages):
+            with contextlib.suppress(OSError):  # what was not sent has no reader any more
+                stream.close()
+
+
+# -- how processes are started ----------------------------------------------------------------------
+
+
+def spawned() -> Process:
+    """A process that starts from nothing."""
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(path or str(Path.cwd()) for path in sys.path)}
+    made = subprocess.Popen(
+        [sys.executable, "-P", "-c", _PROGRAM], stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment,
+        start_new_session=os.name != "nt",
+    )  # fmt: skip
+    assert made.stdin is not None
+    assert made.stdout is not None
+
+    def kill(pid: int) -> None:
+        if os.name == "nt":
+            made.kill()
+        else:
+            _kill_group(pid)
+
+    threading.Thread(target=made.wait, name="ballscrew job ends", daemon=True).start()
+    return Process(made.stdin, made.stdout, kill)
+
+
+class Forks:
+    """Processes that are forks of one process, which is itself a fork of this one as it is now, without threads."""
+
+    def __init__(self, *closed: socket.socket) -> None:
+        """Fork the process of which others are forked. It closes the sockets, which are for the server alone."""
+        here, there = socket.socketpair()
+        with warnings.catch_warnings(action="ignore"):  # BLAS has threads; it is made for forks
+            pid = os.fork()
+        if pid == 0:
+            for one in (here, *closed):
+                one.close()
+            _fork_for_each(there)
+        there.close()
+        self._control, self._lock = here, threading.Lock()
+
+    def __call__(self) -> Process:
+        """A new process. Raises ``OSError`` where there can be none."""
+        theirs, requests = os.pipe()
+        messages, said = os.pipe()
+        try:
+            with self._lock:
+                socket.send_fds(self._control, [b"1"], [theirs, said])
+        finally:
+            os.close(theirs)
+            os.close(said)
+        return Process(os.fdopen(requests, "wb"), os.fdopen(messages, "rb"), _kill_group)
+
+
+def _fork_for_each(control: socket.socket) -> NoReturn:
+    """Fork a process for each pair of pipes that comes, until the server ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C ends the server, and that ends this
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody asks how they ended
+    while True:
+        said, pipes, _, _ = socket.recv_fds(control, 1, 2)
+        if not said:
+            os._exit(0)
+        with warnings.catch_warnings(action="ignore"):
+            pid = os.fork()
+        if pid == 0:
+            control.close()
+            signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+            os.setsid()
+            _answer_one(*(os.fdopen(pipe, mode) for pipe, mode in zip(pipes, ("rb", "wb"), strict=True)))
+        for pipe in pipes:
+            os.close(pipe)
+
+
+def _kill_group(pid: int) -> None:
+    with contextlib.suppress(ProcessLookupError):  # it has ended by itself meanwhile
+        os.killpg(pid, signal.SIGKILL)
+
+
+# -- the process itself -----------------------------------------------------------------------------
+
+
+def main() -> NoReturn:
+    """The program of a process that starts from nothing."""
+    messages = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # whatever libraries print
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    _answer_one(sys.stdin.buffer, messages)
+
+
+def _answer_one(requests: IO[bytes], messages: IO[bytes]) -> NoReturn:
+    """Answer the request that comes, and end."""
+    lock = threading.Lock()
+
+    def tell(message: Message | int) -> None:
+        with lock:
+            try:
+                pickle.dump(message, messages)
+                messages.flush()
+            except OSError:  # the server has ended
+                os._exit(1)
+
+    tell(os.getpid())
+    try:
+        asked: Asked = pickle.load(requests)
+    except EOFError:  # the server has ended, or needs it no more
+        os._exit(1)
+    with contextlib.suppress(AttributeError, OSError):  # not on every system
+        os.nice(_NICE)
+    start = computed()
+    for watch in (lambda: _end_with(requests), lambda: _count(asked.limit, start, tell)):
+        threading.Thread(target=watch, daemon=True).start()
+    try:
+        tempfile.tempdir = asked.folder
+        answer = asyncio.run(_answered(asked, tell))
+        tell(Computed(computed() - start))
+        tell(answer)
+    except BaseException:
+        traceback.print_exc()
+        sys.stderr.flush()
+        os._exit(1)
+    os._exit(0)  # nothing that libraries left is waited for
+
+
+def computed() -> float:
+    """Seconds of processor of this process, on all processors, and of those that it has started and that ended."""
+    times = os.times()
+    return time.process_time() + times.children_user + times.children_system
+
+
+def _end_with(requests: IO[bytes]) -> None:
+    """End as soon as the server closes the pipe, or ends."""
+    requests.read(1)
+    os._exit(1)
+
+
+def _count(limit: float, start: float, tell: Callable[[Message], None]) -> None:
+    """Tell how much was computed, and end at the limit."""
+    while True:
+        time.sleep(EVERY)
+        seconds = computed() - start
+        tell(Computed(seconds))
+        if seconds > limit:
+            tell(OutOfTime())
+            os._exit(1)
+
+
+async def _answered(asked: Asked, tell: Callable[[Message], None]) -> Answer:
+    """The answer of the application, called as by a server."""
+    from ballscrew.web import server
+    from ballscrew.web.request_queue import RequestQueue
+
+    queue = RequestQueue(
+        time_limit=float("inf"),
+        progress=lambda finished, total: tell(Progress(finished, total)),
+        row=lambda document: tell(Row(document)),
+    )
+    bodies = [asked.body]
+    started: dict[str, Any] = {}
+    parts: list[bytes] = []
+
+    async def receive() -> dict[str, Any]:
+        if bodies:
+            return {"type": "http.request", "body": bodies.pop(), "more_body": False}
+        await asyncio.Event().wait()  # the process is killed where nobody waits for the answer
+        raise AssertionError
+
+    async def send(message: Any) -> None:
+        if message["type"] == "http.response.start":
+            started.update(message)
+        else:
+            parts.append(message.get("body", b""))
+
+    scope = {
+        "type": "http", "asgi": {"version": "3.0"}, "http_version": "1.1", "method": "POST", "scheme": "http",
+        "path": asked.path, "raw_path": asked.path.encode(), "query_string": asked.query.encode(), "root_path": "",
+        "headers": [(b"host", b"localhost"), (b"content-type", b"application/json")],
+    }  # fmt: skip
+    try:
+        await server.application(requests=queue)(scope, receive, send)
+    except Exception:
+        if not started:
+            raise
+        traceback.print_exc()  # a defect, which the application has answered for
+        sys.stderr.flush()
+    headers = {name.decode().lower(): value.decode() for name, value in started["headers"]}
+    return Answer(started["status"], headers["content-type"], b"".join(parts))
