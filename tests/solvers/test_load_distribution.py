@@ -457,3 +457,27 @@ def test_a_chain_tied_to_nothing_has_no_solution():
         with np.errstate(invalid="ignore", divide="ignore"):
             moved = ball_springs.tridiagonal(np.zeros((2, 1)), np.zeros((3, points)), np.ones((3, points)))
         assert np.isnan(moved[0]).all()
+
+
+# -- work ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("compiled", [False, True])
+def test_each_distinct_load_is_solved_once(monkeypatch, compiled):
+    """A cycle has few loads at many speeds; the loads of the balls are those of each load by itself."""
+    solved, points = load_distribution.solved, []
+
+    def counted(case, *numbers):
+        points.append(numbers[0].size)
+        return solved(case, *numbers)
+
+    monkeypatch.setattr(load_distribution, "solved", counted)
+    nut, bodies = DoubleNut(preload=1500.0), Bodies()
+    bodies = bodies.sized(PAPER)
+    found = ball_loads(PAPER, nut, np.repeat([3000.0, -500.0, 3000.0], 40), bodies=bodies, compiled=compiled)
+    assert sum(points) == 2
+    apart = ball_loads(PAPER, nut, np.array([3000.0, -500.0]), bodies=bodies, compiled=compiled)
+    places = np.repeat([0, 1, 0], 40)
+    assert np.array_equal(found.forward_load, apart.forward_load[places])
+    assert np.array_equal(found.rigidity, apart.rigidity[places])
+    assert np.array_equal(found.at([0, 40]).backward_angle, apart.backward_angle)

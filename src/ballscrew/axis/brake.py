@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from scipy.optimize import root_scalar
@@ -105,11 +105,11 @@ def brake_of(duty: Duty, *, brake_factor: Ratio = BRAKE_FACTOR, process_force: F
     leaves it about as large, so that the conditions differ little unless it lies beyond the speeds of the duty.
     """
     off = _Off(duty, duty.axis.gravity_force + process_force)
-    found = [off.let_go("as in the case", None)]
+    found = off.let_go({"as in the case": None})
     if isinstance(duty.driven, ModelledScrew):
         if duty.driven.lubricant.temperature is not None:
-            found += [off.let_go(name, at) for name, at in (("cold", COLD), ("hot", HOT))]
-        found.append(off.dry(duty.driven))
+            found += off.let_go({"cold": COLD, "hot": HOT})
+        found.append(off.dry(found[0]))
     return Brake(conditions=found, brake_factor=brake_factor)
 
 
@@ -140,42 +140,56 @@ class _Off:
         held = sum((part for parts in beside.values() for part in parts.values()), np.zeros_like(speed))
         return (screw_torque + held) / axis.transmission_ratio + along
 
-    def friction(self, speeds: Numbers, temperature: Temperature | None) -> Numbers:
-        """Friction about the motor at sizes of the speed of the screw, in the direction of the fall."""
-        warm = np.full_like(speeds, np.nan if temperature is None else temperature)
+    def friction(self, speeds: Numbers, temperatures: Sequence[Temperature | None]) -> list[Numbers]:
+        """Friction about the motor at sizes of the speed of the screw, in the direction of the fall, by temperature."""
         falling = np.copysign(speeds, -self.load)
-        found = self.duty.driven.along(np.full_like(speeds, self.load), falling, warm)
-        return self.with_supports(found.torque, falling, temperature)
+        every = np.tile(falling, len(temperatures))
+        warm = np.repeat([np.nan if found is None else found for found in temperatures], len(speeds))
+        torques = self.duty.driven.along(np.full_like(every, self.load), every, warm).torque
+        return [
+            self.with_supports(torque, falling, temperature)
+            for torque, temperature in zip(torques.reshape(len(temperatures), -1), temperatures, strict=True)
+        ]
 
-    def from_rest(self, driven: ModelledScrew, temperature: Temperature | None) -> Torque:
-        """Friction about the motor from rest."""
-        oil = driven.lubricant if temperature is None else driven.lubricant.at(temperature)
-        screw = float(breakaway(driven.model, driven.screw, oil, axial_load=self.load).torque)
-        return float(self.with_supports(np.array([screw]), np.zeros(1), temperature)[0])
+    def from_rest(self, driven: ModelledScrew, temperatures: Sequence[Temperature | None]) -> list[Torque]:
+        """Friction about the motor from rest, by temperature."""
+        own = driven.lubricant
+        loads = driven.loads_at(np.array([self.load]))
+        found: list[Torque] = []
+        for temperature in temperatures:
+            oil = own if temperature is None else own.at(temperature)
+            rest = breakaway(driven.model, driven.screw, oil, axial_load=np.array([self.load]), loads=loads)
+            found.append(float(self.with_supports(rest.torque, np.zeros(1), temperature)[0]))
+        return found
 
-    def let_go(self, condition: str, temperature: Temperature | None) -> LetGo:
-        """The axis in one condition of its oil; power may fail at any speed of the duty."""
-        driven = self.duty.driven
+    def let_go(self, conditions: Mapping[str, Temperature | None]) -> list[LetGo]:
+        """The axis in conditions of its oil, by name; power may fail at any speed of the duty."""
+        driven, temperatures = self.duty.driven, [*conditions.values()]
         lead = float(driven.lead)
         fastest = max(float(np.max(np.abs(self.duty.screw_speed))), 10 * CREEP)
         speeds = np.geomspace(CREEP, fastest, SPEEDS)
-        friction = self.friction(speeds, temperature)
-        least = int(np.argmin(friction))  # a NaN is taken as the least
-        started = self.from_rest(driven, temperature) if isinstance(driven, ModelledScrew) else float(friction[0])
+        # and at the speed up to which a steady fall is looked for
+        every = self.friction(np.append(speeds, FASTEST), temperatures)
+        rest = self.from_rest(driven, temperatures) if isinstance(driven, ModelledScrew) else None
+        found: list[LetGo] = []
+        for number, (condition, temperature) in enumerate(conditions.items()):
+            friction, at_fastest = every[number][:-1], float(every[number][-1])
+            least = int(np.argmin(friction))  # a NaN is taken as the least
+            steady, slowest = math.inf, float(speeds[least])
 
-        def left(speed: AngularSpeed) -> Torque:
-            """Torque that is left to accelerate at a speed of the screw."""
-            return self.pull - float(self.friction(np.array([speed]), temperature)[0])
+            def left(speed: AngularSpeed, temperature: Temperature | None = temperature) -> Torque:
+                """Torque that is left to accelerate at a speed of the screw."""
+                return self.pull - float(self.friction(np.array([speed]), [temperature])[0][0])
 
-        steady, slowest = math.inf, float(speeds[least])
-        if left(slowest) > 0 > left(FASTEST):
-            steady = root_scalar(left, bracket=(slowest, FASTEST), rtol=1e-6).root * lead / (2 * math.pi)
-        return self._record(condition, temperature, started, float(friction[least]), steady)
+            if self.pull - float(friction[least]) > 0 > self.pull - at_fastest:
+                steady = root_scalar(left, bracket=(slowest, FASTEST), rtol=1e-6).root * lead / (2 * math.pi)
+            started = float(friction[0]) if rest is None else rest[number]
+            found.append(self._record(condition, temperature, started, float(friction[least]), steady))
+        return found
 
-    def dry(self, driven: ModelledScrew) -> LetGo:
+    def dry(self, oiled: LetGo) -> LetGo:
         """The axis without oil: friction from rest at all speeds."""
-        from_rest = self.from_rest(driven, None)
-        return self._record("dry", None, from_rest, from_rest, math.inf)
+        return self._record("dry", None, oiled.breakaway_torque, oiled.breakaway_torque, math.inf)
 
     def _record(
         self, condition: str, temperature: Temperature | None, started: Torque, running: Torque, steady: Speed

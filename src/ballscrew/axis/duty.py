@@ -57,11 +57,13 @@ def duty(
     axis: Axis,
     motion: Motion | MotionStates,
     also: Mapping[str, FrictionElement] | None = None,
+    recorded: bool = False,
 ) -> Duty:
     """Torques, powers and energies of one cycle of an axis.
 
     ``model`` is a model of the friction of the screw, or one efficiency for all of its states. ``also`` has further
     elements on the shaft of the screw, such as support bearings, by name: they get its load and its speed.
+    ``recorded`` evaluates the model by the recording that all screws of a kind share: for who asks for many of them.
     Raises :class:`~ballscrew.errors.InputError` as the model does, for a model without a lubricant, and for elements
     with the name of another part of the torque.
     """
@@ -77,7 +79,7 @@ def duty(
     states = motion if isinstance(motion, MotionStates) else motion.states()
     driven: Screw
     if isinstance(model, FrictionModel) and lubricant is not None:
-        driven = ModelledScrew(model, screw, lubricant)
+        driven = ModelledScrew(model, screw, lubricant, recorded)
     else:
         driven = ConstantEfficiency(screw.lead, cast("Any", model))
     return Duty(axis, driven, states, also or {})

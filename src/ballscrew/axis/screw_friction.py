@@ -9,19 +9,23 @@ from typing import Annotated, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew._arrays import ByValue, compact
+from ballscrew._arrays import ByValue, compact, lazy
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import transmission
 from ballscrew.errors import faults_of, raise_if_any
 from ballscrew.evaluation.evaluator import evaluator
 from ballscrew.evaluation.outputs import known_outputs
+from ballscrew.friction.loaded_balls import loads_of
 from ballscrew.friction.model import FrictionModel
 from ballscrew.motion.states import Numbers
 from ballscrew.quantities import Info, Length, Ratio
+from ballscrew.solvers.load_distribution import BallLoads
 
 #: More balls than this in all points together, and the model is compiled.
 WORTH_RECORDING = 200_000
+#: The loads of the balls are kept at up to so many axial loads at a time.
+FEW_LOADS = 64
 #: A greater share of distinct points, and they are not sorted out.
 REPEATED = 0.8
 _OUTPUTS = ("screw_torque", "ideal_torque", "valid", "maximum_pressure", "minimum_film_parameter")
@@ -68,6 +72,8 @@ class ModelledScrew(ByValue):
     model: FrictionModel
     screw: BallScrew
     lubricant: Lubricant
+    #: Evaluated by the recording that all screws of a kind share, however few the points: for one screw after another.
+    recorded: bool = False
 
     @property
     def lead(self) -> Length:
@@ -102,6 +108,26 @@ class ModelledScrew(ByValue):
             points=distinct.shape[1],
         )
 
+    def loads_at(self, axial_load: Numbers) -> BallLoads | None:
+        """Loads of the balls that are solved one by one, kept for the next question at the same few loads; else None.
+
+        They depend on the axial load alone: cycle, fall and start of an axis ask for the same ones.
+        """
+        if not self.screw.nut.one_by_one:
+            return None
+        distinct, back = np.unique(axial_load, return_inverse=True)
+        if distinct.size > FEW_LOADS:
+            return None
+        asked = tuple(distinct.tolist())
+        if asked not in self._solved:
+            self._solved[asked] = loads_of(self.screw, distinct)
+        return self._solved[asked].at(back)
+
+    @lazy
+    def _solved(self) -> dict[tuple[float, ...], BallLoads]:
+        """Loads of the balls by axial loads."""
+        return {}
+
     def _names(self, kind: str) -> list[str]:
         return [name for name in known_outputs(self.screw.nut) if name.startswith(kind)]
 
@@ -115,9 +141,9 @@ class ModelledScrew(ByValue):
         elif not np.isnan(temperature[:1]).all() and float(temperature[0]) != oil.temperature:
             oil = oil.at(float(temperature[0]))
         balls = self.screw.nut.halves * int(self.screw.loaded_balls) if self.screw.nut.one_by_one else 1
-        if len(axial_load) * balls > WORTH_RECORDING:
+        if self.recorded or len(axial_load) * balls > WORTH_RECORDING:
             return evaluator(self.model, self.screw, oil, inputs=tuple(values), outputs=names)(**values)
-        result = self.model(self.screw, oil, **values)
+        result = self.model(self.screw, oil, **values, loads=self.loads_at(axial_load))
         known = known_outputs(self.screw.nut)
         return {name: np.broadcast_to(known[name].read(result), axial_load.shape) for name in names}
 

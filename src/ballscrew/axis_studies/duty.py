@@ -322,12 +322,14 @@ _LIFE = (("life", "1"), ("running_time", "s"))
 
 
 @overflow_as_input_error()
-def duty(case: Case) -> DutyReport:
-    """The duty of a case with an axis and a motion."""
+def duty(case: Case, *, recorded: bool = False) -> DutyReport:
+    """The duty of a case with an axis and a motion; ``recorded`` as for :func:`ballscrew.axis.duty.duty`."""
     assert case.axis is not None
     assert case.motion is not None
     driver = case.model if case.efficiency is None else case.efficiency
-    found = axis_duty.duty(driver, case.screw, case.lubricant, axis=case.axis, motion=case.motion, also=beside(case))
+    found = axis_duty.duty(
+        driver, case.screw, case.lubricant, axis=case.axis, motion=case.motion, also=beside(case), recorded=recorded
+    )
     rating, source = _rating(case)
     preload = float(preload_of(case.screw, case.screw.nut))
     if not math.isfinite(found.torque_rms):

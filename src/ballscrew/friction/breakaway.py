@@ -18,6 +18,7 @@ from ballscrew.friction import directions
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Angle, Force, Info, Length, Mask, Ratio, RotationalStiffness, Stiffness, Torque
+from ballscrew.solvers.load_distribution import BallLoads
 
 #: Boundary friction at the start, SKF2018; in motion it has 0.12.
 STATIC_FRICTION_COEFFICIENT = 0.15
@@ -102,12 +103,13 @@ def breakaway(
     *,
     axial_load: Force,
     static_friction_coefficient: Ratio = STATIC_FRICTION_COEFFICIENT,
+    loads: BallLoads | None = None,
 ) -> Breakaway:
     """Friction from rest under an axial load in N, of either sign; arrays are evaluated element by element.
 
     All contacts have the static friction coefficient, 0.15 by default (SKF2018 at the start; 0.12 in motion). Grease
-    that has set, seals that stick and a run-in surface may change it. Raises
-    :class:`~ballscrew.errors.InputError` for a coefficient that is not above zero.
+    that has set, seals that stick and a run-in surface may change it. ``loads`` are those of the balls, where they are
+    known. Raises :class:`~ballscrew.errors.InputError` for a coefficient that is not above zero.
     """
     if np.any(~(np.asarray(static_friction_coefficient) > 0)):
         given = str(static_friction_coefficient)
@@ -115,7 +117,7 @@ def breakaway(
     sticking = LoadSharing(static_friction_coefficient, decay=0.0)
     at_rest = dataclasses.replace(model, friction=sticking, full_film=None)
     return Breakaway(
-        at_rest=at_rest(screw, lubricant, axial_load=axial_load, screw_speed=0.0),
+        at_rest=at_rest(screw, lubricant, axial_load=axial_load, screw_speed=0.0, loads=loads),
         static_friction_coefficient=static_friction_coefficient,
     )
 

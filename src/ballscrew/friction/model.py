@@ -205,20 +205,23 @@ class FrictionModel(ByValue):
         axial_load: Force,
         screw_speed: AngularSpeed,
         temperature: Temperature | None = None,
+        loads: BallLoads | None = None,
     ) -> FrictionResult:
         """Friction at an axial load (N) and a screw speed (rad/s) of either sign; arrays broadcast.
 
         A positive load is one that a positive speed lifts. With a ``temperature`` (K) the lubricant, which must have
-        been made from a data sheet or a grade, is taken there. Array values are never refused: where they make no sense
-        the result says so in its validity. Raises :class:`~ballscrew.errors.InputError` where plain numbers overflow,
-        for a temperature of an oil without either, and for a nut whose balls have four contacts with a slip law that
-        knows two.
+        been made from a data sheet or a grade, is taken there. ``loads`` are those of the balls under this axial load,
+        where they are known (:func:`~ballscrew.solvers.load_distribution.ball_loads`). Array values are never refused:
+        where they make no sense the result says so in its validity. Raises :class:`~ballscrew.errors.InputError` where
+        plain numbers overflow, for a temperature of an oil without either, and for a nut whose balls have four contacts
+        with a slip law that knows two.
         """
         state = OperatingState(as_array(axial_load), as_array(screw_speed), as_array(temperature))
         raise_if_any([*_misfits(state), *self._misfits_of_nut(screw)])
         oil = lubricant if temperature is None else lubricant.at(state.temperature)
         with overflow_as_input_error(), np.errstate(all="ignore"):
-            return self._evaluate(screw, oil, state)
+            known = loads_of(screw, state.axial_load) if loads is None and not screw.nut.is_row else loads
+            return self.under(known, screw, oil, state)
 
     def knows(self, nut: Nut) -> bool:
         """Return whether the slip law knows the number of contacts that the balls of a nut have."""
@@ -260,10 +263,6 @@ class FrictionModel(ByValue):
     def contact_laws(self) -> ContactLaws:
         """The laws that one contact needs, to be called."""
         return ContactLaws(**{field.name: getattr(self.laws, field.name) for field in dataclasses.fields(ContactLaws)})
-
-    def _evaluate(self, screw: BallScrew, lubricant: Lubricant, state: OperatingState) -> FrictionResult:
-        loads = None if screw.nut.is_row else loads_of(screw, state.axial_load)
-        return self.under(loads, screw, lubricant, state)
 
     def under(
         self, loads: BallLoads | None, screw: BallScrew, lubricant: Lubricant, state: OperatingState

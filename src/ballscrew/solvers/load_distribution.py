@@ -100,6 +100,12 @@ class BallLoads:
         """How many balls each entry of the ball axis stands for."""
         return self._by_ball("balls")
 
+    def at(self, places: Any) -> BallLoads:
+        """The loads at some of several operating points, by their places; of balls that are given one by one."""
+        assert self.one_by_one, "balls that are alike are no trouble to solve again"
+        kinds = tuple(KindLoads(*(part[places] for part in kind)) for kind in self.kinds)
+        return BallLoads(kinds=kinds, one_by_one=True, **{name: getattr(self, name)[places] for name in _OF_NUT})
+
     def _by_ball(self, name: str) -> Any:
         parts = [getattr(kind, name) for kind in self.kinds]
         if self.one_by_one:
@@ -203,6 +209,12 @@ def _one_by_one(
     ]
     shape = np.broadcast_shapes(*(np.shape(number) for number in numbers))
     flat = [np.broadcast_to(np.asarray(number, dtype=float), shape).reshape(-1) for number in numbers]
+    whole: Any = slice(None)
+    if flat[0].size > 1 and not any(np.ndim(number) for number in numbers[1:]):
+        # the load alone varies: each distinct one is solved once, a single one as two, so that sums have one order
+        distinct, whole = np.unique(flat[0], return_inverse=True)
+        distinct = np.resize(distinct, max(distinct.size, FEWEST_POINTS))
+        flat = [distinct, *(np.broadcast_to(each[:1], distinct.shape) for each in flat[1:])]
     count = flat[0].size
     if compiled:
         # where the load alone varies, the rest is worked out once; a single point is two, so that sums have one order
@@ -241,8 +253,8 @@ def _one_by_one(
     meaningless = (np.isnan(flat[0]) | ~(flat[1] >= 0))[:count]
     if np.any(meaningless):
         joined = [np.where(meaningless, np.nan, part) for part in joined]
-    by_ball = [np.moveaxis(part, 0, -1).reshape(*shape, part.shape[0]) for part in joined[:4]]
-    plain = [part.reshape(shape)[()] for part in joined[4:]]
+    by_ball = [np.moveaxis(part, 0, -1)[whole].reshape(*shape, part.shape[0]) for part in joined[:4]]
+    plain = [part[whole].reshape(shape)[()] for part in joined[4:]]
     kind = KindLoads(np.ones_like(by_ball[0]), *by_ball)
     return BallLoads(kinds=(kind,), one_by_one=True, **dict(zip(_OF_NUT, plain, strict=True)))
 
