@@ -4,11 +4,14 @@ import copy
 
 import pytest
 
+from ballscrew.axis_studies.duty import duty as duty_of
 from ballscrew.cases import case_file
 from ballscrew.documents import band as band_documents
+from ballscrew.documents import duty as duty_documents
 from ballscrew.documents import run as run_documents
 from ballscrew.studies import band
 from ballscrew.studies.run import run
+from support.commands import ROOT
 
 COLD = {
     "screw": {"catalogue": "rexroth-40x10x6-6-double"},
@@ -16,6 +19,16 @@ COLD = {
     "lubricant": {"grade": "ISO VG 220", "temperature": "5 degC"},
     "operation": {"axial_load": "3 kN", "screw_speed": "1000 rpm"},
 }
+
+
+BATH = "model.inlet.replenishment_constant=0"
+
+
+def record_of(document):
+    """The one record of starvation, among the warnings or the verdicts; None where there is none."""
+    found = [one for one in (*document["warnings"], *document["verdicts"]) if one["id"] == "lubricant.starved"]
+    assert len(found) < 2
+    return found[0] if found else None
 
 
 def case_with(temperature="5 degC", constant=None):
@@ -58,3 +71,55 @@ def test_the_band_says_where_the_full_bath_lies():
     assert found.value == run(case).friction.flooded_torque
     assert found.limit == report.band["screw_torque"].both.high < found.value  # nothing is uncertain here
     assert found.text.endswith("above it")
+
+
+def tables_of_duty(temperature, *settings):
+    tables = case_file.read(ROOT / "examples" / "vertical_axis.toml")
+    return case_file.override(tables, [f"lubricant.temperature={temperature}", *settings])
+
+
+def document_of_duty(temperature, *settings):
+    case = case_file.build(tables_of_duty(temperature, *settings), moves=True)
+    return duty_documents.document(duty_of(case))
+
+
+def test_a_cold_cycle_stands_beside_that_of_a_full_bath():
+    cold = document_of_duty("-5 degC")
+    bath = document_of_duty("-5 degC", BATH)
+    record = record_of(cold)
+    found, full = cold["results"], cold["results"]["full_bath"]
+    assert found["flooded_torque"] == full["torque_peak"] == record["value"] == bath["results"]["torque_peak"]
+    assert record["limit"] == found["torque_peak"] < record["value"]
+    assert cold["units"]["flooded_torque"] == record["unit"] == "N m"
+    for name in ("torque_rms", "energy_lost", "screw_torque", "power_peak", "energy_drawn", "energy_returned"):
+        assert full[name] == bath["results"][name]
+    assert full["energy_lost"] > 3.5 * found["energy_lost"]
+    assert full["screw_torque"] > 3 * found["screw_torque"]
+    assert f"{full['energy_lost']:.4g} J" in record["text"]
+
+
+def test_a_warm_cycle_and_one_in_a_full_bath_are_not_starved_and_have_the_torque_of_the_bath_too():
+    for settings in ((), (BATH,)):
+        warm = document_of_duty("60 degC", *settings)
+        assert record_of(warm) is None
+        assert warm["results"]["flooded_torque"] == pytest.approx(warm["results"]["torque_peak"], rel=0.01)
+    ruled = document_of_duty("-5 degC", "model.name=constant-efficiency", "model.efficiency=0.9")
+    assert record_of(ruled) is None
+    assert ruled["results"]["flooded_torque"] is None
+    assert ruled["results"]["full_bath"] is None
+
+
+def test_the_motor_is_judged_by_the_larger_torque_and_the_brake_by_the_smaller():
+    settings = ("motor.rated_torque=20 N m", "motor.peak_torque=28.5 N m", "motor.curve=[]")
+    cold, bath = document_of_duty("-5 degC", *settings), document_of_duty("-5 degC", *settings, BATH)
+    of_cold, of_bath = ({check["name"]: check for check in one["checks"]} for one in (cold, bath))
+    starved = cold["results"]["torque_peak"]
+    assert starved < 28.5 < of_bath["motor_peak_torque"]["value"] == of_cold["motor_peak_torque"]["value"]
+    assert of_cold["motor_peak_torque"]["text"].endswith(", in a full bath of oil")
+    assert cold["results"]["motor"]["suffices"] is False
+    assert cold["results"]["motor"]["worst"]["condition"] == "in a full bath of oil"
+    assert cold["results"]["motor"]["flooded_copper_loss"] == bath["results"]["motor"]["copper_loss"]
+    said = {record["id"]: record["text"] for record in cold["verdicts"]}
+    assert "judged by the larger torque: peak and RMS in a full bath of oil" in said["verdict.motor"]
+    assert "the smaller friction, that of the track starved of oil" in said["verdict.brake"]
+    assert cold["results"]["brake"]["holding_torque"] >= bath["results"]["brake"]["holding_torque"]

@@ -8,9 +8,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import ballscrew as bs
+from ballscrew.axis.axis import Axis
+from ballscrew.axis.brake import brake_of
+from ballscrew.axis.drive import MotorCheck
+from ballscrew.axis.duty import duty
+from ballscrew.axis.motor import Motor
 from ballscrew.components.lubrication import Inlet
 from ballscrew.friction import starvation
 from ballscrew.friction.model import FrictionModel
+from ballscrew.motion.profiles import Trapezoid
 
 MODEL = FrictionModel.reference()
 SCREW = bs.BallScrew(
@@ -63,3 +69,43 @@ def test_a_model_whose_inlet_is_always_full_has_one_torque():
     found = result(-10.0, 3e3, 100.0, model=paper)
     assert found.flooded_torque == found.screw_torque
     assert found.starvation == []
+
+
+ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
+NUTS = (bs.SingleNut(), bs.DoubleNut(preload=3605.0), bs.OversizeBallNut(preload=2000.0))
+MOTION = Trapezoid(stroke=0.3, speed=0.2, acceleration=4.0, dwell=0.5)
+UPRIGHT = Axis(mass=150.0, inclination=np.pi / 2, inertia=3e-3)
+
+
+def cycle(temperature, nut, constant, grade="ISO VG 100"):
+    model = dataclasses.replace(MODEL, inlet=Inlet(replenishment_constant=constant))
+    oil = bs.Lubricant.from_grade(grade, temperature + CELSIUS)
+    return duty(model, ROW.screw(nut=nut), oil, axis=UPRIGHT, motion=MOTION)
+
+
+@pytest.mark.parametrize("nut", NUTS, ids=lambda nut: type(nut).__name__)
+def test_the_torque_that_a_motor_is_judged_by_is_never_below_that_of_either_condition(nut):
+    for temperature in (-10.0, 5.0, 25.0, 60.0):
+        starved, bath = cycle(temperature, nut, 3e-8), cycle(temperature, nut, 0.0)
+        motor = Motor(rated_torque=5.0, peak_torque=15.0, largest_speed=300.0)
+        checks = {one.name: one.value for one in MotorCheck(starved, motor).checks}
+        if starved.starved:
+            for found in (starved, bath):
+                assert checks["motor_rms_torque"] >= found.torque_rms * (1 - 1e-12)
+                assert checks["motor_peak_torque"] >= found.torque_peak * (1 - 1e-12)
+        ratio = np.max((bath.screw.torque / starved.screw.torque)[starved.states.direction != 0])
+        assert starved.starved == (ratio > 1.1)
+        assert not bath.starved
+        assert bath.flooded is bath
+        assert starved.flooded.torque_peak == bath.torque_peak
+
+
+@pytest.mark.parametrize("nut", NUTS, ids=lambda nut: type(nut).__name__)
+def test_an_axis_that_is_let_go_has_the_smaller_friction_where_it_is_starved(nut):
+    """So that a brake, and whether the load drives, are judged by it with the inlet as it is given."""
+    starved, bath = (brake_of(cycle(-5.0, nut, constant)) for constant in (3e-8, 0.0))
+    for one, other in zip(starved.conditions, bath.conditions, strict=True):
+        assert one.running_torque <= other.running_torque * (1 + 1e-9)
+        assert one.breakaway_torque == pytest.approx(other.breakaway_torque, rel=1e-9)
+    assert starved.holding_torque >= bath.holding_torque
+    assert starved.brake_torque >= bath.brake_torque

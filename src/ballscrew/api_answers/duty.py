@@ -15,7 +15,7 @@ from ballscrew.api_answers.parts import (
     model,
     quantities,
 )
-from ballscrew.axis_studies.duty import NUMBERS
+from ballscrew.axis_studies.duty import NUMBERS, SCREW_TORQUE
 from ballscrew.axis_studies.stiffness import FRICTION, LOAD, SERIES, SPEED
 
 
@@ -70,6 +70,15 @@ DutyResults = model(
     torque_rms_by=(Numbers, field("parts of the RMS torque, SI", "N m")),
     torque_peak_by=(Numbers, field("parts of the peak torque, SI", "N m")),
     energy_by=(Numbers, field("energy of a cycle by cause, SI", "J")),
+    screw_torque=(Number, field(f"{SCREW_TORQUE.info.meaning}, SI", SCREW_TORQUE.unit)),
+    flooded_torque=(
+        Number,
+        field("largest torque of the motor in a full bath of oil, SI; null for one efficiency", "N m"),
+    ),
+    full_bath=(
+        dict[str, Number] | None,
+        field("numbers of the cycle in a full bath of oil, SI; null for one efficiency, which knows no oil"),
+    ),
     brake=(PowerOff, ...),
     motor=(MotorUse, field("the cycle against the motor, where there is one", optional=True)),
     phases=(list[Tables], ...),

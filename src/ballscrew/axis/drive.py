@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -19,9 +20,17 @@ from ballscrew.sizing.checks import Check
 _LARGEST_SPEED = fields_of(Motor)["largest_speed"]
 
 
+#: The condition of the track of balls that a torque is of, where both are judged.
+AS_GIVEN, FULL_BATH = "starved of oil", "in a full bath of oil"
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class MotorCheck(ByValue):
-    """A duty against a motor."""
+    """A duty against a motor.
+
+    Where the screw is starved of oil (:attr:`~ballscrew.axis.duty.Duty.starved`), its torque in a full bath is judged
+    as well, and the larger counts.
+    """
 
     duty: Duty
     motor: Motor
@@ -30,14 +39,21 @@ class MotorCheck(ByValue):
 
     @property
     def torque(self) -> Numbers:
-        """Torque of the motor, N m."""
+        """Torque of the motor, N m, with the inlet as it is given."""
         return self.duty.torque if self.by_rule is None else self.by_rule
 
     @lazy
+    def torques(self) -> Mapping[str, Numbers]:
+        """The torques that are judged, N m, by the condition of the track; one without a name where nothing starves."""
+        if self.by_rule is not None or not self.duty.starved:
+            return {"": self.torque}
+        return {AS_GIVEN: self.torque, FULL_BATH: self.duty.flooded.torque}
+
+    @lazy
     def utilisation(self) -> Numbers:
-        """Torque over the peak torque at the speed of each state; infinite beyond the largest speed."""
+        """Largest torque over the peak torque at the speed of each state; infinite beyond the largest speed."""
         peak = self.motor.peak_at(self.duty.motor_speed)
-        size = np.abs(self.torque)
+        size = np.max(np.abs(list(self.torques.values())), axis=0)
         return np.where(peak > 0, size / np.where(peak > 0, peak, 1.0), np.where(size > 0, math.inf, 0.0))
 
     @lazy
@@ -46,12 +62,38 @@ class MotorCheck(ByValue):
         return int(np.argmax(self.utilisation))
 
     @lazy
+    def worst_torque(self) -> tuple[str, float]:
+        """The condition of the track that counts in that state, and the torque there, N m."""
+        found = {condition: float(torque[self.worst]) for condition, torque in self.torques.items()}
+        condition = max(found, key=lambda name: abs(found[name]))
+        return condition, found[condition]
+
+    @lazy
+    def worst_rms(self) -> tuple[str, float]:
+        """The condition of the track that has the larger RMS torque, and that torque, N m."""
+        states = self.duty.states
+        found = {
+            condition: math.sqrt(states.integral(torque**2) / states.cycle_time)
+            for condition, torque in self.torques.items()
+        }
+        condition = max(found, key=lambda name: found[name])
+        return condition, found[condition]
+
+    @lazy
     def copper_loss(self) -> Energy | None:
         r"""Heat of the current in a cycle, :math:`R \int (\tau/K_t)^2 dt`, J; None without constant or resistance."""
+        return self._copper_loss(self.torque)
+
+    @lazy
+    def flooded_copper_loss(self) -> Energy | None:
+        """The same in a full bath of oil."""
+        return self._copper_loss(self.torque if self.by_rule is not None else self.duty.flooded.torque)
+
+    def _copper_loss(self, torque: Numbers) -> Energy | None:
         K_t, R = self.motor.torque_constant, self.motor.resistance
         if K_t is None or R is None:
             return None
-        return self.duty.states.integral(R * (self.torque / K_t) ** 2)
+        return self.duty.states.integral(R * (torque / K_t) ** 2)
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -60,9 +102,10 @@ class MotorCheck(ByValue):
         speed = float(np.max(np.abs(self.duty.motor_speed)))
         name = self.duty.states.phases[int(self.duty.states.phase[at])]
         peak = float(motor.peak_at(self.duty.motor_speed[at : at + 1])[0])
-        rms = math.sqrt(self.duty.states.integral(self.torque**2) / self.duty.states.cycle_time)
-        of_rms = "RMS torque, rests included, against the rated torque"
-        of_peak = f"torque against the curve of the motor, worst in “{name}”"
+        rms_where, rms = self.worst_rms
+        where, largest = self.worst_torque
+        of_rms = f"RMS torque, rests included, against the rated torque{_of(rms_where)}"
+        of_peak = f"torque against the curve of the motor, worst in “{name}”{_of(where)}"
         if speed > motor.largest_speed:
             of_peak = (
                 f"the motor has no torque above {units.shown(float(motor.largest_speed), _LARGEST_SPEED)}, where its "
@@ -71,9 +114,13 @@ class MotorCheck(ByValue):
         of_speed = "speed of the motor against its largest"
         return (
             _check("motor_rms_torque", rms, motor.rated_torque, "N m", of_rms),
-            _check("motor_peak_torque", float(abs(self.torque[at])), peak, "N m", of_peak),
+            _check("motor_peak_torque", abs(largest), peak, "N m", of_peak),
             _check("motor_speed", speed, motor.largest_speed, "rad/s", of_speed),
         )
+
+
+def _of(condition: str) -> str:
+    return f", {condition}" if condition else ""
 
 
 def _check(name: str, value: float, limit: Any, unit: str, text: str) -> Check:

@@ -19,6 +19,7 @@ from ballscrew.errors import MISSING, Fault, accepts_units, raise_if_any
 from ballscrew.friction.element import FrictionElement
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import MECHANISMS
+from ballscrew.friction.starvation import NEARLY_ALL, differs
 from ballscrew.motion.profiles import Motion
 from ballscrew.motion.states import MotionStates, Numbers
 from ballscrew.quantities import Energy, Power, Ratio
@@ -122,6 +123,31 @@ class Duty(ByValue):
     def screw(self) -> ScrewFriction:
         """Friction of the screw; at the ends of phases its limit where the speed is zero."""
         return self.driven.along(self.axial_load, self.screw_speed, self.states.temperature)
+
+    @lazy
+    def flooded(self) -> Duty:
+        """The same cycle with the balls of the screw in a full bath of oil; itself where nothing of theirs comes late.
+
+        Bearings beside the screw keep what they have: that oil comes back late was found on bearings.
+        """
+        driven = self.driven
+        if not isinstance(driven, ModelledScrew) or driven.in_full_bath is driven:
+            return self
+        found = dataclasses.replace(self, driven=driven.in_full_bath)
+        vars(found).update(loads=self.loads, _supports=self._supports)  # which have nothing of the screw's oil
+        return found
+
+    @lazy
+    def starved(self) -> bool:
+        """True where, anywhere in motion, the friction torque of the screw differs from that of a full bath."""
+        moving = self.states.direction != 0
+        if self.flooded is self or not np.any(moving):
+            return False
+        driven, warm = self.driven, self.states.temperature
+        assert isinstance(driven, ModelledScrew)
+        if driven.least_replenished(self.screw_speed[moving], warm[moving]) >= NEARLY_ALL:
+            return False
+        return bool(np.any(differs(self.screw.torque[moving], self.flooded.screw.torque[moving])))
 
     @lazy
     def shaft_friction(self) -> Mapping[str, Numbers]:
@@ -237,6 +263,12 @@ class Duty(ByValue):
     def torque_peak(self) -> float:
         """Largest size of the torque, N m."""
         return float(np.max(np.abs(self.torque)))
+
+    @lazy
+    def screw_torque(self) -> float:
+        """Largest friction torque of the screw in motion, N m; NaN where nothing moves."""
+        found = self.screw.torque[self.states.direction != 0]
+        return float(np.max(found)) if found.size else math.nan
 
     @lazy
     def mean_speed(self) -> float:

@@ -18,6 +18,7 @@ from ballscrew.evaluation.evaluator import evaluator
 from ballscrew.evaluation.outputs import known_outputs
 from ballscrew.friction.loaded_balls import loads_of
 from ballscrew.friction.model import FrictionModel
+from ballscrew.friction.starvation import least_replenished
 from ballscrew.motion.states import Numbers
 from ballscrew.quantities import Info, Length, Ratio
 from ballscrew.solvers.load_distribution import BallLoads
@@ -79,6 +80,23 @@ class ModelledScrew(ByValue):
     def lead(self) -> Length:
         """Advance in one turn, m."""
         return self.screw.lead
+
+    @lazy
+    def in_full_bath(self) -> ModelledScrew:
+        """The same with its balls in a full bath of oil; itself where nothing comes back late."""
+        full = self.model.in_full_bath
+        if full is self.model:
+            return self
+        found = dataclasses.replace(self, model=full)
+        vars(found)["_solved"] = self._solved  # the loads of the balls have nothing of the oil
+        return found
+
+    def least_replenished(self, screw_speed: Numbers, temperature: Numbers) -> Ratio:
+        """Least share of the rolling force that oil coming back late leaves over."""
+        oil, warm = self.lubricant, temperature
+        if oil.temperature is not None:
+            oil = oil.at(np.where(np.isnan(warm), oil.temperature, warm))
+        return least_replenished(self.model, self.screw, oil, screw_speed)
 
     def along(self, axial_load: Numbers, screw_speed: Numbers, temperature: Numbers) -> ScrewFriction:
         """Friction at loads and speeds with their signs; each distinct point is computed once."""

@@ -82,6 +82,21 @@ NUMBERS: Mapping[str, Quantity] = {
 }
 
 
+#: Largest friction torque of the screw, which its oil changes the most.
+SCREW_TORQUE = _quantity("screw_torque", "N m", "M_S", "largest friction torque of the screw in the cycle")
+#: The numbers that are different in a full bath of oil.
+OF_BATH: Mapping[str, Quantity] = {
+    **{
+        name: NUMBERS[name]
+        for name in (
+            "torque_peak", "torque_rms", "power_peak", "power_returned_peak", "energy_drawn", "energy_returned",
+            "energy_lost",
+        )
+    },
+    "screw_torque": SCREW_TORQUE,
+}  # fmt: skip
+
+
 def slug_of(name: str) -> str:
     """The key of a part of the torque in documents: ``acceleration_of_the_mass``, ``spin``."""
     return _SLUGS.get(name, name.replace(" ", "_"))
@@ -184,6 +199,27 @@ class DutyReport:
             "revolutions": duty.revolutions,
         }
         return {name: float(found[name]) for name in NUMBERS}
+
+    @property
+    def flooded_torque(self) -> Torque | None:
+        """Largest torque of the motor in a full bath of oil, N m; None for one efficiency, which knows no oil."""
+        return None if self.by_rule else self.duty.flooded.torque_peak
+
+    @lazy
+    def full_bath(self) -> Mapping[str, float]:
+        """The numbers of the cycle that friction changes, in a full bath of oil, as :data:`OF_BATH` has them."""
+        duty = self.duty.flooded
+        found = {
+            "torque_peak": duty.torque_peak,
+            "torque_rms": duty.torque_rms,
+            "screw_torque": duty.screw_torque,
+            "power_peak": max(float(np.max(duty.power)), 0.0),
+            "power_returned_peak": max(float(-np.min(duty.power)), 0.0),
+            "energy_drawn": duty.energy_drawn,
+            "energy_returned": duty.energy_returned,
+            "energy_lost": duty.energy_lost,
+        }
+        return {name: float(found[name]) for name in OF_BATH}
 
     @lazy
     def torque_peak_by(self) -> Mapping[str, Torque]:
@@ -348,6 +384,7 @@ def duty(case: Case, *, recorded: bool = False) -> DutyReport:
         report.torque_peak_by,
         report.torque_rms_by,
         report.energy_lost_in,
+        report.full_bath,
     )
     _ = (life.revolutions, report.smoothing, rule.torque_rms, rule.torque_peak)
     return report

@@ -9,8 +9,10 @@ import numpy as np
 
 from ballscrew import units
 from ballscrew.axis.axis import Axis
-from ballscrew.axis_studies.duty import NUMBERS, DutyReport
+from ballscrew.axis.drive import FULL_BATH, MotorCheck
+from ballscrew.axis_studies.duty import NUMBERS, OF_BATH, DutyReport
 from ballscrew.components.screw import BallScrew
+from ballscrew.friction import starvation
 from ballscrew.friction.plausibility import implausible
 from ballscrew.friction.validity import CONDITIONS, NUT_CONDITIONS
 from ballscrew.motion.profiles import Segments, Trapezoid
@@ -33,8 +35,18 @@ _CURVE_POINTS = 1000
 
 
 def verdicts(report: DutyReport) -> list[Record]:
-    """Whether the axis falls, whether the motor suffices, and whether all checks hold."""
-    return [_brake(report), *_motor(report), _checks(report)]
+    """Starvation; whether the axis falls, whether the motor suffices, and whether all checks hold."""
+    return [*_starved(report), _brake(report), *_motor(report), _checks(report)]
+
+
+def _starved(report: DutyReport) -> list[Record]:
+    """What the motor has to give, and what is lost, as the inlet is given and in a full bath of oil."""
+    duty, full = report.duty, report.full_bath
+    if not duty.starved:
+        return []
+    given = {"torque_peak": duty.torque_peak, "screw_torque": duty.screw_torque, "energy_lost": duty.energy_lost}
+    numbers = [starvation.BothTorques(OF_BATH[name], value, full[name]) for name, value in given.items()]
+    return units.in_display_units_of(starvation.records(numbers))
 
 
 def _brake(report: DutyReport) -> Record:
@@ -56,6 +68,8 @@ def _brake(report: DutyReport) -> Record:
             f"{starts} with the motor off ({names}), after the stroke at up to {fastest}; a brake is needed: {rated}, "
             f"{brake.brake_factor:g} times the {load} of the load without friction ({hold} hold it with its help)"
         )
+    if brake.load_torque and report.duty.starved:
+        text += "; with the smaller friction, that of the track starved of oil"
     return Record(
         id="verdict.brake", subject="brake", text=text, severity="warning" if brake.falls else "info",
         holds=not brake.falls, value=brake.holding_torque, unit="N m",
@@ -76,8 +90,16 @@ def _motor(report: DutyReport) -> list[Record]:
     failed = [check for check in report.motor.checks if check.holds is False]
     names = ", ".join(check.name.removeprefix("motor_").replace("_", " ") for check in failed)
     text = f"the motor does not suffice: {names}" if failed else "the motor suffices"
+    if FULL_BATH in report.motor.torques:
+        text += f"; judged by the larger torque: {_conditions(report.motor)}"
     severity: Severity = "error" if failed else "info"
     return [Record(id="verdict.motor", subject="motor", text=text, severity=severity, holds=not failed)]
+
+
+def _conditions(against: MotorCheck) -> str:
+    """The condition of the track that each torque is of: ``peak in a full bath of oil, RMS starved of oil``."""
+    peak, rms = against.worst_torque[0], against.worst_rms[0]
+    return f"peak and RMS {peak}" if peak == rms else f"peak {peak}, RMS {rms}"
 
 
 def _checks(report: DutyReport) -> Record:
@@ -224,15 +246,17 @@ def _beyond_motor(report: DutyReport) -> list[Record]:
             f"{units.shown(most, _TURNING)}: take a lower speed, a greater lead, or another ratio"
         )
         return [_warning("motor_speed", "motor.largest_speed", text, fastest, most, _TURNING)]
-    torque = abs(float(duty.torque[at]))
+    condition, largest = against.worst_torque
+    torque = abs(largest)
     there = float(motor.peak_at(duty.motor_speed[at : at + 1])[0])
     phase = duty.states.phases[int(duty.states.phase[at])]
     speed = units.shown(abs(float(duty.motor_speed[at])), _TURNING)
     highest = float(np.max(motor.peak_at(np.linspace(0.0, most, _CURVE_POINTS))))
     never = "; its curve reaches that at no speed" if highest < torque else ""
+    asked = " ".join(filter(None, [units.shown(torque, _TORQUE), condition]))
     text = (
-        f"“{phase}” asks for {units.shown(torque, _TORQUE)} at {speed}, where the motor has "
-        f"{units.shown(there, _TORQUE)}{never}: take a lower acceleration, a larger motor, or another ratio"
+        f"“{phase}” asks for {asked} at {speed}, where the motor has {units.shown(there, _TORQUE)}{never}: "
+        "take a lower acceleration, a larger motor, or another ratio"
     )
     return [_warning("motor_torque", "motor.curve", text, torque, there, _TORQUE)]
 

@@ -11,7 +11,7 @@ from ballscrew.axis.brake import Brake, LetGo
 from ballscrew.axis.drive import MotorCheck
 from ballscrew.axis.motor import Motor
 from ballscrew.axis_studies import duty_records
-from ballscrew.axis_studies.duty import NUMBERS, DutyReport, slug_of
+from ballscrew.axis_studies.duty import NUMBERS, OF_BATH, DutyReport, slug_of
 from ballscrew.cases import case_file, provenance
 from ballscrew.records import documents
 from ballscrew.sizing.checks import Check
@@ -78,6 +78,9 @@ def results(report: DutyReport) -> dict[str, Any]:
         "energy_lost_by": _by_slug(duty.energy_lost_by),
         "energy_lost_in": {slug_of(name): _by_slug(parts) for name, parts in report.energy_lost_in.items()},
         "heat_by_element": _by_slug(duty.heat),
+        "screw_torque": duty.screw_torque,
+        "flooded_torque": report.flooded_torque,
+        "full_bath": None if report.by_rule else dict(report.full_bath),
         "largest_load": report.largest_load,
         "maximum_pressure": _extreme(np.fmax.reduce, duty.screw.maximum_pressure[moving]),
         "minimum_film_parameter": _extreme(np.fmin.reduce, duty.screw.film_parameter[moving]),
@@ -169,10 +172,12 @@ def _motor(against: MotorCheck) -> dict[str, Any]:
         "utilisation": float(against.utilisation[at]),
         "worst": {
             "phase": duty.states.phases[int(duty.states.phase[at])],
-            "torque": float(duty.torque[at]),
+            "torque": against.worst_torque[1],
+            "condition": against.worst_torque[0] or None,
             "speed": float(duty.motor_speed[at]),
         },
         "copper_loss": against.copper_loss,
+        "flooded_copper_loss": against.flooded_copper_loss,
         "curve": _curve(against.motor),
     }
 
@@ -192,13 +197,21 @@ def _units(report: DutyReport) -> dict[str, Any]:
     by = {name: "J" if name.startswith("energy") else "N m" for name in _BY}
     torques = {"torque_rms": "N m", "torque_peak": "N m"}
     curve = {"speed": "rad/s", "peak_torque": "N m", "rated_torque": "N m"}
-    motor = {"worst": {"torque": "N m", "speed": "rad/s"}, "copper_loss": "J", "curve": curve}
+    motor = {
+        "worst": {"torque": "N m", "speed": "rad/s"},
+        "copper_loss": "J",
+        "flooded_copper_loss": "J",
+        "curve": curve,
+    }
     causes = dict.fromkeys(map(slug_of, report.torque_by_cause), "N m")
     return {
         **{name: quantity.unit for name, quantity in NUMBERS.items()},
         **{name: dict.fromkeys((slug_of(part) for part in report.duty.parts), unit) for name, unit in by.items()},
         "energy_lost_in": "J",
         "heat_by_element": dict.fromkeys(map(slug_of, report.duty.heat), "W"),
+        "screw_torque": "N m",
+        "flooded_torque": "N m",
+        "full_bath": {name: quantity.unit for name, quantity in OF_BATH.items()},
         "largest_load": "N",
         "maximum_pressure": "Pa",
         "minimum_film_parameter": "1",

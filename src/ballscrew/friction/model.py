@@ -292,10 +292,11 @@ class FrictionModel(ByValue):
     @lazy
     def in_full_bath(self) -> FrictionModel:
         """The model in a full bath of oil, which is always back in the track in time; itself where nothing is late."""
-        constant = getattr(self.inlet, "replenishment_constant", None)
+        inlet: Any = self.inlet
+        constant = getattr(inlet, "replenishment_constant", None)
         if constant is None or (isinstance(constant, int | float) and constant == 0):
             return self
-        return dataclasses.replace(self, inlet=dataclasses.replace(self.inlet, replenishment_constant=0.0))
+        return dataclasses.replace(self, inlet=dataclasses.replace(inlet, replenishment_constant=0.0))
 
     @lazy
     def parted(self) -> FrictionModel:

@@ -377,7 +377,8 @@ class FrictionResult(VendorTerms, Drawn):
     @property
     def starvation(self) -> list[Record]:
         """The torque where it is starved the most, beside that of a full bath; empty where they hardly differ."""
-        if starvation.least_replenished(self.parts, self.entrainment_speed) >= starvation.NEARLY_ALL:
+        model, oil = self.parts["model"], self.parts["lubricant"]
+        if starvation.least_replenished(model, self.ball_screw, oil, self.screw_speed) >= starvation.NEARLY_ALL:
             return []
         found = starvation.most_starved(self.screw_torque, self.flooded_torque)
         quantity = quantities_of(FrictionResult)["screw_torque"]

@@ -7,11 +7,12 @@ would rise with a full track. A supply that is known to be short (``inlet_film_r
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from ballscrew.components.screw import BallScrew
 from ballscrew.equations import rolling
 from ballscrew.errors import shown
 from ballscrew.quantities import Quantity
@@ -56,14 +57,14 @@ def most_starved(given: Any, flooded: Any) -> tuple[float, float] | None:
     return float(given[place]), float(flooded[place])
 
 
-def least_replenished(parts: Mapping[str, Any], entrainment_speed: Any) -> float:
+def least_replenished(model: Any, screw: BallScrew, lubricant: Any, screw_speed: Any) -> float:
     """Least share of the rolling force that oil coming back late leaves over; one without a law that starves."""
-    constant = getattr(parts.get("model.inlet"), "replenishment_constant", None)
-    oil, screw = parts.get("lubricant"), parts.get("screw")
-    if constant is None or oil is None or screw is None:
+    constant = getattr(model.inlet, "replenishment_constant", None)
+    if constant is None:
         return 1.0
+    speed = model.laws.frame(screw).entrainment_speed(np.abs(screw_speed))
     left = rolling.replenishment_factor(
-        np.asarray(oil.viscosity / oil.density, dtype=float), entrainment_speed, screw.ball_diameter, constant
+        lubricant.viscosity / lubricant.density, np.asarray(speed, dtype=float), screw.ball_diameter, constant
     )
     return float(np.min(left, initial=1.0, where=np.isfinite(left)))
 
