@@ -10,10 +10,16 @@ from ballscrew.cases import case_file
 from ballscrew.cases.uncertain_inputs import all_of, joint_of
 from ballscrew.components.lubrication import biboulet_houpert_rolling as reference_rolling
 from ballscrew.components.traits import LawTraits, traits_of
+from ballscrew.documents import band as documents
 from ballscrew.figures import band as figures
 from ballscrew.figures import style
 from ballscrew.friction.law_names import LAWS
+from ballscrew.friction.result import FrictionResult
+from ballscrew.quantities import quantities_of
+from ballscrew.report import band_section
+from ballscrew.report.blocks import Paragraph
 from ballscrew.studies import band, comparison
+from ballscrew.uncertainty.bands import Interval, OutputBand
 
 
 @pytest.fixture
@@ -51,6 +57,46 @@ def test_json(drive, ballscrew):
     assert {law["name"] for law in found["laws"]["rolling"]} == {"olaru", "houpert", "aihara"}
 
 
+def output_band(value, both, inputs, laws, median=1.0):
+    return OutputBand(value, median, Interval(*both), Interval(*inputs), Interval(*laws), 0.5, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("torque", "ids", "used"),
+    [
+        # other laws only widen it
+        (output_band(1.0, (0.7, 1.6), (0.8, 1.5), (0.9, 1.1)), [], []),
+        (output_band(1.0, (0.7, 1.4), (0.8, 1.5), (0.9, 1.1)), ["band.laws_lower_it"], [1.5]),
+        (output_band(1.0, (0.9, 1.6), (0.8, 1.5), (0.9, 1.1)), ["band.laws_raise_it"], [0.8]),
+        (output_band(1.2, (0.7, 1.6), (0.8, 1.5), (0.9, 1.1)), ["band.above_laws"], [1.0]),
+        (output_band(0.8, (0.7, 1.6), (0.8, 1.5), (0.9, 1.1)), ["band.below_laws"], [1.0]),
+        (output_band(1.2, (0.7, 1.4), (0.8, 1.5), (0.9, 1.1)), ["band.laws_lower_it", "band.above_laws"], [1.5, 1.0]),
+        # what is written alike is the same
+        (output_band(1.10001, (0.7, 1.49999), (0.8, 1.5), (0.9, 1.1)), [], []),
+        (output_band(1.2, (0.7, 1.4), (0.8, math.nan), (0.9, 1.1)), [], []),
+    ],
+)
+def test_where_the_laws_pull_the_band_one_line_says_which_number_to_use(torque, ids, used):
+    found = documents.beside_laws(torque, quantities_of(FrictionResult)["screw_torque"])
+    assert [record.id for record in found] == ids
+    assert [record.value for record in found] == used
+    assert all(f"{value:.3g} N m" in record.text for value, record in zip(used, found, strict=True))
+
+
+def test_run_and_report_say_so(example, ballscrew):
+    """Of the vertical axis the band of inputs and laws ends below that of the inputs alone."""
+    vertical = example.with_name("vertical_axis.toml")
+    process = ballscrew("run", vertical, "--band", "--samples", "256")
+    (line,) = [line for line in process.stdout.splitlines() if "below the" in line]
+    case = case_file.load(vertical)
+    report = band.band(case, band.Options(samples=256))
+    torque = report.band["screw_torque"]
+    assert torque.both.high < torque.parameters.high
+    assert line.endswith(f"for a motor take {torque.parameters.high:.4g} N m")
+    said = [block.text for block in band_section.blocks(case, report) if isinstance(block, Paragraph)]
+    assert any("of the inputs alone: most other laws give less torque than the model's" in text for text in said)
+
+
 def test_only_given(drive, ballscrew):
     given = ("--set", "screw.screw_conformity=0.54 ± 0.01", "--only-given", "--samples", "256", "--json")
     found = document_of(ballscrew("run", drive, "--band", *given))["band"]
@@ -78,7 +124,11 @@ def test_words(drive, ballscrew):
 
 def test_the_bars_are_on_one_axis(drive, ballscrew):
     text = ballscrew("run", drive, "--band", "--samples", "1024").stdout
-    rows = [line for line in text.splitlines() if line.startswith(("inputs and", "inputs alone", "laws alone"))]
+    rows = [
+        line
+        for line in text.splitlines()
+        if line.startswith(("inputs and laws ", "inputs alone", "laws alone")) and "│" in line
+    ]
     strokes = {line.index("│") for line in rows}
     assert len(rows) == 3
     assert len(strokes) == 1

@@ -233,6 +233,50 @@ def test_a_curve_goes_through_the_band(drive):
         assert [end[i] for end in curve.parameters] == pytest.approx(list(found.parameters), rel=1e-9)
 
 
+def test_axes_have_the_band_of_each_point(drive):
+    """Over a load and a diameter of the balls, in SI and with names, as a sweep is."""
+    inputs = {name: one.distribution for name, one in uncertain_inputs.all_of(drive).items()}
+    subject = (drive.model, drive.screw, drive.lubricant)
+    options = {
+        "uncertain": inputs, "alternatives": interface.alternatives(drive), "samples": 128,
+        "outputs": ["screw_torque", "holding_torque"],
+    }  # fmt: skip
+    loads, leads = [1000.0, -3000.0, 5000.0], [0.01, 0.02]
+    told = []
+    found = bs.band(
+        *subject, **options, axial_load=loads, screw_speed=60.0, lead=leads, done=lambda *numbers: told.append(numbers)
+    )
+    assert found["screw_torque_low"].dims == ("axial_load", "lead")
+    assert found["screw_torque_low"].attrs["units"] == "N m"
+    assert (found.attrs["band_level"], found.attrs["band_samples"], found.attrs["band_seed"]) == (0.95, 128, 0)
+    assert told[-1] == (6 * 128, 6 * 128)
+    for load, lead in itertools.product(loads, leads):
+        screw = dataclasses.replace(drive.screw, lead=lead)
+        one = bs.band(drive.model, screw, drive.lubricant, **options, axial_load=load, screw_speed=60.0)
+        for name in options["outputs"]:
+            here = found.sel(axial_load=load, lead=lead)
+            ends = [float(here[f"{name}_{end}"]) for end in ("low", "high")]
+            assert ends == pytest.approx(list(one[name].both), rel=1e-9)
+            assert float(here[name]) == pytest.approx(one[name].value, rel=1e-9)
+
+
+def test_an_axis_is_exact(of_seed, seed_screw, seed_oil):
+    both = {"viscosity": LogNormal(0.1, 1.3), "axial_load": Normal(4000.0, 100.0)}
+    found = of_seed(uncertain=both, axial_load=[2000.0, 4000.0], samples=128)
+    for load in (2000.0, 4000.0):
+        one = of_seed(uncertain={"viscosity": LogNormal(0.1, 1.3)}, axial_load=load, samples=128)["screw_torque"]
+        assert float(found["screw_torque_high"].sel(axial_load=load)) == pytest.approx(one.both.high, rel=1e-9)
+    joint = JointNormal(("viscosity",), np.array([0.1]), np.array([[1e-6]]))
+    with pytest.raises(InputError, match=r"band.viscosity: is an axis and among the joint ones"):
+        bs.band(
+            bs.FrictionModel.reference(), seed_screw, seed_oil, uncertain={}, joint=joint, viscosity=[0.1, 0.2], **POINT
+        )
+    with pytest.raises(InputError, match=r"band.keep_samples: is of one point"):
+        of_seed(uncertain={}, axial_load=[1.0, 2.0], keep_samples=True)
+    with pytest.raises(InputError, match=r"screw_sped: unknown"):
+        of_seed(uncertain={}, screw_sped=[1.0, 2.0])
+
+
 def test_a_whole_nut(seed_screw, seed_oil):
     """A double nut with a load: its samples are those of the nut, evaluated one by one."""
     screw = dataclasses.replace(seed_screw, nut=bs.DoubleNut(preload=1000.0))
@@ -334,7 +378,6 @@ def test_an_oil_of_a_grade(seed_screw):
         ({"uncertain": {}, "samples": 2.5}, "band.samples: must be a whole number from 2"),
         ({"uncertain": {}, "level": 1.0}, "band.level: must lie between 0 and 1"),
         ({"uncertain": {}, "seed": -1}, "band.seed: must be a whole number"),
-        ({"uncertain": {}, "axial_load": [1.0, 2.0]}, "band.axial_load: must be one number"),
         ({"uncertain": {}, "engine": "abacus"}, "band.engine: unknown engine"),
     ],
 )
@@ -354,3 +397,6 @@ def test_joint_inputs_are_checked(of_seed):
 def test_a_curve_along_something_else(drive):
     with pytest.raises(InputError, match=r"band.along: unknown"):
         band_along(drive.model, drive.screw, drive.lubricant, along="lead", points=[1.0], uncertain={}, **POINT)
+    subject = (drive.model, drive.screw, drive.lubricant)
+    with pytest.raises(InputError, match=r"band.axial_load: must be one number"):
+        band_along(*subject, along="screw_speed", points=[1.0], uncertain={}, axial_load=[1.0, 2.0], screw_speed=1.0)

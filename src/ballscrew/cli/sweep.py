@@ -66,6 +66,20 @@ def sweep(
     trust: Annotated[
         bool, typer.Option("--trust", help="Write into a .zarr that belongs to another user, who can change it.")
     ] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    band: Annotated[
+        bool, typer.Option("--band", help="How far off each output may be: low and high beside it, as of run --band.")
+    ] = False,
+    samples: Annotated[
+        int | None,
+        typer.Option("--samples", metavar="N", help="With --band: samples a point, 16384; where balls differ 1024."),
+    ] = None,
+    level: Annotated[
+        float | None, typer.Option("--level", metavar="SHARE", help="With --band: share in the band, 0.95.")
+    ] = None,
+    only_given: Annotated[
+        bool, typer.Option("--only-given", help="With --band: only what the file says is uncertain.")
+    ] = False,
     model: ModelName = None,
     calibration: CalibrationName = None,
     settings: Settings = None,
@@ -85,6 +99,7 @@ def sweep(
     speed across, ready to paste; otherwise one row a point. A .zarr is filled block by block: stopped
     by whatever, the same command goes on where it was; blocks whose files are damaged are computed again.
     With --self-heating each point goes to and fro until it is warm, and has its own temperature and preload.
+    With --band each output has the ends of its band beside it: at each point those of ballscrew run --band there.
     """
     from ballscrew.cases import case_file
     from ballscrew.command_options.progress import progress
@@ -93,7 +108,9 @@ def sweep(
     from ballscrew.text import sweep as text
 
     check_rows(rows, row)
+    banded = band or only_given or (samples, level) != (None, None)
     _check_self_heating(self_heating, rows, scheduler)
+    _check_beside(banded, as_json, rows if row is None else None, self_heating)
     if rows is None:
         loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     else:
@@ -107,18 +124,28 @@ def sweep(
             return
         say_of_rows(cases.notes, cases.interrupted)
         (loaded,) = (each.case for each in cases.found.values())
-    plan = studies.plan(loaded, vary or [], output or [], to, heats=self_heating)
+    plan = studies.plan(loaded, vary or [], output or [], to, heats=self_heating, banded=banded)
     studies.check_store_options(to, verify=verify, trust=trust)
     with _report_interruption(), studies.workers(scheduler, to) as cluster, progress("sweep") as done, log_on_stderr():
         dataset = studies.sweep(loaded, plan, done, to, cluster, verify=verify, trust=trust)
+        if banded:
+            from ballscrew.studies.band import Options
+            from ballscrew.studies.sweep_band import with_band  # for those only who ask
+
+            dataset = with_band(loaded, plan, dataset, Options(samples, level, only_given), done)
     if verbose:
         say_engine(dataset.attrs)
-    if to is None:
+    if as_json:
+        from ballscrew.documents import sweep as documents
+        from ballscrew.output import json_text
+
+        typer.echo(json_text.as_json(documents.document(loaded, plan, dataset)))
+    elif to is None:
         sweep_files.write_csv(sys.stdout, dataset, plan)
-    else:
+    if to is not None:
         if not studies.is_store(to):
             sweep_files.write(dataset, plan, to)
-        typer.echo(f"{to}: {text.size(dataset, plan)}, model {loaded.model.label}")
+        typer.echo(f"{to}: {text.size(dataset, plan)}, model {loaded.model.label}", err=as_json)
     if self_heating:
         typer.echo(text.assumed(dataset), err=True)
     if beware := text.warning(loaded, plan, dataset, to):
@@ -137,6 +164,20 @@ def _check_self_heating(asked: bool, rows: Path | None, scheduler: str | None) -
             if asked and value is not None
         ]
     )
+
+
+def _check_beside(banded: bool, as_json: bool, rows: Path | None, self_heating: bool) -> None:
+    """Raise :class:`~ballscrew.errors.InputError` for a band and a document beside what does not know them."""
+    from ballscrew.errors import Fault, raise_if_any
+
+    faults: list[Fault] = []
+    for option, asked in {"--band": banded, "--json": as_json}.items():
+        if asked and rows is not None:
+            faults.append(Fault(option, "is of one screw", str(rows), "choose one: --row NAME"))
+    if banded and self_heating:
+        remedy = "leave one of them out, or see ballscrew run --band --self-heating"
+        faults.append(Fault("--band", "is given beside --self-heating", "", remedy))
+    raise_if_any(faults)
 
 
 def _of_rows(

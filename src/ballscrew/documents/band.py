@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import string
 from typing import Any
 
 from ballscrew import units
@@ -13,7 +14,7 @@ from ballscrew.documents.run import document as run_document
 from ballscrew.evaluation.outputs import known_outputs
 from ballscrew.friction.result import FrictionResult
 from ballscrew.friction.validity import NUT_REASONS
-from ballscrew.quantities import quantities_of
+from ballscrew.quantities import Quantity, quantities_of
 from ballscrew.records import Record, documents
 from ballscrew.studies.band import BandReport
 from ballscrew.studies.run import Run
@@ -21,6 +22,23 @@ from ballscrew.uncertainty.bands import OutputBand
 
 _TORQUE = "screw_torque"
 _KNOWN = quantities_of(FrictionResult)[_TORQUE]
+#: The sentences where the other laws pull the band to one side of the model's own.
+_LOWERED = (
+    "inputs and laws together end at {high}, below the {inputs_high} of the inputs alone: most other laws give less "
+    "torque than the model's; for a motor take {inputs_high}"
+)
+_RAISED = (
+    "inputs and laws together begin at {low}, above the {inputs_low} of the inputs alone: most other laws give more "
+    "torque than the model's; for a brake take {inputs_low}"
+)
+_ABOVE = (
+    "the case lies at {value}, above the laws alone ({laws_low} to {laws_high}): most other laws give less torque than "
+    "the model's; expect the median {median} and for a motor take {greatest}"
+)
+_BELOW = (
+    "the case lies at {value}, below the laws alone ({laws_low} to {laws_high}): most other laws give more torque than "
+    "the model's; expect the median {median} and for a motor take {greatest}"
+)
 
 
 def document(run: Run, report: BandReport) -> dict[str, Any]:
@@ -65,6 +83,7 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
         f"{100 * band.level:.4g} % of the samples between {low} and {high}"
     )
     records = [Record(id="band.torque", subject=_TORQUE, text=text, value=torque.median, unit=quantity.unit)]
+    records += beside_laws(torque, quantity)
     records += _full_bath(torque.both.high, report.flooded_torque)
     if case.fit:
         text = (
@@ -94,6 +113,42 @@ def _full_bath(high: float, flooded: float | None) -> list[Record]:
             value=flooded, limit=high, unit=_KNOWN.unit,
         )
     ]  # fmt: skip
+
+
+def beside_laws(torque: OutputBand, quantity: Quantity) -> list[Record]:
+    """Why the band of inputs and laws ends within that of the inputs, or the case lies outside the laws alone.
+
+    One line for each, with the number to use. Ends that are written alike count as the same.
+    """
+    both, inputs, laws = torque.both, torque.parameters, torque.model_form
+    numbers = {"value": torque.value, "median": torque.median, "least": min(both.low, inputs.low)}
+    numbers |= {"greatest": max(both.high, inputs.high), "laws_low": laws.low, "laws_high": laws.high}
+    numbers |= {"low": both.low, "high": both.high, "inputs_low": inputs.low, "inputs_high": inputs.high}
+    if not all(map(math.isfinite, numbers.values())):
+        return []
+
+    def differ(one: str, other: str) -> bool:
+        return units.rounded(numbers[one], quantity) != units.rounded(numbers[other], quantity)
+
+    def record(name: str, template: str, used: str) -> Record:
+        text = template.format_map({key: units.shown(numbers[key], quantity) for key in _named(template)})
+        return Record(id=f"band.{name}", subject=_TORQUE, text=text, value=numbers[used], unit=quantity.unit)
+
+    found: list[Record] = []
+    if both.high < inputs.high and differ("high", "inputs_high"):
+        found.append(record("laws_lower_it", _LOWERED, "greatest"))
+    if both.low > inputs.low and differ("low", "inputs_low"):
+        found.append(record("laws_raise_it", _RAISED, "least"))
+    if torque.value > laws.high and differ("value", "laws_high"):
+        found.append(record("above_laws", _ABOVE, "median"))
+    if torque.value < laws.low and differ("value", "laws_low"):
+        found.append(record("below_laws", _BELOW, "median"))
+    return found
+
+
+def _named(template: str) -> list[str]:
+    """The names in braces of a text, in their order."""
+    return [name for _, name, _, _ in string.Formatter().parse(template) if name]
 
 
 def warnings(report: BandReport) -> list[Record]:

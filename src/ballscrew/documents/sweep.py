@@ -11,18 +11,25 @@ from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
 from ballscrew.records import Record, documents
 from ballscrew.studies.sweep import Plan, implausible
+from ballscrew.uncertainty.bands import ENDS
 
 
 def document(case: Case, plan: Plan, dataset: xr.Dataset) -> dict[str, Any]:
-    """Axes, outputs, verdicts, checks and warnings, provenance."""
+    """Axes, outputs with the ends of their bands where there are bands, verdicts, checks and warnings, provenance."""
 
     def table(name: str, values: Any) -> dict[str, Any]:
         quantity = plan.quantities[name]
         return {"values": values, "unit": quantity.unit, "meaning": quantity.info.meaning}
 
+    def output(name: str) -> dict[str, Any]:
+        ends = {end: dataset[f"{name}_{end}"].to_numpy() for end in ENDS} if plan.banded else {}
+        return {**table(name, dataset[name].to_numpy()), **ends}
+
+    band = {name: dataset.attrs[f"band_{name}"] for name in ("level", "samples", "seed")} if plan.banded else None
     return {
         "axes": {name: table(name, values) for name, values in plan.axes.items()},
-        "outputs": {name: table(name, dataset[name].to_numpy()) for name in plan.columns},
+        "outputs": {name: output(name) for name in dict.fromkeys((*plan.outputs, "valid"))},
+        **({} if band is None else {"band": band}),
         "verdicts": [],
         "checks": [],
         "warnings": documents([*implausible(case, plan), *warnings(dataset)]),

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Generator, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,13 +23,16 @@ from ballscrew.uncertainty import bands
 from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.uncertainty.bands import Band, BandCurve
 from ballscrew.uncertainty.default_uncertainties import JUDGEMENT
-from ballscrew.uncertainty.sampling import JointParts
+from ballscrew.uncertainty.distributions import Distribution
+from ballscrew.uncertainty.sampling import Joint, JointParts
 
 if TYPE_CHECKING:  # its solvers are slow to import
     from ballscrew.axis_studies.heat_samples import HeatSamples
 
 #: Points of the curve, of a screw and of a whole nut, and how far it goes beyond the operating point.
 _POINTS, _NUT_POINTS, _BEYOND = 25, 9, 2.0
+#: Share of the samples in a band by default.
+LEVEL = 0.95
 #: Where a fault of the analysis stands on the command line.
 _OPTIONS = {"band.samples": "--samples", "band.level": "--level"}
 Done = Callable[[int, int], None]
@@ -99,19 +103,24 @@ def band(case: Case, options: Options, done: Done | None = None, heat: HeatSampl
     if heat is not None:
         # a temperature that varies has the viscosity with it
         inputs = {**{name: one for name, one in inputs.items() if name != "viscosity"}, **heat.inputs}
-    try:
-        return BandReport(
-            bands.band(
-                **_arguments(case, inputs, options, heat),
-                screw_speed=case.operation.screw_speed,
-                axial_load=case.operation.axial_load,
-                outputs=BAND_OUTPUTS,
-                samples=options.samples,
-                done=done,
-            ),
-            inputs,
-            _flooded_torque(case),
+    with options_named():
+        found = bands.band(
+            **_arguments(case, inputs, options, heat),
+            screw_speed=case.operation.screw_speed,
+            axial_load=case.operation.axial_load,
+            outputs=BAND_OUTPUTS,
+            samples=options.samples,
+            done=done,
         )
+    assert isinstance(found, Band), "an operating point is no axis"
+    return BandReport(found, inputs, _flooded_torque(case))
+
+
+@contextlib.contextmanager
+def options_named() -> Generator[None]:
+    """Let faults of an analysis name the options of the command line."""
+    try:
+        yield
     except InputError as error:
         faults = (dataclasses.replace(f, where=_OPTIONS.get(f.where, f.where)) for f in error.faults)
         raise InputError(*faults) from None
@@ -146,16 +155,24 @@ def _arguments(
     case: Case, inputs: Mapping[str, Uncertain], options: Options, heat: HeatSamples | None = None
 ) -> dict[str, Any]:
     """Arguments that the band and the curve have in common."""
-    own = uncertain_inputs.joint_of(case, {n: u for n, u in inputs.items() if heat is None or n not in heat.inputs})
-    parts = [one for one in (None if heat is None else heat.samples, own) if one is not None]
-    joint = parts[0] if len(parts) == 1 else JointParts(tuple(parts)) if parts else None
-    together = () if joint is None else joint.names
+    uncertain, joint = distributions(case, inputs, heat)
     return {
         "model": case.model,
         "screw": case.screw,
         "lubricant": case.lubricant,
-        "uncertain": {name: u.distribution for name, u in inputs.items() if name not in together},
+        "uncertain": uncertain,
         "joint": joint,
         "alternatives": alternatives(case),
-        "level": 0.95 if options.level is None else options.level,
+        "level": LEVEL if options.level is None else options.level,
     }
+
+
+def distributions(
+    case: Case, inputs: Mapping[str, Uncertain], heat: HeatSamples | None = None
+) -> tuple[dict[str, Distribution], Joint | None]:
+    """The distributions of the inputs that are independent, and those that depend on each other."""
+    own = uncertain_inputs.joint_of(case, {n: u for n, u in inputs.items() if heat is None or n not in heat.inputs})
+    parts = [one for one in (None if heat is None else heat.samples, own) if one is not None]
+    joint = parts[0] if len(parts) == 1 else JointParts(tuple(parts)) if parts else None
+    together = () if joint is None else joint.names
+    return {name: u.distribution for name, u in inputs.items() if name not in together}, joint

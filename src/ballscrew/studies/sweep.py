@@ -42,6 +42,8 @@ from ballscrew.records import Record
 from ballscrew.sweeps import sweep as sweeps
 from ballscrew.sweeps.cluster import cluster_client
 from ballscrew.sweeps.stream import stream
+from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
+from ballscrew.uncertainty.bands import ENDS
 
 _RANGE = re.compile(r"(?P<start>[^:]+):(?P<stop>[^:]+):\s*(?P<count>\d{1,18})\s*(?P<unit>1\s*/.*|[^\d\s.].*)?")
 _SECTIONS = ("operation", "screw", "lubricant", "model", "nut")
@@ -70,20 +72,35 @@ class Plan:
     units: Mapping[str, str]
     #: Whether each point is taken at the temperature and preload in which it ends.
     heats: bool = False
+    #: Whether each output has the ends of its band beside it.
+    banded: bool = False
 
     @property
     def is_table(self) -> bool:
         """One output over two axes reads best as a table."""
-        return len(self.axes) == 2 and len(self.outputs) == 1
+        return len(self.axes) == 2 and len(self.outputs) == 1 and not self.banded
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """The outputs wanted, and whether a point is valid."""
-        return tuple(dict.fromkeys((*self.outputs, "valid")))
+        """The outputs wanted, with the ends of their bands where they have one, and whether a point is valid."""
+        every = [column for name in self.outputs for column in (name, *self.ends_of(name))]
+        return tuple(dict.fromkeys((*every, "valid")))
+
+    def ends_of(self, name: str) -> tuple[str, ...]:
+        """The names of the ends of the band of an output; none without a band."""
+        return tuple(f"{name}_{end}" for end in ENDS) if self.banded else ()
 
 
-def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None, *, heats: bool = False) -> Plan:
-    """Plan of a sweep, of one that ``heats`` itself with what the heat does.
+def plan(
+    case: Case,
+    vary: Sequence[str],
+    wanted: Sequence[str],
+    to: Path | None,
+    *,
+    heats: bool = False,
+    banded: bool = False,
+) -> Plan:
+    """Plan of a sweep, of one that ``heats`` itself with what the heat does, of a ``banded`` one with bands.
 
     Raises :class:`~ballscrew.errors.InputError` before anything is computed.
     """
@@ -113,11 +130,17 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
     usual = DEFAULT_OUTPUTS if case.screw.nut.is_row else NUT_OUTPUTS
     chosen = tuple(name.replace(".", "_") for name in wanted)
     heat: Mapping[str, Quantity] = _heat() if heats else {}
+    chosen = chosen or (BAND_OUTPUTS if banded else ())
     chosen = chosen or (("efficiency",) if to is None and len(axes) == 2 else (*usual, *heat))
     possible = {**{name: output.quantity for name, output in known_outputs(case.screw.nut).items()}, **heat}
     if heats and is_store(to):
         remedy = "write .nc, .csv or .xlsx"
         faults.append(Fault("--self-heating", "fills no store", str(to), remedy))
+    if banded and is_store(to):
+        faults.append(Fault("--band", "fills no store", str(to), "write .nc, .csv or .xlsx"))
+    if banded:
+        without = [name for name in chosen if name in possible and name not in BAND_OUTPUTS]
+        faults += [Fault("--output", "has no band", name, nearest(name, BAND_OUTPUTS)) for name in without]
     faults += [Fault("--output", "unknown output", n, nearest(n, possible)) for n in chosen if n not in possible]
     faults += [
         Fault("--output", "is what is varied", n, "leave it out: it is a column anyway") for n in chosen if n in axes
@@ -133,7 +156,7 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
         remedy = "leave out [bodies] and [deviations]"
         faults.append(Fault("sweep.loaded_balls", "cannot be varied where balls differ", "", remedy))
     size = math.prod(len(values) for values in axes.values())
-    if size * len(chosen) > MOST_VALUES and not is_store(to):
+    if size * len(chosen) * (1 + banded * len(ENDS)) > MOST_VALUES and not is_store(to):
         remedy = "take fewer values an axis, or fewer outputs, or write to a folder: --to map.zarr"
         faults.append(Fault("sweep", "too many values", f"{size:,} points", remedy))
     faults += _file_faults(to, [len(values) for values in axes.values()])
@@ -146,7 +169,10 @@ def plan(case: Case, vary: Sequence[str], wanted: Sequence[str], to: Path | None
     si |= {
         f"screw_{part}_{name}": quantity.unit for part in MATERIALS for name, quantity in fields_of(Material).items()
     }
-    return Plan(axes, chosen, quantities | {name: possible[name] for name in (*chosen, "valid")}, si, heats)
+    quantities |= {name: possible[name] for name in (*chosen, "valid")}
+    found = Plan(axes, chosen, quantities, si, heats, banded)
+    ends = {end: dataclasses.replace(quantities[name], name=end) for name in chosen for end in found.ends_of(name)}
+    return dataclasses.replace(found, quantities=quantities | ends)
 
 
 def _heat() -> Mapping[str, Quantity]:
@@ -260,7 +286,7 @@ def sweep(
     store ``to`` it is filled first, by the workers of a ``cluster`` if there is one; ``verify`` and ``trust`` are
     those of :func:`~ballscrew.sweeps.sweep.sweep`.
     """
-    fixed = _unvaried(case, plan)
+    fixed = unvaried(case, plan)
     names = dict.fromkeys((*plan.outputs, "valid", *(f"validity_{reason}" for reason in reasons_of(case))))
     varied: dict[str, Any] = {}
     for name, values in plan.axes.items():
@@ -311,11 +337,11 @@ def workers(scheduler: str | None, to: Path | None) -> Generator[Any]:
 def implausible(case: Case, plan: Plan) -> list[Record]:
     """A warning for each input that no ball screw has, at some point of the sweep."""
     subject = Configuration(case.model, case.screw, case.lubricant)
-    there = {name: np.asarray(value) for name, value in _unvaried(case, plan).items()}
+    there = {name: np.asarray(value) for name, value in unvaried(case, plan).items()}
     return units.in_display_units_of(subject.implausible({**there, **plan.axes}))
 
 
-def _unvaried(case: Case, plan: Plan) -> dict[str, Any]:
+def unvaried(case: Case, plan: Plan) -> dict[str, Any]:
     """The load and the speed that are not varied; that of a nut whose lead is varied is one for each lead."""
     found: dict[str, Any] = {name: getattr(case.operation, name) for name in OPERATION if name not in plan.axes}
     if "screw_speed" in found and "lead" in plan.axes and case.speed_of_nut:
@@ -334,8 +360,15 @@ def reasons_of(case: Case) -> Mapping[str, str]:
 
 def _oils(case: Case, temperatures: np.ndarray) -> dict[str, xr.DataArray]:
     """Properties of the oil at the temperatures, without those that the case gives."""
-    oils, made = nominal_oil(case.lubricant.at(temperatures)), nominal_oil(case.lubricant)
-    own = [name for name in OF_TEMPERATURE if getattr(made, name) == getattr(case.lubricant, name)]
+    oils, given = nominal_oil(case.lubricant.at(temperatures)), given_of_oil(case)
+    own = [name for name in OF_TEMPERATURE if name not in given]
     dim, attributes = "temperature", {"units": TEMPERATURE.unit, "long_name": TEMPERATURE.info.meaning}
     coords = {dim: xr.DataArray(temperatures, dims=dim, attrs=attributes)}
     return {name: xr.DataArray(np.broadcast_to(getattr(oils, name), temperatures.shape), coords, dim) for name in own}
+
+
+def given_of_oil(case: Case) -> dict[str, float]:
+    """Numbers of the oil that the case gives beside its grade or its data sheet, which would say others."""
+    made = nominal_oil(case.lubricant)
+    own = {name: getattr(case.lubricant, name) for name in OF_TEMPERATURE}
+    return {name: value for name, value in own.items() if value != getattr(made, name)}

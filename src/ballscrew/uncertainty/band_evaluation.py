@@ -174,6 +174,19 @@ class BandEvaluator:
         return {slot: laws for slot, laws in found.items() if laws}
 
 
+def tails(level: float) -> tuple[float, float]:
+    """The shares of the samples below the two ends of an interval, as many below as above."""
+    return (1 - level) / 2, (1 + level) / 2
+
+
+def quantiles(values: Values, shares: Sequence[float]) -> list[float]:
+    """Values that occur, in their order; NaN where none is a number."""
+    numbers = values[~np.isnan(values)]
+    if not numbers.size:
+        return [float("nan")] * len(shares)
+    return [float(q) for q in np.quantile(numbers, shares, method="inverted_cdf")]
+
+
 def sample_probabilities(dimensions: int, count: int, seed: int) -> Values:
     """Shares of shape (dimensions, samples), evenly spread; none where nothing is drawn."""
     return sobol_sequence(dimensions, count, seed) if dimensions else np.empty((0, count))
@@ -204,15 +217,6 @@ def faults_of_options(outputs: Sequence[str], count: Any, seed: Any, level: Any,
     if not isinstance(level, int | float) or not 0 < level < 1:
         faults.append(Fault("band.level", "must lie between 0 and 1", str(level), "0.95 is usual"))
     return faults + engine_faults("band", engine)
-
-
-def faults_of_point(point: Mapping[str, Any]) -> list[Fault]:
-    """Loads and speeds that are not one number."""
-    return [
-        Fault(f"band.{name}", "must be one number", "", "for several, call again for each, or take band_along")
-        for name, value in point.items()
-        if np.ndim(value)
-    ]
 
 
 def faults_of_inputs(subject: Configuration, uncertain: Mapping[str, Any], joint: Joint | None) -> list[Fault]:

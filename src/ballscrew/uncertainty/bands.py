@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
+import xarray as xr
 
 from ballscrew._displayed import Displayed
 from ballscrew.components.materials import Lubricant
@@ -18,7 +19,7 @@ from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, accepts_units, nearest, raise_if_any
 from ballscrew.evaluation.comparison import Candidate
 from ballscrew.evaluation.engines import Engine
-from ballscrew.evaluation.plan import Configuration
+from ballscrew.evaluation.plan import Configuration, Plan
 from ballscrew.friction import directions
 from ballscrew.friction.model import (
     FrictionModel,
@@ -35,13 +36,17 @@ from ballscrew.uncertainty.band_evaluation import (
     evaluated_outputs,
     faults_of_inputs,
     faults_of_options,
-    faults_of_point,
+    quantiles,
     sample_law_factors,
     sample_probabilities,
+    tails,
 )
+from ballscrew.uncertainty.band_points import PointGroup, bands_of
 from ballscrew.uncertainty.distributions import Distribution
 from ballscrew.uncertainty.sampling import Joint
 
+#: The ends of an interval, as the names of variables in a dataset end.
+ENDS = ("low", "high")
 #: Default number of samples, and for a nut whose balls differ, every one of which is solved for.
 SAMPLES, NUT_SAMPLES = 2**14, 2**10
 
@@ -107,6 +112,45 @@ class BandCurve:
     count: int
 
 
+@overload
+def band(  # pyright: ignore[reportOverlappingOverload]  (numbers are no axes)
+    model: FrictionModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    *,
+    uncertain: Mapping[str, Distribution],
+    axial_load: float,
+    screw_speed: float,
+    alternatives: Sequence[Candidate] = (),
+    joint: Joint | None = None,
+    outputs: Sequence[str] = ("screw_torque",),
+    samples: int | None = None,
+    seed: int = 0,
+    level: float = 0.95,
+    engine: Engine | None = None,
+    keep_samples: bool = False,
+    done: Callable[[int, int], None] | None = None,
+) -> Band: ...
+@overload
+def band(
+    model: FrictionModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    *,
+    uncertain: Mapping[str, Distribution],
+    axial_load: Force,
+    screw_speed: AngularSpeed,
+    alternatives: Sequence[Candidate] = (),
+    joint: Joint | None = None,
+    outputs: Sequence[str] = ("screw_torque",),
+    samples: int | None = None,
+    seed: int = 0,
+    level: float = 0.95,
+    engine: Engine | None = None,
+    keep_samples: bool = False,
+    done: Callable[[int, int], None] | None = None,
+    **varied: Any,
+) -> xr.Dataset: ...
 @accepts_units("band")
 def band(
     model: FrictionModel,
@@ -125,7 +169,8 @@ def band(
     engine: Engine | None = None,
     keep_samples: bool = False,
     done: Callable[[int, int], None] | None = None,
-) -> Band:
+    **varied: Any,
+) -> Band | xr.Dataset:
     """Intervals of outputs for uncertain inputs and alternative laws.
 
     ``uncertain`` names inputs as :func:`~ballscrew.sweeps.sweep.sweep` does; they are independent, but for those of
@@ -141,6 +186,11 @@ def band(
     ``samples`` is 2^14, and 2^10 for a nut whose balls differ by default; a power of two is spread the most evenly.
     The same seed gives the same band.
 
+    A load, a speed or ``varied`` inputs of several values are axes, as of :func:`~ballscrew.sweeps.sweep.sweep`. Then
+    the result is a dataset over them that has of each output ``x`` the value ``x`` and the ends ``x_low`` and
+    ``x_high``, and its attributes ``band_level``, ``band_samples`` and ``band_seed``. At each point they are those of
+    the band there: all points have the same random numbers. What is an axis is exact there.
+
     Raises :class:`~ballscrew.errors.InputError` for unknown names, numbers out of bounds and an engine that cannot
     be had.
     """
@@ -148,13 +198,14 @@ def band(
     outputs = (outputs,) if isinstance(outputs, str) else tuple(dict.fromkeys(outputs))
     subject = Configuration(model, screw, lubricant)
     point = {"axial_load": axial_load, "screw_speed": screw_speed}
-    raise_if_any(
-        [
-            *faults_of_options(outputs, count, seed, level, engine),
-            *faults_of_point(point),
-            *faults_of_inputs(subject, uncertain, joint),
-        ]
-    )
+    faults = faults_of_options(outputs, count, seed, level, engine)
+    if varied or any(map(np.ndim, point.values())):
+        if keep_samples:
+            faults.append(Fault("band.keep_samples", "is of one point", "True", "leave it out"))
+        raise_if_any(faults)
+        axes = Plan.of(subject, outputs, {**point, **varied}, "band")
+        return _band_over(axes, uncertain, joint, alternatives, count, seed, level, engine, done)
+    raise_if_any([*faults, *faults_of_inputs(subject, uncertain, joint)])
     evaluator = BandEvaluator.of(subject, uncertain, joint, point, alternatives, engine, evaluated_outputs(outputs))
     shares = sample_probabilities(evaluator.dimensions, count, seed)
     found = evaluator.evaluate(shares, done)
@@ -192,6 +243,47 @@ def band(
     )
 
 
+def _band_over(
+    axes: Plan,
+    uncertain: Mapping[str, Distribution],
+    joint: Joint | None,
+    alternatives: Sequence[Candidate],
+    count: int,
+    seed: int,
+    level: float,
+    engine: Engine | None,
+    done: Callable[[int, int], None] | None,
+) -> xr.Dataset:
+    """The bands over the axes of a plan, whose outputs are those that have a band."""
+    alone = {name: distribution for name, distribution in uncertain.items() if name not in axes.varying}
+    together = () if joint is None else joint.names
+    remedy = "leave it out of one of them"
+    faults = [Fault(f"band.{n}", "is an axis and among the joint ones", "", remedy) for n in axes.axes if n in together]
+    raise_if_any([*faults, *faults_of_inputs(axes.subject, alone, joint)])
+    values = {name: np.full(axes.total, float(value)) for name, value in axes.fixed.items()}
+    values |= axes.points_at(np.arange(axes.total))
+    group = PointGroup(axes.subject, alternatives, values, [alone] * axes.total, [joint] * axes.total)
+    told = _told(done, axes.total * count)
+    found = bands_of(group, axes.outputs, count=count, seed=seed, level=level, engine=engine, done=told)
+    ends = {name: found.both[name] for name in axes.outputs}
+    dataset = axes.dataset({name: np.array(found.value[name]) for name in axes.outputs})
+    return with_ends(dataset, ends, level=level, count=count, seed=seed)
+
+
+def with_ends(
+    dataset: xr.Dataset, ends: Mapping[str, tuple[Values, Values]], *, level: float, count: int, seed: int
+) -> xr.Dataset:
+    """A dataset with the ends of the intervals of its variables beside them, as ``x_low`` and ``x_high``."""
+    found = dict[str, Any]()
+    for name, both in ends.items():
+        variable = dataset[name]
+        for end, values in zip(ENDS, both, strict=True):
+            words = f"{variable.attrs['long_name']}, {end} end of the band"
+            attributes = {**variable.attrs, "long_name": words}
+            found[f"{name}_{end}"] = (variable.dims, np.asarray(values).reshape(variable.shape), attributes)
+    return dataset.assign(found).assign_attrs(band_level=level, band_samples=count, band_seed=seed)
+
+
 @accepts_units("band")
 def band_along(
     model: FrictionModel,
@@ -223,50 +315,44 @@ def band_along(
     uncertain = {name: distribution for name, distribution in uncertain.items() if name != along}
     point: dict[str, Any] = {"axial_load": axial_load, "screw_speed": screw_speed}
     faults = [] if along in point else [Fault("band.along", "unknown", along, nearest(along, point))]
-    faults += faults_of_options((), count, seed, level, engine) + faults_of_point(point)
+    faults += faults_of_options((), count, seed, level, engine)
+    faults += [_not_one(name) for name, value in point.items() if np.ndim(value)]
     raise_if_any([*faults, *faults_of_inputs(subject, uncertain, joint)])
-    point[along] = np.asarray(points, dtype=float)
-    evaluator = BandEvaluator.of(subject, uncertain, joint, point, alternatives, engine, ("screw_torque",))
-    shares = sample_probabilities(evaluator.dimensions, count, seed)
-    torque = evaluator.evaluate(shares, done)["screw_torque"].reshape(len(points), -1)
-    factors = np.array(
-        [sample_law_factors(evaluator.law_factors_at(i), shares[evaluator.inputs :]) for i in range(len(points))]
+    number = len(points)
+    values = {name: np.full(number, float(value)) for name, value in point.items()}
+    values[along] = np.asarray(points, dtype=float)
+    group = PointGroup(subject, alternatives, values, [uncertain] * number, [joint] * number)
+    name, told = "screw_torque", _told(done, number * count)
+    found = bands_of(group, [name], count=count, seed=seed, level=level, engine=engine, done=told)
+    return BandCurve(
+        along, values[along], found.value[name], found.median[name], found.both[name], found.parameters[name], count
     )
-    below, above = _tails(level)
-    every = np.array([_quantiles(row, (below, 0.5, above)) for row in torque * factors]).T
-    alone = np.array([_quantiles(row, (below, above)) for row in torque]).T
-    value = np.broadcast_to(np.asarray(evaluator.central.screw_torque, dtype=float), (len(points),))
-    return BandCurve(along, point[along], value, every[1], (every[0], every[2]), (alone[0], alone[1]), count)
+
+
+def _told(done: Callable[[int, int], None] | None, total: int) -> Callable[[int], None] | None:
+    return None if done is None else lambda finished: done(finished, total)
+
+
+def _not_one(name: str) -> Fault:
+    return Fault(f"band.{name}", "must be one number", "", "a curve goes along one of them")
 
 
 def _band_of(name: str, value: float, drawn: Sequence[Values], level: float) -> OutputBand:
     """The band of an output from its samples: with both causes, with inputs alone, with laws alone."""
     both, parameters, model_form = drawn
-    below, above = _tails(level)
-    low, median, high = _quantiles(both, (below, 0.5, above))
+    below, above = tails(level)
+    low, median, high = quantiles(both, (below, 0.5, above))
     from_inputs, from_laws = (_variance(name, values) for values in (parameters, model_form))
     together = from_inputs + from_laws
     return OutputBand(
         value=value,
         median=median,
         both=Interval(low, high),
-        parameters=Interval(*_quantiles(parameters, (below, above))),
-        model_form=Interval(*_quantiles(model_form, (below, above))),
+        parameters=Interval(*quantiles(parameters, (below, above))),
+        model_form=Interval(*quantiles(model_form, (below, above))),
         share_of_parameters=from_inputs / together if together > 0 else float("nan"),
         missing_share=float(np.mean(np.isnan(both))),
     )
-
-
-def _tails(level: float) -> tuple[float, float]:
-    return (1 - level) / 2, (1 + level) / 2
-
-
-def _quantiles(values: Values, shares: Sequence[float]) -> list[float]:
-    """Values that occur, in their order; NaN where none is a number."""
-    numbers = values[~np.isnan(values)]
-    if not numbers.size:
-        return [float("nan")] * len(shares)
-    return [float(q) for q in np.quantile(numbers, shares, method="inverted_cdf")]
 
 
 def _variance(name: str, values: Values) -> float:

@@ -1,0 +1,179 @@
+"""The band over a sweep of a case: at each point that which the case has there."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ballscrew.cases import uncertain_inputs
+from ballscrew.cases.case_file import Case
+from ballscrew.components.materials import TEMPERATURE
+from ballscrew.errors import raise_if_any
+from ballscrew.evaluation.outputs import OPERATION, inputs_of
+from ballscrew.evaluation.plan import Configuration
+from ballscrew.overflow import overflow_as_input_error
+from ballscrew.studies import band as bands
+from ballscrew.studies import sweep as sweeps
+from ballscrew.studies.band import LEVEL, Options
+from ballscrew.studies.sweep import Plan
+from ballscrew.uncertainty.band_evaluation import Values, faults_of_options, tails
+from ballscrew.uncertainty.band_points import PointGroup, bands_of
+from ballscrew.uncertainty.bands import ENDS, NUT_SAMPLES, SAMPLES, with_ends
+from ballscrew.uncertainty.distributions import Distribution, scaled
+from ballscrew.uncertainty.sampling import Joint
+
+#: The seed of the random numbers of a case.
+_SEED = 0
+#: The part of a case whose inputs change what other laws would give.
+_MODEL = "model"
+
+
+class _Inputs(NamedTuple):
+    """What is uncertain at a point, and the case there, whose operating point does not count."""
+
+    case: Case
+    uncertain: Mapping[str, Distribution]
+    joint: Joint | None
+
+
+@overflow_as_input_error()
+def with_band(
+    case: Case, plan: Plan, dataset: xr.Dataset, options: Options, done: Callable[[int, int], None] | None = None
+) -> xr.Dataset:
+    """The dataset of a sweep with the ends of the band of each output, and of the validity, beside it.
+
+    At each point they are those of :func:`~ballscrew.studies.band.band` of the case with the point's values in place:
+    an uncertain input that is varied has there what its default says of the new value. ``done`` gets the samples.
+    Points that cannot be have no band. Raises :class:`~ballscrew.errors.InputError` that names options of the command
+    line.
+    """
+    count = options.samples
+    if count is None:
+        count = NUT_SAMPLES if case.screw.nut.one_by_one else SAMPLES
+    level = LEVEL if options.level is None else options.level
+    with bands.options_named():
+        raise_if_any(faults_of_options(plan.outputs, count, _SEED, level, None))
+    dims = tuple(plan.axes)
+    shape = tuple(len(values) for values in plan.axes.values())
+    points = _points(case, plan)
+    possible = np.ravel(dataset["validity_inputs"].transpose(*dims).to_numpy())
+    varied = {name.removeprefix("nut.") for name in plan.axes}
+    groups = _groups(case, points, varied, np.flatnonzero(possible), only_given=options.only_given)
+    ends = {name: (np.full(possible.size, np.nan), np.full(possible.size, np.nan)) for name in plan.outputs}
+    outside = np.ones(possible.size)
+    before, total = 0, int(possible.sum()) * count
+    for places, group in groups:
+
+        def tell(finished: int, start: int = before) -> None:
+            if done is not None:
+                done(start + finished, total)
+
+        found = bands_of(group, plan.outputs, count=count, seed=_SEED, level=level, engine=None, done=tell)
+        for name, both in ends.items():
+            for end, values in zip(both, found.both[name], strict=True):
+                end[places] = values
+        outside[places] = found.invalid_share
+        before += len(places) * count
+    complete = {name: (low.reshape(shape), high.reshape(shape)) for name, (low, high) in ends.items()}
+    found = with_ends(dataset.transpose(*dims), complete, level=level, count=count, seed=_SEED)
+    # a mask has an interval, too: its least and its greatest value in as many of the samples
+    attributes = dataset["valid"].attrs
+    masks = {
+        f"valid_{end}": (dims, outside.reshape(shape) < share, attributes)
+        for end, share in zip(ENDS, tails(level), strict=True)
+    }
+    return found.assign(masks)
+
+
+def _points(case: Case, plan: Plan) -> dict[str, Values]:
+    """The values of the axes, the load and the speed at each point of the grid, in the order of the axes."""
+    grid = np.meshgrid(*plan.axes.values(), indexing="ij")
+    # fields of the nut have two names
+    found = {name.removeprefix("nut."): np.ravel(values) for name, values in zip(plan.axes, grid, strict=True)}
+    size = np.size(grid[0]) if grid else 1
+    for name, value in sweeps.unvaried(case, plan).items():
+        if isinstance(value, xr.DataArray):  # the speed of a nut whose lead is varied
+            of_lead = np.unravel_index(np.arange(size), [len(values) for values in plan.axes.values()])
+            found[name] = value.to_numpy()[of_lead[list(plan.axes).index("lead")]]
+        else:
+            found[name] = np.full(size, float(value))
+    return found
+
+
+def _groups(
+    case: Case,
+    points: Mapping[str, Values],
+    varied: set[str],
+    places: NDArray[np.intp],
+    *,
+    only_given: bool,
+) -> list[tuple[list[int], PointGroup]]:
+    """The points in groups that one subject serves, with the places of each."""
+    known = inputs_of(case.model, case.screw, case.lubricant)
+    axes = [name for name in points if name not in OPERATION]
+    of_model = [name for name in axes if known[name][0] == _MODEL]
+    given_of_oil = sweeps.given_of_oil(case) if TEMPERATURE.name in axes else {}
+    # an oil of which numbers are given beside its temperature is another oil at each
+    own = [*of_model, *([TEMPERATURE.name] if given_of_oil else [])]
+    inputs: dict[tuple[float, ...], _Inputs] = {}
+    members: dict[tuple[Any, ...], list[int]] = {}
+    subjects: dict[tuple[float, ...], Configuration] = {}
+    of_place: dict[int, _Inputs] = {}
+    for place in places.tolist():
+        here = {name: float(points[name][place]) for name in axes}
+        at = tuple(here.values())
+        if at not in inputs:
+            inputs[at] = _inputs_at(case, here, given_of_oil, varied, only_given=only_given)
+        of_place[place] = inputs[at]
+        subject = tuple(here[name] for name in own)
+        if subject not in subjects:
+            base = Configuration(case.model, case.screw, case.lubricant)
+            changes = {name: here[name] for name in own}
+            subjects[subject] = base.changed({**changes, **given_of_oil}) if own else base
+        joint = inputs[at].joint
+        names = (tuple(inputs[at].uncertain), () if joint is None else joint.names)
+        members.setdefault((subject, *names), []).append(place)
+    return [
+        (
+            chosen,
+            PointGroup(
+                subjects[key[0]],
+                bands.alternatives(of_place[chosen[0]].case),
+                {name: values[chosen] for name, values in points.items() if name not in own},
+                [of_place[place].uncertain for place in chosen],
+                [of_place[place].joint for place in chosen],
+            ),
+        )
+        for key, chosen in members.items()
+    ]
+
+
+def _inputs_at(
+    case: Case,
+    here: Mapping[str, float],
+    given_of_oil: Mapping[str, float],
+    varied: set[str],
+    *,
+    only_given: bool,
+) -> _Inputs:
+    """What is uncertain where inputs have other values: as of a case file that has them, and no ± beside them."""
+    there = Configuration(case.model, case.screw, case.lubricant).changed({**here, **given_of_oil})
+    uncertain = {name: distribution for name, distribution in case.uncertain.items() if name not in varied}
+    if case.speed_of_nut and "lead" in here and "screw_speed" in uncertain:
+        uncertain["screw_speed"] = scaled(uncertain["screw_speed"], case.screw.lead / here["lead"])
+    calibrated = () if case.calibration is None else case.calibration.parameters.values()
+    at = dataclasses.replace(
+        case,
+        model=there.model,
+        screw=there.screw,
+        lubricant=there.lubricant,
+        uncertain=uncertain,
+        exact=(case.exact - varied) | varied.intersection(calibrated),
+    )
+    found = uncertain_inputs.all_of(at, only_given)
+    return _Inputs(at, *bands.distributions(at, found))

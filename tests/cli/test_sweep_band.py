@@ -1,0 +1,149 @@
+"""A band over a sweep: at each point that which ``run --band`` says there."""
+
+import csv
+import io
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from ballscrew.cases import case_file
+from ballscrew.errors import InputError
+from ballscrew.studies import band, sweep
+from ballscrew.studies.band import Options
+from ballscrew.studies.sweep_band import with_band
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+DRIVE = EXAMPLES / "feed_drive.toml"
+OPTIONS = Options(samples=256)
+
+
+def swept(case, vary, outputs=("screw_torque", "efficiency"), options=OPTIONS, done=None):
+    plan = sweep.plan(case, vary, outputs, None, banded=True)
+    return with_band(case, plan, sweep.sweep(case, plan), options, done)
+
+
+def test_the_document_has_low_and_high_beside_each_output(ballscrew):
+    """As the command of one point says, which has the same samples."""
+    options = ("--band", "--samples", "512", "--json")
+    process = ballscrew("sweep", DRIVE, "--vary", "screw_speed=0, 300, 1500 rpm", *options)
+    found = json.loads(process.stdout)
+    for place, speed in enumerate((0, 300, 1500)):
+        alone = json.loads(ballscrew("run", DRIVE, *options, "--set", f"operation.screw_speed={speed} rpm").stdout)
+        for name, output in found["outputs"].items():
+            if name == "valid":
+                assert output["low"][place] is output["high"][place] is True
+                continue
+            one = alone["band"][name]
+            for end in ("low", "high"):
+                assert output[end][place] == pytest.approx(one[end], rel=1e-9), (name, end, speed)
+            assert output["values"][place] == pytest.approx(one["value"], rel=1e-9)
+    assert found["band"] == {"level": 0.95, "samples": 512, "seed": 0}
+    assert set(found["outputs"]) == {*sweep.BAND_OUTPUTS, "valid"}
+
+
+#: The section of each axis in a case file.
+SECTIONS = {
+    "screw_conformity": "screw", "axial_load": "operation", "temperature": "lubricant", "nut.preload": "",
+    "lead": "screw", "friction.boundary_friction_coefficient": "model",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("example", "axes", "settings"),
+    [
+        # of an uncertain input the default goes with its value
+        ("feed_drive.toml", {"screw_conformity": ["0.52", "0.55"], "axial_load": ["-2000 N", "5000 N"]}, []),
+        ("feed_drive.toml", {"temperature": ["20 degC", "60 degC"]}, []),
+        # a number of the oil that is given stays where the temperature is varied
+        (
+            "feed_drive.toml",
+            {"temperature": ["20 degC", "60 degC"]},
+            ["lubricant.pressure_viscosity_coefficient=15 1/GPa"],
+        ),
+        # another number of the model gives other laws to exchange
+        ("feed_drive.toml", {"friction.boundary_friction_coefficient": ["0.08", "0.14"]}, []),
+        ("vertical_axis.toml", {"nut.preload": ["500 N", "3000 N"]}, []),
+        ("feed_drive.toml", {"lead": ["8 mm", "16 mm"]}, ["operation.screw_speed=6 m/min ± 0.5 m/min"]),
+        # what is varied loses the ± of the file
+        ("feed_drive.toml", {"axial_load": ["2000 N", "5000 N"]}, ["operation.axial_load=5000 N ± 1000 N"]),
+    ],
+)
+def test_each_point_has_the_band_of_the_case_there(example, axes, settings):
+    case = case_file.load(EXAMPLES / example, settings)
+    found = swept(case, [f"{name}={', '.join(values)}" for name, values in axes.items()])
+    paths = [f"{SECTIONS[name]}.{name}".removeprefix(".") for name in axes]
+    for place in np.ndindex(*map(len, axes.values())):
+        texts = [values[i] for values, i in zip(axes.values(), place, strict=True)]
+        changes = [f"{path}={text}" for path, text in zip(paths, texts, strict=True)]
+        one = band.band(case_file.load(EXAMPLES / example, [*settings, *changes]), OPTIONS).band
+        for output in ("screw_torque", "efficiency"):
+            value = float(found[output][place])
+            assert value == pytest.approx(one[output].value, rel=1e-9, nan_ok=True)  # the load drives: no efficiency
+            ends = [float(found[f"{output}_{end}"][place]) for end in ("low", "high")]
+            assert ends == pytest.approx(list(one[output].both), rel=1e-9, nan_ok=True), (changes, output)
+            assert ends[1] > ends[0] or output == "efficiency"
+
+
+def test_points_that_cannot_be_have_no_band_and_the_samples_are_counted():
+    case = case_file.load(DRIVE)
+    told = []
+    found = swept(case, ["lead=5, 10, 20 mm"], ["screw_torque"], done=lambda *numbers: told.append(numbers))
+    assert np.isnan(found["screw_torque_low"].to_numpy()).tolist() == [True, False, False]
+    assert not found["valid_high"][0]
+    assert told[-1] == (2 * 256, 2 * 256)
+
+
+def test_nothing_uncertain_is_a_band_of_other_laws_alone():
+    case = case_file.load(DRIVE)
+    alone = swept(case, ["screw_speed=100, 600 rpm"], options=Options(samples=256, only_given=True))
+    for place, speed in enumerate((100, 600)):
+        there = case_file.load(DRIVE, [f"operation.screw_speed={speed} rpm"])
+        one = band.band(there, Options(samples=256, only_given=True)).band["screw_torque"]
+        assert [float(alone[f"screw_torque_{end}"][place]) for end in ("low", "high")] == pytest.approx(list(one.both))
+
+
+def test_files_have_the_ends_beside_the_values(tmp_path, ballscrew):
+    wanted = ("--vary", "axial_load=1000, 2000 N", "--output", "screw_torque", "--samples", "64")
+    rows = list(csv.reader(io.StringIO(ballscrew("sweep", DRIVE, *wanted).stdout)))
+    assert rows[0] == [
+        "axial load [N]", "screw torque [N m]", "screw torque low [N m]", "screw torque high [N m]", "valid",
+    ]  # fmt: skip
+    path = tmp_path / "band.nc"
+    assert ballscrew("sweep", DRIVE, *wanted, "--to", path).returncode == 0
+    with xr.open_dataset(path, engine="h5netcdf") as stored:
+        assert stored["screw_torque_low"].attrs["units"] == "N m"
+        assert stored.attrs["band_samples"] == 64
+        for row, low, high in zip(rows[1:], stored["screw_torque_low"], stored["screw_torque_high"], strict=True):
+            assert [float(row[2]), float(row[3])] == pytest.approx([float(low), float(high)])
+    # two axes: a table has no room for three numbers a point
+    both = ballscrew("sweep", DRIVE, *wanted, "--vary", "screw_speed=100, 200 rpm")
+    assert len(both.stdout.splitlines()) == 5
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--output", "deflection", "--band"], "--output: has no band (deflection)"),
+        (["--band", "--to", "map.zarr"], "--band: fills no store"),
+        (["--band", "--self-heating"], "--band: is given beside --self-heating"),
+        (["--samples", "1"], "--samples: must be a whole number"),
+        (["--level", "2"], "--level: must lie between 0 and 1"),
+        (["--json", "--rows", "screws.csv"], "--json: is of one screw"),
+    ],
+)
+def test_what_has_no_band_is_said(options, said, ballscrew, tmp_path):
+    if "screws.csv" in options:
+        (tmp_path / "screws.csv").write_bytes((EXAMPLES / "screws.csv").read_bytes())
+        options = [*options[:-1], tmp_path / "screws.csv"]
+    process = ballscrew("sweep", DRIVE, "--vary", "screw_speed=100, 200 rpm", *options)
+    assert process.returncode
+    assert said in process.stderr
+    assert isinstance(process.stdout, str)
+
+
+def test_options_of_a_band_are_checked_before_it():
+    with pytest.raises(InputError, match=r"^--samples"):
+        swept(case_file.load(DRIVE), ["screw_speed=100, 200 rpm"], options=Options(samples=1))
