@@ -4,11 +4,13 @@ import copy
 
 import pytest
 
+from ballscrew.axis_studies import warm_up
 from ballscrew.axis_studies.duty import duty as duty_of
 from ballscrew.cases import case_file
 from ballscrew.documents import band as band_documents
 from ballscrew.documents import duty as duty_documents
 from ballscrew.documents import run as run_documents
+from ballscrew.documents import warm_up as warm_up_documents
 from ballscrew.studies import band
 from ballscrew.studies.run import run
 from support.commands import ROOT
@@ -123,3 +125,36 @@ def test_the_motor_is_judged_by_the_larger_torque_and_the_brake_by_the_smaller()
     assert "judged by the larger torque: peak and RMS in a full bath of oil" in said["verdict.motor"]
     assert "the smaller friction, that of the track starved of oil" in said["verdict.brake"]
     assert cold["results"]["brake"]["holding_torque"] >= bath["results"]["brake"]["holding_torque"]
+
+
+def document_of_warm_up(ambient, *settings):
+    settings = (f"surroundings.ambient={ambient}", *settings)
+    return warm_up_documents.document(
+        warm_up.warmed_up(warm_up.load(ROOT / "examples" / "warm_up.toml", settings, None))
+    )
+
+
+def test_a_cold_start_stands_beside_that_of_a_full_bath():
+    cold, bath = document_of_warm_up("-5 degC"), document_of_warm_up("-5 degC", BATH)
+    record, found = record_of(cold), cold["results"]
+    start = bath["results"]["screw_torque"][0]
+    assert found["flooded_torque"] == record["value"] == pytest.approx(start, rel=1e-12)
+    assert record["limit"] == found["screw_torque"][0] < 0.1 * start
+    assert cold["units"]["flooded_torque"] == record["unit"] == "N m"
+    full = found["full_bath"]
+    for name in ("screw_torque", "oil_temperature", "shaft_growth"):  # heat of its own, and so a way of its own
+        assert full[name] == pytest.approx(bath["results"][name], rel=1e-9)
+    assert full["equilibrium"]["screw_torque"] == pytest.approx(bath["results"]["equilibrium"]["screw_torque"])
+    assert f"{full['equilibrium']['screw_torque']:.4g} N m" in record["text"]
+    assert full["equilibrium"]["oil_temperature"] > found["equilibrium"]["oil_temperature"] + 5
+    assert record_of(bath) is None
+    assert bath["results"]["flooded_torque"] == start
+    assert bath["results"]["full_bath"] is None
+
+
+def test_a_warm_start_has_the_torque_of_the_bath_and_no_second_way():
+    warm, bath = document_of_warm_up("45 degC"), document_of_warm_up("45 degC", BATH)
+    assert record_of(warm) is None
+    assert warm["results"]["full_bath"] is None
+    assert warm["results"]["flooded_torque"] == pytest.approx(bath["results"]["screw_torque"][0], rel=1e-3)
+    assert warm["results"]["flooded_torque"] > warm["results"]["screw_torque"][0]

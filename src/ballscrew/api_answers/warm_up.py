@@ -41,11 +41,22 @@ class Heat(Closed):
     lost: Number = field("heat lost to the surroundings, SI", "J")
 
 
+FullBath = model(
+    "FullBath",
+    "Numbers over time in a full bath of oil, and where they end.",
+    Open,
+    **{name: _lists(quantity) for name, quantity in SERIES.items() if not name.startswith("heat_")},
+    equilibrium=(Equilibrium, ...),
+)
+
+
 WarmUpResults = model(
     "WarmUpResults",
     "Numbers over time, where they end, and what heat does at places.",
     Open,
     **{name: _lists(quantity) for name, quantity in SERIES.items() if not name.startswith("heat_")},
+    flooded_torque=(Number, field("mean friction torque of the screw at the start, in a full bath of oil, SI", "N m")),
+    full_bath=(FullBath | None, field("the same in a full bath of oil; null where nothing is starved of oil")),
     works=(list[bool], ...),
     stopped=(Number, field("time after which oil or preload are outside what is known, SI", "s")),
     source=(Literal["spread", "moving"], field("whether the heat is spread over the stroke, or goes with the nut")),

@@ -73,6 +73,9 @@ EQUILIBRIUM: Mapping[str, Quantity] = {
     "growth": SERIES["shaft_growth"],
     "power": SERIES["friction_power"],
 }
+#: The mean friction torque at the two ends of warming up.
+AT_START = _quantity("screw_torque", "N m", "M", "mean friction torque of the screw at the start")
+AT_END = _quantity("screw_torque", "N m", "M", "mean friction torque of the screw in the steady state")
 #: Places on the shaft.
 PLACE = _quantity("place", "m", "x", "distance from the fixed bearing", "mm")
 
@@ -96,6 +99,11 @@ class WarmUpReport:
     def last_at_work(self) -> int:
         """Index of the last instant of work."""
         return int(np.flatnonzero(self.warm_up.works)[-1])
+
+    @lazy
+    def full_bath(self) -> WarmUpReport | None:
+        """The same in a full bath of oil; None where nothing is starved of oil."""
+        return dataclasses.replace(self, warm_up=self.warm_up.flooded) if self.warm_up.starved else None
 
     @property
     def length_is_assumed(self) -> bool:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import dataclasses
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ballscrew import units
-from ballscrew.axis_studies.warm_up import PLACE, SERIES, WarmUpReport
+from ballscrew.axis_studies.warm_up import AT_END, AT_START, PLACE, SERIES, WarmUpReport
+from ballscrew.friction import starvation
 from ballscrew.friction.plausibility import implausible
 from ballscrew.motion.states import Numbers
 from ballscrew.records import Record
@@ -20,8 +22,27 @@ _FARTHER = 1.05
 
 
 def verdicts(report: WarmUpReport) -> list[Record]:
-    """Where it ends, whether it was stopped, a lost stretch, and the preload."""
-    return [*report.warm_up.records, *_preload(report), *_long_cycle(report)]
+    """Starvation, where it ends, whether it was stopped, a lost stretch, and the preload."""
+    return [*_starved(report), *report.warm_up.records, *_preload(report), *_long_cycle(report)]
+
+
+def _starved(report: WarmUpReport) -> list[Record]:
+    """The torque at the start and in the steady state, each as the inlet is given and in a full bath of oil."""
+    full = report.full_bath
+    if full is None:
+        return []
+    start = [float(one.warm_up.screw_torque[0]) for one in (report, full)]
+    end = [float(one.equilibrium["screw_torque"]) for one in (report, full)]
+    numbers = [starvation.BothTorques(AT_START, *start)]
+    if np.isfinite(end).all():
+        numbers.append(starvation.BothTorques(AT_END, *end))
+    said = units.in_display_units_of(starvation.records(numbers))
+    ends = full.warm_up.equilibrium
+    if ends.exists or not report.warm_up.equilibrium.exists:
+        return said
+    text = "in a full bath of oil there is no steady state: it runs away, or it gets too hot for the model"
+    record = Record(id="verdict.equilibrium_of_full_bath", subject="equilibrium", text=text, severity="error")
+    return [*said, dataclasses.replace(record, holds=False, value=ends.margin, limit=0.0)]
 
 
 def _preload(report: WarmUpReport) -> list[Record]:

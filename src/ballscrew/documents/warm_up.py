@@ -75,6 +75,8 @@ def results(report: WarmUpReport) -> dict[str, Any]:
     stretch = found.stretch_left
     return {
         **{name: list(values) for name, values in report.series.items() if not name.startswith(_HEAT)},
+        "flooded_torque": found.flooded_torque,
+        "full_bath": _full_bath(report.full_bath),
         "works": [bool(value) for value in found.works],
         "stopped": found.stopped,
         "source": "spread" if found.along is None else "moving",
@@ -98,15 +100,28 @@ def results(report: WarmUpReport) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def _full_bath(report: WarmUpReport | None) -> dict[str, Any] | None:
+    """Numbers over time and the steady state in a full bath of oil; None where nothing is starved of oil."""
+    if report is None:
+        return None
+    end = report.warm_up.equilibrium
+    return {
+        **{name: list(values) for name, values in report.series.items() if not name.startswith(_HEAT)},
+        "stopped": report.warm_up.stopped,
+        "equilibrium": {"exists": end.exists, "margin": end.margin, **report.equilibrium},
+    }
+
+
 def _units() -> dict[str, Any]:
     def of(known: Mapping[str, Quantity]) -> dict[str, str]:
         return {name: quantity.unit for name, quantity in known.items() if not name.startswith(_HEAT)}
 
     table = {"place": "m", "growth": "m"}
+    over_time = {**of(SERIES), "stopped": "s", "equilibrium": {"margin": "1", **of(EQUILIBRIUM)}}
     return {
-        **of(SERIES),
-        "stopped": "s",
-        "equilibrium": {"margin": "1", **of(EQUILIBRIUM)},
+        **over_time,
+        "flooded_torque": "N m",
+        "full_bath": over_time,
         "heat": {"generated": "J", "stored": "J", "lost": "J"},
         "drift": table,
         "compensation": table,

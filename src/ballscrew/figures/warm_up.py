@@ -132,6 +132,11 @@ def _over_time(panel: Axes, report: WarmUpReport, name: str, colour: str) -> Non
     values = np.asarray(units.from_si(report.series[name], quantity), dtype=float)
     panel.plot(_hours(report), values, color=colour, alpha=0.4, linestyle=":")
     panel.plot(_hours(report)[works], values[works], color=colour)
+    full = report.full_bath
+    if full is not None:
+        bath = np.asarray(units.from_si(full.series[name], quantity), dtype=float)
+        panel.plot(_hours(full), bath, color=style.BLUE, label="in a full bath of oil")
+        panel.legend(fontsize=_LABEL_SIZE)
     end = report.equilibrium["power" if name == "friction_power" else name]
     if np.isfinite(end):
         panel.axhline(float(units.from_si(end, quantity)), color=style.GREY, linewidth=0.8, linestyle="--")

@@ -51,12 +51,15 @@ def _steady(report: WarmUpReport) -> Table:
     end = report.warm_up.equilibrium
     if not end.exists:
         return Table("The steady state", ("", "value"), [("margin, below zero: there is none", f"{end.margin:.3g}")])
+    each = [report, *([] if report.full_bath is None else [report.full_bath])]
     rows = [
-        (quantity.info.meaning, shown_or_dash(report.equilibrium[name], quantity))
+        (quantity.info.meaning, *(shown_or_dash(one.equilibrium[name], quantity) for one in each))
         for name, quantity in EQUILIBRIUM.items()
         if name != "preload" or report.warm_up.network.preload_set
     ]
-    return Table("The steady state", ("", "value"), [*rows, ("margin to running away, of 1", f"{end.margin:.3g}")])
+    margins = [f"{one.warm_up.equilibrium.margin:.3g}" for one in each]
+    heads = ("", "value", "in a full bath of oil")[: 1 + len(each)]
+    return Table("The steady state", heads, [*rows, ("margin to running away, of 1", *margins)])
 
 
 def _drift(report: WarmUpReport) -> Table:

@@ -36,6 +36,11 @@ def series(report: WarmUpReport) -> RowTable:
     columns: dict[str, list[Any]] = {}
     for name, quantity in SERIES.items():
         _column(columns, quantity, report.series[name], quantity.info.meaning)
+    full = report.full_bath
+    if full is not None:
+        known, torque = full.warm_up.time, SERIES["screw_torque"]
+        values = np.interp(report.warm_up.time, known, full.warm_up.screw_torque, right=np.nan)
+        _column(columns, torque, values, f"{torque.info.meaning}, in a full bath of oil")
     places, drift = report.drift
     for place, growth in zip(places, drift.T, strict=True):
         _column(columns, _GROWTH, growth, f"growth at {units.shown(float(place), PLACE)}")

@@ -35,11 +35,13 @@ def text(report: WarmUpReport) -> str:
         descriptions.design(report.case, plain_text=True),
         "",
         *_table(report),
+        *_in_full_bath(report),
         "",
         *(record.text for record in warm_up_records.verdicts(report)),
         *(f"beware  {record.name}: {record.text}" for record in warm_up_records.warnings(report)),
         "",
         *_steady(report),
+        *_steady_in_full_bath(report),
         "",
         *_heat(report),
         "",
@@ -110,6 +112,11 @@ def _table(report: WarmUpReport) -> list[str]:
     return aligned(rows)
 
 
+def _in_full_bath(report: WarmUpReport) -> list[str]:
+    """The same instants in a full bath of oil, where the screw is starved of it."""
+    return [] if report.full_bath is None else ["", "In a full bath of oil", *_table(report.full_bath)]
+
+
 def _line(what: str, value: str) -> str:
     return f"  {what:<{_WIDTH}} {value}"
 
@@ -124,6 +131,13 @@ def _steady(report: WarmUpReport) -> list[str]:
         if name != "preload" or report.warm_up.network.preload_set
     ]
     return [f"Steady state, margin to running away {end.margin:.3g} (1 is none of the loop, 0 runs away)", *lines]
+
+
+def _steady_in_full_bath(report: WarmUpReport) -> list[str]:
+    if report.full_bath is None:
+        return []
+    first, *others = _steady(report.full_bath)
+    return ["", f"In a full bath of oil: {first[0].lower()}{first[1:]}", *others]
 
 
 def _heat(report: WarmUpReport) -> list[str]:

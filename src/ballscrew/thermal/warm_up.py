@@ -14,10 +14,12 @@ from scipy.integrate import solve_ivp
 from ballscrew._arrays import ByValue, lazy
 from ballscrew.axis.duty import Duty
 from ballscrew.errors import Fault, InputError, accepts_units
+from ballscrew.friction.starvation import NEARLY_ALL, differs
 from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Duration, Energy, Length, Power
+from ballscrew.quantities import Duration, Energy, Length, Power, Torque
 from ballscrew.records import Record
 from ballscrew.thermal.equilibrium import Equilibrium, equilibrium
+from ballscrew.thermal.friction_map import friction_map
 from ballscrew.thermal.marching import Slot, marched
 from ballscrew.thermal.moving_source import Itinerary, is_long, itinerary_of
 from ballscrew.thermal.network import Network, network_of
@@ -25,6 +27,8 @@ from ballscrew.thermal.surroundings import Surroundings
 
 #: Relative and absolute tolerance of the integration; temperatures are then right to 1e-5 K.
 RTOL, ATOL = 1e-6, 1e-6
+#: The shortest time of work, s, for which what ended at once is computed in a full bath of oil.
+_SHORTEST = 1.0
 #: A share of a step that is rounding.
 _ROUNDING = 1e-9
 
@@ -216,6 +220,41 @@ class WarmUp(ByValue):
     def screw_torque(self) -> Numbers:
         """Mean friction torque of the screw, by its work: power over mean speed, N m."""
         return self.friction_power / self.duty.mean_speed if self.duty.mean_speed else np.full(self.time.size, np.nan)
+
+    @lazy
+    def starved(self) -> bool:
+        """True where, at any instant, the mean friction torque differs from that of a full bath of the same oil."""
+        duty, moving = self.duty, self.duty.states.direction != 0
+        driven: Any = duty.driven
+        coldest = np.full(int(np.sum(moving)), np.min(self.oil_temperature))
+        if duty.flooded is duty or driven.least_replenished(duty.screw_speed[moving], coldest) >= NEARLY_ALL:
+            return False
+        flooded = friction_map(duty.flooded).at_all(self.oil_temperature, self.preload)
+        return bool(np.any(differs(self.friction_power, flooded)))
+
+    @lazy
+    def flooded(self) -> WarmUp:
+        """The same for as long in a full bath of oil; itself where nothing of the oil comes back late."""
+        full = self.duty.flooded
+        if full is self.duty:
+            return self
+        last = int(np.flatnonzero(self.works)[-1])
+        work = float(self.time[last])
+        return warm_up(
+            full, self.network.surroundings, time=max(work, _SHORTEST), cool_down=float(self.time[-1]) - work,
+            outputs=max(last + 1, 2), shaft_length=self.network.shaft.length, moving=self.along is not None,
+        )  # fmt: skip
+
+    @lazy
+    def flooded_torque(self) -> Torque:
+        """Mean friction torque of the screw at the start, in a full bath of oil, N m."""
+        duty, full = self.duty, self.duty.flooded
+        if full is duty or self.starved:
+            return float(self.flooded.screw_torque[0])
+        start = np.full_like(duty.screw_speed, self.oil_temperature[0])
+        torque = full.driven.along(duty.axial_load, duty.screw_speed, start).torque
+        power = duty.states.integral(torque * np.abs(duty.screw_speed)) / duty.states.cycle_time
+        return float(power / duty.mean_speed) if duty.mean_speed else math.nan
 
     @lazy
     def shaft_growth(self) -> Numbers:
