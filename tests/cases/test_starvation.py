@@ -1,7 +1,9 @@
 """A cold, thick oil: the torque of the starved track never stands without that of the full bath."""
 
 import copy
+import dataclasses
 
+import numpy as np
 import pytest
 
 from ballscrew.axis_studies import warm_up
@@ -10,9 +12,11 @@ from ballscrew.cases import case_file
 from ballscrew.documents import band as band_documents
 from ballscrew.documents import duty as duty_documents
 from ballscrew.documents import run as run_documents
+from ballscrew.documents import sweep as sweep_documents
 from ballscrew.documents import warm_up as warm_up_documents
-from ballscrew.studies import band
+from ballscrew.studies import band, sweep
 from ballscrew.studies.run import run
+from ballscrew.thermal.surroundings import Surroundings
 from support.commands import ROOT
 
 COLD = {
@@ -158,3 +162,41 @@ def test_a_warm_start_has_the_torque_of_the_bath_and_no_second_way():
     assert warm["results"]["full_bath"] is None
     assert warm["results"]["flooded_torque"] == pytest.approx(bath["results"]["screw_torque"][0], rel=1e-3)
     assert warm["results"]["flooded_torque"] > warm["results"]["screw_torque"][0]
+
+
+SPEEDS_AND_OILS = ("screw_speed=100:1500:8 rpm", "temperature=-10:60:8 degC")
+
+
+def swept(case, vary=SPEEDS_AND_OILS, **options):
+    plan = sweep.plan(case, vary, ["screw_torque", "flooded_torque"], None, **options)
+    return plan, sweep.sweep(case, plan)
+
+
+def test_a_sweep_has_both_torques_where_it_is_starved_the_most_in_its_attributes():
+    case = case_with("40 degC")
+    plan, found = swept(case)
+    ratio = (found["flooded_torque"] / found["screw_torque"]).to_numpy()
+    document = sweep_documents.document(case, plan, found)
+    record = record_of(document)
+    at = np.unravel_index(np.argmax(ratio), ratio.shape)
+    assert ratio[at] > 5
+    assert record["value"] == pytest.approx(found["flooded_torque"].to_numpy()[at], rel=1e-5)
+    assert record["limit"] == pytest.approx(found["screw_torque"].to_numpy()[at], rel=1e-5)
+    assert found.attrs["most_starved_flooded_torque"] == record["value"]
+    assert "starved" in found.attrs["warnings"]
+    assert document["outputs"]["flooded_torque"]["unit"] == "N m"
+    bath = case_with("40 degC", 0.0)
+    plan, found = swept(bath)
+    assert "most_starved_torque" not in found.attrs
+    assert "starved" not in found.attrs.get("warnings", "")
+    assert record_of(sweep_documents.document(bath, plan, found)) is None
+    assert found["flooded_torque"].equals(found["screw_torque"])
+
+
+def test_a_sweep_that_heats_itself_is_judged_at_the_oil_as_warm_as_it_becomes():
+    case = case_with("-5 degC")  # the oil that is given, which no point of a warm hall has
+    case = dataclasses.replace(case, surroundings=Surroundings(ambient=330.0))
+    _, cold = swept(case, SPEEDS_AND_OILS[:1])
+    _, warm = swept(case, SPEEDS_AND_OILS[:1], heats=True)
+    assert cold.attrs["most_starved_torque"] < 0.5 * cold.attrs["most_starved_flooded_torque"]
+    assert "most_starved_torque" not in warm.attrs

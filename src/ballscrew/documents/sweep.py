@@ -10,7 +10,7 @@ from ballscrew._version import __version__
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
 from ballscrew.records import Record, documents
-from ballscrew.studies.sweep import Plan, implausible
+from ballscrew.studies.sweep import Plan, implausible, starved
 from ballscrew.uncertainty.bands import ENDS
 
 
@@ -32,7 +32,7 @@ def document(case: Case, plan: Plan, dataset: xr.Dataset) -> dict[str, Any]:
         **({} if band is None else {"band": band}),
         "verdicts": [],
         "checks": [],
-        "warnings": documents([*implausible(case, plan), *warnings(dataset)]),
+        "warnings": documents([*implausible(case, plan), *starved(dataset), *warnings(dataset)]),
         "provenance": {"version": __version__, "model": case.model.label, "references": case_file.references(case)},
     }
 

@@ -30,10 +30,11 @@ from ballscrew.evaluation.outputs import (
     inputs_of,
     known_outputs,
 )
+from ballscrew.friction import starvation
 from ballscrew.friction.model import SLOTS, FrictionModel
 from ballscrew.friction.plausibility import implausible, named_parts
 from ballscrew.friction.result import FrictionResult
-from ballscrew.quantities import Quantity, fields_of
+from ballscrew.quantities import Quantity, fields_of, quantities_of
 from ballscrew.records import Record
 from ballscrew.references import citations_of
 from ballscrew.solvers.load_distribution import BallLoads
@@ -41,6 +42,18 @@ from ballscrew.tracing.merging import merged_program
 from ballscrew.tracing.program import Program
 from ballscrew.tracing.tape import CannotRecordError, Tape, why_not_recorded
 
+#: Attributes of a dataset that is starved of oil: the friction torque as given and in a full bath where it is most so.
+STARVED = ("most_starved_torque", "most_starved_flooded_torque")
+#: Points of a plan, besides its corners, at which it is judged whether they are starved of oil.
+_JUDGED = 48
+#: Balls at all points up to which each point is judged.
+_FEW_BALLS = 2000
+#: Corners of the inputs of oil and screw at most that tell whether that can be at all.
+_MOST_CORNERS = 4096
+_REPLENISHMENT = "inlet.replenishment_constant"
+#: Multiples of it, less their whole part, are spread evenly.
+_GOLDEN = (math.sqrt(5) - 1) / 2
+_OF_POINTS = "so at the point that starves the most; the output flooded_torque has it for each"
 #: An axis of more values is long: to read it twice takes time.
 LONG_AXIS = 100_000
 
@@ -311,12 +324,59 @@ class Plan:
         }
         return found | {n: (axis.dims, axis.to_numpy(), attributes_of(known[n][1])) for n, axis in self.axes.items()}
 
+    @functools.cached_property
+    def starved_torques(self) -> tuple[float, float] | None:
+        """Friction torque as the inlet is given and in a full bath of oil, N m, where they differ the most.
+
+        Of all points where they are few, or else of the corners of the grid and of some spread evenly over it; None
+        where the torques hardly differ at any of these.
+        """
+        if self._least_replenished >= starvation.NEARLY_ALL:
+            return None
+        found = self.subject.at({**self.fixed, **self.points_at(self._some_places)})
+        return starvation.most_starved(found.screw_torque, found.flooded_torque)
+
+    @property
+    def _least_replenished(self) -> float:
+        """Least share of the rolling force that oil coming back late leaves over, by the ends of the inputs."""
+        known = self.subject.inputs
+        of_oil = {
+            name: np.unique(values)
+            for name, values in self.extremes.items()
+            if known[name][0] in ("screw", "lubricant") or name == _REPLENISHMENT
+        }
+        if math.prod(values.size for values in of_oil.values()) > _MOST_CORNERS:
+            return 0.0
+        corners = [corner.reshape(-1) for corner in np.meshgrid(*of_oil.values(), indexing="ij")]
+        there = self.subject.changed(dict(zip(of_oil, corners, strict=True)))
+        fastest = float(np.max(np.abs(self.extremes["screw_speed"])))
+        return starvation.least_replenished(there.model, there.screw, there.lubricant, fastest)
+
+    @property
+    def _some_places(self) -> np.ndarray:
+        """Places of the flattened grid: all of a few, or its corners, unless they are many, and some spread evenly."""
+        if self.total * self.subject.balls <= _FEW_BALLS:
+            return np.arange(self.total)
+        corners = np.zeros(1, dtype=int)
+        if 2 ** len(self.shape) <= _JUDGED:
+            first_and_last = np.meshgrid(*([0, size - 1] for size in self.shape), indexing="ij")
+            indices = [index.reshape(-1) for index in first_and_last]
+            corners = np.ravel_multi_index(indices, self.shape) if indices else corners
+        spread = np.floor(np.arange(1, _JUDGED + 1) * _GOLDEN % 1 * self.total).astype(int)
+        return np.unique([*corners, *spread])
+
     @property
     def attributes(self) -> dict[str, Any]:
-        """Attributes of the dataset: those of the subject, and what is implausible."""
-        records = self.subject.implausible(self.extremes)
+        """Attributes of the dataset: those of the subject, what is implausible, and the torque of a full bath of oil.
+
+        Both torques are those of :attr:`starved_torques`; they are left out where nothing is starved.
+        """
+        starved = self.starved_torques
+        # so many digits, as a store has to have the same ones on another machine
+        both = {} if starved is None else {n: float(f"{v:.6g}") for n, v in zip(STARVED, starved, strict=True)}
+        records = [*self.subject.implausible(self.extremes), *starvation_of(both)]
         said = "; ".join(f"{record.name}: {record.text}" for record in records)
-        return self.subject.attributes(list(self.axes)) | ({"warnings": said} if said else {})
+        return self.subject.attributes(list(self.axes)) | both | ({"warnings": said} if said else {})
 
     def dataset(self, results: Mapping[str, np.ndarray]) -> xr.Dataset:
         """The results with names, units and sources."""
@@ -326,6 +386,15 @@ class Plan:
             if name not in self.axes  # what is varied is there as a coordinate
         }
         return xr.Dataset(variables, self.coordinates(), self.attributes)
+
+
+def starvation_of(attributes: Mapping[str, Any]) -> list[Record]:
+    """The record of a dataset some of whose points are starved of oil, by its attributes; empty where none is."""
+    if any(name not in attributes for name in STARVED):
+        return []
+    given, flooded = (float(attributes[name]) for name in STARVED)
+    torque = quantities_of(FrictionResult)["screw_torque"]
+    return starvation.records([starvation.BothTorques(torque, given, flooded)], _OF_POINTS)
 
 
 def _wanted(section: str, names: Sequence[str] | None, nut: Nut) -> tuple[str, ...]:

@@ -22,9 +22,9 @@ from ballscrew.records import Record
 STARVED = "lubricant.starved"
 #: Two torques differ where that of the full bath is larger by more than this share of the other.
 LARGEST_DIFFERENCE = 0.1
-#: Share of the rolling force that is left, at and above which the torque of a full bath is not asked for: rolling is
-#: one part of the torque of several, so that a twentieth of it is less than the difference that counts.
-NEARLY_ALL = 0.95
+#: Share of the rolling force that is left, at and above which the torque of a full bath is not asked for: were all of
+#: the torque that force, it would grow by 1/0.92, that is by less than what counts.
+NEARLY_ALL = 0.92
 
 _LATE = "starved: {0} if oil this thick comes back into the track too late, as in bearings; "
 _ONE = _LATE + "{1} in a full bath of oil; "
@@ -69,10 +69,10 @@ def least_replenished(model: Any, screw: BallScrew, lubricant: Any, screw_speed:
     return float(np.min(left, initial=1.0, where=np.isfinite(left)))
 
 
-def records(numbers: Sequence[BothTorques]) -> list[Record]:
+def records(numbers: Sequence[BothTorques], remark: str = "") -> list[Record]:
     """The record of an answer that is starved; the first of the numbers is its value, in a full bath.
 
-    The limit of the record is that number with the inlet as it is given.
+    The limit of the record is that number with the inlet as it is given. A ``remark`` ends the sentence.
     """
     first = numbers[0]
     if len(numbers) == 1:
@@ -85,7 +85,7 @@ def records(numbers: Sequence[BothTorques]) -> list[Record]:
             *((one.given, one.quantity) for one in numbers),
             *((one.flooded, one.quantity) for one in numbers),
         )
-    template += _UNKNOWN
+    template += "; ".join(filter(None, [_UNKNOWN, remark]))
     return [
         Record(
             id=STARVED,

@@ -31,7 +31,7 @@ from ballscrew.evaluation.outputs import (
     inputs_of,
     known_outputs,
 )
-from ballscrew.evaluation.plan import Configuration
+from ballscrew.evaluation.plan import STARVED, Configuration, starvation_of
 from ballscrew.evaluation.plan import Plan as Swept
 from ballscrew.files import check_writable
 from ballscrew.friction.law_names import coefficients
@@ -169,6 +169,7 @@ def plan(
     si |= {
         f"screw_{part}_{name}": quantity.unit for part in MATERIALS for name, quantity in fields_of(Material).items()
     }
+    si |= dict.fromkeys(STARVED, "N m")
     quantities |= {name: possible[name] for name in (*chosen, "valid")}
     found = Plan(axes, chosen, quantities, si, heats, banded)
     ends = {end: dataclasses.replace(quantities[name], name=end) for name in chosen for end in found.ends_of(name)}
@@ -339,6 +340,11 @@ def implausible(case: Case, plan: Plan) -> list[Record]:
     subject = Configuration(case.model, case.screw, case.lubricant)
     there = {name: np.asarray(value) for name, value in unvaried(case, plan).items()}
     return units.in_display_units_of(subject.implausible({**there, **plan.axes}))
+
+
+def starved(dataset: xr.Dataset) -> list[Record]:
+    """A warning where points of a sweep are starved of oil, with both torques at the one that is so the most."""
+    return units.in_display_units_of(starvation_of(dataset.attrs))
 
 
 def unvaried(case: Case, plan: Plan) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from ballscrew.errors import InputError
 from ballscrew.evaluation.outputs import inputs_of
 from ballscrew.friction.validity import REASONS
 from ballscrew.quantities import fields_of
-from ballscrew.studies.sweep import Plan, implausible, is_store, reasons_of
+from ballscrew.studies.sweep import Plan, implausible, is_store, reasons_of, starved
 from ballscrew.sweeps.store_plan import Blocks
 from ballscrew.sweeps.store_rows import count_false
 
@@ -38,7 +38,7 @@ def warning(case: Case, plan: Plan, dataset: xr.Dataset, to: Path | None = None)
     A store ``to`` knows the numbers block by block, so that it need not be read.
     """
     false = _false_in_store(dataset, to) if to is not None and is_store(to) else _false_in(dataset)
-    unusual = [f"beware  {record.name}: {record.text}" for record in implausible(case, plan)]
+    unusual = [f"beware  {record.name}: {record.text}" for record in (*implausible(case, plan), *starved(dataset))]
     if "valid" not in false:
         return "\n".join(unusual)
     reasons = {**reasons_of(case), **_OF_HEAT}

@@ -12,7 +12,7 @@ from ballscrew.components.materials import Lubricant
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, InputError, accepts_units
 from ballscrew.evaluation.outputs import attributes_of
-from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.evaluation.plan import STARVED, Configuration, Plan
 from ballscrew.friction.element import FrictionElement
 from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import Info, Length, Quantity
@@ -78,16 +78,19 @@ def swept(
     flat: dict[str, Any] = {**plan.fixed, **plan.points_at(np.arange(plan.total))}
     every = {name: np.broadcast_to(np.asarray(values, dtype=float), plan.total) for name, values in flat.items()}
     found = steady_points(subject, every, surroundings, stroke=stroke, shaft_length=shaft_length, also=also, done=done)
-    dims, results = tuple(plan.sizes), _results(plan, every, found)
+    dims, (results, warm) = tuple(plan.sizes), _results(plan, every, found)
     numbers = {name: getattr(found, _OF.get(name, name)).reshape(plan.shape) for name in HEAT}
     dataset = plan.dataset(results).assign(
         {name: (dims, values, attributes_of(HEAT[name])) for name, values in numbers.items()}
     )
+    # of the oil as warm as it becomes, and not as it is given
+    kept = {name: value for name, value in dataset.attrs.items() if name not in (*STARVED, "warnings")}
+    dataset.attrs = kept | {name: warm[name] for name in (*STARVED, "warnings") if name in warm}
     return dataset.assign({STEADY: (dims, found.exists.reshape(plan.shape))}), found
 
 
-def _results(plan: Plan, points: Mapping[str, Any], found: SteadyPoints) -> dict[str, Any]:
-    """The outputs at the points that have a steady state; NaN and not valid at the others."""
+def _results(plan: Plan, points: Mapping[str, Any], found: SteadyPoints) -> tuple[dict[str, Any], Mapping[str, Any]]:
+    """The outputs at the points that have a steady state, NaN and not valid at the others; attributes of the former."""
     known = np.flatnonzero(found.exists)
     if not known.size:
         remedy = "cool the shaft, turn slower, or preload less"
@@ -109,4 +112,4 @@ def _results(plan: Plan, points: Mapping[str, Any], found: SteadyPoints) -> dict
         else:
             results[name] = np.full(plan.total, np.nan)
         results[name][known] = values
-    return results
+    return results, swept.attrs
