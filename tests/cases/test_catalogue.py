@@ -123,6 +123,22 @@ def test_list_with_words(ballscrew):
     refused(ballscrew("catalogue", "list", "nsk"), "catalogue: no row has these words (nsk) · leave them out")
 
 
+def test_sizes_are_those_of_the_row_and_not_of_its_name(ballscrew):
+    def names(*words):
+        return [line.split()[0] for line in ballscrew("catalogue", "list", *words).stdout.splitlines()[1:]]
+
+    of_40 = [row.name for row in catalogue().values() if row.nominal_diameter == 0.04]
+    assert names("40x") == of_40
+    assert len([name for name in of_40 if name.startswith("hiwin")]) == 4
+    assert names("hiwin", "40x20") == names("HIWIN", "40×20x4") == ["hiwin-40-20k4"]
+    assert names("40x40x6", "single") == ["rexroth-40x40x6-2-single", "rexroth-40x40x6-3-single"]
+    assert names("40x40x2") == ["rexroth-40x40x6-2-single"]
+    assert names("x40") == [row.name for row in catalogue().values() if row.lead == 0.04]
+    assert names("50x40x6.5-3") == ["rexroth-50x40x6.5-3-single"]
+    remedy = "leave them out to see all rows; sizes are diameter x lead in mm: 40x10, or 40x for all of 40 mm"
+    refused(ballscrew("catalogue", "list", "40x1"), f"catalogue: no row has these words (40x1) · {remedy}")
+
+
 def test_show(ballscrew):
     process = ballscrew("catalogue", "show", "HIWIN-40-20K4")
     assert process.returncode == 0, process.stderr

@@ -26,7 +26,9 @@ AsJson = Annotated[bool, typer.Option("--json", help="One JSON object, SI units.
 
 @app.command("list")
 def list_rows(
-    words: Annotated[list[str] | None, typer.Argument(help="Only rows with these words: rexroth 40x10.")] = None,
+    words: Annotated[
+        list[str] | None, typer.Argument(help="Only rows with these sizes and words: rexroth 40x10.")
+    ] = None,
     rows: Rows = None,
     as_json: AsJson = False,
     keep_going: KeepGoing = False,

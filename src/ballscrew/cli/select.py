@@ -30,7 +30,8 @@ def select(
         typer.Option("--rows", metavar="FILE", help="A table of screws of your own, .csv or .xlsx, for the catalogue."),
     ] = None,
     words: Annotated[
-        str | None, typer.Option("--filter", metavar="WORDS", help='Only rows with these words: "rexroth 40x".')
+        str | None,
+        typer.Option("--filter", metavar="WORDS", help='Only rows with these sizes and words: "rexroth 40x".'),
     ] = None,
     objectives: Objectives = None,
     holds: Annotated[bool, typer.Option("--holds", help="Only candidates of which no check fails.")] = False,

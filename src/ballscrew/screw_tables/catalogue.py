@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
+import math
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -59,6 +61,8 @@ COLUMNS = (
     _column("log"),
     _column("source"),
 )
+#: A word of sizes: diameter x lead, perhaps one of them alone, perhaps the ball diameter or the turns.
+_SIZES = re.compile(r"(?=.*\d)(\d+(?:\.\d+)?)?[x×](\d+(?:\.\d+)?)?(?:[x×](\d+(?:\.\d+)?))?")
 #: Preloads of the kinds of nut, as catalogues have them.
 EXAMPLE_PRELOADS: Mapping[str, str] = {"double": "7 %", "offset-lead": "7 %", "oversize-balls": "5 %"}
 
@@ -152,16 +156,38 @@ def _called_by_sizes(values: Mapping[str, Any]) -> str:
 
 
 def chosen(rows: Mapping[str, CatalogueRow], words: str, file: Path | None = None) -> list[CatalogueRow]:
-    """The rows that have all these words in name, source or kind of nut; a fault names the file they are of."""
-    found = [
-        row
-        for row in rows.values()
-        if all(word in f"{row.name} {row.source} {row.nut}".casefold() for word in words.casefold().split())
-    ]
+    """The rows that have all these words; a fault names the file they are of.
+
+    A word of sizes is nominal diameter x lead in mm, then the ball diameter or the turns: ``40x``, ``40x10``, ``x10``,
+    ``40x10x6``. Any other word stands in name, source or kind of nut.
+    """
+    asked = words.casefold().split()
+    found = [row for row in rows.values() if all(_has(row, word) for word in asked)]
     if not found:
         where = "catalogue" if file is None else file.name
-        raise InputError(Fault(where, "no row has these words", words, "leave them out to see all rows"))
+        remedy = "leave them out to see all rows"
+        if any(map(_SIZES.fullmatch, asked)):
+            remedy += "; sizes are diameter x lead in mm: 40x10, or 40x for all of 40 mm"
+        raise InputError(Fault(where, "no row has these words", words, remedy))
     return found
+
+
+def _has(row: CatalogueRow, word: str) -> bool:
+    """Test whether a row has a word: as its sizes where it is one of sizes, else in its texts."""
+    sizes = _SIZES.fullmatch(word)
+    if sizes is None:
+        return word in f"{row.name} {row.source} {row.nut}".casefold()
+    diameter, lead, last = (None if size is None else float(size) for size in sizes.groups())
+    return (
+        _is(diameter, 1e3 * row.nominal_diameter)
+        and _is(lead, 1e3 * row.lead)
+        and (_is(last, 1e3 * row.ball_diameter) or _is(last, row.turns))
+    )
+
+
+def _is(asked: float | None, value: float) -> bool:
+    """Test whether a size is the one that is asked for, if any is."""
+    return asked is None or math.isclose(asked, value, rel_tol=1e-9)
 
 
 def named(rows: Mapping[str, CatalogueRow], name: str, where: str = "", file: str | Path | None = None) -> CatalogueRow:
