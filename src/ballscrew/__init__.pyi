@@ -25,6 +25,7 @@ from ballscrew.components.nut import SingleNut as SingleNut
 from ballscrew.components.nut_losses import Seals as Seals
 from ballscrew.components.operating_state import OperatingState as OperatingState
 from ballscrew.components.screw import BallScrew as BallScrew
+from ballscrew.errors import ImplausibleInput as ImplausibleInput
 from ballscrew.errors import InputError as InputError
 from ballscrew.evaluation.derivatives import derivatives as derivatives
 from ballscrew.evaluation.evaluator import evaluator as evaluator

@@ -102,6 +102,13 @@ class InputError(ValueError):
         return lines
 
 
+class ImplausibleInput(UserWarning):
+    """Plain numbers of a part that are possible, and that no ball screw has: a lead of 10, which is 10 m.
+
+    It is said where a program makes the part. Arrays are never warned of; results name them in their ``warnings``.
+    """
+
+
 def nearest(word: str, known: Iterable[str], most: int | None = None) -> str:
     """``did you mean "…"?`` for the closest known word, else the list of known words, ``most`` of them at most."""
     candidates = list(known)

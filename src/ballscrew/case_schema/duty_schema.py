@@ -72,7 +72,7 @@ def duty_sections() -> Mapping[str, type[BaseModel]]:
         "axis": section_of(
             "Axis", {name: q for name, q in axis.items() if name != "counterweight"}, Axis, required=True,
             counterweight=(
-                Annotated[Any, BeforeValidator(read_counterweight), WithJsonSchema(weight)],
+                Annotated[Any, BeforeValidator(read_counterweight), WithJsonSchema(weight), axis["counterweight"]],
                 Field(default=None),
             ),
             brake_holds=(_flag("whether a brake holds the axis in rests, and the motor gives no torque there"), None),

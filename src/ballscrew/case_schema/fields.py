@@ -231,7 +231,7 @@ def json_of(quantity: Quantity, default: Any, may_vary: bool = False) -> dict[st
 def _field(quantity: Quantity, default: Any, shown: Any, may_vary: bool) -> tuple[Any, Any]:
     read = BeforeValidator(functools.partial(si_value, quantity=quantity, may_vary=may_vary))
     kind = int if quantity.info.whole else float
-    return Annotated[kind, read, WithJsonSchema(json_of(quantity, shown, may_vary))], Field(default=default)
+    return Annotated[kind, read, WithJsonSchema(json_of(quantity, shown, may_vary)), quantity], Field(default=default)
 
 
 def section_of(

@@ -140,7 +140,7 @@ def sections() -> Mapping[str, type[BaseModel]]:
         "operation": section_of(
             "Operation", {name: q for name, q in fields_of(OperatingState).items() if q is not turning},
             OperatingState, required=True, uncertain=fields_of(OperatingState),
-            screw_speed=(Annotated[Any, BeforeValidator(read_speed), WithJsonSchema(speed)], ...),
+            screw_speed=(Annotated[Any, BeforeValidator(read_speed), WithJsonSchema(speed), turning], ...),
         ),
         "model": section_of(
             "Model", fields_of(FrictionModel), FrictionModel, required=False, uncertain=fields_of(FrictionModel),
@@ -154,7 +154,9 @@ def sections() -> Mapping[str, type[BaseModel]]:
             uncertain=NUT_FIELDS,
             type=(_one_of(NUTS, "kind of nut"), None),
             spacer_balls=(spacers, None),
-            preload=(Annotated[Any, BeforeValidator(read_preload), WithJsonSchema(preload)], None),
+            preload=(
+                Annotated[Any, BeforeValidator(read_preload), WithJsonSchema(preload), NUT_FIELDS["preload"]], None,
+            ),
         ),
         "bodies": section_of(
             "Bodies", fields_of(Bodies), Bodies, required=False,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -16,7 +17,7 @@ from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import BallScrew
 from ballscrew.friction.calibrations import Calibration
 from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.plausibility import implausible, named_parts
+from ballscrew.friction.plausibility import IMPLAUSIBLE, implausible, named_parts
 from ballscrew.motion.profiles import Motion
 from ballscrew.records import Record
 from ballscrew.screw_tables.nut_kinds import LISTED
@@ -88,6 +89,8 @@ class Case(Displayed):
     travels: bool = False
     #: Whether the file gives the speed of the nut: of another lead, it is another speed of the screw.
     speed_of_nut: bool = False
+    #: Warnings of numbers that the file writes so that they could be others (:mod:`ballscrew.cases.spelling`).
+    doubtful_numbers: Sequence[Record] = ()
     #: The bearings of the shaft by their place on it.
     bearings: Mapping[str, MountedBearing] = dataclasses.field(default_factory=dict[str, MountedBearing])
     #: Distributions of numbers of bearings and guides that the file gives, by section and field.
@@ -108,6 +111,31 @@ class Case(Displayed):
         return {"nut_outer_diameter": listed, "nominal_diameter": row.nominal_diameter}
 
     def implausible(self) -> list[Record]:
-        """A warning for each input that no ball screw has."""
+        """A warning for each input that no ball screw has, and :attr:`doubts`."""
         parts = named_parts(self.model, self.screw, self.lubricant, operation=self.operation)
-        return units.in_display_units_of(implausible(parts))
+        return [*units.in_display_units_of(implausible(parts)), *self.doubts]
+
+    @property
+    def doubts(self) -> list[Record]:
+        """Warnings that the parts cannot tell: numbers that could be others, balls beyond the turns of the row."""
+        return [*self.doubtful_numbers, *_too_many_balls(self.screw, self.row)]
+
+
+def _too_many_balls(screw: BallScrew, row: CatalogueRow | None) -> list[Record]:
+    """A warning of loaded balls that the turns of the row do not hold."""
+    if row is None:
+        return []
+    most = math.ceil(
+        row.turns * math.pi * screw.pitch_circle_diameter / screw.ball_diameter / math.cos(screw.lead_angle)
+    )
+    if screw.loaded_balls <= most:
+        return []
+    text = (
+        f"{screw.loaded_balls:g} loaded balls, and the {row.turns:g} turns of {row.name} hold {most}: check the number"
+    )
+    return [
+        Record(
+            id=IMPLAUSIBLE, subject="screw.loaded_balls", text=text, severity="warning", holds=False,
+            value=float(screw.loaded_balls), limit=float(most),
+        )
+    ]  # fmt: skip

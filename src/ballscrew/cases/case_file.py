@@ -33,8 +33,10 @@ from ballscrew.cases.inputs import inputs as inputs
 from ballscrew.cases.lubricants import lubricant_of
 from ballscrew.cases.named_calibration import calibrated_by_table, with_calibration
 from ballscrew.cases.provenance import references as references
+from ballscrew.cases.spelling import doubtful
 from ballscrew.components.materials import Lubricant, Material
 from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.ratings import rating_of
 from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.components.traits import traits_of
 from ballscrew.errors import Fault, InputError, closest, nearest
@@ -199,10 +201,17 @@ def build(
         given_surroundings=frozenset(tables.get("surroundings", {})),
         efficiency=efficiency,
         travels=travels,
+        doubtful_numbers=doubtful(tables, _rating(screw, made)),
         speed_of_nut=is_nut_speed(tables.get("operation", {}).get("screw_speed")),
         bearings=bearings,
         uncertain_supports=support_tables.distributions(sections),
     )
+
+
+def _rating(screw: BallScrew, made: _MadeScrew) -> float | None:
+    """The dynamic load rating of a screw, as listed or by its geometry; None where it has none."""
+    found = made.listed.get("dynamic_load_rating", float(rating_of(screw)))
+    return found if math.isfinite(found) else None
 
 
 def _beside(name: str, tables: Mapping[str, Any]) -> str:

@@ -29,6 +29,7 @@ from ballscrew.quantities import (
     Viscosity,
     fields_of,
 )
+from ballscrew.usual_ranges import warn_at_once
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -50,6 +51,7 @@ class Material(ByValue):
 
     def __post_init__(self) -> None:
         raise_if_any(faults_of("material", self))
+        warn_at_once("material", self)
 
 
 #: The numbers of an oil that its grade, or its data sheet, and its temperature set.
@@ -149,6 +151,7 @@ class Lubricant(ByValue):
                 object.__setattr__(self, name, value)
         numbers = {name: getattr(self, name) for name in OF_A_GRADE}
         object.__setattr__(self, "made_as", OilState(self.grade, self.temperature, sheet=self.sheet, **numbers))
+        warn_at_once("lubricant", self)
 
     def _moved_from(self, before: OilState) -> dict[str, Any]:
         """The numbers that change with the grade, the sheet or the temperature, each by the ratio of the nominal ones.

@@ -9,9 +9,11 @@ from typing import Annotated, Any, cast
 from ballscrew._arrays import ByValue, namespace
 from ballscrew.components.materials import Material
 from ballscrew.components.nut import Nut, NutParts, SingleNut
+from ballscrew.components.ratings import odd_preload
 from ballscrew.equations import geometry, hertz
 from ballscrew.errors import Fault, faults_of, is_concrete, raise_if_any, shown
 from ballscrew.quantities import Angle, Count, Info, Length, Mask, Pressure, Ratio
+from ballscrew.usual_ranges import warn_at_once
 
 STEEL = Material()
 SINGLE_NUT = SingleNut()
@@ -157,6 +159,7 @@ class BallScrew(ByValue):
             faults.append(Fault("screw.nut", "must be a nut", repr(self.nut), "give ballscrew.DoubleNut(preload=…)"))
         raise_if_any(faults)
         raise_if_any(self._misfits())
+        warn_at_once("screw", self, odd_preload)
 
     def _misfits(self) -> list[Fault]:
         """Faults between fields that are fine one by one."""
@@ -216,7 +219,17 @@ class BallScrew(ByValue):
         return self.ball_diameter / self.pitch_circle_diameter
 
     @property
-    def loaded_turns(self) -> Annotated[Ratio, Info("i_l", "turns that the loaded balls fill", usual=(0.02, 60.0))]:
+    def groove_pitch(
+        self,
+    ) -> Annotated[
+        Ratio,
+        Info("P_h/(N d_w)", "distance of neighbouring grooves / ball diameter, by lead and starts", usual=(1.0, 12.0)),
+    ]:
+        """Distance of neighbouring grooves along the screw, in ball diameters: shipped rows have 1.3 to 7."""
+        return self.lead / self.starts / self.ball_diameter
+
+    @property
+    def loaded_turns(self) -> Annotated[Ratio, Info("i_l", "turns that the loaded balls fill", usual=(0.02, 20.0))]:
         """Turns that the loaded balls fill, one touching the next, on a path without slope."""
         return self.loaded_balls * self.ball_diameter / (math.pi * self.pitch_circle_diameter)
 

@@ -35,16 +35,16 @@ def document(case: case_file.Case, found: Comparison) -> dict[str, Any]:
         "reasons": {reason: text for reason, text in NUT_REASONS.items() if reason in failing},
         "verdicts": documents(verdicts(found)),
         "checks": [],
-        "warnings": documents(warnings(found)),
+        "warnings": documents(warnings(case, found)),
         "provenance": {"version": __version__, "model": case.model.label, "references": case_file.references(case)},
         "rules": [rule._asdict() for rule in found.rules],
         "drag_torque": found.drag_torque,
     }
 
 
-def warnings(found: Comparison) -> list[Record]:
+def warnings(case: case_file.Case, found: Comparison) -> list[Record]:
     """The warnings of the case itself."""
-    return units.in_display_units_of(found.case.result.warning_records)
+    return [*units.in_display_units_of(found.case.result.warning_records), *case.doubts]
 
 
 def _row(row: Row) -> dict[str, Any]:

@@ -37,7 +37,7 @@ def document(case: Case, report: ServiceReport) -> dict[str, Any]:
             "preload": "N", "torque": TORQUE.unit, "rms": TORQUE.unit, "screw_speed": "rad/s", "temperature": "K",
             "ratio": "1",
         },
-        "warnings": documents(report.change.warning_records if report.change is not None else []),
+        "warnings": documents(report.warnings),
         "verdicts": documents(verdicts(case, report)),
         "checks": [],
         "provenance": {**of_case(case), "logs": _logs(report)},

@@ -32,7 +32,7 @@ def document(report: ChainReport) -> dict[str, Any]:
             **{quantity.name: quantity.unit for quantity in (LOAD, SPEED, FRICTION)},
         },
         "assumed": list(report.assumed),
-        "warnings": [],
+        "warnings": documents(report.case.implausible()),
         "verdicts": documents(report.verdicts),
         "checks": [],
         "provenance": provenance.of_case(report.case),

@@ -1,8 +1,6 @@
-"""Plausibility: inputs that are possible, and that no ball screw has.
+"""Plausibility: inputs that are possible, and that no ball screw has, of all parts of a configuration.
 
-Bounds that cannot be exceeded and usual ranges stand in the one annotation of a quantity
-(:class:`~ballscrew.quantities.Info`). The first are refused; outside the second, values are computed, and named in a
-warning.
+That of one part by itself is judged by the usual ranges of its quantities (:mod:`ballscrew.usual_ranges`).
 """
 
 from __future__ import annotations
@@ -13,14 +11,12 @@ from typing import Any
 import numpy as np
 
 from ballscrew.components.data_sheet import SHEET_TEMPERATURE, DataSheet
+from ballscrew.components.ratings import odd_preload
 from ballscrew.components.screw import MATERIALS, BallScrew
 from ballscrew.errors import shown
-from ballscrew.quantities import Quantity, quantities_of
 from ballscrew.records import Record
-
-#: The id of the warning, whose last part is its name.
-IMPLAUSIBLE = "inputs.implausible"
-_TEXT = "{meaning} {0} lies outside the usual {1} to {2}: check the number and its unit"
+from ballscrew.usual_ranges import IMPLAUSIBLE as IMPLAUSIBLE
+from ballscrew.usual_ranges import unusual
 
 _BELOW_POUR_POINT = (
     "oil at {0}, below its pour point {1}: it does not flow by itself, and its viscosity is a guess; "
@@ -62,18 +58,19 @@ def _parts_of_nut(screw: BallScrew) -> dict[str, Any]:
 def implausible(parts: Mapping[str, Any]) -> list[Record]:
     """A warning for each quantity of the parts that is somewhere outside its usual range, with the value farthest out.
 
-    Relations of fields, such as the lead angle, are quantities of the part as well. An oil outside the range of its
-    data sheet is among them.
+    Relations of fields, such as the lead angle, are quantities of the part as well. A preload that does not go with the
+    load rating, and an oil outside the range of its data sheet, are among them.
     """
-    lubricant = parts.get("lubricant")
+    lubricant, screw = parts.get("lubricant"), parts.get("screw")
     sheet = getattr(lubricant, "sheet", None)
+    odd = odd_preload(screw) if isinstance(screw, BallScrew) else []
     found = [
-        _record(f"{section}.{name}", quantity, value)
+        record
         for section, part in [*parts.items(), *([] if sheet is None else [("lubricant", sheet)])]
-        for name, quantity in quantities_of(type(part)).items()
-        if quantity.info.usual is not None and (value := _farthest_out(quantity, getattr(part, name))) is not None
+        for record in unusual(section, part)
+        if record.subject not in {one.subject for one in odd}
     ]
-    return [*found, *beyond_data_sheet(lubricant), *_grease_as_oil(lubricant, parts.get("model.inlet"))]
+    return [*found, *odd, *beyond_data_sheet(lubricant), *_grease_as_oil(lubricant, parts.get("model.inlet"))]
 
 
 def beyond_data_sheet(lubricant: Any) -> list[Record]:
@@ -140,35 +137,4 @@ def _of_sheet(name: str, template: str, value: float, limit: float) -> Record:
         unit="K",
         template=template,
         quantities=quantities,
-    )
-
-
-def _farthest_out(quantity: Quantity, values: Any) -> float | None:
-    """The value farthest outside the usual range, by its ratio to the end; None if all are within it."""
-    if values is None or quantity.info.usual is None:
-        return None
-    low, high = quantity.info.usual
-    numbers = np.asarray(values, dtype=float)
-    numbers = numbers[np.isfinite(numbers)]
-    least, most = numbers.min(initial=low), numbers.max(initial=high)
-    if least >= low and most <= high:
-        return None
-    return float(most if most > high and (least >= low or most / high > low / max(least, 1e-300)) else least)
-
-
-def _record(subject: str, quantity: Quantity, value: float) -> Record:
-    assert quantity.info.usual is not None
-    low, high = quantity.info.usual
-    template = _TEXT.replace("{meaning}", quantity.info.meaning)
-    return Record(
-        id=IMPLAUSIBLE,
-        subject=subject,
-        text=template.format(*(shown(number, quantity.unit) for number in (value, low, high))),
-        severity="warning",
-        holds=False,
-        value=value,
-        limit=high if value > high else low,
-        unit=quantity.unit,
-        template=template,
-        quantities=tuple((number, quantity) for number in (value, low, high)),
     )

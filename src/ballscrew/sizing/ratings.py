@@ -5,11 +5,10 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple, Protocol
 
+from ballscrew.components.ratings import RATING_CONFORMITY as RATING_CONFORMITY
+from ballscrew.components.ratings import dynamic_load_rating
 from ballscrew.equations import geometry, rating
 from ballscrew.quantities import Force, Ratio
-
-#: With this conformity the formulas of ISO3408-5 give the ratings of catalogues (HIWIN2016), whose grooves have 0.54.
-RATING_CONFORMITY = 0.52
 
 
 class Ratings(NamedTuple):
@@ -47,12 +46,8 @@ def ratings_of(row: Rated, rating_conformity: Ratio = RATING_CONFORMITY) -> Rati
     d_m, d_w, alpha = row.ball_circle, row.ball_diameter, row.contact_angle
     phi, f = row.lead_angle, rating_conformity
     # the standard leaves the lead out of the curvature
-    gamma = geometry.curvature_ratio(d_w, d_m, alpha, lead_angle=0.0)
-    f_c = rating.geometry_factor(rating.contact_angle_factor(alpha), rating.curvature_factor(gamma), f)
-    C_s = rating.screw_turn_rating(f_c, alpha, balls, d_w, phi)
-    C_i = rating.turn_rating(C_s, rating.turn_rating_ratio(gamma, f, f))
-    k_0 = rating.static_load_factor(gamma, f)
+    k_0 = rating.static_load_factor(geometry.curvature_ratio(d_w, d_m, alpha, lead_angle=0.0), f)
     return Ratings(
-        dynamic=float(rating.dynamic_load_rating(C_i, row.loaded_turns)),
+        dynamic=float(dynamic_load_rating(d_m, d_w, alpha, phi, balls, row.loaded_turns, f)),
         static=float(rating.static_load_rating(k_0, balls, row.loaded_turns, d_w, alpha, phi)),
     )

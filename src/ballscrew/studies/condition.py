@@ -72,7 +72,8 @@ def of_files(
         )  # fmt: skip
     except InputError as error:
         raise InputError(*(_with_option(fault) for fault in error.faults)) from None
-    return dataclasses.replace(found, notes=(*found.notes, *notes))
+    records = (*found.warning_records, *case.implausible())
+    return dataclasses.replace(found, notes=(*found.notes, *notes), warning_records=records)
 
 
 def _speed(case: Case, series: torque_series.TorqueSeries, options: Options, notes: list[str]) -> float | None:

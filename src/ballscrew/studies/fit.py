@@ -68,7 +68,8 @@ def fit(case: Case, log: TorqueLog, options: Options, done: Callable[[int, int],
         model = refit(options.free)
     except InputError as error:
         raise InputError(*(_with_option(fault) for fault in error.faults)) from None
-    warnings = [*constant_torque_missed(model, refit), *units.in_display_units_of(model.warning_records)]
+    of_model = units.in_display_units_of(model.warning_records)
+    warnings = [*constant_torque_missed(model, refit), *of_model, *case.doubts]
     if again:
         text = "the case was fitted to this very log before: its errors are not taken as priors"
         warnings.append(Record(id="fit.same_log", subject="priors", text=text, severity="warning", holds=False))

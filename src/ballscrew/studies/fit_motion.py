@@ -16,10 +16,11 @@ _OPTIONS = {"fit.free": "--free", "fit.seed": "--seed", "fit.carried_mass": "--c
 def fit(case: Case, log: MovingLog, test: MovingLog | None, options: MovingOptions) -> MotionFit:
     """Fit of a case to a moving log. Raises ``InputError`` that names options of the command line."""
     try:
-        return fit_motion(
+        found = fit_motion(
             case.model, case.screw, case.lubricant, log, options.free, carried_mass=options.carried_mass, test=test,
             keep_going=options.keep_going, seed=options.seed,
         )  # fmt: skip
     except InputError as error:
         faults = (dataclasses.replace(one, where=_OPTIONS.get(one.where, one.where)) for one in error.faults)
         raise InputError(*faults) from None
+    return dataclasses.replace(found, warning_records=(*found.warning_records, *case.implausible()))

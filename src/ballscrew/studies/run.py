@@ -135,7 +135,7 @@ class Run:
         except InputError:  # of a geometry that no standard has ratings for
             return []
         share = self.nut.preload / rating
-        if share <= LARGEST_PRELOAD_SHARE:
+        if share <= LARGEST_PRELOAD_SHARE or any(one.subject == "nut.preload" for one in self.case.implausible()):
             return []
         text = (
             f"preload {units.shown(self.nut.preload, NUT_FIELDS['preload'])} is {share:.3g} times "
@@ -151,9 +151,9 @@ class Run:
 
     @property
     def conditions(self) -> list[Record]:
-        """The warnings of the friction but starvation, which is a verdict, and a preload beyond the ratings."""
+        """The warnings of the friction but starvation, which is a verdict, those of the case, and a heavy preload."""
         found = [record for record in self.friction.warning_records if record.id != starvation.STARVED]
-        return [*units.in_display_units_of(found), *self._heavy_preload()]
+        return [*units.in_display_units_of(found), *self.case.doubts, *self._heavy_preload()]
 
     def _skid(self, moving: bool) -> list[Record]:
         share = self.rolling_share

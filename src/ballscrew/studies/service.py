@@ -13,6 +13,7 @@ from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import Fault, InputError
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Quantity, quantities_of
+from ballscrew.records import Record
 from ballscrew.service.estimate import PreloadEstimate
 from ballscrew.service.posterior import PRELOAD
 from ballscrew.service.preload_change import PreloadChange, preload_change
@@ -49,6 +50,13 @@ class ServiceReport:
     change: PreloadChange | None = None
     preload: PreloadEstimate | None = None
     reading: Reading | None = None
+    #: Warnings of the inputs of the case.
+    of_case: Sequence[Record] = ()
+
+    @property
+    def warnings(self) -> list[Record]:
+        """Warnings of the change, and of the inputs of the case."""
+        return [*(() if self.change is None else self.change.warning_records), *self.of_case]
 
     @property
     def estimates(self) -> dict[str, PreloadEstimate]:
@@ -88,7 +96,7 @@ def of_logs(
     except InputError as error:
         raise InputError(*(_with_option(fault) for fault in error.faults)) from None
     records = tuple(units.in_display_units_of(change.warning_records))
-    return ServiceReport(dataclasses.replace(change, warning_records=records))
+    return ServiceReport(dataclasses.replace(change, warning_records=records), of_case=case.implausible())
 
 
 def of_torque(case: Case, measured: Reading) -> ServiceReport:
@@ -102,7 +110,7 @@ def of_torque(case: Case, measured: Reading) -> ServiceReport:
         )  # fmt: skip
     except InputError as error:
         raise InputError(*(_with_option(fault) for fault in error.faults)) from None
-    return ServiceReport(preload=found, reading=measured)
+    return ServiceReport(preload=found, reading=measured, of_case=case.implausible())
 
 
 def distributions(case: Case) -> dict[str, Distribution]:

@@ -339,7 +339,7 @@ def implausible(case: Case, plan: Plan) -> list[Record]:
     """A warning for each input that no ball screw has, at some point of the sweep."""
     subject = Configuration(case.model, case.screw, case.lubricant)
     there = {name: np.asarray(value) for name, value in unvaried(case, plan).items()}
-    return units.in_display_units_of(subject.implausible({**there, **plan.axes}))
+    return [*units.in_display_units_of(subject.implausible({**there, **plan.axes})), *case.doubts]
 
 
 def starved(dataset: xr.Dataset) -> list[Record]:

@@ -53,7 +53,7 @@ def print_band(case: Case, report: BandReport) -> None:
             say(f"\n{listing.heading}", style)
         for entry in listing.entries:
             say(f"  {entry}", style)
-    for warning in warnings(report):
+    for warning in [*case.implausible(), *warnings(report)]:
         say(f"beware  {warning.text}", "yellow")
 
 

@@ -9,6 +9,7 @@ from rich.console import Console
 
 from ballscrew.case_schema.schema import LAWS, name_of_law
 from ballscrew.cases import case_file, descriptions
+from ballscrew.cases.spelling import THOUSANDS
 from ballscrew.documents.comparison import percent, verdicts, warnings
 from ballscrew.evaluation.comparison import Comparison, Row
 from ballscrew.friction.plausibility import IMPLAUSIBLE
@@ -78,8 +79,8 @@ def print_comparison(case: case_file.Case, found: Comparison) -> None:
         say(f"{PRINTED_MARK}  {PRINTED_WORDS}")
     if names := models_without_nut(case):
         say(f"left out: {', '.join(names)} and other laws of slip, which know no balls with four contacts")
-    for record in warnings(found):
-        if record.id == IMPLAUSIBLE:  # the others are in the table, by their letters
+    for record in warnings(case, found):
+        if record.id in (IMPLAUSIBLE, THOUSANDS):  # the others are in the table, by their letters
             say(f"beware  {record.name}: {record.text}", "yellow")
     for reason, letter in reason_letters(found).items():
         say(f"{letter}  {reason}: {NUT_REASONS[reason]}", "yellow")

@@ -9,6 +9,7 @@ from rich.console import Console
 
 from ballscrew import units
 from ballscrew.cases import case_file, descriptions
+from ballscrew.cases.spelling import THOUSANDS
 from ballscrew.cases.uncertain_inputs import Uncertain
 from ballscrew.documents.sensitivity import verdicts, warnings
 from ballscrew.friction.plausibility import IMPLAUSIBLE
@@ -83,7 +84,7 @@ def remarks(case: case_file.Case, report: SensitivityReport) -> list[str]:
     meaning = MEANING[report.result.method] + (f"; {LEFT}" if report.result.first_order else "")
     found = warnings(case, report)
     correlated = [one.text for one in found if one.id == "sensitivity.correlated"]
-    odd = [f"{one.name}: {one.text}" for one in found if one.id == IMPLAUSIBLE]
+    odd = [f"{one.name}: {one.text}" for one in found if one.id in (IMPLAUSIBLE, THOUSANDS)]
     return [meaning, *_assumed_inputs(report), method_and_effort(report.result), LAWS_STAY, *correlated, *odd]
 
 

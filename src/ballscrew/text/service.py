@@ -40,9 +40,9 @@ def print_service(case: Case, report: ServiceReport) -> None:
         console.print(_preloads(case, report))
     for cause in causes(report):
         say(cause, "dim")
+    for record in report.warnings:
+        say(f"{'beware' if record.severity == 'warning' else 'note'}  {record.text}", "yellow")
     if report.change is not None:
-        for record in report.change.warning_records:
-            say(f"{'beware' if record.severity == 'warning' else 'note'}  {record.text}", "yellow")
         others = verdicts(case, report)[1:]
         if others:
             before = "the case's" if report.change.new.fit is None else "the new log's"

@@ -26,6 +26,7 @@ def text(report: ChainReport) -> str:
         *_springs(report),
         "",
         *(record.text for record in report.verdicts),
+        *(f"beware  {record.name}: {record.text}" for record in report.case.implausible()),
         "",
         "assumed",
         *(f"  {line}" for line in report.assumed),

@@ -1,0 +1,174 @@
+"""A slip of a unit, a point or a count is named at once: by every command, and where Python makes a part."""
+
+import dataclasses
+import json
+import math
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import ballscrew as bs
+from ballscrew.cases import case_file
+from ballscrew.components.ratings import odd_preload, rating_of
+from ballscrew.sizing.catalogue import catalogue
+from ballscrew.sizing.ratings import ratings_of
+
+ROOT = Path(__file__).parents[2]
+AXIS = ROOT / "examples" / "vertical_axis.toml"
+FEED = ROOT / "examples" / "feed_drive.toml"
+SCREW = catalogue()["rexroth-40x10x6-6-double"].screw()
+
+#: Settings of the vertical axis, 40 x 20 of a rating of some 50 kN, and the id and subject of what is said of them.
+SLIPS = {
+    'nut.preload="3.000 N"': [("inputs.implausible", "nut.preload"), ("inputs.thousands", "nut.preload")],
+    'nut.preload="20 N"': [("inputs.implausible", "nut.preload")],
+    'nut.preload="3000 kN"': [("inputs.implausible", "nut.preload")],
+    "screw.loaded_balls=950": [
+        ("inputs.implausible", "screw.loaded_turns"),
+        ("inputs.implausible", "screw.loaded_balls"),
+    ],
+    "screw.loaded_balls=150": [("inputs.implausible", "screw.loaded_balls")],
+    'screw.lead="20 cm"': [("inputs.implausible", "screw.lead_angle")],
+    'screw.lead="10 cm"': [("inputs.implausible", "screw.groove_pitch")],
+}
+COMMANDS = {
+    "run": [],
+    "run with a band": ["--band", "--samples", "64"],
+    "check": [],
+    "compare": [],
+    "duty": [],
+    "warm-up": [],
+    "axis": [],
+    "sensitivity": ["--samples", "16"],
+}
+
+
+def said(records):
+    return [(r["id"], r["subject"]) for r in records if r["id"].startswith("inputs.")]
+
+
+@pytest.mark.parametrize("setting", SLIPS)
+def test_a_slip_is_named(setting):
+    found = case_file.load(AXIS, [setting]).implausible()
+    assert [(record.id, record.subject) for record in found] == SLIPS[setting]
+    assert {record.severity for record in found} == {"warning"}
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_names_it(ballscrew, command):
+    options = [AXIS, "--set", 'nut.preload="3.000 N"', *COMMANDS[command]]
+    found = ballscrew(command.partition(" ")[0], *options, "--json")
+    records = json.loads(found.stdout)["warnings"]
+    assert said(records) == SLIPS['nut.preload="3.000 N"']
+    text = " ".join(ballscrew(command.partition(" ")[0], *options).stdout.split())
+    for record in records:
+        if record["id"].startswith("inputs."):
+            assert record["text"] in text
+
+
+def test_a_measured_torque_comes_with_it(ballscrew):
+    odd = ["--set", 'nut.preload="3.000 N"', "--json"]
+    service = ballscrew("service", "--case", AXIS, "--torque", "0.35 N m", "--speed", "100 rpm", *odd)
+    assert said(json.loads(service.stdout)["warnings"]) == SLIPS['nut.preload="3.000 N"']
+
+
+def test_a_point_before_three_digits_is_named_where_the_other_number_is_plausible():
+    def doubts(*settings):
+        return [r for r in case_file.load(AXIS, settings).implausible() if r.id == "inputs.thousands"]
+
+    (record,) = doubts('operation.axial_load="3.000 N"')
+    assert record.text == '"3.000 N" is read as 3 N: write "3000 N" if that is meant, else "3 N"'
+    assert (record.value, record.limit, record.unit) == (3.0, 3000.0, "N")
+    assert [r.subject for r in doubts('operation.screw_speed="1.500 rpm"')] == ["operation.screw_speed"]
+    assert [r.subject for r in doubts('limits.running_time="20.000 h"')] == ["limits.running_time"]
+    assert [r.subject for r in doubts('axis.mass="1.250 kg"')] == ["axis.mass"]
+
+
+@pytest.mark.parametrize(
+    "setting",
+    [
+        'screw.ball_diameter="6.350 mm"',
+        'screw.lead="20.000 mm"',
+        'screw.pitch_circle_diameter="1.625 in"',
+        'screw.ball_roughness="0.080 um"',
+        'axis.mass="0.300 kg"',
+        'axis.mass="400.000 kg"',
+        'lubricant.temperature="40.000 degC"',
+        'installation.unsupported_length="1.250 m"',
+        'operation.axial_load="4000.000 N"',
+        'operation.axial_load="900.000 N"',
+        'operation.screw_speed="600.000 rpm"',
+        'operation.axial_load="3.0000 N"',
+        'operation.axial_load="3 N"',
+        'operation.axial_load="1.500 kN"',
+        'nut.preload="0.000 N"',
+    ],
+)
+def test_decimals_as_other_programs_write_them_pass(setting):
+    assert case_file.load(AXIS, [setting]).implausible() == []
+
+
+def test_segments_are_read_as_well():
+    text = AXIS.read_text(encoding="utf-8").replace('duration = "3 s"', 'duration = "3.000 s"')
+    tables = case_file.case_text.toml(text)
+    assert [r.subject for r in case_file.build(tables, folder=AXIS.parent).implausible()] == [
+        "motion.segment 2.duration"
+    ]
+
+
+# -- in Python --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("make", "subject"),
+    [
+        (lambda: dataclasses.replace(SCREW, lead=10), "screw.lead"),
+        (lambda: dataclasses.replace(SCREW, lead=0.1), "screw.groove_pitch"),
+        (lambda: dataclasses.replace(SCREW, loaded_balls=950), "screw.loaded_turns"),
+        (lambda: bs.DoubleNut(preload=3), "nut.preload"),
+        (lambda: dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=30.0)), "nut.preload"),
+        (lambda: bs.Material(206.0), "material.young_modulus"),
+    ],
+)
+def test_plain_numbers_are_warned_of_where_they_are_written(make, subject):
+    with pytest.warns(bs.ImplausibleInput, match=subject.replace(".", r"\.")) as found:
+        make()
+    assert {record.filename for record in found} == {__file__}
+
+
+def test_the_model_says_it_too():
+    friction = bs.FrictionModel.reference()
+    oil = bs.Lubricant.from_grade("ISO VG 100")
+    odd = friction(dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=30.0)), oil, axial_load=1e3, screw_speed=10.0)
+    assert [(r.id, r.subject) for r in odd.warning_records if r.id.startswith("inputs.")] == [
+        ("inputs.implausible", "nut.preload")
+    ]
+
+
+def test_arrays_and_what_the_package_makes_are_never_warned_of():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", bs.ImplausibleInput)
+        dataclasses.replace(SCREW, lead=np.array([0.01, 10.0]))
+        bs.DoubleNut(preload=np.array([3.0, 3e3]))
+        case_file.load(FEED, ['nut.type="double"', 'nut.preload="3 N"'])
+        bs.sweep(
+            bs.FrictionModel.corrected(), SCREW, bs.Lubricant.from_grade("ISO VG 100"),
+            lead=[0.01, 10.0], axial_load=1e3, screw_speed=10.0,
+        )  # fmt: skip
+
+
+def test_of_arrays_the_preload_farthest_out():
+    preloads = np.array([0.0, 3.0, 3e3, 30.0])
+    with np.errstate(all="raise"):
+        (record,) = odd_preload(dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=preloads)))
+    assert record.value == pytest.approx(3.0 / float(rating_of(SCREW)), rel=1e-12)
+    assert odd_preload(dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=np.array([0.0, 3e3])))) == []
+
+
+def test_the_rating_of_a_screw_is_that_of_its_row():
+    for row in catalogue().values():
+        # balls of a screw are whole, and turns of a row are not: half a ball in some 20 or more, to the power of 0.86
+        assert float(rating_of(row.screw())) == pytest.approx(ratings_of(row).dynamic, rel=0.86 * 0.5 / 20)
+        assert math.isfinite(float(rating_of(row.screw())))
