@@ -13,7 +13,7 @@ import math
 import numbers
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, ParamSpec, TypeVar, get_type_hints
+from typing import Any, ParamSpec, TypeVar, cast, get_type_hints
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from ballscrew.quantities import Quantity, carries_unit, fields_of, in_si, out_o
 
 P = ParamSpec("P")
 R = TypeVar("R")
+T = TypeVar("T")
 
 #: At most this many lines are printed; the last one then says how many more there are.
 LINES_AT_MOST = 10
@@ -188,6 +189,26 @@ def without_unit(where: str, value: Any, unit: str | None) -> Any | Fault:
         return Fault(where, "wrong unit", f"{value}: {error}", remedy)
 
 
+def names_keywords(cls: type[T]) -> type[T]:
+    """Let the constructor of a dataclass say which keyword was probably meant by one that it does not have."""
+    made = cls.__init__
+
+    @functools.wraps(made)
+    def __init__(self: Any, *args: Any, **kwargs: Any) -> None:
+        _refuse_unknown(cls.__name__, kwargs, cast("Any", cls).__dataclass_fields__)
+        made(self, *args, **kwargs)
+
+    cls.__init__ = __init__
+    return cls
+
+
+def _refuse_unknown(name: str, given: Iterable[str], known: Iterable[str]) -> None:
+    """Raise the ``TypeError`` of a keyword that is not known, with the one that was probably meant."""
+    for word in given:
+        if word not in known:
+            raise TypeError(f"{name}() has no keyword {word!r}: {nearest(word, known)}")
+
+
 def accepts_units(section: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
     """Convert arguments that are quantities of pint to the SI units of the parameters' annotations; a decorator.
 
@@ -200,8 +221,14 @@ def accepts_units(section: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
             hints = get_type_hints(function, include_extras=True)
             return inspect.signature(function), {name: unit_of(hint) for name, hint in hints.items()}
 
+        code = inspect.unwrap(function).__code__
+        named = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
+        keywords = None if code.co_flags & inspect.CO_VARKEYWORDS else frozenset(named) - {"self", "cls"}
+
         @functools.wraps(function)
         def converting(*args: P.args, **kwargs: P.kwargs) -> R:
+            if keywords is not None and not keywords.issuperset(kwargs):
+                _refuse_unknown(function.__qualname__, kwargs, sorted(keywords))
             if not any(map(carries_unit, args)) and not any(map(carries_unit, kwargs.values())):
                 return function(*args, **kwargs)
             declared, units = signature()

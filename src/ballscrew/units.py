@@ -58,6 +58,11 @@ USUAL: Mapping[str, Sequence[str]] = {
 _NAMED = 3
 #: Spellings of revolutions per minute, without blanks.
 PER_MINUTE = ("1/min", "/min", "U/min", "r/min", "min-1", "min^-1", "min⁻¹", "RPM")
+#: Spellings of units of a torque, and how they are read.
+TORQUES: Mapping[str, str] = {
+    "Nm": "N m", "Nmm": "N mm", "Ncm": "N cm", "mNm": "mN m", "kNm": "kN m", "N.m": "N m", "N-m": "N m",
+    "in-lb": "in lbf", "lb-in": "in lbf", "ft-lb": "ft lbf", "lb-ft": "ft lbf",
+}  # fmt: skip
 #: Digits in groups of three: between blanks or apostrophes, points or commas; the other mark is that of decimals.
 _GROUPED = (
     re.compile(r"([-+]?\d{1,3}(?:[' \u00a0\u2009\u202f]\d{3})+)(?:[.,](\d*))?"),
@@ -312,6 +317,9 @@ def _converted(where: str, number: float, unit: str, quantity: Quantity, given: 
 
     if quantity.unit == "rad/s" and unit.replace(" ", "") in PER_MINUTE:
         unit = "rpm"
+    if quantity.unit.startswith("N m"):  # also of a torque for each ampere
+        torque, slash, other = unit.partition("/")
+        unit = f"{TORQUES.get(torque.strip(), torque)}{slash}{other}"
     if quantity.unit == "m/s^2" and unit == "g":  # of an acceleration no gram
         unit = "gravity"
     try:

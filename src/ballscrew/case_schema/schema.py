@@ -61,6 +61,13 @@ def coefficients_of(slot: str, name: str) -> Mapping[str, Quantity]:
     return fields_of(law) if isinstance(law, type) else {}
 
 
+def places_of(field: str) -> list[str]:
+    """The places of a case file in which a field may stand: ``model.inlet.inlet_film_ratio``."""
+    of_sections = [f"{name}.{field}" for name, model in sections().items() if field in model.model_fields]
+    of_laws = [f"{_place(s)}.{field}" for s in _SLOTS if any(field in coefficients_of(s, name) for name in _SLOTS[s])]
+    return [place for place in [*of_sections, *of_laws] if not place.startswith("screw_of_row")]
+
+
 def name_of_law(slot: str, law: Any) -> str:
     """Name of a law in the case file: one from outside ``module:name``."""
     named = (name for name, known in _SLOTS[slot].items() if known is law or known is type(law))

@@ -23,6 +23,7 @@ from ballscrew.case_schema.schema import (
     NUT_TABLES,
     law_of,
     name_of_law,
+    places_of,
 )
 from ballscrew.case_schema.sections import Sections, validated_sections
 from ballscrew.case_schema.support_schema import SUPPORT_TABLES
@@ -44,7 +45,7 @@ from ballscrew.friction.calibrations import calibration as named_calibration
 from ballscrew.friction.law_names import coefficients
 from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import fields_of
-from ballscrew.screw_tables.nut_kinds import LISTED
+from ballscrew.screw_tables.nut_kinds import LISTED, LOSSES
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.thermal.written_bands import written_bands
 from ballscrew.units import in_display_units
@@ -89,7 +90,9 @@ def override(tables: dict[str, Any], settings: Sequence[str]) -> dict[str, Any]:
         path, equals, text = setting.encode("utf-8", "replace").decode().partition("=")
         *parents, field = path.strip().split(".")
         if not equals or not parents or not all([*parents, field]):
-            faults.append(Fault("--set", "is not section.field=value", setting, 'write operation.axial_load="4 kN"'))
+            places = places_of(path.strip()) if equals else []
+            remedy = f"write {places[0]}={text}" if places else 'write operation.axial_load="4 kN"'
+            faults.append(Fault("--set", "is not section.field=value", setting, remedy))
             continue
         table: dict[str, Any] = tables
         for parent in parents:
@@ -135,7 +138,7 @@ def build(
     """
     tables, chosen = with_calibration(tables, calibration), () if calibration is None else ("model.calibration",)
     unknown = [name for name in tables if name not in SECTIONS]
-    faults = [Fault(name, "unknown section", "", nearest(name, SECTIONS)) for name in unknown]
+    faults = [Fault(name, "unknown section", "", _meant(name, tables[name])) for name in unknown]
     misspelt = {closest(name, SECTIONS) for name in unknown}
     sections = validated_sections(tables)
     efficiency = duty_tables.efficiency(sections, model, moves, faults)
@@ -212,6 +215,15 @@ def _rating(screw: BallScrew, made: _MadeScrew) -> float | None:
     """The dynamic load rating of a screw, as listed or by its geometry; None where it has none."""
     found = made.listed.get("dynamic_load_rating", float(rating_of(screw)))
     return found if math.isfinite(found) else None
+
+
+def _meant(name: str, content: Any) -> str:
+    """The place that was probably meant: that of a law or a loss which stands by itself, or a section written alike."""
+    section = "model" if name in LAWS else "losses" if name in LOSSES else ""
+    if not section:
+        return nearest(name, SECTIONS)
+    inner = [f".{field}" for field in content] if isinstance(content, dict) else [""]
+    return f"write {', '.join(f'{section}.{name}{field}' for field in inner)}"
 
 
 def _beside(name: str, tables: Mapping[str, Any]) -> str:

@@ -24,6 +24,9 @@ _DEEPEST_DESIGN = 5
 #: Whole numbers up to this are the same in every program that reads JSON.
 _LARGEST_EXACT = 2**53
 _START = 'start from "ballscrew catalogue show hiwin-40-20k4 --case"'
+_TWICE = "is given twice"
+_HEADER = re.compile(r"\s*\[([^\[\]]+)\]\s*(?:#.*)?")
+_KEY = re.compile(r"\s*([^=#\[]+?)\s*=")
 #: Strings of TOML, and what begins with # outside them; keys of too many parts, and other words. Its possessive parts
 #: keep the time in proportion to the text, also where a string has no end.
 _TOKEN = re.compile(
@@ -55,7 +58,11 @@ def tables_in(content: bytes, where: str) -> dict[str, Any]:
     try:
         tables = _json(text) if is_json else toml(text)
     except (ValueError, RecursionError) as error:
-        remedy = "write one JSON object" if is_json else _remedy(str(error), text)
+        if not is_json and (twice := _given_twice(where, str(error), text)) is not None:
+            raise InputError(twice) from None
+        remedy = _remedy(str(error), text)
+        if is_json:
+            remedy = "leave one of them out" if str(error).endswith(_TWICE) else "write one JSON object"
         raise InputError(Fault(where, f"is not {'JSON' if is_json else 'TOML'}", str(error), remedy)) from None
     if not tables:
         raise InputError(Fault(where, "is empty", "", _START))
@@ -125,7 +132,7 @@ def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for name, value in pairs:
         if name in found:
-            raise ValueError(f"{name[:40]} is given twice")
+            raise ValueError(f"{name[:40]} {_TWICE}")
         found[name] = value
     return found
 
@@ -154,6 +161,35 @@ def _leaves(value: Any) -> Iterator[Any]:
             yield from _leaves(inner)
     else:
         yield value
+
+
+def _given_twice(where: str, error: str, text: str) -> Fault | None:
+    """The fault of a table or a key that is given twice, with both lines; None for another error of TOML."""
+    if not re.match("Cannot (overwrite|declare|redefine|mutate)", error):
+        return None
+    seen: dict[tuple[str, str], int] = {}
+    table = ""
+    for number, line in enumerate(text.splitlines(), start=1):
+        header, key = _HEADER.fullmatch(line), _KEY.match(line)
+        if header is not None:
+            table, name = _bare(header[1]), ""
+        elif key is not None:
+            name = _bare(key[1])
+        else:
+            table = f"[[{number}" if line.lstrip().startswith("[[") else table  # each table of a list is one by itself
+            continue
+        first = seen.setdefault((table, name), number)
+        if first < number:
+            of_table = f"[{table}]" if table else "the file"
+            words = f'"{name}" of {of_table}' if name else of_table
+            remedy = "leave one of them out" if name else "put their keys into one"
+            return Fault(where, f"{words} {_TWICE}", f"lines {first} and {number}", remedy)
+    return None
+
+
+def _bare(key: str) -> str:
+    """A key without quotes and blanks."""
+    return re.sub(r"[\s\"']", "", key)
 
 
 def _remedy(error: str, text: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import re
 import tomllib
 from collections.abc import Mapping
 from importlib import resources
@@ -38,11 +39,18 @@ class Oils(dict[str, DataSheet]):
         self.file = file
 
     def __missing__(self, name: str) -> DataSheet:
-        raise InputError(Fault(self.file, "unknown oil", str(name), nearest(str(name), self, most=5)))
+        like = [known for known, sheet in self.items() if _is_consistency(str(name), sheet)]
+        remedy = f"greases of that consistency: {', '.join(like[:5])}" if like else nearest(str(name), self, most=5)
+        raise InputError(Fault(self.file, "unknown oil", str(name), remedy))
 
     def named(self, name: str) -> DataSheet:
         """The oil of that name, whatever its capitals."""
         return self[next((known for known in self if known.casefold() == name.casefold()), name)]
+
+
+def _is_consistency(name: str, sheet: DataSheet) -> bool:
+    """Test whether a name is that of a class of consistency, and a grease of that class."""
+    return re.sub(r"[\s_-]+", "-", name.casefold().strip()) in _consistency(sheet).split()
 
 
 def oils(path: str | Path | None = None) -> Oils:
@@ -123,14 +131,19 @@ def _model() -> Any:
 # -- for people -----------------------------------------------------------------------------------
 
 
+def _consistency(sheet: DataSheet) -> str:
+    """``nlgi-2``; of a grease between two classes both."""
+    return " ".join(f"nlgi-{one}" for one in sheet.nlgi.split("-") if one)
+
+
 def chosen(known: Oils, words: str) -> list[DataSheet]:
-    """The oils that have all these words in name, source, base oil or thickener."""
+    """The oils that have all these words in name, source, base oil, thickener or class of consistency (NLGI 2)."""
     found = [
         sheet
         for sheet in known.values()
         if all(
-            word in f"{sheet.name} {sheet.source} {sheet.base_oil} {sheet.thickener}".casefold()
-            for word in words.casefold().split()
+            word in f"{sheet.name} {sheet.source} {sheet.base_oil} {sheet.thickener} {_consistency(sheet)}".casefold()
+            for word in re.sub(r"\bnlgi[\s_-]*(?=\d)", "nlgi-", words.casefold()).split()
         )
     ]
     if not found:

@@ -13,7 +13,7 @@ from ballscrew.components.oil_grades import TEMPERATURE as TEMPERATURE
 from ballscrew.components.oil_grades import OilState, oil_of_grade, oil_of_sheet
 from ballscrew.components.oil_grades import grades as grades
 from ballscrew.components.oil_grades import nominal_oil as nominal_oil
-from ballscrew.errors import Fault, InputError, accepts_units, faults_of, raise_if_any, without_unit
+from ballscrew.errors import Fault, InputError, accepts_units, faults_of, names_keywords, raise_if_any, without_unit
 from ballscrew.quantities import (
     Conductivity,
     Density,
@@ -32,6 +32,7 @@ from ballscrew.quantities import (
 from ballscrew.usual_ranges import warn_at_once
 
 
+@names_keywords
 @dataclasses.dataclass(frozen=True, eq=False)
 class Material(ByValue):
     """An elastic material. The default is bearing steel: E′ = 226 GPa against itself.
@@ -65,6 +66,7 @@ INPUTS_OF_SHEET = {
 }
 
 
+@names_keywords
 @dataclasses.dataclass(frozen=True, eq=False)
 class Lubricant(ByValue):
     """An oil at the temperature of the contact.

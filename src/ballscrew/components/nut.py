@@ -16,7 +16,7 @@ from ballscrew.errors import (
     accepts_units,
     faults_of,
     is_concrete,
-   
+    names_keywords,
     raise_if_any,
 )
 from ballscrew.quantities import Count, Force, Info, Length, Torque, fields_of
@@ -55,6 +55,7 @@ class _Sized(Protocol):
     def contact_angle(self) -> Any: ...
 
 
+@names_keywords
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class Bodies(ByValue):
     """The bodies of screw and nut between the balls: bars, and tubes that swell, and where the load enters them.
@@ -131,6 +132,7 @@ class Deviations(NamedTuple):
         return cls(ball_diameter * generator.standard_normal(balls), lead * generator.standard_normal(balls))
 
 
+@names_keywords
 @dataclasses.dataclass(frozen=True, eq=False)
 class Scatter(ByValue):
     """Scatter of balls and lead as standard deviations; one seed gives the same balls every time.
@@ -241,6 +243,7 @@ class NutParts(ByValue):
         return self.deviations.of(self.halves * int(balls))
 
 
+@names_keywords
 @dataclasses.dataclass(frozen=True, eq=False)
 class SingleNut(NutParts):
     """One nut body without preload: each ball touches one flank of screw and nut, and there may be play.
@@ -266,6 +269,7 @@ class SingleNut(NutParts):
         return not self.angle_under_load
 
 
+@names_keywords
 @dataclasses.dataclass(frozen=True, eq=False)
 class OversizeBallNut(NutParts):
     """One nut body, preloaded by balls too big for its grooves: each touches both flanks of both, four contacts.
@@ -303,6 +307,7 @@ class OversizeBallNut(NutParts):
         return dataclasses.replace(self, **{field: value, **({other: None} if other else {})})
 
 
+@names_keywords
 @dataclasses.dataclass(frozen=True, eq=False)
 class DoubleNut(NutParts):
     """Two nut bodies braced against each other: the balls of each touch one flank, opposite to the other's.
@@ -320,6 +325,7 @@ class DoubleNut(NutParts):
         warn_at_once("nut", self)
 
 
+@names_keywords
 @dataclasses.dataclass(frozen=True, eq=False)
 class OffsetLeadNut(NutParts):
     """One nut body whose lead has an offset in its middle, which braces the balls before and behind it.

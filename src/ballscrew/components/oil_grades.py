@@ -111,6 +111,11 @@ def oil_of_grade(grade: str, temperature: Temperature) -> OilState:
 
 def _nearest_grade(grade: str, oils: Iterable[str]) -> str:
     """A remedy with the grade whose number is nearest, by their ratio; by its letters where there is no number."""
+    if _grade_key(grade).startswith("nlgi"):
+        return (
+            f'that is the consistency of a grease, and friction follows its base oil: see "ballscrew oils list {grade}"'
+            ', and write {lubricant.oil}"…", or its kinematic_viscosity_40 and kinematic_viscosity_100'
+        )
     number = re.fullmatch(r"(?:iso)?(?:vg)?0*([1-9]\d{0,5})", _grade_key(grade))
     numbers = {float(name.rpartition(" ")[2]): name for name in oils if name.startswith("ISO VG ")}
     if number is None or not numbers:

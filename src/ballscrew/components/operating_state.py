@@ -6,10 +6,11 @@ import dataclasses
 from typing import Annotated
 
 from ballscrew._arrays import ByValue
-from ballscrew.errors import faults_of, raise_if_any
+from ballscrew.errors import faults_of, names_keywords, raise_if_any
 from ballscrew.quantities import AngularSpeed, Force, Info, Temperature
 
 
+@names_keywords
 @dataclasses.dataclass(frozen=True, eq=False)
 class OperatingState(ByValue):
     """Operating state: axial load and speed of the screw with their signs, and the temperature of the oil.

@@ -11,7 +11,7 @@ from ballscrew.components.materials import Material
 from ballscrew.components.nut import Nut, NutParts, SingleNut
 from ballscrew.components.ratings import odd_preload
 from ballscrew.equations import geometry, hertz
-from ballscrew.errors import Fault, faults_of, is_concrete, raise_if_any, shown
+from ballscrew.errors import Fault, faults_of, is_concrete, names_keywords, raise_if_any, shown
 from ballscrew.quantities import Angle, Count, Info, Length, Mask, Pressure, Ratio
 from ballscrew.usual_ranges import warn_at_once
 
@@ -30,6 +30,7 @@ class Raceway(ByValue):
     material: Material
 
 
+@names_keywords
 @dataclasses.dataclass(frozen=True, eq=False)
 class BallScrew(ByValue):
     """A ball screw: shaft, nut and balls (ISO 3408-1).

@@ -59,7 +59,7 @@ from ballscrew.components.outside_laws import usable
 from ballscrew.components.screw import BallScrew
 from ballscrew.components.traits import traits_of
 from ballscrew.equations.transmission import contact_load as equal_contact_load
-from ballscrew.errors import Fault, accepts_units, faults_of, raise_if_any
+from ballscrew.errors import Fault, accepts_units, faults_of, names_keywords, raise_if_any
 from ballscrew.friction.law_names import fault_of_law
 from ballscrew.friction.loaded_balls import balls_under, loads_of, row_of_balls
 from ballscrew.friction.plausibility import named_parts
@@ -74,6 +74,7 @@ from ballscrew.solvers.slip import Slip, SlipLaw
 PAPER_FRICTION = ZhouHoeprich()
 
 
+@names_keywords
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class FrictionModel(ByValue):
     """A friction model of a ball screw: one law in each slot, and three numbers.

@@ -143,7 +143,7 @@ def _number(
     """A number above zero, or of at least ``least``; None where none is given or it is a fault."""
     if text is None:
         return None
-    found = units.parse(option, text.replace("Nm", "N m"), quantity)
+    found = units.parse(option, text, quantity)
     if isinstance(found, Fault):
         faults.append(found)
         return None

@@ -69,14 +69,14 @@ def reading(torque: str, speed: str, temperature: str | None) -> Reading:
     faults: list[Fault] = []
 
     def number(option: str, text: str, quantity: Quantity) -> float:
-        found = units.parse(option, text.replace("Nm", "N m"), quantity)
+        found = units.parse(option, text, quantity)
         if isinstance(found, Fault):
             faults.append(found)
             return 0.0
         return found
 
     deviation = 0.0
-    uncertain = parse_uncertain(torque.replace("Nm", "N m"), TORQUE)
+    uncertain = parse_uncertain(torque, TORQUE)
     if isinstance(uncertain, Fault):
         faults.append(Fault("--torque", uncertain.problem, uncertain.given or torque, uncertain.remedy))
         value = 0.0

@@ -45,6 +45,10 @@ from ballscrew.sweeps.stream import stream
 from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.uncertainty.bands import ENDS
 
+#: A range as people write it in prose: ``10-100 rpm``, ``10 to 100 rpm``, ``10..100 rpm``.
+_FROM_TO = re.compile(
+    r"(?P<start>[-+]?\d+(?:\.\d+)?)\s*(?:-|–|—|…|\.{2,3}|to|bis)\s*(?P<stop>\d+(?:\.\d+)?)\s*(?P<unit>1\s*/.*|[^\d\s.].*)?"
+)
 _RANGE = re.compile(r"(?P<start>[^:]+):(?P<stop>[^:]+):\s*(?P<count>\d{1,18})\s*(?P<unit>1\s*/.*|[^\d\s.].*)?")
 _SECTIONS = ("operation", "screw", "lubricant", "model", "nut")
 #: A folder that is filled block by block, so that a sweep need not fit into memory.
@@ -234,6 +238,10 @@ def _axis(where: str, text: str, quantity: Quantity) -> np.ndarray | Fault:
     """``"100:4000:14 N"`` (start:stop:count) or ``"100, 200, 500 N"`` in SI, or the first fault in it."""
     text = text.strip().strip("\"'")
     span = _RANGE.fullmatch(text)
+    if span is None and (ends := _FROM_TO.fullmatch(text)):
+        unit = f" {ends['unit']}" if ends["unit"] else _blank_unit(quantity)
+        remedy = f'write "{ends["start"]}:{ends["stop"]}:5{unit}" for five values, ends included'
+        return Fault(where, "is not start:stop:count", text, remedy)
     if span is None and ":" in text:
         return Fault(
             where, "is not start:stop:count", text, f'write "1:10:4{_blank_unit(quantity)}", count a whole number'

@@ -35,8 +35,7 @@ _BRACKETED = re.compile(r"(?P<name>.*?)[\s_]*[\[(](?P<unit>[^\[\]()]*)[\])]")
 _WORD = re.compile(r"[^\W_]+")
 #: Units as headings have them, and as they stand in case files.
 _UNITS = {
-    "Nm": "N m", "Nmm": "N mm", "Ncm": "N cm", "mNm": "mN m", "kNm": "kN m", "N.m": "N m", "N-m": "N m",
-    "in-lb": "in lbf", "lb-in": "in lbf", "ft-lb": "ft lbf", "lb-ft": "ft lbf",
+    **units.TORQUES,
     **dict.fromkeys(units.PER_MINUTE, "rpm"),
     "C": "degC", "F": "degF", "sec": "s",
     **dict.fromkeys(("pct", "percent", "per cent", "Prozent"), PERCENT),
