@@ -18,6 +18,7 @@ from typing import Any, ParamSpec, TypeVar, cast, get_type_hints
 import numpy as np
 
 from ballscrew.quantities import Quantity, carries_unit, fields_of, in_si, out_of_bounds, unit_of
+from ballscrew.records import Measured
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -149,6 +150,11 @@ def shown(value: Any, unit: str) -> str:
         return repr(value)
     number = f"{as_float(value):.6g}"
     return number if unit == "1" else f"{number} {unit}"
+
+
+def shown_in_si(one: Measured) -> str:
+    """A number of a message in SI, as rooms write it that know no other units."""
+    return shown(one.value, "1" if one.quantity is None else one.quantity.unit)
 
 
 def fault_of(section: str, quantity: Quantity, value: Any, given: str = "") -> Fault | None:

@@ -1,17 +1,81 @@
 """Records of a result: verdicts, checks and warnings of every document.
 
-Terminal, page, report and API read the fields; the text is for people to read and for no program to parse.
+Terminal, page, report and API read the fields; the text is for people to read and for no program to parse. A program
+that has words of its own, such as the page in another language, fills the template of :class:`Message`.
 """
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal
 
 from ballscrew.quantities import Quantity
 
 Severity = Literal["info", "warning", "error"]
+_PLACEHOLDER = re.compile(r"\{([a-z_]+)\}")
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Measured:
+    """A number in a message: in SI with its quantity, or a plain one, to so many digits."""
+
+    value: float
+    quantity: Quantity | None = None
+    digits: int = 4
+
+    @property
+    def is_plain(self) -> bool:
+        """It has no unit."""
+        return self.quantity is None or self.quantity.unit == "1"
+
+    def plain(self) -> str:
+        """The digits of a plain number, without the exponent of programs where a person writes none."""
+        return f"{float(f'{self.value:.{self.digits}g}'):.10g}"
+
+    def document(self) -> dict[str, Any]:
+        """The number as it stands in JSON."""
+        unit, shown_in = ("1", "1") if self.quantity is None else (self.quantity.unit, self.quantity.shown_in)
+        return {"value": self.value, "unit": unit, "shown_in": shown_in, "digits": self.digits}
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Message:
+    """A sentence for people, or a part of one: an English template, and what stands in it by name.
+
+    The template is the key of its translations, as gettext has it. ``{torque}`` in it is replaced by the value of that
+    name: a number, a text that people gave, another message, or a list of messages with commas between them.
+    """
+
+    template: str
+    values: Mapping[str, Measured | str | Message | Sequence[Message]] = dataclasses.field(default_factory=dict)
+
+    def of(self, **values: Measured | str | Message | Sequence[Message]) -> Message:
+        """The same template with these values."""
+        return Message(self.template, values)
+
+    def filled(self, shown: Callable[[Measured], str]) -> str:
+        """The English text, with its numbers as ``shown`` writes them."""
+
+        def one(value: Measured | str | Message | Sequence[Message]) -> str:
+            if isinstance(value, Measured):
+                return shown(value)
+            if isinstance(value, Message):
+                return value.filled(shown)
+            return value if isinstance(value, str) else ", ".join(each.filled(shown) for each in value)
+
+        return _PLACEHOLDER.sub(lambda found: one(self.values[found[1]]), self.template)
+
+    def document(self) -> dict[str, Any]:
+        """The template and its values as they stand in JSON."""
+
+        def one(value: Measured | str | Message | Sequence[Message]) -> Any:
+            if isinstance(value, str):
+                return value
+            return value.document() if isinstance(value, Measured | Message) else [each.document() for each in value]
+
+        return {"template": self.template, "values": {name: one(value) for name, value in self.values.items()}}
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -34,10 +98,9 @@ class Record:
     value: float | None = None
     limit: float | None = None
     unit: str = "1"
-    #: The text with ``{0}``, ``{1}`` and so on in place of quantities, and the quantities with their values in SI. The
-    #: rooms that face people make the text from them in display units.
-    template: str = ""
-    quantities: tuple[tuple[float, Quantity], ...] = ()
+    #: The text as a template with its values, to be shown in any unit and language; None where there is none yet.
+    #: The rooms that face people make the text from it in display units.
+    message: Message | None = None
 
     @property
     def name(self) -> str:
@@ -47,7 +110,8 @@ class Record:
     def document(self) -> dict[str, Any]:
         """The record as it stands in JSON."""
         names = ("id", "subject", "value", "unit", "limit", "holds", "severity", "text")
-        return {name: getattr(self, name) for name in names}
+        message = None if self.message is None else self.message.document()
+        return {**{name: getattr(self, name) for name in names}, "message": message}
 
 
 def documents(records: Iterable[Record]) -> list[dict[str, Any]]:

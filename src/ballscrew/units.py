@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ballscrew import _pint_plugins
 from ballscrew.errors import Fault, as_float
 from ballscrew.quantities import Quantity
-from ballscrew.records import Record
+from ballscrew.records import Measured, Message, Record
 
 if TYPE_CHECKING:
     import pint
@@ -194,6 +194,20 @@ def shown(value: Any, quantity: Quantity, digits: int = 4) -> str:
     return f"{start}{'_' * (len(text) - len(start) - 1)}}}"
 
 
+def filled(message: Message) -> str:
+    """The English text of a message, with its numbers in display units."""
+    return message.filled(_measured)
+
+
+def _measured(one: Measured) -> str:
+    return one.plain() if one.quantity is None or one.is_plain else shown(one.value, one.quantity, one.digits)
+
+
+def record(message: Message, **fields: Any) -> Record:
+    """A record that says a message; ``fields`` are its others."""
+    return Record(text=filled(message), message=message, **fields)
+
+
 def in_display_units(fault: Fault, quantity: Quantity, given: str) -> Fault:
     """A fault found in SI, with its bound in the display unit and the value as it was written."""
     bound = "" if fault.bound is None else shown(fault.bound, quantity, 9 if quantity.info.whole else 4)
@@ -204,9 +218,7 @@ def in_display_units(fault: Fault, quantity: Quantity, given: str) -> Fault:
 def in_display_units_of(records: Sequence[Record]) -> list[Record]:
     """Records with the quantities of their texts in display units."""
     return [
-        dataclasses.replace(record, text=record.template.format(*(shown(*each) for each in record.quantities)))
-        if record.template
-        else record
+        dataclasses.replace(record, text=filled(record.message)) if record.message is not None else record
         for record in records
     ]
 

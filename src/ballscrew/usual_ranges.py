@@ -15,13 +15,13 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.errors import ImplausibleInput, is_concrete, shown
+from ballscrew.errors import ImplausibleInput, is_concrete, shown_in_si
 from ballscrew.quantities import Quantity, fields_of, quantities_of
-from ballscrew.records import Record
+from ballscrew.records import Measured, Message, Record
 
 #: The id of the warning, whose last part is its name.
 IMPLAUSIBLE = "inputs.implausible"
-_TEXT = "{meaning} {0} lies outside the usual {1} to {2}: check the number and its unit"
+_UNUSUAL = Message("{meaning} {value} lies outside the usual {low} to {high}: check the number and its unit")
 #: Relations that say nothing new where another quantity of the same part is named.
 _RELATED = ("groove_pitch",)
 #: Functions between a part that is being made and whoever makes it.
@@ -103,16 +103,16 @@ def _farthest_out(quantity: Quantity, values: Any) -> float | None:
 def _record(subject: str, quantity: Quantity, value: float) -> Record:
     assert quantity.info.usual is not None
     low, high = quantity.info.usual
-    template = _TEXT.replace("{meaning}", quantity.info.meaning)
+    numbers = {"value": Measured(value, quantity), "low": Measured(low, quantity), "high": Measured(high, quantity)}
+    message = _UNUSUAL.of(meaning=Message(quantity.info.meaning), **numbers)
     return Record(
         id=IMPLAUSIBLE,
         subject=subject,
-        text=template.format(*(shown(number, quantity.unit) for number in (value, low, high))),
+        text=message.filled(shown_in_si),
         severity="warning",
         holds=False,
         value=value,
         limit=high if value > high else low,
         unit=quantity.unit,
-        template=template,
-        quantities=tuple((number, quantity) for number in (value, low, high)),
+        message=message,
     )

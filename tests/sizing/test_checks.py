@@ -6,6 +6,7 @@ import math
 import pytest
 
 import ballscrew as bs
+from ballscrew import units
 from ballscrew.components.nut import DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
 from ballscrew.equations import life, shaft
 from ballscrew.references import bibliography
@@ -243,6 +244,10 @@ def test_printed_limits_have_sources_and_make_nothing_milder():
         assert one.diameter in ("pitch circle", "nominal"), one
 
 
+def said(checks, **how):
+    return units.filled(verdict_of(checks, **how))
+
+
 def test_no_verdict_passes_with_checks_that_were_not_judged():
     """Defect 12: the word is said only where all were judged; elsewhere how many were."""
     found = [*table().values()]
@@ -250,13 +255,13 @@ def test_no_verdict_passes_with_checks_that_were_not_judged():
     holding = [check for check in found if check.holds]
     assert some
     assert holding
-    assert verdict_of([*some, *holding]) == f"{len(holding)} of {len(some) + len(holding)} judged, and these hold"
+    assert said([*some, *holding]) == f"{len(holding)} of {len(some) + len(holding)} judged, and these hold"
     assert all_hold([*some, *holding]) is None
-    assert verdict_of(holding) == "passes"
+    assert said(holding) == "passes"
     assert all_hold(holding) is True
     fails = holding[0]._replace(name="buckling", holds=False, utilisation=1.5)
-    assert verdict_of([fails, *some]) == f"fails: buckling; 1 of {1 + len(some)} judged"
-    assert verdict_of([fails], by_how_much=True) == "fails: buckling 1.5 times"
+    assert said([fails, *some]) == f"fails: buckling; 1 of {1 + len(some)} judged"
+    assert said([fails], by_how_much=True) == "fails: buckling 1.5 times"
     assert all_hold([fails, *some]) is False
 
 

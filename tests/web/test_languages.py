@@ -1,22 +1,36 @@
 """The page in the visitor's language: one file of texts for each, with the same keys, and no text anywhere else."""
 
+import ast
+import fnmatch
 import json
 import re
 from pathlib import Path
 
 import pytest
 
+import ballscrew
+from ballscrew.axis.drive import AS_GIVEN, FULL_BATH
+from ballscrew.axis_studies.duty import OF_BATH
+from ballscrew.axis_studies.warm_up import AT_END, AT_START
 from ballscrew.case_schema.schema import json_schema
+from ballscrew.friction.result import QUADRANTS
 from ballscrew.optimisation.need_schema import json_schema as need_schema
+from ballscrew.sizing.installation import Ends
 from ballscrew.web import languages
 
 PAGE = Path(languages.__file__).with_name("page")
+PACKAGE = Path(ballscrew.__file__).parent
+OF_CHECKS = (
+    "static_safety", "life", "running_time", "contact_pressure", "shaft_stress", "buckling", "critical_speed",
+    "diameter_speed_product", "motor_rms_torque", "motor_peak_torque", "motor_speed",
+)  # fmt: skip
 ENGLISH = languages.texts()["en"]
 OTHERS = [name for name in languages.texts() if name != "en"]
 SCRIPTS = {file.name: file.read_text(encoding="utf-8") for file in PAGE.rglob("*.js")}
 #: Texts whose English stands at their source in Python: annotations of fields, and names of the vocabulary.
 OF_PYTHON = (
-    "cause.", "field.", "mechanism.", "option.", "problem.", "quantity.", "record.", "sentence.", "start.", "unit.",
+    "cause.", "field.", "mechanism.", "message.", "option.", "problem.", "quantity.", "record.", "sentence.", "start.",
+    "unit.",
 )  # fmt: skip
 #: Comments and patterns, which are skipped; then strings, and templates, of which what is computed is left out.
 _TOKEN = re.compile(
@@ -40,6 +54,51 @@ def own(texts):
     return {key: text for key, text in texts.items() if not key.startswith(OF_PYTHON)}
 
 
+#: Records that a screw, an axis or a person may be hurt by if they are not understood.
+SAFETY = (
+    "band.flooded", "check.*", "duty.*", "lubricant.*", "run.preload_above_rating", "validity.*",
+    "verdict.back_driving", "verdict.brake", "verdict.checks", "verdict.equilibrium",
+    "verdict.equilibrium_of_full_bath", "verdict.held_in_motion",
+    "verdict.motor", "verdict.no_load", "verdict.preload", "verdict.preload_lost", "verdict.quadrant",
+    "verdict.self_locking", "verdict.skid", "verdict.stretch", "warning.bracing", "warning.stopped",
+)  # fmt: skip
+#: Numbers of an answer that is starved of oil, by their meaning.
+STARVED = {AT_START.info.meaning, AT_END.info.meaning}
+STARVED |= {OF_BATH[name].info.meaning for name in ("torque_peak", "screw_torque", "energy_lost")}
+#: Names that stand in messages and come from data: checks, ends of a shaft, quadrants, conditions of a brake.
+NAMES = {
+    *STARVED, AS_GIVEN, FULL_BATH,
+    *(name.replace("_", " ") for name in OF_CHECKS), *(ends.words for ends in Ends), *QUADRANTS,
+    "as in the case", "cold", "hot", "dry", "rms torque", "peak torque", "speed", "support bearings", "guides",
+    "apart", "together", "fixed bearing",
+    "floating bearing", "new", "worn", "inertia", "rigidity", "remaining preload", "preload torque",
+    "drive torque", "back driving", "step", "as listed",
+    "computed from the geometry (ISO 3408-5)", "installation", "limits.running_time",
+    "static_load_rating", "dynamic_load_rating", "maximum_pressure",
+}  # fmt: skip
+
+
+def calls(name):
+    """All calls of a function or a class by its name in the source, each with its file."""
+    for file in sorted(PACKAGE.rglob("*.py")):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and getattr(node.func, "id", getattr(node.func, "attr", "")) == name:
+                yield file, node
+
+
+def templates():
+    """The English templates of all messages, as they stand in the source."""
+    return {node.args[0].value for _, node in calls("Message") if isinstance(node.args[0], ast.Constant)}
+
+
+def id_of(call):
+    """The id of a record as it stands in the source; what is computed of it is ``*``."""
+    value = next((one.value for one in call.keywords if one.arg == "id"), None)
+    if isinstance(value, ast.JoinedStr):
+        return "".join(part.value if isinstance(part, ast.Constant) else "*" for part in value.values)
+    return value.value if isinstance(value, ast.Constant) else ""
+
+
 def placeholders(text):
     return sorted(re.findall(r"\{(\w+)\}", text))
 
@@ -56,6 +115,31 @@ def test_a_translation_is_whole(name):
         key: text for key, text in languages.texts()[name].items() if key.startswith(("sentence.", "problem."))
     }
     assert {key for key, text in sentences.items() if key.count("{}") != text.count("{}")} == set()
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_every_message_is_translated(name):
+    """The English template is the key; one that nothing says any more is stale."""
+    found = languages.texts()[name]
+    said = {key.removeprefix("message."): text for key, text in found.items() if key.startswith("message.")}
+    wanted = {one for one in templates() if re.search(r"[a-z]", re.sub(r"\{\w+\}", "", one))} | NAMES
+    assert len(wanted) > 150
+    assert wanted - said.keys() == set()
+    assert {key for key, text in said.items() if placeholders(key) != placeholders(text)} == set()
+    assert said.keys() - templates() - NAMES == set()
+
+
+def test_safety_is_said_by_messages():
+    """A record with words that matter has a template with its numbers, which the page fills in its language."""
+    without = {
+        (file.name, id_of(node))
+        for file, node in calls("Record")
+        if any(fnmatch.fnmatch(id_of(node), one) for one in SAFETY)
+        and not any(one.arg == "message" for one in node.keywords)
+    }
+    assert without == set()
+    known = {id_of(node) for name in ("Record", "record") for _, node in calls(name)}
+    assert {one for one in SAFETY if not fnmatch.filter(known, one) and "verdict." not in one} == set()
 
 
 @pytest.mark.parametrize("name", list(languages.texts()))

@@ -17,6 +17,7 @@ declare global {
   type Mechanisms = Vocabulary["mechanisms"];
   type VerdictRecord = Schemas["Record"];
   type Template = Schemas["Template"];
+  type Message = Schemas["Message"];
   type ShownQuantity = Schemas["Shown"];
   type ProblemDocument = Schemas["Problem"];
   type FaultLine = Schemas["FaultLine"];

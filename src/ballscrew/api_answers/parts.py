@@ -85,6 +85,24 @@ class Provenance(Closed):
     references: list[str]
 
 
+class Shown(Closed):
+    """A quantity in a text for people."""
+
+    value: Number = Field(description="SI")
+    unit: str = Field(description="SI")
+    shown_in: str = Field(description="the unit in which the command line shows it")
+    digits: int
+
+
+class Message(Closed):
+    """A sentence, or a part of one: its English template, which is the key of translations, and what stands in it."""
+
+    template: str = Field(description="``{name}`` stands for the value of that name")
+    values: dict[str, Shown | str | Message | list[Message]] = Field(
+        description="numbers, texts, other messages, and lists with commas between them"
+    )
+
+
 class Record(Closed):
     """A verdict, a check or a warning."""
 
@@ -96,6 +114,7 @@ class Record(Closed):
     holds: bool | None
     severity: Literal["info", "warning", "error"]
     text: str = Field(description="a sentence for people")
+    message: Message | None = Field(description="the sentence as a template with its values, where it has one")
 
 
 class JudgedCheck(Record):
@@ -114,15 +133,6 @@ class VendorRows(Closed):
     mean_ratio: Number
     std_ratio: Number
     rows: list[str]
-
-
-class Shown(Closed):
-    """A quantity in a text for people."""
-
-    value: Number = Field(description="SI")
-    unit: str = Field(description="SI")
-    shown_in: str = Field(description="the unit in which the command line shows it")
-    digits: int
 
 
 class Template(Closed):

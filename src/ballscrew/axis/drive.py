@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew import units
 from ballscrew._arrays import ByValue, lazy
 from ballscrew.axis.duty import Duty
 from ballscrew.axis.motor import Motor
 from ballscrew.motion.states import Numbers
 from ballscrew.quantities import Energy, fields_of
+from ballscrew.records import Measured, Message
 from ballscrew.sizing.checks import Check
 
 _LARGEST_SPEED = fields_of(Motor)["largest_speed"]
@@ -104,14 +104,17 @@ class MotorCheck(ByValue):
         peak = float(motor.peak_at(self.duty.motor_speed[at : at + 1])[0])
         rms_where, rms = self.worst_rms
         where, largest = self.worst_torque
-        of_rms = f"RMS torque, rests included, against the rated torque{_of(rms_where)}"
-        of_peak = f"torque against the curve of the motor, worst in “{name}”{_of(where)}"
+        of_rms = _of(rms_where, Message("RMS torque, rests included, against the rated torque"))
+        of_peak = _of(where, Message("torque against the curve of the motor, worst in “{phase}”", {"phase": name}))
         if speed > motor.largest_speed:
-            of_peak = (
-                f"the motor has no torque above {units.shown(float(motor.largest_speed), _LARGEST_SPEED)}, where its "
-                f"curve ends; the cycle needs {units.shown(speed, _LARGEST_SPEED)}"
+            of_peak = Message(
+                "the motor has no torque above {largest}, where its curve ends; the cycle needs {speed}",
+                {
+                    "largest": Measured(float(motor.largest_speed), _LARGEST_SPEED),
+                    "speed": Measured(speed, _LARGEST_SPEED),
+                },
             )
-        of_speed = "speed of the motor against its largest"
+        of_speed = Message("speed of the motor against its largest")
         return (
             _check("motor_rms_torque", rms, motor.rated_torque, "N m", of_rms),
             _check("motor_peak_torque", abs(largest), peak, "N m", of_peak),
@@ -119,10 +122,11 @@ class MotorCheck(ByValue):
         )
 
 
-def _of(condition: str) -> str:
-    return f", {condition}" if condition else ""
+def _of(condition: str, message: Message) -> Message:
+    """A message, and the condition of the track that it is of."""
+    return Message("{what}, {condition}", {"what": message, "condition": Message(condition)}) if condition else message
 
 
-def _check(name: str, value: float, limit: Any, unit: str, text: str) -> Check:
+def _check(name: str, value: float, limit: Any, unit: str, message: Message) -> Check:
     utilisation = value / float(limit) if limit else math.inf if value else 0.0
-    return Check(name, float(value), float(limit), unit, utilisation, utilisation <= 1, text)
+    return Check.saying(message, name, float(value), float(limit), unit, utilisation, utilisation <= 1)

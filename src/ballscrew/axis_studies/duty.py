@@ -28,7 +28,8 @@ from ballscrew.motion.states import Numbers
 from ballscrew.motion.trajectory import HALF_WIDTHS, Trajectory
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Acceleration, Duration, Energy, Force, Info, Quantity, Torque
-from ballscrew.sizing.checks import Check, checks
+from ballscrew.records import Message
+from ballscrew.sizing.checks import NOT_CHECKED, NOT_JUDGED, UNJUDGED, Check, checks
 from ballscrew.sizing.speed_limits import speed_limit_of
 from ballscrew.solvers.load_distribution import preload_of
 
@@ -331,26 +332,31 @@ class DutyReport:
         """Turns and time against the running time that the limits ask for."""
         required, life = self.case.limits.running_time, self.life
         if life.dynamic_load_rating is None:
-            give, missing = "not checked: give dynamic_load_rating", "dynamic_load_rating"
-            return [Check(name, None, None, unit, None, None, give, missing) for name, unit in _LIFE]
+            missing = "dynamic_load_rating"
+            give = NOT_CHECKED.of(input=Message(missing))
+            return [Check.saying(give, name, None, None, unit, None, None, missing) for name, unit in _LIFE]
         if not self.duty.revolutions:
-            text = "not judged: nothing turns"
-            return [Check(name, None, None, unit, None, None, text) for name, unit in _LIFE]
+            idle = Message("not judged: nothing turns")
+            return [Check.saying(idle, name, None, None, unit, None, None) for name, unit in _LIFE]
         found: list[Check] = []
         for (name, unit), value, words in zip(
             _LIFE,
             (self.numbers["life_revolutions"], self.numbers["life_time"]),
-            ("turns that nine of ten outlive, by the mean load over the cycle", "time of so many cycles"),
+            (
+                Message("turns that nine of ten outlive, by the mean load over the cycle"),
+                Message("time of so many cycles"),
+            ),
             strict=True,
         ):
             if required is None:
-                text, missing = f"{words}; not judged: give limits.running_time", "limits.running_time"
-                found.append(Check(name, value, None, unit, None, None, text, missing))
+                missing = "limits.running_time"
+                message = UNJUDGED.of(life=words, advice=NOT_JUDGED.of(input=Message(missing)))
+                found.append(Check.saying(message, name, value, None, unit, None, None, missing))
                 continue
             cycles = required / self.duty.states.cycle_time
             limit = required if unit == "s" else cycles * self.duty.revolutions
             used = limit / value if value else math.inf
-            found.append(Check(name, value, limit, unit, used, used <= 1, words))
+            found.append(Check.saying(words, name, value, limit, unit, used, used <= 1))
         return found
 
 

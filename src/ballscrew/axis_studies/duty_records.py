@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 
 import numpy as np
@@ -18,7 +17,7 @@ from ballscrew.friction.validity import CONDITIONS, NUT_CONDITIONS
 from ballscrew.motion.profiles import Segments, Trapezoid
 from ballscrew.motion.trajectory import Trajectory
 from ballscrew.quantities import Quantity, fields_of
-from ballscrew.records import Record, Severity
+from ballscrew.records import Measured, Message, Record, Severity
 from ballscrew.sizing.checks import Check, all_hold, verdict_of
 from ballscrew.supports.bearing import DIRECTION
 
@@ -32,6 +31,8 @@ _CLOSES, _JUMPS = 1e-9, 1e-9
 _NOISE = 0.01
 #: Points at which the curve of a motor is looked at for its highest torque.
 _CURVE_POINTS = 1000
+_PASSES = Message("passes all checks")
+_PART_OF_TIME = Message("{condition} (in {share} of the time in motion)")
 
 
 def verdicts(report: DutyReport) -> list[Record]:
@@ -51,62 +52,82 @@ def _starved(report: DutyReport) -> list[Record]:
 
 def _brake(report: DutyReport) -> Record:
     brake = report.brake
-    hold, rated = (units.shown(torque, _TORQUE) for torque in (brake.holding_torque, brake.brake_torque))
     moving = [found for found in brake.conditions if found.falls or found.goes_on]
     if not brake.load_torque:
-        text = "no brake is needed to hold it: no load turns the screw at rest"
+        message = Message("no brake is needed to hold it: no load turns the screw at rest")
     elif not moving:
         least = min(found.safety for found in brake.conditions)
-        text = f"stays with the motor off: friction from rest is at least {least:.3g} times the torque of the load"
+        message = Message(
+            "stays with the motor off: friction from rest is at least {safety} times the torque of the load",
+            {"safety": Measured(least, digits=3)},
+        )
     else:
-        names = "in all conditions" if len(moving) == len(brake.conditions) else ", ".join(c.condition for c in moving)
         goes = _way(report)
-        starts = goes if brake.starts else f"stays, but {goes} once it is started,"
-        load = units.shown(brake.load_torque, _TORQUE)
-        fastest = units.shown(max(found.speed_after_stroke for found in moving), _SPEED)
-        text = (
-            f"{starts} with the motor off ({names}), after the stroke at up to {fastest}; a brake is needed: {rated}, "
-            f"{brake.brake_factor:g} times the {load} of the load without friction ({hold} hold it with its help)"
+        everywhere = len(moving) == len(brake.conditions)
+        message = Message(
+            "{falls} with the motor off ({conditions}), after the stroke at up to {speed}; a brake is needed: {brake}, "
+            "{factor} times the {load} of the load without friction ({holding} hold it with its help)",
+            {
+                "falls": goes if brake.starts else Message("stays, but {falls} once it is started,", {"falls": goes}),
+                "conditions": Message("in all conditions") if everywhere else [Message(c.condition) for c in moving],
+                "speed": Measured(max(found.speed_after_stroke for found in moving), _SPEED),
+                "brake": Measured(brake.brake_torque, _TORQUE),
+                "factor": Measured(brake.brake_factor, digits=6),
+                "load": Measured(brake.load_torque, _TORQUE),
+                "holding": Measured(brake.holding_torque, _TORQUE),
+            },
         )
     if brake.load_torque and report.duty.starved:
-        text += "; with the smaller friction, that of the track starved of oil"
-    return Record(
-        id="verdict.brake", subject="brake", text=text, severity="warning" if brake.falls else "info",
+        message = Message("{brake}; with the smaller friction, that of the track starved of oil", {"brake": message})
+    return units.record(
+        message, id="verdict.brake", subject="brake", severity="warning" if brake.falls else "info",
         holds=not brake.falls, value=brake.holding_torque, unit="N m",
     )  # fmt: skip
 
 
-def _way(report: DutyReport) -> str:
+def _way(report: DutyReport) -> Message:
     """What the load does with the axis: lower it, raise it (a counterweight), or move it along."""
     load, inclination = report.brake.conditions[0].load_torque, report.axis.inclination
     if not inclination:
-        return "moves"
-    return "falls" if (load > 0) == (inclination > 0) else "rises"
+        return Message("moves")
+    return Message("falls") if (load > 0) == (inclination > 0) else Message("rises")
 
 
 def _motor(report: DutyReport) -> list[Record]:
     if report.motor is None:
         return []
     failed = [check for check in report.motor.checks if check.holds is False]
-    names = ", ".join(check.name.removeprefix("motor_").replace("_", " ") for check in failed)
-    text = f"the motor does not suffice: {names}" if failed else "the motor suffices"
+    names = [Message(check.name.removeprefix("motor_").replace("_", " ")) for check in failed]
+    message = (
+        Message("the motor does not suffice: {names}", {"names": names}) if failed else Message("the motor suffices")
+    )
     if FULL_BATH in report.motor.torques:
-        text += f"; judged by the larger torque: {_conditions(report.motor)}"
+        message = Message(
+            "{verdict}; judged by the larger torque: {conditions}",
+            {"verdict": message, "conditions": _conditions(report.motor)},
+        )
     severity: Severity = "error" if failed else "info"
-    return [Record(id="verdict.motor", subject="motor", text=text, severity=severity, holds=not failed)]
+    return [units.record(message, id="verdict.motor", subject="motor", severity=severity, holds=not failed)]
 
 
-def _conditions(against: MotorCheck) -> str:
+def _conditions(against: MotorCheck) -> Message:
     """The condition of the track that each torque is of: ``peak in a full bath of oil, RMS starved of oil``."""
     peak, rms = against.worst_torque[0], against.worst_rms[0]
-    return f"peak and RMS {peak}" if peak == rms else f"peak {peak}, RMS {rms}"
+    both = {"peak": Message(peak), "rms": Message(rms)}
+    return Message("peak and RMS {peak}", both) if peak == rms else Message("peak {peak}, RMS {rms}", both)
+
+
+def _with_condition(torque: float, condition: str) -> Measured | Message:
+    """A torque, and the condition of the track that it is of."""
+    value = Measured(torque, _TORQUE)
+    return Message("{torque} {condition}", {"torque": value, "condition": Message(condition)}) if condition else value
 
 
 def _checks(report: DutyReport) -> Record:
     holds = all_hold(report.checks)
-    text = verdict_of(report.checks, passes="passes all checks")
+    message = Message("over the cycle: {verdict}", {"verdict": verdict_of(report.checks, passes=_PASSES)})
     severity: Severity = "error" if holds is False else "info"
-    return Record(id="verdict.checks", subject="checks", text=text, severity=severity, holds=holds)
+    return units.record(message, id="verdict.checks", subject="checks", severity=severity, holds=holds)
 
 
 def warnings(report: DutyReport) -> list[Record]:
@@ -133,9 +154,11 @@ def warnings(report: DutyReport) -> list[Record]:
     ]
 
 
-def _warning(name: str, subject: str, text: str, value: float, limit: float | None, quantity: Quantity) -> Record:
-    return Record(
-        id=f"duty.{name}", subject=subject, text=text, severity="warning", holds=False, value=value, limit=limit,
+def _warning(
+    name: str, subject: str, message: Message, value: float, limit: float | None, quantity: Quantity
+) -> Record:
+    return units.record(
+        message, id=f"duty.{name}", subject=subject, severity="warning", holds=False, value=value, limit=limit,
         unit=quantity.unit,
     )  # fmt: skip
 
@@ -144,11 +167,11 @@ def _nothing_turns(report: DutyReport) -> list[Record]:
     """Inertia that is not given, where something accelerates."""
     if report.axis.inertia or not np.any(report.duty.states.acceleration):
         return []
-    text = (
+    message = Message(
         "the inertia of motor, coupling and screw is zero: no torque is counted that accelerates them, often a quarter "
         'of the peak; give [axis] inertia = "45 kg cm^2"'
     )
-    return [_warning("no_inertia", "axis.inertia", text, 0.0, None, _INERTIA)]
+    return [_warning("no_inertia", "axis.inertia", message, 0.0, None, _INERTIA)]
 
 
 def _open_cycle(report: DutyReport) -> list[Record]:
@@ -158,12 +181,15 @@ def _open_cycle(report: DutyReport) -> list[Record]:
     if abs(left) <= least * max(states.stroke, 1e-12):
         return []
     one_way = getattr(report.motion, "returns", True) is False
-    remedy = "return = true adds the way back" if one_way else "add a move back"
-    text = (
-        f"the motion ends {units.shown(abs(left), _LENGTH)} from where it began: "
-        f"the numbers are of this way alone, not of a cycle that repeats; {remedy}"
+    message = Message(
+        "the motion ends {distance} from where it began: "
+        "the numbers are of this way alone, not of a cycle that repeats; {remedy}",
+        {
+            "distance": Measured(abs(left), _LENGTH),
+            "remedy": Message("return = true adds the way back") if one_way else Message("add a move back"),
+        },
     )
-    return [_warning("open_cycle", "motion", text, left, 0.0, _LENGTH)]
+    return [_warning("open_cycle", "motion", message, left, 0.0, _LENGTH)]
 
 
 def _jumps(report: DutyReport) -> list[Record]:
@@ -179,11 +205,12 @@ def _jumps(report: DutyReport) -> list[Record]:
         if abs(after - before) <= floor:
             continue
         here, there = names[number], names[(number + 1) % len(ends)]
-        text = (
-            f"the speed jumps from {units.shown(before, _SPEED)} (“{here}”) to {units.shown(after, _SPEED)} "
-            f"(“{there}”): no torque is counted for it; put a move with a distance between them"
+        message = Message(
+            "the speed jumps from {before} (“{here}”) to {after} (“{there}”): no torque is counted for it; "
+            "put a move with a distance between them",
+            {"before": Measured(before, _SPEED), "here": here, "after": Measured(after, _SPEED), "there": there},
         )
-        found.append(_warning("speed_jump", f"motion.phase {number + 1}", text, abs(after - before), 0.0, _SPEED))
+        found.append(_warning("speed_jump", f"motion.phase {number + 1}", message, abs(after - before), 0.0, _SPEED))
     return found
 
 
@@ -197,35 +224,40 @@ def _short_stroke(report: DutyReport) -> list[Record]:
     stroke, needed = report.duty.states.stroke, loaded_circuit(report.case.screw)
     if stroke >= needed or stroke == 0:
         return []
-    text = (
-        f"the stroke {units.shown(stroke, _LENGTH)} is shorter than the loaded turns of the nut, "
-        f"{units.shown(needed, _LENGTH)}: the balls do not change their places, and grease is not spread; "
-        "put a longer stroke in between now and then"
+    message = Message(
+        "the stroke {stroke} is shorter than the loaded turns of the nut, "
+        "{turns}: the balls do not change their places, and grease is not spread; "
+        "put a longer stroke in between now and then",
+        {"stroke": Measured(stroke, _LENGTH), "turns": Measured(needed, _LENGTH)},
     )
-    return [_warning("short_stroke", "motion.stroke", text, stroke, needed, _LENGTH)]
+    return [_warning("short_stroke", "motion.stroke", message, stroke, needed, _LENGTH)]
 
 
 def _too_fast(report: DutyReport) -> list[Record]:
     """The way out where the shaft would whirl, or the balls be too fast."""
     found: list[Record] = []
     for name, remedy in (
-        ("critical_speed", "hold the ends firmer, shorten the shaft, or take a greater lead"),
+        ("critical_speed", Message("hold the ends firmer, shorten the shaft, or take a greater lead")),
         (
             "diameter_speed_product",
-            "take a greater lead, or a nut made for such speeds, with its own limit of the DN value",
+            Message("take a greater lead, or a nut made for such speeds, with its own limit of the DN value"),
         ),
     ):
         check = _check(report, name)
         if check is None or check.holds is not False or check.utilisation is None:
             continue
         speed = float(np.max(np.abs(report.duty.states.speed)))
-        turning = units.shown(float(np.max(np.abs(report.duty.screw_speed))), _TURNING)
-        most = units.shown(speed / check.utilisation, _SPEED)
-        text = (
-            f"{turning} are {check.utilisation:.3g} times what the {name.replace('_', ' ')} permits: "
-            f"move at {most} at most, {remedy}"
+        message = Message(
+            "{turning} are {times} times what the {check} permits: move at {largest} at most, {remedy}",
+            {
+                "turning": Measured(float(np.max(np.abs(report.duty.screw_speed))), _TURNING),
+                "times": Measured(check.utilisation, digits=3),
+                "check": check.title,
+                "largest": Measured(speed / check.utilisation, _SPEED),
+                "remedy": remedy,
+            },
         )
-        found.append(_warning(name, "motion.speed", text, speed, speed / check.utilisation, _SPEED))
+        found.append(_warning(name, "motion.speed", message, speed, speed / check.utilisation, _SPEED))
     return found
 
 
@@ -241,24 +273,36 @@ def _beyond_motor(report: DutyReport) -> list[Record]:
     duty, motor, at = report.duty, against.motor, against.worst
     fastest, most = float(np.max(np.abs(duty.motor_speed))), float(motor.largest_speed)
     if fastest > most:
-        text = (
-            f"the cycle turns the motor at up to {units.shown(fastest, _TURNING)}, above its largest speed "
-            f"{units.shown(most, _TURNING)}: take a lower speed, a greater lead, or another ratio"
+        message = Message(
+            "the cycle turns the motor at up to {speed}, above its largest speed {largest}: "
+            "take a lower speed, a greater lead, or another ratio",
+            {"speed": Measured(fastest, _TURNING), "largest": Measured(most, _TURNING)},
         )
-        return [_warning("motor_speed", "motor.largest_speed", text, fastest, most, _TURNING)]
+        return [_warning("motor_speed", "motor.largest_speed", message, fastest, most, _TURNING)]
     condition, largest = against.worst_torque
     torque = abs(largest)
     there = float(motor.peak_at(duty.motor_speed[at : at + 1])[0])
-    phase = duty.states.phases[int(duty.states.phase[at])]
-    speed = units.shown(abs(float(duty.motor_speed[at])), _TURNING)
     highest = float(np.max(motor.peak_at(np.linspace(0.0, most, _CURVE_POINTS))))
-    never = "; its curve reaches that at no speed" if highest < torque else ""
-    asked = " ".join(filter(None, [units.shown(torque, _TORQUE), condition]))
-    text = (
-        f"“{phase}” asks for {asked} at {speed}, where the motor has {units.shown(there, _TORQUE)}{never}: "
-        "take a lower acceleration, a larger motor, or another ratio"
+    values = {
+        "phase": duty.states.phases[int(duty.states.phase[at])],
+        "torque": _with_condition(torque, condition),
+        "speed": Measured(abs(float(duty.motor_speed[at])), _TURNING),
+        "there": Measured(there, _TORQUE),
+    }
+    message = (
+        Message(
+            "“{phase}” asks for {torque} at {speed}, where the motor has {there}; its curve reaches that at no speed: "
+            "take a lower acceleration, a larger motor, or another ratio",
+            values,
+        )
+        if highest < torque
+        else Message(
+            "“{phase}” asks for {torque} at {speed}, where the motor has {there}: "
+            "take a lower acceleration, a larger motor, or another ratio",
+            values,
+        )
     )
-    return [_warning("motor_torque", "motor.curve", text, torque, there, _TORQUE)]
+    return [_warning("motor_torque", "motor.curve", message, torque, there, _TORQUE)]
 
 
 def _validity(report: DutyReport) -> list[Record]:
@@ -271,10 +315,10 @@ def _validity(report: DutyReport) -> list[Record]:
         condition = known.get(name)
         if not share or condition is None:
             continue
-        text = f"{condition.text} (in {share:.2g} of the time in motion)"
+        message = _PART_OF_TIME.of(condition=condition.message, share=Measured(share, digits=2))
         found.append(
-            Record(
-                id=f"validity.{name}", subject=condition.subject, text=text, severity="warning", holds=False,
+            units.record(
+                message, id=f"validity.{name}", subject=condition.subject, severity="warning", holds=False,
                 value=share, limit=0.0,
             )
         )  # fmt: skip
@@ -285,14 +329,21 @@ def _validity_of_elements(report: DutyReport) -> list[Record]:
     """Conditions of bearings and guides that fail while the axis moves, with the share of that time."""
     states = report.duty.states
     weight = np.where(states.direction != 0, states.weight, 0.0)
-    known = {name: condition.text for name, condition in {**CONDITIONS, **NUT_CONDITIONS}.items()}
-    known[DIRECTION] = "one row carries no load in the other direction: it was computed for the size of the load"
+    known = {name: condition.message for name, condition in {**CONDITIONS, **NUT_CONDITIONS}.items()}
+    known[DIRECTION] = Message(
+        "one row carries no load in the other direction: it was computed for the size of the load"
+    )
     found: list[Record] = []
     for element, masks in report.duty.support_validity.items():
         for name, mask in masks.items():
             share = float(np.sum(weight * ~np.asarray(mask))) / max(float(np.sum(weight)), 1e-300)
             if share and name in known:
-                text = f"{element}: {known[name]} (in {share:.2g} of the time in motion)"
-                record = Record(id=f"validity.{name}", subject=element.replace(" ", "_"), text=text, severity="warning")
-                found.append(dataclasses.replace(record, holds=False, value=share, limit=0.0))
+                of_time = _PART_OF_TIME.of(condition=known[name], share=Measured(share, digits=2))
+                found.append(
+                    units.record(
+                        Message("{element}: {condition}", {"element": Message(element), "condition": of_time}),
+                        id=f"validity.{name}", subject=element.replace(" ", "_"), severity="warning", holds=False,
+                        value=share, limit=0.0,
+                    )
+                )  # fmt: skip
     return found

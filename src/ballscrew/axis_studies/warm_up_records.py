@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +11,7 @@ from ballscrew.axis_studies.warm_up import AT_END, AT_START, PLACE, SERIES, Warm
 from ballscrew.friction import starvation
 from ballscrew.friction.plausibility import implausible
 from ballscrew.motion.states import Numbers
-from ballscrew.records import Record
+from ballscrew.records import Measured, Message, Record
 
 if TYPE_CHECKING:  # its room of distributions is slow to import
     from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
@@ -40,9 +39,12 @@ def _starved(report: WarmUpReport) -> list[Record]:
     ends = full.warm_up.equilibrium
     if ends.exists or not report.warm_up.equilibrium.exists:
         return said
-    text = "in a full bath of oil there is no steady state: it runs away, or it gets too hot for the model"
-    record = Record(id="verdict.equilibrium_of_full_bath", subject="equilibrium", text=text, severity="error")
-    return [*said, dataclasses.replace(record, holds=False, value=ends.margin, limit=0.0)]
+    message = Message("in a full bath of oil there is no steady state: it runs away, or it gets too hot for the model")
+    record = units.record(
+        message, id="verdict.equilibrium_of_full_bath", subject="equilibrium", severity="error", holds=False,
+        value=ends.margin, limit=0.0,
+    )  # fmt: skip
+    return [*said, record]
 
 
 def _preload(report: WarmUpReport) -> list[Record]:
@@ -53,18 +55,21 @@ def _preload(report: WarmUpReport) -> list[Record]:
     start, at = float(found.preload[0]), _farthest(found.preload[found.works])
     farthest = float(found.preload[at])
     lost = farthest <= 0
-    if lost:
-        text = f"the preload {_force(start)} is lost at work: the nut grows away from the shaft"
-    else:
-        text = f"the preload goes from {_force(start)} to {_force(farthest)} ({_change(farthest, start)}) at work"
+    values = {"start": _force(start), "end": _force(farthest), "change": _change(farthest, start)}
+    message = (
+        Message("the preload {start} is lost at work: the nut grows away from the shaft", values)
+        if lost
+        else Message("the preload goes from {start} to {end} ({change}) at work", values)
+    )
     worst = float(found.preload[_farthest(found.preload)])
     if abs(worst - start) > _FARTHER * abs(farthest - start):
-        text += (
-            f", and while it stands to {_force(worst)} ({_change(worst, start)}): nut and shaft cool at their own rates"
+        message = Message(
+            "{preload}, and while it stands to {worst} ({change}): nut and shaft cool at their own rates",
+            {"preload": message, "worst": _force(worst), "change": _change(worst, start)},
         )
     return [
-        Record(
-            id="verdict.preload", subject="preload", text=text, severity="warning" if lost else "info",
+        units.record(
+            message, id="verdict.preload", subject="preload", severity="warning" if lost else "info",
             holds=not lost, value=farthest, unit="N",
         )
     ]  # fmt: skip
@@ -74,12 +79,14 @@ def _farthest(preload: Numbers) -> int:
     return int(np.argmax(np.abs(preload - preload[0])))
 
 
-def _force(value: float) -> str:
-    return units.shown(value, SERIES["preload"])
+def _force(value: float) -> Measured:
+    return Measured(value, SERIES["preload"])
 
 
-def _change(value: float, start: float) -> str:
-    return f"{100 * (value / start - 1):+.0f} %"
+def _change(value: float, start: float) -> Message:
+    """A change in whole per cent, with its sign."""
+    percent = {"percent": Measured(float(abs(round(100 * (value / start - 1)))))}
+    return Message("+{percent} %", percent) if value >= start else Message("-{percent} %", percent)
 
 
 def warnings(report: WarmUpReport) -> list[Record]:
@@ -96,32 +103,39 @@ def band_records(found: WarmUpBandReport) -> list[Record]:
     """What is not in the bands: how halves are braced, and samples that have no steady state or leave what is known."""
     bands, said = found.bands, list[Record]()
     if bands.warm_up.network.by_bracing:
-        text = (
+        message = Message(
             "the bands have the radial growth alone: how the halves of the nut are braced moves the preload farther; "
             "give [surroundings] bracing"
         )
-        said.append(Record(id="band.bracing", subject="preload", text=text, severity="warning"))
+        said.append(units.record(message, id="band.bracing", subject="preload", severity="warning"))
     away, lost = 1 - bands.steady_share, 1 - float(bands.known_share[-1])
     if not away and not lost:
         return said
-    text = (
-        f"{100 * away:.2g} % of {bands.count} samples have no steady state within the range of oil and preload, and "
-        f"{100 * lost:.2g} % leave it before the end: from then on they are not in the bands, whose ends are too narrow"
+    message = Message(
+        "{away} % of {count} samples have no steady state within the range of oil and preload, and "
+        "{lost} % leave it before the end: from then on they are not in the bands, whose ends are too narrow",
+        {
+            "away": Measured(100 * away, digits=2),
+            "count": Measured(bands.count, digits=9),
+            "lost": Measured(100 * lost, digits=2),
+        },
     )
-    return [*said, Record(id="band.no_steady_state", subject="equilibrium", text=text, severity="warning", value=away)]
+    fields = {"id": "band.no_steady_state", "subject": "equilibrium", "severity": "warning", "value": away}
+    return [*said, units.record(message, **fields)]
 
 
 def _assumed_length(report: WarmUpReport) -> list[Record]:
     if not report.length_is_assumed:
         return []
     length = report.warm_up.network.shaft.length
-    text = (
-        f"the length of the shaft is not given and taken as {units.shown(length, PLACE)}, on which the growth depends: "
-        "give surroundings.shaft_length, or an [installation]"
+    message = Message(
+        "the length of the shaft is not given and taken as {length}, on which the growth depends: "
+        "give surroundings.shaft_length, or an [installation]",
+        {"length": Measured(float(length), PLACE)},
     )
     return [
-        Record(
-            id="warm_up.assumed_length", subject="surroundings.shaft_length", text=text, severity="warning",
+        units.record(
+            message, id="warm_up.assumed_length", subject="surroundings.shaft_length", severity="warning",
             value=float(length), unit="m",
         )
     ]  # fmt: skip
@@ -131,8 +145,10 @@ def _own_temperatures(report: WarmUpReport) -> list[Record]:
     given = report.duty.states.temperature
     if np.isnan(given).all():
         return []
-    text = "the motion has temperatures of the oil of its own, which do not count: the oil is as warm as nut and shaft"
-    return [Record(id="warm_up.own_temperatures", subject="motion.segment", text=text, severity="warning")]
+    message = Message(
+        "the motion has temperatures of the oil of its own, which do not count: the oil is as warm as nut and shaft"
+    )
+    return [units.record(message, id="warm_up.own_temperatures", subject="motion.segment", severity="warning")]
 
 
 def _long_cycle(report: WarmUpReport) -> list[Record]:
@@ -141,13 +157,13 @@ def _long_cycle(report: WarmUpReport) -> list[Record]:
         return []
     cycle, hours = report.duty.states.cycle_time, float(report.warm_up.time[report.last_at_work])
     shown = SERIES["time"]
-    text = (
-        f"a cycle takes {units.shown(cycle, shown, 3)} of {units.shown(hours, shown, 3)}: the heat goes along with the "
-        "nut; torque is the mean of a cycle at the oil and preload of each instant, and the steady state that of heat "
-        "spread over the stroke"
+    message = Message(
+        "a cycle takes {cycle} of {time}: the heat goes along with the nut; torque is the mean of a cycle at the oil "
+        "and preload of each instant, and the steady state that of heat spread over the stroke",
+        {"cycle": Measured(cycle, shown, 3), "time": Measured(hours, shown, 3)},
     )
     return [
-        Record(
-            id="verdict.long_cycle", subject="motion", text=text, severity="info", holds=True, value=cycle, unit="s"
+        units.record(
+            message, id="verdict.long_cycle", subject="motion", severity="info", holds=True, value=cycle, unit="s"
         )
-    ]  # fmt: skip
+    ]

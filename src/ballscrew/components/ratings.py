@@ -8,9 +8,9 @@ import numpy as np
 
 from ballscrew.components.nut import PRELOAD
 from ballscrew.equations import geometry, rating
-from ballscrew.errors import shown
+from ballscrew.errors import shown_in_si
 from ballscrew.quantities import Angle, Count, Force, Info, Length, Quantity, Ratio
-from ballscrew.records import Record
+from ballscrew.records import Measured, Message, Record
 from ballscrew.usual_ranges import IMPLAUSIBLE
 
 #: With this conformity the formulas of ISO3408-5 give the ratings of catalogues (HIWIN2016), whose grooves have 0.54.
@@ -19,10 +19,11 @@ RATING_CONFORMITY = 0.52
 #: ends leave room for the lightest classes, and for ratings of a geometry that is known roughly.
 PRELOAD_SHARES = (1e-3, 1.0)
 _RATING = Quantity("dynamic_load_rating", "N", Info("C_a", "dynamic load rating", "kN"))
-_TEXT = (
-    "preload {{0}} is {share:.2g} % of the dynamic load rating {{1}} of this geometry; nuts have 2 % to 10 %: "
+_ODD = Message(
+    "preload {preload} is {percent} % of the dynamic load rating {rating} of this geometry; nuts have 2 % to 10 %: "
     "check the number and its unit"
 )
+_PRELOAD = Quantity("preload", "N", PRELOAD)
 
 
 def dynamic_load_rating(
@@ -69,19 +70,21 @@ def odd_preload(screw: Any) -> list[Record]:
         if not odd.any():
             return []
         at = int(np.argmax(np.where(odd, np.maximum(low / shares, shares / high), 0.0)))
-    share, shown_values = float(shares.flat[at]), (float(preloads.flat[at]), float(ratings.flat[at]))
-    template = _TEXT.format(share=100 * share)
-    quantities = tuple(zip(shown_values, (Quantity("preload", "N", PRELOAD), _RATING), strict=True))
+    share = float(shares.flat[at])
+    message = _ODD.of(
+        preload=Measured(float(preloads.flat[at]), _PRELOAD),
+        percent=Measured(100 * share, digits=2),
+        rating=Measured(float(ratings.flat[at]), _RATING),
+    )
     return [
         Record(
             id=IMPLAUSIBLE,
             subject="nut.preload",
-            text=template.format(*(shown(value, "N") for value in shown_values)),
+            text=message.filled(shown_in_si),
             severity="warning",
             holds=False,
             value=share,
             limit=high if share > high else low,
-            template=template,
-            quantities=quantities,
+            message=message,
         )
     ]

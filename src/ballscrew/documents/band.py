@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import string
 from typing import Any
 
 from ballscrew import units
@@ -13,9 +12,9 @@ from ballscrew.cases.uncertain_inputs import Uncertain
 from ballscrew.documents.run import document as run_document
 from ballscrew.evaluation.outputs import known_outputs
 from ballscrew.friction.result import FrictionResult
-from ballscrew.friction.validity import NUT_REASONS
+from ballscrew.friction.validity import NUT_CONDITIONS
 from ballscrew.quantities import Quantity, quantities_of
-from ballscrew.records import Record, documents
+from ballscrew.records import Measured, Message, Record, documents
 from ballscrew.studies.band import BandReport
 from ballscrew.studies.run import Run
 from ballscrew.uncertainty.bands import OutputBand
@@ -23,19 +22,19 @@ from ballscrew.uncertainty.bands import OutputBand
 _TORQUE = "screw_torque"
 _KNOWN = quantities_of(FrictionResult)[_TORQUE]
 #: The sentences where the other laws pull the band to one side of the model's own.
-_LOWERED = (
+_LOWERED = Message(
     "inputs and laws together end at {high}, below the {inputs_high} of the inputs alone: most other laws give less "
     "torque than the model's; for a motor take {inputs_high}"
 )
-_RAISED = (
+_RAISED = Message(
     "inputs and laws together begin at {low}, above the {inputs_low} of the inputs alone: most other laws give more "
     "torque than the model's; for a brake take {inputs_low}"
 )
-_ABOVE = (
+_ABOVE = Message(
     "the case lies at {value}, above the laws alone ({laws_low} to {laws_high}): most other laws give less torque than "
     "the model's; expect the median {median} and for a motor take {greatest}"
 )
-_BELOW = (
+_BELOW = Message(
     "the case lies at {value}, below the laws alone ({laws_low} to {laws_high}): most other laws give more torque than "
     "the model's; expect the median {median} and for a motor take {greatest}"
 )
@@ -71,18 +70,18 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
     band, torque = report.band, report.band[_TORQUE]
     quantity = known_outputs(case.screw.nut)[_TORQUE].quantity
     if not math.isfinite(torque.median):
-        text = "no band: the friction torque is no number here"
-        return [Record(id="band.no_torque", subject=_TORQUE, text=text, severity="warning", unit=quantity.unit)]
+        message = Message("no band: the friction torque is no number here")
+        return [units.record(message, id="band.no_torque", subject=_TORQUE, severity="warning", unit=quantity.unit)]
     if float(case.operation.axial_load) == 0 and torque.both == (0.0, 0.0):
-        text = "no band: without load there is no friction torque"
-        return [Record(id="band.no_load", subject="axial_load", text=text, value=0.0, unit="N")]
-    low, high = (units.shown(end, quantity) for end in torque.both)
-    text = (
-        f"friction torque {units.shown(torque.value, quantity)} at the values of the case, "
-        f"median {units.shown(torque.median, quantity)}, "
-        f"{100 * band.level:.4g} % of the samples between {low} and {high}"
+        message = Message("no band: without load there is no friction torque")
+        return [units.record(message, id="band.no_load", subject="axial_load", value=0.0, unit="N")]
+    numbers = {"torque": torque.value, "median": torque.median, "low": torque.both.low, "high": torque.both.high}
+    message = Message(
+        "friction torque {torque} at the values of the case, median {median}, "
+        "{level} % of the samples between {low} and {high}",
+        {**{name: Measured(value, quantity) for name, value in numbers.items()}, "level": Measured(100 * band.level)},
     )
-    records = [Record(id="band.torque", subject=_TORQUE, text=text, value=torque.median, unit=quantity.unit)]
+    records = [units.record(message, id="band.torque", subject=_TORQUE, value=torque.median, unit=quantity.unit)]
     records += beside_laws(torque, quantity)
     records += _full_bath(torque.both.high, report.flooded_torque)
     if case.fit:
@@ -93,8 +92,12 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
         records.append(Record(id="band.calibrated", subject="model", text=text))
     if float(case.operation.axial_load) != 0:
         share = band.self_locking_share
-        text = f"self-locking in {share:.2%} of the samples" if share else "self-locking in none of the samples"
-        records.append(Record(id="band.self_locking_share", subject="self_locking", text=text, value=share))
+        message = (
+            Message("self-locking in {percent}% of the samples", {"percent": Measured(100 * share)})
+            if share
+            else Message("self-locking in none of the samples")
+        )
+        records.append(units.record(message, id="band.self_locking_share", subject="self_locking", value=share))
     return records
 
 
@@ -102,14 +105,23 @@ def _full_bath(high: float, flooded: float | None) -> list[Record]:
     """That a band has the starved track only, and where the torque of the full bath lies; empty where none starves."""
     if flooded is None:
         return []
-    where = "above it" if flooded > high else "within it"
-    text = (
-        "the band takes oil to come back into the track late, as in bearings; "
-        f"a full bath of oil gives {units.shown(flooded, _KNOWN)}: {where}"
+    torque = {"torque": Measured(flooded, _KNOWN)}
+    message = (
+        Message(
+            "the band takes oil to come back into the track late, as in bearings; "
+            "a full bath of oil gives {torque}: above it",
+            torque,
+        )
+        if flooded > high
+        else Message(
+            "the band takes oil to come back into the track late, as in bearings; "
+            "a full bath of oil gives {torque}: within it",
+            torque,
+        )
     )
     return [
-        Record(
-            id="band.flooded", subject=_TORQUE, text=text, severity="warning", holds=flooded <= high,
+        units.record(
+            message, id="band.flooded", subject=_TORQUE, severity="warning", holds=flooded <= high,
             value=flooded, limit=high, unit=_KNOWN.unit,
         )
     ]  # fmt: skip
@@ -130,9 +142,9 @@ def beside_laws(torque: OutputBand, quantity: Quantity) -> list[Record]:
     def differ(one: str, other: str) -> bool:
         return units.rounded(numbers[one], quantity) != units.rounded(numbers[other], quantity)
 
-    def record(name: str, template: str, used: str) -> Record:
-        text = template.format_map({key: units.shown(numbers[key], quantity) for key in _named(template)})
-        return Record(id=f"band.{name}", subject=_TORQUE, text=text, value=numbers[used], unit=quantity.unit)
+    def record(name: str, template: Message, used: str) -> Record:
+        message = template.of(**{key: Measured(value, quantity) for key, value in numbers.items()})
+        return units.record(message, id=f"band.{name}", subject=_TORQUE, value=numbers[used], unit=quantity.unit)
 
     found: list[Record] = []
     if both.high < inputs.high and differ("high", "inputs_high"):
@@ -146,29 +158,35 @@ def beside_laws(torque: OutputBand, quantity: Quantity) -> list[Record]:
     return found
 
 
-def _named(template: str) -> list[str]:
-    """The names in braces of a text, in their order."""
-    return [name for _, name, _, _ in string.Formatter().parse(template) if name]
-
-
 def warnings(report: BandReport) -> list[Record]:
     """Samples outside the model's validity, and samples that are no number."""
     records: list[Record] = []
     outside, missing = report.band.invalid_share, report.band[_TORQUE].missing_share
     if outside > 0:
-        reasons = ", ".join(
-            f"{share:.2%} {reason}: {NUT_REASONS[reason]}" for reason, share in report.reasons_by_share.items()
+        reasons = [
+            Message(
+                "{percent}% {name}: {condition}",
+                {
+                    "percent": Measured(100 * share),
+                    "name": Message(reason),
+                    "condition": NUT_CONDITIONS[reason].message,
+                },
+            )
+            for reason, share in report.reasons_by_share.items()
+        ]
+        message = Message(
+            "{percent}% of the samples lie outside the model's validity ({reasons})",
+            {"percent": Measured(100 * outside), "reasons": reasons},
         )
-        text = f"{outside:.2%} of the samples lie outside the model's validity ({reasons})"
-        records.append(_share("band.not_valid_share", "valid", text, outside))
+        records.append(_share("band.not_valid_share", "valid", message, outside))
     if missing > 0:
-        text = f"{missing:.2%} of the samples are no number, and left out"
-        records.append(_share("band.missing_share", _TORQUE, text, missing))
+        message = Message("{percent}% of the samples are no number, and left out", {"percent": Measured(100 * missing)})
+        records.append(_share("band.missing_share", _TORQUE, message, missing))
     return records
 
 
-def _share(name: str, subject: str, text: str, value: float) -> Record:
-    return Record(id=name, subject=subject, text=text, severity="warning", holds=False, value=value, limit=0.0)
+def _share(name: str, subject: str, message: Message, value: float) -> Record:
+    return units.record(message, id=name, subject=subject, severity="warning", holds=False, value=value, limit=0.0)
 
 
 def _output(one: OutputBand) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from ballscrew.cases import provenance
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.documents import check as check_documents
 from ballscrew.quantities import fields_of, quantities_of
+from ballscrew.records import Message
 from ballscrew.selection.candidates import Candidate, case_tables
 from ballscrew.selection.need import Need
 from ballscrew.selection.objectives import OBJECTIVES
@@ -116,7 +117,7 @@ def _case(found: Candidate, need: Need) -> dict[str, Any]:
 
 def verdict(found: Candidate) -> str:
     """All checks in a few words, with the utilisation of those that fail."""
-    text = verdict_of(found.checks, passes="holds", by_how_much=True)
+    text = units.filled(verdict_of(found.checks, passes=Message("holds"), by_how_much=True))
     limit = found.preload_lost_above
     if limit is not None:
         text += f"; preload lost above {units.shown(limit, _LIFT_OFF)}"

@@ -6,10 +6,11 @@ from typing import Any
 
 import xarray as xr
 
+from ballscrew import units
 from ballscrew._version import __version__
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
-from ballscrew.records import Record, documents
+from ballscrew.records import Measured, Message, Record, documents
 from ballscrew.studies.sweep import Plan, implausible, starved
 from ballscrew.uncertainty.bands import ENDS
 
@@ -43,10 +44,13 @@ def warnings(dataset: xr.Dataset) -> list[Record]:
     count = int(valid.size - valid.sum())
     if not count:
         return []
-    text = f"{count} of {valid.size} points lie outside the model's validity"
+    message = Message(
+        "{count} of {all} points lie outside the model's validity",
+        {"count": Measured(count, digits=9), "all": Measured(valid.size, digits=9)},
+    )
     return [
-        Record(
-            id="validity.points", subject="valid", text=text, severity="warning", holds=False,
+        units.record(
+            message, id="validity.points", subject="valid", severity="warning", holds=False,
             value=float(count), limit=0.0,
         )
     ]  # fmt: skip

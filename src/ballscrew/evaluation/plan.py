@@ -35,7 +35,7 @@ from ballscrew.friction.model import SLOTS, FrictionModel
 from ballscrew.friction.plausibility import implausible, named_parts
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Quantity, fields_of, quantities_of
-from ballscrew.records import Record
+from ballscrew.records import Message, Record
 from ballscrew.references import citations_of
 from ballscrew.solvers.load_distribution import BallLoads
 from ballscrew.tracing.merging import merged_program
@@ -53,7 +53,7 @@ _MOST_CORNERS = 4096
 _REPLENISHMENT = "inlet.replenishment_constant"
 #: Multiples of it, less their whole part, are spread evenly.
 _GOLDEN = (math.sqrt(5) - 1) / 2
-_OF_POINTS = "so at the point that starves the most; the output flooded_torque has it for each"
+_OF_POINTS = Message("so at the point that starves the most; the output flooded_torque has it for each")
 #: An axis of more values is long: to read it twice takes time.
 LONG_AXIS = 100_000
 

@@ -13,18 +13,24 @@ import numpy as np
 from ballscrew.components.data_sheet import SHEET_TEMPERATURE, DataSheet
 from ballscrew.components.ratings import odd_preload
 from ballscrew.components.screw import MATERIALS, BallScrew
-from ballscrew.errors import shown
-from ballscrew.records import Record
+from ballscrew.errors import shown_in_si
+from ballscrew.records import Measured, Message, Record
 from ballscrew.usual_ranges import IMPLAUSIBLE as IMPLAUSIBLE
 from ballscrew.usual_ranges import unusual
 
-_BELOW_POUR_POINT = (
-    "oil at {0}, below its pour point {1}: it does not flow by itself, and its viscosity is a guess; "
+_BELOW_POUR_POINT = Message(
+    "oil at {value}, below its pour point {limit}: it does not flow by itself, and its viscosity is a guess; "
     "at the start it is more"
 )
-_BELOW = "lubricant at {0}, below the {1} that its maker states: its viscosity is a guess"
-_ABOVE = "lubricant at {0}, above the {1} that its maker states: it does not last"
-_EXTRAPOLATED = "oil at {0}: its viscosity is extrapolated far from the two points of its data sheet; give its {1}"
+_BELOW = Message("lubricant at {value}, below the {limit} that its maker states: its viscosity is a guess")
+_ABOVE = Message("lubricant at {value}, above the {limit} that its maker states: it does not last")
+_EXTRAPOLATED_COLD = Message(
+    "oil at {value}: its viscosity is extrapolated far from the two points of its data sheet; give its pour_point"
+)
+_EXTRAPOLATED_HOT = Message(
+    "oil at {value}: its viscosity is extrapolated far from the two points of its data sheet; "
+    "give its highest_temperature"
+)
 #: Constant of replenishment of a track with grease (SKF2018).
 GREASE_REPLENISHMENT = 6e-8
 #: Without a pour point or a range on the sheet, temperatures as far from 40 and 100 °C as this are extrapolated, K.
@@ -90,11 +96,11 @@ def beyond_data_sheet(lubricant: Any) -> list[Record]:
     elif sheet.lowest_temperature is not None and coldest < sheet.lowest_temperature:
         records.append(_of_sheet("below_range", _BELOW, coldest, float(sheet.lowest_temperature)))
     elif sheet.pour_point is None and sheet.lowest_temperature is None and coldest < _COLD:
-        records.append(_of_sheet("extrapolated_cold", _EXTRAPOLATED.format("{0}", "pour_point"), coldest, _COLD))
+        records.append(_of_sheet("extrapolated_cold", _EXTRAPOLATED_COLD, coldest, _COLD))
     if sheet.highest_temperature is not None and hottest > sheet.highest_temperature:
         records.append(_of_sheet("above_range", _ABOVE, hottest, float(sheet.highest_temperature)))
     elif sheet.highest_temperature is None and hottest > _HOT:
-        records.append(_of_sheet("extrapolated_hot", _EXTRAPOLATED.format("{0}", "highest_temperature"), hottest, _HOT))
+        records.append(_of_sheet("extrapolated_hot", _EXTRAPOLATED_HOT, hottest, _HOT))
     return records
 
 
@@ -107,7 +113,7 @@ def _grease_as_oil(lubricant: Any, inlet: Any) -> list[Record]:
     least = float(np.min(constant))
     if least >= GREASE_REPLENISHMENT * (1 - 1e-9):
         return []
-    text = (
+    message = Message(
         "grease computed as oil of a bath: its constant of replenishment is 6e-8; "
         "write [model] inlet.replenishment_constant = 6e-8"
     )
@@ -115,26 +121,26 @@ def _grease_as_oil(lubricant: Any, inlet: Any) -> list[Record]:
         Record(
             id="lubricant.grease_as_oil",
             subject="model.inlet.replenishment_constant",
-            text=text,
+            text=message.filled(shown_in_si),
             severity="warning",
             holds=False,
             value=least,
             limit=GREASE_REPLENISHMENT,
+            message=message,
         )
     ]
 
 
-def _of_sheet(name: str, template: str, value: float, limit: float) -> Record:
-    quantities = tuple((number, SHEET_TEMPERATURE) for number in (value, limit))
+def _of_sheet(name: str, template: Message, value: float, limit: float) -> Record:
+    message = template.of(value=Measured(value, SHEET_TEMPERATURE), limit=Measured(limit, SHEET_TEMPERATURE))
     return Record(
         id=f"lubricant.{name}",
         subject="lubricant.temperature",
-        text=template.format(*(shown(number, "K") for number in (value, limit))),
+        text=message.filled(shown_in_si),
         severity="warning",
         holds=False,
         value=value,
         limit=limit,
         unit="K",
-        template=template,
-        quantities=quantities,
+        message=message,
     )

@@ -14,9 +14,9 @@ import numpy as np
 
 from ballscrew.components.screw import BallScrew
 from ballscrew.equations import rolling
-from ballscrew.errors import shown
+from ballscrew.errors import shown_in_si
 from ballscrew.quantities import Quantity
-from ballscrew.records import Record
+from ballscrew.records import Measured, Message, Record
 
 #: The id of the record, in every answer that holds a torque.
 STARVED = "lubricant.starved"
@@ -26,10 +26,14 @@ LARGEST_DIFFERENCE = 0.1
 #: the torque that force, it would grow by 1/0.92, that is by less than what counts.
 NEARLY_ALL = 0.92
 
-_LATE = "starved: {0} if oil this thick comes back into the track too late, as in bearings; "
-_ONE = _LATE + "{1} in a full bath of oil; "
-_SEVERAL = _LATE + "in a full bath of oil {1}; "
-_UNKNOWN = "which of them a ball screw has is not measured"
+_ONE = Message(
+    "starved: {given} if oil this thick comes back into the track too late, as in bearings; "
+    "{flooded} in a full bath of oil; which of them a ball screw has is not measured"
+)
+_SEVERAL = Message(
+    "starved: {given} if oil this thick comes back into the track too late, as in bearings; "
+    "in a full bath of oil {flooded}; which of them a ball screw has is not measured"
+)
 
 
 class BothTorques(NamedTuple):
@@ -69,38 +73,40 @@ def least_replenished(model: Any, screw: BallScrew, lubricant: Any, screw_speed:
     return float(np.min(left, initial=1.0, where=np.isfinite(left)))
 
 
-def records(numbers: Sequence[BothTorques], remark: str = "") -> list[Record]:
+def records(numbers: Sequence[BothTorques], remark: Message | None = None) -> list[Record]:
     """The record of an answer that is starved; the first of the numbers is its value, in a full bath.
 
     The limit of the record is that number with the inlet as it is given. A ``remark`` ends the sentence.
     """
     first = numbers[0]
+    given = [Measured(one.given, one.quantity) for one in numbers]
+    flooded = [Measured(one.flooded, one.quantity) for one in numbers]
     if len(numbers) == 1:
-        template, quantities = _ONE, ((first.given, first.quantity), (first.flooded, first.quantity))
+        message = _ONE.of(given=given[0], flooded=flooded[0])
     else:
-        places = [f"{one.quantity.info.meaning} {{{i}}}" for i, one in enumerate(numbers)]
-        others = [f"{{{i + len(numbers)}}}" for i in range(len(numbers))]
-        template = _SEVERAL.format(_listed(places), _listed(others))
-        quantities = (
-            *((one.given, one.quantity) for one in numbers),
-            *((one.flooded, one.quantity) for one in numbers),
+        named = [
+            Message("{meaning} {value}", {"meaning": Message(one.quantity.info.meaning), "value": value})
+            for one, value in zip(numbers, given, strict=True)
+        ]
+        message = _SEVERAL.of(
+            given=_listed(named), flooded=_listed([Message("{value}", {"value": v}) for v in flooded])
         )
-    template += "; ".join(filter(None, [_UNKNOWN, remark]))
+    if remark is not None:
+        message = Message("{starved}; {remark}", {"starved": message, "remark": remark})
     return [
         Record(
             id=STARVED,
             subject=first.quantity.name,
-            text=template.format(*(shown(number, quantity.unit) for number, quantity in quantities)),
+            text=message.filled(shown_in_si),
             severity="warning",
             holds=False,
             value=first.flooded,
             limit=first.given,
             unit=first.quantity.unit,
-            template=template,
-            quantities=quantities,
+            message=message,
         )
     ]
 
 
-def _listed(texts: Sequence[str]) -> str:
-    return " and ".join(filter(None, [", ".join(texts[:-1]), texts[-1]]))
+def _listed(parts: Sequence[Message]) -> Message:
+    return Message("{others} and {last}", {"others": parts[:-1], "last": parts[-1]})

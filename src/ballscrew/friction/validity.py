@@ -13,7 +13,7 @@ from ballscrew.components.contact import Contact, RaceState
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import is_concrete
 from ballscrew.quantities import Mask, Ratio, Torque, fields_of, within_bounds
-from ballscrew.records import Record
+from ballscrew.records import Measured, Message, Record
 
 #: Y at which the curvature moment (15) changes sign: the root of 1 - 5Y³ + 3Y⁵ in (0, 1).
 LARGEST_PURE_ROLLING_OFFSET = 0.643
@@ -34,64 +34,85 @@ SMALLEST_INLET_FACTOR = 0.5
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class Condition:
-    """A condition of the model: the quantity it concerns and the text shown where it fails.
+    """A condition of the model: the quantity it concerns and the message shown where it fails.
 
     Where it compares one number of each contact with one limit: ``quantity`` (its name there), ``limit`` and ``unit``.
     """
 
     subject: str
-    text: str
+    message: Message
     quantity: str = ""
     limit: float | None = None
     unit: str = "1"
     #: The limit is the greatest allowed value, not the least.
     upper: bool = False
 
+    @property
+    def text(self) -> str:
+        """The message in English."""
+        return self.message.filled(Measured.plain)
+
 
 CONDITIONS: Mapping[str, Condition] = {
     "inputs": Condition(
-        "inputs", "inputs must be finite and within their bounds, the balls must fit, and the torque must be finite"
+        "inputs",
+        Message(
+            "inputs must be finite and within their bounds, the balls must fit, and the torque must be finite"
+        ),
     ),
     "skid": Condition(
         "friction_coefficient",
-        "the sliding force exceeds friction coefficient times load at a contact: the ball skids; "
-        "more load or less speed ends it",
+        Message(
+            "the sliding force exceeds friction coefficient times load at a contact: the ball skids; "
+            "more load or less speed ends it"
+        ),
     ),
     "pure_rolling_offset": Condition(
         "pure_rolling_offset",
-        f"the lines of pure rolling lie outside 0 <= Y < {LARGEST_PURE_ROLLING_OFFSET}, where (15) holds",
+        Message(
+            "the lines of pure rolling lie outside 0 <= Y < {limit}, where (15) holds",
+            {"limit": Measured(LARGEST_PURE_ROLLING_OFFSET)},
+        ),
     ),
     "radii_ratio": Condition(
         "semi_major_axis",
-        "the radii ratio k is outside the range of the Hertz law (k >= 1, and a largest k of each law)",
+        Message("the radii ratio k is outside the range of the Hertz law (k >= 1, and a largest k of each law)"),
     ),
     "contact_pressure": Condition(
         "maximum_pressure",
-        f"the maximum pressure exceeds {LARGEST_PRESSURE / 1e9:g} GPa: the contact yields (ISO 76)",
+        Message(
+            "the maximum pressure exceeds {limit} GPa: the contact yields (ISO 76)",
+            {"limit": Measured(LARGEST_PRESSURE / 1e9)},
+        ),
         "maximum_pressure", LARGEST_PRESSURE, "Pa", upper=True,
     ),
     "elastic_regime": Condition(
         "minimum_film_thickness",
-        f"the load is too light for the film law (M < {SMALLEST_ELASTIC_REGIME_PARAMETER}): "
-        "film and friction are estimates; more load or less speed leads back",
+        Message(
+            "the load is too light for the film law (M < {limit}): "
+            "film and friction are estimates; more load or less speed leads back",
+            {"limit": Measured(SMALLEST_ELASTIC_REGIME_PARAMETER)},
+        ),
         "elastic_regime_parameter", SMALLEST_ELASTIC_REGIME_PARAMETER,
     ),
     "inlet_heating": Condition(
         "minimum_film_thickness",
-        "the heat of the inlet takes more than half of the film: too fast for its factor to be trusted",
+        Message("the heat of the inlet takes more than half of the film: too fast for its factor to be trusted"),
         "inlet_film_factor", SMALLEST_INLET_FACTOR,
     ),
     "material_parameter": Condition(
         "minimum_film_thickness",
-        f"G is outside {MATERIAL_PARAMETER_RANGE[0]:.0f} to {MATERIAL_PARAMETER_RANGE[1]:.0f}, "
-        "the materials and oils behind the film regression (26)",
+        Message(
+            "G is outside {low} to {high}, the materials and oils behind the film regression (26)",
+            {name: Measured(end) for name, end in zip(("low", "high"), MATERIAL_PARAMETER_RANGE, strict=True)},
+        ),
     ),
-    "equilibrium": Condition("equilibrium", "the slip of the ball did not converge"),
+    "equilibrium": Condition("equilibrium", Message("the slip of the ball did not converge")),
 }  # fmt: skip
 #: The conditions of a ball, and those of a nut.
 NUT_CONDITIONS: Mapping[str, Condition] = {
     **CONDITIONS,
-    "load_distribution": Condition("load_distribution", "the loads of the balls did not converge"),
+    "load_distribution": Condition("load_distribution", Message("the loads of the balls did not converge")),
 }
 #: The texts alone, by reason.
 NUT_REASONS: Mapping[str, str] = {reason: condition.text for reason, condition in NUT_CONDITIONS.items()}
@@ -104,16 +125,25 @@ def imbalance_records(power_imbalance: Ratio, nut_torque: Torque) -> list[Record
     largest = float(np.max(shares[np.isfinite(shares)], initial=0.0))
     if largest <= LARGEST_IMBALANCE:
         return []
-    negative = ", and the torque on the nut falls below zero" if np.any(np.asarray(nut_torque, dtype=float) < 0) else ""
-    text = (
-        f"the power of the torque differs by up to {largest:.1%} from what the parts dissipate{negative}: "
-        "the reactions of the model do not balance; the model corrected has them in balance"
-    )
+    percent = {"percent": Measured(100 * largest, digits=3)}
+    if np.any(np.asarray(nut_torque, dtype=float) < 0):
+        message = Message(
+            "the power of the torque differs by up to {percent}% from what the parts dissipate, and the torque on the "
+            "nut falls below zero: the reactions of the model do not balance; the model corrected has them in balance",
+            percent,
+        )
+    else:
+        message = Message(
+            "the power of the torque differs by up to {percent}% from what the parts dissipate: "
+            "the reactions of the model do not balance; the model corrected has them in balance",
+            percent,
+        )
     return [
         Record(
             id="model.power_balance",
             subject="friction_power",
-            text=text,
+            text=message.filled(Measured.plain),
+            message=message,
             severity="warning",
             holds=False,
             value=largest,
@@ -138,6 +168,7 @@ def _record(reason: str, condition: Condition, contacts: Sequence[Contact]) -> R
         id=f"validity.{reason}",
         subject=condition.subject,
         text=condition.text,
+        message=condition.message,
         severity="warning",
         holds=False,
         value=_worst(condition, contacts) if condition.quantity else None,

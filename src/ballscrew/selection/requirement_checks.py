@@ -6,10 +6,13 @@ import math
 from collections.abc import Mapping
 
 from ballscrew.axis_studies.duty import DutyReport
+from ballscrew.records import Message
 from ballscrew.selection.objectives import shaft_length
 from ballscrew.selection.requirements import ALLOWED, FORBIDDEN, Requirements
 from ballscrew.sizing.checks import Check
 from ballscrew.studies.check import Checked
+
+_NOT_KNOWN = Message("{what}: not known here")
 
 
 def of(
@@ -17,15 +20,21 @@ def of(
 ) -> tuple[Check, ...]:
     """A check for each requirement that is set."""
     bounds = (
-        at_most("drive_torque", numbers["drive_torque"], required.largest_drive_torque, "N m", "torque on the shaft"),
+        at_most(
+            "drive_torque", numbers["drive_torque"], required.largest_drive_torque, "N m",
+            Message("torque on the shaft"),
+        ),
         at_most(
             "preload_torque", numbers["preload_torque"], required.largest_preload_torque, "N m",
-            "torque of the nut without load",
+            Message("torque of the nut without load"),
         ),
-        at_least("rigidity", numbers["rigidity"], required.least_rigidity, "N/m", "rigidity of the nut under the load"),
+        at_least(
+            "rigidity", numbers["rigidity"], required.least_rigidity, "N/m",
+            Message("rigidity of the nut under the load"),
+        ),
         at_least(
             "remaining_preload", float(found.nut.loads.remaining_preload), required.least_remaining_preload, "N",
-            "preload that the load leaves on the relieved half or flank",
+            Message("preload that the load leaves on the relieved half or flank"),
         ),
         _inertia(required, found, numbers["inertia"]),
         step(required, float(found.case.screw.lead)),
@@ -34,38 +43,38 @@ def of(
     return tuple(check for check in (*bounds, drives) if check is not None)
 
 
-def at_most(name: str, value: float, limit: float | None, unit: str, text: str) -> Check | None:
+def at_most(name: str, value: float, limit: float | None, unit: str, message: Message) -> Check | None:
     """A check that holds up to a limit, none without one; a value that is no number is not judged."""
     if limit is None:
         return None
     if math.isnan(value):
-        return Check(name, None, limit, unit, None, None, f"{text}: not known here")
-    return Check(name, value, limit, unit, value / limit, value <= limit, text)
+        return Check.saying(_NOT_KNOWN.of(what=message), name, None, limit, unit, None, None)
+    return Check.saying(message, name, value, limit, unit, value / limit, value <= limit)
 
 
-def at_least(name: str, value: float, limit: float | None, unit: str, text: str) -> Check | None:
+def at_least(name: str, value: float, limit: float | None, unit: str, message: Message) -> Check | None:
     """A check that holds from a limit on."""
     if limit is None:
         return None
     if math.isnan(value):
-        return Check(name, None, limit, unit, None, None, f"{text}: not known here")
-    return Check(name, value, limit, unit, limit / value if value else math.inf, value >= limit, text)
+        return Check.saying(_NOT_KNOWN.of(what=message), name, None, limit, unit, None, None)
+    return Check.saying(message, name, value, limit, unit, limit / value if value else math.inf, value >= limit)
 
 
 def _inertia(required: Requirements, found: Checked, value: float) -> Check | None:
     """Inertia of the shaft; not judged where its length is not known."""
     limit = required.largest_inertia
     if limit is not None and shaft_length(required, found.case.installation) is None:
-        text = "not judged: give the length of the shaft, or the stroke"
-        return Check("inertia", None, limit, "kg m^2", None, None, text, "installation.unsupported_length")
-    return at_most("inertia", value, limit, "kg m^2", "inertia of a solid shaft")
+        message = Message("not judged: give the length of the shaft, or the stroke")
+        return Check.saying(message, "inertia", None, limit, "kg m^2", None, None, "installation.unsupported_length")
+    return at_most("inertia", value, limit, "kg m^2", Message("inertia of a solid shaft"))
 
 
 def step(required: Requirements, lead: float) -> Check | None:
     """Travel of one count of the encoder."""
     if required.largest_step is None or required.counts_per_turn is None:
         return None
-    return at_most("step", lead / required.counts_per_turn, required.largest_step, "m", "travel of one count")
+    return at_most("step", lead / required.counts_per_turn, required.largest_step, "m", Message("travel of one count"))
 
 
 def back_driving(required: Requirements, found: Checked) -> Check | None:
@@ -78,17 +87,23 @@ def back_driving(required: Requirements, found: Checked) -> Check | None:
         return None
     load = found.run.at_rest.axial_load
     if not load:
-        return Check("back_driving", None, None, "N m", None, None, "not judged: no load")
+        return Check.saying(Message("not judged: no load"), "back_driving", None, None, "N m", None, None)
     left = math.copysign(1.0, load) * found.run.at_rest.holding_torque
     moving = math.copysign(1.0, load) * float(found.run.friction.holding_torque)
     known = [value for value in (left, moving) if not math.isnan(value)]
     if not known:
-        return Check("back_driving", None, 0.0, "N m", None, None, "not judged: outside of what the model knows")
+        return Check.saying(
+            Message("not judged: outside of what the model knows"), "back_driving", None, 0.0, "N m", None, None
+        )
     if required.back_driving == FORBIDDEN:
         value = max(known)
-        return Check("back_driving", value, 0.0, "N m", None, value <= 0, "torque that the load has left: at most none")
+        return Check.saying(
+            Message("torque that the load has left: at most none"), "back_driving", value, 0.0, "N m", None, value <= 0
+        )
     value = min(known)
-    return Check("back_driving", value, 0.0, "N m", None, value > 0, "torque that the load has left: more than none")
+    return Check.saying(
+        Message("torque that the load has left: more than none"), "back_driving", value, 0.0, "N m", None, value > 0
+    )
 
 
 def _of_axis(required: Requirements, report: DutyReport) -> Check | None:
@@ -97,8 +112,10 @@ def _of_axis(required: Requirements, report: DutyReport) -> Check | None:
         return None
     brake = report.brake
     if required.back_driving == FORBIDDEN:
-        text = "torque that holds the axis with the motor off, in any condition"
-        return Check("back_driving", brake.holding_torque, 0.0, "N m", None, not brake.falls, text)
+        message = Message("torque that holds the axis with the motor off, in any condition")
+        return Check.saying(message, "back_driving", brake.holding_torque, 0.0, "N m", None, not brake.falls)
     every = all(found.falls for found in brake.conditions)
     least = min(found.holding_torque for found in brake.conditions)
-    return Check("back_driving", least, 0.0, "N m", None, every, "torque that the load has left in every condition")
+    return Check.saying(
+        Message("torque that the load has left in every condition"), "back_driving", least, 0.0, "N m", None, every
+    )

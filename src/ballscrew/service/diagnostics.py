@@ -9,12 +9,13 @@ import numpy as np
 from ballscrew.calibration.fit_result import Rows
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.quantities import Force, Quantity
-from ballscrew.records import Record
+from ballscrew.records import Measured, Message, Record
 from ballscrew.service.estimate import PreloadEstimate
 from ballscrew.service.posterior import MINIMUM_SAMPLES, MODEL_ERROR, MODEL_PARTS, PRELOAD, Posterior
 
 #: A difference between the temperatures of two logs that is said, K.
 TEMPERATURE_DIFFERENCE = 5.0
+_OF_LOG = Message("{log} log: {message}")
 #: A preload above this share of the dynamic load rating is more than vendors allow.
 HIGHEST_SHARE = 0.1
 #: A misfit of a log that is seldom chance, and a number so many standard deviations from what is known of it, are said.
@@ -60,7 +61,7 @@ def _of_fit(label: str, one: PreloadEstimate) -> list[Record]:
             record,
             subject=f"{label}.{record.subject}",
             text=f"{label} log: {record.text}",
-            template=f"{label} log: {record.template}" if record.template else "",
+            message=None if record.message is None else _OF_LOG.of(log=Message(label), message=record.message),
         )
         for record in said
     ]
@@ -102,19 +103,26 @@ def _of_ratings(
         return []
     quantity: Quantity = subject.inputs[PRELOAD][1]
     limit = HIGHEST_SHARE * float(dynamic_load_rating)
-    return [
-        _record(
-            "preload_above_rating", f"{label}.preload",
-            f"{label} preload {one.preload:.4g} N is more than {HIGHEST_SHARE:.0%} of the dynamic load rating, "
-            f"{limit:.4g} N: it costs life; look at the nut and the units of the log",
-            value=one.preload, limit=limit, unit="N",
-            template=f"{label} preload {{0}} is more than {HIGHEST_SHARE:.0%} of the dynamic load rating, {{1}}: "
+    found: list[Record] = []
+    for label, one in both.items():
+        if one.preload <= limit:
+            continue
+        message = Message(
+            "{log} preload {preload} is more than {percent}% of the dynamic load rating, {limit}: "
             "it costs life; look at the nut and the units of the log",
-            quantities=((one.preload, quantity), (limit, quantity)),
-        )
-        for label, one in both.items()
-        if one.preload > limit
-    ]  # fmt: skip
+            {
+                "log": Message(label), "preload": Measured(one.preload, quantity), "limit": Measured(limit, quantity),
+                "percent": Measured(100 * HIGHEST_SHARE),
+            },
+        )  # fmt: skip
+        text = message.filled(lambda number: number.plain() if number.is_plain else f"{number.value:.4g} N")
+        found.append(
+            _record(
+                "preload_above_rating", f"{label}.preload", text,
+                value=one.preload, limit=limit, unit="N", message=message,
+            )
+        )  # fmt: skip
+    return found
 
 
 def _of_lift_off(label: str, one: PreloadEstimate) -> list[Record]:

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ballscrew import units
 from ballscrew._arrays import as_array
 from ballscrew._deprecated import RenamedAttribute
 from ballscrew.components.nut import Nut, SingleNut
@@ -16,7 +17,7 @@ from ballscrew.equations import geometry, life, shaft
 from ballscrew.errors import Fault, accepts_units, raise_if_any, shown
 from ballscrew.friction.validity import LARGEST_PRESSURE
 from ballscrew.quantities import AngularSpeed, Force, Length, Pressure, Ratio
-from ballscrew.records import Record
+from ballscrew.records import Measured, Message, Record
 from ballscrew.sizing.installation import Installation, Limits
 from ballscrew.sizing.ratings import RATING_CONFORMITY as RATING_CONFORMITY
 from ballscrew.sizing.ratings import Ratings as Ratings
@@ -27,6 +28,10 @@ HOUR = 3600.0
 
 _SINGLE = SingleNut()
 _USUAL = Limits()
+_PASSES = Message("passes")
+NOT_CHECKED = Message("not checked: give {input}")
+#: A life that no running time is asked of, and what to give for it.
+NOT_JUDGED, UNJUDGED = Message("not judged: give {input}"), Message("{life}; {advice}")
 
 
 @accepts_units("checks")
@@ -59,9 +64,31 @@ class Check(NamedTuple):
     text: str
     #: The input without which it is not judged; empty where it is.
     missing: str = ""
+    #: The text as a template with its values.
+    message: Message | None = None
 
     passes = RenamedAttribute("passes", "holds")
     words = RenamedAttribute("words", "text")
+
+    @classmethod
+    def saying(
+        cls,
+        message: Message,
+        name: str,
+        value: float | None,
+        limit: float | None,
+        unit: str,
+        utilisation: float | None,
+        holds: bool | None,
+        missing: str = "",
+    ) -> Check:
+        """A check whose text is a message."""
+        return cls(name, value, limit, unit, utilisation, holds, units.filled(message), missing, message)
+
+    @property
+    def title(self) -> Message:
+        """The name as people read it."""
+        return Message(self.name.replace("_", " "))
 
     @property
     def record(self) -> Record:
@@ -70,6 +97,7 @@ class Check(NamedTuple):
             id=f"check.{self.name}",
             subject=self.name,
             text=self.text,
+            message=self.message,
             severity="error" if self.holds is False else "info",
             holds=self.holds,
             value=self.value,
@@ -90,21 +118,25 @@ def all_hold(checks: Sequence[Check]) -> bool | None:
     return True if judged(checks) == len(checks) else None
 
 
-def verdict_of(checks: Sequence[Check], *, passes: str = "passes", by_how_much: bool = False) -> str:
-    """Checks in a few words. The word ``passes`` is said only where all of them were judged and hold.
+def verdict_of(checks: Sequence[Check], *, passes: Message = _PASSES, by_how_much: bool = False) -> Message:
+    """Checks in a few words. ``passes`` is said only where all of them were judged and hold.
 
     Elsewhere the words say how many were judged; ``by_how_much`` adds the utilisation of those that fail.
     """
-    failed = [check for check in checks if check.holds is False]
-    names = [
-        check.name.replace("_", " ")
-        + (f" {check.utilisation:.3g} times" if by_how_much and check.utilisation is not None else "")
-        for check in failed
-    ]
-    count = f"{judged(checks)} of {len(checks)} judged"
+    names = [_failed(check, by_how_much) for check in checks if check.holds is False]
+    count = {"judged": Measured(judged(checks)), "all": Measured(len(checks))}
     if judged(checks) == len(checks):
-        return f"fails: {', '.join(names)}" if failed else passes
-    return f"fails: {', '.join(names)}; {count}" if failed else f"{count}, and these hold"
+        return Message("fails: {names}", {"names": names}) if names else passes
+    if names:
+        return Message("fails: {names}; {judged} of {all} judged", {"names": names, **count})
+    return Message("{judged} of {all} judged, and these hold", count)
+
+
+def _failed(check: Check, by_how_much: bool) -> Message:
+    """The name of a check that fails."""
+    if not by_how_much or check.utilisation is None:
+        return check.title
+    return Message("{check} {times} times", {"check": check.title, "times": Measured(check.utilisation, digits=3)})
 
 
 @accepts_units("checks")
@@ -187,25 +219,25 @@ def _groove_bottom(screw: BallScrew) -> Length:
 
 
 def _not_checked(name: str, unit: str, give: str) -> Check:
-    return Check(name, None, None, unit, None, None, f"not checked: give {give}", give)
+    return Check.saying(NOT_CHECKED.of(input=Message(give)), name, None, None, unit, None, None, give)
 
 
-def _at_most(name: str, value: float, limit: float, unit: str, text: str) -> Check:
+def _at_most(name: str, value: float, limit: float, unit: str, message: Message) -> Check:
     utilisation = float(value / limit)
-    return Check(name, float(value), float(limit), unit, utilisation, utilisation <= 1, text)
+    return Check.saying(message, name, float(value), float(limit), unit, utilisation, utilisation <= 1)
 
 
-def _at_least(name: str, value: float, limit: float, unit: str, text: str) -> Check:
+def _at_least(name: str, value: float, limit: float, unit: str, message: Message) -> Check:
     utilisation = float(limit / as_array(value))
-    return Check(name, float(value), float(limit), unit, utilisation, utilisation <= 1, text)
+    return Check.saying(message, name, float(value), float(limit), unit, utilisation, utilisation <= 1)
 
 
 def _static_safety(rated: Force | None, load: Force, limits: Limits) -> Check:
     name = "static_safety"
     if rated is None:
         return _not_checked(name, "1", "static_load_rating")
-    text = "static rating against the largest load, preload included"
-    return _at_least(name, life.static_safety(rated, as_array(load)), limits.static_safety, "1", text)
+    message = Message("static rating against the largest load, preload included")
+    return _at_least(name, life.static_safety(rated, as_array(load)), limits.static_safety, "1", message)
 
 
 def _life(rated: Force | None, loads: Sequence[Force], speed: AngularSpeed, limits: Limits) -> tuple[Check, Check]:
@@ -217,45 +249,46 @@ def _life(rated: Force | None, loads: Sequence[Force], speed: AngularSpeed, limi
     revolutions = lives[0] if len(lives) == 1 else life.combined_life(*lives)
     time = life.running_time(revolutions, as_array(speed))
     endless = not np.isfinite(revolutions)
-    text = (
-        "no load tires it"
+    millions = {"turns": Measured(float(revolutions) / 1e6, digits=3)}
+    of_turns = (
+        Message("no load tires it")
         if endless
-        else f"nine of ten outlive {_written(float(revolutions) / 1e6)} million revolutions, preload included"
+        else Message("nine of ten outlive {turns} million revolutions, preload included", millions)
     )
-    without_end = text if endless else "no turn tires it"
-    hours = f"{_written(float(time / HOUR))} h at this speed" if np.isfinite(time) else without_end
+    without_end = of_turns if endless else Message("no turn tires it")
+    of_hours = (
+        Message("{hours} h at this speed", {"hours": Measured(float(time / HOUR), digits=3)})
+        if np.isfinite(time)
+        else without_end
+    )
     required = limits.running_time
     at_rest = not endless and not float(as_array(speed))
     if required is None or at_rest:
         missing = "" if at_rest else "limits.running_time"
-        advice = "not judged: at rest" if at_rest else f"not judged: give {missing}"
+        advice = Message("not judged: at rest") if at_rest else NOT_JUDGED.of(input=Message(missing))
+        both = [UNJUDGED.of(life=one, advice=advice) for one in (of_turns, of_hours)]
         return (
-            Check(names[0], float(revolutions), None, "1", None, None, f"{text}; {advice}", missing),
-            Check(names[1], float(time), None, "s", None, None, f"{hours}; {advice}", missing),
+            Check.saying(both[0], names[0], float(revolutions), None, "1", None, None, missing),
+            Check.saying(both[1], names[1], float(time), None, "s", None, None, missing),
         )
     turns = required / life.running_time(1.0, as_array(speed))
     return (
-        _at_least(names[0], revolutions, turns, "1", text),
-        _at_least(names[1], time, required, "s", hours),
+        _at_least(names[0], revolutions, turns, "1", of_turns),
+        _at_least(names[1], time, required, "s", of_hours),
     )
-
-
-def _written(number: float) -> str:
-    """Three digits, without the exponent of programs."""
-    return f"{float(f'{number:.3g}'):.10g}"
 
 
 def _contact_pressure(pressure: Pressure | None) -> Check:
     name = "contact_pressure"
     if pressure is None:
         return _not_checked(name, "Pa", "maximum_pressure")
-    text = "largest Hertz pressure against that which leaves a dent of 1e-4 of the ball diameter (ISO 76)"
-    return _at_most(name, pressure, LARGEST_PRESSURE, "Pa", text)
+    message = Message("largest Hertz pressure against that which leaves a dent of 1e-4 of the ball diameter (ISO 76)")
+    return _at_most(name, pressure, LARGEST_PRESSURE, "Pa", message)
 
 
 def _shaft_stress(load: Force, d_r: Length, limits: Limits) -> Check:
-    text = "largest load over the core of the shaft, pulled or pushed"
-    return _at_most("shaft_stress", shaft.shaft_stress(load, d_r), limits.shaft_stress, "Pa", text)
+    message = Message("largest load over the core of the shaft, pulled or pushed")
+    return _at_most("shaft_stress", shaft.shaft_stress(load, d_r), limits.shaft_stress, "Pa", message)
 
 
 def _buckling(screw: BallScrew, load: Force, d_r: Length, installation: Installation | None, limits: Limits) -> Check:
@@ -264,8 +297,11 @@ def _buckling(screw: BallScrew, load: Force, d_r: Length, installation: Installa
         return _not_checked(name, "N", "installation")
     ends, E = installation.ends, screw.screw_material.young_modulus
     euler = shaft.buckling_load(ends.buckling_root, E, d_r, installation.unsupported_length)
-    text = f"largest load, if it pushes, against Euler's over {limits.buckling_safety:g}, ends {ends.words}"
-    return _at_most(name, load, euler / limits.buckling_safety, "N", text)
+    message = Message(
+        "largest load, if it pushes, against Euler's over {safety}, ends {ends}",
+        {"safety": Measured(limits.buckling_safety, digits=6), "ends": Message(ends.words)},
+    )
+    return _at_most(name, load, euler / limits.buckling_safety, "N", message)
 
 
 def _critical_speed(
@@ -276,14 +312,19 @@ def _critical_speed(
         return _not_checked(name, "rad/s", "installation")
     ends, E, rho = installation.ends, screw.screw_material.young_modulus, installation.shaft_density
     critical = shaft.critical_speed(ends.whirling_root, E, rho, d_r, installation.unsupported_length)
-    text = f"speed against {limits.critical_speed_share:g} of that at which the shaft whirls, ends {ends.words}"
-    return _at_most(name, speed, critical * limits.critical_speed_share, "rad/s", text)
+    message = Message(
+        "speed against {share} of that at which the shaft whirls, ends {ends}",
+        {"share": Measured(limits.critical_speed_share, digits=6), "ends": Message(ends.words)},
+    )
+    return _at_most(name, speed, critical * limits.critical_speed_share, "rad/s", message)
 
 
 def _diameter_speed_product(screw: BallScrew, speed: AngularSpeed, limits: Limits, of_make: SpeedLimit | None) -> Check:
     value, given = shaft.diameter_speed_product(screw.pitch_circle_diameter, speed), limits.diameter_speed_product
-    text = "DN value, pitch circle diameter times speed, which the return of the balls must stand; limit "
     known = GENERAL if of_make is None else of_make
-    if given is not None:
-        return _at_most("diameter_speed_product", value, given, "m rad/s", f"{text}that was given")
-    return _at_most("diameter_speed_product", value, known.value, "m rad/s", f"{text}{known.words}")
+    limit, words = (known.value, known.words) if given is None else (given, Message("that was given"))
+    message = Message(
+        "DN value, pitch circle diameter times speed, which the return of the balls must stand; limit {source}",
+        {"source": words},
+    )
+    return _at_most("diameter_speed_product", value, limit, "m rad/s", message)

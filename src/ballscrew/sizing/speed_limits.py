@@ -10,6 +10,7 @@ from importlib import resources
 from typing import NamedTuple
 
 from ballscrew.quantities import DiameterSpeed
+from ballscrew.records import Message
 from ballscrew.sizing.catalogue import CatalogueRow
 
 #: One millimetre times one turn a minute, in m rad/s.
@@ -20,7 +21,7 @@ class SpeedLimit(NamedTuple):
     """The largest DN value, and whose limit it is: words that follow on "limit", and keys in the bibliography."""
 
     value: DiameterSpeed
-    words: str
+    words: Message
     sources: tuple[str, ...] = ()
 
 
@@ -40,7 +41,7 @@ class PrintedLimit(NamedTuple):
 #: more: up to 140000 mm · rpm by Thomson's list, over 160000 by NSK's.
 GENERAL = SpeedLimit(
     70000 * MM_RPM,
-    "of standard nuts in general (THK514E, HIWIN2016): that of this make is not known, it may be more",
+    Message("of standard nuts in general (THK514E, HIWIN2016): that of this make is not known, it may be more"),
     ("THK514E", "HIWIN2016"),
 )
 
@@ -53,7 +54,8 @@ def speed_limit_of(row: CatalogueRow | None) -> SpeedLimit | None:
     if row is None:
         return None
     if row.speed_limit is not None:
-        return SpeedLimit(row.speed_limit, f"that the row lists ({row.source})" if row.source else "that the row lists")
+        listed = Message("that the row lists ({source})", {"source": row.source})
+        return SpeedLimit(row.speed_limit, listed if row.source else Message("that the row lists"))
     return printed_limit(row.make, row.recirculation)
 
 
@@ -63,15 +65,27 @@ def printed_limit(make: str, recirculation: str = "") -> SpeedLimit | None:
     listed = {(one.make.casefold(), one.recirculation.casefold()): one for one in printed_limits()}
     found = (listed.get((wanted, kind)) or listed.get(("", kind))) if kind else None
     if found is not None:
-        whose = f"of {found.make} for this recirculation" if found.make else "of all makes for this recirculation"
-        return SpeedLimit(found.value, f"{whose}, {found.recirculation} ({found.source})", (found.source,))
+        values = {"make": found.make, "recirculation": found.recirculation, "source": found.source}
+        words = (
+            Message("of {make} for this recirculation, {recirculation} ({source})", values)
+            if found.make
+            else Message("of all makes for this recirculation, {recirculation} ({source})", values)
+        )
+        return SpeedLimit(found.value, words, (found.source,))
     standard = listed.get((wanted, "")) if wanted else None
     if standard is None:
         return None
-    doubt = f": what its {recirculation} recirculation stands could not be read, it may be more" if kind else ""
-    return SpeedLimit(
-        standard.value, f"of standard nuts of {standard.make} ({standard.source}){doubt}", (standard.source,)
+    values = {"make": standard.make, "recirculation": recirculation, "source": standard.source}
+    words = (
+        Message(
+            "of standard nuts of {make} ({source}): what its {recirculation} recirculation stands could not be read, "
+            "it may be more",
+            values,
+        )
+        if kind
+        else Message("of standard nuts of {make} ({source})", values)
     )
+    return SpeedLimit(standard.value, words, (standard.source,))
 
 
 @functools.cache

@@ -14,7 +14,7 @@ from ballscrew.cases import case_file, descriptions, nut_tables
 from ballscrew.cases.case import Case
 from ballscrew.components.nut import Nut, OversizeBallNut
 from ballscrew.errors import Fault, InputError
-from ballscrew.records import Record, Severity
+from ballscrew.records import Message, Record, Severity
 from ballscrew.screw_tables import catalogue
 from ballscrew.screw_tables.nut_kinds import LISTED
 from ballscrew.sizing.catalogue import CatalogueRow
@@ -62,10 +62,22 @@ class Checked:
     heating: Any = None
 
     @property
+    def moves(self) -> bool:
+        """The case has a cycle, which ``ballscrew duty`` judges: here its operating point is judged, for ever."""
+        return self.case.axis is not None and self.case.motion is not None
+
+    @property
+    def message(self) -> Message:
+        """All checks in a few words; of what, where the case has a cycle too."""
+        found = verdict_of(self.checks)
+        if not self.run.friction.valid:
+            found = Message("{verdict}; outside the model's validity", {"verdict": found})
+        return Message("this operating point for ever: {verdict}", {"verdict": found}) if self.moves else found
+
+    @property
     def verdict(self) -> str:
-        """All checks in a few words."""
-        text = verdict_of(self.checks)
-        return text if self.run.friction.valid else f"{text}; outside the model's validity"
+        """The same in English."""
+        return units.filled(self.message)
 
     @property
     def holds(self) -> bool:
@@ -77,7 +89,7 @@ class Checked:
         """The verdict on all checks, then those on the operating point."""
         holds = all_hold(self.checks)
         severity: Severity = "error" if holds is False else "info"
-        whole = Record(id="verdict.checks", subject="checks", text=self.verdict, severity=severity, holds=holds)
+        whole = units.record(self.message, id="verdict.checks", subject="checks", severity=severity, holds=holds)
         return [whole, *self.run.verdicts]
 
     def check(self, name: str) -> Check:

@@ -24,7 +24,7 @@ from ballscrew.friction import starvation
 from ballscrew.friction.result import QUADRANTS, FrictionResult, Quadrant
 from ballscrew.overflow import overflow_as_input_error
 from ballscrew.quantities import Quantity, quantities_of
-from ballscrew.records import Record
+from ballscrew.records import Measured, Message, Record
 from ballscrew.screw_tables.nut_kinds import LISTED, NUT_FIELDS
 from ballscrew.sizing.rigidity import AxialRigidity, rigidity_iso3408
 from ballscrew.solvers.load_distribution import BallLoads, preload_of
@@ -105,9 +105,8 @@ class Run:
         """Starvation; the quadrant, if not the usual one; whether the load drives; skidding; loss of the preload."""
         starved = units.in_display_units_of(self.friction.starvation)
         if float(self.friction.axial_load) == 0:
-            found = [
-                Record(id="verdict.no_load", subject="axial_load", text="no load: nothing to hold", value=0.0, unit="N")
-            ]
+            none = Message("no load: nothing to hold")
+            found = [units.record(none, id="verdict.no_load", subject="axial_load", value=0.0, unit="N")]
             return [*starved, *found, *self._lost()]
         moving = bool(self.friction.screw_speed)
         found = _holding(Holding.of(self.friction), "", self.at_rest.drives) if moving else []
@@ -137,14 +136,20 @@ class Run:
         share = self.nut.preload / rating
         if share <= LARGEST_PRELOAD_SHARE or any(one.subject == "nut.preload" for one in self.case.implausible()):
             return []
-        text = (
-            f"preload {units.shown(self.nut.preload, NUT_FIELDS['preload'])} is {share:.3g} times "
-            f"the dynamic load rating {units.shown(rating, LISTED['dynamic_load_rating'])}, {source}: "
-            f"vendors give a nut {LARGEST_PRELOAD_SHARE:g} times that at most; check the number and its unit"
+        message = Message(
+            "preload {preload} is {share} times the dynamic load rating {rating}, {source}: "
+            "vendors give a nut {largest} times that at most; check the number and its unit",
+            {
+                "preload": Measured(self.nut.preload, NUT_FIELDS["preload"]),
+                "share": Measured(share, digits=3),
+                "rating": Measured(rating, LISTED["dynamic_load_rating"]),
+                "source": Message(source),
+                "largest": Measured(LARGEST_PRELOAD_SHARE),
+            },
         )
         return [
-            Record(
-                id="run.preload_above_rating", subject="nut.preload", text=text, severity="warning", holds=False,
+            units.record(
+                message, id="run.preload_above_rating", subject="nut.preload", severity="warning", holds=False,
                 value=share, limit=LARGEST_PRELOAD_SHARE,
             )
         ]  # fmt: skip
@@ -159,17 +164,16 @@ class Run:
         share = self.rolling_share
         if not share < 1 or not math.isfinite(float(self.friction.screw_torque)):
             return []
+        percent = {"percent": Measured(100 * share, digits=3)}
         if moving:
-            found, text = (
-                "verdict.skid",
-                f"skids: friction carries only {share:.1%} of what resists the rolling of a ball",
-            )
+            found = "verdict.skid"
+            message = Message("skids: friction carries only {percent}% of what resists the rolling of a ball", percent)
         else:
             found = "verdict.skid.at_rest"
-            text = f"at rest: friction carries only {share:.1%} of what resists rolling"
+            message = Message("at rest: friction carries only {percent}% of what resists rolling", percent)
         return [
-            Record(
-                id=found, subject="rolling_share", text=text, severity="warning" if moving else "info", holds=False,
+            units.record(
+                message, id=found, subject="rolling_share", severity="warning" if moving else "info", holds=False,
                 value=share, limit=1.0, unit=_SHARE.unit,
             )
         ]  # fmt: skip
@@ -178,10 +182,13 @@ class Run:
         if self.nut is None or not self.nut.preload_is_lost:
             return []
         limit = float(self.nut.loads.lift_off_load)
-        text = f"preload lost: the balls lift off the other flank at a load of about {units.shown(limit, _LIFT_OFF)}"
+        message = Message(
+            "preload lost: the balls lift off the other flank at a load of about {load}",
+            {"load": Measured(limit, _LIFT_OFF)},
+        )
         return [
-            Record(
-                id="verdict.preload_lost", subject="axial_load", text=text, severity="warning", holds=False,
+            units.record(
+                message, id="verdict.preload_lost", subject="axial_load", severity="warning", holds=False,
                 value=abs(float(self.friction.axial_load)), limit=limit, unit=_LIFT_OFF.unit,
             )
         ]  # fmt: skip
@@ -194,16 +201,23 @@ def _quadrant(friction: FrictionResult) -> list[Record]:
         return []
     signs = (int(math.copysign(1, load)), int(math.copysign(1, speed)))
     name = next(words for words, each in QUADRANTS.items() if each == signs)
-    size = units.shown(abs(torque), _DRIVE)
+    values = {"quadrant": Message(name), "torque": Measured(abs(torque), _DRIVE)}
     if signs[0] == signs[1]:
-        does = f"the screw moves the nut against the load; {size} on the shaft drive it"
+        message = Message(
+            "{quadrant}: the screw moves the nut against the load; {torque} on the shaft drive it", values
+        )
     elif torque * speed < 0:
-        does = f"the load moves the way the screw turns; {size} on the shaft hold it back"
+        message = Message(
+            "{quadrant}: the load moves the way the screw turns; {torque} on the shaft hold it back", values
+        )
     else:
-        does = f"the load moves the way the screw turns, and does not suffice; {size} on the shaft drive it"
+        message = Message(
+            "{quadrant}: the load moves the way the screw turns, and does not suffice; {torque} on the shaft drive it",
+            values,
+        )
     return [
-        Record(
-            id="verdict.quadrant", subject="drive_torque", text=f"{name}: {does}", severity="info",
+        units.record(
+            message, id="verdict.quadrant", subject="drive_torque", severity="info",
             value=torque, unit=_DRIVE.unit,
         )
     ]  # fmt: skip
@@ -218,27 +232,40 @@ def _holding(holding: Holding, place: str, drives_at_rest: bool = False) -> list
     if math.isnan(held):
         return []
     drives = holding.drives
-    torque, when = units.shown(abs(held), _TORQUE), "at rest" if place else "at this speed"
-    beware = "" if holding.valid else " (outside the model's validity)"
+    torque = {"torque": Measured(abs(held), _TORQUE)}
     if drives:
-        name, text = (
-            "back_driving",
-            f"back-drives: the load turns the screw; {torque} on the shaft hold it {when}{beware}",
+        name = "back_driving"
+        message = (
+            Message("back-drives: the load turns the screw; {torque} on the shaft hold it at rest", torque)
+            if place
+            else Message("back-drives: the load turns the screw; {torque} on the shaft hold it at this speed", torque)
         )
     elif drives_at_rest:
         name = "held_in_motion"
-        text = (
+        message = Message(
             "not self-locking: friction holds the load only while the screw turns at this speed; "
-            f"at rest the load drives: it needs a brake; {torque} on the shaft lower it {when}{beware}"
+            "at rest the load drives: it needs a brake; {torque} on the shaft lower it at this speed",
+            torque,
         )
     else:
         name = "self_locking"
-        text = f"self-locking: the load alone does not turn the screw {when}; {torque} on the shaft lower it{beware}"
+        message = (
+            Message(
+                "self-locking: the load alone does not turn the screw at rest; {torque} on the shaft lower it", torque
+            )
+            if place
+            else Message(
+                "self-locking: the load alone does not turn the screw at this speed; {torque} on the shaft lower it",
+                torque,
+            )
+        )
+    if not holding.valid:
+        message = Message("{message} (outside the model's validity)", {"message": message})
     return [
-        Record(
+        units.record(
+            message,
             id=".".join(filter(None, ["verdict", name, place])),
             subject="holding_torque",
-            text=text,
             severity="info" if drives else "warning",
             holds=True,
             value=held,

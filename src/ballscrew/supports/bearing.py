@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
+from ballscrew import units
 from ballscrew._arrays import ByValue, lazy
 from ballscrew.components.frame import bearing_frame
 from ballscrew.components.laws import ProportionalBallForce
@@ -22,7 +23,7 @@ from ballscrew.friction.loaded_balls import loads_of
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Angle, Count, Force, Info, Length, Mask, Power, Ratio, Stiffness, Torque
-from ballscrew.records import Record
+from ballscrew.records import Message, Record
 
 #: Ball diameter over (D − d), how much of the circle the balls fill, and the conformity: usual, of no catalogue.
 BALL_SHARE, FILLED, CONFORMITY = 0.3, 0.9, 0.52
@@ -267,6 +268,10 @@ class BearingFriction(ByValue):
         """Warnings as records."""
         if np.all(self.validity[DIRECTION]):
             return self.balls.warning_records
-        text = "one row carries no load in the other direction: it was computed for the size of the load; take a pair"
-        lifted = Record(id=f"validity.{DIRECTION}", subject="bearing.rows", text=text, severity="warning", holds=False)
+        message = Message(
+            "one row carries no load in the other direction: it was computed for the size of the load; take a pair"
+        )
+        lifted = units.record(
+            message, id=f"validity.{DIRECTION}", subject="bearing.rows", severity="warning", holds=False
+        )
         return [*self.balls.warning_records, lifted]

@@ -8,13 +8,14 @@ from typing import Annotated, Any
 
 import numpy as np
 
+from ballscrew import units
 from ballscrew._arrays import ByValue, lazy
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import DoubleNut
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.errors import Fault, faults_of, raise_if_any, shown
 from ballscrew.quantities import Array, Count, Force, Info, KinematicViscosity, Mask, Power, Ratio, Torque
-from ballscrew.records import Record
+from ballscrew.records import Message, Record
 from ballscrew.sizing.checks import loads_of_halves
 from ballscrew.supports import formulas
 from ballscrew.supports.bearing import Bore, OutsideDiameter, SealTorque, faults_of_arrays, sizes_fault
@@ -80,8 +81,8 @@ class MakersFriction(ByValue):
         """A warning where a number is not finite."""
         if np.all(self.validity["inputs"]):
             return []
-        text = "the friction is not a finite number somewhere: check load, speed and oil"
-        return [Record(id="validity.inputs", subject="inputs", text=text, severity="warning", holds=False)]
+        message = Message("the friction is not a finite number somewhere: check load, speed and oil")
+        return [units.record(message, id="validity.inputs", subject="inputs", severity="warning", holds=False)]
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)

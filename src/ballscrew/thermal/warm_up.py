@@ -11,13 +11,14 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from ballscrew import units
 from ballscrew._arrays import ByValue, lazy
 from ballscrew.axis.duty import Duty
 from ballscrew.errors import Fault, InputError, accepts_units
 from ballscrew.friction.starvation import NEARLY_ALL, differs
 from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Duration, Energy, Length, Power, Torque
-from ballscrew.records import Record
+from ballscrew.quantities import Duration, Energy, Info, Length, Power, Quantity, Torque
+from ballscrew.records import Measured, Message, Record
 from ballscrew.thermal.equilibrium import Equilibrium, equilibrium
 from ballscrew.thermal.friction_map import friction_map
 from ballscrew.thermal.marching import Slot, marched
@@ -31,6 +32,11 @@ RTOL, ATOL = 1e-6, 1e-6
 _SHORTEST = 1.0
 #: A share of a step that is rounding.
 _ROUNDING = 1e-9
+#: Quantities of the verdicts, in the units that people read.
+_TEMPERATURE = Quantity("nut_temperature", "K", Info("", "temperature of the nut", "degC"))
+_PRELOAD = Quantity("preload", "N", Info("", "preload of the nut", "N"))
+_HOURS = Quantity("time", "s", Info("", "time", "h"))
+_STRETCH = Quantity("stretch", "m", Info("", "stretch of the shaft", "um"))
 
 
 @accepts_units("warm_up")
@@ -308,26 +314,32 @@ class WarmUp(ByValue):
         return _records(self)
 
 
-def _ending(end: Equilibrium) -> str:
-    """The preload in a steady state, or that there is none."""
-    return f"{end.preload:.0f} N" if end.exists else "no steady state"
+def _ending(bracing: str, end: Equilibrium) -> Message:
+    """The preload in a steady state of one way to brace the halves, or that there is none."""
+    values = {"bracing": Message(bracing), "preload": Measured(end.preload, _PRELOAD)}
+    return Message("{bracing} {preload}", values) if end.exists else Message("{bracing} no steady state", values)
 
 
 def _records(found: WarmUp) -> list[Record]:
     end = found.equilibrium
-    celsius = 273.15
-    if end.exists:
-        text = (
-            f"settles with the nut at {end.nut_temperature - celsius:.1f} °C; gain of the loop {1 - end.margin:z.2f}, "
-            "which runs away at 1"
+    message = (
+        Message(
+            "settles with the nut at {temperature}; gain of the loop {gain}, which runs away at 1",
+            {
+                "temperature": Measured(end.nut_temperature, _TEMPERATURE, 3),
+                "gain": Measured(1 - end.margin, digits=2),
+            },
         )
-    else:
-        text = "no equilibrium within the range of oil and preload: it runs away, or it gets too hot for the model"
+        if end.exists
+        else Message(
+            "no equilibrium within the range of oil and preload: it runs away, or it gets too hot for the model"
+        )
+    )
     verdicts = [
-        Record(
+        units.record(
+            message,
             id="verdict.equilibrium",
             subject="equilibrium",
-            text=text,
             severity="info" if end.exists and end.margin > 0 else "error",
             holds=end.exists,
             value=end.margin,
@@ -336,25 +348,31 @@ def _records(found: WarmUp) -> list[Record]:
     ]
     both = {name: equilibrium(one) for name, one in found.network.by_bracing.items()}
     if both:
-        told = ", ".join(f"{name} {_ending(one)}" for name, one in both.items())
-        text = (
+        message = Message(
             "the growth of the shaft between the halves of the nut is left out, as it is not said how they are braced: "
-            f"{told}; give [surroundings] bracing"
+            "{endings}; give [surroundings] bracing",
+            {"endings": [_ending(name, one) for name, one in both.items()]},
         )
-        verdicts.append(Record(id="warning.bracing", subject="preload", text=text, severity="warning", holds=False))
+        verdicts.append(units.record(message, id="warning.bracing", subject="preload", severity="warning", holds=False))
     if found.stopped is not None:
-        text = f"stopped after {found.stopped / 3600:.2f} h: beyond it oil or preload are outside what the model knows"
+        message = Message(
+            "stopped after {time}: beyond it oil or preload are outside what the model knows",
+            {"time": Measured(found.stopped, _HOURS, 3)},
+        )
         verdicts.append(
-            Record(id="warning.stopped", subject="time", text=text, severity="error", value=found.stopped, unit="s")
+            units.record(message, id="warning.stopped", subject="time", severity="error", value=found.stopped, unit="s")
         )
     left = found.stretch_left
     if left is not None and np.min(left) < 0:
-        text = f"the stretch of the shaft is lost: {np.min(left) * 1e6:.0f} µm at the worst, and the shaft pushes"
+        message = Message(
+            "the stretch of the shaft is lost: {stretch} at the worst, and the shaft pushes",
+            {"stretch": Measured(float(np.min(left)), _STRETCH, 2)},
+        )
         verdicts.append(
-            Record(
+            units.record(
+                message,
                 id="verdict.stretch",
                 subject="stretch",
-                text=text,
                 severity="warning",
                 holds=False,
                 value=float(np.min(left)),

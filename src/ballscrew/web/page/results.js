@@ -138,7 +138,7 @@ function announce(words) {
  * Show everything of one answer but its charts.
  *
  * @param {Run} answer
- * @param {{ band: Band | null, checks?: Checks }} beside its band and its checks, as far as they are there
+ * @param {{ band: Band | null, checks?: import("./checks.js").Judged }} beside its band and its checks, as far as they are there
  */
 export function show(answer, { band, checks }) {
   const { results, display, warnings } = answer;
@@ -199,12 +199,12 @@ function showVendorRows({ vendor_rows: near }) {
 
 /** @param {Run} answer */
 function showVerdicts(answer) {
-  const { verdicts, warnings, display } = answer;
-  const lines = verdicts.map(({ severity }, place) =>
+  const { verdicts, warnings } = answer;
+  const lines = verdicts.map((record) =>
     element(
       "p",
-      { class: severity === "info" ? "verdict" : "verdict careful", ...languageOf(display.verdicts[place].text) },
-      units.filled(display.verdicts[place]),
+      { class: record.severity === "info" ? "verdict" : "verdict careful", ...units.languageOfRecord(record) },
+      units.ofRecord(record),
     ),
   );
   const ofContacts = warnings.filter(isOfContact);
@@ -229,7 +229,12 @@ function showVerdicts(answer) {
 /** @param {VerdictRecord} record */
 function warning(record) {
   const subject = element("strong", {}, `${text("answer.beware", { subject: nameOf(record) })} `);
-  return element("p", { class: "warning" }, subject, element("span", languageOf(record.text), sentence(record.text)));
+  return element(
+    "p",
+    { class: "warning" },
+    subject,
+    element("span", units.languageOfRecord(record), units.ofRecord(record)),
+  );
 }
 
 /** @param {Run} answer */
@@ -296,19 +301,21 @@ function showBand(answer, band) {
   else if (band.state === "failed") {
     place.replaceChildren(element("p", { class: "warning" }, band.lines.join("; ")));
   } else {
-    const { display, words, warnings } = band.answer;
+    const { words, verdicts, warnings } = band.answer;
     const shown = new Set(answer.warnings.map((record) => record.id));
     const others = warnings.filter((record) => !shown.has(record.id));
-    const [first, ...sentences] = display.sentences;
+    const [first, ...sentences] = verdicts.filter(({ id }) => id.startsWith("band."));
     const isOpen = place.querySelector("details")?.open ?? false;
     place.replaceChildren(
       element(
         "details",
         { open: isOpen },
-        element("summary", languageOf(first.text), units.filled(first)),
-        ...sentences.map((one) => element("p", languageOf(one.text), units.filled(one))),
+        element("summary", units.languageOfRecord(first), units.ofRecord(first)),
+        ...sentences.map((one) => element("p", units.languageOfRecord(one), units.ofRecord(one))),
         element("p", { class: "small", ...languageOf(words.inputs) }, sentence(words.inputs)),
-        ...others.map((record) => element("p", { class: "small", ...languageOf(record.text) }, sentence(record.text))),
+        ...others.map((record) =>
+          element("p", { class: "small", ...units.languageOfRecord(record) }, units.ofRecord(record)),
+        ),
       ),
     );
   }

@@ -87,6 +87,21 @@ export function languageOf(english) {
   return isKnown ? {} : ofServer;
 }
 
+/**
+ * True where the language has the template of a message, and those of the messages in it.
+ *
+ * @param {Message} message
+ * @returns {boolean}
+ */
+export function hasMessage({ template, values }) {
+  const hasWords = /[a-z]/i.test(template.replace(PLACEHOLDER, ""));
+  if (language !== "en" && hasWords && !Object.hasOwn(table, `message.${template}`)) return false;
+  return Object.values(values).every((value) => {
+    if (Array.isArray(value)) return value.every(hasMessage);
+    return typeof value === "string" || !("template" in value) || hasMessage(value);
+  });
+}
+
 /** @param {string} clause */
 function translated(clause) {
   /** @type {string[]} */

@@ -1,7 +1,8 @@
 // Verdicts and warnings of a card.
 
 import { element } from "../dom.js";
-import { ofServer, text } from "../texts.js";
+import { text } from "../texts.js";
+import { languageOfRecord, ofRecord } from "../units.js";
 
 /**
  * Verdicts, and below them what to beware of.
@@ -11,19 +12,23 @@ import { ofServer, text } from "../texts.js";
  */
 export function lines(verdicts, warnings) {
   return [
-    ...verdicts.map(({ id, severity, text: words }) =>
+    ...verdicts.map((record) =>
       element(
         "p",
-        { class: severity === "info" ? "verdict" : "verdict careful", "data-record": id, ...ofServer },
-        sentence(words),
+        {
+          class: record.severity === "info" ? "verdict" : "verdict careful",
+          "data-record": record.id,
+          ...languageOfRecord(record),
+        },
+        sentence(ofRecord(record)),
       ),
     ),
-    ...warnings.map(({ id, text: words }) =>
+    ...warnings.map((record) =>
       element(
         "p",
-        { class: "warning", "data-record": id },
+        { class: "warning", "data-record": record.id },
         element("strong", {}, `${text("card.beware")} `),
-        element("span", ofServer, sentence(words)),
+        element("span", languageOfRecord(record), sentence(ofRecord(record))),
       ),
     ),
   ];
