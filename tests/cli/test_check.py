@@ -297,3 +297,10 @@ def test_a_missing_speed_is_named_by_its_option(ballscrew, tmp_path):
     tables = '[screw]\ncatalogue = "rexroth-40x10x6-6-double"\n[lubricant]\nviscosity = "0.1 Pa s"\n'
     (tmp_path / "case.toml").write_text(tables, encoding="utf-8")
     refused(ballscrew("check", "case.toml", "--axial-load", "5 kN"), '--speed: missing · add --speed "…')
+
+
+def test_a_verdict_says_of_what_where_the_case_has_a_cycle(ballscrew):
+    """``check`` judges the operating point as if it lasted, ``duty`` the cycle: neither says it of the other."""
+    case = str(ROOT / "examples" / "vertical_axis.toml")
+    assert "verdict: this operating point for ever: fails: life, running time" in ballscrew("check", case).stdout
+    assert "  over the cycle: passes all checks" in ballscrew("duty", case).stdout

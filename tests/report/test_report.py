@@ -688,6 +688,17 @@ def test_heat_is_that_of_the_command():
     assert f"{end:.2f} degC" in words
 
 
+def test_one_verdict_where_a_cycle_is_given():
+    """The operating point of this axis would wear it out, its cycle does not: the report judges the cycle alone."""
+    sections = content_of("vertical_axis").sections
+    verdict, table = next(s for s in sections if s.title.startswith("Checks")).blocks
+    assert verdict.text == "Over the cycle: passes all checks."
+    assert {row[4].partition(":")[0] for row in table.rows} == {"passes"}
+    cycle = next(s for s in sections if s.title.startswith("Over a cycle"))
+    assert "checks" not in cycle.blocks[0].text
+    assert "FAILS" not in html_bytes(content_of("vertical_axis")).decode()
+
+
 def test_numbers_of_a_cycle_have_their_bands():
     table = (
         next(s for s in content_of("vertical_axis").sections if s.title.startswith("Over a cycle")).blocks[1].left[0]

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ballscrew._version import __version__
+from ballscrew.axis_studies.duty import DutyReport, duty
 from ballscrew.cases import case_file, descriptions
 from ballscrew.output import bibliography
 from ballscrew.report import band_section, input_tables, result_tables
@@ -50,15 +51,16 @@ def content(case: case_file.Case, done: Done | None = None, samples: int | None 
     inputs = input_tables.tables(case)
     bands = uncertain.band.outputs if band_section.has_band(uncertain) else {}
     beside = band_section.vendor_blocks(case)
+    cycle = _duty(case)
     sections = [
         Section("Answer", [band_section.answer(found, uncertain)]),
-        Section("Checks", result_tables.checks(checked("", case, known=found))),
+        _checks(case, found, cycle),
         Section("Result", [Columns.of(result_tables.results(found, bands)), *_drawing(found)]),
         Section("Where the torque comes from", result_tables.parts(found)),
         Section("Around the operating point", pictures),
         Section("How far off it may be", band_section.blocks(case, uncertain)),
         *([Section("Beside a vendor's rows", beside)] if beside else []),
-        *_cycle(case),
+        *_cycle(cycle),
         *_heat(case),
         Section("What to beware of", result_tables.beware(found)),
         Section(
@@ -70,14 +72,30 @@ def content(case: case_file.Case, done: Done | None = None, samples: int | None 
     return Report("Friction of a ball screw", subtitle(case), sections, f"ballscrew {__version__}", pages)
 
 
-def _cycle(case: case_file.Case) -> list[Section]:
-    """The section on the cycle of a case that has an axis and a motion."""
+def _duty(case: case_file.Case) -> DutyReport | None:
+    """The cycle of a case that has an axis and a motion."""
     if case.axis is None or case.motion is None:
-        return []
-    from ballscrew.axis_studies.duty import duty
+        return None
+    return duty(case)
+
+
+def _checks(case: case_file.Case, found: Run, cycle: DutyReport | None) -> Section:
+    """The checks over the cycle where there is one, else of the operating point: one verdict, and of what it is."""
+    of_point = checked("", case, known=found)
+    if cycle is None:
+        return Section("Checks", result_tables.checks(of_point))
     from ballscrew.report import duty_section
 
-    return [Section("Over a cycle of the motion", duty_section.blocks(duty(case)))]
+    return Section("Checks over the cycle", duty_section.checks(cycle, of_point))
+
+
+def _cycle(cycle: DutyReport | None) -> list[Section]:
+    """The section on the cycle of a case."""
+    if cycle is None:
+        return []
+    from ballscrew.report import duty_section
+
+    return [Section("Over a cycle of the motion", duty_section.blocks(cycle))]
 
 
 def _heat(case: case_file.Case) -> list[Section]:

@@ -15,6 +15,7 @@ from ballscrew.report.blocks import Bar, Block, Bullets, Columns, Paragraph, Pic
 from ballscrew.report.blocks import value as value_of
 from ballscrew.report.curve_figures import named, svg_of
 from ballscrew.report.numbers import banded
+from ballscrew.studies.check import Checked
 from ballscrew.text import duty as text
 
 _TORQUE, _ENERGY = NUMBERS["torque_rms"], NUMBERS["energy_lost"]
@@ -33,7 +34,7 @@ def _bands(report: DutyReport) -> DutyBandReport | None:
 
 def blocks(report: DutyReport) -> list[Block]:
     """All that a report says of a cycle."""
-    said = [f"{sentence(record.text)}." for record in duty_records.verdicts(report)]
+    said = [f"{sentence(one.text)}." for one in duty_records.verdicts(report) if one.id != "verdict.checks"]
     warned = [f"Beware: {record.text}." for record in duty_records.warnings(report)]
     words = (
         "Motion, torque of the motor by cause and power over the time of a cycle, and torque over speed: "
@@ -46,14 +47,16 @@ def blocks(report: DutyReport) -> list[Block]:
         Columns([_numbers(report, _bands(report))], [_paid_for(report)]),
         Picture(drawn, words, caption),
         *_power_off(report),
-        Table(
-            "Limits over the cycle, and how much of each is used",
-            ("", "value", "limit", "used", "verdict"),
-            [result_tables.check_row(check) for check in report.checks],
-            (0, 4),
-            4,
-        ),
         *([Bullets(warned)] if warned else []),
+    ]
+
+
+def checks(report: DutyReport, of_point: Checked) -> list[Block]:
+    """The checks over the cycle, in place of those of the operating point as if it lasted for ever."""
+    verdict = next(record for record in duty_records.verdicts(report) if record.id == "verdict.checks")
+    return [
+        result_tables.said_of_checks(verdict.text, of_point),
+        result_tables.check_table("Limits over the cycle, and how much of each is used", report.checks),
     ]
 
 

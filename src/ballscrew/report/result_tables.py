@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ballscrew.cases import descriptions
@@ -123,21 +123,24 @@ def parts(run: Run) -> list[Block]:
 
 def checks(found: Checked) -> list[Block]:
     """Checks, line by line."""
-    without_nut = found.case.nut is None
-    said = [found.verdict]
-    if without_nut:
+    return [
+        said_of_checks(found.verdict, found),
+        check_table("Limits, and how much of each is used", found.checks),
+    ]
+
+
+def said_of_checks(verdict: str, found: Checked) -> Paragraph:
+    """The verdict on checks, and on what they rest."""
+    said = [verdict]
+    if found.case.nut is None:
         said.append("the case has no nut: it is checked as a single nut without preload")
     said += _computed_ratings(found)
-    return [
-        Paragraph(" ".join(f"{sentence(words)}." for words in said), strong=True),
-        Table(
-            "Limits, and how much of each is used",
-            ("", "value", "limit", "used", "verdict"),
-            [check_row(one) for one in found.checks],
-            (0, 4),
-            4,
-        ),
-    ]
+    return Paragraph(" ".join(f"{sentence(words)}." for words in said), strong=True)
+
+
+def check_table(caption: str, found: Sequence[Check]) -> Table:
+    """A line for each check."""
+    return Table(caption, ("", "value", "limit", "used", "verdict"), [check_row(one) for one in found], (0, 4), 4)
 
 
 def _computed_ratings(found: Checked) -> list[str]:

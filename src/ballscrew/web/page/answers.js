@@ -35,7 +35,7 @@ const PAINT_TIMEOUT = 500;
  * @property {Body} [whole] the case as a file has it
  * @property {string} [key]
  * @property {Run} [answer]
- * @property {Checks} [checks]
+ * @property {checks.Judged} [checks]
  * @property {results.Band | null} band
  * @property {string[]} starts
  * @property {Sweep} [alongSpeed]
@@ -136,7 +136,8 @@ export async function update(cases, { designs, show, band: wanted, own }, report
  * @param {AbortSignal} signal
  */
 async function showChecks(body, answer, signal) {
-  const checked = await checksOf(body, signal);
+  const { whole } = displayed;
+  const checked = whole && isMoving(whole) ? await checksOfCycle(whole, signal) : await checksOf(body, signal);
   if (signal.aborted) return;
   displayed.checks = checked;
   results.show(answer, displayed);
@@ -153,6 +154,27 @@ async function showChecks(body, answer, signal) {
 async function checksOf(body, signal) {
   try {
     return await ask("check", body, signal);
+  } catch (error) {
+    if (!(error instanceof Problem)) throw error;
+    return undefined;
+  }
+}
+
+/** True where a case has a cycle, which is judged in place of its operating point. @param {Body} body */
+function isMoving({ case: { axis, motion } }) {
+  return Boolean(axis && motion);
+}
+
+/**
+ * The checks over the cycle of a case; none where they cannot be computed.
+ *
+ * @param {Body} body
+ * @param {AbortSignal} signal
+ * @returns {Promise<checks.Judged | undefined>}
+ */
+async function checksOfCycle(body, signal) {
+  try {
+    return checks.ofCycle(await ask("duty", body, signal));
   } catch (error) {
     if (!(error instanceof Problem)) throw error;
     return undefined;
@@ -273,12 +295,20 @@ async function drawCharts(body, answer, signal, start) {
 }
 
 /**
- * Keep the case for files, of which only what cards ask about has changed.
+ * Keep the case for files, of which only what cards ask about has changed; its cycle is judged anew.
  *
  * @param {Record<string, unknown>} found
  */
-export function keepWhole(found) {
+export async function keepWhole(found) {
+  const before = displayed.whole;
   displayed.whole = { case: found };
+  const { answer, body, whole } = displayed;
+  if (!answer || !body || !(isMoving(whole) || (before && isMoving(before)))) return;
+  try {
+    await showChecks(body, answer, requests.signal);
+  } catch (error) {
+    if (!requests.signal.aborted) results.fail(results.refusal(linesOf(error)));
+  }
 }
 
 /** Show all of it again in other units, without requests. */

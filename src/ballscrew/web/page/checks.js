@@ -20,8 +20,19 @@ const MULTIPLE = 10;
 const DIGITS = 3;
 const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 
-/** @typedef {{ name: string, value: number | null, limit: number | null, unit: string, holds: boolean | null,
- *   utilisation: number | null, missing: string, text: string, display?: Template }} OneCheck */
+/** @typedef {VerdictRecord & { name: string, utilisation: number | null, missing: string }} OneCheck */
+
+/**
+ * Checks of an operating point, or over a cycle.
+ *
+ * @typedef {{ checks: OneCheck[], judged: number, holds: boolean, isOfCycle?: boolean }} Judged
+ */
+
+/** The checks over a cycle, and how many of them were judged. @param {DutyAnswer} answer @returns {Judged} */
+export function ofCycle({ checks: all }) {
+  const judged = all.filter((one) => one.holds !== null).length;
+  return { checks: all, judged, holds: all.every((one) => one.holds === true), isOfCycle: true };
+}
 
 /**
  * A check in words.
@@ -34,10 +45,16 @@ function nameOf({ name }) {
 
 /**
  * All checks in one sentence, with the number of those judged where not all were; nothing passes that was not judged.
+ * Of a cycle it says so.
  *
- * @param {{ checks: OneCheck[], judged: number, holds: boolean }} found
+ * @param {Judged} found
  */
-export function verdict({ checks, judged, holds }) {
+export function verdict(found) {
+  return found.isOfCycle ? text("checks.of_cycle", { verdict: inWords(found) }) : inWords(found);
+}
+
+/** @param {Judged} found */
+function inWords({ checks, judged, holds }) {
   const all = checks.length;
   const failed = checks.filter((one) => one.holds === false).map(nameOf);
   const rest = judged < all ? ` ${text("checks.judged", { judged, all })}` : "";
@@ -133,7 +150,7 @@ function used(check, jump) {
 /**
  * The panel of checks.
  *
- * @param {Checks | undefined} found
+ * @param {Judged | undefined} found
  * @param {(path: string) => void} jump goes to a field
  */
 export function show(found, jump) {
@@ -142,15 +159,20 @@ export function show(found, jump) {
     return;
   }
   byId("checks").replaceChildren(
-    ...panel(found, text("checks.caption"), jump),
-    element("p", { class: "small" }, `${text("checks.note")} `, ...notes(found)),
+    ...panel(found, text(found.isOfCycle ? "duty.checks_caption" : "checks.caption"), jump),
+    element(
+      "p",
+      { class: "small" },
+      `${text(found.isOfCycle ? "checks.note_of_cycle" : "checks.note")} `,
+      ...notes(found),
+    ),
   );
 }
 
 /**
  * All checks in one sentence, and a table of them.
  *
- * @param {{ checks: OneCheck[], judged: number, holds: boolean }} found
+ * @param {Judged} found
  * @param {string} caption
  * @param {(path: string) => void} jump goes to a field
  */
@@ -158,7 +180,7 @@ export function panel(found, caption, jump) {
   const tone = found.checks.some((one) => one.holds === false) ? "careful" : found.holds ? "good" : "";
   const headings = ["", text("checks.value"), text("checks.used")];
   const rows = found.checks.map((check) => [
-    element("span", { title: check.display ? units.filled(check.display) : check.text }, nameOf(check)),
+    element("span", { title: units.ofRecord(check) }, nameOf(check)),
     element("span", {}, numberOf(check), limitOf(check, found.checks)),
     used(check, jump),
   ]);
@@ -168,8 +190,8 @@ export function panel(found, caption, jump) {
   return [element("p", { class: `verdict ${tone}` }, verdict(found)), content];
 }
 
-/** What a limit rests on, where a check says it. @param {Checks} found */
+/** What a limit rests on, where a check says it. @param {Judged} found */
 function notes({ checks }) {
   const source = checks.find((one) => one.name === "diameter_speed_product");
-  return source ? [text("checks.limit_source", { source: units.filled(source.display) })] : [];
+  return source ? [text("checks.limit_source", { source: units.ofRecord(source) })] : [];
 }

@@ -213,7 +213,7 @@ export function setUp(holder, page) {
       ),
       numbers(results),
       ...smoothing(results),
-      ...checks.panel(judgedOf(found), text("duty.checks_caption"), page.jump),
+      ...checks.panel(checks.ofCycle(found), text("duty.checks_caption"), page.jump),
     );
     charts.show(results, vocabulary.causes);
     parts.replaceChildren(partsOf(results), brake(results), phases(results));
@@ -313,12 +313,6 @@ export function setUp(holder, page) {
   }
 
   return { follow, stop: asked.stop };
-}
-
-/** The checks of a cycle, and how many of them were judged. @param {DutyAnswer} found */
-function judgedOf({ checks: all }) {
-  const judged = all.filter((one) => one.holds !== null).length;
-  return { checks: all, judged, holds: all.every((one) => one.holds === true) };
 }
 
 /**
