@@ -54,7 +54,10 @@ Results = model(
     Open,
     **quantities(_ALWAYS),
     **quantities({name: q for name, q in _RESULTS.items() if name not in _ALWAYS}, optional=True),
-    preload_drag=(Number, field("torque of the nut without load, SI", "N m", optional=True)),
+    preload_drag=(
+        Number,
+        field("torque of the nut without load, seals and other losses included, SI", "N m", optional=True),
+    ),
     contributions=(Numbers, field("parts of the friction torque, SI", "N m")),
     validity=(dict[str, bool], ...),
     screw=(Contact, ...),
@@ -158,11 +161,22 @@ class ComparedRule(Closed):
     title: str
     formula: str
     source: str
-    screw_torque: Number = Field(description="friction torque under the load, N m; null where the rule has no answer")
-    change: Number = Field(description="friction torque over that of the case, less one")
+    screw_torque: Number = Field(
+        description="friction torque of the balls under the load, N m; null where the rule has no answer"
+    )
+    change: Number = Field(description="friction torque over that of the balls of the case, less one")
+    efficiency: Number
+    drag_torque: Number = Field(description="torque of the balls of the preloaded nut without load, N m")
+    drag_change: Number = Field(description="torque without load over that of the balls of the case, less one")
+
+
+class OfBalls(Closed):
+    """The case without its seals and other losses, of which no rule knows: what the rules are held against."""
+
+    screw_torque: Number = Field(description="friction torque under the load, N m")
     efficiency: Number
     drag_torque: Number = Field(description="torque of the preloaded nut without load, N m")
-    drag_change: Number = Field(description="torque without load over that of the case, less one")
+    losses: dict[str, Number] = Field(description="what is left out, N m")
 
 
 class SpreadEnd(Closed):
@@ -196,7 +210,10 @@ class Compare(Closed):
     models: list[ComparedModel]  # pyright: ignore[reportInvalidTypeForm]
     laws: list[ComparedLaw]  # pyright: ignore[reportInvalidTypeForm]
     rules: list[ComparedRule]
-    drag_torque: Number = Field(description="torque of the case's preloaded nut without load, N m")
+    drag_torque: Number = Field(
+        description="torque of the case's preloaded nut without load, seals and other losses included, N m"
+    )
+    of_balls: OfBalls = field(optional=True)
     spread: Spread
     units: dict[str, str]
     reasons: dict[str, str]

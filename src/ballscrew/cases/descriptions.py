@@ -12,6 +12,7 @@ from ballscrew.cases.named_calibration import vendor_rows_like
 from ballscrew.components.contact import RaceState
 from ballscrew.components.materials import Lubricant
 from ballscrew.components.nut import Bodies, Nut
+from ballscrew.components.nut_losses import Seals
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import BallScrew
 from ballscrew.components.traits import traits_of
@@ -109,7 +110,16 @@ def assumptions(case: Case, ball_to_ball_force: float | None = None) -> list[str
         if case.nut.bodies is None
         else "screw and nut elastic" + (", of a usual size" if _of_usual_size(case.nut.bodies) else "")
     )
-    return [*common, bodies, *_spacers(case), *map(str, case.notes), *_against_vendors(case)]
+    return [*common, bodies, *_spacers(case), *_seals_of_row(case), *map(str, case.notes), *_against_vendors(case)]
+
+
+def _seals_of_row(case: Case) -> list[str]:
+    """The source of the torque of the seals, where it is not that of the row they stand in."""
+    row, seals = case.row, case.screw.nut.losses.get("seals")
+    if row is None or not row.seal_torque_source or getattr(seals, "seal_torque", None) != row.seal_torque:
+        return []
+    torque = units.shown(row.seal_torque, fields_of(Seals)["seal_torque"])
+    return [f"seals {torque}: {row.seal_torque_source}; give the torque of your seals if you know it"]
 
 
 def _spacers(case: Case) -> list[str]:

@@ -129,6 +129,10 @@ class SealRow(NamedTuple):
         return f"{diameter}, lead {first:g} mm" + (f" to {last:g} mm" if last > first else "")
 
 
+#: Whose standard seals the table has, in small letters, and its source.
+SEAL_MAKER, SEAL_SOURCE = "rexroth", "Rexroth2006"
+
+
 @functools.cache
 def seal_table() -> tuple[SealRow, ...]:
     """The rows shipped (``data/seals.toml``, Rexroth2006)."""

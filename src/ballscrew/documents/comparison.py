@@ -39,6 +39,7 @@ def document(case: case_file.Case, found: Comparison) -> dict[str, Any]:
         "provenance": {"version": __version__, "model": case.model.label, "references": case_file.references(case)},
         "rules": [rule._asdict() for rule in found.rules],
         "drag_torque": found.drag_torque,
+        **({} if found.of_balls is None else {"of_balls": found.of_balls._asdict()}),
     }
 
 

@@ -54,13 +54,24 @@ class RuleRow(NamedTuple):
     title: str
     formula: str
     source: str
-    #: Friction torque under the load, N m, and over that of the case's model, less one.
+    #: Friction torque of the balls under the load, N m, and over that of the balls of the case, less one.
     screw_torque: float
     change: float
     efficiency: float
-    #: Torque of the preloaded nut without load, N m, and over that of the case's model, less one.
+    #: Torque of the balls of the preloaded nut without load, N m, and over that of the balls of the case, less one.
     drag_torque: float
     drag_change: float
+
+
+class OfBalls(NamedTuple):
+    """A case without its seals and other losses, of which no rule knows: what the rules are held against."""
+
+    screw_torque: float
+    efficiency: float
+    #: Torque of the preloaded nut without load, N m; NaN without preload.
+    drag_torque: float
+    #: What is left out: the torque of each loss under the load, N m.
+    losses: Mapping[str, float]
 
 
 class Spread(NamedTuple):
@@ -79,8 +90,10 @@ class Comparison:
     laws: Sequence[Row]
     #: What people use in place of a model; in no spread.
     rules: Sequence[RuleRow] = ()
-    #: Torque of the case's preloaded nut without load, N m; NaN without preload.
+    #: Torque of the case's preloaded nut without load, seals and other losses included, N m; NaN without preload.
     drag_torque: float = math.nan
+    #: The case without losses beside those of the balls; None where it has none.
+    of_balls: OfBalls | None = None
 
     @property
     def rows(self) -> list[Row]:

@@ -20,7 +20,7 @@ from ballscrew.solvers.load_distribution import BallLoads
 from ballscrew.studies.check import Checked
 from ballscrew.studies.run import Run
 from ballscrew.text import check as check_text
-from ballscrew.text.run import SHORT, rigidity_rows, stiffness_fields
+from ballscrew.text.run import SHORT, rigidity_rows, stiffness_fields, unloaded_rows
 from ballscrew.uncertainty.bands import OutputBand
 
 _ONE, _LOADS = quantities_of(FrictionResult), quantities_of(BallLoads)
@@ -53,7 +53,7 @@ def results(run: Run, bands: Mapping[str, OutputBand]) -> list[Table]:
     rows = [_with_band(run.friction, name, run.quantities, bands) for name in known]
     stiff, whose = [], "Contacts of each ball"
     if run.nut is not None:
-        rows.insert(1, ("torque without load", value_of(run.nut.preload_drag, _TORQUE), ""))
+        rows[1:1] = [(label, value_of(torque, _TORQUE), "") for label, torque in unloaded_rows(run.nut)]
         stiff = [_row(run.nut.loads, name, _LOADS) for name in stiffness_fields(run.nut)]
         stiff.append(_row(run.nut, "maximum_pressure", _ONE))
         stiff += rigidity_rows(run.nut.rigidity)

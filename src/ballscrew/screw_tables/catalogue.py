@@ -11,7 +11,7 @@ from typing import Any
 
 from ballscrew import units
 from ballscrew._version import __version__
-from ballscrew.components.nut_losses import Seals
+from ballscrew.components.nut_losses import SEAL_MAKER, SEAL_SOURCE, Seals
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, InputError, closest, nearest, raise_if_any
 from ballscrew.quantities import Quantity, fields_of, quantities_of
@@ -114,6 +114,8 @@ def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path]) ->
         faults.append(Fault("row.name", "is given twice", name, f"row {taken[name]} has it, too: name both apart"))
     if isinstance(seals := values.get("seal_torque"), str):
         values["seal_torque"] = _seal_torque(seals, values, faults)
+        if seals == column_names.STANDARD:
+            values["seal_torque_source"] = _seals_of(str(values.get("make", "")))
     if "spacer_balls" in values:
         values["spacer_balls"] = values["spacer_balls"] == column_names.YES
     try:
@@ -141,6 +143,12 @@ def _seal_torque(word: str, values: Mapping[str, Any], faults: list[Fault]) -> f
         remedy = f"{error.faults[0].remedy}; write the torque"
         faults.append(Fault("row.seal_torque", "no standard seals are known of this size", word, remedy))
         return None
+
+
+def _seals_of(make: str) -> str:
+    """The source of the torque of standard seals, which are those of one maker."""
+    of_other = "" if SEAL_MAKER in make.casefold() else f", not of {make}" if make else ", of whatever make the nut is"
+    return f"standard seals of {SEAL_SOURCE}{of_other}"
 
 
 def _in_column(fault: Fault, row: Row) -> Fault:
@@ -307,7 +315,10 @@ def _listed_part(row: CatalogueRow, name: str, key: str) -> list[str]:
 
 
 def _seals(row: CatalogueRow) -> list[str]:
-    return ["[losses]", *_listed_part(row, "seal_torque", "seals.seal_torque"), ""] if row.seal_torque else []
+    if not row.seal_torque:
+        return []
+    written = _written(row.seal_torque, FIELDS["seal_torque"])
+    return ["[losses]", _setting("seals.seal_torque", written, row.seal_torque_source or "as listed"), ""]
 
 
 def _setting(name: str, value: str, comment: str) -> str:

@@ -132,6 +132,8 @@ class CatalogueRow(ByValue):
         Torque | None,
         Info("M_W", "torque of all seals of the nut", at_least=0, hint="rubber: 0.08 N m at 16 mm, 0.4 N m at 40 mm"),
     ] = None
+    #: Where the torque of the seals is from, if not from the source of the row.
+    seal_torque_source: str = ""
     speed_limit: Annotated[
         DiameterSpeed | None,
         Info(

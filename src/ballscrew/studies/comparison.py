@@ -10,9 +10,9 @@ from typing import Any
 from ballscrew.case_schema.schema import LAWS, MODELS, coefficients_of, name_of_law
 from ballscrew.cases import case_file
 from ballscrew.components.traits import traits_of
-from ballscrew.evaluation.comparison import Candidate, Comparison, Row, RuleRow, compare, same_law
+from ballscrew.evaluation.comparison import Candidate, Comparison, OfBalls, Row, RuleRow, compare, same_law
 from ballscrew.overflow import overflow_as_input_error
-from ballscrew.sizing.rules import RULES, Subject
+from ballscrew.sizing.rules import RULES, Estimate, Subject
 from ballscrew.solvers.load_distribution import preload_of
 
 
@@ -62,22 +62,27 @@ def comparison(case: case_file.Case, done: Callable[[int, int], None] | None = N
     """The comparison of a case; ``done(finished, total)`` reports the progress by rows."""
     models, laws = candidates(case)
     found = compare(case.model, models, laws, case.screw, case.lubricant, case.operation, done)
-    drag = _drag_torque(case)
-    return dataclasses.replace(found, rules=_rules(case, _torque_of_balls(found.case), drag), drag_torque=drag)
+    drag, lost = _drag_torque(case)
+    balls = _of_balls(found.case, drag - lost)
+    return dataclasses.replace(
+        found, rules=_rules(case, balls), drag_torque=drag, of_balls=balls if balls.losses else None
+    )
 
 
-def _torque_of_balls(row: Row) -> float:
-    """Friction torque without seals and other losses, which no rule of one line has."""
-    return row.torque - float(sum(row.result.losses.values()))
+def _of_balls(row: Row, drag: float) -> OfBalls:
+    """The case without seals and other losses, which no rule of one line has."""
+    losses = {name: float(torque) for name, torque in row.result.losses.items()}
+    torque, ideal = row.torque - sum(losses.values()), float(row.result.ideal_torque)
+    return OfBalls(torque, Estimate(torque).efficiency(ideal), drag, losses)
 
 
-def _drag_torque(case: case_file.Case) -> float:
-    """Torque of the balls of the preloaded nut without load, as rules state it, without seals; NaN without preload."""
+def _drag_torque(case: case_file.Case) -> tuple[float, float]:
+    """Torque of the preloaded nut without load, and what of it are seals and other losses; NaN without preload."""
     if not float(preload_of(case.screw, case.screw.nut)):
-        return math.nan
+        return math.nan, math.nan
     speed = case.operation.screw_speed
     idle = case.model(case.screw, case.lubricant, axial_load=0.0, screw_speed=speed)
-    return float(idle.screw_torque - sum(idle.losses.values()))
+    return float(idle.screw_torque), float(sum(idle.losses.values()))
 
 
 def subject_of(case: case_file.Case) -> Subject:
@@ -94,8 +99,8 @@ def subject_of(case: case_file.Case) -> Subject:
     )
 
 
-def _rules(case: case_file.Case, torque: float, drag: float) -> list[RuleRow]:
-    """The rules of one line on the screw of the case, beside the torques of its model."""
+def _rules(case: case_file.Case, balls: OfBalls) -> list[RuleRow]:
+    """The rules of one line on the screw of the case, beside the torques of the balls of its model."""
     subject = subject_of(case)
     rows: list[RuleRow] = []
     for rule in RULES.values():
@@ -103,8 +108,8 @@ def _rules(case: case_file.Case, torque: float, drag: float) -> list[RuleRow]:
         friction, idle = float(found.screw_torque), float(found.drag_torque)
         rows.append(
             RuleRow(
-                rule.name, rule.title, rule.formula, rule.source, friction, _change(friction, torque),
-                found.efficiency(subject.ideal_torque), idle, _change(idle, drag),
+                rule.name, rule.title, rule.formula, rule.source, friction, _change(friction, balls.screw_torque),
+                found.efficiency(subject.ideal_torque), idle, _change(idle, balls.drag_torque),
             )
         )  # fmt: skip
     return rows

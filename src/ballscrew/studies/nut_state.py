@@ -33,8 +33,10 @@ class NutState:
     nut: Nut
     #: Preload of the nut, N.
     preload: float
-    #: Torque of the nut without load: the sum of preload and losses.
+    #: Torque of the nut without load: of its balls under the preload, and of seals and other losses.
     preload_drag: float
+    #: What of it are losses beside those of the balls, by name, N m.
+    idle_losses: Mapping[str, float]
     #: That of the balls as coefficients of catalogues, by the names of the result; NaN without preload.
     drag_coefficients: Mapping[str, float]
     loads: BallLoads

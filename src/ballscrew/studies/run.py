@@ -341,6 +341,7 @@ def with_nut(case: Case, nut: Nut) -> Run:
             nut=nut,
             preload=float(preload_of(screw, nut)),
             preload_drag=float(beside.screw_torque[2]),
+            idle_losses={name: float(np.broadcast_to(torque, 3)[2]) for name, torque in beside.losses.items()},
             drag_coefficients={name: float(np.broadcast_to(getattr(beside, name), 3)[2]) for name in OF_IDLE_NUT},
             loads=loads,
             rigidity=_rigidity(case, screw, load),

@@ -17,7 +17,7 @@ from ballscrew.sizing.checks import Check
 from ballscrew.solvers.load_distribution import BallLoads
 from ballscrew.studies.check import RATINGS, Checked
 from ballscrew.studies.nut_state import NutState
-from ballscrew.text.run import rigidity_rows, stiffness_fields
+from ballscrew.text.run import rigidity_rows, stiffness_fields, unloaded_rows
 from ballscrew.text.tables import shown_or_dash
 
 #: The display units of the checks, by SI unit.
@@ -67,7 +67,7 @@ def text(found: Checked) -> str:
             _line(_RESULT[name].info.meaning, shown_or_dash(getattr(friction, name), _RESULT[name]))
             for name in ("screw_torque", "drive_torque", "efficiency", "back_driving_efficiency", "friction_power")
         ),
-        _line("torque without load", shown_or_dash(found.nut.preload_drag, _RESULT["screw_torque"])),
+        *(_line(label, shown_or_dash(torque, _RESULT["screw_torque"])) for label, torque in unloaded_rows(found.nut)),
         *(f"  {record.text}" for record in ([] if found.heating is None else [found.heating.record])),
         *(f"  {record.text}" for record in found.run.verdicts),
         "",

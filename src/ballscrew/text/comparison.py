@@ -13,6 +13,7 @@ from ballscrew.cases.spelling import THOUSANDS
 from ballscrew.documents.comparison import percent, verdicts, warnings
 from ballscrew.evaluation.comparison import Comparison, Row
 from ballscrew.friction.plausibility import IMPLAUSIBLE
+from ballscrew.friction.result import MECHANISMS
 from ballscrew.friction.validity import NUT_REASONS
 from ballscrew.studies.comparison import models_without_nut
 
@@ -162,11 +163,16 @@ def rules_table(found: Comparison) -> list[tuple[str, str | None]]:
         eta = f"{efficiency:.4f}" if math.isfinite(efficiency) else "–"
         return [numbers[0], change, eta, numbers[1], drag_change]
 
-    own = found.case
+    own, balls = found.case, found.of_balls
+    mark = "case" if balls is None else ""
     lines = [
-        ["in place of a model", f"torque, {unit}", "change", "η drive", "no load", "change"],
-        ["this case", *cells(own.torque, "case", float(own.result.efficiency), found.drag_torque, "case")],
+        ["in place of a model", f"torque, {unit}", "change", "η drive", "without load", "change"],
+        ["this case", *cells(own.torque, mark, float(own.result.efficiency), found.drag_torque, mark)],
     ]
+    if balls is not None:
+        names = " and ".join(MECHANISMS.get(name, name) for name in balls.losses)
+        numbers = cells(balls.screw_torque, "case", balls.efficiency, balls.drag_torque, "case")
+        lines.append([f"without {names}, as all below", *numbers])
     for rule in found.rules:
         changes = percent(rule.change), percent(rule.drag_change)
         numbers = cells(rule.screw_torque, changes[0], rule.efficiency, rule.drag_torque, changes[1])
@@ -175,7 +181,12 @@ def rules_table(found: Comparison) -> list[tuple[str, str | None]]:
     table: list[tuple[str, str | None]] = []
     for place, (title, *numbers) in enumerate(lines):
         aligned = [cell.rjust(width) for cell, width in zip(numbers, widths[1:], strict=True)]
-        table.append(("  ".join([title.ljust(widths[0]), *aligned]).rstrip(), "bold" if place < 2 else None))
+        table.append(
+            (
+                "  ".join([title.ljust(widths[0]), *aligned]).rstrip(),
+                "bold" if place < 2 + (balls is not None) else None,
+            )
+        )
     return [*table, *((f"{rule.title}: {rule.formula}; {rule.source}", "dim") for rule in found.rules)]
 
 

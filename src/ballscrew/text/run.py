@@ -101,11 +101,18 @@ def _results(run: Run) -> Table:
             known = run.quantities[name]
             table.add_row(known.info.meaning, shown_or_dash(getattr(run.friction, name), known))
     if run.nut is not None:
-        table.add_row("torque without load", shown_or_dash(run.nut.preload_drag, _TORQUE))
+        for label, torque in unloaded_rows(run.nut):
+            table.add_row(label, shown_or_dash(torque, _TORQUE))
         for name, value in run.nut.drag_coefficients.items():
             if math.isfinite(value):
                 table.add_row(_KNOWN[name].info.meaning, shown_or_dash(value, _KNOWN[name]))
     return table
+
+
+def unloaded_rows(nut: NutState) -> list[tuple[str, float]]:
+    """The torque of the nut without load, and what of it are seals and other losses."""
+    losses = ((f"of it {MECHANISMS.get(name, name)}", torque) for name, torque in nut.idle_losses.items() if torque)
+    return [("torque without load", nut.preload_drag), *losses]
 
 
 def parts_table(contributions: Mapping[str, Any], total: float, encoding: str) -> Table:

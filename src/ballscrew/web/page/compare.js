@@ -168,20 +168,27 @@ export function showModels(found) {
   const caption = text("models.caption");
   const [torque, change, efficiency] = [text("chart.torque"), text("models.change"), text("chart.efficiency")];
   const headings = [text("models.name"), torque, change, efficiency, text("models.valid")];
-  const rules = found.rules.map((rule) => [
-    rule.title,
-    units.formatted("screw_torque", rule.screw_torque),
-    percentage(rule.change),
-    units.formatted("efficiency", rule.efficiency),
-    units.formatted("screw_torque", rule.drag_torque),
-    rule.source,
-  ]);
+  /** @param {{ title: string, screw_torque: number | null, efficiency: number | null, drag_torque: number | null, change?: number | null, drag_change?: number | null, source?: string }} one */
+  const rule = (one) => [
+    one.title,
+    units.formatted("screw_torque", one.screw_torque),
+    percentage(one.change ?? null),
+    units.formatted("efficiency", one.efficiency),
+    units.formatted("screw_torque", one.drag_torque),
+    percentage(one.drag_change ?? null),
+    one.source ?? "",
+  ];
+  const { screw_torque, efficiency: eta } = found.case;
+  const own = { title: text("models.this"), screw_torque, efficiency: eta, drag_torque: found.drag_torque };
+  const balls = found.of_balls ? [{ title: text("models.of_balls"), ...found.of_balls }] : [];
+  const rules = [own, ...balls, ...found.rules].map(rule);
   const columns = [
     text("models.rule"),
     torque,
     change,
     efficiency,
-    text("results.preload_drag"),
+    text("models.unloaded"),
+    change,
     text("models.source"),
   ];
   byId("models").replaceChildren(
