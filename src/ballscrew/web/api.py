@@ -43,6 +43,7 @@ from ballscrew.studies import sweep as sweeps
 from ballscrew.studies import validation
 from ballscrew.studies.check import with_nut_named
 from ballscrew.studies.comparison import comparison
+from ballscrew.studies.sweep_band import with_band
 from ballscrew.web import documents, file_api, job_api, limits, log_api, openapi, vocabulary
 from ballscrew.web.bodies import (
     BandBody,
@@ -108,7 +109,7 @@ async def check(request: Request) -> Response:
     "/sweep", openapi_extra=openapi.body(SweepBody), response_model=answers.Sweep, responses=openapi.problems_of()
 )
 async def sweep(request: Request) -> Response:
-    """Friction over ranges of load, speed or any other field, as ``ballscrew sweep`` computes it."""
+    """Friction over ranges of load, speed or any other field: the document of ``ballscrew sweep --json``."""
     body: SweepBody = await read(request, SweepBody)
     limits.check_size(body.vary, len(body.outputs))
 
@@ -116,7 +117,8 @@ async def sweep(request: Request) -> Response:
         case = case_of(body.case)
         if not body.vary:
             limits.check_size(case.sweep, len(body.outputs))
-        plan = sweeps.plan(case, [f"{name}={text}" for name, text in body.vary.items()], body.outputs, None)
+        vary = [f"{name}={text}" for name, text in body.vary.items()]
+        plan = sweeps.plan(case, vary, body.outputs, None, banded=body.band)
         limits.check_sweep(case, plan)
         return case, plan
 
@@ -124,7 +126,11 @@ async def sweep(request: Request) -> Response:
     case, plan = await queue.quick(planned)
 
     def work(done: Deadline) -> Response:
-        return as_json(sweep_documents.document(case, plan, sweeps.sweep(case, plan, done)))
+        found = sweeps.sweep(case, plan, done)
+        if plan.banded:
+            samples = limits.samples_of_sweep(case, plan, body.samples)
+            found = with_band(case, plan, found, bands.Options(samples, body.level, body.only_given), done)
+        return as_json(sweep_documents.document(case, plan, found))
 
     if limits.is_short(case, plan):
         return await cancellable(request, queue.short(work))

@@ -129,19 +129,20 @@ class ReportBody(CaseBody):
     beside: list[Tables] = Field(default_factory=list[Tables], description="other designs, three at most", max_length=3)
 
 
-class SweepBody(CaseBody):
-    """A case, the axes to vary (as ``--vary``), and the outputs to return."""
-
-    vary: dict[str, str] = Field(default_factory=dict)
-    outputs: list[str] = Field(default_factory=list)
-
-
 class BandBody(CaseBody):
     """A case, and the options of its band."""
 
     samples: int | None = Field(default=None, strict=True)
     level: float | None = Field(default=None, strict=True)
     only_given: bool = Field(default=False, strict=True)
+
+
+class SweepBody(BandBody):
+    """A case, the axes to vary (as ``--vary``), the outputs to return, perhaps with the ends of their bands."""
+
+    vary: dict[str, str] = Field(default_factory=dict)
+    outputs: list[str] = Field(default_factory=list)
+    band: bool = Field(default=False, strict=True)
 
 
 async def read(request: Request, kind: type[Body]) -> Any:

@@ -21,6 +21,8 @@ from ballscrew.uncertainty.bands import NUT_SAMPLES, SAMPLES
 MOST_AXES, MOST_POINTS, MOST_POINTS_OF_NUT, MOST_RETURNED = 8, 20_000, 2_000, 200_000
 #: Samples of a band.
 MOST_SAMPLES, MOST_SAMPLES_OF_NUT = 65_536, 1_024
+#: Samples of all points of a sweep together, and the fewest of a point that make a band.
+MOST_SAMPLES_OF_SWEEP, FEWEST_SAMPLES = 2**20, 32
 #: Balls that are computed one by one, in all points of a sweep or samples of a band.
 MOST_BALLS_IN_ALL = 250_000
 #: States of a duty times balls that are computed one by one: its friction is mapped at 312 temperatures and preloads.
@@ -116,7 +118,9 @@ def check_hand_over(case: Case, *lists: Sequence[str]) -> Case:
 
 
 def is_short(case: Case, plan: sweeps.Plan) -> bool:
-    """Test whether a sweep takes about a tenth of a second at most, such as those of the page."""
+    """Test whether a sweep takes about a tenth of a second at most, such as those of the page without bands."""
+    if plan.banded:
+        return False
     points = math.prod(len(values) for values in plan.axes.values())
     most = SHORT_POINTS if case.nut is None else SHORT_POINTS_OF_NUT
     return points <= most and points * balls_of(case) <= SHORT_BALLS
@@ -133,6 +137,23 @@ def samples_of(case: Case, requested: int | None = None) -> int | None:
     if requested > most:
         raise InputError(Fault("--samples", "too many", f"{requested:,}", f"{most:,} at most here"))
     return requested
+
+
+def samples_of_sweep(case: Case, plan: sweeps.Plan, requested: int | None = None) -> int:
+    """The samples of each point of a sweep with a band: the requested number, or the default, or fewer of many points.
+
+    Fewer are a power of two. Raises :class:`~ballscrew.errors.InputError` where more are requested than are computed
+    here, and for more points than there are samples for.
+    """
+    points = math.prod(len(values) for values in plan.axes.values())
+    total = MOST_BALLS_IN_ALL // balls_of(case) if balls_of(case) else MOST_SAMPLES_OF_SWEEP
+    most = total // points
+    if most < FEWEST_SAMPLES:
+        raise InputError(_too_many_points(points, total // FEWEST_SAMPLES))
+    if requested is not None and requested > most:
+        raise InputError(Fault("--samples", "too many", f"{requested:,}", f"{most:,} at most here"))
+    usual = NUT_SAMPLES if case.screw.nut.one_by_one else SAMPLES
+    return requested or min(usual, 2 ** int(math.log2(most)))
 
 
 def _default_samples(case: Case) -> int:
