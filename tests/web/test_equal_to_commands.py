@@ -173,6 +173,21 @@ def test_band(server, path, options):
     assert_same(found, document("run", path, "--band", "--json", *words))
 
 
+def test_sweep_with_a_band(server):
+    """Few points have the samples of the command, many have fewer, and more than there are is refused."""
+    path = EXAMPLES[0].with_name("feed_drive.toml")
+    case, vary = tables_of(path), {"screw_speed": "0, 300 rpm"}
+    body = {"case": case, "vary": vary, "outputs": ["screw_torque", "efficiency"], "band": True}
+    words = ["--vary", "screw_speed=0, 300 rpm", "--output", "screw_torque", "--output", "efficiency", "--band"]
+    assert_same(server.post("sweep", body).json(), document("sweep", path, *words, "--json"))
+    many = server.post("sweep", {**body, "vary": {"screw_speed": "1:300:200 rpm"}}).json()
+    assert many["band"]["samples"] == 4096
+    refused = server.post("sweep", {**body, "samples": 2**20})
+    assert (refused.status_code, "--samples: too many" in refused.text) == (422, True)
+    refused = server.post("sweep", {**body, "outputs": ["deflection"]})
+    assert (refused.status_code, "has no band" in refused.text) == (422, True)
+
+
 AXES = [
     {},
     {"axial_load": "100:4000:3 N"},

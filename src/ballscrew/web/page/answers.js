@@ -19,7 +19,13 @@ import * as temperatures from "./temperatures.js";
 import { text } from "./texts.js";
 
 /** Points of a curve and of one side of the map; fewer for a whole nut, which takes longer. */
-const POINTS = { curve: 41, curveOfNut: 15, map: 21, mapOfNut: 11 };
+const POINTS = { curve: 41, curveOfNut: 15, map: 20, mapOfNut: 10 };
+/** Points of a curve of either sign, one more than a multiple of every step of a band. */
+const POINTS_OF_SIGN = 29;
+/** Digits of a value of an axis: the text of an axis has no room for all. */
+const DIGITS_OF_AXIS = 6;
+/** Every how many points of the curve over the speed have a band: of a screw, and of a whole nut. */
+const STEP_OF_BAND = { screw: 2, nut: 4 };
 const BAND_DELAY = 400;
 /** Milliseconds to wait where the server has too much to do, as it says itself. */
 const BUSY_DELAY = 1000;
@@ -39,6 +45,7 @@ const PAINT_TIMEOUT = 500;
  * @property {results.Band | null} band
  * @property {string[]} starts
  * @property {Sweep} [alongSpeed]
+ * @property {Sweep | string} [bandAlongSpeed] the band of the torque over the speed, or why there is none
  * @property {Sweep} [alongLoad]
  * @property {Sweep} [everywhere]
  * @property {Sweep} [hotAndCold]
@@ -105,7 +112,8 @@ export async function update(cases, { designs, show, band: wanted, own }, report
     const { designs: before, starts } = displayed;
     /** @type {Displayed} */
     const known = displayed.key === key ? displayed : { band: null, starts };
-    displayed = { body, whole, key, answer, checks: known.checks, band: known.band, designs: before, starts };
+    const { checks: checked, band, bandAlongSpeed } = known;
+    displayed = { body, whole, key, answer, checks: checked, band, bandAlongSpeed, designs: before, starts };
     report([]);
     results.succeed();
     if (wanted && !displayed.band) displayed.band = { state: "pending" };
@@ -113,8 +121,8 @@ export async function update(cases, { designs, show, band: wanted, own }, report
     bath.show(answer);
     stiffness.show(answer);
     measurePaint("numbers", start, signal);
-    const checked = showChecks(body, answer, signal);
-    await Promise.all([checked, drawCharts(body, answer, signal, start), showAll(bodies, own, wanted, signal)]);
+    const checking = showChecks(body, answer, signal);
+    await Promise.all([checking, drawCharts(body, answer, signal, start), showAll(bodies, own, wanted, signal)]);
     await measurePaint("all", start, signal);
     if (!signal.aborted) showBand(wanted);
   } catch (error) {
@@ -212,12 +220,16 @@ function nextTask() {
 async function drawCharts(body, answer, signal, start) {
   const { axial_load: load, screw_speed: speed } = /** @type {Record<string, number>} */ (answer.inputs.operation);
   const isNut = Boolean(answer.loads);
-  const topSpeed = speed > 0 ? 2 * speed : 200;
-  const topLoad = load > 0 ? 2 * load : 10_000;
+  const speeds = ends(speed, 200);
+  const chartedLoads = ends(load, 10_000);
   const parts = Object.keys(answer.results.contributions).map((name) => `contribution_${name}`);
   const films = isNut ? ["minimum_film_parameter"] : ["screw_film_parameter", "nut_film_parameter"];
   const pressures = isNut ? ["maximum_pressure"] : ["screw_maximum_pressure", "nut_maximum_pressure"];
   const side = isNut ? POINTS.mapOfNut : POINTS.map;
+  /** The points of one sign of a curve. @param {[number, number]} range @param {number} count of a curve of one sign */
+  const ofCurve = ([low], count) => (low < 0 ? Math.min(count, POINTS_OF_SIGN) : count);
+  /** The points of one sign on a side of the map. @param {[number, number]} range */
+  const ofSide = ([low]) => (low < 0 ? side / 2 : side);
   /**
    * @param {Record<string, string>} vary
    * @param {string[]} outputs
@@ -243,7 +255,7 @@ async function drawCharts(body, answer, signal, start) {
       showFailure(id, error.lines.join("; "));
     }
   };
-  const alongSpeed = sweep({ screw_speed: `${topSpeed / 100}:${topSpeed}:${POINTS.curve} rad/s` }, [
+  const alongSpeed = sweep({ screw_speed: `${along(speeds, 100, ofCurve(speeds, POINTS.curve)).join(", ")} rad/s` }, [
     "screw_torque",
     ...parts,
     ...films,
@@ -254,20 +266,23 @@ async function drawCharts(body, answer, signal, start) {
   /** @type {Promise<Template>} */
   const drawing = sendJson("drawing/template", body, signal);
   const loads = isNut ? POINTS.curveOfNut : POINTS.curve;
-  const alongLoad = sweep({ axial_load: `${topLoad / 50}:${topLoad}:${loads} N` }, pressures);
+  const alongLoad = sweep(
+    { axial_load: `${along(chartedLoads, 50, ofCurve(chartedLoads, loads)).join(", ")} N` },
+    pressures,
+  );
   const everywhere = sweep(
     {
-      axial_load: `${topLoad / 20}:${topLoad}:${side} N`,
-      screw_speed: `${topSpeed / 20}:${topSpeed}:${side} rad/s`,
+      axial_load: `${along(chartedLoads, 20, ofSide(chartedLoads)).join(", ")} N`,
+      screw_speed: `${along(speeds, 20, ofSide(speeds)).join(", ")} rad/s`,
     },
-    ["efficiency"],
+    ["efficiency", "back_driving_efficiency"],
   );
   const asked = temperatures.question(answer);
   const hotAndCold = asked && sweep(asked.vary, asked.outputs);
   const others = Promise.allSettled([drawing, alongLoad, everywhere, hotAndCold]);
   await drawn("torque-chart", alongSpeed, (found) => {
     displayed.alongSpeed = found;
-    return charts.torque(found, answer, mechanisms);
+    return drawTorque(answer);
   });
   measurePaint("chart", start, signal);
   displayed.hotAndCold = undefined;
@@ -295,6 +310,68 @@ async function drawCharts(body, answer, signal, start) {
 }
 
 /**
+ * The ends of a chart around the operating point, in SI: where that is negative, both signs are drawn.
+ *
+ * @param {number} value
+ * @param {number} other the far end where the value is nothing
+ * @returns {[number, number]}
+ */
+function ends(value, other) {
+  const far = 2 * Math.abs(value) || other;
+  return [value < 0 ? -far : 0, far];
+}
+
+/**
+ * Values from a share of the far end to it, and their negatives where the range has both signs: none is nothing.
+ *
+ * @param {[number, number]} range
+ * @param {number} share
+ * @param {number} count of one sign
+ */
+function along([low, high], share, count) {
+  const found = Array.from(
+    { length: count },
+    (_, place) => high / share + (place * (high - high / share)) / (count - 1),
+  );
+  const rounded = found.map((value) => Number(value.toPrecision(DIGITS_OF_AXIS)));
+  return low < 0 ? [...rounded.map((value) => -value).toReversed(), ...rounded] : rounded;
+}
+
+/** Draw the torque over the speed, with its band where that is there. @param {Run} answer */
+function drawTorque(answer) {
+  const { alongSpeed, band, bandAlongSpeed } = displayed;
+  return alongSpeed && charts.torque(alongSpeed, answer, mechanisms, band ? bandAlongSpeed : undefined);
+}
+
+/**
+ * The band of the torque over the speed, at some of the points of its curve.
+ *
+ * @param {Body} body
+ * @param {Run} answer
+ * @param {AbortSignal} signal
+ */
+async function addBandAlongSpeed(body, answer, signal) {
+  const { alongSpeed } = displayed;
+  if (!alongSpeed) return;
+  const step = answer.loads ? STEP_OF_BAND.nut : STEP_OF_BAND.screw;
+  const all = /** @type {number[]} */ (alongSpeed.axes.screw_speed.values);
+  // counted from the ends of the chart, which have a band
+  const speeds = all.filter((_, place) => Math.min(place, all.length - 1 - place) % step === 0);
+  const vary = { screw_speed: `${speeds.join(", ")} rad/s` };
+  /** @type {Sweep | string} */
+  let found;
+  try {
+    found = await sendJson("sweep", { ...body, vary, outputs: ["screw_torque"], band: true }, signal);
+  } catch (error) {
+    if (signal.aborted) return;
+    found = linesOf(error).join("; ");
+  }
+  if (signal.aborted || alongSpeed !== displayed.alongSpeed) return;
+  displayed.bandAlongSpeed = found;
+  await drawTorque(answer);
+}
+
+/**
  * Keep the case for files, of which only what cards ask about has changed; its cycle is judged anew.
  *
  * @param {Record<string, unknown>} found
@@ -319,7 +396,7 @@ export function redisplay() {
   stiffness.show(answer);
   checks.show(checked, jump);
   if (alongSpeed) {
-    charts.torque(alongSpeed, answer, mechanisms);
+    drawTorque(answer);
     curves.film(alongSpeed, answer);
   }
   if (everywhere) charts.map(everywhere, answer);
@@ -347,6 +424,7 @@ export function showBand(wanted) {
   };
   if (!wanted) {
     display(null);
+    drawTorque(answer);
     return;
   }
   if (band && band.state !== "pending") return;
@@ -365,7 +443,9 @@ export function showBand(wanted) {
         return;
       }
     }
-    if (!signal.aborted) display(found);
+    if (signal.aborted) return;
+    display(found);
+    if (found.state === "done") await addBandAlongSpeed(body, answer, signal);
   }, BAND_DELAY);
 }
 

@@ -25,14 +25,64 @@ function wordsOf(name, mechanisms) {
   return textOr(`mechanism.${name}`, mechanisms[name]?.words ?? name);
 }
 
+/** How dark the area of a band is, as two digits of a colour. */
+const SHADE = "24";
+
 /**
- * Torque against speed, its parts stacked, and the operating point.
+ * The band of the torque over the speed: its traces, its entry in the legend, and its ends at a place of the curve.
+ *
+ * @param {Sweep | string | undefined} banded or why there is none
+ */
+function bandOf(banded) {
+  const none = { traces: () => [], entries: () => [], headings: [], cells: () => [] };
+  if (!banded) return none;
+  if (typeof banded === "string") {
+    const name = text("chart.no_band", { reason: banded });
+    return { ...none, entries: () => [{ kind: "none", name, colour: undefined }] };
+  }
+  const speeds = parts.valuesOf(banded.axes.screw_speed);
+  const shown = parts.converted("screw_speed", banded.axes.screw_speed);
+  const output = banded.outputs.screw_torque;
+  const [low, high] = [output.low ?? [], output.high ?? []].map((values) =>
+    parts.converted("screw_torque", { values }),
+  );
+  const words = text("chart.band", { share: units.digits(100 * (banded.band?.level ?? 0)) });
+  /** @param {import("./plot.js").Colours} colours @param {number[]} values @param {import("./texts.js").Key} key */
+  const end = ({ ink }, values, key) => ({
+    x: shown,
+    y: values,
+    name: text(key),
+    mode: "lines",
+    line: { color: ink, width: 1.2, dash: "dot" },
+    hovertemplate: "%{y:.3g}",
+  });
+  return {
+    /** @param {import("./plot.js").Colours} colours */
+    traces: (colours) => [
+      end(colours, low, "chart.low"),
+      { ...end(colours, high, "chart.high"), fill: "tonexty", fillcolor: `${colours.ink}${SHADE}` },
+    ],
+    /** @param {import("./plot.js").Colours} colours */
+    entries: ({ ink }) => [{ kind: "dot", name: words, colour: ink }],
+    headings: [text("chart.low"), text("chart.high")].map((one) => parts.titled("screw_torque", one)),
+    /** @param {number} speed in SI */
+    cells: (speed) => {
+      const place = speeds.indexOf(speed);
+      return place < 0 ? ["", ""] : [low[place], high[place]];
+    },
+  };
+}
+
+/**
+ * Torque against speed, its parts stacked, its band, and the operating point.
  *
  * @param {Sweep} swept
  * @param {Run} answer
  * @param {Mechanisms} mechanisms
+ * @param {Sweep | string} [banded] the band at some of the speeds, or why there is none
  */
-export function torque(swept, answer, mechanisms) {
+export function torque(swept, answer, mechanisms, banded) {
+  const band = bandOf(banded);
   const speeds = parts.converted("screw_speed", swept.axes.screw_speed);
   const { screw_torque: sum, contributions } = answer.results;
   const names = Object.keys(contributions).filter((name) =>
@@ -62,7 +112,8 @@ export function torque(swept, answer, mechanisms) {
     const [[place]] = speeds.map((one, i) => [i, Math.abs(one - at)]).sort(([, a], [, b]) => a - b);
     return total[place];
   };
-  letDrag("torque-chart", { x: "screw_speed", trace: names.length + 1, place: (at) => [at, nearest(at)] });
+  const others = names.length + (banded && typeof banded !== "string" ? 2 : 0);
+  letDrag("torque-chart", { x: "screw_speed", trace: others + 1, place: (at) => [at, nearest(at)] });
   return draw("torque-chart", {
     name: "torque_over_speed",
     caption: text("speed.caption", { load }),
@@ -79,6 +130,7 @@ export function torque(swept, answer, mechanisms) {
           fillcolor: mechanisms[name]?.colour,
           hovertemplate: "%{y:.4g}",
         })),
+        ...band.traces(colours),
         {
           x: speeds,
           y: total,
@@ -104,14 +156,16 @@ export function torque(swept, answer, mechanisms) {
         colour: mechanisms[name]?.colour,
         value: share(name),
       })),
+      ...band.entries(colours),
       parts.pointEntry(colours),
       ...parts.invalidEntries(valid),
     ],
     numbers: () => [
-      [x, y, ...names.map((name) => parts.titled("screw_torque", words(name))), text("chart.valid")],
+      [x, y, ...band.headings, ...names.map((name) => parts.titled("screw_torque", words(name))), text("chart.valid")],
       speeds.map((at, place) => [
         at,
         total[place],
+        ...band.cells(parts.valuesOf(swept.axes.screw_speed)[place]),
         ...names.map((name) => byName[name][place]),
         parts.yesOrNo(valid[place]),
       ]),
@@ -136,7 +190,12 @@ export function map(swept, answer) {
    * @param {Value[][]} values
    */
   const byLoad = (values) => (loadIsFirst ? values : loads.map((_, i) => speeds.map((_, j) => values[j][i])));
-  const grid = byLoad(/** @type {number[][]} */ (swept.outputs.efficiency.values));
+  const [driving, driven] = ["efficiency", "back_driving_efficiency"].map((name) =>
+    byLoad(/** @type {(number | null)[][]} */ (swept.outputs[name].values)),
+  );
+  // where load and speed have not the same sign, the load drives the screw
+  const isDriven = loads.some((load) => speeds.some((speed) => load * speed < 0));
+  const grid = driving.map((row, i) => row.map((value, j) => (loads[i] * speeds[j] < 0 ? driven[i][j] : value)));
   const valid = byLoad(/** @type {boolean[][]} */ (swept.outputs.valid.values));
   const x = parts.titled("screw_speed", text("chart.speed"));
   const y = parts.titled("axial_load", text("chart.load"));
@@ -146,7 +205,7 @@ export function map(swept, answer) {
     units.inDisplayUnit("screw_speed", operation.screw_speed),
     units.inDisplayUnit("axial_load", operation.axial_load),
   );
-  const efficiency = units.digits(answer.results.efficiency);
+  const efficiency = units.digits(answer.results.efficiency ?? answer.results.back_driving_efficiency);
   letDrag("map-chart", { x: "screw_speed", y: "axial_load", trace: 2, place: (at, load) => [at, load] });
   return draw("map-chart", {
     name: "efficiency_map",
@@ -185,7 +244,11 @@ export function map(swept, answer) {
       ],
       layout: layout(colours, x, y, { hovermode: "closest", margin: { l: 72, r: 60, t: 8, b: 42 } }),
     }),
-    legend: (colours) => [parts.pointEntry(colours), ...parts.invalidEntries(valid.flat())],
+    legend: (colours) => [
+      parts.pointEntry(colours),
+      ...parts.invalidEntries(valid.flat()),
+      ...(isDriven ? [{ kind: "none", name: text("map.driven"), colour: undefined }] : []),
+    ],
     numbers: () => [
       [`${y} \\ ${x}`, ...speeds.map((one) => String(Number(one.toPrecision(6))))],
       loads.map((one, i) => [one, ...grid[i]]),

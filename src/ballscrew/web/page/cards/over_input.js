@@ -273,6 +273,7 @@ function rangeOf({ path, from, to }, runs) {
   const [first, last] = VARIED[path.split(".")[0]];
   let [low, high] = [Math.min(...sizes) * first, Math.max(...sizes) * last || inSI(path, FOR_NOTHING)];
   if (values.every((value) => value < 0)) [low, high] = [-high, -low];
+  else if (values.some((value) => value < 0)) low = -high;
   if (path === "lubricant.temperature") {
     [low, high] = [Math.min(TEMPERATURES[0], ...values), Math.max(TEMPERATURES[1], ...values)];
   }

@@ -1,0 +1,101 @@
+"""Charts of the page: the band of the torque over the speed, and operating points of either sign."""
+
+import pytest
+
+#: A chart as it is drawn: the ends of its axes, its diamond, and its curves by name.
+CHART = """(id) => {
+  const plot = document.querySelector(`#${id} .plot`);
+  const { xaxis, yaxis } = plot._fullLayout;
+  const { x, y } = plot.data.find((one) => one.marker?.symbol === "diamond");
+  const lines = plot.data.filter((one) => one.mode === "lines" && !one.stackgroup);
+  return {
+    x: xaxis.range, y: yaxis.range, point: [x[0], y[0]],
+    lines: lines.map(({ name, x, y }) => [name, [...x], [...y]]), map: plot.data[0].z,
+  };
+}"""
+DRAWN = """(id) => document.querySelector(`#${id} .plot`)?._fullLayout?.xaxis"""
+
+
+def chart(here, name):
+    here.page.locator(f"#{name}").scroll_into_view_if_needed()
+    here.page.wait_for_function(DRAWN, arg=name)
+    return here.page.evaluate(CHART, name)
+
+
+def at(line, place):
+    """The value of a line at a place between its points."""
+    _, x, y = line
+    (left, low), (right, high) = next(
+        pair
+        for pair in zip(zip(x, y, strict=True), list(zip(x, y, strict=True))[1:], strict=False)
+        if pair[0][0] <= place <= pair[1][0]
+    )
+    return low + (high - low) * (place - left) / (right - left)
+
+
+def test_the_torque_over_the_speed_has_its_band(visit, server):
+    """At the operating point that of the headline; it goes with the box, and its numbers stand in the table."""
+    here = visit().open("#A=paper")
+    here.page.wait_for_selector("#band-words details")
+    here.page.locator("#torque-chart").scroll_into_view_if_needed()
+    here.page.wait_for_function(
+        "() => document.querySelector('#torque-chart ul.legend')?.innerText.includes('of the samples')"
+    )
+    case = server.get("vocabulary").json()["starts"]["paper"]["case"]
+    band = server.post("band", {"case": case}).json()["band"]["screw_torque"]
+    found = chart(here, "torque-chart")
+    names = [name for name, _, _ in found["lines"]]
+    assert names == ["lower end of the band", "upper end of the band", "sum"]
+    speed, _ = found["point"]
+    low, high, _ = found["lines"]
+    assert at(low, speed) == pytest.approx(band["low"], rel=0.01)
+    assert at(high, speed) == pytest.approx(band["high"], rel=0.01)
+    here.page.locator("#torque-chart summary").click()
+    here.page.wait_for_selector("#torque-chart tbody td")
+    row = here.page.locator("#torque-chart tbody tr").first.locator("td").all_inner_texts()
+    assert [float(cell) for cell in row[1:3]] == pytest.approx([low[2][0], high[2][0]], rel=1e-3)
+    here.page.locator("#band").uncheck()
+    here.page.wait_for_function(
+        "() => !document.querySelector('#torque-chart ul.legend').innerText.includes('the samples')"
+    )
+    assert [name for name, _, _ in chart(here, "torque-chart")["lines"]] == ["sum"]
+
+
+@pytest.mark.parametrize(("load", "speed"), [(4000, -600), (-4000, 600), (-4000, -600)])
+def test_operating_points_of_either_sign_stand_on_their_curves(load, speed, visit):
+    here = visit().open(f"#A=paper&A.operation.axial_load={load}+N&A.operation.screw_speed={speed}+rpm&band=0")
+    for name, value in {"torque-chart": speed, "film-chart": speed, "pressure-chart": load}.items():
+        found = chart(here, name)
+        (left, right), (x, y) = found["x"], found["point"]
+        assert x == pytest.approx(value)
+        assert left < x < right
+        assert right == pytest.approx(2 * abs(value), rel=1e-4)
+        curves = [at(line, x) for line in found["lines"]]
+        assert any(y == pytest.approx(one, rel=0.02) for one in curves), name
+    found = chart(here, "map-chart")
+    assert found["point"] == pytest.approx([speed, load])
+    assert found["x"][0] < speed < found["x"][1]
+    assert found["y"][0] < load < found["y"][1]
+    assert all(0 < value < 1 for row in found["map"] for value in row)
+    assert ("the load drives" in here.text("#map-chart ul.legend")) is True
+
+
+def test_a_speed_below_zero_is_dragged(visit):
+    here = visit().open("#A=paper&A.operation.screw_speed=-600+rpm&band=0")
+    found = chart(here, "torque-chart")
+    x, y = here.page.evaluate(
+        """() => {
+          const plot = document.querySelector("#torque-chart .plot"), { left, top } = plot.getBoundingClientRect();
+          const { xaxis, yaxis } = plot._fullLayout;
+          const { x, y } = plot.data.find((one) => one.marker?.symbol === "diamond");
+          return [left + xaxis._offset + xaxis.d2p(x[0]), top + yaxis._offset + yaxis.d2p(y[0])];
+        }"""
+    )
+    mouse = here.page.mouse
+    mouse.move(x, y)
+    mouse.down()
+    mouse.move(x - 40, y, steps=3)
+    mouse.up()
+    here.settle()
+    moved = float(here.page.locator(here.id("operation.screw_speed")).input_value())
+    assert found["x"][0] < moved < -600
