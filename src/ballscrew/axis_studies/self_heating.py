@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from ballscrew import units
 from ballscrew.axis_studies.warm_up import (
@@ -19,10 +22,12 @@ from ballscrew.axis_studies.warm_up import (
 from ballscrew.cases.case import Case
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import Fault, InputError
+from ballscrew.friction import starvation
 from ballscrew.friction.result import FrictionResult
-from ballscrew.quantities import quantities_of
+from ballscrew.quantities import Info, Quantity, quantities_of
 from ballscrew.records import Record
-from ballscrew.thermal.equilibrium import Equilibrium
+from ballscrew.thermal.equilibrium import Equilibrium, equilibrium
+from ballscrew.thermal.friction_map import friction_map
 from ballscrew.thermal.steady_heat import steady_heat
 from ballscrew.thermal.surroundings import Surroundings
 
@@ -31,6 +36,13 @@ if TYPE_CHECKING:
 
 OPTION = "--self-heating"
 _TORQUE = quantities_of(FrictionResult)["screw_torque"]
+_WARM, _GIVEN = (
+    Quantity(f"self_heating.{name}", "N m", Info("M_S", meaning))
+    for name, meaning in (
+        ("screw_torque", "friction torque once warm"),
+        ("screw_torque_given", "friction torque at the oil that is given"),
+    )
+)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -40,9 +52,13 @@ class SelfHeating:
     given: Case
     warm: Case
     equilibrium: Equilibrium
-    #: Friction torque of the screw at the operating point, as given and warm, N m.
+    #: The steady state in a full bath of oil, of heat of its own; the same where nothing is starved of oil.
+    flooded: Equilibrium
+    #: Friction torque of the screw at the operating point, as given and warm, and each in a full bath of oil, N m.
     torque_given: float
     torque: float
+    flooded_torque_given: float
+    flooded_torque: float
     #: The way to and fro, m.
     stroke: float
 
@@ -67,12 +83,33 @@ class SelfHeating:
             "preload_given": end.network.preload_set,
             "screw_torque": self.torque,
             "screw_torque_given": self.torque_given,
+            "flooded_torque": self.flooded_torque,
+            "flooded_torque_given": self.flooded_torque_given,
+            "flooded_oil_temperature": self.flooded.oil_temperature,
             "growth": end.growth,
         }
 
     @property
-    def record(self) -> Record:
-        """What was taken in place of what, and what it does."""
+    def records(self) -> list[Record]:
+        """What was taken in place of what and what it does, and starvation."""
+        return [self._record, *self._starved]
+
+    @property
+    def _starved(self) -> list[Record]:
+        """Both torques warm and as given, each warm one at the oil of its own steady state."""
+        given = (self.torque, self.torque_given)
+        flooded = (self.flooded_torque, self.flooded_torque_given)
+        if not np.any(starvation.differs(given, flooded)):
+            return []
+        numbers = [
+            starvation.BothTorques(quantity, *both)
+            for quantity, *both in zip((_WARM, _GIVEN), given, flooded, strict=True)
+            if np.isfinite(both).all()
+        ]
+        return units.in_display_units_of(starvation.records(numbers))
+
+    @property
+    def _record(self) -> Record:
         end, found = self.equilibrium, self.numbers
         oil, given = (units.shown(found[name], TEMPERATURE) for name in ("oil_temperature", "oil_temperature_given"))
         nut = units.shown(end.nut_temperature, TEMPERATURE)
@@ -107,13 +144,24 @@ def self_heating(case: Case) -> SelfHeating:
         raise InputError(
             Fault(OPTION, "finds no steady state in the range of oil and preload", f"margin {end.margin:.3g}", remedy)
         )
+    warm = _warm(case, end)
+    given, found = _friction(case), _friction(warm)
+    flooded, flooded_torque = end, float(found.flooded_torque)
+    if found.starvation:  # friction that is larger makes heat of its own, which takes some of it away
+        flooded = equilibrium(dataclasses.replace(end.network, friction=friction_map(duty.flooded)))
+        flooded_torque = float(_friction(_warm(case, flooded)).flooded_torque) if flooded.exists else math.nan
+    return SelfHeating(
+        case, warm, end, flooded, float(given.screw_torque), float(found.screw_torque),
+        float(given.flooded_torque), flooded_torque, float(stroke or 0.0),
+    )  # fmt: skip
+
+
+def _warm(case: Case, end: Equilibrium) -> Case:
+    """The case at the oil and the preload of a steady state."""
     screw, oil = case.screw, case.lubricant.at(end.oil_temperature)
     if end.network.preload_set:
         screw = dataclasses.replace(screw, nut=screw.nut.changed("preload", end.preload))
-    warm = dataclasses.replace(
-        case, screw=screw, lubricant=oil, oil={**case.oil, "temperature": end.oil_temperature}
-    )  # fmt: skip
-    return SelfHeating(case, warm, end, _torque(case), _torque(warm), float(stroke or 0.0))
+    return dataclasses.replace(case, screw=screw, lubricant=oil, oil={**case.oil, "temperature": end.oil_temperature})
 
 
 def _point_of(case: Case) -> Case:
@@ -143,7 +191,6 @@ def swept(
     return found.assign_attrs(assumed="\n".join(assumed))
 
 
-def _torque(case: Case) -> float:
+def _friction(case: Case) -> FrictionResult:
     point = case.operation
-    found = case.model(case.screw, case.lubricant, axial_load=point.axial_load, screw_speed=point.screw_speed)
-    return float(found.screw_torque)
+    return case.model(case.screw, case.lubricant, axial_load=point.axial_load, screw_speed=point.screw_speed)

@@ -9,9 +9,13 @@ import numpy as np
 from ballscrew.calibration.fit_result import AS_GIVEN, CALIBRATED, MINIMUM_DEGREES_OF_FREEDOM, FitResult
 from ballscrew.calibration.problem import CONSTANT_TORQUE
 from ballscrew.calibration.robust import autocorrelation_lag, minimum_scatter
+from ballscrew.components.materials import TEMPERATURE
+from ballscrew.evaluation.outputs import OPERATION
 from ballscrew.records import Record
 from ballscrew.solvers.load_distribution import ball_loads
 
+#: What each row of a log has of its own.
+_OF_ROWS = (*OPERATION, TEMPERATURE.name)
 #: A share of outliers beyond which they are no longer a few.
 MANY_OUTLIERS = 0.1
 #: Residuals depend on something if their means over its parts differ by this much of what was measured.
@@ -31,6 +35,7 @@ def warning_records(found: FitResult) -> list[Record]:
     odd = found.subject.implausible({})
     return [
         *odd,
+        *_starved(found),
         *_not_identified(found),
         *_of_bounds(found),
         *_of_priors(found),
@@ -38,6 +43,13 @@ def warning_records(found: FitResult) -> list[Record]:
         *_of_rows(found),
         *_trends(found),
     ]
+
+
+def _starved(found: FitResult) -> list[Record]:
+    """Rows of the log at which the fitted model is starved of oil: a full bath would have asked for other numbers."""
+    plan = found.response.evaluation.plan
+    rows = {name: values for name, values in plan.points(slice(0, plan.total)).items() if name in _OF_ROWS}
+    return found.subject.starvation(rows, "so in the row that starves the most, by the numbers of the fit")
 
 
 def _warning(

@@ -53,7 +53,7 @@ def run_warm(case: Case, options: band.Options, as_json: bool, done: Callable[[i
     if as_json:
         typer.echo(json_text.as_json(with_self_heating(documents.document(run_case(heating.warm), report), heating)))
     else:
-        typer.echo(wrapped(heating.record.text))
+        typer.echo("\n".join(wrapped(record.text) for record in heating.records))
         text.print_band(heating.warm, report)
 
 

@@ -74,7 +74,7 @@ def compare(
         typer.echo(json_text.as_json(with_self_heating(documents.document(loaded, compared), heating)))
     else:
         if heating is not None:
-            typer.echo(wrapped(heating.record.text))
+            typer.echo("\n".join(wrapped(record.text) for record in heating.records))
         text.print_comparison(loaded, compared)
     if to is not None:
         from ballscrew.figures import comparison as figures  # matplotlib is slow to import

@@ -107,7 +107,7 @@ def run(
         typer.echo(json_text.as_json(with_self_heating(document(found), heating)))
     else:
         if heating is not None:
-            typer.echo(wrapped(heating.record.text))
+            typer.echo("\n".join(wrapped(record.text) for record in heating.records))
         print_run(found)
 
 

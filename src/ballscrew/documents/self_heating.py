@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from ballscrew.cases import case_file
+from ballscrew.records import documents
 
 if TYPE_CHECKING:  # its solvers are slow to import, and seldom asked for
     from ballscrew.axis_studies.self_heating import SelfHeating
@@ -13,7 +14,8 @@ if TYPE_CHECKING:  # its solvers are slow to import, and seldom asked for
 _UNITS: Mapping[str, str] = {
     "oil_temperature": "K", "oil_temperature_given": "K", "nut_temperature": "K", "shaft_temperature": "K",
     "margin": "1", "gain": "1", "preload": "N", "preload_given": "N", "screw_torque": "N m",
-    "screw_torque_given": "N m", "growth": "m",
+    "screw_torque_given": "N m", "flooded_torque": "N m", "flooded_torque_given": "N m", "flooded_oil_temperature": "K",
+    "growth": "m",
 }  # fmt: skip
 
 
@@ -27,5 +29,5 @@ def with_self_heating(document: Mapping[str, Any], heating: SelfHeating | None) 
         "results": {**document.get("results", {}), "self_heating": dict(heating.numbers)},
         "units": {**document.get("units", {}), "self_heating": dict(_UNITS)},
         "assumed": [*document.get("assumed", ()), *heating.assumed],
-        "verdicts": [heating.record.document(), *document["verdicts"]],
+        "verdicts": [*documents(heating.records), *document["verdicts"]],
     }

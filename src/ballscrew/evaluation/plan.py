@@ -172,6 +172,19 @@ class Configuration(ByValue):
         operation = OperatingState(*(ends.get(name, 0.0) for name in OPERATION))
         return implausible(named_parts(there.model, there.screw, there.lubricant, operation=operation))
 
+    def starvation(self, points: Mapping[str, Any], remark: str = "") -> list[Record]:
+        """The record of points, arrays of one length, that are starved of oil, with both torques where it is most so.
+
+        Of many points some, those of the ends of the inputs among them.
+        """
+        every = {name: np.atleast_1d(np.asarray(values, dtype=float)) for name, values in points.items()}
+        count = len(next(iter(every.values())))
+        ends_of_each = [int(end(values)) for values in every.values() for end in (np.argmin, np.argmax)]
+        places = np.unique([*ends_of_each, *np.linspace(0, count - 1, min(count, _JUDGED)).astype(int)])
+        found = self.at({name: values[places] for name, values in every.items()})
+        both = starvation.most_starved(found.screw_torque, found.flooded_torque)
+        return [] if both is None else _starvation_record(*both, remark)
+
     def attributes(self, varied: Sequence[str] = ()) -> dict[str, Any]:
         """Attributes of a dataset: constant inputs, sources, and the version."""
         fixed: dict[str, Any] = {
@@ -393,8 +406,12 @@ def starvation_of(attributes: Mapping[str, Any]) -> list[Record]:
     if any(name not in attributes for name in STARVED):
         return []
     given, flooded = (float(attributes[name]) for name in STARVED)
+    return _starvation_record(given, flooded, _OF_POINTS)
+
+
+def _starvation_record(given: float, flooded: float, remark: str) -> list[Record]:
     torque = quantities_of(FrictionResult)["screw_torque"]
-    return starvation.records([starvation.BothTorques(torque, given, flooded)], _OF_POINTS)
+    return starvation.records([starvation.BothTorques(torque, given, flooded)], remark)
 
 
 def _wanted(section: str, names: Sequence[str] | None, nut: Nut) -> tuple[str, ...]:

@@ -44,6 +44,7 @@ def records_of(
     graded = subject.lubricant.follows_temperature
     change = float(found.torque[-1] - np.mean(found.torque[: made.baseline]))
     warnings = [
+        *_starved(means, subject, graded),
         *_of_temperatures(made, means, found, subject, change, graded),
         *_of_speeds(means),
         *_of_factor(made),
@@ -61,6 +62,15 @@ def records_of(
 def _warning(name: str, subject: str, text: str, **more: Any) -> Record:
     fields: dict[str, Any] = {"severity": "warning", **more}
     return Record(id=f"condition.{name}", subject=subject, text=text, **fields)
+
+
+def _starved(means: Means, subject: Configuration, graded: bool) -> list[Record]:
+    """That the model, which reduces each torque to one temperature and speed, is starved of oil in some test."""
+    points = {"axial_load": means.axial_load, "screw_speed": means.screw_speed}
+    if graded:
+        own = subject.lubricant.temperature
+        points[TEMPERATURE.name] = np.where(np.isnan(means.temperature), own, means.temperature)
+    return subject.starvation(points, "so in the test that starves the most")
 
 
 # -- warnings -------------------------------------------------------------------------------------

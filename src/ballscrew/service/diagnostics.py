@@ -8,6 +8,7 @@ import numpy as np
 
 from ballscrew.calibration.fit_result import Rows
 from ballscrew.evaluation.plan import Configuration
+from ballscrew.friction.starvation import STARVED
 from ballscrew.quantities import Force, Quantity
 from ballscrew.records import Measured, Message, Record
 from ballscrew.service.estimate import PreloadEstimate
@@ -21,7 +22,15 @@ HIGHEST_SHARE = 0.1
 #: A misfit of a log that is seldom chance, and a number so many standard deviations from what is known of it, are said.
 MISFIT_SHARE, LARGEST_SCORE = 1e-3, 2.0
 #: Warnings of the fit of the preload alone that hold whatever the other numbers are.
-_SAID = {"fit.scatter", "fit.outliers", "fit.not_converged", "fit.at_bound", "fit.one_sided", "fit.not_identified"}
+_SAID = {
+    STARVED,
+    "fit.scatter",
+    "fit.outliers",
+    "fit.not_converged",
+    "fit.at_bound",
+    "fit.one_sided",
+    "fit.not_identified",
+}
 
 
 def warning_records(

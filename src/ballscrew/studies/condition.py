@@ -72,7 +72,7 @@ def of_files(
         )  # fmt: skip
     except InputError as error:
         raise InputError(*(_with_option(fault) for fault in error.faults)) from None
-    records = (*found.warning_records, *case.implausible())
+    records = (*units.in_display_units_of(found.warning_records), *case.implausible())
     return dataclasses.replace(found, notes=(*found.notes, *notes), warning_records=records)
 
 

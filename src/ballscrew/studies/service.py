@@ -11,6 +11,7 @@ from ballscrew.cases.case import Case
 from ballscrew.cases.uncertain_inputs import all_of, joint_of
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import Fault, InputError
+from ballscrew.evaluation.plan import Configuration
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Quantity, quantities_of
 from ballscrew.records import Record
@@ -50,7 +51,7 @@ class ServiceReport:
     change: PreloadChange | None = None
     preload: PreloadEstimate | None = None
     reading: Reading | None = None
-    #: Warnings of the inputs of the case.
+    #: Warnings of the inputs of the case, and of a reading.
     of_case: Sequence[Record] = ()
 
     @property
@@ -110,7 +111,18 @@ def of_torque(case: Case, measured: Reading) -> ServiceReport:
         )  # fmt: skip
     except InputError as error:
         raise InputError(*(_with_option(fault) for fault in error.faults)) from None
-    return ServiceReport(preload=found, reading=measured, of_case=case.implausible())
+    return ServiceReport(
+        preload=found, reading=measured, of_case=[*_starved(case, found, measured), *case.implausible()]
+    )
+
+
+def _starved(case: Case, found: PreloadEstimate, measured: Reading) -> list[Record]:
+    """That the nut with the preload found is starved of oil at the reading."""
+    oil = case.lubricant if measured.temperature is None else case.lubricant.at(measured.temperature)
+    subject = Configuration(case.model, case.screw, oil).changed({PRELOAD: found.preload})
+    remark = "with the preload found; in a full bath the same torque asks for a smaller one"
+    points = {"axial_load": 0.0, "screw_speed": measured.screw_speed}
+    return units.in_display_units_of(subject.starvation(points, remark))
 
 
 def distributions(case: Case) -> dict[str, Distribution]:

@@ -68,7 +68,7 @@ def text(found: Checked) -> str:
             for name in ("screw_torque", "drive_torque", "efficiency", "back_driving_efficiency", "friction_power")
         ),
         *(_line(label, shown_or_dash(torque, _RESULT["screw_torque"])) for label, torque in unloaded_rows(found.nut)),
-        *(f"  {record.text}" for record in ([] if found.heating is None else [found.heating.record])),
+        *(f"  {record.text}" for record in ([] if found.heating is None else found.heating.records)),
         *(f"  {record.text}" for record in found.run.verdicts),
         "",
         "Stiffness",
