@@ -10,6 +10,7 @@ import ballscrew as bs
 from ballscrew.axis_studies import self_heating, warm_up
 from ballscrew.axis_studies.duty import duty as duty_of
 from ballscrew.cases import case_file
+from ballscrew.components.lubrication import Inlet
 from ballscrew.documents import band as band_documents
 from ballscrew.documents import duty as duty_documents
 from ballscrew.documents import run as run_documents
@@ -260,3 +261,16 @@ def test_a_condition_says_that_its_tests_are_of_a_starved_model():
         }
         found = bs.condition(case.model, case.screw, case.lubricant, tests, screw_speed=60.0)
         assert ("lubricant.starved" in [record.id for record in found.warning_records]) == starved
+
+
+@pytest.mark.parametrize("target", ["c", "table", "matlab", "modelica", "linuxcnc", "drive"])
+def test_the_readme_of_an_export_says_that_its_range_is_starved_of_oil(target):
+    case = case_with("20 degC")
+    options = {} if target not in ("linuxcnc", "drive") else {"ranges": {"axial_load": (-3e3, 3e3)}}
+    for constant, starved in ((3e-8, True), (0.0, False)):
+        model = dataclasses.replace(case.model, inlet=Inlet(replenishment_constant=constant))
+        made = bs.hand_over(model, case.screw, case.lubricant, target, **options)
+        said = [record for record in made.warnings if record.id == "lubricant.starved"]
+        assert bool(said) == starved
+        words = b"in a full bath of oil; which of them a ball screw has is not measured"
+        assert any(words in content for content in made.files.values()) == starved

@@ -76,10 +76,11 @@ class Export:
 
 
 def _warnings(handed: HandOver) -> list[Record]:
-    """A warning where the temperature changes nothing."""
+    """Starvation, and a warning where the temperature changes nothing."""
     if handed.has_effect[TEMPERATURE]:
-        return []
+        return [*handed.starvation]
     text = (
         "the oil is given by its numbers, so that the input temperature changes nothing; give a grade or a data sheet"
     )
-    return [Record(id="hand_over.temperature", subject="temperature", text=text, severity="warning", holds=False)]
+    record = Record(id="hand_over.temperature", subject="temperature", text=text, severity="warning", holds=False)
+    return [*handed.starvation, record]

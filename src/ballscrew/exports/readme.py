@@ -45,6 +45,7 @@ def readme(handed: HandOver, kind: str, notes: str, errors: Sequence[WorstError]
             *(f"  {reason}" for name, reason in NUT_REASONS.items() if name != "inputs"),
             "",
             notes,
+            *(f"Beware: {record.text}.\n" for record in handed.starvation),
             *(["Worst error against the model in Python:", *found, ""] if found else []),
             f"Sources of the model: {', '.join(made_of['references'])}",
             "",

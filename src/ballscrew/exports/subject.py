@@ -17,6 +17,7 @@ from ballscrew.evaluation.evaluator import Evaluator, evaluator
 from ballscrew.evaluation.outputs import OPERATION, Output, known_outputs
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.quantities import Info, Quantity
+from ballscrew.records import Record
 from ballscrew.references import citations_of
 from ballscrew.tracing.gradient import UnknownDerivativeError, partials
 from ballscrew.tracing.merging import merged_program
@@ -31,6 +32,8 @@ TEMPERATURE = "temperature"
 PRELOADS = ("preload", "oversize")
 #: Points at which an error is measured.
 POINTS = 2000
+#: Shares of the largest load and speed of the range at which starvation is looked for.
+_SOME = np.array([0.1, 1.0])
 #: The outputs of every export: they are finite wherever the model holds.
 OUTPUTS = ("screw_torque", "drive_torque", "ideal_torque", "holding_torque", "friction_power", "valid")
 #: Temperatures of a fixed oil, K.
@@ -115,6 +118,20 @@ class HandOver:
     def has_effect(self) -> Mapping[str, bool]:
         """Whether the model has each input: not the temperature of an oil that is given by its numbers."""
         return {name: name in self.subject.inputs for name in self.input_names}
+
+    @functools.cached_property
+    def starvation(self) -> Sequence[Record]:
+        """The record of a range in which the model is starved of oil: an export has the inlet as the case gives it."""
+        ranges = self.working_range
+        ends: dict[str, Any] = {name: np.max(np.abs(ranges[name])) * _SOME for name in OPERATION[:2]}
+        if self.has_effect[TEMPERATURE]:
+            ends[TEMPERATURE] = np.array(ranges[TEMPERATURE])
+        every = (one.reshape(-1) for one in np.meshgrid(*ends.values(), indexing="ij"))
+        remark = (
+            "so where the range of the inputs starves the most; [model] inlet.replenishment_constant = 0 hands over "
+            "the full bath"
+        )
+        return self.subject.starvation(dict(zip(ends, every, strict=True)), remark)
 
     @functools.cached_property
     def program(self) -> Program:

@@ -67,9 +67,9 @@ def _warning(name: str, subject: str, text: str, **more: Any) -> Record:
 def _starved(means: Means, subject: Configuration, graded: bool) -> list[Record]:
     """That the model, which reduces each torque to one temperature and speed, is starved of oil in some test."""
     points = {"axial_load": means.axial_load, "screw_speed": means.screw_speed}
-    if graded:
-        own = subject.lubricant.temperature
-        points[TEMPERATURE.name] = np.where(np.isnan(means.temperature), own, means.temperature)
+    own = subject.lubricant.temperature
+    if graded and own is not None:
+        points[TEMPERATURE.name] = np.where(np.isnan(means.temperature), float(own), means.temperature)
     return subject.starvation(points, "so in the test that starves the most")
 
 

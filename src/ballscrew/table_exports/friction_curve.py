@@ -159,4 +159,5 @@ def about(handed: HandOver, curve: FrictionCurve) -> Sequence[str]:
         f"Worst error against the model: {curve.worst_error.value:.3g} N m, "
         f"{100 * curve.worst_error.relative:.2g} % of the friction, at {curve.worst_error.points} speeds.",
         f"At another load of the range the friction differs by up to {curve.at_other_loads:.3g} N m.",
+        *(f"Beware: {record.text}." for record in handed.starvation),
     ]

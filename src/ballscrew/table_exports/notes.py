@@ -60,6 +60,7 @@ def lines(handed: HandOver, ends: Mapping[str, tuple[float, float]], found: Sequ
         BEYOND,
         f"Worst error against the model over this range, at {found[0].points} points, measured when it was made:",
         *(f"  {line}" for line in errors(found)),
+        *(f"Beware: {record.text}." for record in handed.starvation),
     ]
 
 
