@@ -52,6 +52,7 @@ def generate(_app):
     import law_tables
     import nut_tables
     import sensitivity_figures
+    import starvation_tables
     import theory_figures
     import uncertainty_tables
     import warm_up_tables
@@ -79,6 +80,7 @@ def generate(_app):
     bearing_comparison.write(generated / "validation")
     uncertainty_tables.write(generated / "uncertainty")
     warm_up_tables.write(generated / "warm_up")
+    starvation_tables.write(generated / "starvation")
     sensitivity_figures.write(generated / "sensitivity")
     calibration_pages.write(generated / "calibration")
     theory_figures.write(generated / "theory")
