@@ -11,6 +11,7 @@ import pytest
 import ballscrew
 from ballscrew.axis.drive import AS_GIVEN, FULL_BATH
 from ballscrew.axis_studies.duty import OF_BATH
+from ballscrew.axis_studies.self_heating import GIVEN, WARM
 from ballscrew.axis_studies.warm_up import AT_END, AT_START
 from ballscrew.case_schema.schema import json_schema
 from ballscrew.friction.result import QUADRANTS
@@ -64,6 +65,7 @@ SAFETY = (
 )  # fmt: skip
 #: Numbers of an answer that is starved of oil, by their meaning.
 STARVED = {AT_START.info.meaning, AT_END.info.meaning}
+STARVED |= {WARM.info.meaning, GIVEN.info.meaning}
 STARVED |= {OF_BATH[name].info.meaning for name in ("torque_peak", "screw_torque", "energy_lost")}
 #: Names that stand in messages and come from data: checks, ends of a shaft, quadrants, conditions of a brake.
 NAMES = {

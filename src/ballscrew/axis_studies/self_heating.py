@@ -36,7 +36,8 @@ if TYPE_CHECKING:
 
 OPTION = "--self-heating"
 _TORQUE = quantities_of(FrictionResult)["screw_torque"]
-_WARM, _GIVEN = (
+#: The friction torques that a starved one has beside it, warm and as given.
+WARM, GIVEN = (
     Quantity(f"self_heating.{name}", "N m", Info("M_S", meaning))
     for name, meaning in (
         ("screw_torque", "friction torque once warm"),
@@ -103,7 +104,7 @@ class SelfHeating:
             return []
         numbers = [
             starvation.BothTorques(quantity, *both)
-            for quantity, *both in zip((_WARM, _GIVEN), given, flooded, strict=True)
+            for quantity, *both in zip((WARM, GIVEN), given, flooded, strict=True)
             if np.isfinite(both).all()
         ]
         return units.in_display_units_of(starvation.records(numbers))

@@ -11,9 +11,10 @@ from ballscrew.calibration.problem import CONSTANT_TORQUE
 from ballscrew.calibration.robust import autocorrelation_lag, minimum_scatter
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.evaluation.outputs import OPERATION
-from ballscrew.records import Record
+from ballscrew.records import Message, Record
 from ballscrew.solvers.load_distribution import ball_loads
 
+_OF_LOG = Message("so in the row that starves the most, by the numbers of the fit")
 #: What each row of a log has of its own.
 _OF_ROWS = (*OPERATION, TEMPERATURE.name)
 #: A share of outliers beyond which they are no longer a few.
@@ -49,7 +50,7 @@ def _starved(found: FitResult) -> list[Record]:
     """Rows of the log at which the fitted model is starved of oil: a full bath would have asked for other numbers."""
     plan = found.response.evaluation.plan
     rows = {name: values for name, values in plan.points(slice(0, plan.total)).items() if name in _OF_ROWS}
-    return found.subject.starvation(rows, "so in the row that starves the most, by the numbers of the fit")
+    return found.subject.starvation(rows, _OF_LOG)
 
 
 def _warning(

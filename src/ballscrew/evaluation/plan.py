@@ -172,7 +172,7 @@ class Configuration(ByValue):
         operation = OperatingState(*(ends.get(name, 0.0) for name in OPERATION))
         return implausible(named_parts(there.model, there.screw, there.lubricant, operation=operation))
 
-    def starvation(self, points: Mapping[str, Any], remark: str = "") -> list[Record]:
+    def starvation(self, points: Mapping[str, Any], remark: Message | None = None) -> list[Record]:
         """The record of points, arrays of one length, that are starved of oil, with both torques where it is most so.
 
         Of many points some, those of the ends of the inputs among them.
@@ -409,7 +409,7 @@ def starvation_of(attributes: Mapping[str, Any]) -> list[Record]:
     return _starvation_record(given, flooded, _OF_POINTS)
 
 
-def _starvation_record(given: float, flooded: float, remark: str) -> list[Record]:
+def _starvation_record(given: float, flooded: float, remark: Message | None) -> list[Record]:
     torque = quantities_of(FrictionResult)["screw_torque"]
     return starvation.records([starvation.BothTorques(torque, given, flooded)], remark)
 

@@ -17,7 +17,7 @@ from ballscrew.evaluation.evaluator import Evaluator, evaluator
 from ballscrew.evaluation.outputs import OPERATION, Output, known_outputs
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.quantities import Info, Quantity
-from ballscrew.records import Record
+from ballscrew.records import Message, Record
 from ballscrew.references import citations_of
 from ballscrew.tracing.gradient import UnknownDerivativeError, partials
 from ballscrew.tracing.merging import merged_program
@@ -32,6 +32,10 @@ TEMPERATURE = "temperature"
 PRELOADS = ("preload", "oversize")
 #: Points at which an error is measured.
 POINTS = 2000
+_OF_RANGE = Message(
+    "so where the range of the inputs starves the most; [model] inlet.replenishment_constant = 0 hands over the full "
+    "bath"
+)
 #: Shares of the largest load and speed of the range at which starvation is looked for.
 _SOME = np.array([0.1, 1.0])
 #: The outputs of every export: they are finite wherever the model holds.
@@ -127,11 +131,7 @@ class HandOver:
         if self.has_effect[TEMPERATURE]:
             ends[TEMPERATURE] = np.array(ranges[TEMPERATURE])
         every = (one.reshape(-1) for one in np.meshgrid(*ends.values(), indexing="ij"))
-        remark = (
-            "so where the range of the inputs starves the most; [model] inlet.replenishment_constant = 0 hands over "
-            "the full bath"
-        )
-        return self.subject.starvation(dict(zip(ends, every, strict=True)), remark)
+        return self.subject.starvation(dict(zip(ends, every, strict=True)), _OF_RANGE)
 
     @functools.cached_property
     def program(self) -> Program:

@@ -12,7 +12,7 @@ from ballscrew.calibration.robust import Vector
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import InputError
 from ballscrew.evaluation.plan import Configuration
-from ballscrew.records import Record
+from ballscrew.records import Message, Record
 from ballscrew.service.alternatives import BOUNDARY_FRICTION, FACTOR, KELVIN
 from ballscrew.service.condition_means import Means
 from ballscrew.service.condition_parts import CONSTANT, WARMER
@@ -35,6 +35,7 @@ REPEATED, DIFFERENCE = 4, 5.0
 #: Seconds of the time that a trend is of.
 _SPANS = {"a year": 365.25 * 86400, "1000 h": 3.6e6}
 _POINTS = 41
+_OF_TESTS = Message("so in the test that starves the most")
 
 
 def records_of(
@@ -70,7 +71,7 @@ def _starved(means: Means, subject: Configuration, graded: bool) -> list[Record]
     own = subject.lubricant.temperature
     if graded and own is not None:
         points[TEMPERATURE.name] = np.where(np.isnan(means.temperature), float(own), means.temperature)
-    return subject.starvation(points, "so in the test that starves the most")
+    return subject.starvation(points, _OF_TESTS)
 
 
 # -- warnings -------------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ from ballscrew.errors import Fault, InputError
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.friction.result import FrictionResult
 from ballscrew.quantities import Quantity, quantities_of
-from ballscrew.records import Record
+from ballscrew.records import Message, Record
 from ballscrew.service.estimate import PreloadEstimate
 from ballscrew.service.posterior import PRELOAD
 from ballscrew.service.preload_change import PreloadChange, preload_change
@@ -26,6 +26,7 @@ from ballscrew.uncertainty.default_uncertainties import default_distributions
 from ballscrew.uncertainty.distributions import Distribution
 
 TORQUE: Quantity = quantities_of(FrictionResult)["screw_torque"]
+_OF_PRELOAD = Message("so with the preload found; in a full bath the same torque asks for a smaller one")
 #: Options of the command line by the fields in which a service finds faults.
 _OPTIONS: Mapping[str, str] = {
     "service.tolerance": "--tolerance", "service.torque": "--torque", "service.screw_speed": "--speed",
@@ -120,9 +121,8 @@ def _starved(case: Case, found: PreloadEstimate, measured: Reading) -> list[Reco
     """That the nut with the preload found is starved of oil at the reading."""
     oil = case.lubricant if measured.temperature is None else case.lubricant.at(measured.temperature)
     subject = Configuration(case.model, case.screw, oil).changed({PRELOAD: found.preload})
-    remark = "with the preload found; in a full bath the same torque asks for a smaller one"
     points = {"axial_load": 0.0, "screw_speed": measured.screw_speed}
-    return units.in_display_units_of(subject.starvation(points, remark))
+    return units.in_display_units_of(subject.starvation(points, _OF_PRELOAD))
 
 
 def distributions(case: Case) -> dict[str, Distribution]:
