@@ -1,6 +1,6 @@
 # make demo: set up and reproduce the paper.  make test: set up and run the tests (make test-all: the long ones too).
 # make app: the page in the browser.
-.PHONY: app demo test test-all lint types layers js docs bench hostile constraints floors readme rooms interpreter screenshots clean
+.PHONY: app demo test test-all lint types layers js docs bench hostile constraints floors readme rooms interpreter interpreter-check screenshots clean
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -95,15 +95,29 @@ ZIG := out/zig/bin/python -m ziglang cc
 out/zig:
 	@$(PYTHON) -m venv out/zig && out/zig/bin/python -m pip install --quiet --disable-pip-version-check ziglang==0.17.1
 
+# where its libraries go
+INTO := $(C_SOURCES)
+LIBRARIES := linux64/ballscrew.so aarch64-linux/ballscrew.so win64/ballscrew.dll darwin64/ballscrew.dylib \
+	aarch64-darwin/ballscrew.dylib
+
 interpreter: out/zig
-	mkdir -p $(C_SOURCES)/linux64 $(C_SOURCES)/win64 $(C_SOURCES)/darwin64 $(C_SOURCES)/aarch64-darwin $(C_SOURCES)/aarch64-linux
-	gcc $(C_FLAGS) -fPIC -Wl,--build-id=none -include tools/exports/old_glibc.h $(C_FILES) -o $(C_SOURCES)/linux64/ballscrew.so -lm
-	$(ZIG) $(C_FLAGS) -fPIC -target aarch64-linux-gnu.2.17 $(C_FILES) -o $(C_SOURCES)/aarch64-linux/ballscrew.so -lm
-	$(ZIG) $(C_FLAGS) -target x86_64-windows-gnu $(C_FILES) -o $(C_SOURCES)/win64/ballscrew.dll
-	$(ZIG) $(C_FLAGS) -target x86_64-macos -Wl,-install_name,@rpath/ballscrew.dylib $(C_FILES) -o $(C_SOURCES)/darwin64/ballscrew.dylib
-	$(ZIG) $(C_FLAGS) -target aarch64-macos -Wl,-install_name,@rpath/ballscrew.dylib $(C_FILES) -o $(C_SOURCES)/aarch64-darwin/ballscrew.dylib
-	rm -f $(C_SOURCES)/win64/*.lib $(C_SOURCES)/win64/*.pdb
-	cat $(C_FILES) $(C_SOURCES)/ballscrew_*.h $(C_SOURCES)/fmi*.h | sha256sum | cut -d " " -f 1 > $(C_SOURCES)/sources.sha256
+	mkdir -p $(INTO)/linux64 $(INTO)/win64 $(INTO)/darwin64 $(INTO)/aarch64-darwin $(INTO)/aarch64-linux
+	gcc $(C_FLAGS) -fPIC -Wl,--build-id=none -include tools/exports/old_glibc.h $(C_FILES) -o $(INTO)/linux64/ballscrew.so -lm
+	$(ZIG) $(C_FLAGS) -fPIC -target aarch64-linux-gnu.2.17 $(C_FILES) -o $(INTO)/aarch64-linux/ballscrew.so -lm
+	$(ZIG) $(C_FLAGS) -target x86_64-windows-gnu $(C_FILES) -o $(INTO)/win64/ballscrew.dll
+	$(ZIG) $(C_FLAGS) -target x86_64-macos -Wl,-install_name,@rpath/ballscrew.dylib $(C_FILES) -o $(INTO)/darwin64/ballscrew.dylib
+	$(ZIG) $(C_FLAGS) -target aarch64-macos -Wl,-install_name,@rpath/ballscrew.dylib $(C_FILES) -o $(INTO)/aarch64-darwin/ballscrew.dylib
+	rm -f $(INTO)/win64/*.lib $(INTO)/win64/*.pdb
+	cat $(C_FILES) $(C_SOURCES)/ballscrew_*.h $(C_SOURCES)/fmi*.h | sha256sum | cut -d " " -f 1 > $(INTO)/sources.sha256
+
+# the libraries built once more, and compared byte by byte with those of the package
+interpreter-check:
+	rm -rf out/interpreter
+	$(MAKE) interpreter INTO=out/interpreter
+	@for file in $(LIBRARIES) sources.sha256; do \
+		cmp out/interpreter/$$file $(C_SOURCES)/$$file || exit 1; \
+		echo "the same bytes: $$file"; \
+	done
 
 screenshots: $(READY)
 	$(BIN)/python docs/make_screenshots.py

@@ -100,7 +100,7 @@ def test_sweeps_drop_what_is_not_asked_for(seed_screw, seed_oil):
             r = model(seed_screw, seed_oil, axial_load=tape.value(0), screw_speed=tape.value(1))
             return len(Program.of(tape, {name: getattr(r, name) for name in names}).steps)
 
-    assert steps("ideal_torque") <= 2
+    assert steps("ideal_torque") <= 5  # three of them make a load next to zero none
     assert steps("ideal_torque") < steps("screw_torque") < steps("screw_torque", "friction_power", "valid")
 
 

@@ -5,9 +5,13 @@ from __future__ import annotations
 import dataclasses
 from typing import Annotated
 
-from ballscrew._arrays import ByValue
+from ballscrew._arrays import ByValue, where
 from ballscrew.errors import faults_of, names_keywords, raise_if_any
-from ballscrew.quantities import AngularSpeed, Force, Info, Temperature
+from ballscrew.quantities import AngularSpeed, Array, Force, Info, Temperature
+
+#: A load (N) or a speed (rad/s) nearer to zero than this is none to the formulas. A speed that decays to rest passes
+#: numbers whose reciprocals and powers leave the range of numbers of 64 bits; those of what is farther away do not.
+NOTHING = 1e-100
 
 
 @names_keywords
@@ -38,3 +42,13 @@ class OperatingState(ByValue):
 
     def __post_init__(self) -> None:
         raise_if_any(faults_of("operation", self))
+
+    @property
+    def settled(self) -> OperatingState:
+        """The same state as the formulas take it; see :func:`settled`."""
+        return OperatingState(settled(self.axial_load), settled(self.screw_speed), self.temperature)
+
+
+def settled(values: Array) -> Array:
+    """Loads or speeds of which those nearer to zero than :data:`NOTHING` are zero."""
+    return where(abs(values) < NOTHING, 0.0, values)

@@ -16,7 +16,7 @@ import numpy as np
 from ballscrew._arrays import namespace, where
 from ballscrew.components.contact import Contact
 from ballscrew.components.materials import Lubricant
-from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.operating_state import OperatingState, settled
 from ballscrew.components.screw import SINGLE_NUT, BallScrew
 from ballscrew.friction.balls import BallFriction, BallModel, IdleBallFriction, ball_friction, idle_ball_friction
 from ballscrew.friction.four_contact_balls import FourContactFriction, four_contact_friction, two_contact_friction
@@ -128,7 +128,7 @@ def loads_of(screw: BallScrew, axial_load: Force, *, compiled: bool = False) -> 
     nut = screw.nut
     bodies = None if nut.bodies is None else nut.bodies.sized(screw)
     deviations = nut.deviations_of(screw.carrying_balls)
-    return ball_loads(screw, nut, axial_load, bodies=bodies, deviations=deviations, compiled=compiled)
+    return ball_loads(screw, nut, settled(axial_load), bodies=bodies, deviations=deviations, compiled=compiled)
 
 
 def row_of_balls(model: BallModel, screw: BallScrew, lubricant: Lubricant, state: OperatingState) -> LoadedBalls:

@@ -210,12 +210,13 @@ class FrictionModel(ByValue):
     ) -> FrictionResult:
         """Friction at an axial load (N) and a screw speed (rad/s) of either sign; arrays broadcast.
 
-        A positive load is one that a positive speed lifts. With a ``temperature`` (K) the lubricant, which must have
-        been made from a data sheet or a grade, is taken there. ``loads`` are those of the balls under this axial load,
-        where they are known (:func:`~ballscrew.solvers.load_distribution.ball_loads`). Array values are never refused:
-        where they make no sense the result says so in its validity. Raises :class:`~ballscrew.errors.InputError` where
-        plain numbers overflow, for a temperature of an oil without either, and for a nut whose balls have four contacts
-        with a slip law that knows two.
+        A positive load is one that a positive speed lifts. What is nearer to zero than 1e-100 counts as no load, and as
+        rest under friction of the same direction. With a ``temperature`` (K) the lubricant, which must have been made
+        from a data sheet or a grade, is taken there. ``loads`` are those of the balls under this axial load, where they
+        are known (:func:`~ballscrew.solvers.load_distribution.ball_loads`). Array values are never refused: where they
+        make no sense the result says so in its validity. Raises :class:`~ballscrew.errors.InputError` where plain
+        numbers overflow, for a temperature of an oil without either, and for a nut whose balls have four contacts with
+        a slip law that knows two.
         """
         state = OperatingState(as_array(axial_load), as_array(screw_speed), as_array(temperature))
         raise_if_any([*_misfits(state), *self._misfits_of_nut(screw)])
@@ -269,12 +270,12 @@ class FrictionModel(ByValue):
         self, loads: BallLoads | None, screw: BallScrew, lubricant: Lubricant, state: OperatingState
     ) -> FrictionResult:
         """Friction where the loads of the balls are known; None for a row of equal balls. Nothing is checked."""
-        nut, laws = screw.nut, self.laws
+        nut, laws, settled = screw.nut, self.laws, state.settled
         of_balls = self.parted if nut.spacer_balls else self
         kinds = (
-            (row_of_balls(of_balls, screw, lubricant, state),)
+            (row_of_balls(of_balls, screw, lubricant, settled),)
             if loads is None
-            else balls_under(of_balls, screw, lubricant, state, loads)
+            else balls_under(of_balls, screw, lubricant, settled, loads)
         )
         number = 1.0 * nut.halves * screw.loaded_balls
         all_balls = dataclasses.replace(screw, loaded_balls=number) if nut.losses else screw
@@ -282,10 +283,10 @@ class FrictionModel(ByValue):
             parts=named_parts(self, screw, lubricant, operation=state),
             ball_screw=screw,
             frame=laws.frame(screw),
-            axial_load=state.axial_load,
+            axial_load=settled.axial_load,
             screw_speed=state.screw_speed,
             kinds=kinds,
-            losses={name: law(all_balls, lubricant, abs(state.screw_speed)) for name, law in nut.losses.items()},
+            losses={name: law(all_balls, lubricant, abs(settled.screw_speed)) for name, law in nut.losses.items()},
             ideal_torque_law=laws.ideal_torque,
             solved_loads=loads,
         )

@@ -7,6 +7,7 @@
 #include <math.h>
 
 static const double BALANCED = 1e-13, ROUNDING = 1e-15, START = 0.1, PICOMETRE = 1e-12, LARGEST_OF_A_BALL = 1e-6;
+static const double NOTHING = 1e-100; /* a load nearer to zero is none, as in components/operating_state.py */
 enum { STEPS = 100, STEPS_OF_GAPS = 40, HALVINGS = 12 };
 
 /* The grooves of a body as they are apart: distance of their centres, along and across the axis, and what balls are
@@ -287,14 +288,15 @@ static double excess_of(const ballscrew_nut *nut, double preload)
     return pow(preload / (nut->balls * sine * nut->lead_cosine * nut->load_deflection), 2.0 / 3.0) + opened;
 }
 
-double ballscrew_loads(const ballscrew_nut *nut, double load, double preload, double *room, double *found)
+double ballscrew_loads(const ballscrew_nut *nut, double axial_load, double preload, double *room, double *found)
 {
     const int half = nut->balls, n = nut->halves * half;
     double *const facing = room, *const offset = room + n, *const rest = room + 2 * n;
     double *const forward = found, *const backward = found + n;
     double *const forward_angle = found + 2 * n, *const backward_angle = found + 3 * n;
     double *const x = forward_angle, *const bars = backward_angle; /* until they are written */
-    const double works = fabs(load) + preload, K = nut->load_deflection, axial = sin(nut->contact_angle) * nut->lead_cosine;
+    const double load = fabs(axial_load) < NOTHING ? 0.0 : axial_load, works = fabs(load) + preload;
+    const double K = nut->load_deflection, axial = sin(nut->contact_angle) * nut->lead_cosine;
     const double scale = fmax(works, half * K * pow(PICOMETRE, 1.5));
     const double guess = pow(scale / (half * axial * K), 2.0 / 3.0) / axial;
     double on_forward = 0.0, on_backward = 0.0, braced = 0.0, left, imbalanced, size;

@@ -113,15 +113,13 @@ FMI2_PUBLIC fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean has_tole
                                            fmi2Boolean has_stop, fmi2Real stop)
 {
     (void)has_tolerance, (void)tolerance, (void)has_stop, (void)stop;
-    fmi_model_set_time(c, start);
-    return fmi2OK;
+    return fmi_model_set_time(c, start) ? fmi2OK : fmi2Error;
 }
 
 #define NOTHING_TO_DO(name)                                                                                            \
     FMI2_PUBLIC fmi2Status name(fmi2Component c)                                                                       \
     {                                                                                                                  \
-        (void)c;                                                                                                       \
-        return fmi2OK;                                                                                                 \
+        return c == NULL ? fmi2Error : fmi2OK;                                                                         \
     }
 
 NOTHING_TO_DO(fmi2EnterInitializationMode)
@@ -133,34 +131,25 @@ NOTHING_TO_DO(fmi2CancelStep)
 
 FMI2_PUBLIC fmi2Status fmi2Reset(fmi2Component c)
 {
-    fmi_model_reset(c);
-    return fmi2OK;
+    return fmi_model_reset(c) ? fmi2OK : fmi2Error;
 }
 
 FMI2_PUBLIC fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Real value[])
 {
-    size_t i;
-    for (i = 0; i < n; i++)
-        if (!fmi_model_get(c, vr[i], &value[i]))
-            return fmi2Error;
-    return fmi2OK;
+    return fmi_model_get(c, vr, n, value) ? fmi2OK : fmi2Error;
 }
 
 FMI2_PUBLIC fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Real value[])
 {
-    size_t i;
-    for (i = 0; i < n; i++)
-        if (!fmi_model_set(c, vr[i], value[i]))
-            return fmi2Error;
-    return fmi2OK;
+    return fmi_model_set(c, vr, n, value) ? fmi2OK : fmi2Error;
 }
 
 /* There are no variables of other types. */
 #define NO_VARIABLES(name, type)                                                                                       \
     FMI2_PUBLIC fmi2Status name(fmi2Component c, const fmi2ValueReference vr[], size_t n, type value[])                \
     {                                                                                                                  \
-        (void)c, (void)vr, (void)value;                                                                                \
-        return n == 0 ? fmi2OK : fmi2Error;                                                                            \
+        (void)vr, (void)value;                                                                                         \
+        return c != NULL && n == 0 ? fmi2OK : fmi2Error;                                                               \
     }
 
 NO_VARIABLES(fmi2GetInteger, fmi2Integer)
@@ -172,19 +161,23 @@ NO_VARIABLES(fmi2SetString, const fmi2String)
 
 FMI2_PUBLIC fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state)
 {
-    *state = fmi_model_state(c, *state);
-    return *state == NULL ? fmi2Error : fmi2OK;
+    fmi2FMUstate copy;
+    if (state == NULL || (copy = fmi_model_state(c, *state)) == NULL)
+        return fmi2Error;
+    *state = copy;
+    return fmi2OK;
 }
 
 FMI2_PUBLIC fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state)
 {
-    fmi_model_return_to(c, state);
-    return fmi2OK;
+    return fmi_model_return_to(c, state) ? fmi2OK : fmi2Error;
 }
 
 FMI2_PUBLIC fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state)
 {
     (void)c;
+    if (state == NULL) /* which the standard wants ignored */
+        return fmi2OK;
     free(*state);
     *state = NULL;
     return fmi2OK;
@@ -220,7 +213,8 @@ FMI2_PUBLIC fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2V
 
 FMI2_PUBLIC fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *info)
 {
-    (void)c;
+    if (c == NULL || info == NULL)
+        return fmi2Error;
     memset(info, 0, sizeof *info);
     return fmi2OK;
 }
@@ -228,22 +222,23 @@ FMI2_PUBLIC fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *inf
 FMI2_PUBLIC fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean final, fmi2Boolean *enter_event_mode,
                                                    fmi2Boolean *terminate)
 {
-    (void)c, (void)final;
+    (void)final;
+    if (c == NULL || enter_event_mode == NULL || terminate == NULL)
+        return fmi2Error;
     *enter_event_mode = *terminate = 0;
     return fmi2OK;
 }
 
 FMI2_PUBLIC fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time)
 {
-    fmi_model_set_time(c, time);
-    return fmi2OK;
+    return fmi_model_set_time(c, time) ? fmi2OK : fmi2Error;
 }
 
 #define NO_STATES(name, type)                                                                                          \
     FMI2_PUBLIC fmi2Status name(fmi2Component c, type values[], size_t n)                                              \
     {                                                                                                                  \
-        (void)c, (void)values;                                                                                         \
-        return n == 0 ? fmi2OK : fmi2Error;                                                                            \
+        (void)values;                                                                                                  \
+        return c != NULL && n == 0 ? fmi2OK : fmi2Error;                                                               \
     }
 
 NO_STATES(fmi2SetContinuousStates, const fmi2Real)
@@ -257,22 +252,21 @@ NO_STATES(fmi2GetNominalsOfContinuousStates, fmi2Real)
 FMI2_PUBLIC fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean no_return)
 {
     (void)no_return;
-    fmi_model_set_time(c, time + step);
-    return fmi2OK;
+    return fmi_model_step(c, time, step) ? fmi2OK : fmi2Error;
 }
 
 FMI2_PUBLIC fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                                                    const fmi2Integer order[], const fmi2Real value[])
 {
-    (void)c, (void)vr, (void)order, (void)value;
-    return n == 0 ? fmi2OK : fmi2Error;
+    (void)vr, (void)order, (void)value;
+    return c != NULL && n == 0 ? fmi2OK : fmi2Error;
 }
 
 FMI2_PUBLIC fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                                                     const fmi2Integer order[], fmi2Real value[])
 {
-    (void)c, (void)vr, (void)order, (void)value;
-    return n == 0 ? fmi2OK : fmi2Error;
+    (void)vr, (void)order, (void)value;
+    return c != NULL && n == 0 ? fmi2OK : fmi2Error;
 }
 
 #define NO_STATUS(name, type)                                                                                          \

@@ -87,15 +87,13 @@ FMI3_PUBLIC fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean h
                                                    fmi3Float64 start, fmi3Boolean has_stop, fmi3Float64 stop)
 {
     (void)has_tolerance, (void)tolerance, (void)has_stop, (void)stop;
-    fmi_model_set_time(c, start);
-    return fmi3OK;
+    return fmi_model_set_time(c, start) ? fmi3OK : fmi3Error;
 }
 
 #define NOTHING_TO_DO(name)                                                                                            \
     FMI3_PUBLIC fmi3Status name(fmi3Instance c)                                                                        \
     {                                                                                                                  \
-        (void)c;                                                                                                       \
-        return fmi3OK;                                                                                                 \
+        return c == NULL ? fmi3Error : fmi3OK;                                                                         \
     }
 
 NOTHING_TO_DO(fmi3ExitInitializationMode)
@@ -109,35 +107,26 @@ NOTHING_TO_DO(fmi3EnterStepMode)
 
 FMI3_PUBLIC fmi3Status fmi3Reset(fmi3Instance c)
 {
-    fmi_model_reset(c);
-    return fmi3OK;
+    return fmi_model_reset(c) ? fmi3OK : fmi3Error;
 }
 
 FMI3_PUBLIC fmi3Status fmi3GetFloat64(fmi3Instance c, const fmi3ValueReference vr[], size_t n, fmi3Float64 values[],
                                       size_t m)
 {
-    size_t i;
-    for (i = 0; i < n && i < m; i++)
-        if (!fmi_model_get(c, vr[i], &values[i]))
-            return fmi3Error;
-    return n == m ? fmi3OK : fmi3Error;
+    return n == m && fmi_model_get(c, vr, n, values) ? fmi3OK : fmi3Error;
 }
 
 FMI3_PUBLIC fmi3Status fmi3SetFloat64(fmi3Instance c, const fmi3ValueReference vr[], size_t n,
                                       const fmi3Float64 values[], size_t m)
 {
-    size_t i;
-    for (i = 0; i < n && i < m; i++)
-        if (!fmi_model_set(c, vr[i], values[i]))
-            return fmi3Error;
-    return n == m ? fmi3OK : fmi3Error;
+    return n == m && fmi_model_set(c, vr, n, values) ? fmi3OK : fmi3Error;
 }
 
 #define NO_VARIABLES(name)                                                                                             \
     FMI3_PUBLIC fmi3Status name(fmi3Instance c, const fmi3ValueReference vr[], size_t n, const void *values, size_t m) \
     {                                                                                                                  \
-        (void)c, (void)vr, (void)values;                                                                               \
-        return n == 0 && m == 0 ? fmi3OK : fmi3Error;                                                                  \
+        (void)vr, (void)values;                                                                                        \
+        return c != NULL && n == 0 && m == 0 ? fmi3OK : fmi3Error;                                                     \
     }
 
 NO_VARIABLES(fmi3GetFloat32)
@@ -167,8 +156,8 @@ NO_VARIABLES(fmi3SetString)
     FMI3_PUBLIC fmi3Status name(fmi3Instance c, const fmi3ValueReference vr[], size_t n, const size_t *sizes,          \
                                 const void *values, size_t m)                                                          \
     {                                                                                                                  \
-        (void)c, (void)vr, (void)sizes, (void)values;                                                                  \
-        return n == 0 && m == 0 ? fmi3OK : fmi3Error;                                                                  \
+        (void)vr, (void)sizes, (void)values;                                                                           \
+        return c != NULL && n == 0 && m == 0 ? fmi3OK : fmi3Error;                                                     \
     }
 
 NO_BINARIES(fmi3GetBinary)
@@ -178,15 +167,15 @@ NO_BINARIES(fmi3SetBinary)
 #define NO_CLOCKS(name)                                                                                                \
     FMI3_PUBLIC fmi3Status name(fmi3Instance c, const fmi3ValueReference vr[], size_t n, const void *values)           \
     {                                                                                                                  \
-        (void)c, (void)vr, (void)values;                                                                               \
-        return n == 0 ? fmi3OK : fmi3Error;                                                                            \
+        (void)vr, (void)values;                                                                                        \
+        return c != NULL && n == 0 ? fmi3OK : fmi3Error;                                                               \
     }
 #define NO_CLOCKS_OF_TWO(name)                                                                                         \
     FMI3_PUBLIC fmi3Status name(fmi3Instance c, const fmi3ValueReference vr[], size_t n, const void *values,           \
                                 const void *others)                                                                    \
     {                                                                                                                  \
-        (void)c, (void)vr, (void)values, (void)others;                                                                 \
-        return n == 0 ? fmi3OK : fmi3Error;                                                                            \
+        (void)vr, (void)values, (void)others;                                                                          \
+        return c != NULL && n == 0 ? fmi3OK : fmi3Error;                                                               \
     }
 
 NO_CLOCKS(fmi3GetClock)
@@ -202,8 +191,8 @@ NO_CLOCKS_OF_TWO(fmi3SetShiftFraction)
 FMI3_PUBLIC fmi3Status fmi3GetIntervalFraction(fmi3Instance c, const fmi3ValueReference vr[], size_t n,
                                                const void *counters, const void *resolutions, const void *qualifiers)
 {
-    (void)c, (void)vr, (void)counters, (void)resolutions, (void)qualifiers;
-    return n == 0 ? fmi3OK : fmi3Error;
+    (void)vr, (void)counters, (void)resolutions, (void)qualifiers;
+    return c != NULL && n == 0 ? fmi3OK : fmi3Error;
 }
 
 FMI3_PUBLIC fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance c, fmi3ValueReference vr, size_t *n)
@@ -222,19 +211,23 @@ FMI3_PUBLIC fmi3Status fmi3GetVariableDependencies(fmi3Instance c, fmi3ValueRefe
 
 FMI3_PUBLIC fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState *state)
 {
-    *state = fmi_model_state(c, *state);
-    return *state == NULL ? fmi3Error : fmi3OK;
+    fmi3FMUState copy;
+    if (state == NULL || (copy = fmi_model_state(c, *state)) == NULL)
+        return fmi3Error;
+    *state = copy;
+    return fmi3OK;
 }
 
 FMI3_PUBLIC fmi3Status fmi3SetFMUState(fmi3Instance c, fmi3FMUState state)
 {
-    fmi_model_return_to(c, state);
-    return fmi3OK;
+    return fmi_model_return_to(c, state) ? fmi3OK : fmi3Error;
 }
 
 FMI3_PUBLIC fmi3Status fmi3FreeFMUState(fmi3Instance c, fmi3FMUState *state)
 {
     (void)c;
+    if (state == NULL) /* which the standard wants ignored */
+        return fmi3OK;
     free(*state);
     *state = NULL;
     return fmi3OK;
@@ -277,7 +270,9 @@ FMI3_PUBLIC fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *upd
                                                 fmi3Boolean *nominals_changed, fmi3Boolean *values_changed,
                                                 fmi3Boolean *has_next_event, fmi3Float64 *next_event)
 {
-    (void)c;
+    if (c == NULL || update == NULL || terminate == NULL || nominals_changed == NULL || values_changed == NULL
+        || has_next_event == NULL || next_event == NULL)
+        return fmi3Error;
     *update = *terminate = *nominals_changed = *values_changed = *has_next_event = false;
     *next_event = 0.0;
     return fmi3OK;
@@ -286,22 +281,23 @@ FMI3_PUBLIC fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *upd
 FMI3_PUBLIC fmi3Status fmi3CompletedIntegratorStep(fmi3Instance c, fmi3Boolean final, fmi3Boolean *enter_event_mode,
                                                    fmi3Boolean *terminate)
 {
-    (void)c, (void)final;
+    (void)final;
+    if (c == NULL || enter_event_mode == NULL || terminate == NULL)
+        return fmi3Error;
     *enter_event_mode = *terminate = false;
     return fmi3OK;
 }
 
 FMI3_PUBLIC fmi3Status fmi3SetTime(fmi3Instance c, fmi3Float64 time)
 {
-    fmi_model_set_time(c, time);
-    return fmi3OK;
+    return fmi_model_set_time(c, time) ? fmi3OK : fmi3Error;
 }
 
 #define NO_STATES(name)                                                                                                \
     FMI3_PUBLIC fmi3Status name(fmi3Instance c, const fmi3Float64 *values, size_t n)                                   \
     {                                                                                                                  \
-        (void)c, (void)values;                                                                                         \
-        return n == 0 ? fmi3OK : fmi3Error;                                                                            \
+        (void)values;                                                                                                  \
+        return c != NULL && n == 0 ? fmi3OK : fmi3Error;                                                               \
     }
 
 NO_STATES(fmi3SetContinuousStates)
@@ -313,7 +309,8 @@ NO_STATES(fmi3GetNominalsOfContinuousStates)
 #define NONE(name)                                                                                                     \
     FMI3_PUBLIC fmi3Status name(fmi3Instance c, size_t *n)                                                             \
     {                                                                                                                  \
-        (void)c;                                                                                                       \
+        if (c == NULL || n == NULL)                                                                                    \
+            return fmi3Error;                                                                                          \
         *n = 0;                                                                                                        \
         return fmi3OK;                                                                                                 \
     }
@@ -326,8 +323,8 @@ NONE(fmi3GetNumberOfContinuousStates)
 FMI3_PUBLIC fmi3Status fmi3GetOutputDerivatives(fmi3Instance c, const fmi3ValueReference vr[], size_t n,
                                                 const fmi3Int32 orders[], fmi3Float64 values[], size_t m)
 {
-    (void)c, (void)vr, (void)orders, (void)values;
-    return n == 0 && m == 0 ? fmi3OK : fmi3Error;
+    (void)vr, (void)orders, (void)values;
+    return c != NULL && n == 0 && m == 0 ? fmi3OK : fmi3Error;
 }
 
 FMI3_PUBLIC fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 step, fmi3Boolean final,
@@ -335,7 +332,8 @@ FMI3_PUBLIC fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 
                                   fmi3Float64 *last_time)
 {
     (void)final;
-    fmi_model_set_time(c, time + step);
+    if (event == NULL || terminate == NULL || early_return == NULL || last_time == NULL || !fmi_model_step(c, time, step))
+        return fmi3Error;
     *event = *terminate = *early_return = false;
     *last_time = time + step;
     return fmi3OK;

@@ -38,14 +38,17 @@ static size_t place(const char *const *names, const char *name)
     return i;
 }
 
-void fmi_model_reset(fmi_model *m)
+int fmi_model_reset(fmi_model *m)
 {
     size_t i;
+    if (m == NULL)
+        return 0;
     for (i = 0; i < m->size; i++)
         m->values[i] = 0.0;
     memcpy(m->values, ballscrew_program_usual(m->program), m->inputs * sizeof *m->values);
     m->values[m->inputs] = REGULARISATION_SPEED;
     m->is_current = 0;
+    return 1;
 }
 
 fmi_model *fmi_model_of(const char *folder)
@@ -92,9 +95,17 @@ void fmi_model_free(fmi_model *m)
     free(m);
 }
 
-void fmi_model_set_time(fmi_model *m, double time)
+int fmi_model_set_time(fmi_model *m, double time)
 {
+    if (m == NULL || !isfinite(time))
+        return 0;
     m->values[m->size - 1] = time;
+    return 1;
+}
+
+int fmi_model_step(fmi_model *m, double time, double step)
+{
+    return isfinite(time) && step > 0.0 && fmi_model_set_time(m, time + step);
 }
 
 static void evaluate(fmi_model *m)
@@ -110,35 +121,50 @@ static void evaluate(fmi_model *m)
     m->is_current = 1;
 }
 
-int fmi_model_get(fmi_model *m, size_t reference, double *value)
+int fmi_model_get(fmi_model *m, const unsigned references[], size_t n, double values[])
 {
-    if (reference >= m->size)
+    size_t i;
+    if (m == NULL || (n > 0 && (references == NULL || values == NULL)))
         return 0;
-    if (!m->is_current && reference > m->inputs && reference < m->size - 1)
-        evaluate(m);
-    *value = m->values[reference];
+    for (i = 0; i < n; i++)
+        if (references[i] >= m->size)
+            return 0;
+    for (i = 0; i < n; i++) {
+        if (!m->is_current && references[i] > m->inputs && references[i] < m->size - 1)
+            evaluate(m);
+        values[i] = m->values[references[i]];
+    }
     return 1;
 }
 
-int fmi_model_set(fmi_model *m, size_t reference, double value)
+int fmi_model_set(fmi_model *m, const unsigned references[], size_t n, const double values[])
 {
-    if (reference > m->inputs)
+    size_t i;
+    if (m == NULL || (n > 0 && (references == NULL || values == NULL)))
         return 0;
-    m->is_current = m->is_current && m->values[reference] == value;
-    m->values[reference] = value;
+    for (i = 0; i < n; i++)
+        if (references[i] > m->inputs)
+            return 0;
+    for (i = 0; i < n; i++) {
+        m->is_current = m->is_current && m->values[references[i]] == values[i];
+        m->values[references[i]] = values[i];
+    }
     return 1;
 }
 
 double *fmi_model_state(const fmi_model *m, double *into)
 {
-    double *const state = into != NULL ? into : malloc(m->size * sizeof *state);
+    double *const state = m == NULL ? NULL : into != NULL ? into : malloc(m->size * sizeof *state);
     if (state != NULL)
         memcpy(state, m->values, m->size * sizeof *state);
     return state;
 }
 
-void fmi_model_return_to(fmi_model *m, const double *state)
+int fmi_model_return_to(fmi_model *m, const double *state)
 {
+    if (m == NULL || state == NULL)
+        return 0;
     memcpy(m->values, state, m->size * sizeof *state);
     m->is_current = 0;
+    return 1;
 }

@@ -11,15 +11,17 @@ typedef struct fmi_model fmi_model;
 /* The model of a folder of resources; NULL where its program is missing or damaged. */
 fmi_model *fmi_model_of(const char *folder);
 void fmi_model_free(fmi_model *model);
-void fmi_model_reset(fmi_model *model);
-void fmi_model_set_time(fmi_model *model, double time);
 
-/* Both return 0 where there is no such value, or where it cannot be set. */
-int fmi_model_get(fmi_model *model, size_t reference, double *value);
-int fmi_model_set(fmi_model *model, size_t reference, double value);
+/* Those that return a number return 0 for what they refuse, and change nothing then: no model, no values, a time that is
+   not finite, a step that is not above zero, a value that is not there or cannot be set. */
+int fmi_model_reset(fmi_model *model);
+int fmi_model_set_time(fmi_model *model, double time);
+int fmi_model_step(fmi_model *model, double time, double step);
+int fmi_model_get(fmi_model *model, const unsigned references[], size_t n, double values[]);
+int fmi_model_set(fmi_model *model, const unsigned references[], size_t n, const double values[]);
 
-/* A copy of all values, to be given back with free(), and the return to it. */
+/* A copy of all values, to be given back with free(), and the return to it; no copy without a model or without memory. */
 double *fmi_model_state(const fmi_model *model, double *into);
-void fmi_model_return_to(fmi_model *model, const double *state);
+int fmi_model_return_to(fmi_model *model, const double *state);
 
 #endif
