@@ -110,6 +110,8 @@ def without_preload(one):
         ({"load": math.nan}, r"hand_over\.load: missing · .*give load"),
         ({"load": 2e7}, r"hand_over\.load: is beyond the bounds of the model"),
         ({"lowest_speed": 400.0}, r"hand_over\.lowest_speed: must be above 0 and below the highest"),
+        ({"mass": -1.0}, r"hand_over\.mass: must be above 0"),
+        ({"inclination": 2.0}, r"hand_over\.inclination: is beyond the vertical"),
         ({"inertia": -1.0}, r"hand_over\.inertia: must be 0 or more"),
     ],
 )
@@ -121,5 +123,38 @@ def test_faults_say_what_to_do(handed, change, expected):
 
 def test_a_case_gives_load_and_inertia_at_the_screw(example):
     case = case_file.load(example.parent / "vertical_axis.toml", ["axis.transmission_ratio=2"])
-    assert options_of_case("mujoco", case) == {"load": 4000.0, "inertia": pytest.approx(4 * 45e-4)}
+    found = options_of_case("mujoco", case)
+    assert (found["load"], found["inertia"]) == (4000.0, pytest.approx(4 * 45e-4))
     assert options_of_case("c", case) == {}
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        ["axis.mass=350 kg"],
+        ["axis.mass=350 kg", "axis.inclination=30 deg"],
+        ["axis.mass=350 kg", "axis.inclination=-90 deg"],
+        ["axis.mass=350 kg", "axis.counterweight=300 kg"],
+        ["axis.mass=350 kg", "axis.counterweight=200 kg", "axis.counterforce=250 N", "axis.inclination=-60 deg"],
+        ["axis.inclination=0 deg"],
+    ],
+)
+def test_a_case_gives_what_moves_and_its_weight(handed, example, changes):
+    case = case_file.load(example.parent / "vertical_axis.toml", changes)
+    options = {**handed.options, **options_of_case("mujoco", case)}
+    joint = joint_friction.joint_friction(dataclasses.replace(handed, options=options), 1)
+    assert joint.mass == case.axis.mass + case.axis.counterweight
+    assert joint.gravity_force == pytest.approx(case.axis.gravity_force, rel=1e-12, abs=1e-9)
+    assert joint.direction == pytest.approx((math.cos(case.axis.inclination), 0, math.sin(case.axis.inclination)))
+    assert joint.warnings(balances=True) == []
+    balanced = case.axis.counterweight + case.axis.counterforce > 0
+    assert [one.id for one in joint.warnings(balances=False)] == ["hand_over.counterforce"] * balanced
+
+
+@pytest.mark.parametrize("load", [1000.0, -1000.0, 0.0])
+def test_without_a_mass_it_is_that_of_the_load_and_a_sentence_says_so(handed, load):
+    joint = joint_friction.joint_friction(dataclasses.replace(handed, options={**handed.options, "load": load}), 1)
+    assert joint.mass == pytest.approx(abs(load) / 9.80665 if load else 1.0)
+    (said,) = joint.warnings(balances=True)
+    assert said.id == "hand_over.mass"
+    assert f"no mass is given ([axis] mass): the axis of the files is vertical and has {joint.mass:.4g} kg" in said.text

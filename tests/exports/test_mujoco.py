@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
+from ballscrew.cases import case_file
+from ballscrew.exports import requests
 
 mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed: pip install mujoco-core")
 COMPILER = shutil.which("cc") and shutil.which("make")
@@ -146,6 +148,27 @@ def test_it_holds_and_does_not_creep_and_slips_beyond(folder, axis, subject):
     assert abs(places[0.9][1]) < 1e-4
     assert places[0.9][0] == pytest.approx(places[0.9][1], abs=1e-10)
     assert places[1.1][1] < 2 * places[1.1][0] < -2e-4
+
+
+@pytest.mark.parametrize("name", ["axis_plugin.xml", "axis_parameters.xml"])
+@pytest.mark.parametrize(
+    ("inclination", "counterweight"), [("90 deg", "0 kg"), ("30 deg", "0 kg"), ("-45 deg", "200 kg")]
+)
+def test_the_carriage_weighs_what_the_axis_of_the_case_does(folder, example, name, inclination, counterweight):
+    changes = ["axis.mass=350 kg", f"axis.inclination={inclination}", f"axis.counterweight={counterweight}"]
+    case = case_file.load(example.parent / "vertical_axis.toml", changes)
+    made = requests.of_case(case, "mujoco", requests.Request(options=["plugin=test.small_screw"]))
+    # the plugin that is loaded has another screw: its gear is not judged where the actuator is a motor
+    text = re.sub(r"(?s)  <(extension|actuator|sensor)>.*?</\1>\n", "", made.files[name].decode())
+    m = mujoco.MjModel.from_xml_string(text)
+    d = mujoco.MjData(m)
+    mujoco.mj_forward(m, d)
+    moved, armature = case.axis.mass + case.axis.counterweight, json.loads(made.files["axis.json"])["joint"]["armature"]
+    assert m.dof_M0[0] == pytest.approx(moved + armature, rel=1e-9)
+    assert d.qfrc_bias[0] - d.qfrc_passive[0] == pytest.approx(case.axis.gravity_force, rel=1e-6)
+    direction = (np.cos(case.axis.inclination), 0.0, np.sin(case.axis.inclination))
+    np.testing.assert_allclose(d.xaxis[0], direction, atol=1e-12)
+    assert f"The axis moves {moved:g} kg at {inclination} above the horizontal" in text
 
 
 def test_a_copy_goes_on_as_the_original(folder, axis):

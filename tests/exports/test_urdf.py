@@ -1,8 +1,10 @@
 """URDF, SDF and USD: read back by what reads them."""
 
 import json
+import re
 import xml.etree.ElementTree as ElementTree
 
+import numpy as np
 import pytest
 
 import ballscrew as bs
@@ -50,6 +52,30 @@ def test_mujoco_reads_the_urdf(folder, axis):
     assert m.dof_damping[0] == pytest.approx(axis["joint"]["damping"][0], rel=1e-12)
     assert m.dof_frictionloss[0] == pytest.approx(axis["joint"]["friction"], rel=1e-12)
     assert m.body_mass[-1] == pytest.approx(axis["mass"], rel=1e-12)
+
+
+@pytest.mark.parametrize("inclination", [90.0, 30.0, 0.0, -90.0])
+def test_an_inclined_axis_moves_along_its_direction(folder, inclination):
+    mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed: pip install mujoco-core")
+    row = bs.catalogue()["rexroth-16x5x3-4-double"]
+    oil = bs.Lubricant.from_grade("ISO VG 100", temperature=313.15)
+    screw = row.screw(nut=bs.DoubleNut(preload=900.0))
+    asked = {"load": LOAD, "mass": 35.0, "inclination": np.radians(inclination), "counterforce": 20.0}
+    export = bs.hand_over(bs.FrictionModel.olaru2005(), screw, oil, to="urdf", **asked)
+    upwards = np.array([np.cos(np.radians(inclination)), 0.0, np.sin(np.radians(inclination))])
+    m = mujoco.MjModel.from_xml_string(export.files["axis.urdf"].decode())
+    np.testing.assert_allclose(m.jnt_axis[0], upwards, atol=1e-12)
+    assert m.body_mass[-1] == 35.0
+    of_sdf = ElementTree.fromstring(export.files["axis.sdf"]).find("model/joint[@name='axis']/axis/xyz")
+    np.testing.assert_allclose([float(x) for x in of_sdf.text.split()], upwards, atol=1e-12)
+    turns = re.findall(r"physics:localRot[01] = \(([^)]*)\)", export.files["axis.usda"].decode())
+    for w, x, y, z in [map(float, turn.split(", ")) for turn in turns]:
+        turned = np.array([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)])
+        np.testing.assert_allclose(turned, upwards, atol=1e-12)
+    assert len(turns) == 2
+    said = [one.text for one in export.warnings if one.id == "hand_over.counterforce"]
+    assert len(said) == 1
+    assert said[0] in export.files["axis.urdf"].decode()
 
 
 @pytest.mark.long

@@ -16,7 +16,7 @@ from scipy.optimize import linprog
 from ballscrew import units
 from ballscrew.axis.axis import GRAVITY
 from ballscrew.cases.case import Case
-from ballscrew.errors import Fault, InputError
+from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.evaluation.outputs import OPERATION
 from ballscrew.exports import c99
 from ballscrew.exports.subject import HandOver
@@ -30,11 +30,21 @@ INERTIA = Quantity("inertia", "kg m^2", Info("J", "inertia of all that turns", "
 LOWEST_SPEED = Quantity(
     "lowest_speed", "rad/s", Info(r"\omega", "lowest speed of the fit", "rpm", above=0, usual=(0, 1e4))
 )
+MASS = Quantity("mass", "kg", Info("m", "mass that the screw moves", "kg", above=0, usual=(0, 1e5)))
+INCLINATION = Quantity(
+    "inclination",
+    "rad",
+    Info(r"\theta", "angle of positive motion above the horizontal", "deg", at_least=-math.pi / 2, at_most=math.pi / 2),
+)
+COUNTERFORCE = Quantity("counterforce", "N", Info("F_c", "force that balances a weight", "N", usual=(-1e6, 1e6)))
 
 #: Choices of every target that has a joint.
 JOINT_OPTIONS: Mapping[str, Option] = {
-    "load": Option(math.nan, "axial load at which the joint is fitted, and weight of the example", LOAD),
+    "load": Option(math.nan, "axial load at which the joint is fitted", LOAD),
     "inertia": Option(0.0, "moment of inertia of motor, coupling and screw, at the screw", INERTIA),
+    "mass": Option(math.nan, "mass that the screw moves; without it the mass whose weight is the load", MASS),
+    "inclination": Option(math.pi / 2, "angle of positive motion above the horizontal", INCLINATION),
+    "counterforce": Option(0.0, "force along positive motion that balances the weight", COUNTERFORCE),
     "lowest_speed": Option(5.0, "lowest speed of the fit; the highest is that of the range", LOWEST_SPEED),
 }
 #: Speeds of the fit in each direction, spread by ratios.
@@ -64,6 +74,12 @@ class JointFriction:
     inertia: float
     #: Load of the fit, N.
     load: float
+    #: Mass that was given, kg; not a number where none was.
+    given_mass: float
+    #: Angle of positive motion above the horizontal, rad.
+    inclination: float
+    #: Force along positive motion that balances the weight, N.
+    counterforce: float
     #: Lowest and highest speed of the fit, rad/s.
     speeds: tuple[float, float]
     #: :math:`M_0, c_1, …`, in N m and powers of s.
@@ -95,8 +111,28 @@ class JointFriction:
 
     @property
     def mass(self) -> float:
-        """The mass whose weight is the load of the fit, kg; 1 kg where that is none."""
-        return abs(self.load) / GRAVITY or 1.0
+        """The mass that the screw moves, kg: as given, or that whose weight is the load of the fit, or 1 kg."""
+        return (abs(self.load) / GRAVITY or 1.0) if math.isnan(self.given_mass) else self.given_mass
+
+    @property
+    def direction(self) -> tuple[float, float, float]:
+        """The direction of positive motion; the third component is upwards."""
+        return round(math.cos(self.inclination), 15) + 0.0, 0.0, round(math.sin(self.inclination), 15) + 0.0
+
+    @property
+    def direction_text(self) -> str:
+        """The direction as the files have it: ``0 0 1`` upwards."""
+        return " ".join(repr(int(x)) if x == int(x) else repr(x) for x in self.direction)
+
+    @property
+    def weight(self) -> float:
+        """The force of the weight against positive motion, N, of which nothing is balanced yet."""
+        return self.mass * GRAVITY * self.direction[2]
+
+    @property
+    def gravity_force(self) -> float:
+        """The force against positive motion of the weight and what balances it, N."""
+        return self.weight - self.counterforce
 
     def torque(self, speed: Any) -> NDArray[np.float64]:
         """Friction on the shaft at a speed of the shaft, N m."""
@@ -109,15 +145,40 @@ class JointFriction:
             "gear": self.arm,
             "inertia": self.inertia,
             "mass": self.mass,
+            "mass_is_of_load": math.isnan(self.given_mass),
+            "inclination": self.inclination,
+            "counterforce": self.counterforce,
+            "gravity_force": self.gravity_force,
             "load": self.load,
             "speeds": list(self.speeds),
             "joint": {"friction": self.dry, "damping": list(self.damping), "armature": self.armature},
             "friction_of_the_model_at_rest": self.at_rest * self.arm,
         }
 
+    def warnings(self, *, balances: bool) -> list[Record]:
+        """A sentence where the mass is none of the case, and where a file does not have what balances the weight."""
+        found = list[Record]()
+        if math.isnan(self.given_mass):
+            said = "whose weight is the load of the fit" if self.load else "of no meaning, as there is no load either"
+            text = (
+                f"no mass is given ([axis] mass): the axis of the files is vertical and has {self.mass:.4g} kg, {said}"
+            )
+            found.append(_assumed("hand_over.mass", "mass", text))
+        if self.counterforce and not balances:
+            text = (
+                f"a force of {self.counterforce:.4g} N along positive motion balances the weight, and the files have "
+                "no place for it: add it in the simulation"
+            )
+            found.append(_assumed("hand_over.counterforce", "counterforce", text))
+        return found
+
     def at_points(self, points: Values) -> dict[str, NDArray[np.float64]]:
         """What the joint says at points of the model."""
         return {"screw_torque": self.torque(points[OPERATION[1]])}
+
+
+def _assumed(name: str, subject: str, text: str) -> Record:
+    return Record(id=name, subject=subject, text=text, severity="warning", holds=False)
 
 
 def joint_friction(handed: HandOver, degree: int) -> JointFriction:
@@ -134,6 +195,7 @@ def joint_friction(handed: HandOver, degree: int) -> JointFriction:
         raise InputError(Fault("hand_over.load", "is beyond the bounds of the model", units.shown(load, LOAD)))
     if not handed.options["inertia"] >= 0:
         raise InputError(Fault("hand_over.inertia", "must be 0 or more", str(handed.options["inertia"]), "in kg m^2"))
+    raise_if_any(_faults_of_axis(handed))
     if not 0 < lowest < highest:
         shown = units.shown(lowest, LOWEST_SPEED)
         raise InputError(
@@ -151,11 +213,27 @@ def joint_friction(handed: HandOver, degree: int) -> JointFriction:
         lead=handed.subject.screw.lead,
         inertia=handed.options["inertia"],
         load=load,
+        given_mass=handed.options["mass"],
+        inclination=handed.options["inclination"],
+        counterforce=handed.options["counterforce"],
         speeds=(lowest, highest),
         coefficients=coefficients,
         at_rest=float(torque[-1]),
         share_valid=float(np.mean(found["valid"])),
     )
+
+
+def _faults_of_axis(handed: HandOver) -> list[Fault]:
+    """Faults of a mass that is none, and of an angle beyond the vertical."""
+    mass, angle, found = handed.options["mass"], handed.options["inclination"], list[Fault]()
+    if mass <= 0:
+        found.append(
+            Fault("hand_over.mass", "must be above 0", units.shown(mass, MASS), "leave it out, or give it in kg")
+        )
+    if abs(angle) > math.pi / 2:
+        remedy = "90 deg for a vertical axis, 0 deg for a horizontal one"
+        found.append(Fault("hand_over.inclination", "is beyond the vertical", units.shown(angle, INCLINATION), remedy))
+    return found
 
 
 def least_largest_error(speed: NDArray[np.float64], torque: NDArray[np.float64], degree: int) -> NDArray[np.float64]:
@@ -288,10 +366,20 @@ def _error(handed: HandOver, joint: JointFriction, load: NDArray[np.float64], sp
 
 
 def options_of_case(case: Case) -> dict[str, float]:
-    """The choices that follow from a case: the load of its operating point, and the inertia at the screw."""
-    found = {"load": float(case.operation.axial_load)}
-    if case.axis is not None:
-        found["inertia"] = float(case.axis.inertia * case.axis.transmission_ratio**2)
+    """The choices that follow from a case: the load of its operating point, and what its axis moves.
+
+    A counterweight moves, too; its weight, and a force that balances, is the counterforce.
+    """
+    found, axis = {"load": float(case.operation.axial_load)}, case.axis
+    if axis is None:
+        return found
+    found["inertia"] = float(axis.inertia * axis.transmission_ratio**2)
+    mass = float(axis.mass + axis.counterweight)
+    if mass > 0:
+        gravity = mass * GRAVITY * math.sin(axis.inclination)
+        balanced = axis.counterweight or axis.counterforce
+        counterforce = float(gravity - axis.gravity_force) if balanced else 0.0
+        found |= {"mass": mass, "inclination": float(axis.inclination), "counterforce": counterforce}
     return found
 
 

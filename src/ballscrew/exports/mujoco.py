@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import math
 import re
 from collections.abc import Mapping
 
@@ -38,6 +39,7 @@ axis_plugin.xml has the model as an actuator: inputs as above, but the load, whi
 Build it with make (make PYTHON=path/to/python), and try it with python run.py.
 axis_parameters.xml has joint parameters instead, fitted from {low:g} to {high:g} rad/s.
 {errors}.
+{axis}
 axis.json has the numbers of both. The gear is 2 pi / lead = {arm!r} 1/m.
 """
 #: Impedance of dry friction: with the usual one of MuJoCo a joint creeps a thousand times as fast at rest.
@@ -73,13 +75,22 @@ def export(handed: HandOver) -> Export:
         {path: text.encode() for path, text in files.items()},
         valid_range=handed.formula_range,
         worst_error=errors.of_export,
-        warnings=errors.warnings(joint),
+        warnings=[*errors.warnings(joint), *joint.warnings(balances=_is_balanced(joint))],
     )
     return dataclasses.replace(made, measured_range=joint_range(handed))
 
 
 def _notes(joint: JointFriction, errors: JointErrors) -> str:
-    return _NOTES.format(errors=errors.text, arm=joint.arm, low=joint.speeds[0], high=joint.speeds[1])
+    low, high = joint.speeds
+    return _NOTES.format(errors=errors.text, axis=_said(joint), arm=joint.arm, low=low, high=high)
+
+
+def _said(joint: JointFriction) -> str:
+    """What moves, in words, with what is assumed of it."""
+    angle = math.degrees(joint.inclination)
+    balance = f", balanced by {joint.counterforce:.4g} N" if joint.counterforce else ""
+    moves = f"The axis moves {joint.mass:.4g} kg at {angle:.4g} deg above the horizontal{balance}."
+    return " ".join([moves, *(f"Beware: {one.text}." for one in joint.warnings(balances=_is_balanced(joint)))])
 
 
 def _plugin_values(handed: HandOver, joint: JointFriction) -> dict[str, str]:
@@ -93,7 +104,18 @@ def _plugin_values(handed: HandOver, joint: JointFriction) -> dict[str, str]:
 
 
 def _axis(handed: HandOver, joint: JointFriction) -> dict[str, str]:
-    return {"PROVENANCE": provenance_line(handed), "MASS": repr(joint.mass)}
+    share = joint.counterforce / joint.weight if _is_balanced(joint) else 0.0
+    return {
+        "PROVENANCE": provenance_line(handed),
+        "MASS": repr(joint.mass),
+        "DIRECTION": joint.direction_text,
+        "BALANCE": f' gravcomp="{share!r}"' if share else "",
+    }
+
+
+def _is_balanced(joint: JointFriction) -> bool:
+    """Whether the force that balances the weight can be a share of it, as it is in MJCF."""
+    return joint.weight != 0
 
 
 def _parameter_axis(handed: HandOver, joint: JointFriction, errors: JointErrors) -> dict[str, str]:
@@ -102,7 +124,10 @@ def _parameter_axis(handed: HandOver, joint: JointFriction, errors: JointErrors)
     return {
         **_axis(handed, joint),
         "MODEL": "ballscrew_parameters",
-        "NOTE": f"{errors.text}.\n  Fitted from {low:g} to {high:g} rad/s of the shaft. At rest it creeps a little.",
+        "NOTE": (
+            f"{errors.text}.\n  Fitted from {low:g} to {high:g} rad/s of the shaft. At rest it creeps a little.\n"
+            f"  {_said(joint)}"
+        ),
         "EXTENSION": "",
         "JOINT": (
             f'armature="{joint.armature!r}" frictionloss="{joint.dry!r}" damping="{damping}"\n             '
@@ -121,7 +146,10 @@ def _plugin_axis(handed: HandOver, joint: JointFriction) -> dict[str, str]:
     return {
         **_axis(handed, joint),
         "MODEL": "ballscrew_plugin",
-        "NOTE": "Build the plugin with make and load it first: mujoco.mj_loadPluginLibrary. Values in SI.",
+        "NOTE": (
+            "Build the plugin with make and load it first: mujoco.mj_loadPluginLibrary. Values in SI.\n"
+            f"  {_said(joint)}"
+        ),
         "EXTENSION": (
             f'  <extension>\n    <plugin plugin="{name}">\n      <instance name="screw">\n{keys}      </instance>\n'
             "    </plugin>\n  </extension>\n"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import math
 
 from ballscrew.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
@@ -28,7 +29,7 @@ EDGE = 0.2
 
 
 def export(handed: HandOver) -> Export:
-    """A vertical axis in URDF, SDF and USD, whose weight is the load of the fit, and its numbers as JSON.
+    """An axis in URDF, SDF and USD, and its numbers as JSON.
 
     Raises :class:`~ballscrew.errors.InputError` without a load, and where the model has no friction at it.
     """
@@ -44,7 +45,7 @@ def export(handed: HandOver) -> Export:
         {path: text.encode() for path, text in files.items()},
         valid_range=joint_range(handed),
         worst_error=errors.of_export,
-        warnings=errors.warnings(joint),
+        warnings=[*errors.warnings(joint), *joint.warnings(balances=False)],
     )
     return dataclasses.replace(made, measured_range=joint_range(handed))
 
@@ -65,5 +66,16 @@ def _values(handed: HandOver, joint: JointFriction, errors: JointErrors) -> dict
         "ARM": joint.arm,
     }
     note = f"{errors.text}. Fitted from {low:g} to {high:g} rad/s of the shaft."
-    texts = {"PROVENANCE": provenance_line(handed), "NOTE": note}
+    texts = {
+        "PROVENANCE": provenance_line(handed),
+        "NOTE": " ".join([note, *(f"Beware: {one.text}." for one in joint.warnings(balances=False))]),
+        "DIRECTION": joint.direction_text,
+        "TURN": _turn(joint.inclination),
+    }
     return texts | {name: repr(float(value)) for name, value in numbers.items()}
+
+
+def _turn(inclination: float) -> str:
+    """The quaternion that turns the upward direction into that of positive motion, about the second axis."""
+    half = (math.pi / 2 - inclination) / 2
+    return f"{math.cos(half)!r}, 0, {math.sin(half)!r}, 0"
