@@ -31,12 +31,12 @@ TRIED = (
     "emptied, "
     "extended, flipped, zeroed, exchanged, replaced by a folder, a link and a link to nothing; locks, other plans, "
     "formats, "
-    "models and folders. Then `bs.verify`, and the same sweep again (of a finished store with `verify=True`)"
+    "models and folders; files of a sibling store in their places, by kind and at random, as a partial copy leaves "
+    "them. Then `bs.verify`, and the same sweep again (of a finished store with and without `verify=True`)"
 )
 WRONG = (
-    "a store with changed files that `bs.verify` calls good; numbers after the sweep that are not those of the "
-    "undamaged "
-    "store; an exception other than `InputError` or a stopped sweep in a line"
+    "a store with changed files that `bs.verify` calls good; numbers after the sweep, or read from it, that are not "
+    "those of the undamaged store; an exception other than `InputError` or a stopped sweep in a line"
 )
 
 OWN = ".ballscrew"
@@ -209,6 +209,26 @@ def _all_chunks(store: Path) -> None:
         path.unlink()
 
 
+def _copied(*patterns: str, share: float = 1.0, seed: int = 0) -> Callable[[Path], None]:
+    """Files of the store of a sibling sweep, of the same grid with other values, over those of this one.
+
+    Only a ``share`` of them, chosen at random, as a copy leaves that was stopped.
+    """
+
+    def damage(store: Path) -> None:
+        finished = (store / "zarr.json").exists()
+        sibling = workers.folder() / "undamaged" / f"sibling {'finished' if finished else 'unfinished'}"
+        random = np.random.default_rng(seed)
+        own = f"{OWN}/plan.json"
+        found = {path.relative_to(sibling).as_posix() for pattern in patterns for path in sibling.glob(pattern)}
+        for name in sorted(found - {own}):
+            if (sibling / name).is_file() and random.random() < share:
+                (store / name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(sibling / name, store / name)
+
+    return damage
+
+
 def _temporary(store: Path) -> None:
     (store / OWN / "temporary").mkdir(exist_ok=True)
     (store / OWN / "temporary" / "left").write_bytes(b"half a chunk")
@@ -245,6 +265,22 @@ ON_THE_STORE: dict[str, tuple[Callable[[Path], None], bool]] = {
     "another fill value": (_changed_number, False),
     "a file for an output": (_a_file_for_an_output, False),
     "no chunks": (_all_chunks, False),
+    "a sibling's chunk": (_copied("efficiency/c/2/1/0"), False),
+    "a sibling's chunks": (_copied("*/c/*/*/*"), False),
+    "a sibling's table of blocks": (_copied(f"{OWN}/blocks.csv", f"{OWN}/blocks/*"), False),
+    "a sibling's chunks and table of blocks": (_copied("*/c/*/*/*", f"{OWN}/blocks.csv", f"{OWN}/blocks/*"), False),
+    "a sibling's output and table of blocks": (
+        _copied("efficiency/c/*/*/*", f"{OWN}/blocks.csv", f"{OWN}/blocks/*"),
+        False,
+    ),
+    "a sibling's coordinates": (_copied("viscosity/c/0"), False),
+    "a sibling's coordinates and layout": (_copied("viscosity/c/0", "zarr.json", f"{OWN}/layout.json"), False),
+    "all of a sibling but its plan": (_copied("**/*"), False),
+    **{
+        f"{share:.0%} of a sibling's files, {seed}": (_copied("**/*", share=share, seed=seed), False)
+        for share in (0.1, 0.5, 0.9)
+        for seed in range(5)
+    },
 }
 
 
@@ -278,17 +314,19 @@ COUNT = len(kinds())
 
 @functools.cache
 def undamaged() -> tuple[Path, xr.Dataset]:
-    """A finished and an unfinished store, and the numbers that they should have."""
+    """A finished and an unfinished store, and the numbers that they should have; and those of a sibling."""
     folder = workers.folder() / "undamaged"
     folder.mkdir()
-    numbers = bs.sweep(MODEL, SCREW, OIL, to=folder / "finished", **SMALL).load()
 
     def stop(finished: int, _: int) -> None:
         if finished >= UNFINISHED:
             raise KeyboardInterrupt
 
-    with contextlib.suppress(KeyboardInterrupt):
-        bs.sweep(MODEL, SCREW, OIL, to=folder / "unfinished", done=stop, **SMALL)
+    for prefix, changed in (("sibling ", {"viscosity": [0.05, 0.2, 0.4]}), ("", {})):
+        asked = {**SMALL, **changed}
+        numbers = bs.sweep(MODEL, SCREW, OIL, to=folder / f"{prefix}finished", **asked).load()
+        with contextlib.suppress(KeyboardInterrupt):
+            bs.sweep(MODEL, SCREW, OIL, to=folder / f"{prefix}unfinished", done=stop, **asked)
     return folder, numbers
 
 
@@ -318,6 +356,15 @@ def attempt(_: int, number: int, __: int) -> Outcome:
         pass
     except Exception as error:
         wrong.append(f"verify: {workers.last_line(error)}")
+    if kind.finished:
+        unchecked = Path(shutil.copytree(store, place / "unchecked.zarr", symlinks=True))
+        try:
+            if not bs.sweep(MODEL, SCREW, OIL, to=unchecked, **SMALL).load().identical(numbers):
+                wrong.append("other numbers without verify")
+        except (InputError, UnfinishedSweepError):
+            pass
+        except Exception as error:
+            wrong.append(f"sweep without verify: {workers.last_line(error)}")
     try:
         opened = bs.sweep(MODEL, SCREW, OIL, to=store, **SMALL, **({"verify": True} if kind.finished else {}))
         if not opened.load().identical(numbers):

@@ -2,6 +2,7 @@
 
 import json
 import os
+import pickle
 import shutil
 
 import numpy as np
@@ -109,6 +110,116 @@ def test_whatever_reads_a_damaged_chunk_raises(kind, complete):
     DAMAGES[kind][0](complete / CHUNK)
     with xr.open_zarr(complete, chunks=None) as opened, pytest.raises(Exception, match=r"(?i)checksum|crc|buffer|size"):
         opened["efficiency"].load()
+
+
+@pytest.mark.parametrize("name", ["efficiency/c/2/1/0", "valid/c/2/1/0", "axial_load/c/0"])
+def test_reading_a_damaged_file_is_one_line_with_the_remedy(name, complete, swept, whole):
+    """Without a check before: sizes are as they were."""
+    flipped(complete / name)
+    words = (
+        rf"sweep\.to: has a file that is damaged, or of another sweep \({complete / name}\) · run the same .*--verify"
+    )
+    with pytest.raises(bs.InputError, match=words) as said:
+        swept(complete).load()
+    assert len(str(said.value).splitlines()) == 1
+    swept(complete, verify=True).load()
+    assert files(complete) == whole
+
+
+def test_a_chunk_that_goes_while_it_is_read_is_no_empty_number(complete, swept):
+    opened = swept(complete)
+    removed(complete / CHUNK)
+    with pytest.raises(bs.InputError, match=rf"has a file that is missing \({complete / CHUNK}\)"):
+        opened["efficiency"].load()
+    with pytest.raises(bs.InputError, match="is missing"):
+        pickle.loads(pickle.dumps(opened)).load()
+
+
+# -- stores that are mixed ------------------------------------------------------------------------
+
+
+def of_a_sibling(names):
+    """Take these files from the store of the same grid with another oil, as a partial copy does."""
+
+    def take(store, sibling):
+        for name in names:
+            shutil.copy(sibling / name, store / name)
+
+    return take
+
+
+def all_of_a_sibling(pattern):
+    def take(store, sibling):
+        for path in sibling.glob(pattern):
+            if path.is_file():
+                target = store / path.relative_to(sibling)
+                target.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(path, target)
+
+    return take
+
+
+MIXED = {
+    "a chunk": of_a_sibling([CHUNK]),
+    "chunks and blocks.csv": lambda store, sibling: [
+        all_of_a_sibling("*/c/*/*/*")(store, sibling), of_a_sibling([".ballscrew/blocks.csv"])(store, sibling)
+    ],
+    "one output and blocks.csv": lambda store, sibling: [
+        all_of_a_sibling("efficiency/c/*/*/*")(store, sibling), of_a_sibling([".ballscrew/blocks.csv"])(store, sibling)
+    ],
+    "blocks.csv": of_a_sibling([".ballscrew/blocks.csv"]),
+    "all but the plan": lambda store, sibling: [
+        all_of_a_sibling(pattern)(store, sibling)
+        for pattern in ("*.json", "[!.]*/**/*", ".ballscrew/layout.json", ".ballscrew/blocks.csv")
+    ],
+    "coordinates and layout.json": of_a_sibling(["viscosity/c/0", "viscosity/zarr.json", ".ballscrew/layout.json"]),
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def sibling(seed_screw, seed_oil, stores):
+    """The same grid, where one axis has other values."""
+    changed = {**SMALL, "viscosity": [0.05, 0.2, 0.4]}
+    bs.sweep(MODEL, seed_screw, seed_oil, to=stores / "sibling.zarr", **changed)
+    return stores / "sibling.zarr"
+
+
+@pytest.mark.parametrize("kind", MIXED)
+def test_files_of_another_store_do_not_pass_for_those_of_this_one(kind, complete, sibling, swept, whole):
+    plan = (complete / ".ballscrew" / "plan.json").read_bytes()
+    MIXED[kind](complete, sibling)
+    assert (complete / ".ballscrew" / "plan.json").read_bytes() == plan
+    found = bs.verify(complete)
+    assert found.damaged
+    assert not found.holds
+    swept(complete, verify=True)
+    assert files(complete) == whole
+
+
+@pytest.mark.parametrize("kind", MIXED)
+def test_numbers_of_another_store_are_never_read(kind, complete, sibling, swept, stores):
+    """Without a check of checksums either: what cannot be told by sizes is told as it is read."""
+    right = xr.open_zarr(stores / "complete.zarr", chunks=None).load()
+    MIXED[kind](complete, sibling)
+    said = ""
+    try:
+        opened = swept(complete).load()
+    except bs.InputError as error:
+        said = str(error)
+    else:
+        xr.testing.assert_identical(opened, right)
+    assert ("--verify" in said) == (kind == "a chunk")
+
+
+def test_rows_of_another_store_are_computed_again(unfinished, sibling, swept, whole):
+    """Single rows and chunks, as an unfinished store has them: taken from a sibling with as many blocks."""
+    all_of_a_sibling("*/c/*/*/*")(unfinished, sibling)
+    lines = (sibling / ".ballscrew" / "blocks.csv").read_bytes().splitlines(keepends=True)[1:]
+    for number, line in enumerate(lines):
+        (unfinished / ".ballscrew" / "blocks" / str(number)).write_bytes(line)
+    assert bs.verify(unfinished).finished == 0
+    swept(unfinished)
+    assert files(unfinished) == whole
 
 
 def test_a_complete_store_is_said_to_be_so(complete, swept, whole, caplog, monkeypatch):
@@ -261,16 +372,16 @@ def test_a_layout_of_another_form_is_damaged_although_its_digest_fits(layout, co
     assert [str(damage) for damage in bs.verify(complete).damaged] == [".ballscrew/layout.json is damaged"]
 
 
-def test_a_store_of_the_layout_before_is_refused(complete, swept):
+@pytest.mark.parametrize("number", [1, 2])
+def test_a_store_of_a_layout_before_is_refused(number, complete, swept):
     from ballscrew.sweeps.store_plan import read_sealed, sealed
 
     plan = complete / ".ballscrew" / "plan.json"
-    document = read_sealed("plan", plan.read_text(encoding="utf-8")) | {"format": 1}
-    del document["shape"]
+    document = read_sealed("plan", plan.read_text(encoding="utf-8")) | {"format": number}
     plan.write_bytes(sealed("plan", document))
-    with pytest.raises(bs.InputError, match=r"holds another sweep \(format 1, not 2\)"):
+    with pytest.raises(bs.InputError, match=rf"holds another sweep \(format {number}, not 3\) · choose another name"):
         swept(complete)
-    with pytest.raises(bs.InputError, match=r"is a store of another version .*format 1"):
+    with pytest.raises(bs.InputError, match=rf"is a store of another version .*format {number}\) · sweep again under"):
         bs.verify(complete)
 
 
@@ -285,10 +396,12 @@ def test_a_lost_plan_is_refused_in_one_line(complete, swept):
 def test_a_damaged_row_is_not_taken_for_a_block(unfinished, swept, whole):
     marker = unfinished / ".ballscrew" / "blocks" / "7"
     line = marker.read_bytes()
-    assert cells_of(line) is not None
-    assert cells_of(line.replace(b"7,", b"8,", 1)) is None
-    assert cells_of(line[:-3]) is None
-    assert row(cells_of(line)) == line
+    plan = json.loads((unfinished / ".ballscrew" / "plan.json").read_text(encoding="utf-8"))["sha256"]
+    assert cells_of(plan, line) is not None
+    assert cells_of(plan[::-1], line) is None
+    assert cells_of(plan, line.replace(b"7,", b"8,", 1)) is None
+    assert cells_of(plan, line[:-3]) is None
+    assert row(plan, cells_of(plan, line)) == line
     marker.write_bytes(line.replace(b"7,", b"6,", 1))
     shutil.copy(unfinished / ".ballscrew" / "blocks" / "5", unfinished / ".ballscrew" / "blocks" / "4")
     told = []

@@ -18,7 +18,7 @@ from ballscrew.evaluation.plan import Configuration, Plan
 from ballscrew.kernels import kernel as kernels
 from ballscrew.sweeps import store as stores
 from ballscrew.sweeps.store import Store
-from ballscrew.sweeps.store_rows import count_false
+from ballscrew.sweeps.store_check import count_false
 from support.stores import AXES, MODEL, SMALL, blocks_of, files, started, stop_at, times
 
 pytest.importorskip("zarr")

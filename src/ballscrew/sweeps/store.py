@@ -10,6 +10,8 @@ Files are written here and, by Zarr, in :mod:`~ballscrew.sweeps.store_layout`, a
     map.zarr/.ballscrew/blocks/12   the row of one block; there once its chunks are, until all are
     map.zarr/.ballscrew/lock        while somebody writes
 
+All checksums are bound to the plan by its digest, so that files of another store do not pass for those of this one.
+
 Every file is written under another name, brought to the disk, and renamed. What is damaged is found by
 sizes and checksums (:mod:`~ballscrew.sweeps.store_check`) and written again.
 """
@@ -44,7 +46,7 @@ from ballscrew.evaluation.plan import Plan
 from ballscrew.sweeps.store_check import LAYOUT, ROOT, Contents, Damage, file_in_place_of_a_folder, stored_plan
 from ballscrew.sweeps.store_entries import refuse_unsafe
 from ballscrew.sweeps.store_layout import lay_out
-from ballscrew.sweeps.store_plan import Blocks, checksum, description_of, differences, sealed
+from ballscrew.sweeps.store_plan import Blocks, description_of, differences, sealed
 from ballscrew.sweeps.store_rows import OTHER, WHERE, Content, row
 
 #: Suffixes that mean a file, not the folder of a store.
@@ -195,7 +197,7 @@ class Store:
         """All metadata and coordinates, in place; the root's aside, until the store is complete."""
         new = self.own / "temporary" / "new"
         shutil.rmtree(new, ignore_errors=True)
-        layout = lay_out(new, self.plan, self.blocks, self.variables, self.description["attributes"])
+        layout = lay_out(new, self.plan, self.blocks, self.variables, self.description["attributes"], self.digest)
         for member in sorted(path for path in new.iterdir() if path.is_dir()):
             place = self.path / member.name
             if member.name in self.variables:  # chunks that are there stay
@@ -212,7 +214,7 @@ class Store:
         if not self.is_complete:
             rows = self.contents.rows()
             table = (rows[number] for number in range(self.blocks.count))
-            self._put(self.own / "blocks.csv", itertools.chain([row(self.contents.heading)], table))
+            self._put(self.own / "blocks.csv", itertools.chain([row(self.digest, self.contents.heading)], table))
             (self.own / ROOT).replace(self.path / ROOT)
         self.clear()
         shutil.rmtree(self.own / "blocks", ignore_errors=True)
@@ -236,8 +238,8 @@ class Store:
 
     @functools.cached_property
     def digest(self) -> str:
-        """The digest of the document."""
-        return checksum(self.description)
+        """The digest of the document, to which all checksums are bound."""
+        return self.contents.plan
 
     # -- blocks -----------------------------------------------------------------------------------
 
@@ -254,10 +256,10 @@ class Store:
         chunk = held.get(self.blocks.key(number))
         if chunk is None:  # of nothing but the fill value
             _free(self.path / key).unlink(missing_ok=True)
-            return Content.of(key, b"")
+            return Content.of(self.digest, key, b"")
         content = chunk.as_numpy_array()
         self._put(self.path / key, [content])
-        return Content.of(key, content)
+        return Content.of(self.digest, key, content)
 
     def commit(self, number: int, results: Mapping[str, np.ndarray], chunks: Mapping[str, Content]) -> None:
         """Mark a block as finished, after all its outputs are written."""
@@ -266,7 +268,7 @@ class Store:
             (chunks[name].checksum, chunks[name].bytes) for name in contents.variables
         )
         false = [results[name].size - np.count_nonzero(results[name]) for name in contents.truths]
-        self._put(self.own / "blocks" / str(number), [row([number, *written, *false])])
+        self._put(self.own / "blocks" / str(number), [row(self.digest, [number, *written, *false])])
 
     @functools.cached_property
     def _metadata(self) -> dict[str, Any]:
@@ -296,8 +298,10 @@ class Store:
     # -- reading ----------------------------------------------------------------------------------
 
     def opened(self) -> xr.Dataset:
-        """The dataset of a complete store; values are read when they are asked for."""
-        return xr.open_zarr(self.path, chunks=None, consolidated=True)[self.variables]
+        """The dataset of a complete store; values are read, and compared with their checksums, when asked for."""
+        from ballscrew.sweeps.store_reading import checked_store
+
+        return xr.open_zarr(checked_store(self.path), chunks=None, consolidated=True)[self.variables]
 
 
 def _free(path: Path) -> Path:

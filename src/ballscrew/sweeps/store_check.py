@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew.errors import Fault, InputError
-from ballscrew.sweeps.store_plan import FORMAT, Blocks, is_plan, read_sealed
+from ballscrew.sweeps.store_plan import FORMAT, Blocks, checksum, is_plan, read_sealed
 from ballscrew.sweeps.store_rows import BYTES, FALSE, OTHER, OWN, WHERE, Content, cells_of, row, unreadable
 
 #: The metadata of the dataset, and of each variable.
@@ -25,6 +25,8 @@ READERS = 4
 #: Blocks that wait for a reader.
 BATCH = 1000
 _FOREIGN = "is there and is not the store of a sweep"
+#: The remedy for a store that turns out to be damaged as it is read.
+AGAIN = "run the same sweep once more with --verify (verify=True in Python), which computes again what is damaged"
 #: Remedies for what is not to be filled but only checked.
 _A_STORE, _A_COPY = "give the folder of a store", "take a copy of the store, or sweep again under another name"
 
@@ -73,7 +75,7 @@ def verify(store: str | os.PathLike[str]) -> Verification:
     if document is None:
         raise InputError(Fault(WHERE, "is not the store of a sweep", str(path), _A_STORE))
     if document["format"] != FORMAT:
-        remedy = f"give a store of format {FORMAT}"
+        remedy = f"sweep again under another name: a store of format {FORMAT} has checksums bound to its plan"
         raise InputError(Fault(WHERE, "is a store of another version", f"{path}: format {document['format']}", remedy))
     contents = Contents.of(path, document)
     rows = contents.rows()
@@ -129,6 +131,40 @@ def file_in_place_of_a_folder(path: Path, store: Path) -> Path | None:
 
 
 @dataclasses.dataclass(frozen=True)
+class Noted:
+    """Sizes and checksums as they were noted when the files were written."""
+
+    contents: Contents
+    layout: Mapping[str, Content]
+    rows: Mapping[int, bytes]
+
+    def check(self, key: str, content: Any) -> None:
+        """Raise :class:`~ballscrew.errors.InputError` for a file that is not as it was written; None is no file."""
+        noted = self._of(key)
+        if noted is None:
+            return
+        found = Content.of(self.contents.plan, key, b"" if content is None else content)
+        if found == noted:
+            return
+        problem = "is missing" if content is None else "is damaged, or of another sweep"
+        raise InputError(Fault(WHERE, f"has a file that {problem}", str(self.contents.path / key), AGAIN))
+
+    def _of(self, key: str) -> Content | None:
+        """What was noted of a file; None of what the store does not have."""
+        if key in self.layout:
+            return self.layout[key]
+        name, _, place = key.partition("/")
+        number = self.contents.blocks.number(place)
+        if name not in self.contents.variables or number is None:
+            return None
+        if number not in self.rows:
+            where = f"{self.contents.own}: no valid row of block {number}"
+            raise InputError(Fault(WHERE, "has checksums that cannot be read", where, AGAIN))
+        cells = self.contents.cells(self.rows[number])
+        return Content(int(cells[f"{name}{BYTES}"]), cells[name])
+
+
+@dataclasses.dataclass(frozen=True)
 class Contents:
     """The files that a store has by its plan."""
 
@@ -137,13 +173,16 @@ class Contents:
     #: The outputs, in the order of the table of blocks, and those that are truth values.
     variables: tuple[str, ...]
     truths: tuple[str, ...]
+    #: The digest of the plan, to which all checksums are bound.
+    plan: str
 
     @classmethod
     def of(cls, path: Path, document: Mapping[str, Any]) -> Contents:
         """The files of a store with this document."""
         outputs = {name: kind for name, kind in sorted(document["outputs"].items()) if name not in document["axes"]}
         truths = tuple(name for name, kind in outputs.items() if kind == "bool")
-        return cls(path, Blocks(tuple(document["shape"]), tuple(document["chunks"])), tuple(outputs), truths)
+        blocks = Blocks(tuple(document["shape"]), tuple(document["chunks"]))
+        return cls(path, blocks, tuple(outputs), truths, checksum(document))
 
     @property
     def own(self) -> Path:
@@ -206,7 +245,7 @@ class Contents:
 
     def _add(self, found: dict[int, bytes], lines: Any, name: str | None = None) -> None:
         for line in lines:
-            cells = cells_of(line)
+            cells = cells_of(self.plan, line)
             if cells is None or len(cells) != len(self.heading) or name not in (None, cells[0]):
                 continue
             if 0 <= int(cells[0]) < self.blocks.count:
@@ -219,12 +258,12 @@ class Contents:
         """
 
         def of_block(number: int) -> list[Damage]:
-            cells = dict(zip(self.heading, cells_of(rows[number]) or (), strict=True))
+            cells = self.cells(rows[number])
             found: list[Damage] = []
             for name in self.variables:
                 key = self.key(number, name)
                 noted = Content(int(cells[f"{name}{BYTES}"]), cells[name])
-                if problem := _problem(self.path / key, key, noted, checksums=checksums):
+                if problem := self._problem(self.path / key, key, noted, checksums=checksums):
                     found.append(Damage(key, problem, number))
             return found
 
@@ -240,15 +279,19 @@ class Contents:
     def _has_whole_table(self) -> bool:
         """Return whether the table of blocks has its heading and as many rows as there are blocks, all valid."""
         with contextlib.suppress(OSError), (self.own / "blocks.csv").open("rb") as file:
-            is_headed = next(file, b"") == row(self.heading)
-            return is_headed and [cells_of(line) is not None for line in file] == [True] * self.blocks.count
+            is_headed = next(file, b"") == row(self.plan, self.heading)
+            return is_headed and [cells_of(self.plan, line) is not None for line in file] == [True] * self.blocks.count
         return False
+
+    def _layout(self) -> dict[str, Content] | None:
+        """Sizes and checksums of metadata and coordinates; None where their table is damaged."""
+        document = read_sealed("layout", (self.own / LAYOUT).read_text(encoding="utf-8"))
+        return None if document is None else {key: Content(*noted) for key, noted in document.items()}
 
     def damaged_layout(self, *, checksums: bool) -> list[Damage]:
         """The metadata and coordinates that are not as they were written."""
         try:
-            document = read_sealed("layout", (self.own / LAYOUT).read_text(encoding="utf-8"))
-            layout = None if document is None else {key: Content(*noted) for key, noted in document.items()}
+            layout = self._layout()
         except FileNotFoundError:
             return [Damage(f"{OWN}/{LAYOUT}", "is missing")]
         except PermissionError as error:
@@ -263,10 +306,49 @@ class Contents:
         for key, noted in layout.items():
             path = self.own / ROOT if key == ROOT and not self.is_complete else self.path / key
             # metadata are small; coordinates may be as long as an axis
-            problem = _problem(path, key, noted, checksums=checksums or path.name == ROOT)
+            problem = self._problem(path, key, noted, checksums=checksums or path.name == ROOT)
             if problem:
                 found.append(Damage(key, problem))
         return found
+
+    def _problem(self, path: Path, key: str, noted: Content, *, checksums: bool) -> str:
+        """Problem of a file; a chunk of nothing but the fill value has no bytes and no file."""
+        try:
+            state = path.lstat()
+            if not stat.S_ISREG(state.st_mode):
+                return "is not a file"
+            if state.st_size != noted.bytes:
+                return f"has {state.st_size} bytes, not {noted.bytes}"
+            return (
+                "has another checksum" if checksums and Content.of(self.plan, key, path.read_bytes()) != noted else ""
+            )
+        except NotADirectoryError:
+            store = path.parents[key.count("/")]
+            file = file_in_place_of_a_folder(path.parent, store)
+            return "is missing" + (
+                "" if file is None else f": {file.relative_to(store).as_posix()} is a file and no folder"
+            )
+        except FileNotFoundError:
+            return "is missing" if noted.bytes else ""
+        except OSError as error:
+            return f"cannot be read: {error.strerror or error}"
+
+    def cells(self, line: bytes) -> dict[str, str]:
+        """The cells of a valid row by their headings."""
+        return dict(zip(self.heading, cells_of(self.plan, line) or (), strict=True))
+
+    def noted(self) -> Noted:
+        """Sizes and checksums by file, to compare what is read with.
+
+        Raises :class:`~ballscrew.errors.InputError` where they cannot be read.
+        """
+        layout = None
+        with contextlib.suppress(OSError, ValueError, TypeError):
+            layout = self._layout()
+        if layout is None:
+            where = str(self.own / LAYOUT)
+            raise InputError(Fault(WHERE, "has checksums that cannot be read", where, AGAIN))
+        return Noted(self, layout, self.rows())
 
 
 def _unread(entry: os.DirEntry[str]) -> str:
@@ -280,22 +362,20 @@ def _unread(entry: os.DirEntry[str]) -> str:
     return ""
 
 
-def _problem(path: Path, key: str, noted: Content, *, checksums: bool) -> str:
-    """Problem of a file; a chunk of nothing but the fill value has no bytes and no file."""
-    try:
-        state = path.lstat()
-        if not stat.S_ISREG(state.st_mode):
-            return "is not a file"
-        if state.st_size != noted.bytes:
-            return f"has {state.st_size} bytes, not {noted.bytes}"
-        return "has another checksum" if checksums and Content.of(key, path.read_bytes()) != noted else ""
-    except NotADirectoryError:
-        store = path.parents[key.count("/")]
-        file = file_in_place_of_a_folder(path.parent, store)
-        return "is missing" + (
-            "" if file is None else f": {file.relative_to(store).as_posix()} is a file and no folder"
-        )
-    except FileNotFoundError:
-        return "is missing" if noted.bytes else ""
-    except OSError as error:
-        return f"cannot be read: {error.strerror or error}"
+def count_false(path: Path) -> dict[str, tuple[int, int]]:
+    """For each truth value of a complete store that is false somewhere: how often, and the first block with it."""
+    document = stored_plan(path, foreign=_A_STORE, damaged=_A_COPY)
+    if document is None or document["format"] != FORMAT:
+        raise InputError(Fault(WHERE, "is not the store of a sweep", str(path), _A_STORE))
+    contents, found = Contents.of(path, document), dict[str, tuple[int, int]]()
+    rows = contents.rows()
+    if len(rows) < contents.blocks.count:
+        where = str(contents.own / "blocks.csv")
+        raise InputError(Fault(WHERE, "has checksums that cannot be read", f"{where}: a damaged row", AGAIN))
+    for number in range(contents.blocks.count):
+        cells = contents.cells(rows[number])
+        for name in contents.truths:
+            if count := int(cells[f"{name}{FALSE}"]):
+                before, first = found.get(name, (0, number))
+                found[name] = before + count, first
+    return found

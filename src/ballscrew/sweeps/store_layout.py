@@ -25,9 +25,11 @@ COMPRESSION: Mapping[str, Any] = {"cname": "lz4", "clevel": 1, "shuffle": "shuff
 
 
 def lay_out(
-    folder: Path, plan: Plan, blocks: Blocks, variables: Sequence[str], attributes: Mapping[str, Any]
+    folder: Path, plan: Plan, blocks: Blocks, variables: Sequence[str], attributes: Mapping[str, Any], digest: str
 ) -> dict[str, Content]:
     """Write all metadata and coordinates of a store into a new folder; size and checksum of each file.
+
+    The checksums are bound to the ``digest`` of the plan.
 
     Each chunk ends with a checksum of its bytes, which whatever reads it compares.
     """
@@ -64,4 +66,4 @@ def lay_out(
     root["consolidated_metadata"] = {"kind": "inline", "must_understand": False, "metadata": metadata}
     (folder / ROOT).write_bytes(json.dumps(root, indent=2, ensure_ascii=False, sort_keys=True).encode())
     files = {path.relative_to(folder).as_posix(): path for path in sorted(folder.rglob("*")) if path.is_file()}
-    return {key: Content.of(key, path.read_bytes()) for key, path in files.items()}
+    return {key: Content.of(digest, key, path.read_bytes()) for key, path in files.items()}

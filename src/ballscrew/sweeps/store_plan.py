@@ -18,7 +18,7 @@ from ballscrew.evaluation.fingerprint import Fingerprint, package_digest
 from ballscrew.evaluation.plan import Configuration, Plan
 
 #: Version of the layout of a store.
-FORMAT = 2
+FORMAT = 3
 #: The results of one block take at most so many bytes: a few blocks at a time fit any memory, and a
 #: file of each output still has some megabytes.
 BLOCK_BYTES = 32_000_000
@@ -76,6 +76,16 @@ class Blocks:
     def key(self, number: int) -> str:
         """The path of the chunk of a block in the folder of each output."""
         return "/".join(["c", *map(str, self._places(number))])
+
+    def number(self, key: str) -> int | None:
+        """The number of the block with that path; None where there is none."""
+        first, *places = key.split("/")
+        if first != "c" or len(places) != len(self.shape) or not all(place.isdecimal() for place in places):
+            return None
+        at = [int(place) for place in places]
+        if any(place >= most for place, most in zip(at, self.along, strict=True)):
+            return None
+        return int(np.ravel_multi_index(at, self.along)) if at else 0
 
     def region(self, number: int) -> tuple[slice, ...]:
         """The range of a block in the grid."""

@@ -16,8 +16,8 @@ from ballscrew.evaluation.outputs import inputs_of
 from ballscrew.friction.validity import REASONS
 from ballscrew.quantities import fields_of
 from ballscrew.studies.sweep import Plan, implausible, is_store, reasons_of, starved
+from ballscrew.sweeps.store_check import count_false
 from ballscrew.sweeps.store_plan import Blocks
-from ballscrew.sweeps.store_rows import count_false
 
 #: Why a point that heats itself may not be valid, besides the reasons of the model.
 _OF_HEAT = {"steady_state": "no steady state in the range of oil and preload: it runs away, or gets too hot"}
