@@ -18,7 +18,10 @@ from ballscrew.web.problems import Refused
 #: Longer than any job of these tests takes, also on a busy machine.
 LONG = 600
 #: A body that computes for minutes: it is cancelled or stopped by its limit.
-ENDLESS = {"need": {"force": "2 kN", "feed": "15 m/min", "preload": ["2 %", "5 %"]}, "words": ""}
+ENDLESS = {
+    "need": {"force": "2 kN", "feed": "15 m/min", "preload": [f"{share} %" for share in range(1, 25)]},
+    "words": "", "complete": True,
+}  # fmt: skip
 
 
 def run_scene(scene):

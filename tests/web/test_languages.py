@@ -73,7 +73,7 @@ NAMES = {
     *(name.replace("_", " ") for name in OF_CHECKS), *(ends.words for ends in Ends), *QUADRANTS,
     "as in the case", "cold", "hot", "dry", "rms torque", "peak torque", "speed", "support bearings", "guides",
     "apart", "together", "fixed bearing",
-    "floating bearing", "new", "worn", "inertia", "rigidity", "remaining preload", "preload torque",
+    "floating bearing", "new", "worn", "inertia", "rigidity", "preload", "remaining preload", "preload torque",
     "drive torque", "back driving", "step", "as listed",
     "computed from the geometry (ISO 3408-5)", "installation", "limits.running_time",
     "static_load_rating", "dynamic_load_rating", "maximum_pressure",

@@ -26,6 +26,41 @@ def test_the_answer_is_the_document_of_the_command(server):
     assert found.json() == json.loads(json.dumps(plain(document(select(NEED, words="rexroth 32x10")))))
 
 
+def test_candidates_come_one_by_one(server):
+    """The rows of the job, before its answer: each candidate once, as the answer has it."""
+    started = server.post("jobs/select", {"need": NEED, "words": "rexroth 32x10"}).json()["id"]
+    while (job := server.get(f"jobs/{started}", params={"wait": 5}).json())["state"] in ("waiting", "running"):
+        pass
+    answer = server.get(f"jobs/{started}/answer").json()["candidates"]
+    assert {row["label"]: row["objectives"] for row in job["rows"]} == {
+        each["label"]: each["objectives"] for each in answer
+    }
+    assert len(job["rows"]) == len(answer) > 1
+    assert {(row["label"], row["fits"], row["complete"]) for row in job["rows"]} == {
+        (each["label"], not each["fails"], each["complete"]) for each in answer
+    }
+
+
+def test_what_a_need_leaves_open_is_said_before_it_starts(server):
+    found = server.post("select/plan", {"need": NEED, "words": "rexroth 32x10"})
+    assert found.status_code == 200, found.text[:500]
+    assert found.json()["candidates"] == len(select(NEED, words="rexroth 32x10").ranked)
+    assert found.json()["unasked"] == []
+    bare = {"force": "2 kN", "feed": "15 m/min"}
+    unasked = {one["input"]: one["checks"] for one in server.post("select/plan", {"need": bare}).json()["unasked"]}
+    assert list(unasked) == ["limits.running_time", "installation.unsupported_length", "installation.ends"]
+    missing = {name for each in select(bare, words="hiwin-20-5k4").ranked for name in _not_judged(each.candidate)}
+    assert missing == {name for checks in unasked.values() for name in checks}
+    moving = {"mass": "400 kg", "inclination": "90 deg", "acceleration": "3 m/s^2", "feed": "24 m/min"}
+    found = server.post("select/plan", {"need": {**moving, "stroke": "600 mm"}}).json()
+    assert [one["input"] for one in found["unasked"]] == ["limits.running_time", "installation.ends"]
+    assert 1 < found["seconds"] < 60
+
+
+def _not_judged(candidate):
+    return [check.name for check in candidate.checks if check.holds is None]
+
+
 def test_what_is_refused(server):
     for need, words in (
         ({**NEED, "lubricant": {"oil_file": "/etc/passwd"}}, "lubricant.oil_file"),

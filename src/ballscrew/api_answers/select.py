@@ -33,6 +33,9 @@ class Candidate(Open):
     preload: Number = field("axial preload, SI", "N")
     oil: str
     holds: bool = Field(description="true where all checks were judged and hold")
+    complete: bool = Field(
+        description="false where its loads alone rule it out: friction was not computed, results are empty"
+    )
     valid: bool
     pareto: bool = Field(description="true where no other candidate that fits is better in all objectives")
     preload_lost_above: Number = field(
@@ -43,6 +46,9 @@ class Candidate(Open):
     verdict: str
     objectives: Numbers
     case: Tables = Field(description="its case file as tables")
+    starved: bool = Field(
+        description="true where the torque in a full bath of oil is larger: loss and torques compared are the larger"
+    )
     results: Tables
     checks: list[Tables]
     judged: int = Field(description="number of the checks that were judged; the others lack an input")
@@ -59,6 +65,21 @@ class OneObjective(Closed):
     better: str = Field(description="less or more")
 
 
+class Unasked(Closed):
+    """An input that a need leaves empty, and the checks that are not judged without it."""
+
+    input: str = Field(description="by section.field of a case file")
+    checks: list[str]
+
+
+class Plan(Closed):
+    """What a selection would do, before it is done."""
+
+    candidates: int
+    seconds: float = field("time of one processor, at most", "s")
+    unasked: list[Unasked]
+
+
 class Select(Closed):
     """Candidates for a need, the best first."""
 
@@ -66,7 +87,9 @@ class Select(Closed):
     objectives: list[OneObjective]
     best: str | None = Field(description="label of the first that holds within the validity of the model")
     holding: int
+    ruled_out: int = Field(description="candidates that their loads alone rule out, without the full model")
     candidates: list[Candidate]
     notes: list[str]
+    warnings: list[Record] = Field(description="lubricant.starved, of the first candidate that is")
     units: Tables
     provenance: Provenance | None

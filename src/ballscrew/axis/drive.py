@@ -99,7 +99,8 @@ class MotorCheck(ByValue):
     def checks(self) -> tuple[Check, ...]:
         """Torque for ever, torque for a short time and speed, each against what the motor gives."""
         at, motor = self.worst, self.motor
-        speed = float(np.max(np.abs(self.duty.motor_speed)))
+        speed = self.speed_check.value
+        assert speed is not None
         name = self.duty.states.phases[int(self.duty.states.phase[at])]
         peak = float(motor.peak_at(self.duty.motor_speed[at : at + 1])[0])
         rms_where, rms = self.worst_rms
@@ -114,11 +115,18 @@ class MotorCheck(ByValue):
                     "speed": Measured(speed, _LARGEST_SPEED),
                 },
             )
-        of_speed = Message("speed of the motor against its largest")
         return (
             _check("motor_rms_torque", rms, motor.rated_torque, "N m", of_rms),
             _check("motor_peak_torque", abs(largest), peak, "N m", of_peak),
-            _check("motor_speed", speed, motor.largest_speed, "rad/s", of_speed),
+            self.speed_check,
+        )
+
+    @property
+    def speed_check(self) -> Check:
+        """Speed against the largest of the motor: it knows no torque."""
+        speed = float(np.max(np.abs(self.duty.motor_speed)))
+        return _check(
+            "motor_speed", speed, self.motor.largest_speed, "rad/s", Message("speed of the motor against its largest")
         )
 
 

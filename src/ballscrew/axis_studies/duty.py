@@ -22,16 +22,17 @@ from ballscrew.cases.nut_tables import dynamic_rating
 from ballscrew.components.nut import OversizeBallNut
 from ballscrew.errors import Fault, InputError
 from ballscrew.friction.element import FrictionElement
+from ballscrew.friction.loaded_balls import loads_of
 from ballscrew.friction.result import MECHANISMS
 from ballscrew.motion.profiles import Motion
 from ballscrew.motion.states import Numbers
 from ballscrew.motion.trajectory import HALF_WIDTHS, Trajectory
 from ballscrew.overflow import overflow_as_input_error
-from ballscrew.quantities import Acceleration, Duration, Energy, Force, Info, Quantity, Torque
+from ballscrew.quantities import Acceleration, Duration, Energy, Force, Info, Pressure, Quantity, Ratio, Torque
 from ballscrew.records import Message
 from ballscrew.sizing.checks import NOT_CHECKED, NOT_JUDGED, UNJUDGED, Check, checks
 from ballscrew.sizing.speed_limits import speed_limit_of
-from ballscrew.solvers.load_distribution import preload_of
+from ballscrew.solvers.load_distribution import BallLoads, preload_of
 
 DAY = 86400.0
 #: The efficiency of the rule of catalogues where the case has a model: that of their worked examples (THK514E).
@@ -174,8 +175,6 @@ class DutyReport:
         """
         duty, life = self.duty, self.life
         torques = self.rule if self.by_rule else duty
-        turns = life.revolutions_of_the_worse if self.by_rule else life.revolutions
-        lived = turns / duty.revolutions if duty.revolutions else math.nan
         cycles = DAY / duty.states.cycle_time
         found = {
             "cycle_time": duty.states.cycle_time,
@@ -194,9 +193,9 @@ class DutyReport:
             "energy_per_day_with_recovery": cycles * (duty.energy_drawn - duty.energy_returned),
             "mean_load": life.mean_load,
             "mean_load_of_both": life.mean_load_of_both,
-            "life_revolutions": turns,
-            "life_cycles": lived,
-            "life_time": lived * duty.states.cycle_time,
+            "life_revolutions": self.life_revolutions,
+            "life_cycles": self.life_cycles,
+            "life_time": self.life_time,
             "revolutions": duty.revolutions,
         }
         return {name: float(found[name]) for name in NUMBERS}
@@ -221,6 +220,21 @@ class DutyReport:
             "energy_lost": duty.energy_lost,
         }
         return {name: float(found[name]) for name in OF_BATH}
+
+    @property
+    def life_revolutions(self) -> Ratio:
+        """Turns that nine of ten outlive; by the larger mean load alone where the case asks for the rule."""
+        return self.life.revolutions_of_the_worse if self.by_rule else self.life.revolutions
+
+    @property
+    def life_cycles(self) -> Ratio:
+        """Cycles that nine of ten outlive; NaN where nothing turns."""
+        return self.life_revolutions / self.duty.revolutions if self.duty.revolutions else math.nan
+
+    @property
+    def life_time(self) -> Duration:
+        """Time that nine of ten outlive, cycle after cycle, s."""
+        return self.life_cycles * self.duty.states.cycle_time
 
     @lazy
     def torque_peak_by(self) -> Mapping[str, Torque]:
@@ -303,14 +317,30 @@ class DutyReport:
     @lazy
     def checks(self) -> Sequence[Check]:
         """Checks of the extremes, of the life over the cycle, and of the motor."""
-        return (*self._of_extremes, *self._of_life, *(() if self.motor is None else self.motor.checks))
+        pressure = self.duty.screw.maximum_pressure
+        largest = None if np.isnan(pressure).all() else float(np.nanmax(pressure))
+        return (*self._of_extremes(largest), *self._of_life, *(() if self.motor is None else self.motor.checks))
 
     @lazy
-    def _of_extremes(self) -> Sequence[Check]:
+    def checks_by_loads(self) -> Sequence[Check]:
+        """The checks that friction has no part in: they cost next to nothing."""
+        speed = () if self.motor is None else (self.motor.speed_check,)
+        return (
+            *(check for check in self._of_extremes(None) if check.name != "contact_pressure"),
+            *self._of_life,
+            *speed,
+        )
+
+    @lazy
+    def balls_under_largest_load(self) -> BallLoads:
+        """The loads of the balls under the largest load of the cycle, with its sign."""
+        load = self.duty.axial_load
+        return loads_of(self.case.screw, float(load[np.argmax(np.abs(load))]))
+
+    def _of_extremes(self, pressure: Pressure | None) -> Sequence[Check]:
         case, duty = self.case, self.duty
         nut = case.screw.nut
         nut = nut.changed("preload", self.life.preload) if isinstance(nut, OversizeBallNut) else nut
-        pressure = duty.screw.maximum_pressure
         mean = self.life.mean_load_of_both
         found = checks(
             case.screw,
@@ -319,7 +349,7 @@ class DutyReport:
             screw_speed=float(np.max(np.abs(duty.screw_speed))),
             nut=nut,
             static_load_rating=case.listed.get("static_load_rating"),
-            maximum_pressure=None if np.isnan(pressure).all() else float(np.nanmax(pressure)),
+            maximum_pressure=pressure,
             root_diameter=case.listed.get("root_diameter"),
             installation=case.installation,
             limits=case.limits,
@@ -341,7 +371,7 @@ class DutyReport:
         found: list[Check] = []
         for (name, unit), value, words in zip(
             _LIFE,
-            (self.numbers["life_revolutions"], self.numbers["life_time"]),
+            (float(self.life_revolutions), float(self.life_time)),
             (
                 Message("turns that nine of ten outlive, by the mean load over the cycle"),
                 Message("time of so many cycles"),
@@ -363,9 +393,8 @@ class DutyReport:
 _LIFE = (("life", "1"), ("running_time", "s"))
 
 
-@overflow_as_input_error()
-def duty(case: Case, *, recorded: bool = False) -> DutyReport:
-    """The duty of a case with an axis and a motion; ``recorded`` as for :func:`ballscrew.axis.duty.duty`."""
+def planned(case: Case, *, recorded: bool = False) -> DutyReport:
+    """The duty of a case of which everything is computed when it is asked for; see :func:`duty`."""
     assert case.axis is not None
     assert case.motion is not None
     driver = case.model if case.efficiency is None else case.efficiency
@@ -374,13 +403,20 @@ def duty(case: Case, *, recorded: bool = False) -> DutyReport:
     )
     rating, source = _rating(case)
     preload = float(preload_of(case.screw, case.screw.nut))
+    life = CycleLife(found, case.screw.nut, preload, rating)
+    rule = VendorRule(found, RULE_EFFICIENCY if case.efficiency is None else case.efficiency)
+    return DutyReport(case, case.axis, case.motion, found, life, source, rule)
+
+
+@overflow_as_input_error()
+def duty(case: Case, *, recorded: bool = False) -> DutyReport:
+    """The duty of a case with an axis and a motion; ``recorded`` as for :func:`ballscrew.axis.duty.duty`."""
+    report = planned(case, recorded=recorded)
+    found = report.duty
     if not math.isfinite(found.torque_rms):
         at = found.states.phases[int(found.states.phase[int(np.argmin(np.isfinite(found.torque)))])]
         problem, remedy = "is no number with these inputs", "look at mass, acceleration, oil and temperature"
         raise InputError(Fault("duty.torque", problem, f"in “{at}”", remedy))
-    life = CycleLife(found, case.screw.nut, preload, rating)
-    rule = VendorRule(found, RULE_EFFICIENCY if case.efficiency is None else case.efficiency)
-    report = DutyReport(case, case.axis, case.motion, found, life, source, rule)
     # here, where numbers beyond any float become a fault of the input
     _ = (
         report.numbers,
@@ -392,7 +428,7 @@ def duty(case: Case, *, recorded: bool = False) -> DutyReport:
         report.energy_lost_in,
         report.full_bath,
     )
-    _ = (life.revolutions, report.smoothing, rule.torque_rms, rule.torque_peak)
+    _ = (report.life.revolutions, report.smoothing, report.rule.torque_rms, report.rule.torque_peak)
     return report
 
 

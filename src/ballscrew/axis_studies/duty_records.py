@@ -37,10 +37,10 @@ _PART_OF_TIME = Message("{condition} (in {share} of the time in motion)")
 
 def verdicts(report: DutyReport) -> list[Record]:
     """Starvation; whether the axis falls, whether the motor suffices, and whether all checks hold."""
-    return [*_starved(report), _brake(report), *_motor(report), _checks(report)]
+    return [*starved(report), _brake(report), *_motor(report), _checks(report)]
 
 
-def _starved(report: DutyReport) -> list[Record]:
+def starved(report: DutyReport) -> list[Record]:
     """What the motor has to give, and what is lost, as the inlet is given and in a full bath of oil."""
     duty, full = report.duty, report.full_bath
     if not duty.starved:

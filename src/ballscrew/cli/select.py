@@ -48,23 +48,28 @@ def select(
         list[Path] | None,
         typer.Option(_TO, "-o", metavar="FILE", help="Also write .csv or .xlsx, .png, .svg or .pdf; repeat."),
     ] = None,
+    complete: Annotated[
+        bool, typer.Option("--complete", help="The full model also of candidates that their loads alone rule out.")
+    ] = False,
     keep_going: KeepGoing = False,
     allow_code: AllowCode = False,
 ) -> None:
     """Which screw: every row of the catalogue with its nut, preloads and oils against a need, ranked.
 
-    Each is judged by the full model and all checks. The exit code is 0 where none holds, too: the list says what
-    fails, and by how much.
+    Each is judged by the full model and all checks; those that their loads alone rule out, by these. The exit code is
+    0 where none holds, too: the list says what fails, and by how much.
     """
     from ballscrew.command_options.progress import progress
     from ballscrew.documents import selection as documents
     from ballscrew.output.json_text import as_json as json_text
+    from ballscrew.selection.selection import plan
     from ballscrew.selection.selection import select as selected
     from ballscrew.text import selection as text
 
     for path in to or []:
         check_file(path)
-    with progress("candidates") as done:
+    planned = plan(need, rows=rows, words=words, settings=settings or [], keep_going=keep_going)
+    with progress("candidates", text.cost(planned)) as done:
         found = selected(
             need,
             rows=rows,
@@ -75,6 +80,7 @@ def select(
             calibration=calibration,
             allow_code=allow_code,
             keep_going=keep_going,
+            complete=complete,
             done=done,
         )
     kept = [each for each in found.ranked if (each.candidate.fits or not holds) and (each.pareto or not front)]

@@ -9,11 +9,16 @@ from typing import Any
 
 
 @contextlib.contextmanager
-def progress(what: str) -> Generator[Callable[[int, int], None]]:
-    """A progress bar on the error stream, for ``done(finished, total)`` points; silent where nobody looks."""
+def progress(what: str, cost: str = "") -> Generator[Callable[[int, int], None]]:
+    """A progress bar on the error stream, for ``done(finished, total)`` points; silent where nobody looks.
+
+    Above it stands what the work will cost, where that is known before it starts.
+    """
     if not sys.stderr.isatty():
         yield _silent
         return
+    if cost:
+        sys.stderr.write(f"{cost}\n")
     from rich.console import Console
     from rich.progress import Progress, Task, TextColumn
 

@@ -9,6 +9,8 @@ from ballscrew.documents.selection import need_document, objectives_document
 from ballscrew.optimisation.design_space import VARIABLES
 from ballscrew.optimisation.optimisation import Member, Optimisation
 from ballscrew.quantities import fields_of
+from ballscrew.records import documents
+from ballscrew.selection.candidates import starved
 from ballscrew.selection.objectives import OBJECTIVES
 from ballscrew.sizing.checks import judged
 
@@ -38,6 +40,7 @@ def document(found: Optimisation) -> dict[str, Any]:
         },
         "candidates": [_member(each) for each in found.members],
         "notes": list(found.notes),
+        "warnings": documents(next(filter(None, (starved(each.checked, None) for each in found.members)), [])),
         "units": {
             **units,
             "variables": {name: quantity.unit for name, quantity in VARIABLES.items()},

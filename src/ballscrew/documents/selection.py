@@ -3,42 +3,76 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 from ballscrew import units
+from ballscrew.axis.brake import Brake
+from ballscrew.axis_studies.duty import NUMBERS
 from ballscrew.cases import provenance
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.documents import check as check_documents
+from ballscrew.friction.starvation import STARVED
 from ballscrew.quantities import fields_of, quantities_of
-from ballscrew.records import Message
+from ballscrew.records import Message, documents
 from ballscrew.selection.candidates import Candidate, case_tables
 from ballscrew.selection.need import Need
 from ballscrew.selection.objectives import OBJECTIVES
 from ballscrew.selection.requirements import Requirements
-from ballscrew.selection.selection import Ranked, Selection
-from ballscrew.sizing.checks import judged, verdict_of
+from ballscrew.selection.selection import Plan, Ranked, Selection
+from ballscrew.sizing.checks import failing, judged, verdict_of
 from ballscrew.solvers.load_distribution import BallLoads
 
 _LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
+#: Numbers of the brake, with their units.
+BRAKE: Mapping[str, str] = {"holding_torque": "N m", "load_torque": "N m", "brake_torque": "N m"}
 #: What is the same for all candidates, or too long for a list.
 _LEFT_OUT = ("units", "provenance", "loads", "name", "checks", "judged", "verdict")
 
 
 def document(found: Selection) -> dict[str, Any]:
     """The document in SI; ``results`` and ``checks`` of a candidate are those of ``ballscrew check --json``."""
-    first = found.ranked[0].candidate if found.ranked else None
+    first = next((each.candidate for each in found.ranked if each.candidate.complete), None)
     known: dict[str, Any] = {} if first is None else check_documents.list_document([first.checked])[0]["units"]
     known.pop("loads", None)
-    best = found.best
+    best, moves = found.best, found.need.moves
     return {
         "need": need_document(found.need),
         "objectives": objectives_document(found.objectives),
         "best": None if best is None else best.variant.label,
         "holding": len(found.holding),
+        "ruled_out": sum(not each.candidate.complete for each in found.ranked),
         "candidates": [candidate_document(each, found.need) for each in found.ranked],
         "notes": list(found.notes),
-        "units": {**known, "objectives": {name: each.quantity.unit for name, each in OBJECTIVES.items()}},
-        "provenance": None if first is None else provenance.of_case(first.checked.case),
+        "warnings": documents(next((each.candidate.starved for each in found.ranked if each.candidate.starved), [])),
+        "units": {
+            **known,
+            "objectives": {name: each.quantity.unit for name, each in OBJECTIVES.items()},
+            **({"duty": {name: each.unit for name, each in NUMBERS.items()}, "brake": dict(BRAKE)} if moves else {}),
+        },
+        "provenance": provenance.of_case(found.ranked[0].candidate.case) if found.ranked else None,
+    }
+
+
+def plan_document(plan: Plan) -> dict[str, Any]:
+    """What a selection would do, before it is done."""
+    return {
+        "candidates": plan.candidates,
+        "seconds": plan.seconds,
+        "unasked": [{"input": one.input, "checks": list(one.checks)} for one in plan.unasked],
+    }
+
+
+def row_document(found: Candidate) -> dict[str, Any]:
+    """A candidate as it comes, before it has a rank: what is seen in the list."""
+    return {
+        "label": found.variant.label,
+        "complete": found.complete,
+        "fits": found.fits,
+        "holds": found.holds,
+        "worst": found.worst if math.isfinite(found.worst) else None,
+        "fails": [{"name": c.name, "utilisation": c.utilisation} for c in found.failed],
+        "objectives": dict(found.objectives),
     }
 
 
@@ -76,8 +110,16 @@ def objectives_document(names: Any) -> list[dict[str, Any]]:
 def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
     """One candidate: the document of its check, with its rank, what fails, the numbers compared, and its case file."""
     found = ranked.candidate
-    whole = check_documents.list_document([found.checked])[0]
-    duty = {} if found.duty is None else {"duty": dict(found.duty.numbers)}
+    whole: dict[str, Any] = {"results": {}, "verdicts": [], "warnings": [], "assumed": []}
+    if found.run is not None:
+        whole = check_documents.list_document([found.run])[0]
+        if found.duty is not None:  # of the cycle, and not of steady travel
+            for name in ("verdicts", "warnings"):
+                whole[name] = [one for one in whole[name] if one["id"] != STARVED]
+            whole["warnings"] = [*documents(found.starved), *whole["warnings"]]
+    duty: dict[str, Any] = {}
+    if found.duty is not None:
+        duty = {"duty": dict(found.duty.numbers), "brake": brake_document(found.duty.brake)}
     return {
         "rank": ranked.rank,
         "name": found.name,
@@ -88,9 +130,10 @@ def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
             "source": found.variant.row.source,
         },
         "nut": found.variant.nut,
-        "preload": float(found.checked.nut.preload),
+        "preload": found.preload,
         "oil": found.variant.oil_name,
         "holds": found.holds,
+        "complete": found.complete,
         "valid": found.valid,
         "pareto": ranked.pareto,
         "preload_lost_above": found.preload_lost_above,
@@ -99,6 +142,7 @@ def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
         "verdict": verdict(found),
         "objectives": dict(found.objectives),
         "case": _case(found, need),
+        "starved": bool(found.starved),
         "results": whole.pop("results"),
         **duty,
         "checks": [check_documents.check_document(check) for check in found.checks],
@@ -107,9 +151,14 @@ def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
     }
 
 
+def brake_document(brake: Brake) -> dict[str, Any]:
+    """What the brake of an axis must hold, without the conditions one by one."""
+    return {name: getattr(brake, name) for name in ("falls", *BRAKE)}
+
+
 def _case(found: Candidate, need: Need) -> dict[str, Any]:
     """The case file of a candidate; one that moves has its steady travel as operation, for all other questions."""
-    known, at = fields_of(OperatingState), found.checked.case.operation
+    known, at = fields_of(OperatingState), found.case.operation
     steady = {name: units.written(getattr(at, name), known[name]) for name in ("axial_load", "screw_speed")}
     tables = case_tables(need, found.variant)
     return {**tables, "operation": steady} if need.moves and "operation" not in tables else tables
@@ -117,7 +166,11 @@ def _case(found: Candidate, need: Need) -> dict[str, Any]:
 
 def verdict(found: Candidate) -> str:
     """All checks in a few words, with the utilisation of those that fail."""
-    text = units.filled(verdict_of(found.checks, passes=Message("holds"), by_how_much=True))
+    if found.complete:
+        said = verdict_of(found.checks, passes=Message("holds"), by_how_much=True)
+    else:
+        said = Message("cannot hold: {names}", {"names": [failing(check) for check in found.failed]})
+    text = units.filled(said)
     limit = found.preload_lost_above
     if limit is not None:
         text += f"; preload lost above {units.shown(limit, _LIFT_OFF)}"

@@ -20,6 +20,7 @@ from ballscrew.selection.need import Need
 from ballscrew.selection.objectives import OBJECTIVES, reflected_mass, shaft_inertia, shaft_length
 from ballscrew.selection.requirements import ALLOWED, FORBIDDEN, Requirements
 from ballscrew.sizing.installation import Installation
+from ballscrew.sizing.listed_nut import PRELOADED
 from ballscrew.uncertainty.sampling import Sampler, sobol_sequence
 
 #: Inputs of the evaluator besides those that are uncertain.
@@ -139,6 +140,9 @@ class DesignModel:
             pressure=at["maximum_pressure"], young_modulus=case.screw.screw_material.young_modulus,
             installation=case.installation, limits=case.limits,
         )  # fmt: skip
+        if self.space.nut in PRELOADED:
+            # the share of the preload that the load takes: all of it, and it is lost
+            found["preload"] = np.where(at["remaining_preload"] > 0, 1 - at["remaining_preload"] / designs.preload, 2.0)
         if required.largest_drive_torque is not None:
             found["drive_torque"] = numbers["drive_torque"] / required.largest_drive_torque
         if required.largest_preload_torque is not None:

@@ -224,12 +224,19 @@ def _member(
     preload, balls = float(designs.preload[0]), float(designs.loaded_balls[0])
     case = _built(need, tables_of(need, space, variables, balls=balls, preload=preload), options)
     whole = checked(f"design {place + 1}", case, need.notes)
-    numbers = objectives_of(need, whole, None, variables["pitch_circle_diameter"])
+    numbers = objectives_of(need, whole, None, variables["pitch_circle_diameter"], as_given=True)
     searched = {
         name: OBJECTIVES[name].sign * float(cost)
         for name, cost in zip(space.objectives, found.costs[place], strict=True)
     }
-    checks = (*whole.checks, *requirement_checks.of(need.requirements, whole, None, numbers))
+    checks = (
+        *whole.checks,
+        *requirement_checks.by_loads(
+            need.requirements, case, numbers, preload=whole.nut.preload,
+            largest_load=float(case.operation.axial_load), balls=whole.nut.loads,
+        ),
+        *requirement_checks.of_friction(need.requirements, whole, None, numbers),
+    )  # fmt: skip
     return Member(variables, searched, whole, checks, {name: numbers[name] for name in OBJECTIVES}, pareto=False)
 
 

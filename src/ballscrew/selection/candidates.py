@@ -11,26 +11,43 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew import units
-from ballscrew.axis_studies.duty import DutyReport, duty
+from ballscrew.axis_studies import duty as duties
+from ballscrew.axis_studies import duty_records
+from ballscrew.axis_studies.duty import DutyReport
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
-from ballscrew.quantities import Force, Length, fields_of
+from ballscrew.errors import Fault, InputError
+from ballscrew.friction.loaded_balls import loads_of
+from ballscrew.quantities import Duration, Force, Length, Torque, fields_of
+from ballscrew.records import Record
 from ballscrew.screw_tables.catalogue import assumed, case_text
 from ballscrew.selection import requirement_checks
 from ballscrew.selection.need import Need
-from ballscrew.selection.objectives import USUAL_LENGTH, reflected_mass, shaft_inertia, shaft_length
+from ballscrew.selection.objectives import OBJECTIVES, USUAL_LENGTH, reflected_mass, shaft_inertia, shaft_length
 from ballscrew.selection.requirements import Requirements
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.checks import Check
 from ballscrew.sizing.installation import Installation
 from ballscrew.sizing.listed_nut import NUTS, PRELOADED, lists_preload
-from ballscrew.studies.check import Checked, checked
+from ballscrew.solvers.load_distribution import BallLoads, preload_of
+from ballscrew.studies.check import Checked, checked, checks_by_loads
 from ballscrew.studies.every_row import copied
 from ballscrew.studies.own_screws import tables_of_row
 from ballscrew.thermal.network import nut_length
 
 #: Preloads where neither need nor row says one: the ends of what vendors give (Rexroth2006: 2 to 10 %), and between.
 USUAL_PRELOADS = ("2 %", "5 %", "10 %")
+#: Checks that friction has no part in: they follow from loads, speeds and sizes.
+BY_LOADS = frozenset(
+    {
+        "static_safety", "life", "running_time", "shaft_stress", "buckling", "critical_speed", "diameter_speed_product",
+        "motor_speed", *requirement_checks.BY_LOADS,
+    }
+)  # fmt: skip
+#: Demand over capacity by the loads alone, above which a candidate cannot hold, and its friction is not asked for.
+NEARLY = 1.25
+#: The least life that is looked for where a need asks for none, s: an assumption, which ranks and fails nothing.
+USUAL_LIFE = 10_000 * 3600.0
 #: How a length is made of a stroke.
 LENGTH_OF_STROKE = "the stroke and a nut of its loaded turns and two leads; add what lies between it and the bearings"
 _FEED = fields_of(Requirements)["feed"]
@@ -62,17 +79,43 @@ class Variant:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Candidate:
-    """A variant with what the full model and all checks say of it."""
+    """A variant with what the full model and all checks say of it.
+
+    One that its loads alone rule out may be without the full model (:attr:`complete`): it has the checks that friction
+    has no part in, the same as the full model would have, and the objectives that follow from them.
+    """
 
     variant: Variant
-    #: The run at the operating point, of a motion that of steady travel, with its own checks.
-    checked: Checked
-    #: The cycle, where the need has a motion; its checks then count.
-    duty: DutyReport | None
+    case: Case
     #: All checks: those of ``ballscrew check`` or ``ballscrew duty``, then those of the need.
     checks: Sequence[Check]
     #: The numbers compared, by the names of :data:`~ballscrew.selection.objectives.OBJECTIVES`, in SI.
     objectives: Mapping[str, float]
+    #: Preload of the nut, N.
+    preload: Force
+    #: The loads of the balls under the largest load of the need.
+    balls: BallLoads
+    #: The run at the operating point, of a motion that of steady travel, with its own checks.
+    run: Checked | None = None
+    #: The cycle, where the need has a motion; its checks then count.
+    duty: DutyReport | None = None
+    #: The least life that is looked for where the need asks for none, s: it ranks, and fails nothing.
+    life_looked_for: Duration | None = None
+    #: That loss and torques are larger in a full bath of oil; the objectives then have the larger.
+    starved: Sequence[Record] = ()
+
+    @property
+    def complete(self) -> bool:
+        """Whether the full model was computed."""
+        return self.run is not None
+
+    @property
+    def checked(self) -> Checked:
+        """The run at the operating point with its own checks; only of one that is :attr:`complete`."""
+        if self.run is None:
+            remedy = "select(…, complete=True) computes those, too, that their loads alone rule out"
+            raise InputError(Fault("select", "has no full model of what cannot hold", self.variant.label, remedy))
+        return self.run
 
     @property
     def name(self) -> str:
@@ -82,7 +125,7 @@ class Candidate:
     @property
     def holds(self) -> bool:
         """Whether all checks were judged and hold."""
-        return all(check.holds for check in self.checks)
+        return self.complete and all(check.holds for check in self.checks)
 
     @property
     def fits(self) -> bool:
@@ -91,16 +134,14 @@ class Candidate:
 
     @property
     def valid(self) -> bool:
-        """Whether the point lies within the validity of the model."""
-        return bool(self.checked.run.friction.valid)
+        """Whether the point lies within the validity of the model, as far as it was computed."""
+        return self.run is None or bool(self.run.run.friction.valid)
 
     @property
     def preload_lost_above(self) -> Force | None:
-        """The load above which the nut has no preload left, N; None where no load of the need reaches it."""
-        nut = self.checked.nut
-        limit = float(nut.loads.lift_off_load)
-        in_cycle = self.duty is not None and nut.preload > 0 and self.duty.largest_load >= limit
-        return limit if nut.preload_is_lost or in_cycle else None
+        """The load above which the nut has no preload left, N; None where no load of the need takes it away."""
+        lost = self.preload > 0 and float(self.balls.remaining_preload) <= 0
+        return float(self.balls.lift_off_load) if lost else None
 
     @property
     def failed(self) -> Sequence[Check]:
@@ -110,10 +151,32 @@ class Candidate:
     @property
     def worst(self) -> float:
         """The largest utilisation of all checks; one or less where all hold."""
-        if any(check.utilisation is None for check in self.failed):
-            return math.inf
-        used = [check.utilisation for check in self.checks if check.utilisation is not None]
-        return max((value for value in used if not math.isnan(value)), default=0.0)
+        return _worst(self.checks)
+
+    @property
+    def worst_by_loads(self) -> float:
+        """The largest utilisation of the checks that friction has no part in."""
+        return _worst([check for check in self.checks if check.name in BY_LOADS])
+
+    @property
+    def cannot_hold(self) -> bool:
+        """Whether its loads alone rule it out, and not by little: :data:`NEARLY`."""
+        return self.worst_by_loads > NEARLY
+
+    @property
+    def life_short(self) -> float:
+        """The life that is looked for over its own, where the need asks for none; else zero."""
+        life = self.objectives["life"]
+        if self.life_looked_for is None or math.isnan(life):
+            return 0.0
+        return self.life_looked_for / life if life else math.inf
+
+
+def _worst(checks: Sequence[Check]) -> float:
+    if any(check.utilisation is None for check in checks if check.holds is False):
+        return math.inf
+    used = [check.utilisation for check in checks if check.utilisation is not None]
+    return max((value for value in used if not math.isnan(value)), default=0.0)
 
 
 def variants(need: Need, rows: Sequence[CatalogueRow], file: Path | None) -> Iterator[Variant]:
@@ -202,47 +265,148 @@ def case_of(need: Need, variant: Variant, *, model: str | None, calibration: str
     )  # fmt: skip
 
 
-def judged(need: Need, variant: Variant, case: Case) -> Candidate:
-    """A variant with all that is computed of it."""
+def by_loads(need: Need, variant: Variant, case: Case) -> Candidate:
+    """A variant with what follows from its loads and sizes alone: one solution of the balls, and no friction."""
+    preload = float(preload_of(case.screw, case.screw.nut))
+    if need.moves:
+        report = duties.planned(case)
+        balls, own = report.balls_under_largest_load, report.checks_by_loads
+        time, load = float(report.life_time), report.largest_load
+    else:
+        load = float(case.operation.axial_load)
+        balls = loads_of(case.screw, load)
+        own = checks_by_loads(case, preload, float(balls.remaining_preload))
+        time = _life_of(own)
+    numbers = {
+        **dict.fromkeys(OBJECTIVES, math.nan),
+        **_of_shaft(need, case, variant.row.nominal_diameter),
+        "life": time,
+        "price_index": _price(need, variant),
+    }
+    required = requirement_checks.by_loads(
+        need.requirements, case, numbers, preload=preload, largest_load=load, balls=balls
+    )
+    return Candidate(variant, case, (*own, *required), numbers, preload, balls, life_looked_for=_looked_for(need))
+
+
+def judged(need: Need, variant: Variant, case: Case, *, recorded: bool = False) -> Candidate:
+    """A variant with all that is computed of it; ``recorded`` where many of its kind are judged."""
     row = variant.row
     notes = [text for name, text in assumed(row).items() if name != "loaded_turns"]
     if need.length_is_stroke and case.installation is not None:
         length = units.shown(case.installation.unsupported_length, fields_of(Installation)["unsupported_length"])
         notes.append(f"unsupported length {length}: {LENGTH_OF_STROKE}")
     found = checked(row.name, case, [*need.notes, *notes])
-    report = duty(case) if need.moves else None
-    prices = need.price_index
-    listed = math.nan if row.price_index is None else row.price_index
-    numbers = objectives(need, found, report, row.nominal_diameter, prices.get(row.name, listed))
+    report = duties.duty(case, recorded=recorded) if need.moves else None
+    numbers = objectives(need, found, report, row.nominal_diameter, _price(need, variant))
     own = found.checks if report is None else report.checks
+    balls = found.nut.loads if report is None else report.balls_under_largest_load
+    load = float(case.operation.axial_load) if report is None else report.largest_load
+    preload = found.nut.preload
     return Candidate(
-        variant, found, report, (*own, *requirement_checks.of(need.requirements, found, report, numbers)), numbers
+        variant,
+        case,
+        (
+            *own,
+            *requirement_checks.by_loads(
+                need.requirements, case, numbers, preload=preload, largest_load=load, balls=balls
+            ),
+            *requirement_checks.of_friction(need.requirements, found, report, numbers),
+        ),
+        numbers,
+        preload,
+        balls,
+        found,
+        report,
+        _looked_for(need),
+        starved(found, report),
     )
 
 
-def objectives(
-    need: Need, found: Checked, report: DutyReport | None, diameter: float, price_index: float = math.nan
-) -> dict[str, float]:
-    """The numbers compared, in SI. The shaft is a cylinder of this diameter, 1 m long where no length is known."""
-    case, friction = found.case, found.run.friction
+def _looked_for(need: Need) -> Duration | None:
+    limits = need.tables.get("limits")
+    asked = isinstance(limits, dict) and "running_time" in limits
+    return None if asked else USUAL_LIFE
+
+
+def _price(need: Need, variant: Variant) -> float:
+    listed = math.nan if variant.row.price_index is None else variant.row.price_index
+    return need.price_index.get(variant.row.name, listed)
+
+
+def _life_of(checks: Sequence[Check]) -> Duration:
+    """The time that nine of ten outlive, by the check of it; NaN where it is not known."""
+    value = next(check for check in checks if check.name == "running_time").value
+    return math.nan if value is None else float(value)
+
+
+def _of_shaft(need: Need, case: Case, diameter: Length) -> dict[str, float]:
+    """Inertia and reflected mass of a cylinder of this diameter, 1 m long where no length is known."""
     installation = case.installation
     length = shaft_length(need.requirements, installation) or USUAL_LENGTH
     density = _DENSITY if installation is None else installation.shaft_density
     inertia = shaft_inertia(diameter, length, density)
-    if report is None:
-        time = found.check("running_time").value
-        loss, torque = float(friction.friction_power), abs(float(friction.drive_torque))
-    else:
-        numbers = report.numbers
-        time, torque = numbers["life_time"], abs(numbers["torque_peak"])
-        loss = numbers["energy_lost"] / numbers["cycle_time"]
+    return {"inertia": inertia, "reflected_mass": reflected_mass(inertia, case.screw.lead)}
+
+
+def objectives(
+    need: Need,
+    found: Checked,
+    report: DutyReport | None,
+    diameter: float,
+    price_index: float = math.nan,
+    *,
+    as_given: bool = False,
+) -> dict[str, float]:
+    """The numbers compared, in SI. The shaft is a cylinder of this diameter, 1 m long where no length is known.
+
+    Loss and torques are the larger of those with the inlet as it is given, which oil that comes back late starves, and
+    those in a full bath of oil: which of them a ball screw has is not measured. ``as_given`` keeps to the former.
+    """
+    starves = not as_given and bool(starved(found, report))
     return {
-        "loss": loss,
-        "inertia": inertia,
-        "reflected_mass": reflected_mass(inertia, case.screw.lead),
-        "life": math.nan if time is None else float(time),
+        **dict.fromkeys(OBJECTIVES, math.nan),
+        **(_of_point(found, starves=starves) if report is None else _of_cycle(report, starves=starves)),
+        **_of_shaft(need, found.case, diameter),
         "rigidity": float(found.nut.loads.rigidity),
-        "drive_torque": torque,
-        "preload_torque": float(found.nut.preload_drag),
+        "preload_torque": _without_load(found) if starves else float(found.nut.preload_drag),
         "price_index": float(price_index),
     }
+
+
+def starved(found: Checked, report: DutyReport | None) -> list[Record]:
+    """The record of a torque that differs from that in a full bath of oil; of a motion that of its cycle."""
+    if report is not None:
+        return duty_records.starved(report)
+    return units.in_display_units_of(found.run.friction.starvation)
+
+
+def _of_point(found: Checked, *, starves: bool) -> dict[str, float]:
+    friction = found.run.friction
+    torque = float(friction.screw_torque)
+    more = max(float(friction.flooded_torque) - torque, 0.0) if starves else 0.0
+    loss, drive = float(friction.friction_power), float(friction.drive_torque)
+    way = math.copysign(1.0, float(friction.screw_speed)) if float(friction.screw_speed) else 0.0
+    return {
+        "loss": loss + more * abs(float(friction.screw_speed)),
+        "drive_torque": max(abs(drive), abs(drive + way * more)),
+        "life": _life_of(found.checks),
+    }
+
+
+def _of_cycle(report: DutyReport, *, starves: bool) -> dict[str, float]:
+    numbers, full = report.numbers, report.full_bath
+    lost = max(numbers["energy_lost"], full["energy_lost"]) if starves else numbers["energy_lost"]
+    torque = abs(numbers["torque_peak"])
+    return {
+        "loss": lost / numbers["cycle_time"],
+        "drive_torque": max(torque, full["torque_peak"]) if starves and not report.by_rule else torque,
+        "life": numbers["life_time"],
+    }
+
+
+def _without_load(found: Checked) -> Torque:
+    """Torque of the nut without load in a full bath of oil, or as it is given where that is larger."""
+    case = found.run.case
+    idle = case.model.in_full_bath(case.screw, case.lubricant, axial_load=0.0, screw_speed=case.operation.screw_speed)
+    return max(float(idle.screw_torque), float(found.nut.preload_drag))

@@ -6,19 +6,50 @@ import math
 from collections.abc import Mapping
 
 from ballscrew.axis_studies.duty import DutyReport
-from ballscrew.records import Message
+from ballscrew.cases.case import Case
+from ballscrew.quantities import Force, quantities_of
+from ballscrew.records import Measured, Message
 from ballscrew.selection.objectives import shaft_length
 from ballscrew.selection.requirements import ALLOWED, FORBIDDEN, Requirements
 from ballscrew.sizing.checks import Check
+from ballscrew.solvers.load_distribution import BallLoads
 from ballscrew.studies.check import Checked
 
+#: The checks of :func:`by_loads`.
+BY_LOADS = ("preload", "remaining_preload", "inertia", "step")
+_LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
 _NOT_KNOWN = Message("{what}: not known here")
 
 
-def of(
+def by_loads(
+    required: Requirements,
+    case: Case,
+    numbers: Mapping[str, float],
+    *,
+    preload: Force,
+    largest_load: Force,
+    balls: BallLoads,
+) -> tuple[Check, ...]:
+    """A check for the preload of a nut and for each requirement that is set and knows no friction.
+
+    ``balls`` are under the largest load of the need.
+    """
+    found = (
+        kept_preload(preload, largest_load, balls),
+        at_least(
+            "remaining_preload", float(balls.remaining_preload), required.least_remaining_preload, "N",
+            Message("preload that the largest load leaves on the relieved half or flank"),
+        ),
+        _inertia(required, case, numbers["inertia"]),
+        step(required, float(case.screw.lead)),
+    )  # fmt: skip
+    return tuple(check for check in found if check is not None)
+
+
+def of_friction(
     required: Requirements, found: Checked, report: DutyReport | None, numbers: Mapping[str, float]
 ) -> tuple[Check, ...]:
-    """A check for each requirement that is set."""
+    """A check for each other requirement that is set."""
     bounds = (
         at_most(
             "drive_torque", numbers["drive_torque"], required.largest_drive_torque, "N m",
@@ -32,15 +63,27 @@ def of(
             "rigidity", numbers["rigidity"], required.least_rigidity, "N/m",
             Message("rigidity of the nut under the load"),
         ),
-        at_least(
-            "remaining_preload", float(found.nut.loads.remaining_preload), required.least_remaining_preload, "N",
-            Message("preload that the load leaves on the relieved half or flank"),
-        ),
-        _inertia(required, found, numbers["inertia"]),
-        step(required, float(found.case.screw.lead)),
     )  # fmt: skip
     drives = back_driving(required, found) if report is None else _of_axis(required, report)
     return tuple(check for check in (*bounds, drives) if check is not None)
+
+
+def kept_preload(preload: Force, largest_load: Force, balls: BallLoads) -> Check | None:
+    """Whether the largest load leaves some of the preload; of a nut that has one.
+
+    The utilisation is the share of the preload that the load takes, and where it takes all of it, the load over that at
+    which the balls of a rigid nut lift off the other half or flank.
+    """
+    if not preload > 0:
+        return None
+    left, limit = float(balls.remaining_preload), float(balls.lift_off_load)
+    holds = left > 0
+    used = 1 - left / preload if holds else max(abs(largest_load) / limit, 1.0)
+    message = Message(
+        "preload that the largest load leaves on the relieved half or flank: some; rigid bodies lose it above {load}",
+        {"load": Measured(limit, _LIFT_OFF)},
+    )
+    return Check.saying(message, "preload", left, 0.0, "N", used, holds)
 
 
 def at_most(name: str, value: float, limit: float | None, unit: str, message: Message) -> Check | None:
@@ -61,10 +104,10 @@ def at_least(name: str, value: float, limit: float | None, unit: str, message: M
     return Check.saying(message, name, value, limit, unit, limit / value if value else math.inf, value >= limit)
 
 
-def _inertia(required: Requirements, found: Checked, value: float) -> Check | None:
+def _inertia(required: Requirements, case: Case, value: float) -> Check | None:
     """Inertia of the shaft; not judged where its length is not known."""
     limit = required.largest_inertia
-    if limit is not None and shaft_length(required, found.case.installation) is None:
+    if limit is not None and shaft_length(required, case.installation) is None:
         message = Message("not judged: give the length of the shaft, or the stroke")
         return Check.saying(message, "inertia", None, limit, "kg m^2", None, None, "installation.unsupported_length")
     return at_most("inertia", value, limit, "kg m^2", Message("inertia of a solid shaft"))

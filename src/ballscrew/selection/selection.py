@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping, MutableMapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Mapping, MutableMapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ballscrew.cases.case import Case
 from ballscrew.errors import Fault, InputError
+from ballscrew.kernels import kernel as kernels
 from ballscrew.screw_tables import catalogue
 from ballscrew.selection.candidates import (
     LENGTH_OF_STROKE,
+    USUAL_LIFE,
     USUAL_PRELOADS,
     Candidate,
     Variant,
     assumes_preload,
+    by_loads,
     case_of,
     judged,
     variants,
@@ -26,10 +30,44 @@ from ballscrew.selection.candidates import (
 from ballscrew.selection.need import Need, need_of
 from ballscrew.selection.objectives import OBJECTIVES, USUAL_OBJECTIVES, objectives_named
 from ballscrew.selection.pareto import front
+from ballscrew.sizing.listed_nut import NUTS
 from ballscrew.studies.every_row import Done, each
 
 #: Variants at most: more take hours.
 MOST_VARIANTS = 20_000
+#: Candidates with a motion of one kind of nut from which on their friction is recorded and compiled, which takes some
+#: seconds: of balls with two contacts, and of balls with four.
+WORTH_RECORDING, WORTH_RECORDING_FOUR = 25, 50
+
+
+#: Seconds of one processor for a candidate by the full model: at an operating point, over a cycle, and over a cycle
+#: whose friction is recorded. They say what a selection costs and decide nothing.
+SECONDS: Mapping[str, float] = {"point": 0.08, "cycle": 0.35, "recorded": 0.15}
+
+
+class Unasked(NamedTuple):
+    """An input that a need leaves empty, and the checks that nobody can judge without it."""
+
+    input: str
+    checks: tuple[str, ...]
+
+
+#: What a need may leave empty though checks need it.
+UNASKED = (
+    Unasked("limits.running_time", ("life", "running_time")),
+    Unasked("installation.unsupported_length", ("buckling", "critical_speed")),
+    Unasked("installation.ends", ("buckling", "critical_speed")),
+)
+
+
+@dataclasses.dataclass(frozen=True)
+class Plan:
+    """What a selection would do."""
+
+    candidates: int
+    #: Seconds of one processor, at most: those that their loads rule out cost next to nothing.
+    seconds: float
+    unasked: Sequence[Unasked]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -76,21 +114,106 @@ def select(
     calibration: str | None = None,
     allow_code: bool = False,
     keep_going: bool = False,
+    complete: bool = False,
     done: Done | None = None,
+    found_one: Callable[[Candidate], None] | None = None,
     known: MutableMapping[str, Candidate] | None = None,
 ) -> Selection:
     """Every row of the catalogue with every nut, preload and oil of a need, judged and ranked.
 
     Each candidate is the case that ``ballscrew check`` would take, of a need with a motion that of ``ballscrew duty``:
-    nothing is estimated. First come those of which no check fails, within the validity of the model before those
-    outside, members of the Pareto front before others, then by the first of the ``objectives``; those that fail follow
-    by their largest utilisation. ``rows`` is a table of one's own in place of the catalogue, ``words`` what rows must
-    have in name, source or kind of nut. ``known`` are candidates by their labels that a call with the same arguments
-    found before it was stopped; those found now are put in.
+    nothing is estimated. What follows from loads and sizes alone is judged first; of those that it rules out by more
+    than :data:`~ballscrew.selection.candidates.NEARLY` the friction is asked for only if the list is to be
+    ``complete``, which changes no rank.
+
+    First come those of which no check fails, within the validity of the model before those outside, members of the
+    Pareto front before others, then by the first of the ``objectives``. Those that fail follow by their largest
+    utilisation, and last those that their loads rule out. Where a need asks for no life, those of less than
+    :data:`~ballscrew.selection.candidates.USUAL_LIFE` are ranked as if they failed it by as much. ``rows`` is a table
+    of one's own in place of the catalogue, ``words`` what rows must have in name, source or kind of nut. ``found_one``
+    gets each candidate as it comes. ``known`` are candidates by their labels that a call with the same arguments found
+    before it was stopped; those found now are put in.
 
     Raises :class:`~ballscrew.errors.InputError` for faults of the need, and of rows; with ``keep_going`` rows at fault
     are left out, with a note, if any other is good.
     """
+    ready = _prepared(need, rows, words, objectives, settings, keep_going=keep_going)
+    asked, every, table = ready.need, ready.variants, ready.table
+    if "running_time" not in asked.tables.get("limits", {}):
+        hours = f"{USUAL_LIFE / 3600:,.0f} h"
+        asked = asked.with_note(f"no life was asked for: what lives less than {hours} is ranked after the others")
+    before = {} if known is None else known
+    recorded = _worth_recording(asked, every)
+
+    def work(variant: Variant) -> Candidate:
+        if variant.label not in before:
+            case: Case = case_of(asked, variant, model=model, calibration=calibration, allow_code=allow_code)
+            first = by_loads(asked, variant, case)
+            rest = first.cannot_hold and not complete
+            before[variant.label] = first if rest else judged(asked, variant, case, recorded=variant.nut in recorded)
+        if found_one is not None:
+            found_one(before[variant.label])
+        return before[variant.label]
+
+    # a variant that no maker could build, such as a preload beyond its rating, is left out of the shipped rows, too
+    found = each({one.label: one for one in every}, work, keep_going=keep_going or table is None, done=done)
+    if asked.length_is_stroke:  # each candidate says its own length
+        asked = asked.with_note(f"unsupported length: {LENGTH_OF_STROKE}")
+    candidates = list(found.found.values())
+    return Selection(
+        asked, ready.objectives, ranked(candidates, ready.objectives), [*ready.notes, *found.notes], found.interrupted
+    )
+
+
+def plan(
+    need: str | Path | Mapping[str, Any] | Need,
+    *,
+    rows: str | Path | None = None,
+    words: str | None = None,
+    settings: Sequence[str] = (),
+    keep_going: bool = False,
+) -> Plan:
+    """How many candidates :func:`select` would judge, in about what time, and what of them it could not judge.
+
+    Raises :class:`~ballscrew.errors.InputError` as :func:`select` does for faults of the need and of the table.
+    """
+    ready = _prepared(need, rows, words, None, settings, keep_going=keep_going)
+    asked, every = ready.need, ready.variants
+    seconds = 0.0
+    recorded = _worth_recording(asked, every)
+    for variant in every:
+        seconds += SECONDS["point"] if not asked.moves else SECONDS["recorded" if variant.nut in recorded else "cycle"]
+    return Plan(len(every), seconds, tuple(one for one in UNASKED if _is_open(asked, one.input)))
+
+
+def _is_open(need: Need, place: str) -> bool:
+    """Whether a need leaves an input empty; a stroke stands for the length, once the ends are known."""
+    section, _, name = place.partition(".")
+    table = need.tables.get(section)
+    if isinstance(table, Mapping) and name in table:
+        return False
+    return not (name == "unsupported_length" and need.requirements.stroke is not None)
+
+
+class _Prepared(NamedTuple):
+    """A need with its objectives and what is to be judged for it."""
+
+    need: Need
+    objectives: Sequence[str]
+    variants: Sequence[Variant]
+    table: Path | None
+    notes: Sequence[str]
+
+
+def _prepared(
+    need: str | Path | Mapping[str, Any] | Need,
+    rows: str | Path | None,
+    words: str | None,
+    objectives: Sequence[str] | None,
+    settings: Sequence[str],
+    *,
+    keep_going: bool,
+) -> _Prepared:
     asked = need_of(need, settings)
     names = asked.objectives if objectives is None else objectives_named(objectives, "objectives")
     table = None if rows is None else Path(rows)
@@ -110,35 +233,35 @@ def select(
     if len(every) > MOST_VARIANTS:
         remedy = f"name fewer; {MOST_VARIANTS} at most"
         raise InputError(Fault("need", "has too many combinations", str(len(every)), remedy))
+    return _Prepared(asked, names, every, table, notes)
 
-    before = {} if known is None else known
 
-    def work(variant: Variant) -> Candidate:
-        if variant.label not in before:
-            case: Case = case_of(asked, variant, model=model, calibration=calibration, allow_code=allow_code)
-            before[variant.label] = judged(asked, variant, case)
-        return before[variant.label]
-
-    # a variant that no maker could build, such as a preload beyond its rating, is left out of the shipped rows, too
-    found = each({one.label: one for one in every}, work, keep_going=keep_going or table is None, done=done)
-    if asked.length_is_stroke:  # each candidate says its own length
-        asked = asked.with_note(f"unsupported length: {LENGTH_OF_STROKE}")
-    return Selection(asked, names, ranked(list(found.found.values()), names), [*notes, *found.notes], found.interrupted)
+def _worth_recording(need: Need, every: Sequence[Variant]) -> frozenset[str]:
+    """The kinds of nuts of which so many candidates move that their friction is recorded and compiled once."""
+    if not need.moves or not kernels.available():
+        return frozenset()
+    counts = Counter(variant.nut for variant in every)
+    four = {nut for nut in counts if nut in NUTS and NUTS[nut].contacts_per_ball == 4}
+    return frozenset(
+        nut for nut, count in counts.items() if count >= (WORTH_RECORDING_FOUR if nut in four else WORTH_RECORDING)
+    )
 
 
 def ranked(candidates: Sequence[Candidate], objectives: Sequence[str]) -> list[Ranked]:
     """Candidates in their order, see :func:`select`."""
-    fitting = [found for found in candidates if found.fits]
+    fitting = [found for found in candidates if found.fits and found.life_short <= 1]
     # an estimate beyond the validity of the model beats nothing that is within it
     fitting = [found for found in fitting if found.valid] or fitting
     costs = np.array([costs_of(found, objectives) for found in fitting]).reshape(len(fitting), len(objectives))
     best = {id(found) for found, leads in zip(fitting, front(costs), strict=True) if leads}
 
     def key(found: Candidate) -> tuple[Any, ...]:
+        if found.cannot_hold:  # by what is known with and without the full model
+            return (2, found.worst_by_loads, found.variant.label)
         first = costs_of(found, objectives[:1])[0]
         number = math.inf if math.isnan(first) else first
-        if not found.fits:
-            return (1, found.worst, number, found.variant.label)
+        if not found.fits or found.life_short > 1:
+            return (1, max(found.worst, found.life_short), number, found.variant.label)
         return (0, not found.valid, id(found) not in best, number, found.variant.label)
 
     ordered = sorted(candidates, key=key)

@@ -123,7 +123,7 @@ def verdict_of(checks: Sequence[Check], *, passes: Message = _PASSES, by_how_muc
 
     Elsewhere the words say how many were judged; ``by_how_much`` adds the utilisation of those that fail.
     """
-    names = [_failed(check, by_how_much) for check in checks if check.holds is False]
+    names = [failing(check, by_how_much=by_how_much) for check in checks if check.holds is False]
     count = {"judged": Measured(judged(checks)), "all": Measured(len(checks))}
     if judged(checks) == len(checks):
         return Message("fails: {names}", {"names": names}) if names else passes
@@ -132,8 +132,8 @@ def verdict_of(checks: Sequence[Check], *, passes: Message = _PASSES, by_how_muc
     return Message("{judged} of {all} judged, and these hold", count)
 
 
-def _failed(check: Check, by_how_much: bool) -> Message:
-    """The name of a check that fails."""
+def failing(check: Check, *, by_how_much: bool = True) -> Message:
+    """The name of a check that fails, and by how many times."""
     if not by_how_much or check.utilisation is None:
         return check.title
     return Message("{check} {times} times", {"check": check.title, "times": Measured(check.utilisation, digits=3)})

@@ -14,6 +14,7 @@ from ballscrew.cases import case_file, descriptions, nut_tables
 from ballscrew.cases.case import Case
 from ballscrew.components.nut import Nut, OversizeBallNut
 from ballscrew.errors import Fault, InputError
+from ballscrew.quantities import Force, Pressure
 from ballscrew.records import Message, Record, Severity
 from ballscrew.screw_tables import catalogue
 from ballscrew.screw_tables.nut_kinds import LISTED
@@ -249,25 +250,11 @@ def checked(name: str, case: Case, notes: Sequence[str] = (), known: Run | None 
     run = with_nut(case, case.nut or nut_tables.SINGLE) if known is None or known.nut is None else known
     assert run.nut is not None
     computed = _computed(case)
-    rated = {name: case.listed.get(name) for name in RATINGS}
-    stand_ins = [name for name, value in rated.items() if value is None and computed is not None]
-    if computed is not None:
-        rated |= {name: getattr(computed, RATINGS[name]) for name in stand_ins}
-    # the checks are of magnitudes: a screw wears and buckles the same in either direction
-    load, left = abs(float(case.operation.axial_load)), float(run.nut.loads.remaining_preload)
-    found = checks(
-        case.screw,
-        axial_load=load,
-        screw_speed=abs(float(case.operation.screw_speed)),
-        nut=_of_known_preload(run),
-        **rated,
-        half_loads=(load + left, left) if left > 0 else (load,),
-        maximum_pressure=run.nut.maximum_pressure,
-        root_diameter=case.listed.get("root_diameter"),
-        installation=case.installation,
-        limits=case.limits,
-        speed_limit=speed_limit_of(case.row),
-    )
+    rated, stand_ins = _rated(case, computed)
+    found = _judged(
+        case, _of_known_preload(run.case.screw.nut, run.nut.preload), rated, float(run.nut.loads.remaining_preload),
+        run.nut.maximum_pressure,
+    )  # fmt: skip
     of_ratings = [f"{name.replace('_', ' ')} computed from the geometry: none is listed" for name in stand_ins]
     of_rigidity = [f"rigidity: {text}" for text in run.nut.rigidity.assumed]
     assumptions = [*notes, *descriptions.assumptions(run.case), *of_ratings, *of_rigidity]
@@ -275,11 +262,47 @@ def checked(name: str, case: Case, notes: Sequence[str] = (), known: Run | None 
     return Checked(name, case, run, run.nut, computed, found, list(dict.fromkeys(filter(None, assumptions))))
 
 
-def _of_known_preload(run: Run) -> Nut:
-    """The nut of a run with its preload as a number, also where the case gives the oversize of the balls."""
-    nut = run.case.screw.nut
-    assert run.nut is not None
-    return nut.changed("preload", run.nut.preload) if isinstance(nut, OversizeBallNut) else nut
+def checks_by_loads(case: Case, preload: Force, left: Force) -> Sequence[Check]:
+    """The checks of a case that friction has no part in: those of :func:`checked` without the pressure.
+
+    Its nut has this preload, of which the load leaves so much.
+    """
+    rated, _ = _rated(case, _computed(case))
+    nut = _of_known_preload(case.screw.nut, preload)
+    return [check for check in _judged(case, nut, rated, left, None) if check.name != "contact_pressure"]
+
+
+def _judged(
+    case: Case, nut: Nut, rated: Mapping[str, float | None], left: Force, pressure: Pressure | None
+) -> tuple[Check, ...]:
+    """The checks under a load that leaves so much of the preload."""
+    # the checks are of magnitudes: a screw wears and buckles the same in either direction
+    load = abs(float(case.operation.axial_load))
+    return checks(
+        case.screw,
+        axial_load=load,
+        screw_speed=abs(float(case.operation.screw_speed)),
+        nut=nut,
+        **rated,
+        half_loads=(load + left, left) if left > 0 else (load,),
+        maximum_pressure=pressure,
+        root_diameter=case.listed.get("root_diameter"),
+        installation=case.installation,
+        limits=case.limits,
+        speed_limit=speed_limit_of(case.row),
+    )
+
+
+def _rated(case: Case, computed: Ratings | None) -> tuple[dict[str, float | None], list[str]]:
+    """The ratings of a case, those of the geometry where it lists none, and the names of these."""
+    rated = {name: case.listed.get(name) for name in RATINGS}
+    stand_ins = [name for name, value in rated.items() if value is None and computed is not None]
+    return rated | {name: getattr(computed, RATINGS[name]) for name in stand_ins}, stand_ins
+
+
+def _of_known_preload(nut: Nut, preload: Force) -> Nut:
+    """The nut with its preload as a number, also where the case gives the oversize of the balls."""
+    return nut.changed("preload", preload) if isinstance(nut, OversizeBallNut) else nut
 
 
 def _computed(case: case_file.Case) -> Ratings | None:

@@ -55,7 +55,7 @@ def put(cells: _Cells, quantity: Quantity, value: Any, name: str | None = None) 
     cells[units.heading(quantity, name)] = shown
 
 
-def _table(rows: Sequence[_Cells]) -> RowTable:
+def of_cells(rows: Sequence[_Cells]) -> RowTable:
     """Rows that need not have the same columns; those of the first come first."""
     headings = list(dict.fromkeys(heading for cells in rows for heading in cells))
     return RowTable(headings, [[cells.get(heading) for heading in headings] for cells in rows])
@@ -63,7 +63,7 @@ def _table(rows: Sequence[_Cells]) -> RowTable:
 
 def of_runs(runs: Mapping[str, Run]) -> RowTable:
     """The results of each screw at its operating point."""
-    return _table([_of_run(name, run) for name, run in runs.items()])
+    return of_cells([_of_run(name, run) for name, run in runs.items()])
 
 
 def _of_run(name: str, run: Run) -> _Cells:
@@ -81,7 +81,7 @@ def _of_run(name: str, run: Run) -> _Cells:
 
 def of_checks(screws: Sequence[Checked]) -> RowTable:
     """The results, ratings and checks of each screw; of a check its value, and the share of the limit that is used."""
-    return _table([_of_check(screw) for screw in screws])
+    return of_cells([_of_check(screw) for screw in screws])
 
 
 def _of_check(found: Checked) -> _Cells:
@@ -98,7 +98,7 @@ def _of_check(found: Checked) -> _Cells:
 
 def of_fits(reports: Mapping[str, FitReport]) -> RowTable:
     """What was found for each screw from its log: the numbers with their errors and the ends of their 95 % interval."""
-    return _table([_of_fit(name, report) for name, report in reports.items()])
+    return of_cells([_of_fit(name, report) for name, report in reports.items()])
 
 
 def _of_fit(name: str, report: FitReport) -> _Cells:

@@ -4,21 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ballscrew.documents.selection import verdict
+from ballscrew.axis_studies.duty import NUMBERS
+from ballscrew.documents.selection import BRAKE, verdict
 from ballscrew.optimisation.design_space import VARIABLES
 from ballscrew.optimisation.optimisation import Member
 from ballscrew.selection.objectives import OBJECTIVES
 from ballscrew.selection.selection import Ranked
-from ballscrew.table_files.row_tables import RowTable, of_checks, put
+from ballscrew.table_files.row_tables import RowTable, of_cells, of_checks, put
 
 
 def of_selection(ranked: Sequence[Ranked]) -> RowTable:
-    """Rank, row, nut, preload and oil, the objectives, and all that ``ballscrew check --to`` writes of a screw."""
-    checked = of_checks([each.candidate.checked for each in ranked])
-    kept = [place for place, heading in enumerate(checked.headings) if heading not in ("name", "nut", "verdict")]
-    headings: list[str] = []
-    rows: list[list[object]] = []
-    for each, of_check in zip(ranked, checked.rows, strict=True):
+    """Rank, row, nut, preload and oil, the objectives, and all that ``ballscrew check --to`` writes of a screw.
+
+    Of a need with a motion with the torques of motor and brake. Cells of what was not computed are empty.
+    """
+    complete = [each.candidate.checked for each in ranked if each.candidate.complete]
+    table = of_checks(complete)
+    kept = [place for place, heading in enumerate(table.headings) if heading not in ("name", "nut", "verdict")]
+    of_check = iter(table.rows)
+    rows: list[dict[str, object]] = []
+    for each in ranked:
         found = each.candidate
         cells: dict[str, object] = {
             "rank": each.rank, "name": found.name, "nut": found.variant.nut, "preload as given": found.variant.preload,
@@ -27,11 +32,18 @@ def of_selection(ranked: Sequence[Ranked]) -> RowTable:
         }  # fmt: skip
         for name, objective in OBJECTIVES.items():
             put(cells, objective.quantity, found.objectives[name])
+        if found.duty is not None:
+            for name in ("torque_peak", "torque_rms"):
+                put(cells, NUMBERS[name], found.duty.numbers[name], f"motor {name}")
+            for name in BRAKE:
+                put(cells, NUMBERS["torque_peak"], getattr(found.duty.brake, name), f"brake {name}")
         for check in found.checks:
             cells[f"{check.name.replace('_', ' ')} utilisation"] = check.utilisation
-        headings = headings or [*cells, *(checked.headings[place] for place in kept)]
-        rows.append([*cells.values(), *(of_check[place] for place in kept)])
-    return RowTable(headings, rows)
+        if found.complete:
+            row = next(of_check)
+            cells |= {table.headings[place]: row[place] for place in kept}
+        rows.append(cells)
+    return of_cells(rows)
 
 
 def of_optimisation(members: Sequence[Member]) -> RowTable:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from ballscrew import units
+from ballscrew.axis_studies.duty import NUMBERS, DutyReport
 from ballscrew.documents.selection import verdict
 from ballscrew.output.wrapping import beside, wrapped
 from ballscrew.quantities import fields_of
@@ -13,7 +14,7 @@ from ballscrew.selection.candidates import Candidate
 from ballscrew.selection.need import Need
 from ballscrew.selection.objectives import OBJECTIVES
 from ballscrew.selection.requirements import ALLOWED, Requirements
-from ballscrew.selection.selection import Ranked, Selection
+from ballscrew.selection.selection import Plan, Ranked, Selection
 
 #: Lines shown where nothing else is said.
 USUAL_LINES = 20
@@ -23,10 +24,27 @@ LABELS = {
     "drive_torque": "torque", "preload_torque": "without load", "price_index": "price",
 }  # fmt: skip
 
+#: Torques of a need with a motion, by their headings.
+OF_MOTION: Mapping[str, Callable[[DutyReport], float]] = {
+    "motor, largest": lambda report: report.numbers["torque_peak"],
+    "motor, RMS": lambda report: report.numbers["torque_rms"],
+    "brake holds": lambda report: report.brake.holding_torque,
+}
+
 
 def title(found: Selection) -> str:
     """``need.toml: 16 of 104 candidates hold``."""
     return f"{found.need.name}: {len(found.holding)} of {len(found.ranked)} candidates hold"
+
+
+def cost(plan: Plan) -> str:
+    """``104 candidates: 16 s at most; …``: what a selection costs, and what it could not judge, before it starts."""
+    lines = [f"{plan.candidates} candidates: {max(1.0, plan.seconds):.2g} s of a processor at most"]
+    if plan.unasked:
+        checks = dict.fromkeys(check.replace("_", " ") for one in plan.unasked for check in one.checks)
+        inputs = ", ".join(one.input for one in plan.unasked)
+        lines.append(f"not judged, as nothing is given for {inputs}: {', '.join(checks)}")
+    return "\n".join(map(wrapped, lines))
 
 
 def not_judged(found: Selection) -> str:
@@ -71,10 +89,22 @@ def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) ->
         title(found),
         *([wrapped(reason)] if reason else []),
         "",
-        *table(shown, found.objectives, len(found.need.oils) > 1),
+        *table(shown, found.objectives, len(found.need.oils) > 1, moves=found.need.moves),
     ]
     if len(shown) < len(ranked):
         lines.append(f"… {len(ranked) - len(shown)} more: --first 0 shows all")
+    starved = [each for each in ranked if each.candidate.starved]
+    if starved:
+        first = starved[0]
+        words = (
+            f"{len(starved)} are starved of oil: compared are the larger loss and torque, those in a full bath; "
+            f"{first.rank}: {first.candidate.starved[0].text}"
+        )
+        lines += ["", wrapped(words)]
+    ruled_out = sum(not each.candidate.complete for each in found.ranked)
+    if ruled_out:
+        words = f"{ruled_out} cannot hold by their loads alone; their friction was not computed: --complete computes it"
+        lines.append(wrapped(words))
     if not ranked:
         lines.append("none is left of these")
     named = " and ".join(LABELS[name] for name in found.objectives)
@@ -88,13 +118,23 @@ def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) ->
     return "\n".join(lines)
 
 
-def table(ranked: Sequence[Ranked], objectives: Sequence[str], with_oil: bool) -> list[str]:
-    """A line for each: rank, mark, label, objectives, verdict. The oil is named where there are several."""
-    heading = ["", "", "candidate", *(LABELS[name] for name in objectives), "verdict"]
+def table(ranked: Sequence[Ranked], objectives: Sequence[str], with_oil: bool, *, moves: bool = False) -> list[str]:
+    """A line for each: rank, mark, label, objectives, verdict. The oil is named where there are several.
+
+    Of a need that ``moves`` with the torque of the motor and what a brake has to hold.
+    """
+    of_motion = [*OF_MOTION] if moves else []
+    heading = ["", "", "candidate", *(LABELS[name] for name in objectives), *of_motion, "verdict"]
     cells = [
         heading,
         *(
-            [str(each.rank), "*" if each.pareto else "", *_cells(each.candidate, objectives, with_oil)]
+            [
+                str(each.rank),
+                "*" if each.pareto else "",
+                *_cells(each.candidate, objectives, with_oil),
+                *(_torque(each.candidate, read) for name, read in OF_MOTION.items() if name in of_motion),
+                verdict(each.candidate),
+            ]
             for each in ranked
         ),
     ]
@@ -113,7 +153,11 @@ def _cells(found: Candidate, names: Sequence[str], with_oil: bool) -> list[str]:
     one = found.variant
     nut = "" if one.nut == (one.row.nut or "single") else one.nut
     label = ", ".join(filter(None, [one.row.name, nut, one.preload, one.oil_name if with_oil else ""]))
-    return [label, *(shown(name, found.objectives[name]) for name in names), verdict(found)]
+    return [label, *(shown(name, found.objectives[name]) for name in names)]
+
+
+def _torque(found: Candidate, read: Callable[[DutyReport], float]) -> str:
+    return "–" if found.duty is None else units.shown(read(found.duty), NUMBERS["torque_peak"])
 
 
 def shown(name: str, value: float) -> str:

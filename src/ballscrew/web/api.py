@@ -35,6 +35,7 @@ from ballscrew.optimisation.need_schema import json_schema as schema_of_needs
 from ballscrew.report.heading import Heading
 from ballscrew.screw_tables import catalogue as rows
 from ballscrew.selection.need import need_of
+from ballscrew.selection.selection import plan as planned_selection
 from ballscrew.selection.selection import select as selected
 from ballscrew.sizing.catalogue import catalogue as shipped
 from ballscrew.studies import band as bands
@@ -228,7 +229,8 @@ async def select(request: Request) -> Response:
         with written({} if body.table is None else {"table": body.table}) as paths:
             found = selected(
                 need, rows=paths.get("table"), words=body.words or None, keep_going=bool(paths),
-                done=reported(body.ticket, done), known=unfinished(body.ticket, key),
+                complete=body.complete, done=reported(body.ticket, done), known=unfinished(body.ticket, key),
+                found_one=lambda one: done.row(as_bytes(selection_documents.row_document(one))),
             )  # fmt: skip
         finish(body.ticket, key)
         return as_json(selection_documents.document(found))
@@ -239,6 +241,26 @@ async def select(request: Request) -> Response:
         if refused.status == 400:  # the client has left, and will not go on
             finish(body.ticket, key)
         raise
+
+
+@router.post(
+    "/select/plan",
+    openapi_extra=openapi.body(NeedBody),
+    response_model=select_answers.Plan,
+    responses=openapi.problems_of(),
+)
+async def select_plan(request: Request) -> Response:
+    """What a selection would do: its candidates, its time, and the inputs without which checks are not judged."""
+    body: NeedBody = await read(request, NeedBody)
+
+    def work() -> Response:
+        refuse_paths(body.need)
+        need = limits.check_need(need_of(body.need))
+        with written({} if body.table is None else {"table": body.table}) as paths:
+            found = planned_selection(need, rows=paths.get("table"), words=body.words or None, keep_going=bool(paths))
+        return as_json(selection_documents.plan_document(found))
+
+    return await queue_of(request).quick(work)
 
 
 @router.post(

@@ -92,6 +92,7 @@ class NeedBody(Body):
     """A need: the tables of a file of ``ballscrew select`` as JSON, and words that rows must have.
 
     ``table`` is a table of one's own in place of the catalogue, ``ticket`` a word of the client to ask for progress by.
+    A ``complete`` list has the full model also of those that their loads alone rule out.
     """
 
     most_bytes: ClassVar[int] = MOST_FILE_BYTES
@@ -100,6 +101,7 @@ class NeedBody(Body):
     need: Tables
     words: str = Field(default="", strict=True)
     table: SentFile | None = None
+    complete: bool = Field(default=False, strict=True)
     ticket: str = Field(default="", strict=True, max_length=LONGEST_TICKET)
 
 
