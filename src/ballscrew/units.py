@@ -56,6 +56,8 @@ USUAL: Mapping[str, Sequence[str]] = {
     "s": ("s", "min", "h"),
 }
 _NAMED = 3
+#: Below this a length is what rounding leaves of none, m: a nucleus is as small.
+SMALLEST_LENGTH = 1e-15
 #: Spellings of revolutions per minute, without blanks.
 PER_MINUTE = ("1/min", "/min", "U/min", "r/min", "min-1", "min^-1", "min⁻¹", "RPM")
 #: Spellings of units of a torque, and how they are read.
@@ -175,8 +177,11 @@ def placeholders() -> Generator[list[ShownQuantity]]:
 
 
 def rounded(value: Any, quantity: Quantity, digits: int = 4) -> str:
-    """The digits of a value in its display unit, rounded for reading."""
-    return f"{from_si(float(value), quantity):.{digits}g}"
+    """The digits of a value in its display unit, rounded for reading; a length smaller than a nucleus is zero."""
+    number = float(value)
+    if quantity.unit == "m" and abs(number) < SMALLEST_LENGTH:
+        number = 0.0
+    return f"{from_si(number, quantity):.{digits}g}"
 
 
 def label(quantity: Quantity) -> str:

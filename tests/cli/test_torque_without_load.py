@@ -1,4 +1,4 @@
-"""The torque without load is one quantity: of the whole nut, with seals; rules know balls alone, and so does their base."""
+"""The torque without load is of the whole nut, with seals, everywhere; rules know balls alone, and so their base."""
 
 import json
 from pathlib import Path

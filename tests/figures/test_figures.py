@@ -74,6 +74,26 @@ def test_nothing_is_clipped(figure):
             assert inside or text in undrawn, text.get_text()
 
 
+def test_no_legend_covers_an_axis_or_its_labels(figure):
+    renderer = figure.canvas.get_renderer()
+    undrawn = _undrawn(figure)
+    texts = [
+        text
+        for panel in figure.findobj(mpl.axes.Axes)
+        for axis in (panel.xaxis, panel.yaxis)
+        for text in (*axis.get_ticklabels(), axis.label)
+        if text.get_text() and text.get_visible() and text not in undrawn
+    ]
+    for legend in figure.findobj(mpl.legend.Legend):
+        box = legend.get_window_extent(renderer)
+        for text in texts:
+            assert not box.overlaps(text.get_window_extent(renderer)), text.get_text()
+        if legend.axes is not None:
+            panel = legend.axes.get_window_extent(renderer)
+            assert panel.x0 <= box.x0
+            assert panel.y0 <= box.y0
+
+
 def _undrawn(figure):
     found = set()
     for panel in figure.findobj(mpl.axes.Axes):

@@ -98,3 +98,19 @@ def test_logs_are_read_as_the_command_reads_them(tmp_path):
     assert isinstance(bs.read_log(moving, lead=0.01), bs.MovingLog)
     with pytest.raises(bs.InputError, match=r"read_log\.lead: is needed"):
         bs.read_log(moving)
+
+
+def test_axes_of_a_map_are_in_the_units_that_people_read():
+    oil = bs.Lubricant.from_grade("ISO VG 100")
+    swept = bs.sweep(
+        bs.FrictionModel.corrected(), SCREW, oil, axial_load=2000.0, screw_speed=SPEEDS, temperature=[280.0, 300.0]
+    )
+    panel = swept.transpose("screw_speed", "temperature").ballscrew.plot_map().figure.axes[0]
+    assert (panel.get_xlabel(), panel.get_ylabel()) == ("oil temperature (degC)", "speed of the screw (rpm)")
+    assert panel.get_xlim() == pytest.approx((280.0 - 273.15, 300.0 - 273.15))
+    assert panel.get_ylim() == pytest.approx((30 / np.pi * SPEEDS[0], 30 / np.pi * SPEEDS[-1]))
+    rough = bs.sweep(
+        bs.FrictionModel.corrected(), SCREW, OIL, axial_load=[1e3, 2e3], screw_speed=9.0, lead=[5e-3, 1e-2]
+    )
+    panel = rough.ballscrew.plot_map().figure.axes[0]
+    assert {panel.get_xlabel().rpartition(" ")[2], panel.get_ylabel().rpartition(" ")[2]} == {"(mm)", "(N)"}

@@ -15,7 +15,7 @@ from ballscrew.figures import ball
 from ballscrew.figures import olaru2005 as figures
 from ballscrew.figures.style import Plot
 from ballscrew.papers import olaru2005 as paper
-from ballscrew.papers.olaru2005 import case
+from ballscrew.papers.olaru2005 import case, verdicts
 from ballscrew.papers.olaru2005.claims import judged
 from ballscrew.papers.olaru2005.observations import observe
 
@@ -142,6 +142,18 @@ def test_verdicts_follow_the_numbers(observed):
     )
     changed = {claim.key: claim.findings["x"].verdict for claim in judged({"x": moved})}
     assert (changed["minimum"], changed["efficiency"], changed["closed_form"]) == (FAILS, HOLDS, FAILS)
+
+
+@pytest.mark.parametrize(
+    ("value", "said", "holds"), [(0.9103, "0.9103", False), (0.9096, "0.9096", True), (0.907, "0.907", True)]
+)
+def test_a_value_is_not_rounded_into_the_limit_that_it_misses(observed, value, said, holds):
+    """Within 0.01 of 0.9: 0.9103 is not, and 0.910 would look as if it were."""
+    seen = observed["olaru2005"]
+    load = dataclasses.replace(seen.load, efficiency_at_20=value, efficiency_rises=True, efficiency_without_load=0.0)
+    finding = verdicts.first_zone(dataclasses.replace(seen, load=load))
+    assert finding.text == f"rises from 0 to {said} at 20 N"
+    assert finding.verdict == (HOLDS if holds else FAILS)
 
 
 def test_readings_consistent_with_the_text(checks):

@@ -9,7 +9,8 @@ from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault
-from ballscrew.quantities import quantities_of
+from ballscrew.quantities import fields_of, quantities_of
+from ballscrew.solvers.load_distribution import BallLoads
 
 KNOWN = {
     **quantities_of(BallScrew),
@@ -150,3 +151,12 @@ def test_units_in_messages_are_of_the_right_kind(name):
             fault = units.parse(name, f"1 {written}", quantity)
             if isinstance(fault, Fault) and fault.remedy.startswith("did you mean"):
                 assert fault.remedy.split('"')[1].lower() == written.lower()
+
+
+def test_a_length_below_a_nucleus_is_shown_as_none():
+    """The displacement of a nut without load, of which rounding leaves 1e-22 m; films and roughness are far larger."""
+    quantity = quantities_of(BallLoads)["deflection"]
+    assert units.shown(8.47e-22, quantity) == units.shown(-6.4e-18, quantity) == "0 µm"
+    assert units.shown(2e-15, quantity) == "2e-09 µm"
+    assert units.shown(8.47e-22, fields_of(OperatingState)["axial_load"]) == "8.47e-22 N"
+    assert units.shown(math.nan, quantity) == "nan µm"

@@ -143,11 +143,11 @@ def parts_over_speed(data: xr.Dataset) -> Figure:
         )
         panel.plot(_rpm(data), model["fig6_screw_torque"], color=style.INK, label="total")
         panel.set_xlim(0, 1000)
-    panels[0].set_ylim(0, 0.36)
+    panels[0].set_ylim(0, 0.26)
     _label(panels, SPEED, TORQUE)
-    for panel in panels:
-        handles, labels = panel.get_legend_handles_labels()
-        panel.legend(handles[::-1], labels[::-1], loc="upper center", ncols=2)
+    handles, labels = panels[0].get_legend_handles_labels()
+    # above both panels, where they cover nothing: three beside each other, as six are wider than the figure
+    figure.legend(handles[::-1], labels[::-1], loc="outside upper center", ncols=3)
     return figure
 
 

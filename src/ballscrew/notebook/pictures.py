@@ -15,15 +15,26 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ballscrew import units
+from ballscrew.components.data_sheet import SHEET_TEMPERATURE, DataSheet
+from ballscrew.components.materials import Lubricant
 from ballscrew.components.operating_state import OperatingState
+from ballscrew.components.screw import BallScrew
 from ballscrew.errors import Fault, InputError, nearest
 from ballscrew.evaluation.outputs import known_outputs
 from ballscrew.figures import files, style
+from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.result import MECHANISMS, FrictionResult
 from ballscrew.quantities import Quantity, fields_of, quantities_of
+from ballscrew.sizing.listed_nut import NUTS
 
 _TORQUE = "friction torque on the screw (N m)"
 _OPERATION = fields_of(OperatingState)
+_PARTS = (DataSheet, Lubricant, FrictionModel, *NUTS.values(), BallScrew, OperatingState)
+#: Inputs that a sweep can vary, with the units that people read.
+_INPUTS = {
+    **{name: quantity for part in _PARTS for name, quantity in fields_of(part).items()},
+    SHEET_TEMPERATURE.name: SHEET_TEMPERATURE,
+}
 _LEVELS = 15
 
 
@@ -142,8 +153,9 @@ def sweep_map(data: xr.Dataset, output: str) -> Picture:
 def _axis(data: xr.Dataset, name: str) -> tuple[Any, str]:
     """The values of an axis in the unit that people read, and its label."""
     values, attributes = data[name].to_numpy(), data[name].attrs
-    if name in _OPERATION:
-        return np.asarray(units.from_si(values, _OPERATION[name])), _label(_OPERATION[name])
+    known = _INPUTS.get(name.removeprefix("nut."))
+    if known is not None and known.unit == attributes.get("units", known.unit):
+        return np.asarray(units.from_si(values, known)), _label(known)
     unit = str(attributes.get("units", ""))
     words = str(attributes.get("long_name", name))
     return values, f"{words} ({unit})" if unit not in ("", "1") else words

@@ -223,6 +223,12 @@ def rising(seen: Observations) -> Finding:
     )
 
 
+def _told_from(value: float, limit: float) -> str:
+    """A value with three decimals, or with as many as show that it is not the limit that it misses."""
+    places = next((n for n in range(3, 9) if value == limit or round(value, n) != round(limit, n)), 9)
+    return f"{value:.{places}f}"
+
+
 def efficiency(seen: Observations) -> Finding:
     """Fig. 7: efficiency over speed."""
     return _if(_rounds_into(seen.efficiency), _band(seen.efficiency))
@@ -243,11 +249,12 @@ def first_zone(seen: Observations) -> Finding:
     """Fig. 9: efficiency up to 20 N."""
     c = seen.load
     rises = c.efficiency_rises and c.efficiency_without_load == 0
-    values = f"from {c.efficiency_without_load:.0f} to {c.efficiency_at_20:.3f} at 20 N"
+    reached = _told_from(c.efficiency_at_20, 0.91)
+    values = f"from {c.efficiency_without_load:.0f} to {reached} at 20 N"
     return _if(
         rises and abs(c.efficiency_at_20 - 0.9) <= 0.01,
         f"{'rises' if rises else 'does not rise'} {values}",
-        f"{c.efficiency_without_load:.0f} to {c.efficiency_at_20:.3f}",
+        f"{c.efficiency_without_load:.0f} to {reached}",
     )
 
 

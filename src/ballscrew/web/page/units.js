@@ -263,6 +263,9 @@ export function unitOf(name) {
   return known && known.unit !== "1" ? inSystem(known.shown_in) : "";
 }
 
+/** As units.py has it, in m. */
+const SMALLEST_LENGTH = 1e-15;
+
 /**
  * The value of a result in the unit in which it is displayed.
  *
@@ -274,7 +277,9 @@ export function unitOf(name) {
 export function inDisplayUnit(name, value) {
   const known = resultOf(name);
   if (!known || known.unit === "1" || value === null || value === undefined) return value;
-  return fromSI(value, inSystem(known.shown_in), known.unit);
+  // below the size of a nucleus a length is what rounding leaves of none
+  const isNone = known.unit === "m" && Math.abs(value) < SMALLEST_LENGTH;
+  return fromSI(isNone ? 0 : value, inSystem(known.shown_in), known.unit);
 }
 
 /**
