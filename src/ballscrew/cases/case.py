@@ -19,7 +19,7 @@ from ballscrew.friction.calibrations import Calibration
 from ballscrew.friction.model import FrictionModel
 from ballscrew.friction.plausibility import IMPLAUSIBLE, implausible, named_parts
 from ballscrew.motion.profiles import Motion
-from ballscrew.records import Record
+from ballscrew.records import Measured, Message, Record
 from ballscrew.screw_tables.nut_kinds import LISTED
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.sizing.installation import Installation, Limits
@@ -27,6 +27,7 @@ from ballscrew.supports.mounted_bearing import MountedBearing
 from ballscrew.thermal.surroundings import Surroundings
 from ballscrew.uncertainty.distributions import Distribution
 
+_TOO_MANY = Message("{balls} loaded balls, and the {turns} turns of {row} hold {most}: check the number")
 #: The limits of the checks where a case gives none.
 USUAL_LIMITS = Limits()
 
@@ -130,12 +131,11 @@ def _too_many_balls(screw: BallScrew, row: CatalogueRow | None) -> list[Record]:
     )
     if screw.loaded_balls <= most:
         return []
-    text = (
-        f"{screw.loaded_balls:g} loaded balls, and the {row.turns:g} turns of {row.name} hold {most}: check the number"
-    )
+    numbers = {"balls": screw.loaded_balls, "turns": row.turns, "most": most}
+    message = _TOO_MANY.of(row=row.name, **{name: Measured(float(value)) for name, value in numbers.items()})
     return [
         Record(
-            id=IMPLAUSIBLE, subject="screw.loaded_balls", text=text, severity="warning", holds=False,
-            value=float(screw.loaded_balls), limit=float(most),
+            id=IMPLAUSIBLE, subject="screw.loaded_balls", text=message.filled(Measured.plain), severity="warning",
+            holds=False, value=float(screw.loaded_balls), limit=float(most), message=message,
         )
     ]  # fmt: skip

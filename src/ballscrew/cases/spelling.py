@@ -18,12 +18,13 @@ from ballscrew.case_schema.schema import sections
 from ballscrew.components.ratings import PRELOAD_SHARES
 from ballscrew.errors import Fault
 from ballscrew.quantities import Quantity, within_bounds
-from ballscrew.records import Record
+from ballscrew.records import Measured, Message, Record
 
 #: The id of the warning.
 THOUSANDS = "inputs.thousands"
 #: One to three digits, a point, three digits, and a unit: as a number with its thousands parted, or three decimals.
 _EITHER = re.compile(r"\s*([-+]?[1-9]\d{0,2})\.(\d{3})(?![\d.,'])\s*(\D.*)?")
+_READ = Message('"{written}" is read as {plain}: write "{thousands}" if that is meant, else "{plain}"')
 _FORCES = {"operation.axial_load": (0.0, 1.0), "nut.preload": PRELOAD_SHARES}
 
 
@@ -72,10 +73,12 @@ def _doubt(where: str, text: str, quantity: Quantity, rating: float | None) -> R
     plain, with_thousands = (
         f"{number} {unit}".strip() for number in (f"{float(_decimal(match)):g}", whole + thousandths)
     )
+    message = _READ.of(written=text.strip(), plain=plain, thousands=with_thousands)
     return Record(
         id=THOUSANDS,
         subject=where,
-        text=f'"{text.strip()}" is read as {plain}: write "{with_thousands}" if that is meant, else "{plain}"',
+        text=message.filled(Measured.plain),
+        message=message,
         severity="warning",
         holds=False,
         value=read,
