@@ -390,3 +390,126 @@ def test_a_nut_whose_balls_differ_is_refused(fit, log):
     lines = refused(fit(log(), case=EXAMPLES / "catalogue_screw.toml"), "knows no nuts whose balls differ")
     assert len(lines) == 1
     assert "leave out [bodies] and [deviations]" in lines[0]
+
+
+# -- the error of the oil temperature --------------------------------------------------------------
+
+RIG = ["fit", str(EXAMPLES / "rig_log.csv"), "--case", str(EXAMPLES / "rig.toml")]
+
+
+def test_the_estimates_of_a_log_with_temperatures_have_their_error_in_them(ballscrew):
+    asked = [*RIG, "--free", f"{FRICTION},constant_torque", "--json"]
+    exact, usual, wide = (
+        json.loads(ballscrew(*asked, *more).stdout)
+        for more in (["--temperature-error", "0 K"], [], ["--temperature-error", "4 K"])
+    )
+    assert [found["temperature_error"] for found in (exact, usual, wide)] == [0.0, 2.0, 4.0]
+    assert usual["provenance"]["settings"]["temperature_error"] == 2.0
+    for name in (FRICTION, "constant_torque"):
+        one, two, four = (found["estimates"][name] for found in (exact, usual, wide))
+        assert one["value"] == two["value"] == four["value"]
+        # variances add: twice the error of the temperature makes four times its variance
+        assert four["std"] ** 2 - one["std"] ** 2 == pytest.approx(4 * (two["std"] ** 2 - one["std"] ** 2))
+        assert two["std"] ** 2 - one["std"] ** 2 == pytest.approx((two["per_kelvin"] * 2 / 1.959964) ** 2)
+        assert two["high"] - two["low"] > one["high"] - one["low"]
+        assert (one["temperature_share"], two["temperature_share"]) == (
+            0.0,
+            pytest.approx(1 - (one["std"] / two["std"]) ** 2),
+        )
+    assert usual["covariance"]["matrix"][0][0] == pytest.approx(usual["estimates"][FRICTION]["std"] ** 2)
+
+
+def test_the_text_says_what_part_of_the_errors_it_makes(ballscrew):
+    said = ballscrew(*RIG, "--free", f"{FRICTION},constant_torque").stdout
+    assert (
+        "in the errors: 2 K of oil temperature either way (95 %), the same in all rows; of the variance they make"
+        in said
+    )
+    assert "for the constant torque" in said
+    none = ballscrew(*RIG, "--temperature-error", "0 K").stdout
+    assert "none of the oil temperature" in none
+
+
+def test_the_error_of_a_temperature_that_the_case_has_is_that_of_the_case(ballscrew, tmp_path):
+    import pandas
+
+    table = pandas.read_csv(EXAMPLES / "rig_log.csv", comment="#").drop(columns="temperature [degC]")
+    table.to_csv(tmp_path / "log.csv", index=False)
+    asked = ["fit", str(tmp_path / "log.csv"), "--case", str(EXAMPLES / "rig.toml"), "--json"]
+    case = ["--set", "lubricant.temperature=35 ± 3 degC"]
+    unknown, given, said = (
+        json.loads(ballscrew(*asked, *more).stdout)["temperature_error"]
+        for more in ([], case, [*case, "--temperature-error", "1 K"])
+    )
+    assert (unknown, given, said) == (10.0, pytest.approx(3.0), 1.0)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("2 degC", 'is a difference of temperatures, in K (2 degC) · write --temperature-error "2 K"'),
+        ("2", "--temperature-error: needs a unit"),
+        ("-1 K", "--temperature-error: must not be negative"),
+        ("200 K", "--temperature-error: must be from 0 to 100 K"),
+    ],
+)
+def test_an_error_of_the_temperature_that_is_none_is_refused(ballscrew, text, words):
+    done = ballscrew(*RIG, "--temperature-error", text)
+    assert done.returncode == 2
+    assert words in done.stderr
+
+
+# -- numbers that no screw has -----------------------------------------------------------------------
+
+
+def test_a_fit_of_a_sensor_that_is_off_says_so_first_and_so_do_predictions_with_it(ballscrew, tmp_path):
+    """A log of one direction whose zero is off by -0.2 N m: the constant torque is a loss that drives the screw."""
+    import pandas
+
+    table = pandas.read_csv(EXAMPLES / "rig_log.csv", comment="#")
+    table["torque [N m]"] -= 0.2
+    table[table["speed [rpm]"] > 0].to_csv(tmp_path / "log.csv", index=False)
+    made = tmp_path / "fitted.toml"
+    asked = ["fit", str(tmp_path / "log.csv"), *RIG[2:], "--free", f"{FRICTION},constant_torque", "--kind", "drive"]
+    said = ballscrew(*asked, "-o", str(made)).stdout
+    assert said.startswith("implausible: constant torque -0.0")
+    assert "N m" in said.partition(" is outside")[0].replace("·", " ")
+    found = json.loads(ballscrew(*asked, "--json").stdout)
+    assert [(record["id"], record["subject"]) for record in found["verdicts"]] == [
+        ("fit.implausible", "constant_torque")
+    ]
+    assert found["estimates"]["constant_torque"]["value"] < -0.05
+    run = json.loads(ballscrew("run", str(made), "--json").stdout)
+    assert {"calibration.implausible", "inputs.implausible"} <= {record["id"] for record in run["warnings"]}
+
+
+def test_a_trade_off_is_one_sentence(ballscrew):
+    said = ballscrew(*RIG, "--free", f"{FRICTION},constant_torque").stdout
+    (line,) = [line for line in said.splitlines() if line.startswith("Trade-off: ")]
+    assert "more boundary friction coefficient with" in line
+    assert "less constant torque fits the rows nearly as well (one standard error)" in line
+    assert "^" not in said
+
+
+# -- rows that are not used --------------------------------------------------------------------------
+
+
+def test_the_reasons_sum_to_the_rows_that_are_not_used(ballscrew):
+    found = json.loads(ballscrew(*RIG, "--json").stdout)["rows"]
+    assert found["read"] == found["used"] + sum(found["left_out"].values())
+    assert len(found["left_out"]) == 3
+
+
+def test_a_log_without_a_column_of_the_load_is_one_of_no_load(ballscrew, tmp_path):
+    import pandas
+
+    table = pandas.read_csv(EXAMPLES / "nut_new.csv", comment="#")
+    table.drop(columns="axial load [N]").to_csv(tmp_path / "log.csv", index=False)
+    asked = ["--case", str(EXAMPLES / "service.toml"), "--model", "olaru2005", "--free", "nut.preload", "--json"]
+    with_load, without = (
+        json.loads(ballscrew("fit", str(path), *asked).stdout)
+        for path in (EXAMPLES / "nut_new.csv", tmp_path / "log.csv")
+    )
+    assert_same(without["estimates"], with_load["estimates"])
+    assert any("no column of the load: 0 N in every row" in note for note in without["rows"]["notes"])
+    assert not any("no column of the load" in note for note in with_load["rows"]["notes"])

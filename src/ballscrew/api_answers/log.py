@@ -74,6 +74,8 @@ class Estimate(Closed):
     start: Number = Field(description="before the fit, SI")
     at_bound: bool
     prior_share: Number
+    temperature_share: Number = Field(description="of the variance, by the error of the oil temperature")
+    per_kelvin: Number = Field(description="change for an oil that was a kelvin warmer than logged, SI")
 
 
 class Score(Closed):
@@ -117,7 +119,7 @@ class FitWords(Closed):
     """What a fit says in words."""
 
     title: str
-    combinations: list[str] = Field(description="products of powers, in the order of ``identifiability``")
+    trade_off: str = Field(description="numbers that make up for each other")
     next_test: list[str]
 
 
@@ -138,6 +140,7 @@ class Fit(Closed):
     """A case fitted to a log."""
 
     estimates: dict[str, Estimate]
+    temperature_error: Number = field("half the 95 % interval of the oil temperature, in the intervals", "K")
     residual_rms: Number
     holdout_rms: Number
     verdicts: list[Record]

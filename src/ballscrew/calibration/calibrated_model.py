@@ -80,7 +80,7 @@ class CalibratedModel(FitResult):
 
     def report(self) -> str:
         """The results in plain text and SI units."""
-        lines = ["number, value, standard error"]
+        lines = [*self.verdicts, "number, value, standard error"]
         for estimate in (*self.estimates.values(), *self.sensor.values()):
             unit = "" if estimate.quantity.unit == "1" else f" {estimate.quantity.unit}"
             error = "not identified" if estimate.std is None else f"± {estimate.std:.2g}{unit}"

@@ -33,7 +33,8 @@ MAXIMUM_RATIO = 100.0
 
 def warning_records(found: FitResult) -> list[Record]:
     """Reasons not to trust the estimates, the gravest first."""
-    odd = found.subject.implausible({})
+    judged = {record.subject.rpartition(".")[2] for record in found.verdict_records}
+    odd = [one for one in found.subject.implausible({}) if one.subject.rpartition(".")[2] not in judged]
     return [
         *odd,
         *_starved(found),

@@ -16,6 +16,13 @@ from ballscrew.calibration.diagnostics import warning_records
 from ballscrew.calibration.fit_result import AS_GIVEN, CALIBRATED, MINIMUM_DEGREES_OF_FREEDOM, Estimate, Rows, Score
 from ballscrew.calibration.identifiability import MAXIMUM_RELATIVE_ERROR, Identifiability, Uncertainty
 from ballscrew.calibration.jackknife import jackknife_covariance, operating_points
+from ballscrew.calibration.oil_temperature import (
+    MOST_TEMPERATURE_ERROR,
+    TemperatureError,
+    torque_per_kelvin,
+    usual_error,
+)
+from ballscrew.calibration.plausibility import verdict_records
 from ballscrew.calibration.priors import Priors
 from ballscrew.calibration.problem import CONSTANT_TORQUE, Problem, drift_of, escape_insensitive_start
 from ballscrew.calibration.response import Response, resolve_input
@@ -28,7 +35,8 @@ from ballscrew.errors import Fault, accepts_units, nearest, raise_if_any, si_val
 from ballscrew.evaluation.engines import Engine, engine_faults
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import MomentOfInertia, within_bounds
+from ballscrew.quantities import Force, MomentOfInertia, TemperatureDifference, within_bounds
+from ballscrew.solvers.load_distribution import ball_loads
 from ballscrew.torque_logs.log_rows import Kind
 from ballscrew.torque_logs.torque_log import TorqueLog
 from ballscrew.uncertainty.distributions import Distribution
@@ -62,6 +70,8 @@ def fit(
     kind: Kind = "unknown",
     inertia: MomentOfInertia | None = None,
     holdout: float = 0.2,
+    temperature_error: TemperatureDifference | None = None,
+    dynamic_load_rating: Force | None = None,
     seed: int = 0,
     engine: Engine | None = None,
     done: Callable[[int, int], None] | None = None,
@@ -77,6 +87,11 @@ def fit(
     ``priors`` are distributions of free numbers, ``bounds`` pairs in SI beside those that the numbers have anyway.
     ``kind`` says whether ``torque`` is ``"friction"`` or ``"drive"`` torque; otherwise the model tells (see
     :mod:`~ballscrew.calibration.torque_conventions`). ``inertia`` (kg m²) takes the acceleration out of a drive torque.
+    ``temperature_error`` (K) is half the width of the 95 % interval of the oil temperature, an error that all rows
+    share and that no number of rows makes smaller: 2 K where the log has temperatures that the oil follows, otherwise
+    10 K. It does not move the estimates; their covariance has it (:mod:`~ballscrew.calibration.oil_temperature`).
+    The ``dynamic_load_rating`` (N) is what a fitted preload is judged by: numbers that no screw has are among the
+    verdicts (:mod:`~ballscrew.calibration.plausibility`).
     The share ``holdout`` of the operating points is not fitted but predicted. Zero error and drift of the sensor are
     fitted beside the rest where the log can tell them from friction (:mod:`~ballscrew.calibration.problem`).
 
@@ -90,7 +105,7 @@ def fit(
     subject = Configuration(model, screw, lubricant)
     if CONSTANT_TORQUE.name in free:  # found anew: that of an earlier fit goes
         subject = with_constant_torque(subject, None)
-    raise_if_any(_faults_of_options(free, priors or {}, bounds or {}, holdout, seed, kind, engine))
+    raise_if_any(_faults_of_options(free, priors or {}, bounds or {}, holdout, temperature_error, seed, kind, engine))
     asked = {
         name: CONSTANT_TORQUE.name if name == CONSTANT_TORQUE.name else resolve_input(subject, name) for name in free
     }
@@ -123,6 +138,7 @@ def fit(
     if not finite.all():
         log, torques, slopes = log.select(finite, "no torque in the model"), torques[:, finite], slopes[:, finite]
         response = response.at(points_of(log, lubricant))
+    raise_if_any(_faults_of_unloaded_balls(subject, log))
     said = log.kind if kind == "unknown" else kind
     held_out = _held_out(log, holdout, seed)
     # what the column is can be looked up in all rows: of few, those left to fit do not always tell
@@ -156,13 +172,20 @@ def fit(
     if different < MINIMUM_DEGREES_OF_FREEDOM:
         degrees_of_freedom = min(different, degrees_of_freedom)
     one_sided = _one_sided(problem, solution, uncertainty, held_out, log)
-    estimates = _estimates(problem, solution, one_sided, uncertainty, known, degrees_of_freedom)
+    made = _with(subject, response, problem, solution)
+    half_width = usual_error(lubricant, log) if temperature_error is None else float(temperature_error)
+    warmth = _temperature_error(
+        half_width, made, problem, points_of(log, lubricant), ~held_out, solution, uncertainty, known
+    )
+    total = uncertainty.plus(warmth.covariance)
+    estimates = _estimates(problem, solution, one_sided, total, uncertainty, known, degrees_of_freedom)
     found = CalibratedModel(
-        subject=_with(subject, response, problem, solution),
+        subject=made,
         estimates={name: estimates[name] for name in problem.names},
         sensor={name: estimate for name, estimate in estimates.items() if name not in problem.names},
         identifiability=told,
-        uncertainty=uncertainty,
+        uncertainty=total,
+        temperature_error=warmth,
         problem=problem,
         priors=known,
         solution=solution,
@@ -173,11 +196,13 @@ def fit(
             "priors": {name: prior.describe(problem.quantity(name).unit) for name, prior in (priors or {}).items()},
             "bounds": {name: list(pair) for name, pair in limits.items()},
             "holdout": holdout,
+            "temperature_error": half_width,
             "seed": seed,
             "inertia": inertia,
             "reading": convention.description,
         },
     )
+    found = dataclasses.replace(found, verdict_records=tuple(verdict_records(found, dynamic_load_rating)))
     return dataclasses.replace(found, warning_records=warning_records(found))
 
 
@@ -190,11 +215,30 @@ def points_of(log: TorqueLog, lubricant: Lubricant) -> dict[str, NDArray[np.floa
     return found
 
 
+def _temperature_error(
+    half_width: float,
+    made: Configuration,
+    problem: Problem,
+    points: Mapping[str, Any],
+    fitted: NDArray[np.bool_],
+    solution: Solution,
+    uncertainty: Uncertainty,
+    known: Priors,
+) -> TemperatureError:
+    """What the error of the oil temperature does to the estimates."""
+    if half_width == 0:
+        return TemperatureError(0.0, np.zeros(fitted.size), np.zeros(solution.values.size))
+    each = torque_per_kelvin(made, problem.response.names, points, problem.weights)
+    shift = uncertainty.shift_by(solution, known.slopes(solution.values), each[fitted])
+    return TemperatureError(half_width, each, shift)
+
+
 def _faults_of_options(
     free: Sequence[str],
     priors: Mapping[str, Any],
     bounds: Mapping[str, Any],
     holdout: Any,
+    temperature_error: Any,
     seed: Any,
     kind: Any,
     engine: Any,
@@ -221,9 +265,22 @@ def _faults_of_options(
         faults += [Fault(f"fit.{where}.{n}", "is not free", "", nearest(n, free)) for n in named if n not in free]
     if not isinstance(holdout, int | float) or not 0 <= holdout <= 0.5:
         faults.append(Fault("fit.holdout", "must be a share from 0 to 0.5", str(holdout), "0.2 is usual"))
+    if temperature_error is not None and not 0 <= temperature_error <= MOST_TEMPERATURE_ERROR:
+        problem = f"must be from 0 to {MOST_TEMPERATURE_ERROR:g} K"
+        faults.append(
+            Fault("fit.temperature_error", problem, str(temperature_error), "2 K is usual where it is logged")
+        )
     if kind not in get_args(Kind):
         faults.append(Fault("fit.kind", "unknown kind of torque", str(kind), f"one of {', '.join(get_args(Kind))}"))
     return faults
+
+
+def _faults_of_unloaded_balls(subject: Configuration, log: TorqueLog) -> list[Fault]:
+    """A fault of a log without load if the nut has no preload either."""
+    if log.axial_load.any() or np.any(np.asarray(ball_loads(subject.screw, subject.nut, 0.0).remaining_preload) > 0):
+        return []
+    remedy = "give the column of the load, or a nut with its preload"
+    return [Fault("log", "has no load, and the nut has no preload: no ball carries anything", "", remedy)]
 
 
 def _unit_of(subject: Configuration, name: str) -> str:
@@ -286,6 +343,7 @@ def _estimates(
     solution: Solution,
     one_sided: NDArray[np.bool_],
     uncertainty: Uncertainty,
+    of_rows: Uncertainty,
     known: Priors,
     degrees_of_freedom: int,
 ) -> dict[str, Estimate]:
@@ -298,7 +356,8 @@ def _estimates(
     for i, parameter in enumerate(problem.parameters):
         value, variance = float(solution.values[i]), float(uncertainty.covariance[i, i])
         prior = known.deviation(i, value)
-        share = 0.0 if prior is None else min(1.0, variance / prior**2)
+        # by the rows alone: what the temperature adds says nothing of what they told
+        share = 0.0 if prior is None else min(1.0, float(of_rows.covariance[i, i]) / prior**2)
         sensor_columns = i >= problem.free
         told = (
             uncertainty.directions.identifiable_parameters[i]
@@ -319,6 +378,7 @@ def _estimates(
             one_sided=bool(one_sided[i] and told),
             degrees_of_freedom=max(1, degrees_of_freedom),
             prior_share=share,
+            temperature_share=0.0 if variance == 0 else 1 - float(of_rows.covariance[i, i]) / variance,
             bounds=(parameter.low, parameter.high),
         )
     return found

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ballscrew._deprecated import RenamedAttribute
 from ballscrew.calibration.identifiability import Identifiability, Uncertainty
+from ballscrew.calibration.oil_temperature import TemperatureError
 from ballscrew.calibration.priors import Priors
 from ballscrew.calibration.problem import CONSTANT_TORQUE, Problem
 from ballscrew.calibration.response import Response
@@ -49,19 +50,26 @@ class Estimate:
     one_sided: bool = False
     #: Posterior variance over that of the prior: 1 where the data add nothing; 0 without a prior.
     prior_share: float = 0.0
-    #: Degrees of freedom of the standard error: rows fitted less parameters.
+    #: Share of the variance that is of the error of the oil temperature.
+    temperature_share: float = 0.0
+    #: Degrees of freedom of what the rows tell of the standard error: rows fitted less parameters.
     degrees_of_freedom: float = np.inf
     bounds: tuple[float, float] = (-np.inf, np.inf)
 
     freedom = RenamedAttribute("freedom", "degrees_of_freedom")
 
     def interval(self, level: float = 0.95) -> tuple[float, float] | None:
-        """The interval by Student's distribution, within the bounds; None where there is no standard error."""
+        """The interval by Student's distribution, within the bounds; None where there is no standard error.
+
+        The part of the variance that is of the temperature is known and not estimated: with it the degrees of freedom
+        are more (Satterthwaite1946), ``ν / (1 − share)²``.
+        """
         if self.std is None:
             return None
         from scipy.special import stdtrit
 
-        half = float(stdtrit(self.degrees_of_freedom, 0.5 + level / 2)) * self.std
+        freedom = self.degrees_of_freedom / max(1 - self.temperature_share, 1e-6) ** 2
+        half = float(stdtrit(freedom, 0.5 + level / 2)) * self.std
         return max(self.value - half, self.bounds[0]), min(self.value + half, self.bounds[1])
 
 
@@ -162,6 +170,8 @@ class FitResult:
     sensor: Mapping[str, Estimate]
     identifiability: Identifiability
     uncertainty: Uncertainty
+    #: The error of the oil temperature, which is in the covariance.
+    temperature_error: TemperatureError
     problem: Problem
     priors: Priors
     solution: Solution
@@ -169,7 +179,14 @@ class FitResult:
     #: The model before and after, and descriptions without physics.
     scores: Sequence[Score]
     settings: Mapping[str, Any]
+    #: Numbers that no screw has: to be read before all others.
+    verdict_records: Sequence[Record] = ()
     warning_records: Sequence[Record] = ()
+
+    @property
+    def verdicts(self) -> list[str]:
+        """The texts of the verdicts: what makes the fit one that is not to be used."""
+        return [record.text for record in self.verdict_records]
 
     @property
     def warnings(self) -> list[str]:

@@ -141,14 +141,12 @@ class Uncertainty:
         root, known = weighted_derivatives(solution) * scale, prior_slopes * scale
         directions = IdentifiableDirections.of(np.vstack([root, known]))
         inside = directions.measured_directions
-        slopes = root @ inside
+        slopes, prior, inverse = _within(inside, root, known)
         rows, parameters = slopes.shape
-        prior = inside.T @ (known.T @ known) @ inside
-        inverse = np.linalg.inv(slopes.T @ slopes + prior)
         leverage = np.minimum(np.einsum("ri,ij,rj->r", slopes, inverse, slopes), MAXIMUM_LEVERAGE)
         psi, weight = solution.influence, np.sqrt(solution.curvature)
         scores = (psi / (1 - leverage) / weight)[:, np.newaxis] * slopes
-        spread = _long_run_covariance(scores, autocorrelation_lag(psi)) + prior
+        spread = long_run_covariance(scores, autocorrelation_lag(psi)) + prior
         even = float(psi @ psi) / solution.curvature / max(rows - parameters, 1) * (slopes.T @ slopes) + prior
         outside = scale[:, np.newaxis] * inside @ inverse
         return cls(outside @ _at_least(spread, even) @ outside.T, scale, directions)
@@ -160,6 +158,21 @@ class Uncertainty:
         own, other = (inside.T @ (one / scales) @ inside for one in (self.covariance, covariance))
         outside = self.scale[:, np.newaxis] * inside
         return dataclasses.replace(self, covariance=outside @ _at_least(other, own) @ outside.T)
+
+    def plus(self, covariance: Vector) -> Uncertainty:
+        """The same with the covariance of an error that is not in the residuals besides."""
+        return dataclasses.replace(self, covariance=self.covariance + covariance)
+
+    def shift_by(self, solution: Solution, prior_slopes: Vector, torques: Vector) -> Vector:
+        """Changes of the parameters that make up for changes of the torques of the model at the rows that were fitted.
+
+        ``−H⁻¹ Xᵀ t``, within the directions that are measured: X and t are in units of the scatter, as in H.
+        """
+        root, known = weighted_derivatives(solution) * self.scale, prior_slopes * self.scale
+        inside = self.directions.measured_directions
+        slopes, _, inverse = _within(inside, root, known)
+        changes = np.where(solution.outlying, 0.0, np.sqrt(solution.curvature) / solution.scatter * torques)
+        return np.asarray(-self.scale * (inside @ (inverse @ (slopes.T @ changes))), dtype=np.float64)
 
     def variance_of(self, gradients: Vector) -> Vector:
         """Variance of a quantity with these derivatives by the parameters, along the last axis.
@@ -173,6 +186,13 @@ class Uncertainty:
         return np.where(unidentifiable > UNIDENTIFIABLE_SHARE * length, np.nan, variance)
 
 
+def _within(inside: Vector, root: Vector, known: Vector) -> tuple[Vector, Vector, Vector]:
+    """Derivatives of rows by directions, what priors know of these, and the inverse of what both know."""
+    slopes = root @ inside
+    prior = inside.T @ (known.T @ known) @ inside
+    return slopes, prior, np.asarray(np.linalg.inv(slopes.T @ slopes + prior), dtype=np.float64)
+
+
 def _at_least(one: Vector, other: Vector) -> Vector:
     """The first covariance, raised in every direction to at least the second."""
     if not other.any():  # no residuals: as many numbers as rows, or rows followed exactly
@@ -183,7 +203,7 @@ def _at_least(one: Vector, other: Vector) -> Vector:
     return np.asarray(back * np.maximum(ratios, 1.0) @ back.T, dtype=np.float64)
 
 
-def _long_run_covariance(scores: Vector, longest_lag: int) -> Vector:
+def long_run_covariance(scores: Vector, longest_lag: int) -> Vector:
     """Sum of products of scores, with those of rows up to a lag apart, weighted as in NeweyWest1987."""
     spread = scores.T @ scores
     for lag in range(1, longest_lag + 1):

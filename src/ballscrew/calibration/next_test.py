@@ -64,7 +64,8 @@ def next_test(
 
     By derivatives at the estimate: with the covariance Σ and the derivatives G of the readings of a test in units of
     the scatter, what remains is ``Σ − Σ Gᵀ (1/m + G Σ Gᵀ)⁻¹ G Σ`` for m readings. Numbers that are open altogether
-    count as known to their own size. Points that are not valid are left out.
+    count as known to their own size. Points that are not valid are left out. The error of the oil temperature stays:
+    the volume is of the scatter alone.
 
     Raises :class:`~ballscrew.errors.InputError` for limits of what is no condition of a test.
     """
@@ -82,7 +83,8 @@ def next_test(
     asked = len(found.estimates)
     volume = _volume(remaining, asked) / _volume(before[np.newaxis], asked)
     best = int(np.argmin(volume))
-    errors = np.sqrt(np.diagonal(remaining[best])[:asked] / np.diagonal(before)[:asked])
+    stays = np.diagonal(found.temperature_error.covariance)[:asked]
+    errors = np.sqrt((np.diagonal(remaining[best])[:asked] + stays) / (np.diagonal(before)[:asked] + stays))
     random = np.random.default_rng(seed).choice(volume, RANDOM_TEST_COUNT)
     told = dict(zip(found.estimates, errors.tolist(), strict=True))
     return NextTest(tests, volume, told, count, float(np.median(random)))

@@ -44,7 +44,8 @@ def posterior(
     """Samples of ``exp(−½ k Σ ρ(r))`` times the priors within the bounds, by emcee's affine-invariant walkers.
 
     ρ is the loss of the fit and r the residual in units of its scatter, which stays as it was found; k makes the loss
-    as sharp as its residuals are spread, ``Σ ψ' / Σ ψ²`` at the fit. Residuals that follow each other count as
+    as sharp as its residuals are spread, ``Σ ψ' / Σ ψ²`` at the fit. The error of the oil temperature is one number
+    more, of which the log may tell something. Residuals that follow each other count as
     independent here. Raises :class:`~ballscrew.errors.InputError` without emcee.
     """
     try:
@@ -60,18 +61,28 @@ def posterior(
     kept = int(np.count_nonzero(~solution.outlying))
     sharpness = solution.curvature * kept / max(float(psi @ psi), 1e-300)
 
-    def logarithm(values: Vector) -> float:
+    warmth, known = found.temperature_error, problem.start.size
+    by_score = warmth.deviation * warmth.torque_per_kelvin[~found.rows.held_out]
+    warm = int(warmth.half_width > 0)
+
+    def logarithm(every: Vector) -> float:
+        values, scores = every[:known], every[known:]
         if np.any(values < low) or np.any(values > high):
             return -np.inf
         predicted, _ = torque(values)
+        predicted = predicted + by_score * float(np.sum(scores))
         loss = loss_of(predicted - measured, solution.scatter)
-        return -0.5 * (sharpness * loss + float(np.sum(found.priors.residuals(values) ** 2)))
+        return -0.5 * (sharpness * loss + float(np.sum(found.priors.residuals(values) ** 2) + np.sum(scores**2)))
 
     random = np.random.default_rng(seed)
-    count = problem.start.size
+    count = known + warm
     walkers = max(WALKERS * count, 2 * count + 2)
-    spread = np.sqrt(np.diagonal(found.uncertainty.covariance)) + 1e-3 * problem.scale
-    start = np.clip(solution.values + spread * random.standard_normal((walkers, count)), low, high)
+    of_rows = np.maximum(np.diagonal(found.uncertainty.covariance - warmth.covariance), 0.0)
+    spread = np.sqrt(of_rows) + 1e-3 * problem.scale
+    off = random.standard_normal((walkers, count))
+    moved = off[:, known:] * warmth.deviation * warmth.shift if warm else 0.0
+    start = np.clip(solution.values + moved + spread * off[:, :known], low, high)
+    start = np.hstack([start, off[:, known:]])
     sampler: Any = emcee.EnsembleSampler(walkers, count, logarithm)
     state: Any = emcee.State(start, random_state=np.random.RandomState(seed).get_state())
     for step, _ in enumerate(sampler.sample(state, iterations=steps), start=1):

@@ -118,8 +118,21 @@ class Case(Displayed):
 
     @property
     def doubts(self) -> list[Record]:
-        """Warnings that the parts cannot tell: numbers that could be others, balls beyond the turns of the row."""
-        return [*self.doubtful_numbers, *_too_many_balls(self.screw, self.row)]
+        """Warnings that the parts cannot tell: fitted numbers that no screw has, numbers that could be others, balls
+        beyond the turns of the row.
+        """
+        return [*_of_fit(self.fit), *self.doubtful_numbers, *_too_many_balls(self.screw, self.row)]
+
+
+def _of_fit(table: Mapping[str, Any]) -> list[Record]:
+    """What the fit that a case is from said of its own numbers: which of them no screw has."""
+    return [
+        Record(
+            id="calibration.implausible", subject=f"calibration.{place}", text=f"calibrated, and {text}",
+            severity="warning", holds=False,
+        )
+        for place, text in enumerate(table.get("verdicts", ()))
+    ]  # fmt: skip
 
 
 def _too_many_balls(screw: BallScrew, row: CatalogueRow | None) -> list[Record]:

@@ -114,6 +114,7 @@ def calibration_of(case: Case, found: CalibratedModel) -> dict[str, Any]:
         "not_identified": [n for n, known in zip(full, told, strict=True) if not known],
         "residual_rms": f"{found.residual_rms:.6g} N m",
         **({} if found.holdout_rms is None else {"holdout_rms": f"{found.holdout_rms:.6g} N m"}),
+        "verdicts": list(found.verdicts),
         "warnings": list(found.warnings),
     }
 

@@ -59,6 +59,14 @@ def fit(
     holdout: Annotated[
         float, typer.Option("--holdout", metavar="SHARE", help="Of the operating points, predicted and not fitted.")
     ] = 0.2,
+    temperature_error: Annotated[
+        str | None,
+        typer.Option(
+            "--temperature-error",
+            metavar="VALUE",
+            help='Of the oil in the whole log, half of 95 %: "2 K" (default where logged, else 10 K).',
+        ),
+    ] = None,
     seed: Annotated[int, typer.Option("--seed", metavar="N", help="Of what is held out.")] = 0,
     keep_going: KeepGoing = False,
     moving: Annotated[
@@ -130,7 +138,8 @@ def fit(
         fit_rows(
             case, rows, row, functools.partial(
                 options, free=free or [], bounds=bounds or [], limits=limits or [], columns=column or [], kind=kind,
-                inertia=inertia, torque_constant=torque_constant, holdout=holdout, seed=seed, keep_going=keep_going,
+                inertia=inertia, torque_constant=torque_constant, holdout=holdout,
+                temperature_error=temperature_error, seed=seed, keep_going=keep_going,
             ),
             settings=settings or [], model=model, calibration=calibration, allow_code=allow_code, keep_going=keep_going,
             as_json=as_json, to=to,
@@ -157,6 +166,7 @@ def fit(
         unused = {
             "--bounds": bool(bounds), "--limits": bool(limits), "--kind": kind is not None,
             "--inertia": inertia is not None, "--to": to is not None,
+            "--temperature-error": temperature_error is not None,
         }  # fmt: skip
         chosen_motion = moving_options(
             free=free or [], columns=column or [], torque_constant=torque_constant, gain=gain,
@@ -168,7 +178,8 @@ def fit(
         check_to(to, case)
     chosen = options(
         loaded, free=free or [], bounds=bounds or [], limits=limits or [], columns=column or [], kind=kind,
-        inertia=inertia, torque_constant=torque_constant, holdout=holdout, seed=seed, keep_going=keep_going,
+        inertia=inertia, torque_constant=torque_constant, holdout=holdout, temperature_error=temperature_error,
+        seed=seed, keep_going=keep_going,
     )  # fmt: skip
     with progress("fit") as done:
         steady = steady_log(loaded, log, chosen, done)

@@ -212,7 +212,7 @@ class ConstantTorque(ByValue):
 
     constant_torque: Annotated[
         Torque,
-        Info("M_0", "friction torque at all loads and speeds", hint="what a fit found", usual=(-50.0, 50.0)),
+        Info("M_0", "friction torque at all loads and speeds", hint="what a fit found", usual=(0.0, 50.0)),
     ] = 0.0
 
     def __post_init__(self) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 from typing import Any
 
 from ballscrew.calibration.calibrated_model import CalibratedModel
@@ -18,13 +19,14 @@ def document(case: Case, report: FitReport) -> dict[str, Any]:
     """Estimates, residuals, what cannot be identified, the next test, warnings and provenance."""
     model = report.model
     return {
-        "estimates": {name: _estimate(estimate) for name, estimate in model.estimates.items()},
+        "estimates": _estimates(model, model.estimates, 0),
+        "temperature_error": model.temperature_error.half_width,
         "residual_rms": model.residual_rms,
         "holdout_rms": model.holdout_rms,
-        "verdicts": [],
+        "verdicts": documents(model.verdict_records),
         "checks": [],
         "warnings": documents(model.warning_records),
-        "sensor": {name: _estimate(estimate) for name, estimate in model.sensor.items()},
+        "sensor": _estimates(model, model.sensor, len(model.estimates)),
         "scores": {s.description: {"fitted_rms": s.fitted, "holdout_rms": s.held_out} for s in model.scores},
         "identifiability": {
             "singular_values": model.identifiability.singular_values,
@@ -50,6 +52,15 @@ def _next_test(test: NextTest) -> dict[str, Any]:
     }
 
 
+def _estimates(model: CalibratedModel, found: Mapping[str, Estimate], first: int) -> dict[str, Any]:
+    """Estimates by name, of which the first has this place among all parameters."""
+    shift = model.temperature_error.shift[first:].tolist()
+    return {
+        name: {**_estimate(estimate), "per_kelvin": by_temperature}
+        for (name, estimate), by_temperature in zip(found.items(), shift, strict=False)
+    }
+
+
 def _estimate(estimate: Estimate) -> dict[str, Any]:
     low, high = estimate.interval() or (None, None)
     return {
@@ -62,6 +73,7 @@ def _estimate(estimate: Estimate) -> dict[str, Any]:
         "start": estimate.start,
         "at_bound": estimate.at_bound,
         "prior_share": estimate.prior_share,
+        "temperature_share": estimate.temperature_share,
     }
 
 

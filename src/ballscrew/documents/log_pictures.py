@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from ballscrew.calibration.calibrated_model import CalibratedModel
 from ballscrew.calibration.fit import points_of
 from ballscrew.calibration.fit_result import Rows
+from ballscrew.calibration.oil_temperature import torque_of_model
 from ballscrew.service.estimate import PreloadEstimate
-from ballscrew.service.posterior import torque_of_model
 from ballscrew.studies.service import ServiceReport
 
 Numbers = NDArray[np.float64]

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.calibration.fit import CONSTANT_LOSS, with_constant_torque
+from ballscrew.calibration.oil_temperature import VISCOSITY, torque_of_model
 from ballscrew.calibration.problem import CONSTANT_TORQUE
 from ballscrew.calibration.response import resolve_input
 from ballscrew.calibration.robust import BIWEIGHT_CUTOFF, Vector, noise_of
@@ -18,13 +19,7 @@ from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import InputError
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.quantities import Quantity
-from ballscrew.service.posterior import (
-    PRELOAD,
-    VISCOSITY,
-    Readings,
-    errors_of_sensor,
-    torque_of_model,
-)
+from ballscrew.service.posterior import PRELOAD, Readings, errors_of_sensor
 from ballscrew.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.uncertainty.distributions import Distribution, allowed
 

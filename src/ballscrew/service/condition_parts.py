@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from ballscrew.calibration.oil_temperature import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE, torque_of_model
 from ballscrew.calibration.response import resolve_input
 from ballscrew.calibration.robust import Vector
 from ballscrew.errors import InputError
@@ -20,14 +21,7 @@ from ballscrew.evaluation.plan import Configuration
 from ballscrew.service.alternatives import BOUNDARY_FRICTION
 from ballscrew.service.condition_means import Means, points_of
 from ballscrew.service.condition_reduction import Reduction, of_first_tests
-from ballscrew.service.posterior import (
-    FRICTION,
-    LOGGED_TEMPERATURE,
-    MODEL_ERROR,
-    PRELOAD,
-    UNKNOWN_TEMPERATURE,
-    torque_of_model,
-)
+from ballscrew.service.posterior import FRICTION, MODEL_ERROR, PRELOAD
 from ballscrew.uncertainty.default_uncertainties import NORMAL_95
 
 #: Names of the causes.

@@ -16,18 +16,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ballscrew.calibration.oil_temperature import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE, torque_of_model
 from ballscrew.calibration.robust import Vector
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import Fault, raise_if_any
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.service.condition_means import Means, points_of
-from ballscrew.service.posterior import (
-    FRICTION,
-    LOGGED_TEMPERATURE,
-    PRELOAD,
-    UNKNOWN_TEMPERATURE,
-    torque_of_model,
-)
+from ballscrew.service.posterior import FRICTION, PRELOAD
 from ballscrew.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.uncertainty.distributions import Distribution
 

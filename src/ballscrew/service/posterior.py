@@ -19,10 +19,9 @@ from numpy.typing import NDArray
 
 from ballscrew.calibration.calibrated_model import CalibratedModel
 from ballscrew.calibration.fit import points_of
+from ballscrew.calibration.oil_temperature import LOGGED_TEMPERATURE, torque_of_model, usual_error
 from ballscrew.calibration.problem import CONSTANT_TORQUE
 from ballscrew.calibration.robust import Vector
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.evaluation.outputs import OPERATION
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.uncertainty.distributions import Distribution, standard_normal_quantile, standard_normal_share
@@ -34,10 +33,8 @@ if TYPE_CHECKING:
 FRICTION = np.array([[0.0], [1.0]])
 #: Places of some of the rows of a log.
 Places = NDArray[np.int64]
-#: The input that a service finds, and the one that stands for the temperature of an oil without a grade.
-PRELOAD, VISCOSITY = "nut.preload", "viscosity"
-#: Half the width of the 95 % interval of an oil temperature, K: that of a sensor near the nut, and without any.
-LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE = 2.0, 10.0
+#: The input that a service finds.
+PRELOAD = "nut.preload"
 #: Rows of a log that alternatives are fitted to, evenly over it.
 MOST_ROWS = 400
 #: No model follows a nut to the noise of a sensor: taken to be off by this share of the torque at each of so many
@@ -61,20 +58,6 @@ _FROM_PRIOR = 0.2
 MINIMUM_SAMPLES = 20
 #: A share so near 0 or 1 is as far as any number goes.
 _LAST_SHARE = 1e-12
-
-
-def torque_of_model(subject: Configuration, points: Mapping[str, Any], weights: Vector, warmer: Any = 0.0) -> Vector:
-    """The torque as it would be measured at the rows of a log, with an oil that is ``warmer`` by so many kelvin.
-
-    What was changed of an oil keeps its ratio to that of the grade at all temperatures of the log.
-    """
-    oil = subject.lubricant
-    if TEMPERATURE.name in points:
-        oil = oil.at(points[TEMPERATURE.name] + warmer)
-    elif np.any(warmer):
-        oil = dataclasses.replace(oil, viscosity=oil.viscosity * np.exp(-warmer * oil.temperature_coefficient))
-    found = subject.model(subject.screw, oil, **{name: points[name] for name in OPERATION})
-    return weights[0] * found.ideal_torque + weights[1] * found.screw_torque
 
 
 class Sensor(NamedTuple):
@@ -331,8 +314,7 @@ def values_of(scores: Vector, uncertain: Mapping[str, Distribution]) -> dict[str
 
 def oil_deviation(found: CalibratedModel) -> float:
     """Standard deviation of the oil temperature of a log, K: less where it was logged and can be used."""
-    used = found.lubricant.follows_temperature and found.rows.log.temperature is not None
-    return (LOGGED_TEMPERATURE if used else UNKNOWN_TEMPERATURE) / NORMAL_95
+    return usual_error(found.lubricant, found.rows.log) / NORMAL_95
 
 
 def _shares(scores: Vector) -> Vector:

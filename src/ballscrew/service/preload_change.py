@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from ballscrew.calibration.fit import fit
+from ballscrew.calibration.oil_temperature import VISCOSITY
 from ballscrew.calibration.problem import CONSTANT_TORQUE
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew
@@ -22,15 +23,7 @@ from ballscrew.records import Record
 from ballscrew.service.alternatives import Alternative, alternatives, rows_that_count
 from ballscrew.service.diagnostics import warning_records
 from ballscrew.service.estimate import Mixture, PreloadEstimate
-from ballscrew.service.posterior import (
-    MINIMUM_SAMPLES,
-    PRELOAD,
-    VISCOSITY,
-    Groups,
-    Posterior,
-    Readings,
-    posterior,
-)
+from ballscrew.service.posterior import MINIMUM_SAMPLES, PRELOAD, Groups, Posterior, Readings, posterior
 from ballscrew.torque_logs.log_rows import Kind
 from ballscrew.torque_logs.torque_log import TorqueLog
 from ballscrew.uncertainty.default_uncertainties import NORMAL_95, default_distributions
@@ -240,7 +233,7 @@ def _read(
     try:
         found = fit(
             subject.model, subject.screw, subject.lubricant, log, free, kind=kind, inertia=inertia, holdout=0.0,
-            done=done,
+            temperature_error=0.0, done=done,  # the posterior has it, with what the other numbers say of it
         )  # fmt: skip
     except InputError as error:
         name = label if log.source is None else log.source[0]

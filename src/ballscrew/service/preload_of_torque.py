@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ballscrew.calibration.oil_temperature import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE, torque_of_model
 from ballscrew.calibration.robust import Vector
 from ballscrew.components.materials import TEMPERATURE, Lubricant
 from ballscrew.components.screw import BallScrew
@@ -16,12 +17,7 @@ from ballscrew.evaluation.plan import Configuration
 from ballscrew.friction.model import FrictionModel
 from ballscrew.quantities import AngularSpeed, Temperature, Torque
 from ballscrew.service.estimate import Mixture, PreloadEstimate
-from ballscrew.service.posterior import (
-    LOGGED_TEMPERATURE,
-    PRELOAD,
-    UNKNOWN_TEMPERATURE,
-    torque_of_model,
-)
+from ballscrew.service.posterior import PRELOAD
 from ballscrew.service.preload_change import held_numbers, with_preload
 from ballscrew.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.uncertainty.distributions import Distribution, standard_normal_quantile

@@ -12,9 +12,11 @@ from ballscrew.calibration.calibrated_model import CalibratedModel
 from ballscrew.calibration.constant_torque import constant_torque_missed
 from ballscrew.calibration.fit import fit as fitted
 from ballscrew.calibration.next_test import NextTest
+from ballscrew.calibration.oil_temperature import uses_temperatures
 from ballscrew.calibration.problem import CONSTANT_TORQUE
 from ballscrew.calibration.response import resolve_input
 from ballscrew.cases.case import Case
+from ballscrew.cases.nut_tables import dynamic_rating
 from ballscrew.components.materials import TEMPERATURE
 from ballscrew.errors import Fault, InputError
 from ballscrew.evaluation.plan import Configuration
@@ -25,7 +27,9 @@ from ballscrew.torque_logs.torque_log import TorqueLog
 from ballscrew.uncertainty.default_uncertainties import default_distributions
 
 #: Options of the command line by the fields in which the fit finds faults.
-_OPTIONS: Mapping[str, str] = {f"fit.{name}": f"--{name}" for name in ("free", "holdout", "kind", "seed")}
+_OPTIONS: Mapping[str, str] = {f"fit.{name}": f"--{name}" for name in ("free", "holdout", "kind", "seed")} | {
+    "fit.temperature_error": "--temperature-error"
+}
 _LIMITS = "fit.limits."
 
 
@@ -52,8 +56,9 @@ def fit(case: Case, log: TorqueLog, options: Options, done: Callable[[int, int],
     def refit(free: Sequence[str]) -> CalibratedModel:
         return fitted(
             case.model, case.screw, case.lubricant, log, free, priors=priors, bounds=options.bounds,
-            kind=options.kind, inertia=options.inertia, holdout=options.holdout, seed=options.seed,
-            done=done,
+            kind=options.kind, inertia=options.inertia, holdout=options.holdout,
+            temperature_error=_temperature_error(case, log, options), dynamic_load_rating=_rating(case),
+            seed=options.seed, done=done,
         )  # fmt: skip
 
     priors = {
@@ -84,7 +89,29 @@ def fit(case: Case, log: TorqueLog, options: Options, done: Callable[[int, int],
             )
             for fault in error.faults
         ]  # fmt: skip
-    return FitReport(dataclasses.replace(model, warning_records=tuple(warnings)), test, log)
+    verdicts = units.in_display_units_of(model.verdict_records)
+    judged = dataclasses.replace(model, verdict_records=tuple(verdicts), warning_records=tuple(warnings))
+    return FitReport(judged, test, log)
+
+
+def _rating(case: Case) -> float | None:
+    """The dynamic load rating, N; None of a geometry that no standard has ratings for."""
+    try:
+        return dynamic_rating(case.screw, case.row, case.listed)[0]
+    except InputError:
+        return None
+
+
+def _temperature_error(case: Case, log: TorqueLog, options: Options) -> float | None:
+    """Half the width of the 95 % interval of the oil temperature, K; None for the usual one.
+
+    Where the log has no temperatures, it is that of the case, and so is its distribution if the case gives one.
+    """
+    given = case.uncertain.get(TEMPERATURE.name)
+    if options.temperature_error is not None or given is None or uses_temperatures(case.lubricant, log):
+        return options.temperature_error
+    low, high = (float(given.quantile(share)) for share in (0.025, 0.975))
+    return (high - low) / 2
 
 
 def _with_option(fault: Fault) -> Fault:

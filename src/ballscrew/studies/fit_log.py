@@ -35,6 +35,8 @@ class Options:
     inertia: float | None = None
     torque_constant: float | None = None
     holdout: float = 0.2
+    #: Half the width of the 95 % interval of the oil temperature, K; None for the usual one.
+    temperature_error: float | None = None
     seed: int = 0
     keep_going: bool = False
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, cast, get_args
 
 from ballscrew import units
+from ballscrew.calibration.oil_temperature import TEMPERATURE_ERROR
 from ballscrew.cases.case import Case
 from ballscrew.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.evaluation.outputs import inputs_of
@@ -30,6 +31,7 @@ def options(
     holdout: float,
     seed: int,
     keep_going: bool,
+    temperature_error: str | None = None,
 ) -> Options:
     """The options as typed values. Raises :class:`~ballscrew.errors.InputError` with all faults in them."""
     names = [name.strip() for given in free or [DEFAULT_FREE] for name in given.split(",") if name.strip()]
@@ -46,6 +48,7 @@ def options(
         columns=_columns(columns, faults),
         kind=cast("Kind", kind or "unknown"),
         holdout=holdout,
+        temperature_error=_temperature_error(temperature_error, faults),
         seed=seed,
         keep_going=keep_going,
     )
@@ -152,6 +155,17 @@ def _number(
     elif least is None and found <= 0:
         faults.append(Fault(option, "must be positive", text))
     return found
+
+
+def _temperature_error(text: str | None, faults: list[Fault]) -> float | None:
+    """A difference of temperatures in kelvin; None where none is given or it is a fault."""
+    option = "--temperature-error"
+    if text is not None and units.unit_in(text) not in ("K", "kelvin", ""):
+        # "2 degC" would be 275 K
+        number = text.replace(units.unit_in(text), "").strip()
+        faults.append(Fault(option, "is a difference of temperatures, in K", text, f'write {option} "{number} K"'))
+        return None
+    return _number(option, text, TEMPERATURE_ERROR, faults, least=0.0)
 
 
 def _columns(given: Sequence[str], faults: list[Fault]) -> dict[str, str]:

@@ -113,6 +113,7 @@ def _of_fit(name: str, report: FitReport) -> _Cells:
         cells[f"{number.replace('_', ' ')} identified"] = int(estimate.identified)
     put(cells, _RESULT["screw_torque"], model.residual_rms, "residual rms")
     put(cells, _RESULT["screw_torque"], model.holdout_rms, "held out rms")
+    cells["verdicts"] = "; ".join(model.verdicts)
     cells["warnings"] = "; ".join(model.warnings)
     return cells
 

@@ -11,7 +11,6 @@ from rich.table import Table
 
 from ballscrew import units
 from ballscrew.calibration.calibrated_model import CalibratedModel
-from ballscrew.calibration.diagnostics import product_of_powers
 from ballscrew.calibration.fit_result import Estimate
 from ballscrew.calibration.next_test import NextTest
 from ballscrew.calibration.problem import TORQUE_WANDER
@@ -23,6 +22,11 @@ from ballscrew.studies.fit import FitReport
 from ballscrew.text.tables import table_of
 
 _TORQUE = quantities_of(FrictionResult)["screw_torque"]
+#: A change of a number that is less than this share of the largest is no part of a trade-off; one that a log does not
+#: tell at all is shown of this size.
+_LEAST_TRADED, _TRADED = 0.05, 0.1
+#: A part of a squared error that is worth a word.
+_LEAST_PART = 0.01
 _FIFTHS = ("lowest", "lower", "middle", "higher", "highest")
 
 
@@ -33,6 +37,8 @@ def print_fit(case: Case, report: FitReport) -> None:
     def say(text: str, style: str | None = None) -> None:
         console.print(text, style=style, markup=False, soft_wrap=True)
 
+    for verdict in model.verdicts:
+        say(f"{verdict}\n", "bold red")
     log, (name, _) = model.rows.log, model.rows.log.source or ("log", "")
     say(f"{name}: {len(log)} of {log.rows} rows used, {model_text(case)}\n", "bold")
     for line in (*(f"left out: {count} rows, {reason}" for reason, count in log.left_out.items()), *log.notes):
@@ -44,10 +50,11 @@ def print_fit(case: Case, report: FitReport) -> None:
         say(f"assumed: {line}", "dim")
     console.print()
     console.print(_estimates(model))
+    for line in _of_temperature(model):
+        say(line, "dim")
     for warning in model.warnings:
         say(f"beware  {warning}", "yellow")
-    if len(model.estimates) > 1:
-        console.print(_combinations(model))
+    say(f"\n{trade_off(model)}")
     console.print(_scores(model))
     if unlisted := sum(map(_is_wandering, model.sensor)):
         say(f"among the numbers are {unlisted} for a sensor whose zero wanders slowly, not listed above", "dim")
@@ -72,6 +79,21 @@ def _estimates(model: CalibratedModel) -> Table:
     return table
 
 
+def _of_temperature(model: CalibratedModel) -> list[str]:
+    """The error of the oil temperature that the intervals have in them, and what part of each it makes."""
+    error = model.temperature_error.half_width
+    if not error:
+        return ["in the errors: none of the oil temperature, which is taken to be exact"]
+    shown = [e for e in (*model.estimates.values(), *model.sensor.values()) if not _is_wandering(e.name)]
+    parts = [
+        f"{e.temperature_share:.0%} for the {spoken(e.name)}"
+        for e in shown
+        if e.identified and e.temperature_share >= _LEAST_PART
+    ]
+    makes = f"; of the variance they make {', '.join(parts)}" if parts else ""
+    return [f"in the errors: {error:g} K of oil temperature either way (95 %), the same in all rows{makes}"]
+
+
 def _is_wandering(name: str) -> bool:
     """Whether a number is a wave of the zero of the sensor, which says nothing of the screw."""
     return name in {quantity.name for quantity in TORQUE_WANDER.values()}
@@ -91,21 +113,26 @@ def _number(estimate: Estimate, value: float, digits: int = 4) -> str:
     return f"{units.from_si(value, estimate.quantity):.{digits}g}"
 
 
-def _combinations(model: CalibratedModel) -> Table:
-    table = table_of("\nWhat the log tells, the best known first", "combination of the numbers", "known to", "")
-    for product, combination in zip(combinations(model), model.identifiability.combinations, strict=True):
-        error = combination.relative_error
-        table.add_row(
-            product,
-            f"{error:.2%}" if error < 1 else "–",
-            "" if combination.identified else "not identified",
-        )
-    return table
-
-
-def combinations(model: CalibratedModel) -> list[str]:
-    """The products of powers that the table of combinations lists, in its order."""
-    return [product_of_powers(one.powers) for one in model.identifiability.combinations]
+def trade_off(model: CalibratedModel) -> str:
+    """What the log tells least of, as one sentence: numbers that make up for each other."""
+    least = model.identifiability.combinations[-1]
+    values = {name: estimate.value for name, estimate in model.estimates.items()}
+    scales = dict(zip(values, model.uncertainty.scale, strict=False))
+    # in shares of each number, where it has a size
+    shares = {n: power * scales[n] / abs(values[n] or scales[n]) for n, power in least.powers.items()}
+    largest = max(map(abs, shares.values()), default=0.0)
+    kept = {name: share for name, share in shares.items() if abs(share) >= _LEAST_TRADED * largest}
+    if len(kept) < 2:
+        return "Trade-offs: none; the log tells each number by itself"
+    (first, change), *others = sorted(kept.items(), key=lambda item: -abs(item[1]))
+    sign = 1.0 if change > 0 else -1.0
+    error = least.relative_error if least.identified else _TRADED / abs(change)
+    changes = [(name, sign * share * error) for name, share in [(first, change), *others]]
+    shown = [f"{abs(100 * each):.2g} % {'more' if each > 0 else 'less'} {spoken(name)}" for name, each in changes]
+    exchange = f"{shown[0]} with {' and '.join(shown[1:])}"
+    if not least.identified:
+        return f"Trade-off: {exchange} makes no difference in this log, which tells only what they make together"
+    return f"Trade-off: {exchange} fits the rows nearly as well (one standard error)"
 
 
 def _scores(model: CalibratedModel) -> Table:

@@ -30,5 +30,6 @@ def list_text(reports: Mapping[str, FitReport]) -> str:
                     f"{model.residual_rms:.3g} N m" if number == 0 else "",
                 )
             )
+    verdicts = [wrapped(f"{name}: {text}") for name, found in reports.items() for text in found.model.verdicts]
     warnings = [wrapped(f"beware  {name}: {text}") for name, found in reports.items() for text in found.model.warnings]
-    return "\n".join([*aligned(lines), *warnings])
+    return "\n".join([*verdicts, *aligned(lines), *warnings])

@@ -62,7 +62,8 @@ async def fit(request: Request) -> Response:
         chosen = fit_options.options(
             case, free=body.free, bounds=assignments(body.bounds), limits=assignments(body.limits),
             columns=assignments(body.columns), kind=body.kind, inertia=body.inertia,
-            torque_constant=body.torque_constant, holdout=body.holdout, seed=body.seed, keep_going=body.keep_going,
+            torque_constant=body.torque_constant, holdout=body.holdout, temperature_error=body.temperature_error,
+            seed=body.seed, keep_going=body.keep_going,
         )  # fmt: skip
         with sent_files.written({"log": body.log}) as paths:
             if is_moving(paths["log"], assignments(body.columns)):

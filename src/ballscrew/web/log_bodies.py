@@ -43,6 +43,7 @@ class FitBody(_LogBody):
     bounds: dict[str, str] = Field(default_factory=dict)
     limits: dict[str, str] = Field(default_factory=dict)
     holdout: float = Field(default=0.2, strict=True)
+    temperature_error: str | None = Field(default=None, strict=True)
     seed: int = Field(default=0, strict=True)
     self_heating: bool = Field(default=False, strict=True)
 

@@ -37,7 +37,7 @@ def fit(case: Case, tables: Mapping[str, Any], report: FitReport) -> dict[str, A
         **document,
         "words": {
             "title": fit_text.log_and_model(case, report),
-            "combinations": fit_text.combinations(report.model),
+            "trade_off": fit_text.trade_off(report.model),
             "next_test": [filled(line, quantities) for line in lines],
         },
         "display": {"next_test": [template(line, quantities) for line in lines]},

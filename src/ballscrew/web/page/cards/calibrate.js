@@ -141,11 +141,12 @@ export function setUp(holder, page) {
     const { rows, words: said, display } = found;
     const left = Object.entries(rows.left_out).map(([reason, count]) => `${reason}: ${count}`);
     words.replaceChildren(
+      ...lines(found.verdicts, []),
       element("p", {}, text("calibrate.rows", { used: rows.used, read: rows.read, held: rows.held_out })),
       element("p", { class: "small", ...ofServer }, [...left, ...rows.notes, rows.torque].join("; ")),
       estimates(found),
-      ...lines(found.verdicts, found.warnings),
-      ...(said.combinations.length > 1 ? [combinations(found)] : []),
+      ...lines([], found.warnings),
+      element("p", ofServer, said.trade_off),
       ...(display.next_test.length ? [element("h3", {}, text("calibrate.next"))] : []),
       ...display.next_test.map((line) => element("p", ofServer, units.filled(line))),
     );
@@ -233,17 +234,6 @@ export function setUp(holder, page) {
   /** @param {string} name @param {string} si */
   function metricOf(name, si) {
     return seen?.free.find((one) => one.name === name)?.shown_in ?? si;
-  }
-
-  /** What the log tells, the best known first. @param {FitAnswer} found */
-  function combinations({ words: said, identifiability }) {
-    const known = /** @type {{ relative_error: number, identified: boolean }[]} */ (identifiability.combinations);
-    const rows = said.combinations.map((product, place) => [
-      product.replaceAll("_", " "),
-      known[place].identified ? `${units.digits(100 * known[place].relative_error, 2)} %` : text("calibrate.not_told"),
-    ]);
-    const caption = text("calibrate.told");
-    return scrolling(caption, table(caption, [text("calibrate.product"), text("calibrate.known_to")], rows));
   }
 
   function follow() {

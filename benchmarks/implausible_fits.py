@@ -1,0 +1,120 @@
+"""Three synthetic logs that end in numbers that no screw has, and what the fit says of them.
+
+Each is made by the model with noise of 1 %, and each has one fault that is usual: a nut that is not the one of the
+case, a torque sensor whose zero is off in a log of one direction, seals that the case does not have.
+
+    python benchmarks/implausible_fits.py            print the table, as Markdown
+    python benchmarks/implausible_fits.py --write    and store it in docs/implausible_fits.inc
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+import ballscrew as bs
+from ballscrew.calibration.calibrated_model import CalibratedModel
+from ballscrew.components.materials import Lubricant
+from ballscrew.components.nut import Nut
+from ballscrew.components.screw import BallScrew
+
+PAGE = Path(__file__).parents[1] / "docs" / "implausible_fits.inc"
+MODEL = bs.FrictionModel.reference()
+OIL = Lubricant.from_grade("ISO VG 68", 308.15)
+ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
+RATING = float(ROW.dynamic_load_rating or math.nan)
+FRICTION, CONSTANT, PRELOAD = "boundary_friction_coefficient", "constant_torque", "nut.preload"
+ROWS, NOISE = 120, 0.01
+RPM = 2 * math.pi / 60
+#: The ranges in which nothing was said before the verdicts: of the coefficient, and of the constant torque in N m.
+BEFORE = {FRICTION: (0.0, 1.0), CONSTANT: (-50.0, 50.0), PRELOAD: (0.0, math.inf)}
+
+
+class Log(NamedTuple):
+    """A log with its fault: the nut that it is of, that of the case, and what is fitted."""
+
+    fault: str
+    true: Nut
+    case: Nut
+    free: tuple[str, ...]
+    loads: tuple[float, float] = (0.0, 6000.0)
+    zero: float = 0.0
+    both: bool = True
+
+    def columns(self) -> dict[str, Any]:
+        """The columns in SI."""
+        random = np.random.default_rng(7)
+        load = random.uniform(*self.loads, ROWS)
+        speed = np.exp(random.uniform(math.log(10), math.log(600), ROWS)) * RPM
+        sign = np.where(np.arange(ROWS) % 2, -1.0, 1.0) if self.both else np.ones(ROWS)
+        torque = MODEL(self.screw(self.true), OIL, axial_load=load, screw_speed=speed).screw_torque
+        measured = sign * torque * (1 + NOISE * random.standard_normal(ROWS)) + self.zero
+        warm = np.full(ROWS, 308.15)
+        return {"axial_load": load, "screw_speed": sign * speed, "friction_torque": measured, "temperature": warm}
+
+    def screw(self, nut: Nut) -> BallScrew:
+        """The screw with a nut."""
+        return ROW.screw(nut=nut)
+
+    def fit(self) -> CalibratedModel:
+        """The fit of the case's nut to the log."""
+        columns, screw = self.columns(), self.screw(self.case)
+        return bs.fit(MODEL, screw, OIL, columns, self.free, holdout=0.0, dynamic_load_rating=RATING)
+
+
+def _with_seals(torque: float) -> Nut:
+    return bs.DoubleNut(preload=3000.0, losses={"seals": bs.Seals(seal_torque=torque)})
+
+
+LOGS = {
+    "another nut": Log(
+        "a double nut of 2 kN; the case has a single nut", bs.DoubleNut(preload=2000.0), bs.SingleNut(), (FRICTION,),
+        loads=(500.0, 3000.0),
+    ),
+    "zero of the sensor": Log(
+        "zero off by -0.2 N m, forward only", _with_seals(0.05), bs.DoubleNut(preload=3000.0), (FRICTION, CONSTANT),
+        zero=-0.2, both=False,
+    ),
+    "seals left out": Log(
+        "wipers of 0.9 N m that the case does not have; no load", _with_seals(0.9), bs.DoubleNut(preload=3000.0),
+        (PRELOAD,), loads=(0.0, 0.0),
+    ),
+}  # fmt: skip
+
+
+def table() -> str:
+    """What was found and said, as Markdown."""
+    lines = ["| log | fault | fitted | before | verdict |", "| --- | --- | --- | --- | --- |"]
+    for name, log in LOGS.items():
+        found = log.fit()
+        for estimate in found.estimates.values():
+            low, high = BEFORE[estimate.name]
+            before = "nothing" if low <= estimate.value <= high else "a warning"
+            unit = "" if estimate.quantity.unit == "1" else f" {estimate.quantity.unit}"
+            value = f"{estimate.name.rpartition('.')[2].replace('_', ' ')} {estimate.value:.3g}{unit}"
+            said = "plausible"
+            for record in found.verdict_records:
+                if record.subject == estimate.name:
+                    least, most = (record.message.values[end].value for end in ("low", "high"))
+                    said = f"implausible: outside {least:.3g} to {most:.3g}{unit}"
+            lines.append(f"| {name} | {log.fault} | {value} | {before} | {said} |")
+    return "\n".join(lines) + "\n"
+
+
+def main() -> None:
+    """Fit, say, store."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--write", action="store_true", help="store the table in the docs")
+    options = parser.parse_args()
+    found = table()
+    print(found, end="")
+    if options.write:
+        PAGE.write_text(found, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,113 @@
+"""Plausible ranges of fitted numbers: a fit finds the numbers that follow a log, and not whether a screw can have them.
+
+A log of another nut, a wrong unit or an effect that the model lacks ends in numbers that no screw has. A boundary
+friction coefficient lies within :data:`BOUNDARY_FRICTION`, a constant torque drives no screw and is not more than
+:data:`MOST_CONSTANT` of the friction measured, a preload is at most :data:`HIGHEST_PRELOAD` of the dynamic load rating,
+and all other numbers lie in the usual range of their input (:class:`~ballscrew.quantities.Info`).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ballscrew.calibration.fit_result import Estimate, FitResult
+from ballscrew.calibration.problem import CONSTANT_TORQUE
+from ballscrew.errors import shown_in_si
+from ballscrew.quantities import Force
+from ballscrew.records import Measured, Message, Record
+
+#: The largest share that the seals have of a torque without load, of the rows of Rexroth2006 with their standard seals.
+MOST_CONSTANT = 0.8
+#: A preload above this share of the dynamic load rating is more than vendors allow.
+HIGHEST_PRELOAD = 0.1
+#: From the friction of a film, which that of touching surfaces is not below, to the highest coefficient in use.
+BOUNDARY_FRICTION = 0.05, 0.2
+_BOUNDARY = Message(
+    "what steel and oil have: 0.05 is the friction of a film, 0.12 to 0.15 that of bearings that touch (SKF2018), "
+    "0.2 the highest in use (Olaru2005)"
+)
+_CONSTANT = Message(
+    "seals and bearings drive no screw, and make at most {percent} % of a torque without load (Rexroth2006)",
+    {"percent": Measured(100 * MOST_CONSTANT)},
+)
+_RATING = Message(
+    "{percent} % of the dynamic load rating is the most that makers set", {"percent": Measured(100 * HIGHEST_PRELOAD)}
+)
+_USUAL = Message("what screws have")
+_OUTSIDE = Message(
+    "implausible: {name} {value} is outside {low} to {high} ({reason}); {end}: look at units, signs and the kind of "
+    "nut, free what the model lacks, or hold this number"
+)
+_WITH_INTERVAL = Message("{value} (95 %: {least} to {most})")
+_REACHES, _AVOID = Message("its interval reaches into it"), Message("do not predict with this fit")
+_PRELOADS = ("preload", "nut.preload")
+
+
+class _Range(NamedTuple):
+    low: float
+    high: float
+    #: What has such numbers.
+    reason: Message
+
+
+def verdict_records(found: FitResult, dynamic_load_rating: Force | None = None) -> list[Record]:
+    """A verdict for each fitted number that no screw has, in the order of the estimates."""
+    limits = {name: _range(found, full, estimate, dynamic_load_rating) for name, full, estimate in _named(found)}
+    return [
+        _record(estimate, limit)
+        for name, estimate in found.estimates.items()
+        if (limit := limits[name]) is not None and not limit.low <= estimate.value <= limit.high
+    ]
+
+
+def _named(found: FitResult) -> list[tuple[str, str, Estimate]]:
+    """The estimates with the names that they have as inputs."""
+    full = [*found.response.names, *([CONSTANT_TORQUE.name] if CONSTANT_TORQUE.name in found.estimates else [])]
+    return [(name, inside, one) for inside, (name, one) in zip(full, found.estimates.items(), strict=True)]
+
+
+def _range(found: FitResult, full: str, estimate: Estimate, rating: Force | None) -> _Range | None:
+    if full == CONSTANT_TORQUE.name:
+        typical = float(np.median(np.abs(found.rows.friction + estimate.value)))
+        return _Range(0.0, MOST_CONSTANT * typical, _CONSTANT)
+    if full in _PRELOADS and rating is not None:
+        return _Range(0.0, HIGHEST_PRELOAD * float(rating), _RATING)
+    if full.rpartition(".")[2] == "boundary_friction_coefficient":
+        return _Range(*BOUNDARY_FRICTION, _BOUNDARY)
+    usual = estimate.quantity.info.usual
+    return None if usual is None else _Range(float(usual[0]), float(usual[1]), _USUAL)
+
+
+def _record(estimate: Estimate, limit: _Range) -> Record:
+    ends = estimate.interval()
+    reaches = ends is not None and ends[0] <= limit.high and ends[1] >= limit.low
+    # at a bound but for rounding
+    value = min(estimate.bounds, key=lambda end: abs(end - estimate.value)) if estimate.at_bound else estimate.value
+
+    def measured(number: float) -> Measured:
+        return Measured(number, estimate.quantity)
+
+    said: Measured | Message = measured(value)
+    if ends is not None:
+        said = _WITH_INTERVAL.of(value=said, least=measured(ends[0]), most=measured(ends[1]))
+    message = _OUTSIDE.of(
+        name=estimate.name.rpartition(".")[2].replace("_", " "),
+        value=said,
+        low=measured(limit.low),
+        high=measured(limit.high),
+        reason=limit.reason,
+        end=_REACHES if reaches else _AVOID,
+    )
+    return Record(
+        id="fit.implausible",
+        subject=estimate.name,
+        text=message.filled(shown_in_si),
+        severity="warning" if reaches else "error",
+        holds=None if reaches else False,
+        value=estimate.value,
+        limit=limit.low if estimate.value < limit.low else limit.high,
+        unit=estimate.quantity.unit,
+        message=message,
+    )

@@ -1,0 +1,87 @@
+"""Numbers that no screw has: a verdict on each, before all else, and none on fits that are right."""
+
+import importlib.util
+import math
+from pathlib import Path
+
+import pytest
+
+import ballscrew as bs
+from ballscrew.calibration.plausibility import BOUNDARY_FRICTION, HIGHEST_PRELOAD, MOST_CONSTANT
+from ballscrew.papers.olaru2005.case import SCREW
+from support.synthetic_logs import OIL, log, truth
+
+PAPER = bs.FrictionModel.olaru2005()
+BENCHMARK = Path(__file__).parents[2] / "benchmarks" / "implausible_fits.py"
+FRICTION, CONSTANT, PRELOAD = "boundary_friction_coefficient", "constant_torque", "nut.preload"
+
+
+@pytest.fixture(scope="module")
+def logs():
+    spec = importlib.util.spec_from_file_location("implausible_fits", BENCHMARK)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.LOGS
+
+
+@pytest.mark.parametrize(
+    ("name", "number", "limit"),
+    [
+        ("another nut", FRICTION, BOUNDARY_FRICTION[1]),
+        ("zero of the sensor", CONSTANT, 0.0),
+        ("seals left out", PRELOAD, HIGHEST_PRELOAD * 72_100),
+    ],
+)
+def test_a_log_with_a_fault_ends_in_a_verdict(logs, name, number, limit):
+    found = logs[name].fit()
+    (verdict,) = found.verdict_records
+    assert (verdict.id, verdict.subject, verdict.holds, verdict.severity) == ("fit.implausible", number, False, "error")
+    assert verdict.value == found.estimates[number].value
+    assert verdict.limit == pytest.approx(limit, rel=1e-3)
+    assert "do not predict with this fit" in verdict.text
+    assert found.report().startswith("implausible: ")
+    # one record for one number
+    assert not any(record.id == "inputs.implausible" for record in found.warning_records)
+
+
+def test_a_fit_that_is_right_has_none():
+    found = bs.fit(PAPER, SCREW, OIL, log(truth(), drift=0.0, outliers=0.0), [FRICTION, CONSTANT])
+    assert not [record for record in found.verdict_records if record.holds is False]
+
+
+def test_a_number_outside_whose_interval_reaches_in_is_open(logs):
+    """A true constant torque of zero is found below zero by chance, half of the time."""
+    for seed in range(8):
+        found = bs.fit(PAPER, SCREW, OIL, log(truth(), seed=seed, drift=0.0, outliers=0.0), [FRICTION, CONSTANT])
+        high, value = found.estimates[CONSTANT].interval()[1], found.estimates[CONSTANT].value
+        if value < 0 <= high:
+            (verdict,) = found.verdict_records
+            assert (verdict.subject, verdict.holds, verdict.severity) == (CONSTANT, None, "warning")
+            assert "its interval reaches into it" in verdict.text
+            return
+    pytest.fail("no constant torque below zero among 8 logs: one in 256 by chance")
+
+
+def test_a_constant_torque_is_at_most_the_share_that_seals_have(logs):
+    """The seals of Rexroth's table over the whole torque without load, row by row: none is above the limit."""
+    import tomllib
+    from importlib import resources
+
+    from ballscrew.studies import validation
+    from ballscrew.validation.sets import SETS
+
+    seals = tomllib.loads((resources.files("ballscrew") / "data" / "seals.toml").read_text(encoding="utf-8"))["seals"]
+    shares = []
+    for name in ("rexroth-double-nut", "rexroth-single-nut"):
+        for row in validation.shipped_rows(SETS[name]):
+            d0, lead = row["nominal_diameter"], row["lead"]
+            torques = [
+                one["torque"]
+                for one in seals
+                if math.isclose(one["nominal_diameter"], d0)
+                and ("leads" not in one or one["leads"][0] - 1e-6 <= lead <= one["leads"][1] + 1e-6)
+            ]
+            drags = [value for key, value in row.items() if key.startswith("no_load_torque") and value is not None]
+            shares += [torques[0] / (torques[0] + float(drag)) for drag in drags if torques]
+    assert len(shares) > 50
+    assert max(shares) == pytest.approx(MOST_CONSTANT)
