@@ -115,3 +115,17 @@ def test_the_example_table_is_what_its_script_makes():
     done = subprocess.run(script, capture_output=True, encoding="utf-8", check=False)
     assert done.returncode == 0, done.stderr
     assert TABLE.read_text(encoding="utf-8").startswith("# SYNTHETIC")
+
+
+def test_tests_without_a_speed_are_refused_though_the_case_has_one(ballscrew, tmp_path):
+    """The speed of the case is of another motion: at 600 rpm in place of 100 rpm an alarm becomes none."""
+    lines = [line for line in TABLE.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+    path = tmp_path / "slow.csv"
+    path.write_text("\n".join(",".join(line.split(",")[:4]) for line in lines) + "\n", encoding="utf-8")
+    done = ballscrew("condition", path, *QUICK)
+    assert done.returncode == 2
+    assert not done.stdout
+    assert '--speed: is not known · add a column "speed [rpm]", or give the speed of all tests: --speed' in done.stderr
+    assert (
+        document(ballscrew("condition", path, *QUICK, "--speed", "100 rpm", "--json"))["results"]["alarm"] is not None
+    )

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ballscrew.calibration.oil_temperature import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE, torque_of_model
 from ballscrew.calibration.response import resolve_input
 from ballscrew.calibration.robust import Vector
 from ballscrew.components.materials import TEMPERATURE
@@ -18,14 +19,8 @@ from ballscrew.service.condition_means import Means
 from ballscrew.service.condition_parts import CONSTANT, WARMER
 from ballscrew.service.condition_reduction import Reduction
 from ballscrew.service.condition_values import Condition
-from ballscrew.service.posterior import (
-    FRICTION,
-    LOGGED_TEMPERATURE,
-    MODEL_ERROR,
-    PRELOAD,
-    UNKNOWN_TEMPERATURE,
-    torque_of_model,
-)
+from ballscrew.service.posterior import FRICTION, MODEL_ERROR, PRELOAD
+from ballscrew.service.temperature_trend import temperature_trend
 from ballscrew.uncertainty.default_uncertainties import NORMAL_95
 
 #: A factor between measured torque and model beyond this, either way, is said.
@@ -47,6 +42,7 @@ def records_of(
     warnings = [
         *_starved(means, subject, graded),
         *_of_temperatures(made, means, found, subject, change, graded),
+        *_of_baseline(made, means, found, graded),
         *_of_speeds(means),
         *_of_factor(made),
         *_of_torques(made, means),
@@ -112,6 +108,23 @@ def _of_temperatures(
     if needed is not None and abs(needed) >= 1:
         text += f"; an oil {abs(needed):.0f} K {'hotter' if needed > 0 else 'colder'} would explain the last test"
     return [_warning("no_temperature", "temperature", f"{text}. Log the temperature of the nut", holds=False)]
+
+
+def _of_baseline(made: Condition, means: Means, found: Reduction, graded: bool) -> list[Record]:
+    """A trend of the reduced torque with the temperature in the first tests, where the nut counts as healthy."""
+    count = made.baseline
+    if not (graded and means.logged[:count].all()):
+        return []
+    warm = np.array([float(np.mean(means.temperature[means.test == i])) for i in range(count)])
+    trend = temperature_trend(found.torque[:count], warm)
+    if trend is None or not trend.told:
+        return []
+    text = (
+        f"the torque of the first {count} tests, reduced to one temperature, {trend.words(made.per_kelvin)}. Tests "
+        "colder or warmer than these may give an alarm for it, or hide one: compare tests of one temperature, or take "
+        "a longer baseline"
+    )
+    return [_warning("temperature_trend", "temperature", text, value=trend.slope, limit=0.0, unit="1/K", holds=False)]
 
 
 def _of_speeds(means: Means) -> list[Record]:

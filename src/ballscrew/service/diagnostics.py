@@ -6,19 +6,22 @@ import dataclasses
 
 import numpy as np
 
+from ballscrew.calibration.fit import points_of
 from ballscrew.calibration.fit_result import Rows
+from ballscrew.calibration.oil_temperature import torque_of_model, uses_temperatures
+from ballscrew.calibration.plausibility import HIGHEST_PRELOAD
+from ballscrew.calibration.robust import MINIMUM_ROWS
 from ballscrew.evaluation.plan import Configuration
 from ballscrew.friction.starvation import STARVED
 from ballscrew.quantities import Force, Quantity
 from ballscrew.records import Measured, Message, Record
 from ballscrew.service.estimate import PreloadEstimate
-from ballscrew.service.posterior import MINIMUM_SAMPLES, MODEL_ERROR, MODEL_PARTS, PRELOAD, Posterior
+from ballscrew.service.posterior import FRICTION, MINIMUM_SAMPLES, MODEL_ERROR, MODEL_PARTS, PRELOAD, Posterior
+from ballscrew.service.temperature_trend import temperature_trend
 
 #: A difference between the temperatures of two logs that is said, K.
 TEMPERATURE_DIFFERENCE = 5.0
 _OF_LOG = Message("{log} log: {message}")
-#: A preload above this share of the dynamic load rating is more than vendors allow.
-HIGHEST_SHARE = 0.1
 #: A misfit of a log that is seldom chance, and a number so many standard deviations from what is known of it, are said.
 MISFIT_SHARE, LARGEST_SCORE = 1e-3, 2.0
 #: Warnings of the fit of the preload alone that hold whatever the other numbers are.
@@ -48,6 +51,7 @@ def warning_records(
         *_of_ratings({"new": new, "worn": worn}, subject, dynamic_load_rating),
         *(record for label, one in logs.items() for record in _of_lift_off(label, one)),
         *_of_temperatures(logs, subject),
+        *(record for label, one in logs.items() for record in _of_trend(label, one)),
         *(record for label, one in logs.items() for record in _of_directions(label, one)),
     ]
 
@@ -111,7 +115,7 @@ def _of_ratings(
     if dynamic_load_rating is None:
         return []
     quantity: Quantity = subject.inputs[PRELOAD][1]
-    limit = HIGHEST_SHARE * float(dynamic_load_rating)
+    limit = HIGHEST_PRELOAD * float(dynamic_load_rating)
     found: list[Record] = []
     for label, one in both.items():
         if one.preload <= limit:
@@ -121,7 +125,7 @@ def _of_ratings(
             "it costs life; look at the nut and the units of the log",
             {
                 "log": Message(label), "preload": Measured(one.preload, quantity), "limit": Measured(limit, quantity),
-                "percent": Measured(100 * HIGHEST_SHARE),
+                "percent": Measured(100 * HIGHEST_PRELOAD),
             },
         )  # fmt: skip
         text = message.filled(lambda number: number.plain() if number.is_plain else f"{number.value:.4g} N")
@@ -175,6 +179,32 @@ def _of_temperatures(logs: dict[str, PreloadEstimate], subject: Configuration) -
                 )
             )  # fmt: skip
     return records
+
+
+def _of_trend(label: str, one: PreloadEstimate) -> list[Record]:
+    """A trend of torques over those of the model with the temperature, loads and speeds accounted for."""
+    rows, subject = _rows(one), one.subject
+    log = rows.log
+    if subject is None or not uses_temperatures(subject.lubricant, log):
+        return []
+    points = points_of(log, subject.lubricant)
+    model = torque_of_model(subject, points, FRICTION, one.warmer)
+    measured = rows.friction - rows.residuals * rows.direction
+    with np.errstate(invalid="ignore", divide="ignore"):
+        off = np.log(measured / model)
+    kept = np.isfinite(off) & ~rows.outlying
+    if np.count_nonzero(kept) < MINIMUM_ROWS:
+        return []
+    others = np.stack([np.log(points["screw_speed"]), points["axial_load"]], axis=1)
+    trend = temperature_trend(off[kept], np.asarray(log.temperature)[kept], others[kept])
+    if trend is None or not trend.told or abs(trend.slope) * trend.temperature_range < MODEL_ERROR:
+        return []
+    warmer = torque_of_model(subject, points, FRICTION, one.warmer + 1.0)
+    text = (
+        f"{label} log: the torque over that of the model {trend.words(float(np.mean(np.log(warmer / model))))}; "
+        "a preload by logs of other temperatures is off by as much: compare logs of one temperature"
+    )
+    return [_record("temperature_trend", f"{label}.temperature", text, value=trend.slope, limit=0.0, unit="1/K")]
 
 
 def _of_directions(label: str, one: PreloadEstimate) -> list[Record]:

@@ -32,7 +32,7 @@ class Options:
     """Settings of a condition; numbers in SI."""
 
     columns: Mapping[str, str] = dataclasses.field(default_factory=dict[str, str])
-    #: Speed of the tests of a table without speeds; by default that of the case.
+    #: Speed of the tests of a table without speeds; that of the case is of another motion.
     speed: float | None = None
     reference_temperature: float | None = None
     baseline: int = BASELINE
@@ -48,11 +48,10 @@ def of_files(
     case: Case, paths: Sequence[Path], options: Options, done: Callable[[int, int], None] | None = None
 ) -> Condition:
     """The condition from the table in one file, or from logs in several, in their order."""
-    notes: list[str] = []
     tests: Any
     if len(paths) == 1:
         tests = torque_series.read(paths[0], options.columns, options.keep_going)
-        speed = _speed(case, tests, options, notes)
+        speed = _speed(tests, options)
     else:
         tests = [
             reading.read(
@@ -73,21 +72,14 @@ def of_files(
     except InputError as error:
         raise InputError(*(_with_option(fault) for fault in error.faults)) from None
     records = (*units.in_display_units_of(found.warning_records), *case.implausible())
-    return dataclasses.replace(found, notes=(*found.notes, *notes), warning_records=records)
+    return dataclasses.replace(found, warning_records=records)
 
 
-def _speed(case: Case, series: torque_series.TorqueSeries, options: Options, notes: list[str]) -> float | None:
-    """The speed of tests that have none in the table; that of the case is said."""
-    if series.screw_speed is not None and np.isfinite(series.screw_speed).all():
-        if options.speed is not None:
-            raise InputError(Fault("--speed", "is given beside a column of speeds", "", "leave one of them out"))
-        return None
-    if options.speed is not None or np.ndim(case.operation.screw_speed):
-        return options.speed
-    speed = abs(float(case.operation.screw_speed))
-    shown = units.shown(speed, torque_series.quantities()["screw_speed"])
-    notes.append(f"speed of the tests: that of the case, {shown}")
-    return speed
+def _speed(series: torque_series.TorqueSeries, options: Options) -> float | None:
+    """The speed of tests that have none in the table; without one the condition refuses them."""
+    if options.speed is not None and series.screw_speed is not None and np.isfinite(series.screw_speed).all():
+        raise InputError(Fault("--speed", "is given beside a column of speeds", "", "leave one of them out"))
+    return options.speed
 
 
 def _with_option(fault: Fault) -> Fault:
