@@ -134,3 +134,10 @@ def test_the_example_is_found_out(fit):
         assert low < value < high, name
     errors = {name: model["cross_error"] for name, model in found["models"].items()}
     assert errors["screw"] < errors["coulomb-viscous"]
+
+
+def test_every_row_that_is_not_used_has_its_reason(ballscrew):
+    done = ballscrew("fit", EXAMPLES / "axis_log.csv", "--case", EXAMPLES / "axis.toml", "--json")
+    rows = json.loads(done.stdout)["rows"]
+    assert rows["read"] == rows["used"] + sum(rows["left_out"].values())
+    assert len(rows["left_out"]) >= 2

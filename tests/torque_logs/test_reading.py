@@ -182,7 +182,7 @@ def test_faults_of_columns_of_the_users_own(columns, expected, read):
              '--column torque="your heading [N m]"'],
         ),
         (
-            "n [rpm],M [N m]",
+            "n [rpm],Presskraft [kN],M [N m]",
             ['log.csv: has no column "axial_load [N]" · it may also be called F, Fa, F_ax, or name it: '
              '--column axial_load="your heading [N]"; if it is the same in every row, --column axial_load="0 N"'],
         ),
@@ -413,3 +413,21 @@ def test_rows_with_more_cells_than_headings(read):
     ]
     assert len(read(text.replace("6,35,4,5", "6,35,4,,,,,,,,,,,"))) == 3
     assert "row 4: has more cells" in lines_of(read, text.replace("6,35,4,5", ",".join("1" * 99)))[0]
+
+
+@pytest.mark.parametrize("text", ["n [rpm],M_R [N m]\n10,1\n20,2\n30,3\n", "n,M_R\nrpm,N m\n10,1\n20,2\n30,3\n"])
+def test_a_log_without_a_column_of_the_load_is_one_of_no_load_and_says_so(read, text):
+    found = read(text)
+    assert found.axial_load.tolist() == [0.0, 0.0, 0.0]
+    (note,) = [note for note in found.notes if "no column of the load" in note]
+    assert '0 N in every row; give --column axial_load="your heading [N]"' in note
+    given = read(text, columns={"axial_load": "2 kN"})
+    assert given.axial_load.tolist() == [2000.0] * 3
+    assert not [note for note in given.notes if "no column of the load" in note]
+
+
+def test_another_column_in_a_unit_of_force_may_be_the_load_and_is_asked_for(read):
+    for text in ("n [rpm],Presse [kN],M_R [N m]\n10,1,1\n20,1,2\n", "n,Presse,M_R\nrpm,kN,N m\n10,1,1\n20,1,2\n"):
+        (line,) = lines_of(read, text)
+        assert line.startswith('log.csv: has no column "axial_load [N]"')
+        assert read(text, columns={"axial_load": "Presse [kN]"}).axial_load.tolist() == [1000.0, 1000.0]

@@ -520,3 +520,12 @@ def test_a_swinging_motion_is_no_row_of_settings():
         {"axial_load": 1000.0, "screw_speed": speed, "friction_torque": 0.1 * np.sign(speed), "time": time}
     )
     assert not any("jump" in note for note in log.cleaned().notes)
+
+
+def test_arrays_without_a_load_are_those_of_no_load_and_say_so():
+    data = {name: values for name, values in simple().items() if name != "axial_load"}
+    found = TorqueLog.of(data)
+    assert not found.axial_load.any()
+    assert "no axial load: 0 N in every row" in found.notes
+    # one that is there by another name is asked for
+    assert lines_of(TorqueLog.of, {**data, "pull": np.ones(12)})[0].startswith('data: has no column "axial_load"')

@@ -122,6 +122,7 @@ def _rows(found: MotionFit) -> dict[str, Any]:
         "read": equation.log.rows,
         "checked": len(equation.log),
         "used": int(equation.used.size),
+        "left_out": dict(equation.left_out),
         "block": found.linear.solution.block,
         "blocks": found.linear.solution.blocks,
         "notes": list(equation.log.notes),

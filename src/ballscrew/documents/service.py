@@ -138,6 +138,9 @@ def _estimate(one: PreloadEstimate) -> dict[str, Any]:
         "shares": dict(one.shares),
         "temperature": one.temperature,
         "rows": None if rows is None else len(rows.log),
+        "rows_read": None if rows is None else rows.log.rows,
+        "left_out": {} if rows is None else dict(rows.log.left_out),
+        "notes": [] if rows is None else list(rows.log.notes),
         "rows_beyond_lift_off": one.rows_beyond_lift_off,
         "residual_rms": one.residual_rms,
     }

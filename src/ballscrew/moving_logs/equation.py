@@ -6,6 +6,7 @@ r"""The equation of motion of an axis at the rows of a log, both sides through o
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +34,14 @@ _ROUNDS = 3
 _OF_A_STEP = 0.1
 
 
+#: Reasons for leaving rows out.
+FAULTY, AT_REST = "outside the longest stretch without a fault", "at rest or too slow"
+AT_ENDS, THINNED = (
+    "at the ends, where the filters have no neighbours",
+    "thinned to one in {}: filtered, they tell no more",
+)
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class Equation:
     """Both sides of the equation of motion: the force, and what the models make their side from."""
@@ -49,6 +58,8 @@ class Equation:
     force: Floats
     #: Speeds at or below this are rest, m/s.
     rest: float
+    #: Rows of the log that are not used, by reason; with those used, all that were read.
+    left_out: Mapping[str, int] = dataclasses.field(default_factory=dict[str, int])
 
     @classmethod
     def of(
@@ -76,12 +87,20 @@ class Equation:
         # never beyond what is left of the position, nor so low that the log is one period
         cutoff = float(np.clip(cutoff, min(2.0 / (log.time[-1] - log.time[0]), motion.cutoff), motion.cutoff))
         moving = low_pass((np.abs(motion.speed) > max(rest, slowest)).astype(float), cutoff, log.step) > _MOVING
+        turning = np.count_nonzero(moving)
         edge = min(int(EDGE_PERIODS / (cutoff * log.step)), len(log) // 10)
         moving[:edge] = moving[len(log) - edge :] = False
         stride = max(1, int(1 / (ROWS_PER_PERIOD * cutoff * log.step)))
-        used = np.flatnonzero(moving)
-        used = used[used % stride == 0]
-        made = cls(log, motion, cutoff, shift, used, np.empty(0), rest)
+        inside = np.flatnonzero(moving)
+        used = inside[inside % stride == 0]
+        counts = {
+            FAULTY: log.rows - len(log),
+            AT_REST: len(log) - int(turning),
+            AT_ENDS: int(turning) - inside.size,
+            THINNED.format(stride): inside.size - used.size,
+        }
+        left_out = {reason: count for reason, count in counts.items() if count > 0}
+        made = cls(log, motion, cutoff, shift, used, np.empty(0), rest, left_out)
         force = np.interp(log.time - shift, log.time, log.force) if shift else log.force
         return dataclasses.replace(made, force=made.filtered(force))
 

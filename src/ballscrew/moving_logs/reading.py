@@ -105,7 +105,12 @@ def is_moving(path: Path, columns: Mapping[str, str]) -> bool:
 
 
 def _is_steady(path: Path, found: Sequence[Record]) -> bool:
-    """Test whether a file has all the columns of a log of torques at steady speed, with or without their units."""
+    """Test whether a file has all the columns of a log of torques at steady speed, with or without their units.
+
+    The load is among them: a file that could be of a moving axis is one of no load only if a person says so.
+    """
+    if not any(torque_columns.is_load(cell) for record in found[: torque_columns.WITHIN] for cell in record.cells):
+        return False
     try:
         torque_columns.layout(path, found, {})
     except InputError as error:

@@ -23,6 +23,8 @@ from ballscrew.torque_logs.torque_series import JUMP, TorqueSeries
 
 #: Speeds of a log at most, and rows of a mean in one direction at least.
 MOST_SPEEDS, LEAST_ROWS = 12, 3
+#: A reason for leaving rows out.
+FEW_OF_A_SPEED = f"fewer than {LEAST_ROWS} of their speed in a direction"
 #: Speeds within this factor of each other are one.
 ONE_SPEED = 1.1
 #: Loads of a log that differ by more than this share of the preload are not those of one test.
@@ -117,6 +119,7 @@ def of_logs(subject: Configuration, logs: Sequence[Any], kind: Kind, inertia: fl
     sources: list[tuple[str, str]] = []
     labels: list[str] = []
     faults: list[Fault] = []
+    notes: list[str] = []
     read = [TorqueLog.of(data) for data in logs]
     raise_if_any(_faults_of_sources(read))
     for number, log in enumerate(read):
@@ -126,11 +129,12 @@ def of_logs(subject: Configuration, logs: Sequence[Any], kind: Kind, inertia: fl
             sources.append(log.source)
         try:
             clean = log.cleaned(inertia=inertia)
-            found = _means(subject, clean, kind if kind != "unknown" else log.kind)
+            found, clean = _means(subject, clean, kind if kind != "unknown" else log.kind)
         except InputError as error:
             faults += [dataclasses.replace(fault, where=f"{name}: {fault.where}") for fault in error.faults]
             continue
         parts += [(number, one) for one in found]
+        notes += [f"{name}: {line}" for line in (clean.usage, *clean.notes)]
         if not (np.any(clean.forward) and np.any(clean.backward)):
             text = f"{name}: one direction only: a zero error of the sensor counts as friction; measure in both"
             warnings.append(_warning("one_direction", name, text))
@@ -140,6 +144,7 @@ def of_logs(subject: Configuration, logs: Sequence[Any], kind: Kind, inertia: fl
     return Means(
         np.array([number for number, _ in parts], dtype=np.int64), *columns, labels=labels,
         times=np.arange(1.0, len(labels) + 1), per="test", sources=tuple(sources), warnings=tuple(warnings),
+        notes=tuple(notes),
     )  # fmt: skip
 
 
@@ -176,7 +181,8 @@ class _Mean:
     deviation: float
 
 
-def _means(subject: Configuration, log: TorqueLog, kind: Kind) -> list[_Mean]:
+def _means(subject: Configuration, log: TorqueLog, kind: Kind) -> tuple[list[_Mean], TorqueLog]:
+    """The means of a log, and the rows of it that are in them."""
     load, speed = np.asarray(log.axial_load), np.abs(log.screw_speed)
     preload: Any = subject.value_of(PRELOAD)
     if np.ptp(load) > LOAD_SHARE * float(preload):
@@ -200,11 +206,13 @@ def _means(subject: Configuration, log: TorqueLog, kind: Kind) -> list[_Mean]:
         ideal = np.broadcast_to(model.ideal_torque, speed.shape)
     share = (np.asarray(log.torque) - ideal) * direction / friction
     found: list[_Mean] = []
+    used = np.zeros(speed.size, dtype=bool)
     for rows in _of_one_speed(speed):
         sides = [rows[direction[rows] == side] for side in (1, -1)]
         sides = [side for side in sides if side.size >= LEAST_ROWS]
         if len(sides) < (2 if both else 1):
             continue
+        used[np.concatenate(sides)] = True
         medians = [float(np.median(share[side])) for side in sides]
         deviations = [
             _OF_MEDIAN * OF_MAD * float(np.median(np.abs(share[side] - middle))) / math.sqrt(side.size)
@@ -229,7 +237,7 @@ def _means(subject: Configuration, log: TorqueLog, kind: Kind) -> list[_Mean]:
     if not found:
         remedy = f"give {LEAST_ROWS} rows or more of each speed, in both directions or in one"
         raise InputError(Fault("log", "has no speed with enough rows", "", remedy))
-    return found
+    return found, log.select(used, FEW_OF_A_SPEED)
 
 
 def _of_one_speed(speed: Vector) -> list[NDArray[np.int64]]:

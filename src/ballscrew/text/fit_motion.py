@@ -26,7 +26,8 @@ def print_motion_fit(case: Case, found: MotionFit) -> None:
 
     log, equation = found.equation.log, found.equation
     say(f"{log_name(found)}: {equation.used.size} rows of {log.rows} used, {model_text(case)}\n", "bold")
-    for line in (*log.notes, *filter_lines(found)):
+    left_out = [f"left out: {count} rows, {reason}" for reason, count in equation.left_out.items()]
+    for line in (*left_out, *log.notes, *filter_lines(found)):
         say(line, "dim")
     console.print()
     console.print(_estimates(found))

@@ -38,6 +38,8 @@ def print_service(case: Case, report: ServiceReport) -> None:
     if report.change is not None:
         console.print()
         console.print(_preloads(case, report))
+    for line in _logs(report):
+        say(line, "dim")
     for cause in causes(report):
         say(cause, "dim")
     for record in report.warnings:
@@ -49,6 +51,12 @@ def print_service(case: Case, report: ServiceReport) -> None:
             say(f"\nHad the preload stayed {before}:", "bold")
         for record in others:
             say(f"  {record.text}")
+
+
+def _logs(report: ServiceReport) -> list[str]:
+    """Of each log, the rows that are used, why the others are not, and what was done to it."""
+    logs = {label: one.fit.rows.log for label, one in report.estimates.items() if one.fit is not None}
+    return [f"{label} log: {line}" for label, log in logs.items() for line in (log.usage, *log.notes)]
 
 
 def names(report: ServiceReport) -> list[str]:

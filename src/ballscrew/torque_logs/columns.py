@@ -79,7 +79,9 @@ _NAMES: Mapping[str, tuple[str, ...]] = {
 _HINTS = ("actual", "actual value", "act", "measured", "filtered", "ist", "Istwert", "mean", "value")
 #: Words beside a temperature that is taken as that of the oil; where there are several, one must be chosen.
 _PLACES = ("oil", "nut", "screw", "Öl", "Mutter", "Spindel")
-TEMPERATURE = "temperature"
+TEMPERATURE, LOAD = "temperature", "axial_load"
+#: The note on a log without a column of the load.
+NO_LOAD = 'no column of the load: 0 N in every row; give --column axial_load="your heading [N]" if there is one'
 #: The columns that a torque may be in, the one that says most first, and what the torque then is.
 TORQUES: Mapping[str, Kind] = {
     "friction_torque": "friction", "drive_torque": "drive", "torque": "unknown", "current": "drive",
@@ -134,6 +136,8 @@ class Layout:
     unused: Sequence[str]
     #: The names and units in the headings, for files that have them more than once.
     words: frozenset[str]
+    #: Remarks on what stands in for columns that the file has not.
+    notes: tuple[str, ...] = ()
 
     def where(self, line: int, name: str) -> str:
         """``log.csv row 7, column "speed [rpm]"``."""
@@ -162,6 +166,12 @@ def is_heading(cell: str) -> bool:
     return known_heading_of(cell, 0, COLUMNS) is not None
 
 
+def is_load(cell: Any) -> bool:
+    """Test whether a cell is a known heading of the load."""
+    heading = known_heading_of(cell, 0, COLUMNS)
+    return heading is not None and heading.column.name == LOAD
+
+
 def layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Layout:
     """The layout of a file, from its first rows and the columns given by the user, by name.
 
@@ -174,6 +184,10 @@ def layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Lay
     columns, headings = _chosen(columns, headings, constants)
     body = rows[start + 1 :]
     units_below = bool(body) and are_units(headings, body[0])
+    without_load = _has_no_load(rows[start], body[0] if units_below else None, headings, constants)
+    if without_load:
+        constants = {**constants, LOAD: 0.0}
+        columns = [column for column in columns if column.name != LOAD]
     if units_below:
         headings = [with_unit(heading, body[0]) for heading in headings]
     body = body[units_below:]
@@ -198,6 +212,7 @@ def layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Lay
         dates,
         rest,
         frozenset(cell for record in above for cell in record.cells if isinstance(cell, str) and cell),
+        (NO_LOAD,) if without_load else (),
     )
 
 
@@ -264,6 +279,20 @@ def _renamed(
         cells[place] = f"{name} [{unit}]" if unit else name
         rows[number] = Record(rows[number].line, cells)
     return rows, constants, written
+
+
+def _has_no_load(
+    cells: Record, units_below: Record | None, headings: Sequence[Heading], constants: Mapping[str, float]
+) -> bool:
+    """Whether a log has no column of the load, nor any other in a unit of force: it is one of a nut without load."""
+    if LOAD in constants or not headings or any(heading.column.name == LOAD for heading in headings):
+        return False
+    taken = {heading.place for heading in headings}
+    given = [BRACKETS.fullmatch(str(cell).strip()) for cell in cells.cells]
+    found = [match["unit"] if match else "" for match in given]
+    if units_below is not None:
+        found = [unit or _bracketed(cell) for unit, cell in zip(found, units_below.cells, strict=False)]
+    return not any(unit and fits(spelt(unit), _BY_NAME[LOAD]) for n, unit in enumerate(found) if n not in taken)
 
 
 def _match_rank(one: _GivenColumn, cell: str) -> int:

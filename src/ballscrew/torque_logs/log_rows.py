@@ -108,6 +108,13 @@ class LogRows:
         """The rows at which the screw turns in reverse."""
         return self.screw_speed < 0
 
+    @property
+    def usage(self) -> str:
+        """How many rows are used, and why the others are not: ``2522 of 3108 rows used; left out: 407, …``."""
+        said = f"{len(self)} of {self.rows} rows used"
+        reasons = [f"{count} rows, {reason}" for reason, count in self.left_out.items()]
+        return f"{said}; left out: {'; '.join(reasons)}" if reasons else said
+
     def select(self, keep: NDArray[Any], reason: str = "") -> Self:
         """The rows of a mask or of indices. The others are counted under ``reason``."""
         columns = {name: values[keep] for name, values in self.columns.items()}

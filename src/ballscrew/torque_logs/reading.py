@@ -81,6 +81,7 @@ def _read(
     log, numbers, rates = _gathered(place, source.pieces(place, chunk), factors, keep_going, held)
     digest = source.digest()
     notes = [f"columns not used: {', '.join(place.unused)}"] if place.unused else []
+    notes += place.notes
     if TEMPERATURE not in place.headings and (others := temperatures_among(place.unused)):
         notes.append(f"if {others[0]} is the temperature of the oil, give --column temperature={others[0]}")
     if numbers.errors:

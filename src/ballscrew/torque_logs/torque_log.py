@@ -18,6 +18,8 @@ from ballscrew.torque_logs.motion import Floats
 
 #: A median temperature below this is one in °C given as one in kelvin: no ball screw is so cold.
 _COLDEST = 150.0
+#: The note on data without a load.
+NO_LOAD = "no axial load: 0 N in every row"
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -32,7 +34,8 @@ class TorqueLog(LogRows):
     def of(cls, data: Any) -> TorqueLog:
         """A log from arrays by name: a mapping, a pandas DataFrame or an xarray Dataset; in SI.
 
-        ``axial_load``, ``screw_speed`` and a torque are needed; the torque is called ``friction_torque``,
+        ``screw_speed`` and a torque are needed, and ``axial_load`` where there was one: without it and without a column
+        of another name the load is 0 N, which a note says. The torque is called ``friction_torque``,
         ``drive_torque`` or just ``torque``. ``temperature`` (K) and ``time`` (s, or dates) may be there too. A single
         number stands for every row. A log passes as it is.
 
@@ -61,10 +64,12 @@ def _log_of(data: Any) -> TorqueLog:
     torques = [name for name in TORQUES if name in names]
     known = [*(name for name in (*REQUIRED, *OPTIONAL) if name in names and name not in TORQUES), *torques[:1]]
     others = [name for name in names if name not in known]
+    # another name may be that of the load
+    without_load = "axial_load" not in known and not others
     faults = [
         Fault("data", f'has no column "{name}"', "", _hint(name, others))
         for name in REQUIRED
-        if name not in known and not (name == "torque" and torques)
+        if name not in known and not (name == "torque" and torques) and not (name == "axial_load" and without_load)
     ]
     if len(torques) > 1:
         faults.append(Fault("data", "has more than one torque", ", ".join(torques), "give one of them"))
@@ -77,10 +82,13 @@ def _log_of(data: Any) -> TorqueLog:
         else:
             arrays["torque" if name in TORQUES else name] = made
     raise_if_any(faults)
+    if without_load:
+        arrays["axial_load"] = np.zeros(())
     size = max((array.size for array in arrays.values() if array.ndim), default=1)
     arrays = {name: np.full(size, array) if array.ndim == 0 else array for name, array in arrays.items()}
     log = TorqueLog(**arrays, kind=TORQUES[torques[0]])
-    return log.with_notes(f"columns not used: {', '.join(others)}" if others else "")
+    notes = [f"columns not used: {', '.join(others)}" if others else "", NO_LOAD if without_load else ""]
+    return log.with_notes(*notes)
 
 
 def _raw(data: Any, names: list[str]) -> dict[str, Any]:
