@@ -276,8 +276,8 @@ def _faults_of_options(
 
 
 def _faults_of_unloaded_balls(subject: Configuration, log: TorqueLog) -> list[Fault]:
-    """A fault of a log without load if the nut has no preload either."""
-    if log.axial_load.any() or np.any(np.asarray(ball_loads(subject.screw, subject.nut, 0.0).remaining_preload) > 0):
+    """A fault of a log that was given no load if the nut has no preload either."""
+    if not log.assumes_no_load or np.any(np.asarray(ball_loads(subject.screw, subject.nut, 0.0).remaining_preload) > 0):
         return []
     remedy = "give the column of the load, or a nut with its preload"
     return [Fault("log", "has no load, and the nut has no preload: no ball carries anything", "", remedy)]

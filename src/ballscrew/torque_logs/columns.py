@@ -136,8 +136,8 @@ class Layout:
     unused: Sequence[str]
     #: The names and units in the headings, for files that have them more than once.
     words: frozenset[str]
-    #: Remarks on what stands in for columns that the file has not.
-    notes: tuple[str, ...] = ()
+    #: Whether there is no column of the load, and none that could be it: it is 0 N in every row.
+    assumes_no_load: bool = False
 
     def where(self, line: int, name: str) -> str:
         """``log.csv row 7, column "speed [rpm]"``."""
@@ -212,7 +212,7 @@ def layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Lay
         dates,
         rest,
         frozenset(cell for record in above for cell in record.cells if isinstance(cell, str) and cell),
-        (NO_LOAD,) if without_load else (),
+        without_load,
     )
 
 

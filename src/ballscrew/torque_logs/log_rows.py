@@ -67,6 +67,8 @@ class LogRows:
     notes: tuple[str, ...] = ()
     #: Name and SHA-256 of the file it came from.
     source: tuple[str, str] | None = None
+    #: Whether no load was given: it is taken as none.
+    assumes_no_load: bool = False
     #: Whether it is the result of cleaning.
     is_clean: bool = False
     #: Random numbers of the rows: those with the smallest are kept when a log is thinned.

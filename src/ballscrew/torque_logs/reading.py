@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ballscrew.errors import LINES_AT_MOST, Fault, InputError, raise_if_any
 from ballscrew.tables.sheets import unreadable
 from ballscrew.torque_logs.cleaning import HELD
-from ballscrew.torque_logs.columns import TEMPERATURE, TORQUES, Layout, layout, temperatures_among
+from ballscrew.torque_logs.columns import NO_LOAD, TEMPERATURE, TORQUES, Layout, layout, temperatures_among
 from ballscrew.torque_logs.log_rows import REQUIRED
 from ballscrew.torque_logs.motion import Floats
 from ballscrew.torque_logs.numbers import NumberReader
@@ -81,7 +81,7 @@ def _read(
     log, numbers, rates = _gathered(place, source.pieces(place, chunk), factors, keep_going, held)
     digest = source.digest()
     notes = [f"columns not used: {', '.join(place.unused)}"] if place.unused else []
-    notes += place.notes
+    notes += [NO_LOAD] if place.assumes_no_load else []
     if TEMPERATURE not in place.headings and (others := temperatures_among(place.unused)):
         notes.append(f"if {others[0]} is the temperature of the oil, give --column temperature={others[0]}")
     if numbers.errors:
@@ -96,7 +96,8 @@ def _read(
     if done is not None:
         size = size_of(file)
         done(size, size)
-    return dataclasses.replace(log, source=(path.name, digest)).with_notes(*notes, *_describe_faults(numbers))
+    log = dataclasses.replace(log, source=(path.name, digest), assumes_no_load=place.assumes_no_load)
+    return log.with_notes(*notes, *_describe_faults(numbers))
 
 
 def _check_factors(place: Layout, torque_constant: float | None, lead: float | None) -> None:

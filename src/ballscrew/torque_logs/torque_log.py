@@ -86,7 +86,7 @@ def _log_of(data: Any) -> TorqueLog:
         arrays["axial_load"] = np.zeros(())
     size = max((array.size for array in arrays.values() if array.ndim), default=1)
     arrays = {name: np.full(size, array) if array.ndim == 0 else array for name, array in arrays.items()}
-    log = TorqueLog(**arrays, kind=TORQUES[torques[0]])
+    log = TorqueLog(**arrays, kind=TORQUES[torques[0]], assumes_no_load=without_load)
     notes = [f"columns not used: {', '.join(others)}" if others else "", NO_LOAD if without_load else ""]
     return log.with_notes(*notes)
 
