@@ -239,6 +239,15 @@ def example_of(quantity: Quantity, number: str = "") -> str:
     return f'"{number or "1"} {quantity.shown_in}"'
 
 
+#: Signs and digits that programs and keyboards of East Asia write, the minus sign and full-width forms, and ASCII.
+_IN_ASCII = {0x2212: "-", 0x3000: " "} | {code: chr(code - 0xFEE0) for code in range(0xFF01, 0xFF5F)}
+
+
+def in_ascii(text: str) -> str:
+    """A text with its digits, signs and letters in ASCII where there is more than one way to write them."""
+    return text if text.isascii() else text.translate(_IN_ASCII)
+
+
 def parse(where: str, raw: object, quantity: Quantity) -> float | Fault:
     """A value from a file or the command line in SI, or the fault in it.
 
@@ -256,7 +265,7 @@ def parse(where: str, raw: object, quantity: Quantity) -> float | Fault:
         return Fault(where, "needs a unit", given, f"write {example_of(quantity, given)}")
     if len(raw) > LONGEST_VALUE:
         return Fault(where, f"has more than {LONGEST_VALUE} letters", given, _fix(quantity))
-    match = _VALUE.fullmatch(raw)
+    match = _VALUE.fullmatch(in_ascii(raw))
     if match is None:
         problem = "is not a number" if quantity.unit == "1" else "is not a number with a unit"
         return Fault(where, problem, given, "write a decimal point" if "," in given else _fix(quantity))
@@ -290,7 +299,7 @@ def _plain(written: str) -> str | Fault:
 
 def unit_in(text: str) -> str:
     """The unit at the end of a value, or nothing."""
-    match = _VALUE.fullmatch(text) if len(text) <= LONGEST_VALUE else None
+    match = _VALUE.fullmatch(in_ascii(text)) if len(text) <= LONGEST_VALUE else None
     return (match["unit"] or "") if match else ""
 
 

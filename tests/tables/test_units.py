@@ -132,6 +132,12 @@ def test_every_quantity_can_be_written_as_its_own_example(name):
     assert units.from_si(value, quantity) == pytest.approx(1, rel=1e-12)
 
 
+@pytest.mark.parametrize("written", ["\u22124000 N", "-４０００ N", "\u2212４．０　ｋＮ", "\uff0d4e3 N"])
+def test_signs_and_digits_of_other_keyboards(written):
+    """A minus sign as it is printed, and full-width forms, which are one number to people."""
+    assert units.parse("axial_load", written, KNOWN["axial_load"]) == -4000
+
+
 @pytest.mark.parametrize("name", ["loaded_balls", "screw_conformity", "starts"])
 @pytest.mark.parametrize("unit", ["turns", "mm", "balls", "kN"])
 def test_no_remedy_drops_a_word(name, unit):

@@ -66,7 +66,7 @@ def parse_uncertain(raw: object, quantity: Quantity) -> UncertainValue | Fault |
 def _parsed(raw: str, quantity: Quantity) -> UncertainValue | Fault | None:
     """The same, once for each text: a case file and the uncertain inputs of its case both ask."""
     try:
-        written = _by_pattern(raw, quantity)
+        written = _by_pattern(units.in_ascii(raw), quantity)
     except InputError as error:
         return _as_written(error.faults[0], raw)
     if written is None or isinstance(written, Fault):

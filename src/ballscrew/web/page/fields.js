@@ -23,6 +23,8 @@ import * as units from "./units.js";
  * @property {(change: Change) => void} onChange
  */
 
+/** A number without a unit, and what is told of its spread: ± another one, or ± a share in per cent. */
+const BARE = /^(?=[^±]*\d)([\s\d.,'eE+-]+)((?:±[\s\d.,'eE+-]+%?)?)$/;
 /** Units that are displayed only where inches are chosen. */
 const INCH_ONLY = ["in", "uin", "lbf", "lbf in", "psi", "degF", "in/min"];
 
@@ -162,9 +164,9 @@ function quantityField(path, node, input, value, state, onChange) {
   select.addEventListener("change", () => onChange({ path, unit: select.value, rebuild: true }));
   input.addEventListener("input", () => {
     const typed = units.ofLanguage(input.value.trim());
-    const isBare = typed !== "" && /^[\s\d.,'eE+±-]*$/.test(typed);
-    if (isBare && !select.value) select.value = unit;
-    reportText(onChange, path, input, isBare ? `${typed} ${select.value}` : typed);
+    const [, number, spread] = BARE.exec(typed) ?? [];
+    if (number && !select.value) select.value = unit;
+    reportText(onChange, path, input, number ? `${number.trim()} ${select.value} ${spread}`.trim() : typed);
   });
   // a unit that was typed moves to the list of units
   input.addEventListener("change", () => {
