@@ -247,6 +247,15 @@ def test_bounds_are_kept(fit, log):
     assert any("bound" in warning["text"] for warning in found["warnings"])
 
 
+def test_the_next_test_is_one_that_the_rig_of_the_log_can_give(fit, log):
+    """It asked for twice the largest load of the log, which nobody knows the rig to have."""
+    path, data = log(), columns()
+    point = document_of(fit(path, "--json"))["next_test"]["point"]
+    assert point["axial_load"] <= np.abs(data["load"]).max() * (1 + 1e-9)
+    assert point["screw_speed"] <= np.abs(data["speed"]).max() * RPM * (1 + 1e-9)
+    assert "of the loads and speeds that the log has" in " ".join(fit(path).stdout.split())
+
+
 def test_limits_of_the_next_test(fit, log):
     limits = ("--limits", "screw_speed=1000:3000 rpm", "--limits", "axial_load=1:2 kN")
     point = document_of(fit(log(), "--json", *limits))["next_test"]["point"]

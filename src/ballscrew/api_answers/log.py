@@ -203,6 +203,7 @@ class Example(Closed):
     file: str
     case: Tables
     logs: list[ExampleLog]
+    free: list[str] = Field(description="numbers to fit to the logs")
 
 
 class Examples(Closed):

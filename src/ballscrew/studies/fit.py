@@ -7,6 +7,8 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
+import numpy as np
+
 from ballscrew import units
 from ballscrew.calibration.calibrated_model import CalibratedModel
 from ballscrew.calibration.constant_torque import constant_torque_missed
@@ -80,7 +82,7 @@ def fit(case: Case, log: TorqueLog, options: Options, done: Callable[[int, int],
         warnings.append(Record(id="fit.same_log", subject="priors", text=text, severity="warning", holds=False))
     test: NextTest | None = None
     try:
-        test = model.next_test(options.limits)
+        test = model.next_test({**_limits_of_log(model), **options.limits})
     except InputError as error:  # the fit is valid without a next test
         warnings += [
             Record(
@@ -112,6 +114,16 @@ def _temperature_error(case: Case, log: TorqueLog, options: Options) -> float | 
         return options.temperature_error
     low, high = (float(given.quantile(share)) for share in (0.025, 0.975))
     return (high - low) / 2
+
+
+def _limits_of_log(model: CalibratedModel) -> dict[str, tuple[float, float]]:
+    """Loads, speeds and temperatures of a log: the rig gives these, and nobody knows whether it gives more."""
+    log = model.rows.log
+    conditions = {"axial_load": log.axial_load, "screw_speed": log.screw_speed}
+    if model.lubricant.follows_temperature and log.temperature is not None:
+        conditions[TEMPERATURE.name] = log.temperature
+    sizes = {name: values if name == TEMPERATURE.name else np.abs(values) for name, values in conditions.items()}
+    return {name: (float(values.min()), float(values.max())) for name, values in sizes.items()}
 
 
 def _with_option(fault: Fault) -> Fault:

@@ -164,21 +164,20 @@ def describe_next_test(test: NextTest, model: CalibratedModel) -> list[str]:
     return [
         f"\nnext test: {where}; {test.readings} readings{both}",
         f"it would leave {left}, {', '.join(errors)}",
-        *_beyond_the_log(test, model, known),
+        *_beside_the_log(test, model, known),
     ]
 
 
-def _beyond_the_log(test: NextTest, model: CalibratedModel, known: Mapping[str, Quantity]) -> list[str]:
-    """That the next test asks for more than the log has shown the rig to give."""
-    log, said = model.rows.log, list[str]()
-    for name, values in {"axial_load": log.axial_load, "screw_speed": log.screw_speed}.items():
-        most = float(np.abs(values).max())
-        if test.best[name] > most:
-            said.append(f"{spoken(name)} {units.shown(most, known[name], 3)}")
-    if not said:
+def _beside_the_log(test: NextTest, model: CalibratedModel, known: Mapping[str, Quantity]) -> list[str]:
+    """That the next test asks for more than the log has shown the rig to give, or that no such test was thought of."""
+    log = model.rows.log
+    ends = {name: float(np.abs(getattr(log, name)).max()) for name in ("axial_load", "screw_speed")}
+    said = [f"{spoken(n)} {units.shown(most, known[n], 3)}" for n, most in ends.items() if test.best[n] > most]
+    if said:
+        return [f"that is beyond the log, which ends at {' and '.join(said)}"]
+    if any(float(test.tests[name].max()) > most * (1 + 1e-9) for name, most in ends.items()):
         return []
-    remedy = "--limits of ballscrew fit say what the rig can give"
-    return [f"that is beyond the log, which ends at {' and '.join(said)}; {remedy}"]
+    return ["of the loads and speeds that the log has; --limits of ballscrew fit say what else the rig can give"]
 
 
 def spoken(name: str) -> str:

@@ -43,6 +43,10 @@ _LOGS: Mapping[str, tuple[str, ...]] = {
 }  # fmt: skip
 
 
+#: The numbers that are fitted to them: the log of the rig has the friction of seals, which the balls do not explain.
+_FREE: Mapping[str, tuple[str, ...]] = {"fit": ("friction.boundary_friction_coefficient", "constant_torque")}
+
+
 def logs() -> dict[str, Any]:
     """Logs to try, which are synthetic, each with its case."""
     folder = resources.files("ballscrew").joinpath("data/logs")
@@ -52,6 +56,7 @@ def logs() -> dict[str, Any]:
             "file": case,
             "case": tomllib.loads(texts[case]),
             "logs": [{"name": name, "text": texts[name]} for name in names],
+            "free": list(_FREE.get(question, ())),
         }
         for question, (case, *names) in _LOGS.items()
     }

@@ -73,7 +73,10 @@ export function setUp(holder, page) {
     free = [];
     inspect();
   });
-  const example = exampleButton("fit", (logs) => drop.use(logs[0]));
+  const example = exampleButton("fit", (logs, numbers) => {
+    drop.use(logs[0]);
+    free = numbers; // the log has friction that the balls alone do not explain
+  });
   holder.replaceChildren(drop.zone, example, inspected, fit.line, problems, result);
   for (const place of places) watch(place);
 

@@ -72,16 +72,16 @@ function inBase64(bytes) {
  * A button that takes an example: its case as a design, and its logs.
  *
  * @param {"fit" | "service"} name
- * @param {(logs: SentFile[]) => void} take
+ * @param {(logs: SentFile[], free: string[]) => void} take also takes the numbers to fit
  */
 export function exampleButton(name, take) {
   const onclick = async () => {
     /** @type {Examples} */
     const examples = await get("examples");
-    const { case: sections, file, logs } = examples[name];
+    const { case: sections, file, logs, free } = examples[name];
     const left = designs.add([await designs.ofCase(sections, { file })]);
     said.textContent = left ? text("log.no_room") : "";
-    if (!left) take(logs);
+    if (!left) take(logs, free);
   };
   const said = element("span", { role: "status" });
   const button = element("button", { type: "button", id: `${name}-example`, onclick }, text("log.example"));
