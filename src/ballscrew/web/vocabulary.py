@@ -73,9 +73,10 @@ class Mechanism(_Table):
 
 
 class NutKind(_Table):
-    """The fields of a kind of nut, and the preload that vendors give it."""
+    """The fields of a kind of nut, its halves with loaded balls each, and the preload that vendors give it."""
 
     fields: list[str]
+    halves: int
     usual_preload: str | None
 
 
@@ -135,7 +136,7 @@ def vocabulary() -> dict[str, Any]:
         "default_model": DEFAULT_MODEL,
         "limits": {name: getattr(Limits(), name) for name in fields_of(Limits)},
         "nuts": {
-            name: {"fields": list(fields_of(kind)), "usual_preload": EXAMPLE_PRELOADS.get(name)}
+            name: {"fields": list(fields_of(kind)), "halves": kind.halves, "usual_preload": EXAMPLE_PRELOADS.get(name)}
             for name, kind in NUTS.items()
         },
         "motions": {kind: list(fields_of_motion(kind)) for kind in MOTIONS},

@@ -73,6 +73,7 @@ let displayed = { band: null, starts: [] };
  */
 export function setVocabulary(vocabulary, goTo) {
   mechanisms = vocabulary.mechanisms;
+  stiffness.setVocabulary(vocabulary);
   jump = goTo;
 }
 

@@ -1,7 +1,8 @@
 // Cards: parts of the page that are loaded when they are first opened, and that answer questions of their own.
 
 import * as designs from "./designs.js";
-import { byId } from "./dom.js";
+import { byId, element } from "./dom.js";
+import { linesOf, waitForServer } from "./server.js";
 import { text } from "./texts.js";
 
 /**
@@ -19,17 +20,19 @@ import { text } from "./texts.js";
  * @typedef {{ follow: () => void | Promise<void>, stop: () => void }} Card
  */
 
-/** Scripts of the cards, by the names of their places. @type {Record<string, () => Promise<{ setUp: (holder: HTMLElement, page: Page) => Card }>>} */
+/** Scripts of the cards, by the names of their places. @type {Record<string, string>} */
 const SCRIPTS = {
-  "over-input": () => import("./cards/over_input.js"),
-  duty: () => import("./cards/duty.js"),
-  "warm-up": () => import("./cards/warm_up.js"),
-  choose: () => import("./cards/choose.js"),
-  calibration: () => import("./cards/calibrate.js"),
-  service: () => import("./cards/service.js"),
-  "hand-over": () => import("./cards/hand_over.js"),
-  files: () => import("./cards/files.js"),
+  "over-input": "./cards/over_input.js",
+  duty: "./cards/duty.js",
+  "warm-up": "./cards/warm_up.js",
+  choose: "./cards/choose.js",
+  calibration: "./cards/calibrate.js",
+  service: "./cards/service.js",
+  "hand-over": "./cards/hand_over.js",
+  files: "./cards/files.js",
 };
+/** Scripts that could not be loaded, by name, and how often: browsers keep a failure for its address. @type {Map<string, number>} */
+const failures = new Map();
 
 /** @type {Page} */
 let page;
@@ -86,13 +89,53 @@ export async function openAll() {
     byId(name).hidden = !isOpen;
     const card = opened.get(name);
     if (!isOpen) card?.stop();
-    else if (card) await card.follow();
+    else if (card) await followed(name, card);
     else {
-      const { setUp: make } = await SCRIPTS[name]();
-      opened.set(name, opened.get(name) ?? make(byId(name), page));
-      await opened.get(name)?.follow();
+      const made = await set(name);
+      if (made) await followed(name, made);
     }
   }
+}
+
+/**
+ * A card that was set up; none, and the reason in its place, where its script could not be loaded.
+ *
+ * @param {string} name
+ */
+async function set(name) {
+  const times = failures.get(name) ?? 0;
+  try {
+    /** @type {{ setUp: (holder: HTMLElement, page: Page) => Card }} */
+    const { setUp: make } = await import(times ? `${SCRIPTS[name]}?${times}` : SCRIPTS[name]);
+    opened.set(name, opened.get(name) ?? make(byId(name), page));
+    return opened.get(name);
+  } catch (error) {
+    failures.set(name, times + 1);
+    waitForServer();
+    say(name, linesOf(error).join("; "));
+    return undefined;
+  }
+}
+
+/**
+ * Let a card follow the page, and say in it why it cannot.
+ *
+ * @param {string} name
+ * @param {Card} card
+ */
+async function followed(name, card) {
+  try {
+    await card.follow();
+    say(name, "");
+  } catch (error) {
+    say(name, linesOf(error).join("; "));
+  }
+}
+
+/** Say in the place of a card why it does not follow. @param {string} name @param {string} words */
+function say(name, words) {
+  byId(name).querySelector(".card-trouble")?.remove();
+  if (words) byId(name).prepend(element("p", { class: "warning card-trouble", role: "status" }, words));
 }
 
 /**
@@ -122,5 +165,5 @@ async function jump(path) {
 /** Tell the open cards of a change. */
 export function follow() {
   const { cards } = designs.all();
-  for (const [name, card] of opened) if (cards.includes(name)) card.follow();
+  for (const [name, card] of opened) if (cards.includes(name)) followed(name, card);
 }

@@ -299,7 +299,7 @@ export function designs(answers, mechanisms) {
         hovermode: "closest",
         margin: { l: 48, r: 26, t: 8, b: 42 },
         xaxis: { rangemode: "tozero" },
-        yaxis: { autorange: "reversed", type: "category", tickformat: undefined },
+        yaxis: { autorange: "reversed", type: "category", tickformat: undefined, nticks: undefined, dtick: 1 },
       }),
     }),
     legend: () => names.map((name) => ({ kind: "area", name: words(name), colour: mechanisms[name]?.colour })),

@@ -3,8 +3,13 @@
 import { operationOf } from "./chart_parts.js";
 import * as charts from "./charts.js";
 import { verdict } from "./checks.js";
+import * as designs from "./designs.js";
 import { byId, element, scrolling, table } from "./dom.js";
+import { labelOf } from "./faults.js";
+import { words } from "./fields.js";
 import { data, greatestPressure, leastFilm, nameOf, numbersOf, rounded } from "./results.js";
+import { OF_CARDS, SECTIONS } from "./schema.js";
+import { LETTERS } from "./state.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
 
@@ -53,7 +58,7 @@ export async function showDesigns(answers, starts, mechanisms) {
   const letters = Object.keys(answers);
   byId("compare-at").hidden = letters.length < 2;
   if (letters.length < 2) {
-    place.replaceChildren(element("p", {}, text("compare.one")));
+    place.replaceChildren(element("p", {}, text("compare.one", { most: LETTERS.length })));
     byId("compare-chart").hidden = true;
     return;
   }
@@ -80,6 +85,7 @@ export async function showDesigns(answers, starts, mechanisms) {
   };
   const rows = [
     [text("compare.start"), ...starts],
+    [text("compare.changes"), ...letters.map((letter) => changesOf(LETTERS.indexOf(letter)))],
     row(text("compare.case"), (run) => units.filled(run.display.title)),
     ...ROWS.filter(isKnown).map((name) => row(text(`results.${name}`), cell(name))),
     row(text("compare.band"), (run, { band }) => {
@@ -106,6 +112,23 @@ export async function showDesigns(answers, starts, mechanisms) {
     }),
   );
   if (runs.length) await charts.designs(computed, mechanisms);
+}
+
+/**
+ * What was changed of a design against its start; load and speed of its own do not count where all have those of the first.
+ *
+ * @param {number} place
+ */
+function changesOf(place) {
+  const { designs: all, own } = designs.all();
+  const { changes = {}, tables: sections = {} } = all[place] ?? {};
+  const ofFields = Object.entries(changes).map(([path, value]) => {
+    const change = `${labelOf(path)}: ${value === "" ? text("form.not_given") : units.inLanguage(value)}`;
+    const counts = own || place === 0 || !path.startsWith("operation.");
+    return counts ? change : text("compare.not_counted", { change });
+  });
+  const ofTables = Object.keys(sections).map((name) => SECTIONS[name] ?? OF_CARDS[name] ?? words(name));
+  return element("span", { class: "changes" }, [...ofFields, ...ofTables].join("; ") || "–");
 }
 
 /**

@@ -2,7 +2,7 @@
 
 import * as designs from "./designs.js";
 import { byId, csv, element, save } from "./dom.js";
-import { linesOf, send } from "./server.js";
+import { isSilent, linesOf, send } from "./server.js";
 import { text } from "./texts.js";
 
 /** @typedef {import("./texts.js").Key} Key */
@@ -47,7 +47,7 @@ function say(words) {
  */
 async function saveAs(kind, { whole, answer, alongSpeed }) {
   if (!whole || !answer || byId("results").classList.contains("stale")) {
-    say(text("download.fault"));
+    say(text(isSilent() ? "download.silent" : "download.fault"));
     return;
   }
   const [, address] = KINDS[kind];

@@ -10,6 +10,8 @@ let place = 0;
 let last = 0;
 /** The field that this entry is an edit of. @type {string | undefined} */
 let edited;
+/** True while several fields are edited at once; then whether their entry is there. @type {"" | "begun" | "there"} */
+let together = "";
 /** The address to be written. @type {string | undefined} */
 let pending;
 /** @type {ReturnType<typeof setTimeout>} */
@@ -60,18 +62,31 @@ export function choose(fragment) {
 }
 
 /**
- * An entry for all edits of one field in a row.
+ * An entry for an edit: all keys in one field, or all movements of one slider, until it is let go.
  *
  * @param {string} fragment
  * @param {string} path
  */
 export function edit(fragment, path) {
-  if (path !== edited) {
-    push(fragment);
-    edited = path;
+  if (together === "there" || (path === edited && !together)) {
+    replace(fragment);
     return;
   }
-  replace(fragment);
+  push(fragment);
+  edited = path;
+  if (together) together = "there";
+}
+
+/**
+ * One entry for edits of several fields, such as a point that was dragged.
+ *
+ * @param {() => void} edits
+ */
+export function asOne(edits) {
+  together = "begun";
+  edits();
+  together = "";
+  edited = undefined;
 }
 
 /**
@@ -103,6 +118,10 @@ export function begin(arrive) {
     history.forward();
   });
   addEventListener("pagehide", write);
+  // a field that is left or a slider that is let go ends its edit: the next one is another step
+  addEventListener("change", () => {
+    edited = undefined;
+  });
   addEventListener("popstate", (event) => {
     clearTimeout(timer);
     if (pending !== undefined) late.set(place, pending);

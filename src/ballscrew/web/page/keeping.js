@@ -4,6 +4,8 @@ const PREFIX = "ballscrew.work.";
 const OWN = "ballscrew.tab";
 /** Milliseconds after the last key until it is kept. */
 const DELAY = 300;
+/** Keys of an address that say how the work is looked at. */
+const VIEWS = ["band", "cards", "show", "unit", "units"];
 
 /** What is kept: the state as the fragment of an address, words for a list, and when. */
 /** @typedef {{ id: string, fragment: string, title: string, saved: number }} Work */
@@ -130,7 +132,10 @@ export function keep(fragment, title) {
 function write() {
   clearTimeout(timer);
   if (!pending || !id) return;
-  const work = { ...pending, id, saved: Date.now() };
+  const kept = found(id);
+  // to load a page again or to open a card is no edit: a new tab begins with what was edited last
+  const saved = kept && edited(kept.fragment) === edited(pending.fragment) ? kept.saved : Date.now();
+  const work = { ...pending, id, saved };
   pending = undefined;
   const before = trouble;
   try {
@@ -140,6 +145,13 @@ function write() {
     trouble = "full";
   }
   if (before !== trouble || trouble === "") tell();
+}
+
+/** A state without what is only looked at: cards that are open, the design that is shown, units. @param {string} fragment */
+function edited(fragment) {
+  const parameters = new URLSearchParams(fragment.replace(/^#/, ""));
+  for (const key of [...parameters.keys()]) if (VIEWS.includes(key.split(".")[0])) parameters.delete(key);
+  return String(parameters);
 }
 
 /**

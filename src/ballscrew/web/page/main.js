@@ -14,7 +14,7 @@ import * as entries from "./history.js";
 import * as keeping from "./keeping.js";
 import * as results from "./results.js";
 import * as schema from "./schema.js";
-import { get, linesOf } from "./server.js";
+import { get, linesOf, onReturn } from "./server.js";
 import * as states from "./state.js";
 import { followMenu, text } from "./texts.js";
 import * as units from "./units.js";
@@ -322,6 +322,10 @@ function addListeners() {
   });
   entries.begin(() => {
     use(readAddress());
+    follow({ rebuild: true });
+    cards.openAll();
+  });
+  onReturn(() => {
     follow({ rebuild: true });
     cards.openAll();
   });

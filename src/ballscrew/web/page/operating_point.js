@@ -1,6 +1,7 @@
 // The operating point moved by hand: sliders beside the fields, and the diamond of a chart that can be dragged.
 
 import { byId, element } from "./dom.js";
+import { asOne } from "./history.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
 
@@ -156,6 +157,7 @@ export function letDrag(id, handle) {
   holder.addEventListener("pointerdown", (event) => take(event), { capture: true });
   holder.addEventListener("touchstart", (event) => at && event.stopPropagation(), { capture: true });
   holder.addEventListener("pointermove", (event) => {
+    uncover(id); // once it is drawn
     if (at) move(event);
     else holder.classList.toggle("near", isNear(id, event));
   });
@@ -191,8 +193,10 @@ export function letDrag(id, handle) {
     const [x, y] = at;
     at = undefined;
     const { x: first, y: second } = /** @type {Handle} */ (handles.get(id));
-    commit(first, x);
-    if (second) commit(second, y);
+    asOne(() => {
+      commit(first, x);
+      if (second) commit(second, y);
+    });
   }
 }
 
@@ -203,6 +207,41 @@ export function letDrag(id, handle) {
 function commit(name, shown) {
   const [path, si] = FIELDS[name];
   put(path, units.toSI(shown, units.unitOf(name), si), si);
+}
+
+/** Plots whose hover keeps off their diamond. @type {WeakSet<Element>} */
+const uncovered = new WeakSet();
+/** Pixels between the diamond and the words of the hover. */
+const GAP = 10;
+
+/**
+ * Keep the words of the hover off the diamond: they stand below it, or above it where there is no room.
+ *
+ * @param {string} id
+ */
+function uncover(id) {
+  const plot = plotOf(id);
+  if (!plot || uncovered.has(plot)) return;
+  uncovered.add(plot);
+  plot.on("plotly_hover", () => {
+    const layer = plot.querySelector(".hoverlayer");
+    const words = layer?.querySelector(".legend, .hovertext");
+    const point = pointOf(id);
+    if (!layer || !words || !point) return;
+    layer.style.transform = "";
+    const { left, right, top, bottom } = words.getBoundingClientRect();
+    const [x, y] = placeOf(plot, point);
+    if (x < left - GAP || x > right + GAP || y < top - GAP || y > bottom + GAP) return;
+    const room = plot.getBoundingClientRect().bottom - (y + GAP) > bottom - top;
+    layer.style.transform = `translateY(${room ? y + GAP - top : y - GAP - bottom}px)`;
+  });
+}
+
+/** Where a point of a plot is on the screen. @param {any} plot @param {[number, number]} point @returns {[number, number]} */
+function placeOf(plot, point) {
+  const { left, top } = plot.getBoundingClientRect();
+  const { xaxis, yaxis } = plot._fullLayout;
+  return [xaxis.d2p(point[0]) + xaxis._offset + left, yaxis.d2p(point[1]) + yaxis._offset + top];
 }
 
 /** The drawn plot of a chart. @param {string} id @returns {any} */
@@ -221,9 +260,6 @@ function pointOf(id) {
 function isNear(id, event) {
   const [plot, point] = [plotOf(id), pointOf(id)];
   if (!plot || !point) return false;
-  const { left, top } = plot.getBoundingClientRect();
-  const { xaxis, yaxis } = plot._fullLayout;
-  const dx = xaxis.d2p(point[0]) + xaxis._offset - (event.clientX - left);
-  const dy = yaxis.d2p(point[1]) + yaxis._offset - (event.clientY - top);
-  return Math.hypot(dx, dy) < REACH;
+  const [x, y] = placeOf(plot, point);
+  return Math.hypot(x - event.clientX, y - event.clientY) < REACH;
 }

@@ -2,6 +2,9 @@
 
 import { text } from "./texts.js";
 
+/** Milliseconds between questions whether a server that fell silent is there again, and what is asked of it. */
+const AGAIN = 2000;
+const SMALL = "/icon.svg";
 const TOO_MANY = 429;
 const TOO_LONG = 408;
 
@@ -28,6 +31,50 @@ export function linesOf(error) {
   return [text("server.silent", { reason })];
 }
 
+/** Asks whether the server is there again, while it is not. @type {ReturnType<typeof setInterval> | undefined} */
+let asking;
+/** Told when the server is there again. @type {Set<() => void>} */
+const listeners = new Set();
+
+/** True from a request that did not reach the server until it answers again. */
+export function isSilent() {
+  return asking !== undefined;
+}
+
+/** @param {() => void} listener is told when a server that fell silent answers again */
+export function onReturn(listener) {
+  listeners.add(listener);
+}
+
+/** Ask until the server answers again. */
+export function waitForServer() {
+  asking ??= setInterval(async () => {
+    try {
+      await fetch(SMALL, { cache: "no-store" });
+    } catch {
+      return; // it is still silent
+    }
+    clearInterval(asking);
+    asking = undefined;
+    for (const listener of listeners) listener();
+  }, AGAIN);
+}
+
+/**
+ * The response of the server; where it does not answer, it is asked until it does.
+ *
+ * @param {string} address
+ * @param {RequestInit} [options]
+ */
+async function reached(address, options) {
+  try {
+    return await fetch(address, options);
+  } catch (error) {
+    if (!options?.signal?.aborted) waitForServer();
+    throw error;
+  }
+}
+
 /** @param {Response} response */
 async function checked(response) {
   if (response.ok) return response;
@@ -46,7 +93,7 @@ async function checked(response) {
  * @param {string} address
  */
 export async function get(address) {
-  return (await checked(await fetch(`/api/v1/${address}`))).json();
+  return (await checked(await reached(`/api/v1/${address}`))).json();
 }
 
 /**
@@ -57,7 +104,7 @@ export async function get(address) {
  * @param {AbortSignal} [signal]
  */
 export async function send(address, body, signal) {
-  const response = await fetch(`/api/v1/${address}`, {
+  const response = await reached(`/api/v1/${address}`, {
     method: "POST",
     headers: { "Content-Type": "application/json" },
     body: JSON.stringify(body),

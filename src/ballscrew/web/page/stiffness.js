@@ -7,6 +7,14 @@ import { ofServer, text } from "./texts.js";
 import * as units from "./units.js";
 
 const DIGITS = 3;
+/** Kinds of nuts by name. @type {Vocabulary["nuts"]} */
+let nuts = {};
+
+/** @param {Vocabulary} vocabulary */
+export function setVocabulary(vocabulary) {
+  nuts = vocabulary.nuts;
+}
+
 /** Rows of the table: the place in the answer, words, SI unit, display unit. @type {[string, import("./texts.js").Key, string, string][]} */
 const ROWS = [
   ["rigidity", "stiffness.rigidity", "N/m", "N/um"],
@@ -61,7 +69,7 @@ export function show(answer) {
     table(text("stiffness.caption"), ["", ""], rows),
     element("p", { class: "small", ...ofServer }, notes.length ? `Assumed: ${notes.join("; ")}.` : ""),
   );
-  drawBalls(loads.balls ?? {});
+  drawBalls(loads.balls ?? {}, halvesOf(answer));
 }
 
 /**
@@ -73,12 +81,32 @@ function shown(value, si, unit) {
   return units.formattedIn(value, unit, si, DIGITS);
 }
 
+/** The halves of the nut of an answer, which follow each other with a distance between them. @param {Run} answer */
+function halvesOf({ inputs }) {
+  const { type } = /** @type {{ type?: string }} */ (inputs.nut ?? {});
+  return nuts[type ?? ""]?.halves ?? 1;
+}
+
+/**
+ * Values along the nut with a gap where one half ends and the next begins, so that no line is drawn across it.
+ *
+ * @template Value
+ * @param {Value[]} values
+ * @param {number} halves
+ * @returns {(Value | null)[]}
+ */
+function parted(values, halves) {
+  const size = values.length / halves;
+  return values.flatMap((value, place) => (place && place % size === 0 ? [null, value] : [value]));
+}
+
 /**
  * The load of each ball along the nut, on both flanks.
  *
  * @param {Record<string, unknown>} balls
+ * @param {number} halves
  */
-function drawBalls({ forward_load: forward, backward_load: backward, count }) {
+function drawBalls({ forward_load: forward, backward_load: backward, count }, halves) {
   if (!Array.isArray(forward) || !Array.isArray(backward)) {
     hide("balls-chart");
     return;
@@ -101,8 +129,8 @@ function drawBalls({ forward_load: forward, backward_load: backward, count }) {
       flanks.map(({ name }, place) => ({ kind: "area", name, colour: place ? colours.second : colours.accent })),
     figure: (colours) => ({
       traces: flanks.map(({ name, values }, place) => ({
-        x: places,
-        y: values,
+        x: alike ? places : parted(places, halves),
+        y: alike ? values : parted(values, halves),
         name,
         type: alike ? "bar" : "scatter",
         mode: "lines",

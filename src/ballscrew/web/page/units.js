@@ -4,28 +4,6 @@ import { hasComma, hasMessage, languageOf, localised, ofServer, sentence, textOr
 
 const NUMBER = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i;
 const COMMA = /^(\s*[-+]?\d*),(\d+)/;
-/** @type {Record<string, string>} */
-const SYMBOLS = {
-  um: "µm",
-  uin: "µin",
-  degC: "°C",
-  degF: "°F",
-  deg: "°",
-  "N m": "N·m",
-  "N mm": "N·mm",
-  "lbf in": "lbf·in",
-  "mPa s": "mPa·s",
-  "Pa s": "Pa·s",
-  "N/um": "N/µm",
-  "kg/m^3": "kg/m³",
-  "W/(m K)": "W/(m·K)",
-  "J/(kg K)": "J/(kg·K)",
-  "1/m^2": "1/m²",
-  "kg cm^2": "kg·cm²",
-  "kg m^2": "kg·m²",
-  "mm rpm": "mm·rpm",
-  "m rad/s": "m·rad/s",
-};
 /** Results that have the units of another one. @type {Record<string, string>} */
 const SAME_UNIT = { preload_drag: "screw_torque" };
 /** Digits of a number whose interval is not known. */
@@ -42,6 +20,8 @@ const GROUPS = {
   ",": /(?<![\d.,])[1-9]\d{0,2}(?:,\d{3})+(?![\d,])/,
 };
 const PLACEHOLDER = /\{(\d{1,4})\}/g;
+/** How far the full-width forms stand behind those of ASCII. */
+const FULL_WIDTH = 0xfee0;
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
 
@@ -80,13 +60,23 @@ export function setLead(text, computed) {
   lead = (found ? toSI(found.number, found.unit, "m") : computed) || undefined;
 }
 
+/** Powers as they are written above the line. @type {Record<string, string>} */
+const POWERS = { 2: "²", 3: "³" };
+
 /**
- * A unit in its usual symbols.
+ * A unit in its usual symbols: µm, °C, m/s², N·m.
  *
  * @param {string} unit
  */
 export function symbol(unit) {
-  return textOr(`unit.${unit}`, SYMBOLS[unit] ?? unit);
+  const usual = unit
+    .replace(/\bu(?=m\b|in\b)/g, "µ")
+    .replace(/\bdeg(?=[CF]\b)/g, "°")
+    .replace(/^deg\b/, "°")
+    .replace(/\^([23])/g, (_, power) => POWERS[power])
+    .replace(/\bohm\b/, "Ω")
+    .replaceAll(" ", "·");
+  return textOr(`unit.${unit}`, usual);
 }
 
 /**
@@ -176,7 +166,20 @@ export function withPoint(text) {
  * @param {string} text
  */
 export function ofLanguage(text) {
-  return hasComma ? text.replace(LEADING, (number) => swapped(number, ",")) : text;
+  const plain = inASCII(text);
+  return hasComma ? plain.replace(LEADING, (number) => swapped(number, ",")) : plain;
+}
+
+/**
+ * A text with digits and signs as keyboards have them: a minus sign and full-width digits are read as well.
+ *
+ * @param {string} text
+ */
+function inASCII(text) {
+  return text
+    .replaceAll("\u2212", "-")
+    .replaceAll("\u3000", " ")
+    .replace(/[\uff01-\uff5e]/g, (one) => String.fromCharCode(one.charCodeAt(0) - FULL_WIDTH));
 }
 
 /**
@@ -208,7 +211,7 @@ function swapped(number, mark) {
  * @param {string | undefined} si
  */
 export function parse(text, si) {
-  const written = String(text);
+  const written = inASCII(String(text));
   const match = NUMBER.exec(withPoint(written));
   if (!match) return null;
   const digits = written.trimStart().slice(0, match[1].length); // as they were typed
@@ -216,7 +219,9 @@ export function parse(text, si) {
     .replace("µ", "u")
     .replace("°C", "degC")
     .replace("°F", "degF")
-    .replace(/^°$/, "deg")
+    .replace(/^°/, "deg")
+    .replace("²", "^2")
+    .replace("³", "^3")
     .replace("·", " ");
   return conversion(unit, si) ? { number: Number(match[1]), digits, unit } : null;
 }

@@ -145,12 +145,25 @@ export function setUp(holder, page) {
 
   /** @param {string} fault */
   function showRecorded(fault) {
-    const input = element("input", { type: "file", id: "duty-trace", accept: ".csv,.txt,.tsv,.xlsx,.ods" });
+    // the button of the browser would speak the language of the browser
+    const input = element("input", {
+      type: "file",
+      id: "duty-trace",
+      hidden: true,
+      accept: ".csv,.txt,.tsv,.xlsx,.ods",
+    });
     input.addEventListener("change", () => take(input.files?.[0]));
-    const remove = () => take(undefined).then(() => document.getElementById("duty-trace")?.focus());
+    const choose = element(
+      "button",
+      { type: "button", id: "duty-trace-choose", onclick: () => input.click() },
+      text("log.choose"),
+    );
+    choose.setAttribute("aria-label", `${text("log.choose")}: ${text("duty.trace")}`);
+    const remove = () => take(undefined).then(() => document.getElementById("duty-trace-choose")?.focus());
     const words = trace ? text("duty.recorded", { file: trace.name }) : fault;
     recorded.replaceChildren(
-      element("label", { for: "duty-trace" }, text("duty.trace")),
+      element("span", {}, text("duty.trace")),
+      choose,
       input,
       element("span", { class: fault ? "fault" : "small", role: "status" }, words),
       ...(trace

@@ -11,8 +11,10 @@ import { languageOfRecord, ofRecord } from "../units.js";
  * @param {VerdictRecord[]} warnings
  */
 export function lines(verdicts, warnings) {
+  const [firstVerdicts, firstWarnings] = [once(verdicts), once(warnings)];
+  const said = new Set(firstVerdicts.map(ofRecord));
   return [
-    ...verdicts.map((record) =>
+    ...firstVerdicts.map((record) =>
       element(
         "p",
         {
@@ -23,15 +25,22 @@ export function lines(verdicts, warnings) {
         sentence(ofRecord(record)),
       ),
     ),
-    ...warnings.map((record) =>
-      element(
-        "p",
-        { class: "warning", "data-record": record.id },
-        element("strong", {}, `${text("card.beware")} `),
-        element("span", languageOfRecord(record), sentence(ofRecord(record))),
+    ...firstWarnings
+      .filter((record) => !said.has(ofRecord(record)))
+      .map((record) =>
+        element(
+          "p",
+          { class: "warning", "data-record": record.id },
+          element("strong", {}, `${text("card.beware")} `),
+          element("span", languageOfRecord(record), sentence(ofRecord(record))),
+        ),
       ),
-    ),
   ];
+}
+
+/** Records without those that say the same again. @param {VerdictRecord[]} records */
+export function once(records) {
+  return [...new Map(records.map((record) => [ofRecord(record), record])).values()];
 }
 
 /** @param {string} words */

@@ -1,0 +1,225 @@
+"""What people type, take back, compare and lose: undo, numbers of other keyboards, a server that is gone."""
+
+import json
+import re
+import socket
+import tomllib
+
+import pytest
+
+from .test_page_operating_point import DIAMOND, DRAWN
+
+
+def value(here, field):
+    return here.page.locator(here.id(field)).input_value()
+
+
+def undo(here):
+    before = here.page.url
+    here.page.locator("#undo").click()
+    here.page.wait_for_function("before => location.href !== before", arg=before)
+    return here.settle()
+
+
+def test_undo_takes_one_edit_back(visit):
+    """Two edits of one field were one step, and a point that was dragged in the map was two."""
+    here = visit().open()
+    field = here.page.locator(here.id("operation.axial_load"))
+    here.type("operation.axial_load", "5000")
+    field.press("Tab")
+    here.type("operation.axial_load", "6000")
+    field.press("Tab")
+    undo(here)
+    assert value(here, "operation.axial_load") == "5000"
+    slider = here.page.locator("#s-operation-axial_load")
+    for x in (0.3, 0.8):
+        box = slider.bounding_box()
+        here.page.mouse.move(box["x"] + box["width"] * 0.5, box["y"] + box["height"] / 2)
+        here.page.mouse.down()
+        here.page.mouse.move(box["x"] + box["width"] * x, box["y"] + box["height"] / 2, steps=4)
+        here.page.mouse.up()
+        here.settle()
+    undo(here)
+    middle = float(value(here, "operation.axial_load"))
+    undo(here)
+    assert middle != 5000 == float(value(here, "operation.axial_load"))
+
+    here.page.locator("#map-chart").scroll_into_view_if_needed()
+    here.page.wait_for_function("() => document.querySelector('#map-chart .plot')?._fullLayout?.xaxis")
+    x, y = here.page.evaluate(DIAMOND, "map-chart")
+    here.page.mouse.move(x, y)
+    here.page.mouse.down()
+    here.page.mouse.move(x + 60, y - 40, steps=3)
+    here.page.mouse.up()
+    here.settle()
+    assert value(here, "operation.axial_load") != "5000"
+    speed = value(here, "operation.screw_speed")
+    undo(here)
+    assert value(here, "operation.axial_load") == "5000"
+    assert value(here, "operation.screw_speed") != speed
+
+
+@pytest.mark.parametrize(
+    ("typed", "case", "kept"),
+    [
+        ("\u22124000", "-4000 N", "-4000 N"),
+        ("４０００", "4000 N", "4000 N"),
+        ("4000 ± 10 %", "4000 N", "4000 N ± 10 %"),
+    ],
+)
+def test_numbers_of_other_keyboards(visit, typed, case, kept):
+    """The page prints a minus sign that it did not read."""
+    here = visit().open().type("operation.axial_load", typed)
+    assert here.text("#case").startswith(case)
+    file = tomllib.loads(here.download("#downloads button:text-is('TOML')").decode())
+    assert file["operation"]["axial_load"] == kept
+
+
+def test_designs_that_were_changed_side_by_side(visit):
+    """The table named eight designs alike, and the chart every second one."""
+    more = "".join(f"&{letter}=paper&{letter}.screw.lead={lead}+mm" for lead, letter in enumerate("BCDEFGH", start=6))
+    here = visit().open("#A=paper&B.operation.axial_load=9+kN&band=0" + more)
+    changed = here.page.locator("#compare tbody tr", has_text="changed").first
+    words = changed.locator("td").all_inner_texts()
+    assert words[0] == "–"
+    assert "lead (Screw): 6 mm" in words[1]
+    assert "axial load (Operating point): 9 kN (does not count here)" in words[1]
+    assert "lead (Screw): 12 mm" in words[-1]
+    here.page.locator("#compare-chart").scroll_into_view_if_needed()
+    here.page.wait_for_selector("#compare-chart .ytick")
+    assert sorted(here.page.locator("#compare-chart .ytick").all_text_contents()) == list("ABCDEFGH")
+    here.open()
+    assert "up to 8 are shown" in here.text("#compare")
+
+
+def test_a_server_that_is_gone(visit, commands, start):
+    """A PDF said that the input was at fault, a card stayed blank, and the page did not go on by itself."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    server = start("--port", str(port))
+    here = visit(server.address)
+    here.expected = ("ERR_", "Failed to load")
+    here.open("#A=paper&band=0")
+    server.end()
+    page = here.page
+    page.locator(here.id("operation.axial_load")).fill("5000")
+    page.wait_for_selector("#faults:has-text('does not answer')")
+    page.locator("#downloads button:text-is('PDF')").click()
+    assert "does not answer" in here.text("#download-words")
+    page.locator("#duty-open").click()
+    page.wait_for_selector("#duty .card-trouble:has-text('does not answer')")
+    start("--port", str(port))
+    page.wait_for_selector("#results:not(.stale)")
+    assert here.settle().text("#case").startswith("5000 N")
+    page.wait_for_selector("#duty .verdict")
+    assert page.locator(".card-trouble").count() == 0
+
+
+def test_a_new_tab_restores_the_latest_edit(browser, server):
+    """To load an older tab again made its work the latest."""
+    context = browser.new_context()
+    context.set_default_timeout(180_000)
+
+    def opened(address):
+        page = context.new_page()
+        page.goto(address)
+        page.wait_for_selector("html[data-ready]")
+        return page
+
+    def edit(page, load):
+        page.locator("#f-operation-axial_load").fill(load)
+        page.wait_for_function(
+            "load => Object.values(localStorage).some((one) => one.includes(`axial_load=${load}`))", arg=load
+        )
+
+    first = opened(f"{server.address}/#A=paper&band=0")
+    edit(first, "1111")
+    second = opened(f"{server.address}/#A=paper&band=0")
+    edit(second, "2222")
+    first.reload()
+    first.wait_for_selector("html[data-ready]")
+    first.locator("#files-open").click()
+    first.wait_for_function("() => Object.values(localStorage).some((one) => one.includes('cards=files'))")
+    third = opened(server.address)
+    assert third.locator("#f-operation-axial_load").input_value() == "2222"
+    context.close()
+
+
+def test_the_example_of_a_fit_frees_what_its_log_has(visit, server):
+    """Its first warning said to free the constant torque, which the example left out."""
+    here = visit().open("#A=paper&band=0&cards=calibration")
+    page = here.page
+    page.locator("#fit-example").click()
+    page.wait_for_selector("#calibrate-fit")
+    found = server.get("examples").json()["fit"]
+    assert found["free"] == ["friction.boundary_friction_coefficient", "constant_torque"]
+    page.wait_for_function("() => document.querySelectorAll('#calibration .card-inputs input:checked').length === 2")
+    assert "constant_torque" in here.text("#calibration .card-inputs")
+    page.locator("#calibrate-fit").click()
+    page.wait_for_selector("#calibrate-use")
+    words = here.text("#calibration .card-result")
+    assert "with the constant torque free, too" not in words
+    assert "within" in words or "of the loads and speeds that the log has" in words
+
+
+def test_units_and_labels_are_those_of_people(visit):
+    """``m/s^2``, ``young modulus``, and a button for files in the language of the browser."""
+    here = visit()
+    here.page.context.add_cookies([{"name": "ballscrew-language", "value": "de", "url": here.address}])
+    try:
+        here.open("#A=vertical-axis&band=0&cards=duty")
+        here.page.wait_for_selector("#duty .verdict")
+        assert here.page.locator("#duty input[type=file]").is_hidden()
+        assert here.page.locator("#duty-trace-choose").inner_text() == "Datei wählen"
+        shown = here.page.locator("#duty option").all_inner_texts()
+        assert "m/s²" in shown
+        assert not [one for one in shown if re.search(r"\^| ", one) and "/" in one]
+    finally:
+        here.page.context.clear_cookies()
+    here.expected = ("status of 422",)
+    here.page.goto("about:blank")
+    here.open("#A=paper&A.screw.ball_material.young_modulus=-5+GPa&A.lubricant.density_15=-1+kg%2Fm%5E3&band=0")
+    assert "Young's modulus" in here.text("#faults")
+    assert "density at 15 °C" in here.text("main")
+    assert "young modulus" not in here.text("main")
+
+
+def test_each_half_of_a_nut_has_a_line_of_its_own(visit):
+    """The load of each ball was drawn across the distance between the halves."""
+    here = visit().open("#A=rexroth-16x5x3-4-double&A.operation.axial_load=1+kN&band=0")
+    here.page.locator("#balls-chart").scroll_into_view_if_needed()
+    here.page.wait_for_selector("#balls-chart .main-svg")
+    gaps = here.page.evaluate(
+        "document.querySelector('#balls-chart .plot').data"
+        ".map(({ x, y }) => [x.indexOf(null), y.indexOf(null), y.length])"
+    )
+    assert {(x, y) for x, y, _ in gaps} == {(gaps[0][2] // 2,) * 2}
+
+
+def test_the_hover_keeps_off_the_operating_point(visit):
+    """Its words covered the diamond that they were asked beside."""
+    here = visit().open()
+    here.page.locator("#torque-chart").scroll_into_view_if_needed()
+    here.page.wait_for_function(DRAWN, arg="4000")
+    x, y = here.page.evaluate(DIAMOND, "torque-chart")
+    for offset in (-60, -30, 0, 30):
+        here.page.mouse.move(x + offset - 3, y + 30)
+        here.page.mouse.move(x + offset, y + 30)
+        here.page.wait_for_selector("#torque-chart .hoverlayer .legend", state="attached")
+        here.rest(150)
+        box = here.page.locator("#torque-chart .hoverlayer .legend").bounding_box()
+        inside = box["x"] < x < box["x"] + box["width"] and box["y"] < y < box["y"] + box["height"]
+        assert not inside, (offset, box, x, y)
+
+
+def test_a_warning_is_said_once(visit):
+    """The lost preload and the starved oil stood twice in a card."""
+    here = visit().open(
+        "#A=vertical-axis&A.lubricant.temperature=-5+degC&A.operation.axial_load=9+kN&band=0&cards=duty+warm-up"
+    )
+    here.page.wait_for_selector("#duty [data-record]")
+    here.page.wait_for_selector("#warm-up [data-record]")
+    for place in ("#duty", "#warm-up", "#verdicts"):
+        words = here.page.locator(f"{place} .verdict, {place} .warning span").all_inner_texts()
+        assert len(words) == len(set(words)), json.dumps(words)
