@@ -35,6 +35,12 @@ function joined(names) {
   return [...new Set(names)].join(", ") || "–";
 }
 
+/** The names of the warnings of an answer that are no verdict of it as well. @param {Run | undefined} run */
+function beside(run) {
+  const said = new Set(run?.verdicts.map(nameOf));
+  return (run?.warnings ?? []).map(nameOf).filter((name) => !said.has(name));
+}
+
 /**
  * The change of a result against that of the first design, in percent.
  *
@@ -97,10 +103,7 @@ export async function showDesigns(answers, starts, mechanisms) {
     ),
     row(text("compare.checks"), (_, { checks }) => (checks ? verdict(checks) : "–")),
     row(text("compare.verdict"), (run) => joined(run.verdicts.map(nameOf))),
-    [
-      text("compare.beware"),
-      ...letters.map((letter) => answers[letter].reason ?? joined((answers[letter].run?.warnings ?? []).map(nameOf))),
-    ],
+    [text("compare.beware"), ...letters.map((letter) => answers[letter].reason ?? joined(beside(answers[letter].run)))],
   ];
   const headings = ["", ...letters.map((letter) => text("compare.design", { letter }))];
   const caption = text("compare.caption", { conditions: conditions(runs), first: letters[0] });
