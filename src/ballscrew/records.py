@@ -24,6 +24,8 @@ class Measured:
     value: float
     quantity: Quantity | None = None
     digits: int = 4
+    #: -1 or 1 for the lower or the upper end of a band, which is rounded down or up; 0 for others.
+    toward: int = 0
 
     @property
     def is_plain(self) -> bool:
@@ -37,7 +39,7 @@ class Measured:
     def document(self) -> dict[str, Any]:
         """The number as it stands in JSON."""
         unit, shown_in = ("1", "1") if self.quantity is None else (self.quantity.unit, self.quantity.shown_in)
-        return {"value": self.value, "unit": unit, "shown_in": shown_in, "digits": self.digits}
+        return {"value": self.value, "unit": unit, "shown_in": shown_in, "digits": self.digits, "toward": self.toward}
 
 
 @dataclasses.dataclass(frozen=True, slots=True)

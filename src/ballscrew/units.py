@@ -5,8 +5,10 @@ from __future__ import annotations
 import contextlib
 import contextvars
 import dataclasses
+import decimal
 import functools
 import importlib
+import math
 import re
 import reprlib
 import sys
@@ -150,13 +152,23 @@ def written(value: Any, quantity: Quantity) -> str:
     return number if quantity.unit == "1" else f"{number} {quantity.shown_in}"
 
 
+#: Significant digits of a number for people, with a band as without; zeros at the end are left out.
+DIGITS = 4
+#: Digits beyond which a number is that of its rounding errors.
+_EXACT = 12
+
+
 class ShownQuantity(NamedTuple):
-    """A quantity in a text for people: its value in SI, how many digits of it are shown, and how it is written."""
+    """A quantity in a text for people: its value in SI, how many digits of it are shown, and how it is written.
+
+    ``toward`` is -1 or 1 for the lower or the upper end of a band, which is rounded down or up; 0 for others.
+    """
 
     value: float
     quantity: Quantity
     digits: int
     text: str
+    toward: int = 0
 
 
 _placeholders: contextvars.ContextVar[list[ShownQuantity] | None] = contextvars.ContextVar("placeholders", default=None)
@@ -176,12 +188,23 @@ def placeholders() -> Generator[list[ShownQuantity]]:
         _placeholders.reset(token)
 
 
-def rounded(value: Any, quantity: Quantity, digits: int = 4) -> str:
+def rounded(value: Any, quantity: Quantity, digits: int = DIGITS, toward: int = 0) -> str:
     """The digits of a value in its display unit, rounded for reading; a length smaller than a nucleus is zero."""
     number = float(value)
     if quantity.unit == "m" and abs(number) < SMALLEST_LENGTH:
         number = 0.0
-    return f"{from_si(number, quantity):.{digits}g}"
+    return to_digits(from_si(number, quantity), digits, toward)
+
+
+def to_digits(number: float, digits: int = DIGITS, toward: int = 0) -> str:
+    """A number with so many significant digits: to the nearest, or down or up with a ``toward`` of -1 or 1.
+
+    The ends of a band are rounded outward: what is written holds no less than what was computed.
+    """
+    if not toward or not math.isfinite(number):
+        return f"{number:.{digits}g}"
+    context = decimal.Context(digits, decimal.ROUND_CEILING if toward > 0 else decimal.ROUND_FLOOR)
+    return f"{float(context.create_decimal(f'{number:.{_EXACT}g}')):.{digits}g}"
 
 
 def label(quantity: Quantity) -> str:
@@ -189,12 +212,12 @@ def label(quantity: Quantity) -> str:
     return "" if quantity.unit == "1" else quantity.shown_in.replace("um", "µm")
 
 
-def shown(value: Any, quantity: Quantity, digits: int = 4) -> str:
+def shown(value: Any, quantity: Quantity, digits: int = DIGITS, toward: int = 0) -> str:
     """A value with its unit, rounded for reading."""
-    text = " ".join(filter(None, (rounded(value, quantity, digits), label(quantity))))
+    text = " ".join(filter(None, (rounded(value, quantity, digits, toward), label(quantity))))
     if (collected := _placeholders.get()) is None:
         return text
-    collected.append(ShownQuantity(float(value), quantity, digits, text))
+    collected.append(ShownQuantity(float(value), quantity, digits, text, toward))
     start = f"{{{len(collected) - 1}"
     return f"{start}{'_' * (len(text) - len(start) - 1)}}}"
 
@@ -205,7 +228,9 @@ def filled(message: Message) -> str:
 
 
 def _measured(one: Measured) -> str:
-    return one.plain() if one.quantity is None or one.is_plain else shown(one.value, one.quantity, one.digits)
+    return (
+        one.plain() if one.quantity is None or one.is_plain else shown(one.value, one.quantity, one.digits, one.toward)
+    )
 
 
 def record(message: Message, **fields: Any) -> Record:
@@ -213,9 +238,14 @@ def record(message: Message, **fields: Any) -> Record:
     return Record(text=filled(message), message=message, **fields)
 
 
+def ends(low: Any, high: Any, quantity: Quantity) -> tuple[str, str]:
+    """The ends of a band with their units, rounded outward."""
+    return shown(low, quantity, toward=-1), shown(high, quantity, toward=1)
+
+
 def in_display_units(fault: Fault, quantity: Quantity, given: str) -> Fault:
     """A fault found in SI, with its bound in the display unit and the value as it was written."""
-    bound = "" if fault.bound is None else shown(fault.bound, quantity, 9 if quantity.info.whole else 4)
+    bound = "" if fault.bound is None else shown(fault.bound, quantity, 9 if quantity.info.whole else DIGITS)
     problem, remedy = (text.replace("{bound}", bound) for text in (fault.problem, fault.remedy))
     return Fault(fault.where, problem, given, remedy)
 

@@ -2,6 +2,8 @@
 
 import json
 import math
+import re
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 
 import pytest
 from matplotlib.text import Text
@@ -20,6 +22,7 @@ from ballscrew.report import band_section
 from ballscrew.report.blocks import Paragraph
 from ballscrew.studies import band, comparison
 from ballscrew.uncertainty.bands import Interval, OutputBand
+from ballscrew.units import to_digits
 
 
 @pytest.fixture
@@ -83,6 +86,26 @@ def test_where_the_laws_pull_the_band_one_line_says_which_number_to_use(torque, 
     assert all(f"{value:.3g} N m" in record.text for value, record in zip(used, found, strict=True))
 
 
+def test_ends_are_rounded_outward_and_the_value_is_that_of_the_run(drive, ballscrew):
+    """In the sentence and in both tables, with the digits of the command without a band."""
+    words = ballscrew("run", drive, "--band", "--samples", "64").stdout
+    found = document_of(ballscrew("run", drive, "--band", "--samples", "64", "--json"))["band"]
+
+    def written(value, rounding):
+        return f"{float(Context(4, rounding).create_decimal(repr(value))):.4g}"
+
+    torque, power = found["screw_torque"], found["friction_power"]
+    low, high = written(torque["low"], ROUND_FLOOR), written(torque["high"], ROUND_CEILING)
+    assert f"between {low} N m and {high} N m" in words
+    assert re.search(rf"inputs and laws +{low} N m +{high} N m ", words)
+    low, high = written(power["low"], ROUND_FLOOR), written(power["high"], ROUND_CEILING)
+    (row,) = [line for line in words.splitlines() if line.startswith("power dissipated")]
+    assert re.search(rf"{power['value']:.4g} W +{power['median']:.4g} W +{low} W +{high} W$", row.rstrip())
+    without = ballscrew("run", drive).stdout
+    assert f"{power['value']:.4g} W" in without
+    assert f"{torque['value']:.4g} N m" in without
+
+
 def test_run_and_report_say_so(example, ballscrew):
     """Of the vertical axis the band of inputs and laws ends below that of the inputs alone."""
     vertical = example.with_name("vertical_axis.toml")
@@ -92,7 +115,7 @@ def test_run_and_report_say_so(example, ballscrew):
     report = band.band(case, band.Options(samples=256))
     torque = report.band["screw_torque"]
     assert torque.both.high < torque.parameters.high
-    assert line.endswith(f"for a motor take {torque.parameters.high:.4g} N m")
+    assert line.endswith(f"for a motor take {to_digits(torque.parameters.high, toward=1)} N m")
     said = [block.text for block in band_section.blocks(case, report) if isinstance(block, Paragraph)]
     assert any("of the inputs alone: most other laws give less torque than the model's" in text for text in said)
 

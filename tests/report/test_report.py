@@ -17,6 +17,7 @@ import pypdf
 import pytest
 
 import ballscrew as bs
+from ballscrew import units
 from ballscrew.axis_studies.duty import NUMBERS, duty
 from ballscrew.axis_studies.warm_up import warmed_up
 from ballscrew.axis_studies.warm_up_records import verdicts
@@ -212,7 +213,7 @@ def test_it_says_how_far_off_it_may_be_and_why(pdf, page):
     case = case_of("catalogue_screw")
     found = band.band(case, band.Options(samples=SAMPLES))
     torque = found.band["screw_torque"]
-    low, high = (banded(end, *torque.both, _TORQUE).value for end in torque.both)
+    low, high = units.ends(*torque.both, _TORQUE)
     for words in (text_of(pdf), page.words):
         assert f"between {low} and {high}" in words
         assert "Which inputs make the band" in words

@@ -92,6 +92,7 @@ class Shown(Closed):
     unit: str = Field(description="SI")
     shown_in: str = Field(description="the unit in which the command line shows it")
     digits: int
+    toward: int = Field(description="-1 and 1: the lower and the upper end of a band, rounded down and up; 0: others")
 
 
 class Message(Closed):

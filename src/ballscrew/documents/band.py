@@ -21,6 +21,8 @@ from ballscrew.uncertainty.bands import OutputBand
 
 _TORQUE = "screw_torque"
 _KNOWN = quantities_of(FrictionResult)[_TORQUE]
+#: The numbers of the sentences that are ends of bands, which are rounded outward.
+_LOW_ENDS, _HIGH_ENDS = ("low", "inputs_low", "laws_low"), ("high", "inputs_high", "laws_high", "greatest")
 #: The sentences where the other laws pull the band to one side of the model's own.
 _LOWERED = Message(
     "inputs and laws together end at {high}, below the {inputs_high} of the inputs alone: most other laws give less "
@@ -75,11 +77,19 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
     if float(case.operation.axial_load) == 0 and torque.both == (0.0, 0.0):
         message = Message("no band: without load there is no friction torque")
         return [units.record(message, id="band.no_load", subject="axial_load", value=0.0, unit="N")]
-    numbers = {"torque": torque.value, "median": torque.median, "low": torque.both.low, "high": torque.both.high}
+    numbers = {"torque": torque.value, "median": torque.median}
+    ends = {
+        "low": Measured(torque.both.low, quantity, toward=-1),
+        "high": Measured(torque.both.high, quantity, toward=1),
+    }
     message = Message(
         "friction torque {torque} at the values of the case, median {median}, "
         "{level} % of the samples between {low} and {high}",
-        {**{name: Measured(value, quantity) for name, value in numbers.items()}, "level": Measured(100 * band.level)},
+        {
+            **{name: Measured(value, quantity) for name, value in numbers.items()},
+            **ends,
+            "level": Measured(100 * band.level),
+        },
     )
     records = [units.record(message, id="band.torque", subject=_TORQUE, value=torque.median, unit=quantity.unit)]
     records += beside_laws(torque, quantity)
@@ -133,24 +143,28 @@ def beside_laws(torque: OutputBand, quantity: Quantity) -> list[Record]:
     One line for each, with the number to use. Ends that are written alike count as the same.
     """
     both, inputs, laws = torque.both, torque.parameters, torque.model_form
-    numbers = {"value": torque.value, "median": torque.median, "least": min(both.low, inputs.low)}
+    numbers = {"value": torque.value, "median": torque.median}
     numbers |= {"greatest": max(both.high, inputs.high), "laws_low": laws.low, "laws_high": laws.high}
     numbers |= {"low": both.low, "high": both.high, "inputs_low": inputs.low, "inputs_high": inputs.high}
     if not all(map(math.isfinite, numbers.values())):
         return []
 
+    outward = {**dict.fromkeys(_LOW_ENDS, -1), **dict.fromkeys(_HIGH_ENDS, 1)}
+
     def differ(one: str, other: str) -> bool:
-        return units.rounded(numbers[one], quantity) != units.rounded(numbers[other], quantity)
+        return len({units.rounded(numbers[name], quantity, toward=outward.get(name, 0)) for name in (one, other)}) > 1
 
     def record(name: str, template: Message, used: str) -> Record:
-        message = template.of(**{key: Measured(value, quantity) for key, value in numbers.items()})
+        message = template.of(
+            **{key: Measured(value, quantity, toward=outward.get(key, 0)) for key, value in numbers.items()}
+        )
         return units.record(message, id=f"band.{name}", subject=_TORQUE, value=numbers[used], unit=quantity.unit)
 
     found: list[Record] = []
     if both.high < inputs.high and differ("high", "inputs_high"):
-        found.append(record("laws_lower_it", _LOWERED, "greatest"))
+        found.append(record("laws_lower_it", _LOWERED, "inputs_high"))
     if both.low > inputs.low and differ("low", "inputs_low"):
-        found.append(record("laws_raise_it", _RAISED, "least"))
+        found.append(record("laws_raise_it", _RAISED, "inputs_low"))
     if torque.value > laws.high and differ("value", "laws_high"):
         found.append(record("above_laws", _ABOVE, "median"))
     if torque.value < laws.low and differ("value", "laws_low"):

@@ -13,7 +13,7 @@ from ballscrew.quantities import quantities_of
 from ballscrew.report.blocks import Bar, Block, Bullets, Paragraph, Picture, Table, sentence
 from ballscrew.report.blocks import value as value_of
 from ballscrew.report.curve_figures import named, svg_of
-from ballscrew.report.numbers import banded, banded_share, with_digits_of
+from ballscrew.report.numbers import banded, banded_share
 from ballscrew.studies.band import BandReport
 from ballscrew.studies.run import Run
 from ballscrew.studies.tornado import tornado
@@ -31,11 +31,9 @@ def has_band(report: BandReport) -> bool:
 
 
 def answer(run: Run, report: BandReport) -> Paragraph:
-    """The answer in some sentences, each number with its band and no more digits than that leaves."""
-    bands = report.band.outputs if has_band(report) else {}
-    verdicts = with_digits_of(bands, lambda: [record.text for record in run.verdicts])
-    said = [_headline(run, report), *(f"{sentence(line)}." for line in verdicts)]
-    if bands:
+    """The answer in some sentences, the numbers of the first one with their bands."""
+    said = [_headline(run, report), *(f"{sentence(record.text)}." for record in run.verdicts)]
+    if has_band(report):
         said.append(f"The ends in brackets hold {100 * report.band.level:.4g} % of the samples of the band.")
     return Paragraph(" ".join(said), strong=True)
 
@@ -63,7 +61,7 @@ def _headline(run: Run, report: BandReport) -> str:
 
 def blocks(case: Case, report: BandReport) -> list[Block]:
     """Band of the results, its causes, the inputs that make it, and the uncertain inputs."""
-    verdicts = with_digits_of(report.band.outputs, lambda: [verdict.text for verdict in band.verdicts(case, report)])
+    verdicts = [verdict.text for verdict in band.verdicts(case, report)]
     summary = [Paragraph(f"{'. '.join(map(sentence, verdicts))}.", strong=True)]
     if not has_band(report):
         return [*summary]

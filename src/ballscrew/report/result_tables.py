@@ -67,7 +67,7 @@ def results(run: Run, bands: Mapping[str, OutputBand]) -> list[Table]:
 def _with_band(
     result: Any, name: str, known: Mapping[str, Quantity], bands: Mapping[str, OutputBand]
 ) -> tuple[str, str, str]:
-    """A result, its value with the digits that its band leaves, and the band where it has one."""
+    """A result, its value, and the band where it has one."""
     words, value = _row(result, name, known)
     if name not in bands:
         return words, value, ""

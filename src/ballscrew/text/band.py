@@ -16,7 +16,7 @@ from ballscrew.documents.band import verdicts, warnings
 from ballscrew.evaluation.outputs import known_outputs
 from ballscrew.quantities import Quantity
 from ballscrew.studies.band import BandReport
-from ballscrew.text.tables import shown_or_dash, table_of
+from ballscrew.text.tables import ends_or_dashes, shown_or_dash, table_of
 from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.uncertainty.bands import BandCurve, Interval, OutputBand
 
@@ -74,7 +74,7 @@ def _causes(case: Case, report: BandReport, encoding: str) -> Table:
     shares = ("", _percent(torque.share_of_parameters), _percent(1 - torque.share_of_parameters))
     ends = [end for interval in intervals(torque) for end in interval if math.isfinite(end)]
     for words, interval, share in zip(CAUSES, intervals(torque), shares, strict=True):
-        cells = (shown_or_dash(end, quantity) for end in interval)
+        cells = ends_or_dashes(*interval, quantity)
         table.add_row(words, *cells, share, _bar(interval, torque.value, ends, encoding))
     return table
 
@@ -106,7 +106,8 @@ def _others(case: Case, report: BandReport) -> Table:
         quantity, one = _quantities(case)[name], report.band[name]
         table.add_row(
             _SHORT.get(name, quantity.info.meaning),
-            *(shown_or_dash(x, quantity) for x in (one.value, one.median, *one.both)),
+            *(shown_or_dash(x, quantity) for x in (one.value, one.median)),
+            *ends_or_dashes(*one.both, quantity),
         )
     return table
 

@@ -87,8 +87,9 @@ def band_text(found: DutyBandReport) -> str:
     rows = [[f"Band: {100 * bands.level:.4g} % of {bands.count} samples", "case", "median", "from", "to"]]
     for name, one in bands.numbers.items():
         quantity = NUMBERS[name]
-        cells = (number(quantity, value) for value in (one.value, one.median, *one.band))
-        rows.append([f"  {quantity.info.meaning}", *cells])
+        cells = (number(quantity, value) for value in (one.value, one.median))
+        low, high = one.band
+        rows.append([f"  {quantity.info.meaning}", *cells, number(quantity, low, -1), number(quantity, high, 1)])
     given = sum(one.given for one in found.inputs.values())
     beside = ", bearings and guides" if found.report.case.uncertain_supports else ""
     said = (
@@ -151,11 +152,13 @@ def shown_numbers(report: DutyReport) -> Mapping[str, Quantity]:
     return {n: q for n, q in NUMBERS.items() if n not in _IF_ANY or abs(report.numbers[n]) > least}
 
 
-def number(quantity: Quantity, value: float) -> str:
+def number(quantity: Quantity, value: float, toward: int = 0) -> str:
     """A number with its unit; a dash where it is not finite, and large counts without an exponent up to a million."""
     if not math.isfinite(value):
         return "endless" if value > 0 else "–"
-    return f"{float(f'{value:.4g}'):.6g}" if quantity.unit == "1" else shown_or_dash(value, quantity)
+    if quantity.unit == "1":
+        return f"{float(units.to_digits(value, toward=toward)):.6g}"
+    return shown_or_dash(value, quantity, toward)
 
 
 def _parts(report: DutyReport, block: str) -> list[str]:

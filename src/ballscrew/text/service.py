@@ -95,7 +95,7 @@ def _interval(one: PreloadEstimate, case: Case) -> str:
     low, high = one.interval()
     if not math.isfinite(high):
         return "–"
-    return " to ".join(units.shown(end, preload_quantity(case)) for end in (low, high))
+    return " to ".join(units.ends(low, high, preload_quantity(case)))
 
 
 def causes(report: ServiceReport) -> list[str]:

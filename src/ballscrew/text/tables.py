@@ -23,6 +23,11 @@ def table_of(title: str, *columns: str) -> Table:
     return table
 
 
-def shown_or_dash(value: Any, quantity: Quantity) -> str:
-    """A value with its unit; a dash where it is not finite."""
-    return units.shown(value + 0.0, quantity) if math.isfinite(value) else "–"  # adding zero: no "-0"
+def shown_or_dash(value: Any, quantity: Quantity, toward: int = 0) -> str:
+    """A value with its unit, of the end of a band rounded ``toward`` the outside; a dash where it is not finite."""
+    return units.shown(value + 0.0, quantity, toward=toward) if math.isfinite(value) else "–"  # adding zero: no "-0"
+
+
+def ends_or_dashes(low: Any, high: Any, quantity: Quantity) -> tuple[str, str]:
+    """The ends of a band with their units, rounded outward; dashes where they are not finite."""
+    return shown_or_dash(low, quantity, -1), shown_or_dash(high, quantity, 1)

@@ -13,7 +13,7 @@ from ballscrew.axis_studies.duty import NUMBERS
 from ballscrew.axis_studies.warm_up import EQUILIBRIUM, PLACE, SERIES, WarmUpReport
 from ballscrew.cases import descriptions
 from ballscrew.output.wrapping import aligned, wrapped
-from ballscrew.text.tables import shown_or_dash
+from ballscrew.text.tables import ends_or_dashes, shown_or_dash
 
 if TYPE_CHECKING:
     from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
@@ -65,8 +65,9 @@ def band_text(found: WarmUpBandReport) -> str:
         quantity = SERIES[name]
         steady = bands.steady["growth" if name == "shaft_growth" else name]
         central = float("nan") if stopped else report.series[name][report.last_at_work]
-        numbers = (central, one.median[last], one.low[last], one.high[last], *steady)
-        rows.append([f"  {quantity.info.meaning}", *(shown_or_dash(float(value), quantity) for value in numbers)])
+        numbers = (shown_or_dash(float(value), quantity) for value in (central, one.median[last]))
+        at_work = ends_or_dashes(float(one.low[last]), float(one.high[last]), quantity)
+        rows.append([f"  {quantity.info.meaning}", *numbers, *at_work, *ends_or_dashes(*map(float, steady), quantity)])
     given = sum(one.given for one in found.inputs.values())
     said = (
         f"at the end of work, of {len(found.inputs)} uncertain inputs of surroundings, screw, oil and model, "

@@ -49,4 +49,5 @@ def _document(one: ShownQuantity) -> dict[str, Any]:
         "unit": one.quantity.unit,
         "shown_in": one.quantity.shown_in,
         "digits": one.digits,
+        "toward": one.toward,
     }

@@ -21,7 +21,7 @@ export function isStarved(answer) {
 /** The torque of the full bath in words, for the headline of a result that is starved. @param {Run} answer */
 export function inHeadline(answer) {
   if (!isStarved(answer)) return "";
-  return ` ${text("bath.beside", { torque: units.formatted("screw_torque", floodedTorque(answer), 2) })}`;
+  return ` ${text("bath.beside", { torque: units.formatted("screw_torque", floodedTorque(answer)) })}`;
 }
 
 /** True where the button has filled the bath of the current design. */

@@ -54,7 +54,7 @@ function bandOf(banded) {
     name: text(key),
     mode: "lines",
     line: { color: ink, width: 1.2, dash: "dot" },
-    hovertemplate: "%{y:.3g}",
+    hovertemplate: "%{y:.4g}",
   });
   return {
     /** @param {import("./plot.js").Colours} colours */

@@ -17,7 +17,7 @@ const FIELDS = {
 const CLOSE = 0.8;
 /** The share from which it is written as a multiple. */
 const MULTIPLE = 10;
-const DIGITS = 3;
+const DIGITS_OF_SHARE = 3;
 const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 
 /** @typedef {VerdictRecord & { name: string, utilisation: number | null, missing: string }} OneCheck */
@@ -81,7 +81,7 @@ function toneOf({ holds, utilisation }) {
  * @param {number | null} value
  */
 function shown({ unit }, value) {
-  const written = units.formattedIn(value, SHOWN_IN[unit] ?? unit, unit, DIGITS);
+  const written = units.formattedIn(value, SHOWN_IN[unit] ?? unit, unit);
   return written.replace(
     /e(\d+)/,
     (_, power) => `\u00a0·\u00a010${[...power].map((one) => RAISED[Number(one)]).join("")}`,
@@ -116,7 +116,7 @@ function limitOf(check, all) {
 function percentage(share) {
   if (!Number.isFinite(share)) return text("checks.over");
   if (share >= MULTIPLE) return text("checks.times", { times: units.digits(share, 2) });
-  return `${units.digits(100 * share, share < 0.1 ? 2 : DIGITS)}\u00a0%`;
+  return `${units.digits(100 * share, share < 0.1 ? 2 : DIGITS_OF_SHARE)}\u00a0%`;
 }
 
 /**

@@ -97,9 +97,9 @@ export async function showDesigns(answers, starts, mechanisms) {
     row(text("compare.band"), (run, { band }) => {
       return rounded("screw_torque", run.results.screw_torque, band).interval ?? "–";
     }),
-    row(text("compare.film"), (run) => units.digits(leastFilm(run), units.DIGITS)),
+    row(text("compare.film"), (run) => units.digits(leastFilm(run))),
     row(text("results.of_contact.maximum_pressure"), (run) =>
-      units.formatted("maximum_pressure", greatestPressure(run), units.DIGITS),
+      units.formatted("maximum_pressure", greatestPressure(run)),
     ),
     row(text("compare.checks"), (_, { checks }) => (checks ? verdict(checks) : "–")),
     row(text("compare.verdict"), (run) => joined(run.verdicts.map(nameOf))),

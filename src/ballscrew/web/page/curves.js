@@ -108,7 +108,7 @@ export function film(swept, answer) {
   return draw("film-chart", {
     name: "film_over_speed",
     caption: text("film.caption"),
-    description: text("film.description", { film: units.digits(now, 3) }),
+    description: text("film.description", { film: units.digits(now) }),
     legend: shown.legend,
     figure: (colours) => ({
       traces: [...shown.traces(colours), parts.pointAt(colours, speed, now)],

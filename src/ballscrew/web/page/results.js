@@ -50,7 +50,7 @@ export function numbersOf(answer) {
  * @param {string} name
  * @param {number | null | undefined} value
  */
-export function data(name, value, shown = units.formatted(name, value, units.DIGITS)) {
+export function data(name, value, shown = units.formatted(name, value)) {
   return element("data", { value: String(value ?? ""), "data-name": name }, shown);
 }
 
@@ -93,7 +93,7 @@ function endsOf(answer, name) {
 }
 
 /**
- * A result as text with no more digits than its band leaves it, and the ends of that.
+ * A result as text, as it is without a band, and the ends of its band.
  *
  * @param {string} name
  * @param {number | null | undefined} value
@@ -102,18 +102,12 @@ function endsOf(answer, name) {
  */
 export function rounded(name, value, band) {
   const ends = endsOf(band, name);
-  const shown = units.inDisplayUnit(name, value);
-  if (!ends || typeof shown !== "number" || ends.high <= ends.low) {
-    return { text: units.formatted(name, value, units.DIGITS) };
-  }
-  const { low, high } = ends;
-  const place = units.lastPlace(low, high);
+  const written = units.formatted(name, value);
+  if (!ends || typeof value !== "number" || ends.high <= ends.low) return { text: written };
+  const [low, high] = units.ends(ends.low, ends.high);
   const unit = units.unitOf(name);
   const end = unit ? `\u00a0${units.symbol(unit)}` : "";
-  return {
-    text: `${units.toPlace(shown, place)}${end}`,
-    interval: `${text("answer.interval", { low: units.toPlace(low, place), high: units.toPlace(high, place) })}${end}`,
-  };
+  return { text: written, interval: `${text("answer.interval", { low, high })}${end}` };
 }
 
 /** @type {ReturnType<typeof setTimeout>} */
@@ -269,7 +263,7 @@ function showContacts(answer, warnings) {
       { class: "regime" },
       Number.isFinite(film)
         ? text(isStarved(answer) ? "contact.film_of_full_inlet" : "contact.film", {
-            film: units.digits(film, 3),
+            film: units.digits(film),
             regime: regime(film),
           })
         : text("contact.no_film"),

@@ -6,7 +6,6 @@ import { draw, hide, layout } from "./plot.js";
 import { ofServer, text } from "./texts.js";
 import * as units from "./units.js";
 
-const DIGITS = 3;
 /** Kinds of nuts by name. @type {Vocabulary["nuts"]} */
 let nuts = {};
 
@@ -45,7 +44,7 @@ export function show(answer) {
   const loads = answer.loads;
   const place = byId("stiffness");
   if (!loads) {
-    const load = units.formatted("contact_load", answer.results.contact_load, DIGITS);
+    const load = units.formatted("contact_load", answer.results.contact_load);
     place.replaceChildren(element("p", {}, text("stiffness.no_nut", { load })));
     hide("balls-chart");
     return;
@@ -59,9 +58,7 @@ export function show(answer) {
   for (const flank of /** @type {const} */ (["loaded", "relieved"])) {
     const found = loads[`${flank}_flank`]?.load;
     if (!found) continue;
-    const [least, mean, greatest] = ["least", "mean", "greatest"].map((one) =>
-      units.formattedIn(found[one], "N", "N", DIGITS),
-    );
+    const [least, mean, greatest] = ["least", "mean", "greatest"].map((one) => units.formattedIn(found[one], "N", "N"));
     rows.push([text(`stiffness.${flank}`), text("stiffness.loads", { least, greatest, mean })]);
   }
   const notes = /** @type {string[]} */ (loads.axial_rigidity?.assumed ?? []);
@@ -78,7 +75,7 @@ export function show(answer) {
  * @param {string} unit
  */
 function shown(value, si, unit) {
-  return units.formattedIn(value, unit, si, DIGITS);
+  return units.formattedIn(value, unit, si);
 }
 
 /** The halves of the nut of an answer, which follow each other with a distance between them. @param {Run} answer */

@@ -54,7 +54,7 @@ export function leaveOut(answer) {
  */
 function driven(held, atRest, load) {
   if (held === null) return "–";
-  const torque = units.formatted("holding_torque", Math.abs(held), units.DIGITS);
+  const torque = units.formatted("holding_torque", Math.abs(held));
   if (held * load > 0) return text("temperatures.back_drives", { torque });
   return text((atRest ?? 0) * load > 0 ? "temperatures.held" : "temperatures.locks", { torque });
 }
@@ -78,7 +78,7 @@ export function show(swept, answer) {
   const rows = valuesOf(temperature).map((at, place) => {
     const [atRest, atSpeed] = held[place].map((one) => one[own]);
     return [
-      units.formattedIn(at, "degC", "K", units.DIGITS),
+      units.formattedIn(at, "degC", "K"),
       data("screw_torque", torques[place][1][own]),
       ...(isSlow ? [data("screw_torque", torques[place][1][0])] : []),
       driven(atSpeed, atRest, load),

@@ -6,12 +6,10 @@ const NUMBER = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i;
 const COMMA = /^(\s*[-+]?\d*),(\d+)/;
 /** Results that have the units of another one. @type {Record<string, string>} */
 const SAME_UNIT = { preload_drag: "screw_torque" };
-/** Digits of a number whose interval is not known. */
-export const DIGITS = 3;
-/** Decimals at most; smaller numbers are written with a power of ten. */
-const MOST_DECIMALS = 6;
-/** A leading digit below this is written with a second one (as the Particle Data Group rounds). */
-const TWO_DIGITS_BELOW = 3.55;
+/** Significant digits of a number, with a band as without: those of the command line. */
+export const DIGITS = 4;
+/** Digits beyond which a number is that of its rounding errors. */
+const EXACT = 12;
 /** The number at the start of an input, with what is told of its spread. */
 const LEADING = /^[\s\d.,'eE+±-]+/;
 /** Digits in groups of three by the mark between them, which may stand between thousands. */
@@ -241,16 +239,32 @@ export function digitsIn(text, unit, si) {
 }
 
 /**
- * A number to some significant digits, without trailing zeros.
+ * A number to some significant digits, without trailing zeros: to the nearest, or down or up.
  *
  * @param {number | null | undefined} value
+ * @param {number} [toward] -1 and 1 for the ends of a band, which are rounded outward
  */
-export function digits(value, count = 4) {
+export function digits(value, count = DIGITS, toward = 0) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
-  const rounded = Number(value.toPrecision(count));
+  const rounded = toward ? directed(value, count, toward) : Number(value.toPrecision(count));
   return Math.abs(rounded) >= 1e6 || (rounded !== 0 && Math.abs(rounded) < 1e-4)
     ? localised(rounded.toExponential().replace("e+", "e"))
     : localised(String(rounded));
+}
+
+/**
+ * The next number of so many digits below or above.
+ *
+ * @param {number} value
+ * @param {number} count
+ * @param {number} toward
+ */
+function directed(value, count, toward) {
+  const exact = Number(value.toPrecision(EXACT));
+  const nearest = Number(exact.toPrecision(count));
+  if ((exact - nearest) * toward <= 0) return nearest;
+  const step = 10 ** (Math.floor(Math.log10(Math.abs(nearest || exact))) - count + 1);
+  return Number((nearest + toward * step).toPrecision(count));
 }
 
 /** @param {string} name */
@@ -291,9 +305,10 @@ export function inDisplayUnit(name, value) {
  * @param {number | null | undefined} value
  * @param {string} unit
  * @param {number} count
+ * @param {number} [toward]
  */
-function withUnit(value, unit, count) {
-  const text = digits(value, count);
+function withUnit(value, unit, count, toward) {
+  const text = digits(value, count, toward);
   return unit && text !== "–" ? `${text}\u00a0${symbol(unit)}` : text; // units do not wrap
 }
 
@@ -303,7 +318,7 @@ function withUnit(value, unit, count) {
  * @param {string} name
  * @param {number | null | undefined} value
  */
-export function formatted(name, value, count = 4) {
+export function formatted(name, value, count = DIGITS) {
   return withUnit(inDisplayUnit(name, value), unitOf(name), count);
 }
 
@@ -313,34 +328,23 @@ export function formatted(name, value, count = 4) {
  * @param {number | null | undefined} value
  * @param {string} metric
  * @param {string} si
+ * @param {number} [toward] as of digits
  */
-export function formattedIn(value, metric, si, count = 4) {
-  if (si === "1") return digits(value, count);
+export function formattedIn(value, metric, si, count = DIGITS, toward = 0) {
+  if (si === "1") return digits(value, count, toward);
   const unit = inSystem(metric);
-  return withUnit(value === null || value === undefined ? value : fromSI(value, unit, si), unit, count);
+  return withUnit(value === null || value === undefined ? value : fromSI(value, unit, si), unit, count, toward);
 }
 
 /**
- * The power of ten at which numbers end that are known to an interval: half of its width is written with one or two digits.
+ * The ends of a band as numbers without a unit, rounded outward.
  *
  * @param {number} low
  * @param {number} high
+ * @returns {[string, string]}
  */
-export function lastPlace(low, high) {
-  const half = Math.abs(high - low) / 2;
-  const power = Math.floor(Math.log10(half));
-  return power - (half / 10 ** power < TWO_DIGITS_BELOW ? 1 : 0);
-}
-
-/**
- * A number that ends at a power of ten, with the zeros that say so.
- *
- * @param {number} value
- * @param {number} place
- */
-export function toPlace(value, place) {
-  if (place < -MOST_DECIMALS || Math.abs(value) >= 1e6) return digits(value, DIGITS);
-  return place < 0 ? localised(value.toFixed(-place)) : String(Math.round(value / 10 ** place) * 10 ** place);
+export function ends(low, high) {
+  return [digits(low, DIGITS, -1), digits(high, DIGITS, 1)];
 }
 
 /**
@@ -371,8 +375,8 @@ function partOf(value) {
 }
 
 /** A number of a text in the current units. @param {ShownQuantity} one */
-function measured({ value, unit, shown_in: metric, digits: count }) {
-  return formattedIn(value, metric, unit, count);
+function measured({ value, unit, shown_in: metric, digits: count, toward }) {
+  return formattedIn(value, metric, unit, count, toward);
 }
 
 /**

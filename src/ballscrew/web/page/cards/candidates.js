@@ -9,7 +9,7 @@ import * as units from "../units.js";
 
 /** Candidates in the list before more are asked for. */
 const FIRST = 25;
-const DIGITS = 3;
+const DIGITS_OF_SHARE = 3;
 /** Display units, by SI unit. @type {Record<string, string>} */
 const SHOWN_IN = {
   "kg m^2": "kg cm^2",
@@ -242,7 +242,7 @@ function tableOf(shown, known, order, sortBy, say) {
         element(
           "td",
           {},
-          element("data", { value: String(one.objectives[name] ?? "") }, units.digits(numberOf(one, name), DIGITS)),
+          element("data", { value: String(one.objectives[name] ?? "") }, units.digits(numberOf(one, name))),
         ),
       ),
       element(
@@ -279,7 +279,7 @@ function nameOf({ name }) {
 function multiple(share) {
   return share === null || share === undefined
     ? ""
-    : ` ${text("choose.times", { times: units.digits(share, DIGITS) })}`;
+    : ` ${text("choose.times", { times: units.digits(share, DIGITS_OF_SHARE) })}`;
 }
 
 /**
@@ -291,7 +291,7 @@ function verdictOf({ fails, checks, holds, valid, preload_lost_above: limit }) {
   const open = checks.filter((check) => check.holds === null).length;
   const failing = fails.map((check) => `${nameOf(check)}${multiple(check.utilisation)}`).join(", ");
   const words = failing ? text("checks.fail", { names: failing }) : text(holds ? "checks.holds" : "choose.rest_holds");
-  const load = units.formattedIn(limit, "N", "N", DIGITS + 1);
+  const load = units.formattedIn(limit, "N", "N");
   const lost =
     limit === null ? null : element("strong", { class: "fails" }, ` ${text("choose.preload_lost", { load })}`);
   const others = [open ? text("choose.open", { open }) : "", valid ? "" : text("choose.outside")];
@@ -308,8 +308,8 @@ function verdictOf({ fails, checks, holds, valid, preload_lost_above: limit }) {
     const lines = checks.map((check) => {
       const { name, unit, value, limit, utilisation } = /** @type {Record<string, any>} */ (check);
       /** @param {number | null} number */
-      const shown = (number) => units.formattedIn(number, SHOWN_IN[unit] ?? unit, unit, DIGITS);
-      const share = typeof utilisation === "number" ? ` (${units.digits(100 * utilisation, DIGITS)} %)` : "";
+      const shown = (number) => units.formattedIn(number, SHOWN_IN[unit] ?? unit, unit);
+      const share = typeof utilisation === "number" ? ` (${units.digits(100 * utilisation, DIGITS_OF_SHARE)} %)` : "";
       const numbers = check.holds === null ? text("checks.not_judged") : `${shown(value)} / ${shown(limit)}${share}`;
       return element("li", {}, `${nameOf({ name })}: ${numbers}`);
     });

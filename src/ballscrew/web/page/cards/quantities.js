@@ -22,7 +22,7 @@ export function quantity(si, metric) {
     /** @param {number | null | undefined} value @param {number} [digits] */
     text: (value, digits = units.DIGITS) => units.formattedIn(value, metric, si, digits),
     /**
-     * A number with no more digits than its band leaves it, and the ends of that; null without a band.
+     * A number as it is without a band, and the ends of its band; null without one.
      *
      * @param {number} value
      * @param {unknown} low
@@ -31,9 +31,9 @@ export function quantity(si, metric) {
     within: (value, low, high) => {
       if (typeof low !== "number" || typeof high !== "number" || high <= low) return null;
       const [shown, ...ends] = [value, low, high].map((one) => units.fromSI(one, unit(), si));
-      const place = units.lastPlace(ends[0], ends[1]);
-      const [number, from, to] = [shown, ...ends].map((one) => units.toPlace(one, place));
-      return { text: `${number}\u00a0${units.symbol(unit())}`, low: from, high: `${to}\u00a0${units.symbol(unit())}` };
+      const [from, to] = units.ends(ends[0], ends[1]);
+      const end = `\u00a0${units.symbol(unit())}`;
+      return { text: `${units.digits(shown)}${end}`, low: from, high: `${to}${end}` };
     },
   };
 }
