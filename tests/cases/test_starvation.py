@@ -18,6 +18,7 @@ from ballscrew.documents import service as service_documents
 from ballscrew.documents import sweep as sweep_documents
 from ballscrew.documents import warm_up as warm_up_documents
 from ballscrew.documents.self_heating import with_self_heating
+from ballscrew.report import duty_section, warm_up_section
 from ballscrew.studies import band, service, sweep
 from ballscrew.studies.run import run
 from ballscrew.thermal.surroundings import Surroundings
@@ -274,3 +275,14 @@ def test_the_readme_of_an_export_says_that_its_range_is_starved_of_oil(target):
         assert bool(said) == starved
         words = b"in a full bath of oil; which of them a ball screw has is not measured"
         assert any(words in content for content in made.files.values()) == starved
+
+
+def test_the_report_has_both_torques_of_a_cycle_and_of_warming_up(monkeypatch):
+    monkeypatch.setattr(duty_section, "_bands", lambda report: None)
+    case = case_file.build(tables_of_duty("-5 degC"), moves=True)
+    cold = warm_up.warmed_up(warm_up.load(ROOT / "examples" / "warm_up.toml", ["surroundings.ambient=-5 degC"], None))
+    for blocks in (duty_section.blocks(duty_of(case)), warm_up_section.blocks(cold)):
+        assert "in a full bath of oil" in blocks[0].text
+    steady = warm_up_section.blocks(cold)[1].left[0]
+    assert steady.columns == ("", "value", "in a full bath of oil")
+    assert {len(row) for row in steady.rows} == {3}
