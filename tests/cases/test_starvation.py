@@ -107,6 +107,8 @@ def test_a_cold_cycle_stands_beside_that_of_a_full_bath():
     assert full["energy_lost"] > 3.5 * found["energy_lost"]
     assert full["screw_torque"] > 3 * found["screw_torque"]
     assert f"{full['energy_lost']:.4g} J" in record["text"]
+    assert found["cycle"]["flooded_torque"] == bath["results"]["cycle"]["torque"]
+    assert bath["results"]["cycle"]["flooded_torque"] is None
 
 
 def test_a_warm_cycle_and_one_in_a_full_bath_are_not_starved_and_have_the_torque_of_the_bath_too():

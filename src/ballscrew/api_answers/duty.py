@@ -39,6 +39,9 @@ class Cycle(Closed):
     axial_load: list[Number] = field("load of the nut, SI", "N")
     motor_speed: list[Number] = field("speed of the motor, SI", "rad/s")
     torque: list[Number] = field("torque of the motor by mechanics, SI", "N m")
+    flooded_torque: list[Number] | None = field(
+        "the same in a full bath of oil, SI; null where nothing is starved of oil", "N m"
+    )
     power: list[Number] = field("power of the motor, SI", "W")
     torque_by: dict[str, list[Number]] = field("torque of the motor by cause, SI", "N m")
 

@@ -114,6 +114,7 @@ def _cycle(report: DutyReport) -> dict[str, Any]:
     return {
         "every": every,
         **{name: [float(value) for value in column[::every]] for name, column in columns.items()},
+        "flooded_torque": [float(value) for value in duty.flooded.torque[::every]] if duty.starved else None,
         "torque_by": {
             slug_of(cause): [float(value) for value in part[::every]] for cause, part in report.torque_by_cause.items()
         },
@@ -223,7 +224,7 @@ def _units(report: DutyReport) -> dict[str, Any]:
         **({} if report.motor is None else {"motor": motor}),
         "rules": {"mechanics": torques, "catalogue": {"efficiency": "1", **torques}},
         "phases": dict(_OF_PHASE),
-        "cycle": {**_OF_CYCLE, "torque_by": causes},
+        "cycle": {**_OF_CYCLE, "flooded_torque": "N m", "torque_by": causes},
         **({} if report.smoothing is None else {"smoothing": _of_smoothing(report)}),
     }  # fmt: skip
 

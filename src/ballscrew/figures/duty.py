@@ -96,6 +96,9 @@ def _cloud(panel: Axes, report: DutyReport) -> None:
     some = slice(None, None, -(-len(duty.torque) // _MOST_POINTS))
     speed = units.from_si(duty.motor_speed[some], _TURNING)
     panel.plot(speed, duty.torque[some], ".", color=style.INK, markersize=4, label="cycle")
+    if duty.starved:
+        bath = duty.flooded.torque[some]
+        panel.plot(speed, bath, "o", mfc="none", color=style.BLUE, markersize=4, label="in a full bath of oil")
     if report.motor is not None:
         motor = report.motor.motor
         along = np.linspace(-float(motor.largest_speed), float(motor.largest_speed), _CURVE_POINTS)

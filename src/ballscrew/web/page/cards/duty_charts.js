@@ -166,6 +166,7 @@ function curve(results) {
   const { torque_rms: rms, torque_peak: peak } = byMechanics(results);
   const speed = TURNING.all(cycle.motor_speed);
   const values = TORQUE.all(cycle.torque);
+  const inBath = cycle.flooded_torque ? TORQUE.all(cycle.flooded_torque) : null;
   const level = TORQUE.convert(rms);
   const known = motor?.curve;
   const top = known ? Math.max(...known.speed) : Math.max(...cycle.motor_speed.map((one) => Math.abs(one ?? 0)));
@@ -180,6 +181,7 @@ function curve(results) {
     rated: text("duty.rated"),
     rms: text("duty.rms"),
     largest: text("duty.largest"),
+    bath: text("bath.line"),
   };
   const sizes = cycle.torque.map((one) => Math.abs(one ?? 0));
   const worst = sizes.indexOf(Math.max(...sizes));
@@ -223,6 +225,18 @@ function curve(results) {
           line: { color: colours.ink, ...DOTTED },
           hoverinfo: "skip",
         },
+        ...(inBath
+          ? [
+              {
+                x: speed,
+                y: inBath,
+                name: names.bath,
+                mode: "markers",
+                marker: { color: "#0072B2", size: 6, symbol: "circle-open" },
+                hovertemplate: "%{x:.4g}, %{y:.4g}<extra></extra>",
+              },
+            ]
+          : []),
         {
           x: speed,
           y: values,
@@ -248,6 +262,7 @@ function curve(results) {
     }),
     legend: (colours) => [
       { kind: "area", name: names.cycle, colour: colours.accent },
+      ...(inBath ? [{ kind: "point", name: names.bath, colour: "#0072B2" }] : []),
       { kind: "point", name: `${names.largest} ${TORQUE.text(peak)}`, colour: colours.ink },
       { kind: "dash", name: `${names.rms} ${TORQUE.text(rms)}`, colour: colours.ink },
       ...(known
@@ -257,6 +272,9 @@ function curve(results) {
           ]
         : []),
     ],
-    numbers: () => [[x, y], speed.map((at, place) => [at, values[place]])],
+    numbers: () => [
+      [x, y, ...(inBath ? [`${y}, ${names.bath}`] : [])],
+      speed.map((at, place) => [at, values[place], ...(inBath ? [inBath[place]] : [])]),
+    ],
   });
 }

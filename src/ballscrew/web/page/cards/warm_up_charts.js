@@ -323,5 +323,10 @@ function growth(results, band, vocabulary) {
 function over(id, name, quantity, colour, results, band, vocabulary) {
   const words = meaning(name, vocabulary);
   const line = { name: words, values: results[name], colour, end: results.equilibrium[name], band: endsOf(band, name) };
-  drawLines(id, name, words, results, quantity, [line], textOr(`warm_up.axis_of.${name}`, words));
+  const full = results.full_bath;
+  const inBath =
+    full && full.time.length === results.time.length
+      ? [{ name: text("bath.line"), values: full[name], colour: BLUE, end: full.equilibrium[name] }]
+      : [];
+  drawLines(id, name, words, results, quantity, [line, ...inBath], textOr(`warm_up.axis_of.${name}`, words));
 }
