@@ -245,8 +245,9 @@ def _difference(text: str, unit: str, quantity: Quantity, raw: str) -> float | F
     value = _value(text, unit, quantity, raw)
     if isinstance(value, Fault) or quantity.unit == "1":
         return value
-    own = units.unit_in(text) or unit
-    return value - units.to_si(0.0, own, quantity)
+    # as the value is read, whatever its unit is spelt like
+    zero = units.parse("", f"0 {units.unit_in(text) or unit}", quantity)
+    return zero if isinstance(zero, Fault) else value - zero
 
 
 def _plain(text: str, raw: str) -> float | Fault:
