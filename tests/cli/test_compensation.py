@@ -159,6 +159,29 @@ def test_text_and_document_tell_of_the_warm_up():
         assert words in said
 
 
+@pytest.mark.parametrize(("direction", "sign"), [("away", 1.0), ("towards", -1.0)])
+def test_both_lists_are_the_growth_of_another_case(direction, sign):
+    """At places between their points too, to what they say that they miss and the digits that they have."""
+    case = load(EXAMPLE, ["model.name=olaru2005", "surroundings.ambient=12 degC", "screw.lead=8 mm"], None)
+    report = warmed_up(case, 0.3)
+    zero, step = 0.15, 0.04
+    found = position_compensation(report, 0.3, zero=zero, step=step, direction=direction, reference=0.0)
+    places, growth = report.warm_up.compensation_table(float(report.warm_up.network.shaft.cell) / 4)
+    at = np.random.default_rng(8).uniform(found.positions[0], found.positions[-1], 500)
+    wanted = sign * (np.interp(zero + sign * at, places, growth) - np.interp(zero, places, growth))
+    assert np.ptp(wanted) > 1e-6
+    text = sinumerik(found, "Z1")
+    first, apart = (float(re.search(rf"COMP_{name}\[0,Z1\]=(\S+)", text)[1]) for name in ("MIN", "STEP"))
+    values = np.array([float(v) for v in re.findall(r"COMP\[0,\d+,Z1\]=(\S+)", text)])
+    read = 1e-3 * np.interp(1e3 * at, first + apart * np.arange(values.size), values)
+    assert np.max(np.abs(read - wanted)) <= found.worst_error + 1e-8
+    held = dict(re.findall(r"(?m)^kw\.ssfk\.table(\S+) +(\S+)$", isg(found, "Z")))
+    count = len(found.positions)
+    points, ahead, back = ([float(held[f"[{k}].{n}"]) for k in range(count)] for n in ("setpoint", "pos", "neg"))
+    assert ahead == back
+    assert np.max(np.abs(1e-7 * np.interp(1e7 * at, points, ahead) - wanted)) <= found.worst_error + 1.5e-7
+
+
 def test_the_command_refuses_before_it_computes(ballscrew, example, tmp_path):
     done = ballscrew("compensation", example.with_name("warm_up.toml"), "--to", "siemens", "-o", tmp_path / "a.ini")
     assert done.returncode == 2
