@@ -1,6 +1,8 @@
 """``ballscrew duty``: a cycle as words, JSON, tables and picture; worked examples of catalogues; what is warned of."""
 
+import contextlib
 import csv
+import io
 import json
 import math
 
@@ -8,6 +10,7 @@ import pytest
 
 from ballscrew.axis_studies.duty import duty
 from ballscrew.cases import case_file
+from ballscrew.cli.main import main
 from ballscrew.documents import duty as documents
 from ballscrew.output.json_text import plain
 from ballscrew.text.duty import text
@@ -295,3 +298,15 @@ def test_a_recorded_motion(ballscrew, tmp_path):
     refused = ballscrew("duty", "case.toml", "--trace", "none.csv")
     assert (refused.returncode, refused.stdout) == (2, "")
     assert "none.csv: does not exist" in refused.stderr
+
+
+def test_on_an_output_without_an_encoding(monkeypatch):
+    """Defect: one in memory has none, and the command ended with an error of Python."""
+    said = io.StringIO()
+    assert said.encoding is None
+    monkeypatch.setattr("sys.argv", ["ballscrew", "duty", str(EXAMPLE)])
+    with contextlib.redirect_stdout(said), pytest.raises(SystemExit) as end:
+        main()
+    assert end.value.code in (None, 0)
+    assert "█" not in said.getvalue()
+    assert "#" in said.getvalue()

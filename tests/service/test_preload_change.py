@@ -1,6 +1,7 @@
 """The preload left in a nut: pairs of logs with a known truth, and what is said of logs that do not tell."""
 
 import dataclasses
+import importlib
 import math
 
 import numpy as np
@@ -237,3 +238,13 @@ def test_a_torque_that_no_preload_gives_is_refused():
 def test_the_other_screws_differ():
     one, other = (another_screw(PAPER, seed).value_of("screw_conformity") for seed in (0, 1))
     assert one != other != SCREW.screw_conformity
+
+
+def test_a_log_of_few_rows_is_refused_before_any_fit(monkeypatch):
+    """Defect: after the fit of the other one, which takes seconds of processor."""
+    module = importlib.import_module("ballscrew.service.preload_change")
+    monkeypatch.setattr(module, "fit", lambda *_, **__: pytest.fail("it was fitted"))
+    new, worn = pair(PAPER, 0, 0.6)
+    few = {name: values[:2] for name, values in dict(worn).items()}
+    with pytest.raises(bs.InputError, match="worn: log: has 2 rows that can be used"):
+        change(new, few)

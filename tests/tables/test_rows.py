@@ -5,6 +5,7 @@ import datetime
 import importlib
 import math
 import sys
+from pathlib import Path
 
 import openpyxl
 import pytest
@@ -19,8 +20,9 @@ from ballscrew.quantities import fields_of
 from ballscrew.screw_tables.catalogue import COLUMNS
 from ballscrew.sizing.catalogue import CatalogueRow
 from ballscrew.studies.validation import columns_of
-from ballscrew.tables import decimals, rows
-from ballscrew.tables.headings import Column, heading_of, known_heading_of
+from ballscrew.tables import decimals, rows, sheets
+from ballscrew.tables.headings import Column, heading_of, headings_in, known_heading_of
+from ballscrew.tables.sheets import Record
 from ballscrew.torque_logs import columns as torque_logs
 from ballscrew.validation.sets import SETS
 
@@ -470,3 +472,26 @@ def test_without_the_extra_a_spreadsheet_says_what_to_install(tmp_path, monkeypa
     assert line == f'{path}: needs python-calamine · pip install "ballscrew[data]", or save it as CSV'
     monkeypatch.undo()
     assert importlib.import_module("python_calamine")
+
+
+# -- very many columns ----------------------------------------------------------------------------
+
+
+def test_of_very_many_columns_none_is_looked_up():
+    """A log of 100,000 of them was refused after half a minute: each was looked up among all names."""
+    looked_up = []
+    text = ",".join(f"a{i}" for i in range(100_000))
+    assert sheets.delimiter_of(text, looked_up.append) == ","
+    assert looked_up == []
+    wide = [Record(1, [f"a{i}" for i in range(sheets.MOST_COLUMNS + 1)])]
+    with pytest.raises(InputError, match=r"has too many columns \(5,001\) · 5,000 at most: keep those that are needed"):
+        headings_in(Path("log.csv"), wide, [LEAD])
+
+
+@pytest.mark.parametrize("content", [b"\0" * 4000, b"\n" * 1000, b""])
+def test_a_trace_with_nothing_in_it_is_empty(tmp_path, content):
+    """Defect: an error of Python, as there was no first row to name."""
+    path = tmp_path / "trace.csv"
+    path.write_bytes(content)
+    with pytest.raises(InputError, match="is empty · give a table with headings and rows"):
+        trajectory_file.read_trajectory(path)

@@ -8,6 +8,7 @@ import random
 import select
 import socket
 import time
+import tomllib
 import zipfile
 
 import pytest
@@ -15,6 +16,8 @@ import pytest
 from ballscrew.web import limits
 from ballscrew.web.guard import HEADERS
 from support.short_timeouts import READ_TIMEOUT
+
+from .conftest import ROOT
 
 
 @pytest.fixture(autouse=True)
@@ -179,6 +182,14 @@ def test_logs(server, paper, name):
         if found.status_code == 200 and (address == "log" or words is None):
             continue  # its columns are shown, good or not; numbers are fitted, however few they are
         refused(server, address, {"case": case, **body}, 422, words)
+
+
+@pytest.mark.parametrize("content", [b"\0" * 4000, b"\n" * 1000, b"", b" \n\t\n"], ids=["NUL", "lines", "no", "blanks"])
+def test_traces_with_nothing_in_them(server, content):
+    """Defect: status 500, as there was no first row to name."""
+    case = tomllib.loads((ROOT / "examples" / "vertical_axis.toml").read_text(encoding="utf-8"))
+    trace = {"name": "trace.csv", "base64": base64.b64encode(content).decode()}
+    refused(server, "duty", {"case": case, "trace": trace}, 422, "trace.csv: is empty")
 
 
 @pytest.mark.parametrize(

@@ -77,7 +77,7 @@ def duty(
     if as_json:
         typer.echo(json_text(documents.document(report) if bands is None else documents.with_band(bands)))
     else:
-        typer.echo(text.text(report, getattr(sys.stdout, "encoding", "")))
+        typer.echo(text.text(report, getattr(sys.stdout, "encoding", None) or ""))
         if bands is not None:
             typer.echo(text.band_text(bands))
     for path in to or []:

@@ -127,6 +127,7 @@ def preload_change(
     logs = {"new": new, "worn": worn}
     logs = {label: TorqueLog.of(data) for label, data in logs.items() if data is not None}
     raise_if_any(_faults_of_logs(logs))
+    logs = {label: _cleaned(log, label, inertia) for label, log in logs.items()}  # all, before a fit that takes long
     readings = {label: _read(subject, log, label, free, kind, inertia, done) for label, log in logs.items()}
     fits = [one.fit for one in readings.values()]
     found = posterior(subject, {n: Groups.of(one.fit) for n, one in readings.items()}, fits, known, joint, seed)
@@ -236,9 +237,21 @@ def _read(
             temperature_error=0.0, done=done,  # the posterior has it, with what the other numbers say of it
         )  # fmt: skip
     except InputError as error:
-        name = label if log.source is None else log.source[0]
-        raise InputError(*(dataclasses.replace(f, where=f"{name}: {f.where}") for f in error.faults)) from None
+        raise _naming(log, label, error) from None
     return Readings.of(found)
+
+
+def _cleaned(log: TorqueLog, label: str, inertia: float | None) -> TorqueLog:
+    """The rows of a log that a model can be fitted to. Faults name the log."""
+    try:
+        return log.cleaned(inertia=inertia)
+    except InputError as error:
+        raise _naming(log, label, error) from None
+
+
+def _naming(log: TorqueLog, label: str, error: InputError) -> InputError:
+    name = label if log.source is None else log.source[0]
+    return InputError(*(dataclasses.replace(f, where=f"{name}: {f.where}") for f in error.faults))
 
 
 def _statistical(one: Readings) -> float:

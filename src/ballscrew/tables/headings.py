@@ -19,7 +19,7 @@ from typing import Any
 from ballscrew import units
 from ballscrew.errors import Fault, InputError, raise_if_any
 from ballscrew.quantities import Quantity
-from ballscrew.tables.sheets import HEADINGS_WITHIN, Record
+from ballscrew.tables.sheets import HEADINGS_WITHIN, MOST_COLUMNS, Record
 
 #: Kinds of faults of headings.
 NEEDS_UNIT, SAME_MEANING, NO_COLUMN = "needs_unit", "same_meaning", "no_column"
@@ -197,7 +197,12 @@ def _scale(where: str, unit: str, quantity: Quantity) -> tuple[float, float] | F
 def headings_in(
     path: Path, found: Sequence[Record], columns: Sequence[Column], within: int = HEADINGS_WITHIN
 ) -> tuple[int, list[Heading]]:
-    """The row of the headings, and the headings of known columns."""
+    """The row of the headings, and the headings of known columns. Raises :class:`~ballscrew.errors.InputError`."""
+    if not found:
+        raise InputError(Fault(str(path), "is empty", "", "give a table with headings and rows"))
+    if (widest := max(len(record.cells) for record in found)) > MOST_COLUMNS:
+        remedy = f"{MOST_COLUMNS:,} at most: keep those that are needed"
+        raise InputError(Fault(str(path), "has too many columns", f"{widest:,}", remedy))
     best: tuple[int, list[Heading]] = (0, [])
     for number, record in enumerate(found[:within]):
         headings = [known_heading_of(cell, place, columns) for place, cell in enumerate(record.cells)]

@@ -28,6 +28,8 @@ _MAGIC = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
 _DELIMITERS = (";", "\t", ",")
 #: The headings stand within this many rows: some tables have a title above them.
 HEADINGS_WITHIN = 10
+#: Columns of a table at most: each is looked up among all names that are known.
+MOST_COLUMNS = 5_000
 #: A spreadsheet may begin with a line for other spreadsheets: which delimiter it has.
 _DECLARATION = "sep="
 #: What spreadsheets write for a cell that went wrong; no comment, though it begins like one.
@@ -138,8 +140,10 @@ def delimiter_of(text: str, is_heading: Callable[[str], bool], within: int = HEA
             split = list(csv.reader(lines, delimiter=delimiter))
         except csv.Error:  # a cell longer than any: whoever splits the text with this delimiter finds it again
             return 0, 0
-        headings = max((sum(map(is_heading, cells)) for cells in split), default=0)
-        return headings, max(map(len, split), default=0)
+        widest = max(map(len, split), default=0)
+        if widest > MOST_COLUMNS:  # it is refused: no heading is looked up
+            return 0, widest
+        return max((sum(map(is_heading, cells)) for cells in split), default=0), widest
 
     return max(_DELIMITERS, key=score)
 
