@@ -5,12 +5,14 @@ from urllib.parse import urljoin
 
 import pytest
 
+from ballscrew.validation.sets import SETS
+
 STRICT = ("content-security-policy", "x-content-type-options", "referrer-policy", "cross-origin-opener-policy")
 
 
 @pytest.mark.parametrize(
     ("path", "status"),
-    [("/", 200), ("/api", 200), ("/plotly.js", 200), ("/page/main.js", 200), ("/viewer/swagger-ui.css", 200),
+    [("/", 200), ("/api", 200), ("/page/main.js", 200), ("/viewer/swagger-ui.css", 200),
      ("/api/v1/schema", 200), ("/api/v1/openapi.json", 200), ("/none", 404), ("/api/v1/catalogue/none", 404),
      ("/api/v1/run", 405), ("/api/v1/schema?x=1", 422), ("/page/", 404), ("/page", 404)],
 )  # fmt: skip
@@ -24,7 +26,7 @@ def test_headers(server, path, status):
     assert found.headers["cache-control"] == ("no-store" if "/v1/" in path or status >= 400 else "no-cache")
 
 
-@pytest.mark.parametrize("path", ["/", "/plotly.js", "/page/main.js", "/viewer/swagger-ui-bundle.js"])
+@pytest.mark.parametrize("path", ["/", "/page/main.js", "/viewer/swagger-ui-bundle.js"])
 def test_files_are_sent_once(server, path):
     """A browser keeps them, and asks whether they are still the same."""
     tag = server.client.get(path).headers["etag"]
@@ -34,12 +36,28 @@ def test_files_are_sent_once(server, path):
     assert server.client.get(path, headers={"If-None-Match": '"another"'}).status_code == 200
 
 
-@pytest.mark.parametrize("path", ["/", "/plotly.js", "/page/main.js"])
+@pytest.mark.parametrize("path", ["/", "/page/main.js"])
 def test_head_of_files(server, path):
     found, whole = server.client.head(path), server.client.get(path)
     assert (found.status_code, found.content) == (200, b"")
     assert found.headers["etag"] == whole.headers["etag"]
     assert found.headers["content-security-policy"]
+
+
+@pytest.mark.parametrize(
+    ("site", "status"), [("cross-site", 403), ("same-site", 403), ("same-origin", 200), ("none", 200)]
+)
+def test_no_other_page_can_start_work(server, paper, site, status):
+    """Defect: any page could have the server compute the validation; a browser says whose page asks."""
+    headers = {"Sec-Fetch-Site": site}
+    for found in (
+        server.get("validate", params={"set": next(iter(SETS))}, headers=headers),
+        server.get("vocabulary", headers=headers),
+        server.post("run", {"case": paper}, headers=headers),
+    ):
+        assert found.status_code == status
+        if status == 403:
+            assert found.json()["lines"] == [f"Sec-Fetch-Site: is not this server's ({site}) · ask from its own page"]
 
 
 @pytest.mark.parametrize("path", ["schema", "vocabulary", "catalogue/hiwin-40-16k5", "openapi.json", "none"])

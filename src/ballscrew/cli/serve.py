@@ -12,7 +12,7 @@ import typer
 if TYPE_CHECKING:
     import socket
 
-_NEEDS = ("fastapi", "fastapi_offline", "plotly", "uvicorn", "jinja2", "typst")
+_NEEDS = ("fastapi", "fastapi_offline", "uvicorn", "jinja2", "typst")
 _LOOPBACK = ("127.0.0.1", "localhost", "::1")
 _ANY = ("0.0.0.0", "::")
 

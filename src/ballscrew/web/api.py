@@ -64,9 +64,11 @@ from ballscrew.web.endpoint_parts import (
     as_json,
     cancellable,
     heavy,
+    kept,
     known_query,
     of_body,
     of_run,
+    own_site,
     queue_of,
     sent,
 )
@@ -81,7 +83,7 @@ KINDS: Mapping[str, str] = {"pdf": "application/pdf", "html": "text/html; charse
 
 
 _VALIDATION_LOCK = threading.Lock()
-router = APIRouter(prefix="/api/v1", dependencies=[Depends(known_query)])
+router = APIRouter(prefix="/api/v1", dependencies=[Depends(own_site), Depends(known_query)])
 router.include_router(file_api.router)
 router.include_router(log_api.router)
 router.include_router(job_api.router)
@@ -319,9 +321,9 @@ def _validated(names: tuple[str, ...]) -> bytes:
 
 
 @router.get("/schema", response_model=answers.CaseSchema, responses=openapi.problems_of())
-async def schema() -> Response:
+async def schema(request: Request) -> Response:
     """JSON Schema of a case file, as ``ballscrew schema`` prints it."""
-    return sent(_schema())
+    return kept(request, _schema())
 
 
 @functools.cache
@@ -330,9 +332,9 @@ def _schema() -> bytes:
 
 
 @router.get("/need-schema", response_model=answers.NeedSchema, responses=openapi.problems_of())
-async def need_schema() -> Response:
+async def need_schema(request: Request) -> Response:
     """JSON Schema of a need, as ``ballscrew schema --need`` prints it."""
-    return sent(_need_schema())
+    return kept(request, _need_schema())
 
 
 @functools.cache
@@ -341,9 +343,9 @@ def _need_schema() -> bytes:
 
 
 @router.get("/vocabulary", response_model=vocabulary.Vocabulary, responses=openapi.problems_of())
-async def get_vocabulary() -> Response:
+async def get_vocabulary(request: Request) -> Response:
     """Units and their factors, results and mechanisms by name, models, and cases to start from."""
-    return sent(_vocabulary())
+    return kept(request, _vocabulary())
 
 
 @functools.cache

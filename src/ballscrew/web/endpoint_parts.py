@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import asyncio
+import functools
+import gzip
 import json
 from collections.abc import Callable, Coroutine, Mapping
 from typing import Any
 
 from fastapi import Request
 from fastapi.routing import APIRoute
+from starlette.datastructures import Headers
 from starlette.responses import Response
 
 from ballscrew.cases import case_file
@@ -19,6 +22,16 @@ from ballscrew.web import documents, limits, memory
 from ballscrew.web.bodies import CaseBody, case_of, read
 from ballscrew.web.problems import Refused
 from ballscrew.web.request_queue import Deadline, RequestQueue
+
+
+def own_site(request: Request) -> None:
+    """Refuse requests that a browser sends for a page of another site: it could not read the answer, only cause work.
+
+    Browsers say so by themselves, and no page can change it; other programs do not say it.
+    """
+    site = request.headers.get("sec-fetch-site", "none").lower()
+    if site not in ("none", "same-origin"):
+        raise Refused(403, Fault("Sec-Fetch-Site", "is not this server's", site[:40], "ask from its own page"))
 
 
 def known_query(request: Request) -> None:
@@ -51,6 +64,27 @@ def as_json(document: Any) -> Response:
 def sent(document: bytes) -> Response:
     """An answer with a document that is JSON already."""
     return Response(document, media_type="application/json")
+
+
+def kept(request: Request, document: bytes) -> Response:
+    """An answer with a document that is JSON already and always the same; compressed, where the client takes that."""
+    packed = takes_gzip(request.headers)
+    found = sent(_packed(document) if packed else document)
+    found.headers["Vary"] = "Accept-Encoding"
+    if packed:
+        found.headers["Content-Encoding"] = "gzip"
+    return found
+
+
+@functools.lru_cache(maxsize=16)
+def _packed(document: bytes) -> bytes:
+    return gzip.compress(document, 9, mtime=0)
+
+
+def takes_gzip(headers: Headers) -> bool:
+    """Test whether a client takes compressed answers; those that weigh them are browsers, which all do."""
+    accepted = [one.partition(";") for one in headers.get("accept-encoding", "").lower().split(",")]
+    return any(name.strip() == "gzip" and weight.replace(" ", "") != "q=0" for name, _, weight in accepted)
 
 
 def queue_of(request: Request) -> RequestQueue:

@@ -1,34 +1,55 @@
-"""Files of the page and of the libraries that it needs, from where they are installed."""
+"""Files of the page and of the libraries that it needs, from where they are installed; compressed once each."""
 
 from __future__ import annotations
 
 import functools
+import gzip
 import hashlib
 import importlib.util
+import os
 from importlib import resources
 from pathlib import Path
-from typing import Any
 
 from fastapi import FastAPI, Request
+from starlette.datastructures import Headers
 from starlette.responses import Response
 from starlette.staticfiles import NotModifiedResponse, StaticFiles
+from starlette.types import Scope
 
-from ballscrew.web import languages
-from ballscrew.web.plotly_js import eager
+from ballscrew.web import languages, plotly_js
+from ballscrew.web.endpoint_parts import takes_gzip
 
 #: Browsers keep files, and ask each time whether they have changed.
 _CACHE = "no-cache"
+#: They keep a file for good whose address has the digest of its content.
+_FOR_GOOD = "public, max-age=31536000, immutable"
 _VIEWER = "api.html"
+#: Where the page names the script of the charts; its address has its digest.
+_PLOTLY = "/plotly.js"
+#: Endings of files that are text, which is much shorter when it is compressed.
+_TEXTS = (".js", ".css", ".html", ".svg", ".json")
 
 
 class _Folder(StaticFiles):
-    """Files of a folder, with their header for caches."""
+    """Files of a folder, with their header for caches, and compressed where they are text."""
 
-    def file_response(self, *args: object, **options: object) -> Response:
+    def file_response(
+        self, full_path: str | os.PathLike[str], stat_result: os.stat_result, scope: Scope, status_code: int = 200
+    ) -> Response:
         """The file, or status 304 where the browser has it."""
-        found = super().file_response(*args, **options)  # type: ignore[arg-type]  (passed on as they come)
+        found = super().file_response(full_path, stat_result, scope, status_code)
         found.headers["Cache-Control"] = _CACHE
-        return found
+        is_text = str(full_path).endswith(_TEXTS)
+        if is_text:
+            found.headers["Vary"] = "Accept-Encoding"
+        if not is_text or isinstance(found, NotModifiedResponse) or not takes_gzip(Headers(scope=scope)):
+            return found
+        headers = {name: found.headers[name] for name in ("etag", "last-modified", "cache-control", "vary")}
+        packed = _packed_file(str(full_path), stat_result.st_mtime_ns)
+        return Response(
+            packed, status_code, {**headers, "Content-Encoding": "gzip", "ETag": f"W/{headers['etag']}"},
+            media_type=found.media_type,
+        )  # fmt: skip
 
 
 def add_to(app: FastAPI) -> None:
@@ -43,49 +64,63 @@ def add_to(app: FastAPI) -> None:
 
     app.add_api_route("/api", send_viewer, methods=["GET", "HEAD"], include_in_schema=False)
 
-    def sent(request: Request, content: bytes, tag: str, **options: Any) -> Response:
-        found = Response(content, **options)
-        found.headers.update({"ETag": tag, "Cache-Control": _CACHE})
-        unchanged = viewer.is_not_modified(found.headers, request.headers)
-        return NotModifiedResponse(found.headers) if unchanged else found
+    def sent(
+        request: Request, content: bytes, packed: bytes, tag: str, headers: dict[str, str], media: str
+    ) -> Response:
+        takes = takes_gzip(request.headers)
+        found = Response(packed if takes else content, media_type=media)
+        found.headers.update({**headers, "ETag": f'"{tag}"'})
+        if viewer.is_not_modified(found.headers, request.headers):
+            return NotModifiedResponse(found.headers)
+        if takes:
+            found.headers.update({"Content-Encoding": "gzip", "ETag": f'W/"{tag}"'})
+        return found
 
     async def send_page(request: Request) -> Response:
         chosen = request.cookies.get(languages.COOKIE)
         language = languages.language_of(chosen, request.headers.get("accept-language", ""))
-        headers = {"Content-Language": language, "Vary": "Accept-Language, Cookie"}
-        return sent(request, *_page(language), headers=headers, media_type="text/html")
+        headers = {
+            "Cache-Control": _CACHE, "Content-Language": language, "Vary": "Accept-Encoding, Accept-Language, Cookie",
+        }  # fmt: skip
+        return sent(request, *_page(language), headers, "text/html")
 
     app.add_api_route("/", send_page, methods=["GET", "HEAD"], include_in_schema=False)
-    script, tag = _plotly()
 
     async def send_plotly(request: Request) -> Response:
-        return sent(request, script, tag, media_type="text/javascript")
+        headers = {"Cache-Control": _FOR_GOOD, "Vary": "Accept-Encoding"}
+        return sent(request, *_plotly(), headers, "text/javascript")
 
-    app.add_api_route("/plotly.js", send_plotly, methods=["GET", "HEAD"], include_in_schema=False)
+    app.add_api_route(plotly_address(), send_plotly, methods=["GET", "HEAD"], include_in_schema=False)
 
 
-def plotly_path() -> Path:
-    """The installed plotly.js."""
-    return _folder_of("plotly", "package_data") / "plotly.min.js"
+def plotly_address() -> str:
+    """The address of the script of the charts."""
+    _, _, tag = _plotly()
+    return f"/plotly-{tag}.js"
 
 
 @functools.cache
-def _page(language: str) -> tuple[bytes, str]:
-    """The page in a language as it is sent, and its tag."""
+def _page(language: str) -> tuple[bytes, bytes, str]:
+    """The page in a language as it is sent, plain and compressed, and its tag."""
     text = resources.files("ballscrew.web").joinpath("page", "index.html").read_text(encoding="utf-8")
-    return _tagged(languages.filled(text, language))
+    return _tagged(languages.filled(text.replace(_PLOTLY, plotly_address()), language))
 
 
 @functools.cache
-def _plotly() -> tuple[bytes, str]:
-    """The script as it is sent, and its tag."""
-    return _tagged(eager(plotly_path().read_text(encoding="utf-8")))
+def _plotly() -> tuple[bytes, bytes, str]:
+    """The script as it is sent, plain and compressed, and its tag."""
+    return _tagged(plotly_js.eager(plotly_js.script()))
 
 
-def _tagged(text: str) -> tuple[bytes, str]:
-    """A text as it is sent, and its tag for the caches of browsers."""
+def _tagged(text: str) -> tuple[bytes, bytes, str]:
+    """A text as it is sent, plain and compressed, and its tag for the caches of browsers."""
     content = text.encode()
-    return content, f'"{hashlib.sha256(content).hexdigest()[:32]}"'
+    return content, gzip.compress(content, 9, mtime=0), hashlib.sha256(content).hexdigest()[:32]
+
+
+@functools.lru_cache(maxsize=256)
+def _packed_file(path: str, changed: int) -> bytes:  # noqa: ARG001  (of a file that changes it is made again)
+    return gzip.compress(Path(path).read_bytes(), 9, mtime=0)
 
 
 def _folder_of(package: str, folder: str) -> Path:

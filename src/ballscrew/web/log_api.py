@@ -26,7 +26,7 @@ from ballscrew.studies.moving_log import is_moving
 from ballscrew.torque_logs.preview import preview
 from ballscrew.web import limits, log_documents, openapi, sent_files, starts
 from ballscrew.web.bodies import case_of, read
-from ballscrew.web.endpoint_parts import as_bytes, as_json, heavy, sent
+from ballscrew.web.endpoint_parts import as_bytes, as_json, heavy, kept
 from ballscrew.web.log_bodies import FitBody, HandOverBody, LogBody, ServiceBody, assignments
 from ballscrew.web.request_queue import Deadline
 
@@ -127,9 +127,9 @@ async def hand_over(request: Request) -> Response:
 
 
 @router.get("/targets", response_model=log_answers.Targets, responses=openapi.problems_of())
-async def targets() -> Response:
+async def targets(request: Request) -> Response:
     """The targets of a hand-over, and the choices that each has."""
-    return sent(_targets())
+    return kept(request, _targets())
 
 
 @functools.cache
@@ -138,9 +138,9 @@ def _targets() -> bytes:
 
 
 @router.get("/examples", response_model=log_answers.Examples, responses=openapi.problems_of())
-async def examples() -> Response:
+async def examples(request: Request) -> Response:
     """Logs to try, each with its case: those of the folder ``examples`` of the repository."""
-    return sent(_examples())
+    return kept(request, _examples())
 
 
 @functools.cache

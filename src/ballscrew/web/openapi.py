@@ -19,7 +19,7 @@ from ballscrew.web.vocabulary import vocabulary
 _CASE, _SUMMARY = "Case", "Friction losses of ball screws"
 _HERE, _THERE = "#/$defs/", "#/components/schemas/"
 #: Refusals: of any address, of those with a body, of those that compute for long.
-_ANY, _POST, _HEAVY = (421, 422), (400, 408, 413, 415), (429,)
+_ANY, _POST, _HEAVY = (403, 421, 422), (400, 408, 413, 415), (429,)
 _TEXT = {"type": "string"}
 #: A row of the catalogue by its name, with one to try.
 RowName = Annotated[str, Path(description="whatever its capitals", examples=[next(iter(catalogue()))])]

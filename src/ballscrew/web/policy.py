@@ -5,19 +5,18 @@ from __future__ import annotations
 import base64
 import hashlib
 import re
-from pathlib import Path
 
 #: Texts that plotly.js writes into an element <style> when it is loaded.
 _STYLE = re.compile(r"textContent='((?:[^'\\]|\\.)*)'")
 
 
-def policy(plotly: Path) -> str:
-    """The policy of all responses.
+def policy(plotly: str) -> str:
+    """The policy of all responses, by the script of the charts.
 
     plotly.js sets style attributes, adds rules by script to an empty <style>, and adds <style> elements with the texts
     in its file: these are allowed by their hashes, and no others.
     """
-    texts = ["", *_STYLE.findall(plotly.read_text(encoding="utf-8"))]
+    texts = ["", *_STYLE.findall(plotly)]
     styles = " ".join(["'self'", *map(_hash, texts)])
     return (
         f"default-src 'none'; script-src 'self'; style-src {styles}; style-src-attr 'unsafe-inline'; "

@@ -14,6 +14,7 @@ MEDIA_TYPE = "application/problem+json"
 #: Titles of the problems, by status.
 TITLES: Mapping[int, str] = {
     400: "The request is not JSON",
+    403: "Asked by a page of another site",
     404: "Not found",
     405: "Method not allowed",
     408: "The request did not arrive",

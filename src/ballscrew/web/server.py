@@ -15,7 +15,7 @@ from starlette.types import ASGIApp
 from ballscrew._version import __version__
 from ballscrew.errors import Fault, InputError
 from ballscrew.studies.run import run
-from ballscrew.web import api, files, memory, openapi, problems, vocabulary
+from ballscrew.web import api, files, memory, openapi, plotly_js, problems, vocabulary
 from ballscrew.web.bodies import case_of
 from ballscrew.web.guard import HEADERS, LOOPBACK, Guard
 from ballscrew.web.jobs import Jobs
@@ -43,7 +43,7 @@ def application(
         title="ballscrew", version=__version__, docs_url=None, redoc_url=None, openapi_url=None, redirect_slashes=False
     )
     app.hosts = hosts
-    app.state.headers = {**HEADERS, "Content-Security-Policy": policy(files.plotly_path())}
+    app.state.headers = {**HEADERS, "Content-Security-Policy": policy(plotly_js.script())}
     app.state.requests = requests or RequestQueue()
     app.state.jobs = jobs or Jobs(app.state.requests.time_limit)
     app.include_router(api.router)

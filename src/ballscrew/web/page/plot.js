@@ -25,6 +25,9 @@ const loaded = new Promise((resolve) => {
   if (globalThis.Plotly) resolve();
   else byId("plotly").addEventListener("load", () => resolve());
 });
+loaded.then(() => {
+  for (const words of document.querySelectorAll(".chart > .loading")) words.remove();
+});
 const CONFIG = { responsive: true, displaylogo: false, displayModeBar: false };
 const FONT = 'system-ui, "DejaVu Sans", sans-serif';
 const ON_PAPER = { width: 660, height: 210 };
