@@ -130,7 +130,8 @@ def test_a_job_ends_at_its_limit_of_processor_time(start):
         assert refused.status_code == 422
         assert "of processor time" in refused.json()["lines"][0]
         assert "--" not in refused.json()["faults"][0]["remedy"]  # which the page would cut
-    assert server.get(f"jobs/{name}/answer").json()["lines"][0].startswith("server: stopped the work after 3 s")
+    line = server.get(f"jobs/{name}/answer").json()["lines"][0]
+    assert line.startswith("server: stopped the work, which took too long (3 s of processor time)")
 
 
 def test_jobs_end_with_the_server(start):

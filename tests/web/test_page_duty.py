@@ -142,11 +142,11 @@ def test_warming_up_with_a_band_that_is_cancelled(visit, server):
     page.wait_for_function("new URLSearchParams(location.hash.slice(1)).get('hours') === '0,75'")
     # what takes long says so, and is cancelled
     held = []
-    page.route("**/api/v1/warm-up", lambda route: held.append(route))
+    page.route("**/api/v1/jobs/warm-up", lambda route: held.append(route))
     page.locator("#warm-band").check()
     page.locator("#warm-up .card-line button").click()
     assert "Cancelled. What stands below is of the input before." in here.text("#warm-up .card-line")
-    page.unroute("**/api/v1/warm-up")
+    page.unroute("**/api/v1/jobs/warm-up")
     edited(here, "warm-up", lambda: page.locator("#warm-up .card-line button").click())
     assert " to " in here.text("#warm-up .interval >> nth=0")
     # the picture of the axis at another instant

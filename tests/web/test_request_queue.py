@@ -60,7 +60,9 @@ def test_work_is_stopped_at_its_time_limit():
         with pytest.raises(Refused) as caught:
             await queue.heavy(reporting(LONG))
         assert caught.value.status == 422  # a browser sends a request again in silence that is refused with 408
-        assert str(caught.value.faults[0]).startswith("server: stopped the work after 0.1 s of processor time")
+        assert str(caught.value.faults[0]).startswith(
+            "server: stopped the work, which took too long (0.1 s of processor time)"
+        )
         await asyncio.wait_for(idle(), LONG / 2)
         queue.time_limit = LONG
         assert await queue.heavy(reporting(0.02)) == "finished"

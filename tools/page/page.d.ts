@@ -30,6 +30,7 @@ declare global {
   type Targets = Schemas["Targets"];
   type Examples = Schemas["Examples"];
   type Select = Schemas["Select"];
+  type JobDocument = Schemas["Job"];
 
   var Plotly: {
     react(place: Element, traces: object[], layout: object, config: object): Promise<void>;

@@ -223,8 +223,9 @@ def busy(waiting: int) -> Refused:
 
 def out_of_time(seconds: float) -> Refused:
     """The refusal of work that has computed for too long; it would do so again, so no client shall send it again."""
+    given = f"{seconds:g} s of processor time"
     remedy = "ask for less at a time, or start the server with a longer time limit"
-    return Refused(422, Fault("server", f"stopped the work after {seconds:g} s of processor time", "", remedy))
+    return Refused(422, Fault("server", "stopped the work, which took too long", given, remedy))
 
 
 def closing() -> Refused:

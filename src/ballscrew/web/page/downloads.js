@@ -2,6 +2,7 @@
 
 import * as designs from "./designs.js";
 import { byId, csv, element, save } from "./dom.js";
+import { runJob } from "./jobs.js";
 import { isSilent, linesOf, send } from "./server.js";
 import { text } from "./texts.js";
 
@@ -54,7 +55,12 @@ async function saveAs(kind, { whole, answer, alongSpeed }) {
   try {
     if (address) {
       say(text("download.making", { kind }));
-      save(`.${kind.toLowerCase()}`, await (await send(address, bodyOf(address, whole))).blob());
+      const body = bodyOf(address, whole);
+      const { signal } = new AbortController();
+      const place = address.replace(/\W/, "-");
+      const isLong = address.startsWith("report");
+      const answer = isLong ? runJob(address, body, { place, signal }) : send(address, body);
+      save(`.${kind.toLowerCase()}`, await (await answer).blob());
     } else if (kind === "JSON") {
       const { words, display, ...document } = answer;
       save(".json", new Blob([JSON.stringify(document, null, 2)], { type: "application/json" }));

@@ -6,14 +6,13 @@ import { text } from "./texts.js";
 const AGAIN = 2000;
 const SMALL = "/icon.svg";
 const TOO_MANY = 429;
-const TOO_LONG = 408;
 
 export class Problem extends Error {
   /** @param {{ title: string, status?: number, lines?: string[], faults?: FaultLine[] }} document */
   constructor(document) {
     super(document.title);
     this.isBusy = document.status === TOO_MANY;
-    this.isOutOfTime = document.status === TOO_LONG;
+    this.status = document.status ?? 0;
     this.faults = document.faults ?? [];
     this.lines = document.lines?.length ? document.lines : [document.title];
   }
@@ -91,9 +90,20 @@ async function checked(response) {
  * The JSON document at an address.
  *
  * @param {string} address
+ * @param {AbortSignal} [signal]
  */
-export async function get(address) {
-  return (await checked(await reached(`/api/v1/${address}`))).json();
+export async function get(address, signal) {
+  return (await answerAt(address, { signal })).json();
+}
+
+/**
+ * The answer at an address.
+ *
+ * @param {string} address
+ * @param {RequestInit} options
+ */
+export async function answerAt(address, options) {
+  return checked(await reached(`/api/v1/${address}`, options));
 }
 
 /**
@@ -104,13 +114,12 @@ export async function get(address) {
  * @param {AbortSignal} [signal]
  */
 export async function send(address, body, signal) {
-  const response = await reached(`/api/v1/${address}`, {
+  return answerAt(address, {
     method: "POST",
     headers: { "Content-Type": "application/json" },
     body: JSON.stringify(body),
     signal,
   });
-  return checked(response);
 }
 
 /**
@@ -134,12 +143,13 @@ const cache = new Map();
  * @param {"run" | "check" | "band" | "duty" | "warm-up"} address
  * @param {object} body
  * @param {AbortSignal} signal
+ * @param {() => Promise<any>} [compute] how it is asked, where not by a request that is waited for
  */
-export async function ask(address, body, signal) {
+export async function ask(address, body, signal, compute = () => sendJson(address, body, signal)) {
   const key = `${address} ${JSON.stringify(body)}`;
   const cached = cache.get(key);
   if (cached) return cached;
-  const found = await sendJson(address, body, signal);
+  const found = await compute();
   const [oldest] = cache.keys();
   if (cache.size > MOST_CACHED) cache.delete(oldest);
   cache.set(key, found);

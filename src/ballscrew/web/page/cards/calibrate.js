@@ -35,6 +35,8 @@ export function setUp(holder, page) {
   let free = [];
   /** @type {LogAnswer | undefined} */
   let seen;
+  /** What may be fitted to the log. @type {LogAnswer["free"]} */
+  let known = [];
   /** @type {FitAnswer | undefined} */
   let answer;
   /** @type {import("../state.js").Tables} */
@@ -62,10 +64,11 @@ export function setUp(holder, page) {
     place: (faults) => {
       problems.replaceChildren(...faultLines(faults, page.jump));
       result.hidden = faults.length > 0; // what another log told is no answer below a fault
-      return [];
+      return undefined;
     },
     jump: page.jump,
-    send: sendJson,
+    isLarge: () => true,
+    about: () => ({ fitted: fittedCase, free: known }),
   });
   const drop = dropZone("calibrate-log", text("calibrate.drop"), (file) => {
     log = file;
@@ -79,6 +82,10 @@ export function setUp(holder, page) {
   });
   holder.replaceChildren(drop.zone, example, inspected, fit.line, problems, result);
   for (const place of places) watch(place);
+  fit.resume((about) => {
+    fittedCase = about.fitted;
+    known = about.free;
+  });
 
   function body() {
     return { case: tables, log, columns: given, free };
@@ -99,6 +106,7 @@ export function setUp(holder, page) {
       const found = await sendJson("log", question);
       if (asked !== key) return;
       seen = found;
+      known = found.free;
       if (!free.length) free = [found.free[0].name];
       problems.replaceChildren();
       showColumns();
@@ -156,7 +164,7 @@ export function setUp(holder, page) {
     charts.show(found);
     const untold = Object.entries(found.estimates)
       .filter(([, one]) => !one.identified)
-      .map(([name]) => meaningOf(name, seen?.free ?? []));
+      .map(([name]) => meaningOf(name, known));
     const used = element("p", { id: "calibrate-used", role: "status" });
     rest.replaceChildren(
       ...(untold.length
@@ -223,7 +231,7 @@ export function setUp(holder, page) {
       const { text: written } = quantity(one.unit, metricOf(name, one.unit));
       const ends = `${written(one.low, DIGITS)} – ${written(one.high, DIGITS)}`;
       return [
-        meaningOf(name, seen?.free ?? []),
+        meaningOf(name, known),
         written(one.start, DIGITS),
         element("data", { value: String(one.value), "data-name": name }, written(one.value, DIGITS)),
         one.identified && one.low !== null ? ends : text("calibrate.not_told"),
@@ -236,7 +244,7 @@ export function setUp(holder, page) {
 
   /** @param {string} name @param {string} si */
   function metricOf(name, si) {
-    return seen?.free.find((one) => one.name === name)?.shown_in ?? si;
+    return known.find((one) => one.name === name)?.shown_in ?? si;
   }
 
   function follow() {

@@ -4,9 +4,10 @@ import * as designs from "../designs.js";
 import { element, within } from "../dom.js";
 import { inWords, labelOf } from "../faults.js";
 import { choiceField, numberField } from "../fields.js";
+import { keptJob, runJob, answerOfKept } from "../jobs.js";
 import * as opening from "../opening.js";
 import * as schema from "../schema.js";
-import { get, linesOf, Problem, sendJson } from "../server.js";
+import { get, linesOf, Problem } from "../server.js";
 import { valueAt } from "../state.js";
 import { text, textOr } from "../texts.js";
 import { candidates } from "./candidates.js";
@@ -43,10 +44,8 @@ const OF_MASS = ["mass", "inclination", "acceleration"];
 const OF_DUTY = ["axis", "motion", "motor"];
 /** @type {Record<string, import("../schema.js").SchemaNode>} */
 const OF_NEEDS = { back_driving: { enum: ["allowed", "needed", "forbidden"], default: "allowed" }, accuracy: {} };
-/** Milliseconds between questions of how far the work is. */
-const EVERY = 700;
-/** Requests for one answer, each as long as the server lets it compute. */
-const MOST_REQUESTS = 30;
+/** Whose job a selection is. */
+const PLACE = "choose";
 
 /** @typedef {import("../state.js").Need} Need */
 
@@ -172,12 +171,30 @@ export function setUp(holder) {
     request.abort();
     request = new AbortController();
     const { signal } = request;
-    const ticket = crypto.getRandomValues(new Uint32Array(2)).join("-");
     const table = withTable ? opening.ownTable()?.file : undefined;
-    say(signal, ticket);
+    const told = say(signal);
+    const body = { need: await tables(need()), ...(table && { table }) };
+    await conclude(runJob("select", body, { place: PLACE, signal, told }), signal);
+  }
+
+  /** Go on with what was begun before the page was loaded again. */
+  async function resume() {
+    if (!keptJob(PLACE)) return;
+    const { signal } = request;
+    const coming = answerOfKept({ place: PLACE, signal, told: say(signal) });
+    if (coming) await conclude(coming, signal);
+  }
+
+  /**
+   * Show the candidates that come, or why there are none.
+   *
+   * @param {Promise<Response>} coming
+   * @param {AbortSignal} signal
+   */
+  async function conclude(coming, signal) {
     try {
-      const body = { need: await tables(need()), ticket, ...(table && { table }) };
-      const found = await answerTo(body, signal);
+      /** @type {Select} */
+      const found = await (await coming).json();
       place([]);
       candidates(result, found);
       progress.replaceChildren(element("p", { role: "status" }, counts(found)));
@@ -191,8 +208,6 @@ export function setUp(holder) {
       progress.replaceChildren(
         element("p", { class: "warning" }, lines.length ? text("card.not_computed") : linesOf(error).join("; ")),
       );
-    } finally {
-      request.abort(); // nobody asks for the progress any more
     }
   }
 
@@ -200,21 +215,19 @@ export function setUp(holder) {
    * Say how far the work is, with a button that cancels it.
    *
    * @param {AbortSignal} signal
-   * @param {string} ticket
+   * @returns {(job: JobDocument) => void} gets news of it
    */
-  function say(signal, ticket) {
+  function say(signal) {
     const bar = element("progress", { "aria-label": text("card.computing") });
     const words = element("span", {}, text("card.computing"));
     const cancel = element("button", { type: "button", onclick: () => request.abort() }, text("card.cancel"));
     progress.replaceChildren(bar, words, cancel);
-    const timer = setInterval(async () => {
-      const { finished, total } = await get(`progress/${ticket}`).catch(() => ({}));
+    return ({ finished, total }) => {
       if (!total || signal.aborted) return;
       bar.max = total;
       bar.value = finished;
       words.textContent = text("choose.progress", { finished, total });
-    }, EVERY);
-    signal.addEventListener("abort", () => clearInterval(timer));
+    };
   }
 
   /**
@@ -253,6 +266,7 @@ export function setUp(holder) {
     if (opening.openedNeed() && !Object.keys(need().texts).length) takeNeed();
     else if (!Object.keys(need().texts).length) takeDesign();
     else build();
+    resume();
   });
   return {
     follow: () => {
@@ -262,23 +276,6 @@ export function setUp(holder) {
     },
     stop: () => request.abort(),
   };
-}
-
-/**
- * The answer to a need; where it takes longer than one request may, the next one goes on with it.
- *
- * @param {object} body
- * @param {AbortSignal} signal
- * @returns {Promise<Select>}
- */
-async function answerTo(body, signal) {
-  for (let left = MOST_REQUESTS; ; left -= 1) {
-    try {
-      return await sendJson("select", body, signal);
-    } catch (error) {
-      if (!(error instanceof Problem && error.isOutOfTime && left > 1)) throw error;
-    }
-  }
 }
 
 /**

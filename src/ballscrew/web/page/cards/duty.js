@@ -7,7 +7,6 @@ import { isSmall, sent, tooLarge } from "../opening.js";
 import { watch } from "../plot.js";
 import * as schema from "../schema.js";
 import * as states from "../state.js";
-import { ask, sendJson } from "../server.js";
 import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
 import { placeFaults, showValues } from "./case_fields.js";
@@ -62,8 +61,7 @@ export function setUp(holder, page) {
     show: (found) => show(found),
     place: (faults) => placeFaults(editor, faults),
     jump: page.jump,
-    // answers about files are not kept: their bodies are large
-    send: (address, body, signal) => ("trace" in body ? sendJson : ask)(address, body, signal),
+    isLarge: (body) => "trace" in body,
   });
   const recorded = element("p", { class: "card-start" });
   holder.replaceChildren(examples(vocabulary.starts), recorded, note, editor, asked.line, result);

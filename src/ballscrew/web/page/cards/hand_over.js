@@ -33,7 +33,7 @@ export function setUp(holder, page) {
     show: (found) => show(found),
     place: (faults) => {
       problems.replaceChildren(...faultLines(faults, page.jump));
-      return [];
+      return undefined;
     },
     jump: page.jump,
   });
@@ -50,6 +50,7 @@ export function setUp(holder, page) {
     problems,
     result,
   );
+  asked.resume();
   select.addEventListener("change", () => {
     showOptions();
     follow();

@@ -1,7 +1,9 @@
-// The question of a card: asked once typing has come to rest, with the time that it takes and a button that cancels.
+// The question of a card: asked as a job once typing has come to rest, with the time that it takes and a button that
+// cancels. After the page was loaded again, the job and its answer are found again.
 
 import { element } from "../dom.js";
 import { inWords, labelOf } from "../faults.js";
+import { answerOfKept, keptJob, runJob } from "../jobs.js";
 import { ask, linesOf, Problem } from "../server.js";
 import { text } from "../texts.js";
 
@@ -9,18 +11,22 @@ import { text } from "../texts.js";
 const REST = 400;
 const PATIENCE = 300;
 const SECOND = 1000;
+const NOT_FOUND = 404;
+/** In place of a body that is not on the page any more. */
+const RESUMED = "job ";
 
 /**
- * A question and where its answer goes. ``show`` shows an answer, ``place`` puts faults beside their fields and returns
- * those of no field of the card.
+ * A question and where its answer goes. ``show`` shows an answer. ``place`` puts faults beside their fields and returns
+ * those of no field of the card; nothing where it has shown all of them in a place of its own.
  *
  * @typedef {object} Parts
  * @property {"duty" | "warm-up" | "fit" | "service" | "hand-over"} address
  * @property {HTMLElement} result
  * @property {(answer: any) => void} show
- * @property {(faults: FaultLine[]) => FaultLine[]} place
+ * @property {(faults: FaultLine[]) => FaultLine[] | undefined} place
  * @property {(path: string) => void} jump goes to a field of the form
- * @property {(address: any, body: object, signal: AbortSignal) => Promise<any>} [send] of a body that is too large to keep
+ * @property {(body: object) => boolean} [isLarge] tests whether a body is too large to keep answers by it
+ * @property {() => any} [about] what its answer is shown with, and is not part of it
  */
 
 /**
@@ -28,13 +34,15 @@ const SECOND = 1000;
  *
  * @param {Parts} parts
  */
-export function question({ address, result, show, place, jump, send = ask }) {
+export function question({ address, result, show, place, jump, isLarge = () => false, about }) {
   const line = element("div", { class: "card-line" });
   let request = new AbortController();
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
   /** @type {ReturnType<typeof setInterval> | undefined} */
   let clock;
+  /** Tells news of the job. @type {(job: JobDocument) => void} */
+  let told = () => {};
   /** Bodies that are answered, and that are asked about, as text. */
   let answered = "";
   let asked = "";
@@ -52,26 +60,37 @@ export function question({ address, result, show, place, jump, send = ask }) {
     result.classList.toggle("earlier", isEarlier && answered !== "");
   }
 
-  /** @param {object} body @param {number} start */
+  /** @param {object | undefined} body nothing of one that is not on the page any more @param {number} start */
   function sayProgress(body, start) {
+    const bar = element("progress", { "aria-label": text("card.computing") });
     const seconds = element("span", {}, text("card.computing"));
+    let before = 0;
+    told = (job) => {
+      before = job.before + (job.state === "waiting" ? 1 : 0);
+      if (job.finished < job.total) {
+        bar.max = job.total;
+        bar.value = job.finished;
+      } else bar.removeAttribute("value");
+    };
     const cancel = () => {
       stop();
+      mark(false, true);
+      line.replaceChildren(element("p", {}, `${text("card.cancelled")} `, earlier()));
+      if (!body) return;
       const again = () => follow(body, 0);
       const button = element("button", { type: "button", onclick: again }, text("card.again"));
-      mark(false, true);
-      line.replaceChildren(element("p", {}, `${text("card.cancelled")} `, earlier(), button));
+      line.firstElementChild?.append(button);
       button.focus();
     };
     line.replaceChildren(
-      element("progress", { "aria-label": text("card.computing") }),
+      bar,
       seconds,
       element("button", { type: "button", onclick: cancel }, text("card.cancel")),
       element("span", { class: "small" }, earlier()),
     );
     clock = setInterval(() => {
       const passed = Math.round((performance.now() - start) / SECOND);
-      seconds.textContent = text("card.computing_for", { seconds: passed });
+      seconds.textContent = text(before ? "card.waiting_for" : "card.computing_for", { seconds: passed });
     }, SECOND);
   }
 
@@ -81,7 +100,7 @@ export function question({ address, result, show, place, jump, send = ask }) {
   }
 
   /** @param {FaultLine[]} faults @param {string[]} lines */
-  function fail(faults, lines) {
+  function sayFaults(faults, lines) {
     const buttons = faults.map((fault) => {
       const go = () => jump(fault.where);
       const words = `${labelOf(fault.where)}: ${inWords(fault)}`;
@@ -110,31 +129,80 @@ export function question({ address, result, show, place, jump, send = ask }) {
       mark(false, false);
       return;
     }
+    const { options } = begin(key, body, rest);
+    timer = setTimeout(async () => {
+      const compute = async () => (await runJob(address, body, { ...options, about: about?.() })).json();
+      await conclude(
+        key,
+        isLarge(body) ? compute() : ask(/** @type {any} */ (address), body, options.signal, compute),
+        options.signal,
+      );
+    }, rest);
+  }
+
+  /** @param {string} key @param {object | undefined} body @param {number} rest */
+  function begin(key, body, rest) {
     asked = key;
+    told = () => {};
     mark(true, true);
     request = new AbortController();
     const { signal } = request;
     const patience = setTimeout(() => signal.aborted || sayProgress(body, performance.now()), rest + PATIENCE);
     signal.addEventListener("abort", () => clearTimeout(patience));
-    timer = setTimeout(async () => {
-      try {
-        const found = await send(address, body, signal);
-        if (signal.aborted) return;
-        stop();
-        place([]);
-        answered = key;
-        show(found);
-        line.replaceChildren();
+    return { options: { place: address, signal, told: (/** @type {JobDocument} */ job) => told(job) } };
+  }
+
+  /**
+   * Show the answer that comes, or why there is none.
+   *
+   * @param {string} key
+   * @param {Promise<any>} coming
+   * @param {AbortSignal} signal
+   */
+  async function conclude(key, coming, signal) {
+    try {
+      const found = await coming;
+      if (signal.aborted) return;
+      stop();
+      place([]);
+      answered = key;
+      show(found);
+      line.replaceChildren();
+      mark(false, false);
+    } catch (error) {
+      if (signal.aborted) return;
+      stop();
+      const faults = error instanceof Problem ? error.faults : [];
+      const others = place(faults);
+      const lines = others && others.length < faults.length ? [text("card.marked")] : [];
+      sayFaults(others ?? [], faults.length ? lines : linesOf(error));
+    }
+  }
+
+  /**
+   * Go on with the job that was begun before the page was loaded again, or show its answer.
+   *
+   * @param {(about: any) => void} [takeUp] gets what the answer is shown with
+   */
+  async function resume(takeUp) {
+    const kept = keptJob(address);
+    if (!kept || asked || answered) return;
+    takeUp?.(kept.about);
+    const key = RESUMED + kept.id;
+    const { options } = begin(key, undefined, 0);
+    const coming = Promise.resolve(answerOfKept(options)).then((found) => found?.json());
+    try {
+      await coming;
+    } catch (error) {
+      if (error instanceof Problem && error.status === NOT_FOUND) {
+        stop(); // the server has forgotten it, or is another one: nobody has asked yet
         mark(false, false);
-      } catch (error) {
-        if (signal.aborted) return;
-        stop();
-        const faults = error instanceof Problem ? error.faults : [];
-        const others = place(faults);
-        const lines = others.length < faults.length ? [text("card.marked")] : [];
-        fail(others, faults.length ? lines : linesOf(error));
+        line.replaceChildren();
+        return;
       }
-    }, rest);
+    }
+    await conclude(key, coming, options.signal);
+    if (answered === key) line.replaceChildren(element("p", {}, text("card.resumed")));
   }
 
   /**
@@ -143,11 +211,11 @@ export function question({ address, result, show, place, jump, send = ask }) {
    * @param {object} body
    */
   function compare(body) {
-    if (!answered || asked) return;
+    if (!answered || asked || answered.startsWith(RESUMED)) return;
     const isEarlier = JSON.stringify(body) !== answered;
     result.classList.toggle("earlier", isEarlier);
     line.replaceChildren(...(isEarlier ? [element("p", {}, earlier())] : []));
   }
 
-  return { line, follow, compare, stop };
+  return { line, follow, compare, resume, stop };
 }

@@ -3,7 +3,6 @@
 import * as designs from "../designs.js";
 import { element, scrolling, table } from "../dom.js";
 import { draw, layout, watch } from "../plot.js";
-import { sendJson } from "../server.js";
 import { ofServer, text } from "../texts.js";
 import * as units from "../units.js";
 import { button, caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
@@ -41,10 +40,10 @@ export function setUp(holder, page) {
     place: (faults) => {
       problems.replaceChildren(...faultLines(faults, page.jump));
       result.hidden = faults.length > 0; // what another log told is no answer below a fault
-      return [];
+      return undefined;
     },
     jump: page.jump,
-    send: sendJson,
+    isLarge: () => true,
   });
   const zones = ["new", "worn"].map((name) =>
     dropZone(`service-${name}`, text(name === "new" ? "service.new" : "service.worn"), (file) => {
@@ -80,6 +79,7 @@ export function setUp(holder, page) {
     result,
   );
   watch(chart);
+  asked.resume();
 
   function share() {
     return Number(units.withPoint(tolerance.value)) / 100;

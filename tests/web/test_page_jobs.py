@@ -1,0 +1,104 @@
+"""Long work of the page: jobs that survive a reload, that are cancelled, and whose limits are said in words."""
+
+import json
+import time
+
+import psutil
+
+from ballscrew.web.log_bodies import ServiceBody, examples_with_logs
+
+from .test_page_duty import case_of
+
+NUT = "#A=paper&A.nut.type=double&A.nut.preload=3+kN&A.model.name=olaru2005&band=0&cards=service"
+#: Choosing from the whole catalogue, which takes longer than any of these tests looks at it.
+NEED = {"axial_load": "2 kN", "feed": "15 m/min", "unsupported_length": "1 m", "ends": "fixed-supported"}
+
+
+def given_logs(here):
+    """Put the logs of the example of the API into the card of the service."""
+    page = here.page
+    page.wait_for_selector("#service-worn", state="attached")
+    body = examples_with_logs(ServiceBody, case_of(here))["paper"]
+    for name in ("worn", "new"):
+        file = {"name": body[name]["name"], "mimeType": "text/csv", "buffer": body[name]["text"].encode()}
+        page.set_input_files(f"#service-{name}", file)
+        page.wait_for_selector(f"#service-{name}-name:has-text('{name}.csv')")
+    page.wait_for_selector("#service-start:enabled")
+    return body
+
+
+def starts(here):
+    """Requests that start the job of a service."""
+    return sum(url.endswith("/jobs/service") for url in here.requests)
+
+
+def jobs_of(server):
+    """Processes of jobs: those that the process has of which they are forks."""
+    return [one for child in psutil.Process(server.process.pid).children() for one in child.children()]
+
+
+def test_a_service_survives_a_reload(visit, server):
+    """While it computes, and once it is there: one click starts the work once."""
+    here = visit().open(NUT)
+    body = given_logs(here)
+    with here.page.expect_response(lambda one: one.url.endswith("/jobs/service")):
+        here.page.locator("#service-start").click()
+    for _ in range(2):
+        here.page.reload()
+        here.page.wait_for_selector("#service [data-name=ratio]")
+        assert "before the page was loaded again" in here.text("#service .card-line")
+    ratio = here.page.locator("#service [data-name=ratio]").get_attribute("value")
+    found = server.post("service", {**body, "case": case_of(here), "tolerance": 0.1}).json()
+    assert float(ratio) == found["results"]["ratio"]["value"]
+    assert starts(here) == 1
+
+
+def test_cancelling_on_the_page_kills_the_work(visit, server):
+    here = visit().open("#A=paper&band=0&cards=choose")
+    page = here.page
+    page.wait_for_selector("#choose-start")
+    for name, value in NEED.items():
+        field = page.locator(f"[data-path='need.{name}'] :is(input, select)").first
+        (field.select_option if name == "ends" else field.fill)(value)
+    page.locator("#choose-start").click()
+    end = time.monotonic() + 120
+    while not (found := jobs_of(server)):
+        assert time.monotonic() < end
+        time.sleep(0.05)
+    page.locator("#choose .card-line button").click()
+    page.wait_for_selector("#choose .card-line:has-text('Cancelled')")
+    assert psutil.wait_procs(found, 120)[1] == []
+    page.reload()
+    page.wait_for_selector("#choose-start")
+    here.rest(500)
+    assert jobs_of(server) == []
+
+
+def test_a_limit_that_was_reached_is_said_as_it_is(visit, start):
+    """Once, in true words: no field is marked, and no browser sends it again."""
+    server = start("--time-limit", "0.1")
+    here = visit(server.address)
+    here.expected = ("status of 422",)
+    here.open(NUT)
+    # a job of a tenth of a second: its limit is 3 s, which this log of many rows does not take; it is refused by hand
+    refused = {
+        "title": "Invalid input", "status": 422, "lines": ["server: stopped the work, which took too long"],
+        "faults": [
+            {
+                "where": "server", "text": "", "line": "", "problem": "stopped the work, which took too long",
+                "given": "3 s of processor time", "remedy": "ask for less at a time, or start it with more",
+            }
+        ],
+    }  # fmt: skip
+    here.page.route(
+        "**/jobs/*/answer",
+        lambda route: route.fulfill(status=422, content_type="application/problem+json", body=json.dumps(refused)),
+    )
+    given_logs(here)
+    here.page.locator("#service-start").click()
+    here.page.wait_for_selector("#service .fault")
+    said = here.text("#service")
+    assert "stopped the work, which took too long (3 s of processor time); ask for less at a time, or start" in said
+    assert "Not computed." in said
+    assert "marked field" not in said
+    assert starts(here) == 1
