@@ -245,6 +245,7 @@ def test_a_vertical_axis_lists_its_motor_and_its_brake(ballscrew, tmp_path):
     assert document["holding"] == 0
     mine = document["candidates"][0]
     assert [one["name"] for one in mine["fails"]] == ["preload"]
+    assert mine["holds"] is False
     assert mine["brake"]["falls"]
     assert 0 < mine["brake"]["holding_torque"] < mine["brake"]["load_torque"] == mine["brake"]["brake_torque"] / 2
     assert document["units"]["brake"]["holding_torque"] == document["units"]["duty"]["torque_peak"] == "N m"

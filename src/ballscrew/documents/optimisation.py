@@ -15,7 +15,7 @@ from ballscrew.selection.objectives import OBJECTIVES
 from ballscrew.sizing.checks import judged
 
 #: What is the same for all members, or too long for a list.
-_LEFT_OUT = ("units", "provenance", "loads", "name", "nut", "results", "checks", "judged", "verdict")
+_LEFT_OUT = ("units", "provenance", "loads", "name", "nut", "results", "checks", "judged", "holds", "verdict")
 
 
 def document(found: Optimisation) -> dict[str, Any]:

@@ -27,7 +27,7 @@ _LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
 #: Numbers of the brake, with their units.
 BRAKE: Mapping[str, str] = {"holding_torque": "N m", "load_torque": "N m", "brake_torque": "N m"}
 #: What is the same for all candidates, or too long for a list.
-_LEFT_OUT = ("units", "provenance", "loads", "name", "checks", "judged", "verdict")
+_LEFT_OUT = ("units", "provenance", "loads", "name", "checks", "judged", "holds", "verdict")
 
 
 def document(found: Selection) -> dict[str, Any]:
