@@ -31,6 +31,7 @@ declare global {
   type Examples = Schemas["Examples"];
   type Select = Schemas["Select"];
   type JobDocument = Schemas["Job"];
+  type SelectPlan = Schemas["Plan"];
 
   var Plotly: {
     react(place: Element, traces: object[], layout: object, config: object): Promise<void>;

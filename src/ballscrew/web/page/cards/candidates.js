@@ -30,8 +30,17 @@ const OBJECTIVES = {
   preload_torque: "N m",
   reflected_mass: "kg",
   price_index: "1",
+  motor_peak: "N m",
+  motor_rms: "N m",
+  brake: "N m",
 };
-const IN_LIST = ["loss", "inertia", "life", "rigidity", "drive_torque", "price_index"];
+/** Where a candidate with a motion has its torques. @type {Record<string, ["duty" | "brake", string]>} */
+const OF_MOTION = {
+  motor_peak: ["duty", "torque_peak"],
+  motor_rms: ["duty", "torque_rms"],
+  brake: ["brake", "holding_torque"],
+};
+const IN_LIST = ["loss", "inertia", "life", "rigidity", "drive_torque", ...Object.keys(OF_MOTION), "price_index"];
 /** Objectives that are better when larger: their column begins with the largest. */
 const LARGER = ["life", "rigidity"];
 const OPEN = "#8a8f96";
@@ -50,13 +59,25 @@ function unitOf(name) {
 }
 
 /**
+ * A number of a candidate in SI.
+ *
+ * @param {Candidate} candidate
+ * @param {string} name
+ * @returns {number | null | undefined}
+ */
+function valueIn(candidate, name) {
+  const [section, key] = OF_MOTION[name] ?? ["objectives", name];
+  return /** @type {any} */ (candidate)[section]?.[key];
+}
+
+/**
  * A number of a candidate in the unit in which it is shown; none where it is not known or without end.
  *
  * @param {Candidate} candidate
  * @param {string} name
  */
-function numberOf({ objectives }, name) {
-  const value = objectives[name];
+function numberOf(candidate, name) {
+  const value = valueIn(candidate, name);
   return value === null || value === undefined ? null : units.fromSI(value, unitOf(name), OBJECTIVES[name]);
 }
 
@@ -64,6 +85,25 @@ function numberOf({ objectives }, name) {
 function heading(name) {
   const unit = unitOf(name);
   return unit ? `${objective(name)} (${units.symbol(unit)})` : objective(name);
+}
+
+/** @typedef {{ label: string, fits: boolean, worst: number | null, objectives: Record<string, number | null> }} Row */
+
+/**
+ * The candidates that are known by now, before they have ranks: those that fail nothing first, by their loss.
+ *
+ * @param {HTMLElement} holder
+ * @param {Row[]} rows
+ */
+export function asTheyCome(holder, rows) {
+  /** @param {Row} row */
+  const key = (row) => (row.fits ? (row.objectives.loss ?? 0) : Number.MAX_VALUE);
+  const shown = rows.toSorted((one, other) => key(one) - key(other)).slice(0, FIRST);
+  const lines = shown.map((row) => {
+    const loss = units.formattedIn(row.objectives.loss, unitOf("loss"), OBJECTIVES.loss);
+    return element("li", {}, row.fits ? `${row.label}: ${loss}` : `${row.label}: ${text("choose.fail")}`);
+  });
+  holder.replaceChildren(element("ul", { id: "choose-coming" }, ...lines));
 }
 
 /**
@@ -242,7 +282,7 @@ function tableOf(shown, known, order, sortBy, say) {
         element(
           "td",
           {},
-          element("data", { value: String(one.objectives[name] ?? "") }, units.digits(numberOf(one, name))),
+          element("data", { value: String(valueIn(one, name) ?? "") }, units.digits(numberOf(one, name))),
         ),
       ),
       element(
@@ -287,14 +327,19 @@ function multiple(share) {
  *
  * @param {Candidate} candidate
  */
-function verdictOf({ fails, checks, holds, valid, preload_lost_above: limit }) {
+function verdictOf({ fails, checks, holds, valid, complete, starved, preload_lost_above: limit }) {
   const open = checks.filter((check) => check.holds === null).length;
   const failing = fails.map((check) => `${nameOf(check)}${multiple(check.utilisation)}`).join(", ");
-  const words = failing ? text("checks.fail", { names: failing }) : text(holds ? "checks.holds" : "choose.rest_holds");
+  const fail = complete ? "checks.fail" : "choose.cannot";
+  const words = failing ? text(fail, { names: failing }) : text(holds ? "checks.holds" : "choose.rest_holds");
   const load = units.formattedIn(limit, "N", "N");
   const lost =
     limit === null ? null : element("strong", { class: "fails" }, ` ${text("choose.preload_lost", { load })}`);
-  const others = [open ? text("choose.open", { open }) : "", valid ? "" : text("choose.outside")];
+  const others = [
+    open ? text("choose.open", { open }) : "",
+    valid ? "" : text("choose.outside"),
+    starved ? text("choose.starved") : "",
+  ];
   const summary = element(
     "summary",
     {},

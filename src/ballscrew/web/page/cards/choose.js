@@ -7,10 +7,11 @@ import { choiceField, numberField } from "../fields.js";
 import { keptJob, runJob, answerOfKept } from "../jobs.js";
 import * as opening from "../opening.js";
 import * as schema from "../schema.js";
-import { get, linesOf, Problem } from "../server.js";
+import { get, linesOf, Problem, sendJson } from "../server.js";
 import { valueAt } from "../state.js";
 import { text, textOr } from "../texts.js";
-import { candidates } from "./candidates.js";
+import * as units from "../units.js";
+import { asTheyCome, candidates } from "./candidates.js";
 
 /** Fields of a need, by their short names: where a case has them, or nothing where only needs have them. */
 /** @type {Record<string, string>} */
@@ -78,6 +79,8 @@ export function setUp(holder) {
   let shown = "";
   let request = new AbortController();
   let withTable = true;
+  /** What a selection costs, and the inputs that somebody has said may stay empty. */
+  let [cost, agreed] = ["", ""];
 
   /** @returns {Need} */
   const need = () => designs.all().need;
@@ -172,9 +175,54 @@ export function setUp(holder) {
     request = new AbortController();
     const { signal } = request;
     const table = withTable ? opening.ownTable()?.file : undefined;
-    const told = say(signal);
+    progress.replaceChildren(element("p", {}, text("card.computing")));
     const body = { need: await tables(need()), ...(table && { table }) };
-    await conclude(runJob("select", body, { place: PLACE, signal, told }), signal);
+    await conclude(begun(body, signal), signal);
+  }
+
+  /**
+   * The answer; nothing where it is asked first whether to start.
+   *
+   * @param {object} body
+   * @param {AbortSignal} signal
+   */
+  async function begun(body, signal) {
+    if (!(await isAgreed(body, signal))) return undefined;
+    return runJob("select", body, { place: PLACE, signal, told: say(signal) });
+  }
+
+  /**
+   * Test whether to start: a need that leaves open what checks want is asked about first, once.
+   *
+   * @param {object} body
+   * @param {AbortSignal} signal
+   */
+  async function isAgreed(body, signal) {
+    /** @type {SelectPlan} */
+    const plan = await sendJson("select/plan", body, signal);
+    const inputs = plan.unasked.map(({ input }) => labelOf(input)).join(", ");
+    cost = text("choose.cost", { count: plan.candidates, seconds: units.digits(Math.max(1, plan.seconds), 2) });
+    if (!inputs || inputs === agreed) return true;
+    const names = [...new Set(plan.unasked.flatMap(({ checks }) => checks))];
+    const checks = names.map((name) => textOr(`checks.name.${name}`, name.replaceAll("_", " "))).join(", ");
+    const anyway = element(
+      "button",
+      {
+        type: "button",
+        id: "choose-anyway",
+        onclick: () => {
+          agreed = inputs;
+          ask();
+        },
+      },
+      text("choose.anyway"),
+    );
+    place([]);
+    progress.replaceChildren(
+      element("p", { class: "warning", role: "alert" }, text("choose.unasked", { inputs, checks })),
+      element("p", {}, `${cost} `, anyway),
+    );
+    return false;
   }
 
   /** Go on with what was begun before the page was loaded again. */
@@ -188,13 +236,15 @@ export function setUp(holder) {
   /**
    * Show the candidates that come, or why there are none.
    *
-   * @param {Promise<Response>} coming
+   * @param {Promise<Response | undefined>} coming
    * @param {AbortSignal} signal
    */
   async function conclude(coming, signal) {
     try {
+      const answer = await coming;
+      if (!answer) return;
       /** @type {Select} */
-      const found = await (await coming).json();
+      const found = await answer.json();
       place([]);
       candidates(result, found);
       progress.replaceChildren(element("p", { role: "status" }, counts(found)));
@@ -219,11 +269,18 @@ export function setUp(holder) {
    */
   function say(signal) {
     const bar = element("progress", { "aria-label": text("card.computing") });
-    const words = element("span", {}, text("card.computing"));
+    const words = element("span", {}, cost || text("card.computing"));
+    /** @type {import("./candidates.js").Row[]} */
+    const known = [];
     const cancel = element("button", { type: "button", onclick: () => request.abort() }, text("card.cancel"));
     progress.replaceChildren(bar, words, cancel);
-    return ({ finished, total }) => {
-      if (!total || signal.aborted) return;
+    return ({ finished, total, rows }) => {
+      if (signal.aborted) return;
+      if (rows.length) {
+        known.push(.../** @type {any[]} */ (rows));
+        asTheyCome(result, known);
+      }
+      if (!total) return;
       bar.max = total;
       bar.value = finished;
       words.textContent = text("choose.progress", { finished, total });
