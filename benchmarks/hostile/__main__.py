@@ -17,13 +17,28 @@ from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
 
-from benchmarks.hostile import ROOT, cases, logs, nuts, requests, screws, stores, users, workers
+from benchmarks.hostile import (
+    ROOT,
+    cases,
+    exports,
+    large_files,
+    logs,
+    nuts,
+    places,
+    requests,
+    screws,
+    stores,
+    traces,
+    users,
+    workers,
+)
 from benchmarks.hostile.tally import Tally
 
 from ballscrew._version import __version__
 
 SECTIONS: dict[str, ModuleType] = {
-    module.__name__.rpartition(".")[2]: module for module in (screws, nuts, cases, logs, stores, requests, users)
+    module.__name__.rpartition(".")[2]: module
+    for module in (screws, nuts, exports, cases, logs, traces, large_files, stores, places, requests, users)
 }
 PAGE = ROOT / "docs" / "reliability.md"
 BEGIN, END = "<!-- hostile run: begin -->", "<!-- hostile run: end -->"

@@ -43,10 +43,15 @@ def last_line(error: BaseException) -> str:
     return f"{type(error).__name__}: {words[:200]} ({Path(frame.filename).name}:{frame.lineno})"
 
 
-def prepare(place: str) -> None:
-    """Set up a process: warnings of NumPy are errors, and memory has a limit."""
+def use(place: str) -> None:
+    """Take a folder for the files of this process and of those that it starts."""
     global _folder
     _folder = Path(place)
+
+
+def prepare(place: str) -> None:
+    """Set up a process: warnings of NumPy are errors, and memory has a limit."""
+    use(place)
     warnings.simplefilter("error", RuntimeWarning)
     _, hard = resource.getrlimit(resource.RLIMIT_AS)
     resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, hard))

@@ -10,7 +10,9 @@ import pytest
 from .pages import DOCS, ROOT
 
 PAGE = DOCS / "reliability.md"
-SECTIONS = {"screws", "nuts", "cases", "logs", "stores", "requests", "users"}
+SECTIONS = {
+    "screws", "nuts", "exports", "cases", "logs", "traces", "large_files", "stores", "places", "requests", "users",
+}  # fmt: skip
 ROW = re.compile(
     r"^\| (?P<section>\w+) \| (?P<tried>[\d,]+)(?: of [\d,]+)? \|(?: [\d,]+ \|){3} (?P<wrong>[\d,]+) \|$", re.M
 )
