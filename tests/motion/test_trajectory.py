@@ -98,6 +98,8 @@ def test_energy_telescopes(seed_screw):
          "trajectory.time sample 3: time runs back (0.5 s after 1 s) · sort the rows, or cut the record there"),
         ({"time": np.array([0.0, 1.0, 1.0, 2.0])}, "trajectory.time sample 3: time stands still (1 s after 1 s)"),
         ({"time": np.array([0.0, 1.0, 2.0, 60.0])}, "trajectory.time sample 4: comes after a gap (58 s, usually 1 s)"),
+        ({"time": 1e-200 * np.arange(4.0)},
+         "trajectory.time sample 2: has an unlikely step of time (1e-200 s) · 1e-09 s to 100000 s: check the unit"),
         ({"position": np.array([0.0, np.nan, 1.0, 1.0])}, "trajectory.position: must be finite (sample 2)"),
         ({"time": np.arange(2.0), "position": np.arange(2.0)}, "trajectory.time: has too few samples (2) · 3 at least"),
     ],

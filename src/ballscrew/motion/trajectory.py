@@ -20,6 +20,8 @@ NOISE_SHARE = 0.05
 _TYPICAL = 0.95
 #: A step of time so many times the usual one is a gap.
 LARGEST_STEP = 10.0
+#: Usual steps of time outside these are no record of a machine, but a clock of another unit, s.
+USUAL_STEPS = (1e-9, 1e5)
 #: From the median of absolute fourth differences to the standard deviation of one sample: 1.4826/√70. A fourth
 #: difference of a smooth motion is nearly zero, where its second one is an acceleration.
 _FOURTH_DIFFERENCE = 1.4826 / math.sqrt(70.0)
@@ -168,7 +170,10 @@ def _filled(time: Numbers, values: Numbers) -> Numbers:
 
 
 def faults_of_times(time: Numbers, where: str, lines: np.ndarray) -> list[Fault]:
-    """The first time that does not rise, and the first gap; ``where`` is a text with ``{0}`` for its line."""
+    """The first time that does not rise, a step that no machine is recorded at, and the first gap.
+
+    ``where`` is a text with ``{0}`` for the line of a time.
+    """
     step = np.diff(time)
     faults: list[Fault] = []
     back = np.flatnonzero(step <= 0)
@@ -179,6 +184,10 @@ def faults_of_times(time: Numbers, where: str, lines: np.ndarray) -> list[Fault]
         faults.append(Fault(where.format(lines[at + 1]), problem, given, "sort the rows, or cut the record there"))
         return faults
     usual = float(np.median(step))
+    least, greatest = USUAL_STEPS
+    if not least <= usual <= greatest:
+        remedy = f"{shown(least, 's')} to {shown(greatest, 's')}: check the unit of the time"
+        return [Fault(where.format(lines[1]), "has an unlikely step of time", shown(usual, "s"), remedy)]
     gap = np.flatnonzero(step > LARGEST_STEP * usual)
     if gap.size:
         at = int(gap[0])
