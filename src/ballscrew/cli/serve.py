@@ -54,7 +54,7 @@ def serve(
     application = server.application(hosts, RequestQueue(TIME_LIMIT if time_limit is None else time_limit))
     server.warm_up()
     if sys.platform == "linux":  # elsewhere a fork is not safe, or there is none
-        application.state.jobs.start = Forks(listening)
+        application.state.jobs.start = Forks(lambda requests: server.application(requests=requests), listening)
     address = f"http://{name}:{listening.getsockname()[1]}"
     typer.echo(f"ballscrew in the browser: {address} · API: {address}/api · Ctrl-C ends it")
     if host not in _LOOPBACK:

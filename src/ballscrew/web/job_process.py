@@ -25,11 +25,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any, NoReturn
 
+from starlette.types import ASGIApp
+
+from ballscrew.web.request_queue import RequestQueue
+
 #: Seconds between two messages on how much has been computed.
 EVERY = 0.2
 #: A lower priority than that of the server, which answers quick requests meanwhile.
 _NICE = 5
-_PROGRAM = "from ballscrew.web.job_process import main; main()"
+#: The program of a process that starts from nothing.
+_PROGRAM = ("-m", "ballscrew.web.job_program")
 
 
 @dataclass(frozen=True)
@@ -80,6 +85,8 @@ class Answer:
     body: bytes
 
 
+#: The application of the server with these requests. It is given: the server knows the jobs, and not they the server.
+Application = Callable[[RequestQueue], ASGIApp]
 Message = Progress | Row | Computed | OutOfTime | Answer
 
 
@@ -130,7 +137,7 @@ def spawned() -> Process:
     """A process that starts from nothing."""
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(path or str(Path.cwd()) for path in sys.path)}
     made = subprocess.Popen(
-        [sys.executable, "-P", "-c", _PROGRAM], stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment,
+        [sys.executable, "-P", *_PROGRAM], stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment,
         start_new_session=os.name != "nt",
     )  # fmt: skip
     assert made.stdin is not None
@@ -149,15 +156,18 @@ def spawned() -> Process:
 class Forks:
     """Processes that are forks of one process, which is itself a fork of this one as it is now, without threads."""
 
-    def __init__(self, *closed: socket.socket) -> None:
-        """Fork the process of which others are forked. It closes the sockets, which are for the server alone."""
+    def __init__(self, application: Application, *closed: socket.socket) -> None:
+        """Fork the process of which others are forked, which answer by the application.
+
+        It closes the sockets, which are for the server alone.
+        """
         here, there = socket.socketpair()
         with warnings.catch_warnings(action="ignore"):  # BLAS has threads; it is made for forks
             pid = os.fork()
         if pid == 0:
             for one in (here, *closed):
                 one.close()
-            _fork_for_each(there)
+            _fork_for_each(there, application)
         there.close()
         self._control, self._lock = here, threading.Lock()
 
@@ -174,7 +184,7 @@ class Forks:
         return Process(os.fdopen(requests, "wb"), os.fdopen(messages, "rb"), _kill_group)
 
 
-def _fork_for_each(control: socket.socket) -> NoReturn:
+def _fork_for_each(control: socket.socket, application: Application) -> NoReturn:
     """Fork a process for each pair of pipes that comes, until the server ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C ends the server, and that ends this
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
@@ -189,7 +199,7 @@ def _fork_for_each(control: socket.socket) -> NoReturn:
             control.close()
             signal.signal(signal.SIGCHLD, signal.SIG_DFL)
             os.setsid()
-            _answer_one(*(os.fdopen(pipe, mode) for pipe, mode in zip(pipes, ("rb", "wb"), strict=True)))
+            answer_one(application, *(os.fdopen(pipe, mode) for pipe, mode in zip(pipes, ("rb", "wb"), strict=True)))
         for pipe in pipes:
             os.close(pipe)
 
@@ -202,16 +212,8 @@ def _kill_group(pid: int) -> None:
 # -- the process itself -----------------------------------------------------------------------------
 
 
-def main() -> NoReturn:
-    """The program of a process that starts from nothing."""
-    messages = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # whatever libraries print
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    _answer_one(sys.stdin.buffer, messages)
-
-
-def _answer_one(requests: IO[bytes], messages: IO[bytes]) -> NoReturn:
-    """Answer the request that comes, and end."""
+def answer_one(application: Application, requests: IO[bytes], messages: IO[bytes]) -> NoReturn:
+    """Answer the request that comes by the application, and end."""
     lock = threading.Lock()
 
     def tell(message: Message | int) -> None:
@@ -234,7 +236,7 @@ def _answer_one(requests: IO[bytes], messages: IO[bytes]) -> NoReturn:
         threading.Thread(target=watch, daemon=True).start()
     try:
         tempfile.tempdir = asked.folder
-        answer = asyncio.run(_answered(asked, tell))
+        answer = asyncio.run(_answered(application, asked, tell))
         tell(Computed(computed() - start))
         tell(answer)
     except BaseException:
@@ -267,11 +269,8 @@ def _count(limit: float, start: float, tell: Callable[[Message], None]) -> None:
             os._exit(1)
 
 
-async def _answered(asked: Asked, tell: Callable[[Message], None]) -> Answer:
+async def _answered(application: Application, asked: Asked, tell: Callable[[Message], None]) -> Answer:
     """The answer of the application, called as by a server."""
-    from ballscrew.web import server
-    from ballscrew.web.request_queue import RequestQueue
-
     queue = RequestQueue(
         time_limit=float("inf"),
         progress=lambda finished, total: tell(Progress(finished, total)),
@@ -299,7 +298,7 @@ async def _answered(asked: Asked, tell: Callable[[Message], None]) -> Answer:
         "headers": [(b"host", b"localhost"), (b"content-type", b"application/json")],
     }  # fmt: skip
     try:
-        await server.application(requests=queue)(scope, receive, send)
+        await application(queue)(scope, receive, send)
     except Exception:
         if not started:
             raise
